@@ -1,0 +1,1 @@
+//! Exact float64 reference models.

@@ -1,0 +1,177 @@
+//! The one error type: which field is wrong, its value, and what is allowed.
+
+use core::fmt;
+
+/// The closed interval that a field must lie in, in the field's own unit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Range {
+    /// Smallest allowed value.
+    pub minimum: f32,
+    /// Largest allowed value.
+    pub maximum: f32,
+}
+
+impl Range {
+    /// The closed interval from `minimum` to `maximum`.
+    #[must_use]
+    pub const fn new(minimum: f32, maximum: f32) -> Self {
+        Self { minimum, maximum }
+    }
+
+    /// True where `value` is a number inside the interval; NaN never is.
+    #[must_use]
+    pub const fn contains(&self, value: f32) -> bool {
+        value >= self.minimum && value <= self.maximum
+    }
+}
+
+/// What was wrong with a number given at set-up.
+///
+/// Errors exist only at construction. In the loop nothing returns a `Result`: a wrong input gives a
+/// finite, flagged output (see [`Faults`](crate::Faults)).
+#[non_exhaustive]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Error {
+    /// The value is NaN or infinite.
+    NotFinite {
+        /// Name of the field, as it is spelled in the structure given.
+        field: &'static str,
+        /// The value found.
+        value: f32,
+        /// What is allowed.
+        allowed: Range,
+    },
+    /// The value is a number outside the allowed range.
+    OutOfRange {
+        /// Name of the field, as it is spelled in the structure given.
+        field: &'static str,
+        /// The value found.
+        value: f32,
+        /// What is allowed.
+        allowed: Range,
+    },
+    /// The groove surface would fold past the axis of the screw (`A <= 0`): the other fields leave
+    /// no room for the value. The allowed range is the one that these other fields leave.
+    FoldedGroove {
+        /// Name of the field, as it is spelled in the structure given.
+        field: &'static str,
+        /// The value found.
+        value: f32,
+        /// What is allowed beside the other fields.
+        allowed: Range,
+    },
+}
+
+impl Error {
+    /// Name of the field that is wrong.
+    #[must_use]
+    pub const fn field(&self) -> &'static str {
+        match self {
+            Self::NotFinite { field, .. }
+            | Self::OutOfRange { field, .. }
+            | Self::FoldedGroove { field, .. } => field,
+        }
+    }
+
+    /// The value that was refused, in the field's own unit.
+    #[must_use]
+    pub const fn value(&self) -> f32 {
+        match self {
+            Self::NotFinite { value, .. }
+            | Self::OutOfRange { value, .. }
+            | Self::FoldedGroove { value, .. } => *value,
+        }
+    }
+
+    /// The range that would have been accepted, in the field's own unit.
+    #[must_use]
+    pub const fn allowed(&self) -> Range {
+        match self {
+            Self::NotFinite { allowed, .. }
+            | Self::OutOfRange { allowed, .. }
+            | Self::FoldedGroove { allowed, .. } => *allowed,
+        }
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let problem = match self {
+            Self::NotFinite { .. } => "is not a finite number",
+            Self::OutOfRange { .. } => "is out of range",
+            Self::FoldedGroove { .. } => "folds the groove surface past the axis",
+        };
+        let Range { minimum, maximum } = self.allowed();
+        write!(
+            formatter,
+            "{} = {} {problem}; allowed: {minimum} to {maximum}",
+            self.field(),
+            self.value(),
+        )
+    }
+}
+
+impl core::error::Error for Error {}
+
+/// `value`, or the error that names `field` where it is not a number within `minimum..=maximum`.
+pub(crate) const fn in_range(
+    field: &'static str,
+    value: f32,
+    minimum: f32,
+    maximum: f32,
+) -> Result<f32, Error> {
+    let allowed = Range::new(minimum, maximum);
+    if !value.is_finite() {
+        Err(Error::NotFinite {
+            field,
+            value,
+            allowed,
+        })
+    } else if allowed.contains(value) {
+        Ok(value)
+    } else {
+        Err(Error::OutOfRange {
+            field,
+            value,
+            allowed,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+    use super::*;
+    use std::string::ToString;
+
+    #[test]
+    fn an_error_names_field_value_and_range() {
+        let error = in_range("lead", -0.5, 0.0, 1.0).unwrap_err();
+        assert_eq!(error.field(), "lead");
+        assert_eq!(error.value(), -0.5);
+        assert_eq!(error.allowed(), Range::new(0.0, 1.0));
+        assert_eq!(
+            error.to_string(),
+            "lead = -0.5 is out of range; allowed: 0 to 1"
+        );
+    }
+
+    #[test]
+    fn nan_and_infinity_are_told_apart_from_out_of_range() {
+        for value in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+            assert!(matches!(
+                in_range("lead", value, 0.0, 1.0),
+                Err(Error::NotFinite { .. })
+            ));
+        }
+    }
+
+    #[test]
+    fn the_range_is_closed() {
+        assert_eq!(in_range("lead", 0.0, 0.0, 1.0), Ok(0.0));
+        assert_eq!(in_range("lead", 1.0, 0.0, 1.0), Ok(1.0));
+        assert!(in_range("lead", 1.0000001, 0.0, 1.0).is_err());
+    }
+}
