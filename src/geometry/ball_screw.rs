@@ -1,0 +1,228 @@
+//! A ball screw by its catalogue numbers.
+
+use core::f32::consts::TAU;
+
+use super::{ContactAngle, Groove, GrooveProfile, GrooveSize, HelixPath, LARGEST_CONTACT_ANGLE};
+use crate::error::{Error, Range, in_range};
+use crate::material::Material;
+use crate::math;
+
+/// What a catalogue or a drawing prints of a ball screw; unchecked.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct BallScrewParameters {
+    /// Radius `r_m` of the cylinder on which the ball centres run, m, 1e-4 to 10; half the nominal
+    /// diameter where a catalogue prints no pitch circle.
+    pub pitch_radius: f32,
+    /// Axial travel of the nut in one turn, m, 0 to 100; 0 is a ball bearing.
+    pub lead: f32,
+    /// Ball radius `r_b`, m, 1e-5 up to 0.9 of the pitch radius.
+    pub ball_radius: f32,
+    /// Size of the screw's groove.
+    pub screw_groove: GrooveSize,
+    /// Size of the nut's groove.
+    pub nut_groove: GrooveSize,
+    /// Nominal contact angle `phi0`, rad, 0.01 to [`LARGEST_CONTACT_ANGLE`].
+    pub contact_angle: f32,
+    /// Material of the balls.
+    pub ball_material: Material,
+    /// Material of screw and nut.
+    pub groove_material: Material,
+}
+
+/// A ball screw whose every number has been checked, with what follows from them alone.
+///
+/// ```
+/// use epas_friction::{BallScrew, BallScrewParameters, GrooveSize, Material};
+///
+/// let design = BallScrew::new(BallScrewParameters {
+///     pitch_radius: 16.5e-3,
+///     lead: 20e-3,
+///     ball_radius: 2.778e-3,
+///     screw_groove: GrooveSize::Conformity(0.56),
+///     nut_groove: GrooveSize::Conformity(0.56),
+///     contact_angle: 45f32.to_radians(),
+///     ball_material: Material::STEEL,
+///     groove_material: Material::STEEL,
+/// })?;
+/// assert!((design.tan_lead_angle() - 0.192915).abs() < 1e-6);
+///
+/// let mut wrong = *design.parameters();
+/// wrong.lead = -1.0;
+/// assert_eq!(BallScrew::new(wrong).unwrap_err().field(), "lead");
+/// # Ok::<(), epas_friction::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct BallScrew {
+    parameters: BallScrewParameters,
+    path: HelixPath,
+    tan_lead_angle: f32,
+    contact_angle: ContactAngle,
+    screw: Section,
+    nut: Section,
+}
+
+/// A groove's profile and the excess of its radius over the ball's.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+struct Section {
+    profile: GrooveProfile,
+    clearance: f32,
+}
+
+impl BallScrew {
+    /// Checks every field and folds the constants. Set-up only: about 500 cycles.
+    ///
+    /// # Errors
+    /// [`Error`] naming the first field that is not finite or out of range: `pitch_radius`, `lead`,
+    /// `ball_radius`, `contact_angle`, `conformity` or `groove_radius`, or a material's field;
+    /// [`Error::FoldedGroove`] where the screw's groove would reach past its axis (`A <= 0`).
+    pub fn new(parameters: BallScrewParameters) -> Result<Self, Error> {
+        let BallScrewParameters {
+            pitch_radius,
+            lead,
+            ball_radius,
+            ..
+        } = parameters;
+        in_range("pitch_radius", pitch_radius, 1e-4, 10.0)?;
+        in_range("lead", lead, 0.0, 100.0)?;
+        in_range("ball_radius", ball_radius, 1e-5, 0.9 * pitch_radius)?;
+        in_range(
+            "contact_angle",
+            parameters.contact_angle,
+            0.01,
+            LARGEST_CONTACT_ANGLE,
+        )?;
+        parameters.ball_material.checked()?;
+        parameters.groove_material.checked()?;
+
+        let contact_angle = ContactAngle::new(parameters.contact_angle);
+        let section = |size: GrooveSize| -> Result<Section, Error> {
+            let (radius, clearance) = size.radius_and_clearance(ball_radius)?;
+            Ok(Section {
+                profile: GrooveProfile::new(radius, clearance, contact_angle),
+                clearance,
+            })
+        };
+        let screw = section(parameters.screw_groove)?;
+        let nut = section(parameters.nut_groove)?;
+        let path = HelixPath::from_lead(pitch_radius, lead);
+        refuse_folded(&path, &screw.profile)?;
+
+        Ok(Self {
+            parameters,
+            path,
+            tan_lead_angle: lead / (TAU * pitch_radius),
+            contact_angle,
+            screw,
+            nut,
+        })
+    }
+
+    /// The numbers that the design was made from.
+    #[inline]
+    #[must_use]
+    pub const fn parameters(&self) -> &BallScrewParameters {
+        &self.parameters
+    }
+
+    /// Radius `r_m` of the cylinder on which the ball centres run, m.
+    #[inline]
+    #[must_use]
+    pub const fn pitch_radius(&self) -> f32 {
+        self.parameters.pitch_radius
+    }
+
+    /// Axial travel in one turn, m.
+    #[inline]
+    #[must_use]
+    pub const fn lead(&self) -> f32 {
+        self.parameters.lead
+    }
+
+    /// Ball radius `r_b`, m.
+    #[inline]
+    #[must_use]
+    pub const fn ball_radius(&self) -> f32 {
+        self.parameters.ball_radius
+    }
+
+    /// Ball radius over pitch radius, the papers' `a`.
+    #[inline]
+    #[must_use]
+    pub fn ball_ratio(&self) -> f32 {
+        self.parameters.ball_radius / self.parameters.pitch_radius
+    }
+
+    /// Tangent of the lead angle, `lead / (2 pi pitch_radius)`.
+    #[inline]
+    #[must_use]
+    pub const fn tan_lead_angle(&self) -> f32 {
+        self.tan_lead_angle
+    }
+
+    /// Cosine of the lead angle.
+    #[must_use]
+    pub fn cos_lead_angle(&self) -> f32 {
+        1.0 / math::sqrt(1.0 + self.tan_lead_angle * self.tan_lead_angle)
+    }
+
+    /// Curvature and torsion of the path of the ball centres.
+    #[inline]
+    #[must_use]
+    pub const fn path(&self) -> &HelixPath {
+        &self.path
+    }
+
+    /// Nominal contact angle, by its cosine and sine.
+    #[inline]
+    #[must_use]
+    pub const fn contact_angle(&self) -> ContactAngle {
+        self.contact_angle
+    }
+
+    /// Section of one groove.
+    #[inline]
+    #[must_use]
+    pub const fn profile(&self, groove: Groove) -> &GrooveProfile {
+        &self.section(groove).profile
+    }
+
+    /// Groove radius less ball radius, m, without the cancellation of their difference.
+    #[inline]
+    #[must_use]
+    pub const fn clearance(&self, groove: Groove) -> f32 {
+        self.section(groove).clearance
+    }
+
+    /// Mass of one ball, kg.
+    #[must_use]
+    pub fn ball_mass(&self) -> f32 {
+        let radius = self.parameters.ball_radius;
+        const VOLUME: f32 = 2.0 / 3.0 * TAU;
+        self.parameters.ball_material.density * VOLUME * radius * radius * radius
+    }
+
+    const fn section(&self, groove: Groove) -> &Section {
+        match groove {
+            Groove::Screw => &self.screw,
+            Groove::Nut => &self.nut,
+        }
+    }
+}
+
+/// The surface is regular while `A = 1 + kappa H - kappa r_s cos(phi) > 0`; the bottom of the groove
+/// (`cos(phi) = 1`) folds first.
+fn refuse_folded(path: &HelixPath, screw: &GrooveProfile) -> Result<(), Error> {
+    let largest = 1.0 / path.curvature + screw.offset_h;
+    if screw.groove_radius < largest {
+        Ok(())
+    } else {
+        Err(Error::FoldedGroove {
+            field: "groove_radius",
+            value: screw.groove_radius,
+            allowed: Range::new(0.0, largest),
+        })
+    }
+}

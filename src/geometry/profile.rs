@@ -1,0 +1,146 @@
+//! The helix that ball centres follow, and the section of a gothic-arch groove normal to it.
+
+use core::f32::consts::{FRAC_PI_2, TAU};
+
+use super::{ContactAngle, LARGEST_CONFORMITY, SMALLEST_CONFORMITY};
+use crate::error::{Error, in_range};
+use crate::math;
+
+/// Which of the two grooves a ball runs between.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Groove {
+    /// Groove of the screw shaft, inside the ball path (the inner race of a bearing).
+    Screw,
+    /// Groove of the nut, outside the ball path (the outer race of a bearing).
+    Nut,
+}
+
+impl Groove {
+    /// The papers' `zeta`: +1 for the screw, -1 for the nut.
+    #[inline]
+    #[must_use]
+    pub const fn sign(self) -> f32 {
+        match self {
+            Self::Screw => 1.0,
+            Self::Nut => -1.0,
+        }
+    }
+}
+
+/// The helix of the ball centres, by its curvature and torsion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct HelixPath {
+    /// Curvature `cos²(alpha) / r_m`, 1/m.
+    pub curvature: f32,
+    /// Torsion `sin(alpha) cos(alpha) / r_m`, 1/m; positive for a right-hand thread.
+    pub torsion: f32,
+}
+
+impl HelixPath {
+    /// Curvature and torsion from the lead: `r_m / (r_m² + P²)` and `P / (r_m² + P²)` with
+    /// `P = lead / 2 pi`, m.
+    ///
+    /// No trigonometry, and no loss of digits at any lead: an error of the lead angle `alpha` would
+    /// be magnified by `2 tan(alpha)`. Cost about 20 cycles.
+    #[must_use]
+    pub fn from_lead(pitch_radius: f32, lead: f32) -> Self {
+        let reduced = lead * (1.0 / TAU);
+        // Scaled by the pitch radius, so that no square overflows or underflows at any unit of length.
+        let tangent = reduced / pitch_radius;
+        let curvature = 1.0 / (pitch_radius * (1.0 + tangent * tangent));
+        Self {
+            curvature,
+            torsion: curvature * tangent,
+        }
+    }
+
+    /// Curvature and torsion from the lead angle `alpha`, rad, 0 to pi/2.
+    #[must_use]
+    pub fn from_lead_angle(pitch_radius: f32, lead_angle: f32) -> Self {
+        let (sin, cos) = math::sin_cos(lead_angle);
+        let scaled = cos / pitch_radius;
+        Self {
+            curvature: cos * scaled,
+            torsion: sin * scaled,
+        }
+    }
+
+    /// As [`HelixPath::from_lead_angle`] with both fields checked.
+    ///
+    /// # Errors
+    /// [`Error`] naming `pitch_radius` (1e-9 to 1e9, any unit of length) or `lead_angle` (0 to pi/2).
+    pub fn checked_from_lead_angle(pitch_radius: f32, lead_angle: f32) -> Result<Self, Error> {
+        in_range("pitch_radius", pitch_radius, 1e-9, 1e9)?;
+        in_range("lead_angle", lead_angle, 0.0, FRAC_PI_2)?;
+        Ok(Self::from_lead_angle(pitch_radius, lead_angle))
+    }
+}
+
+/// How a drawing gives the size of a groove.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum GrooveSize {
+    /// Conformity `f = groove_radius / (2 ball_radius)`, [`SMALLEST_CONFORMITY`] to
+    /// [`LARGEST_CONFORMITY`]. The better conditioned of the two: what matters is `f - 1/2`.
+    Conformity(f32),
+    /// Groove radius, m, within the same bounds relative to the ball.
+    Radius(f32),
+}
+
+impl GrooveSize {
+    /// Groove radius and its excess over the ball radius, m; checked.
+    ///
+    /// The subtractions are exact (Sterbenz), so that the excess keeps all digits of the input.
+    pub(super) fn radius_and_clearance(self, ball_radius: f32) -> Result<(f32, f32), Error> {
+        match self {
+            Self::Conformity(conformity) => {
+                in_range(
+                    "conformity",
+                    conformity,
+                    SMALLEST_CONFORMITY,
+                    LARGEST_CONFORMITY,
+                )?;
+                let diameter = 2.0 * ball_radius;
+                Ok((conformity * diameter, (conformity - 0.5) * diameter))
+            }
+            Self::Radius(radius) => {
+                let diameter = 2.0 * ball_radius;
+                in_range(
+                    "groove_radius",
+                    radius,
+                    SMALLEST_CONFORMITY * diameter,
+                    LARGEST_CONFORMITY * diameter,
+                )?;
+                Ok((radius, radius - ball_radius))
+            }
+        }
+    }
+}
+
+/// Section of one half of a gothic-arch groove in the plane normal to the ball path: a circle whose
+/// centre is offset from the nominal ball centre by `H` along the normal and `L` along the binormal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct GrooveProfile {
+    /// Radius `r_s` of the profile circle, m.
+    pub groove_radius: f32,
+    /// Offset `H` of its centre along the path's normal, m; 0 for a circular groove.
+    pub offset_h: f32,
+    /// Offset `L` of its centre along the path's binormal, m; 0 for a circular groove.
+    pub offset_l: f32,
+}
+
+impl GrooveProfile {
+    /// Offsets for a nominal contact angle: `H = (r_s - r_b) cos(phi0)`, `L = (r_s - r_b) sin(phi0)`
+    /// (Bertolino et al. 2023, eq. (3), (4)).
+    #[must_use]
+    pub fn new(groove_radius: f32, clearance: f32, contact_angle: ContactAngle) -> Self {
+        Self {
+            groove_radius,
+            offset_h: clearance * contact_angle.cos,
+            offset_l: clearance * contact_angle.sin,
+        }
+    }
+}

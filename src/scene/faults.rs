@@ -1,0 +1,140 @@
+//! What can be wrong in a tick, and the limits that are kept whatever comes in.
+
+use super::Inputs;
+use crate::error::{Error, in_range};
+
+/// What was wrong with a tick's inputs, or limited in its outputs; a set of flags.
+///
+/// ```
+/// use epas_friction::Faults;
+/// let faults = Faults::LOAD_RANGE | Faults::TORQUE_LIMIT;
+/// assert!(faults.any() && faults.contains(Faults::LOAD_RANGE));
+/// assert!(!faults.contains(Faults::SPEED_NOT_FINITE));
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Faults(u8);
+
+impl Faults {
+    /// Nothing is wrong.
+    pub const NONE: Self = Self(0);
+    /// The nut speed is NaN or infinite: the output is the safe one (no torque).
+    pub const SPEED_NOT_FINITE: Self = Self(1);
+    /// The axial load is NaN or infinite: the output is the safe one (no torque).
+    pub const LOAD_NOT_FINITE: Self = Self(1 << 1);
+    /// The nut speed is beyond its limit: the limit stands in for it.
+    pub const SPEED_RANGE: Self = Self(1 << 2);
+    /// The axial load is beyond its limit: the limit stands in for it.
+    pub const LOAD_RANGE: Self = Self(1 << 3);
+    /// The friction torque was cut to its limit.
+    pub const TORQUE_LIMIT: Self = Self(1 << 4);
+
+    /// True where any flag is set.
+    #[inline]
+    #[must_use]
+    pub const fn any(self) -> bool {
+        self.0 != 0
+    }
+
+    /// True where every flag of `other` is set.
+    #[inline]
+    #[must_use]
+    pub const fn contains(self, other: Self) -> bool {
+        self.0 & other.0 == other.0
+    }
+
+    /// The flags as bits, in the order of their constants, for a diagnostic message.
+    #[inline]
+    #[must_use]
+    pub const fn bits(self) -> u8 {
+        self.0
+    }
+
+    /// This set with `other` added where `condition` holds.
+    #[inline]
+    #[must_use]
+    pub(crate) const fn with(self, condition: bool, other: Self) -> Self {
+        if condition {
+            Self(self.0 | other.0)
+        } else {
+            self
+        }
+    }
+}
+
+impl core::ops::BitOr for Faults {
+    type Output = Self;
+
+    #[inline]
+    fn bitor(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+}
+
+impl core::ops::BitOrAssign for Faults {
+    #[inline]
+    fn bitor_assign(&mut self, other: Self) {
+        self.0 |= other.0;
+    }
+}
+
+/// Bounds that a scene keeps whatever comes in.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Limits {
+    /// Largest nut speed that is believed, rad/s, 1e-3 to 1e6.
+    pub nut_speed: f32,
+    /// Largest axial load that is believed, N, 1e-3 to 1e7.
+    pub axial_load: f32,
+    /// Largest friction torque that is put out, N m, 1e-6 to 1e6.
+    pub friction_torque: f32,
+}
+
+impl Limits {
+    /// The limits, checked.
+    ///
+    /// # Errors
+    /// [`Error`] naming `nut_speed`, `axial_load` or `friction_torque`.
+    pub fn checked(self) -> Result<Self, Error> {
+        in_range("nut_speed", self.nut_speed, 1e-3, 1e6)?;
+        in_range("axial_load", self.axial_load, 1e-3, 1e7)?;
+        in_range("friction_torque", self.friction_torque, 1e-6, 1e6)?;
+        Ok(self)
+    }
+
+    /// The inputs within their limits, with what was wrong; `None` beside the flags where no number
+    /// can stand in.
+    #[inline]
+    pub(crate) fn admit(&self, inputs: Inputs) -> (Option<Inputs>, Faults) {
+        let Inputs {
+            nut_speed,
+            axial_load,
+        } = inputs;
+        if nut_speed.is_finite() && axial_load.is_finite() {
+            let faults = Faults::NONE
+                .with(nut_speed.abs() > self.nut_speed, Faults::SPEED_RANGE)
+                .with(axial_load.abs() > self.axial_load, Faults::LOAD_RANGE);
+            // `max` and `min` rather than `clamp`, which panics where the bounds are not ordered.
+            let admitted = Inputs {
+                nut_speed: nut_speed.max(-self.nut_speed).min(self.nut_speed),
+                axial_load: axial_load.max(-self.axial_load).min(self.axial_load),
+            };
+            (Some(admitted), faults)
+        } else {
+            let faults = Faults::NONE
+                .with(!nut_speed.is_finite(), Faults::SPEED_NOT_FINITE)
+                .with(!axial_load.is_finite(), Faults::LOAD_NOT_FINITE);
+            (None, faults)
+        }
+    }
+
+    /// The friction torque within its limit, and whether it was cut.
+    #[inline]
+    pub(crate) fn limit_torque(&self, torque: f32) -> (f32, Faults) {
+        let limited = torque.max(-self.friction_torque).min(self.friction_torque);
+        (
+            limited,
+            Faults::NONE.with(torque.abs() > self.friction_torque, Faults::TORQUE_LIMIT),
+        )
+    }
+}
