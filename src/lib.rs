@@ -2,6 +2,7 @@
 #![no_std]
 
 pub mod error;
+pub mod kinematics;
 pub mod math;
 
 pub use error::{Error, Range};
