@@ -106,9 +106,8 @@ fn d_alembert_with(input: &KinematicsInput, c: f64, cosine_second: f64) -> f64 {
     let b = (1.0 + gamma * cos_o) / (1.0 - gamma * cos_i);
     let difference = input.contact_angle_screw - input.contact_angle_nut;
     let numerator = c * (b + 1.0) * sin_i + 2.0 * sin_o;
-    let denominator = c * (b + 1.0) * cos_i
-        + 2.0 * (cosine_second + gamma)
-        + gamma * c * (difference.cos() - b);
+    let denominator =
+        c * (b + 1.0) * cos_i + 2.0 * (cosine_second + gamma) + gamma * c * (difference.cos() - b);
     numerator.atan2(denominator)
 }
 

@@ -293,8 +293,7 @@ impl Revised {
             Raceway::Screw => [
                 omega * ((radius - distance * cos_alpha) * cos_psi - y * cos_psi * sin_alpha),
                 omega * ((distance - radius * cos_alpha) * sin_psi + x * cos_psi * sin_alpha),
-                omega
-                    * (-radius * sin_alpha * sin_psi - x * cos_psi * cos_alpha + y * sin_psi),
+                omega * (-radius * sin_alpha * sin_psi - x * cos_psi * cos_alpha + y * sin_psi),
             ],
             Raceway::Nut => {
                 let advance = input.advance() * omega;
