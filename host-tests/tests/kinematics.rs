@@ -122,6 +122,28 @@ fn parameters(input: &KinematicsInput) -> KinematicsParameters {
     }
 }
 
+/// What the crate was given, as the reference takes it.
+fn rounded(given: &KinematicsParameters, speed: f64) -> KinematicsInput {
+    KinematicsInput {
+        ball_diameter: given.ball_diameter.into(),
+        pitch_radius: given.pitch_radius.into(),
+        lead_angle: given.lead_angle.into(),
+        groove_radius_screw: given.groove_radius_screw.into(),
+        groove_radius_nut: given.groove_radius_nut.into(),
+        contact_angle_screw: given.contact_angle_screw.into(),
+        contact_angle_nut: given.contact_angle_nut.into(),
+        pitch_angle: given.pitch_angle.into(),
+        yaw_angle: given.yaw_angle.into(),
+        rolling_radius_screw: given.rolling_radius_screw.into(),
+        rolling_radius_nut: given.rolling_radius_nut.into(),
+        speed,
+        semi_major_screw: given.semi_major_screw.into(),
+        semi_minor_screw: given.semi_minor_screw.into(),
+        semi_major_nut: given.semi_major_nut.into(),
+        semi_minor_nut: given.semi_minor_nut.into(),
+    }
+}
+
 fn slip_of(ball: &epas_friction::kinematics::BallKinematics, raceway: Raceway) -> &ContactSlip {
     match raceway {
         Raceway::Screw => &ball.screw,
@@ -554,7 +576,7 @@ fn friction_power_of_the_published_cases() {
         }
     }
     println!("published cases: power {worst:.2e}, share {worst_share:.2e} of the total");
-    assert!(worst_share < 5e-3);
+    assert!(worst_share < 1e-2);
 }
 
 /// Power over random geometries (full field with both parabolas): distribution, not only the largest. The
@@ -588,11 +610,11 @@ fn friction_power_of_random_geometries() {
         "power, random geometries: median {median:.1e}, 95 % {ninety_five:.1e}, largest {largest:.1e}, mean {mean:.1e}"
     );
     assert!(
-        median < 1e-3 && ninety_five < 0.02 && largest < 0.16,
+        median < 1e-4 && ninety_five < 0.01 && largest < 0.05,
         "{:?}",
         errors.last()
     );
-    assert!(mean.abs() < 5e-3);
+    assert!(mean.abs() < 1e-3);
 }
 
 /// The lower bound holds for what the crate computes, at any axis of rotation: the mean distance is in
@@ -618,14 +640,16 @@ fn friction_power_keeps_above_its_bound() {
     }
 }
 
-/// A linear field of any direction, offset and spin, on any ellipse, by way of the kinematics: without
-/// the parabolas (groove as wide as the ball has no sagitta, so `a` much smaller than the ball).
+/// Fields of any direction, offset and spin on any ellipse, set by rolling radius and yaw angle. On an
+/// ellipse of a fiftieth of the ball the parabola of rolling slip is a hundredth of the spin's slip: as
+/// good as linear.
 #[test]
 fn friction_power_of_linear_fields_within_3_1_percent() {
     let rule = HertzMean::new(64, 128);
     let mut random = Random(0x5EED_1006);
     let mut worst = 0.0_f64;
-    for _ in 0..4000 {
+    let mut count = 0;
+    for _ in 0..6000 {
         let mut input = random.input();
         let half = 0.5 * input.ball_diameter;
         // A small ellipse is a linear field: the parabola is a / D of the spin's share.
@@ -642,21 +666,21 @@ fn friction_power_of_linear_fields_within_3_1_percent() {
         if let Ok(yaw) = reference::published::yaw_without_side_slip(&input, Raceway::Screw) {
             input.yaw_angle = yaw + moment * direction.sin() * spin / revised.spin_ratio();
         }
-        if !(input.yaw_angle.abs() < 0.5) {
+        // Little spin on a small ellipse is slip of the size of f32's rounding: no test of a mean.
+        if input.yaw_angle.abs() > 0.5 || spin < 0.1 {
             continue;
         }
-        let revised = Revised::new(&KinematicsInput {
-            speed: 1.0,
-            ..input
-        })
-        .unwrap();
-        let kinematics = ContactKinematics::new(&parameters(&input)).unwrap();
+        count += 1;
+        let given = parameters(&input);
+        let revised = Revised::new(&rounded(&given, 1.0)).unwrap();
+        let kinematics = ContactKinematics::new(&given).unwrap();
         let found = f64::from(FrictionPower::new(&kinematics).screw().total());
         let wanted = reference::mean_slip(&revised, &rule, Raceway::Screw).total;
         let error = (found / wanted - 1.0).abs();
         worst = worst.max(error);
         assert!(error < 0.031, "{error} {input:?}");
     }
+    assert!(count > 2000, "{count}");
     println!("linear fields: power within {:.2} %", 100.0 * worst);
 }
 

@@ -151,11 +151,11 @@ fn ball_ratio(p: &KinematicsParameters) -> f32 {
     p.ball_diameter / (2.0 * p.pitch_radius)
 }
 
-/// Spin moments of both contacts but for the factor `3/8 mu`: `W a E`.
+/// Spin moments of both contacts, `3/8 mu W a E`, but for a common factor.
 fn spin_moments(p: &KinematicsParameters, load_screw: f32, load_nut: f32) -> (f32, f32) {
     (
-        load_screw * super::friction_power::mean_lever(p.semi_major_screw, p.semi_minor_screw),
-        load_nut * super::friction_power::mean_lever(p.semi_major_nut, p.semi_minor_nut),
+        load_screw * mean_lever(p.semi_major_screw, p.semi_minor_screw),
+        load_nut * mean_lever(p.semi_major_nut, p.semi_minor_nut),
     )
 }
 
@@ -226,4 +226,16 @@ fn least_power(p: &KinematicsParameters, load_screw: f32, load_nut: f32) -> Resu
         }
     }
     Ok(0.5 * (low + high))
+}
+
+/// `4 / pi a E(1 - b^2/a^2)` with Legendre's complete elliptic integral `E`: the ellipse's perimeter
+/// over `pi`, by Ramanujan's second formula; 0 to 4e-4 below the exact value, the latter for `b = 0`.
+fn mean_lever(semi_major: f32, semi_minor: f32) -> f32 {
+    let sum = semi_major + semi_minor;
+    if sum <= 0.0 {
+        return 0.0;
+    }
+    let h = (semi_major - semi_minor) / sum;
+    let h3 = 3.0 * h * h;
+    sum * (1.0 + h3 / (10.0 + math::sqrt(4.0 - h3)))
 }
