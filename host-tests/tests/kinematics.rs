@@ -71,7 +71,7 @@ impl Random {
         let half = 0.5 * ball_diameter;
         let contact_angle = self.within(10.0, 80.0) * DEGREE;
         let [major_screw, major_nut] = [(); 2].map(|()| half * self.within(0.005, 0.3 - 1e-6));
-        // One in eight: no lead, the customary axis and radii, or a standstill.
+        // One in eight each: no lead; the customary axis and radii.
         let special = self.within(0.0, 8.0);
         let mut input = KinematicsInput {
             ball_diameter,
@@ -276,23 +276,24 @@ impl Sweep {
         self.orbital.assert("orbital speed, relative", 5e-7);
         self.spin_speed.assert("spin speed, relative", 5e-7);
         self.entrainment.assert("entrainment speed, relative", 5e-7);
-        self.rolling.assert("rolling slip / v_e", 2e-6);
-        self.side.assert("side slip / v_e", 2e-6);
-        self.spin.assert("spin D/2 / v_e", 2e-6);
-        self.point.assert("slip at a point / v_e", 2e-6);
-        self.slide_to_roll.assert("slide-to-roll, absolute", 5e-6);
+        self.rolling.assert("rolling slip / v_e", 4e-7);
+        self.side.assert("side slip / v_e", 2e-7);
+        self.spin.assert("spin D/2 / v_e", 4e-7);
+        self.point.assert("slip at a point / v_e", 4e-7);
+        self.slide_to_roll.assert("slide-to-roll, absolute", 4e-7);
         self.slide_angle
-            .assert("slide angle where SRR > 1 %, rad", 4e-5);
+            .assert("slide angle where SRR > 1 %, rad", 2e-5);
         self.slide_vector
-            .assert("slide angle times slide-to-roll", 5e-6);
+            .assert("slide angle times slide-to-roll", 4e-7);
         self.entrainment_angle
-            .assert("entrainment angle, rad", 5e-6);
-        self.spin_to_roll.assert("spin-to-roll, absolute", 5e-6);
+            .assert("entrainment angle, rad", 1e-7);
+        self.spin_to_roll.assert("spin-to-roll, absolute", 1e-7);
     }
 }
 
-/// The promise of the crate: orbital and spin speed within 5e-7, slip within 2e-6 of the entrainment speed,
-/// ratios within 5e-6. Some twenty roundings of 6e-8 add up like a random walk to 3e-7.
+/// Orbital and spin speed within 5e-7, slip within 4e-7 of the entrainment speed (2e-6 would do), ratios
+/// likewise (5e-6 would do). Some twenty roundings of 6e-8, those of the inputs among them, add up like
+/// a random walk to 3e-7; slip is formed without cancellation and is a small share of the speed.
 #[test]
 fn golden_cases_within_the_promise() {
     let mut sweep = Sweep::default();
@@ -436,9 +437,9 @@ fn pitch_angles() {
                 // An angle past a right angle is refused by both.
                 (Err(error), None) => assert_eq!(error.field(), "pitch_angle"),
                 (Err(error), Some(wanted)) => {
-                    assert!(wanted > 0.99 * PI / 2.0, "{method:?} {error} {wanted}")
+                    assert!(wanted > 0.99 * PI / 2.0, "{method:?} {error} {wanted}");
                 }
-                (Ok(found), None) => assert!(found > 0.9 * 1.5708, "{method:?} {found} {input:?}"),
+                (Ok(found), None) => assert!(found > 1.4, "{method:?} {found} {input:?}"),
             }
         }
     }

@@ -78,8 +78,8 @@ pub enum PitchMethod {
     /// is its limit where one contact's spin moment `W a E` rules.
     BalancedSpin,
     /// Friction power of both contacts together is least, at the given yaw angle and rolling radii.
-    /// Sixteen bisections of the bracket between the raceway controls: within 1e-3 rad of the
-    /// minimum, where the power is flat (a change of 0.02 rad costs 0.02 %).
+    /// Golden-section search between the raceway controls in sixteen steps; the minimum is flat, so
+    /// that an angle near it costs less than 5e-4 more power.
     LeastPower,
 }
 
@@ -88,7 +88,11 @@ impl PitchMethod {
     /// 1e7, not both 0) that the last four methods weigh the contacts by; the others ignore them.
     /// The parameters' own `pitch_angle` is not read.
     ///
-    /// Cost: CYCLES_PITCH
+    /// Errors: 2e-7 rad for the raceway controls (as long as no right angle is passed), 1e-4 rad for
+    /// the methods that weigh by loads.
+    ///
+    /// Cost: about 2300 cycles for a closed form, its check included; `LeastPower` about 68 000
+    /// (modelled, Cortex-M4F).
     ///
     /// # Errors
     /// As [`ContactKinematics::new`] for the parameters with the resulting pitch angle;

@@ -23,7 +23,8 @@ use crate::math;
 /// and side slip at the nut vanishes where there is as much as at the screw.
 /// **Never feed it to wear or heat.**
 ///
-/// Errors against the same formulas in f64: ERRORS_TRADITIONAL
+/// Errors against the same formulas in f64: 4e-7 of `omega r_m / cos psi`, the speed it
+/// subtracts from (20 000 random geometries); spin and speeds 4e-7 of the spin and of the speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct TraditionalKinematics {

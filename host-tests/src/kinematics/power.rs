@@ -26,7 +26,7 @@ impl HertzMean {
         let angular = angular.max(1);
         let rule = GaussLegendre::new(radial);
         let mut nodes = Vec::with_capacity(radial.get() * angular);
-        for (node, weight) in rule.iter() {
+        for (node, weight) in &rule {
             // From [-1, 1] to [0, 1].
             let u = 0.5 * (node + 1.0);
             let rho = (1.0 - u * u).sqrt();

@@ -30,7 +30,7 @@ fn combine(factors: [f64; 3], basis: [Vector<f64>; 3]) -> Vector<f64> {
 }
 
 /// `vector`, turned by `angle` about the fixed axis `Z`.
-fn turn<T: DualNum<f64>>(angle: T, vector: Vector<T>) -> Vector<T> {
+fn turn<T: DualNum<f64>>(angle: &T, vector: Vector<T>) -> Vector<T> {
     let (sine, cosine) = angle.sin_cos();
     let [x, y, z] = vector;
     [
@@ -41,7 +41,7 @@ fn turn<T: DualNum<f64>>(angle: T, vector: Vector<T>) -> Vector<T> {
 }
 
 /// `vector`, turned by `angle` about a unit `axis` (Rodrigues).
-fn turn_about<T: DualNum<f64>>(axis: Vector<f64>, angle: T, vector: Vector<f64>) -> Vector<T> {
+fn turn_about<T: DualNum<f64>>(axis: Vector<f64>, angle: &T, vector: Vector<f64>) -> Vector<T> {
     let (sine, cosine) = angle.sin_cos();
     let along = dot(axis, vector);
     let across = cross(axis, vector);
@@ -138,7 +138,7 @@ impl RigidBody {
     fn centre<T: DualNum<f64>>(&self, time: &T) -> Vector<T> {
         let orbit = time.clone() * self.orbital_speed;
         let advance = self.input.advance() * (self.orbital_speed - self.input.speed);
-        let [x, y, _] = turn(orbit, constant([self.input.pitch_radius, 0.0, 0.0]));
+        let [x, y, _] = turn(&orbit, constant([self.input.pitch_radius, 0.0, 0.0]));
         [x, y, time.clone() * advance]
     }
 
@@ -150,8 +150,8 @@ impl RigidBody {
             [cos_beta * sin_yaw, -sin_beta, -cos_beta * cos_yaw],
             self.frame(),
         );
-        let turned = turn_about(axis, time.clone() * self.spin_speed, offset);
-        let carried = turn(time.clone() * self.orbital_speed, turned);
+        let turned = turn_about(axis, &(time.clone() * self.spin_speed), offset);
+        let carried = turn(&(time.clone() * self.orbital_speed), turned);
         sum(self.centre(time), carried)
     }
 
@@ -164,7 +164,7 @@ impl RigidBody {
     ) -> Vector<T> {
         let speed = self.input.speed;
         match raceway {
-            Raceway::Screw => turn(time.clone() * speed, constant(point)),
+            Raceway::Screw => turn(&(time.clone() * speed), constant(point)),
             Raceway::Nut => {
                 let [x, y, z] = constant(point);
                 [x, y, z - time.clone() * (self.input.advance() * speed)]
@@ -174,7 +174,7 @@ impl RigidBody {
 
     /// Position at `time` of the point of the moving contact that is at `offset` at time 0.
     fn contact_point<T: DualNum<f64>>(&self, time: &T, offset: Vector<f64>) -> Vector<T> {
-        let carried = turn(time.clone() * self.orbital_speed, constant(offset));
+        let carried = turn(&(time.clone() * self.orbital_speed), constant(offset));
         sum(self.centre(time), carried)
     }
 
