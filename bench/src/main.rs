@@ -1,3 +1,15 @@
-//! The command-line program.
+//! The command-line program of `epas-friction`: the error of every formula beside its run time,
+//! simulation of manoeuvres, and the `eval` interface for other people's reference data.
 
-fn main() {}
+mod cli;
+mod eval;
+mod failure;
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    match cli::run() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => failure.report(),
+    }
+}
