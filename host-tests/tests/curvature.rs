@@ -1,6 +1,9 @@
 //! The crate's curvature forms against 65-digit values of the Weingarten map.
 
-use epas_friction::{ContactAngle, GothicArch, Groove, GrooveProfile, HelixPath};
+use epas_friction::{
+    CATALOGUE, CircularGrooveCurvature, ContactAngle, Error, FittedCurvature, GothicArch, Groove,
+    GrooveProfile, HelixPath, LiteratureCurvature,
+};
 use serde::Deserialize;
 
 #[derive(Deserialize)]
@@ -8,24 +11,75 @@ struct Golden {
     cases: Vec<Case>,
 }
 
-#[derive(Deserialize)]
-#[allow(non_snake_case)]
+#[derive(Clone, Deserialize)]
 struct Case {
     tag: String,
     r_m: f64,
     alpha: f64,
     phi: f64,
     r_s: f64,
-    H: f64,
-    L: f64,
+    #[serde(rename = "H")]
+    h: f64,
+    #[serde(rename = "L")]
+    l: f64,
     screw: Curvatures,
     nut: Curvatures,
 }
 
-#[derive(Deserialize)]
+#[derive(Clone, Copy, Deserialize)]
 struct Curvatures {
     kappa1: f64,
     kappa2: f64,
+}
+
+impl Case {
+    fn truth(&self, groove: Groove) -> Curvatures {
+        match groove {
+            Groove::Screw => self.screw,
+            Groove::Nut => self.nut,
+        }
+    }
+
+    fn arch(&self, groove: Groove) -> GothicArch {
+        let path = HelixPath::from_lead_angle(self.r_m as f32, self.alpha as f32);
+        GothicArch::checked(groove, &path, &self.profile(), self.contact_angle()).unwrap()
+    }
+
+    fn profile(&self) -> GrooveProfile {
+        GrooveProfile {
+            groove_radius: self.r_s as f32,
+            offset_h: self.h as f32,
+            offset_l: self.l as f32,
+        }
+    }
+
+    fn contact_angle(&self) -> ContactAngle {
+        ContactAngle::new(self.phi as f32)
+    }
+
+    /// `A = 1 + zeta kappa (H - r_s cos(phi))`, by which the surface is conditioned.
+    fn area(&self, groove: Groove) -> f64 {
+        let curvature = self.alpha.cos().powi(2) / self.r_m;
+        1.0 + f64::from(groove.sign()) * curvature * (self.h - self.r_s * self.phi.cos())
+    }
+
+    fn line(&self, groove: Groove) -> String {
+        format!(
+            r#"{} {{"model":"groove_curvature","groove":"{}","pitch_radius":{},"lead_angle":{},"contact_angle":{},"groove_radius":{},"offset_h":{},"offset_l":{}}}"#,
+            self.tag,
+            if groove == Groove::Screw {
+                "screw"
+            } else {
+                "nut"
+            },
+            self.r_m,
+            self.alpha,
+            self.phi,
+            self.r_s,
+            self.h,
+            self.l,
+        )
+    }
 }
 
 fn golden() -> Vec<Case> {
@@ -36,43 +90,201 @@ fn golden() -> Vec<Case> {
     serde_json::from_str::<Golden>(text).unwrap().cases
 }
 
-/// Inputs are exact in f32. The h-form takes about 20 dependent roundings on values of one sign, of
-/// which those of `A` and `D` enter to the third power: 10 half-ulps, 6e-7, is the worst expected.
-/// Near the nut's zero of kappa1 the bound is absolute, relative to kappa2.
+const GROOVES: [Groove; 2] = [Groove::Screw, Groove::Nut];
+
+/// Inputs are exact in f32. About 20 roundings of 2^-24 follow one another, those of `A` and `D` to
+/// the third power; measured worst 4e-7, promised 1e-6. Near the nut's zero of kappa1 the bound is
+/// absolute, 1e-7 of kappa2. Where the screw's surface is about to fold (`A` small) the cosine of the
+/// contact angle, the curvature of the path and their product, each rounded to 2^-24, enter as
+/// 3 x 2^-24 / A: the bound grows below A = 0.2.
 #[test]
 fn exact_form_holds_in_f32_over_all_cases() {
     let mut worst = [0.0_f64; 2];
+    let mut sum = [0.0_f64; 2];
+    let mut count = 0.0;
     for case in golden() {
-        let path = HelixPath::from_lead_angle(case.r_m as f32, case.alpha as f32);
-        let profile = GrooveProfile {
-            groove_radius: case.r_s as f32,
-            offset_h: case.H as f32,
-            offset_l: case.L as f32,
-        };
-        for (groove, truth) in [(Groove::Screw, &case.screw), (Groove::Nut, &case.nut)] {
-            let computed = GothicArch::new(groove, &path, &profile)
-                .principal(ContactAngle::new(case.phi as f32));
-            let error1 = (f64::from(computed.kappa1) - truth.kappa1).abs();
-            let error2 = (f64::from(computed.kappa2) / truth.kappa2 - 1.0).abs();
-            let allowed = (1e-6 * truth.kappa1.abs()).max(1e-7 * truth.kappa2.abs());
-            let at = format!(
-                "{} {groove:?} r_m={} alpha={} phi={} r_s={} H={} L={}: {computed:?} for {} {}",
-                case.tag,
-                case.r_m,
-                case.alpha,
-                case.phi,
-                case.r_s,
-                case.H,
-                case.L,
+        for groove in GROOVES {
+            let truth = case.truth(groove);
+            let computed = case.arch(groove).principal(case.contact_angle());
+            let allowed1 = (1e-6 * truth.kappa1.abs() * (0.2 / case.area(groove)).max(1.0))
+                .max(1e-7 * truth.kappa2.abs());
+            let error1 = f64::from(computed.kappa1) - truth.kappa1;
+            let error2 = f64::from(computed.kappa2) / truth.kappa2 - 1.0;
+            assert!(
+                error1.abs() <= allowed1 && error2.abs() <= 5e-7,
+                "{}: {computed:?} for {} {}",
+                case.line(groove),
                 truth.kappa1,
                 truth.kappa2
             );
-            if error1 > allowed || error2 > 5e-7 {
-                println!("BAD {:e} {:e} {at}", error1 / truth.kappa1, error2);
+            if case.area(groove) > 0.2 && error1.abs() > 1e-7 * truth.kappa2.abs() {
+                worst[0] = worst[0].max((error1 / truth.kappa1).abs());
+                sum[0] += error1 / truth.kappa1;
             }
-            worst[0] = worst[0].max(error1 / allowed * 1e-6);
-            worst[1] = worst[1].max(error2);
+            worst[1] = worst[1].max(error2.abs());
+            sum[1] += error2;
+            count += 1.0;
         }
     }
-    println!("worst kappa1 {:.2e}, kappa2 {:.2e}", worst[0], worst[1]);
+    println!(
+        "kappa1: max {:.2e} mean {:.1e}; kappa2: max {:.2e} mean {:.1e}",
+        worst[0],
+        sum[0] / count,
+        worst[1],
+        sum[1] / count
+    );
+    // Bias: the roundings are independent of one another in sign.
+    assert!((sum[0] / count).abs() < 1e-7 && (sum[1] / count).abs() < 5e-8);
+}
+
+/// The paper's approximations are exact where what they leave out is absent: offsets for the circular
+/// groove, the lead too for the literature formula (with `r_s` in the place of its `r_b`).
+#[test]
+fn without_offsets_the_groove_is_a_tube_and_without_lead_a_bearing() {
+    for case in golden() {
+        if case.h != 0.0 || case.l != 0.0 {
+            continue;
+        }
+        for groove in GROOVES {
+            let truth = case.truth(groove).kappa1;
+            // Four roundings, the subtraction magnified by 1/A; an absolute bound near the zero.
+            let allowed = (2.5e-7 * truth.abs() / case.area(groove).min(1.0))
+                .max(1e-7 * case.truth(groove).kappa2.abs());
+            let arch = case.arch(groove);
+            let circular = CircularGrooveCurvature::from(&arch);
+            let first = f64::from(circular.first(case.contact_angle()));
+            assert!(
+                (first - truth).abs() <= 2.0 * allowed,
+                "{}",
+                case.line(groove)
+            );
+            if case.alpha == 0.0 {
+                let bearing = LiteratureCurvature::new(groove, case.r_m as f32, case.r_s as f32);
+                let first = f64::from(bearing.first(case.contact_angle()));
+                assert!(
+                    (first - truth).abs() <= 2.0 * allowed,
+                    "{}",
+                    case.line(groove)
+                );
+            }
+        }
+    }
+}
+
+/// On the catalogue sizes the fitted form is within 1.5e-6 of the 65-digit truth: 2.4e-7 of the form,
+/// the rest roundings of the set-up in f32.
+#[test]
+fn fitted_form_holds_on_catalogue_cases() {
+    let mut worst = 0.0_f64;
+    for case in golden().iter().filter(|case| case.tag == "catalogue") {
+        for groove in GROOVES {
+            let fitted = FittedCurvature::new(&case.arch(groove), 72f32.to_radians());
+            let truth = case.truth(groove).kappa1;
+            let error = f64::from(fitted.first(case.contact_angle())) / truth - 1.0;
+            assert!(error.abs() <= 1.5e-6, "{}: {error:e}", case.line(groove));
+            worst = worst.max(error.abs());
+        }
+    }
+    println!("fitted: max {worst:.2e}");
+}
+
+/// The fit against the crate's exact form (itself held above) on all 31 sizes, all contact angles of
+/// 0 to 70 degrees in steps of 0.1 degree. 7e-7 of the fit and 4e-7 of the exact form add up.
+#[test]
+fn fitted_form_follows_the_exact_form_on_all_sizes() {
+    let (mut worst, mut sum, mut squares, mut count) = (0.0_f64, 0.0_f64, 0.0_f64, 0.0_f64);
+    for size in CATALOGUE {
+        let design = size.design().unwrap();
+        for groove in GROOVES {
+            let fitted = FittedCurvature::of(&design, groove);
+            let exact = GothicArch::of(&design, groove);
+            for step in 0..=700 {
+                let angle = ContactAngle::new((0.1 * step as f32).to_radians());
+                let truth = f64::from(exact.principal(angle).kappa1);
+                let error = f64::from(fitted.first(angle)) / truth - 1.0;
+                assert!(
+                    error.abs() <= 1.5e-6,
+                    "{} {groove:?} at {} degrees: {error:e}",
+                    size.name,
+                    0.1 * step as f32
+                );
+                worst = worst.max(error.abs());
+                sum += error;
+                squares += error * error;
+                count += 1.0;
+            }
+        }
+    }
+    println!(
+        "fitted: max {worst:.2e} rms {:.1e} mean {:.1e}",
+        (squares / count).sqrt(),
+        sum / count
+    );
+    assert!((squares / count).sqrt() < 3e-7 && (sum / count).abs() < 1e-7);
+}
+
+/// A straight groove (lead angle 90 degrees) has no curvature along the path, in every form.
+#[test]
+fn a_straight_groove_has_no_curvature_along_it() {
+    let path = HelixPath {
+        curvature: 0.0,
+        torsion: 0.0,
+    };
+    let profile = GrooveProfile {
+        groove_radius: 1.7,
+        offset_h: 0.06,
+        offset_l: 0.06,
+    };
+    let angle = ContactAngle::new(0.7);
+    for groove in GROOVES {
+        let arch = GothicArch::new(groove, &path, &profile);
+        let curvatures = arch.principal(angle);
+        assert_eq!(curvatures.kappa1, 0.0);
+        approx::assert_relative_eq!(curvatures.kappa2, -1.0 / 1.7, max_relative = 2e-7);
+        assert_eq!(FittedCurvature::new(&arch, 1.2).first(angle), 0.0);
+        assert_eq!(CircularGrooveCurvature::from(&arch).first(angle), 0.0);
+    }
+}
+
+/// The sum of the curvatures of ball and groove keeps its digits, though it cancels to a twentieth.
+#[test]
+fn relative_curvature_across_does_not_cancel() {
+    let mut worst = 0.0_f64;
+    for case in golden().iter().filter(|case| case.tag == "catalogue") {
+        // The clearance of these cases: H = (r_s - r_b) cos 45.
+        let clearance = case.h * std::f64::consts::SQRT_2;
+        let ball_curvature = 1.0 / (case.r_s - clearance);
+        for groove in GROOVES {
+            let truth = case.truth(groove);
+            let computed = case
+                .arch(groove)
+                .relative(case.contact_angle(), clearance as f32);
+            let along = f64::from(computed.along) / (ball_curvature + truth.kappa1) - 1.0;
+            let across = f64::from(computed.across) / (ball_curvature + truth.kappa2) - 1.0;
+            worst = worst.max(across.abs());
+            // Two more roundings than the curvature itself; the clearance is rounded once.
+            assert!(along.abs() < 6e-7, "{}: {along:e}", case.line(groove));
+            assert!(across.abs() < 1e-6, "{}: {across:e}", case.line(groove));
+        }
+    }
+    println!("across: max {worst:.2e}");
+}
+
+#[test]
+fn a_folded_surface_is_refused_with_the_range_that_is_left() {
+    let path = HelixPath::from_lead_angle(2.0, 0.0);
+    let profile = GrooveProfile {
+        groove_radius: 2.5,
+        offset_h: 0.1,
+        offset_l: 0.1,
+    };
+    let flat = ContactAngle::new(0.0);
+    let error = GothicArch::checked(Groove::Screw, &path, &profile, flat).unwrap_err();
+    assert!(matches!(error, Error::FoldedGroove { .. }));
+    assert_eq!(error.field(), "groove_radius");
+    approx::assert_relative_eq!(error.allowed().maximum, 2.1, max_relative = 1e-6);
+    // The nut bends away from the axis, and the flank of the same screw stands upright.
+    assert!(GothicArch::checked(Groove::Nut, &path, &profile, flat).is_ok());
+    let steep = ContactAngle::new(1.2);
+    assert!(GothicArch::checked(Groove::Screw, &path, &profile, steep).is_ok());
 }

@@ -30,7 +30,7 @@ pub enum Drive {
 ///
 /// ```
 /// use epas_friction::EfficiencyGeometry;
-/// let screw = EfficiencyGeometry::new(10f32.to_radians(), 45f32.to_radians(), 0.18)?;
+/// let screw = EfficiencyGeometry::new(10f32.to_radians(), 45f32.to_radians(), 0.17984)?;
 /// assert!((screw.rolling_efficiency(0.075, 0.0) - 0.979796).abs() < 1e-6);
 /// assert!((screw.sliding_efficiency(0.075) - 0.860112).abs() < 1e-6);
 /// # Ok::<(), epas_friction::Error>(())

@@ -21,9 +21,9 @@ use crate::math;
 ///
 /// ```
 /// use epas_friction::{DynamicCorrection, EfficiencyGeometry};
-/// let screw = EfficiencyGeometry::new(10f32.to_radians(), 45f32.to_radians(), 0.18)?;
+/// let screw = EfficiencyGeometry::new(10f32.to_radians(), 45f32.to_radians(), 0.17984)?;
 /// let correction = DynamicCorrection::new(&screw, 0.075);
-/// assert!((correction.coefficient() + 4.03e-3).abs() < 2e-5);
+/// assert!((correction.coefficient() + 4.03e-3).abs() < 1e-5);
 /// # Ok::<(), epas_friction::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
