@@ -1,1 +1,14 @@
-//! Exact float64 reference models.
+//! The float64 reference of `epas-friction`: the exact models of four papers on ball-screw curvature,
+//! efficiency, contact kinematics and friction.
+//!
+//! It is written from the papers, with their misprints corrected and named, and shares no code with
+//! the fast library that is measured against it. Each module names paper and equations; lengths are in
+//! m, forces in N, angles in rad unless a function is free of units.
+
+pub mod curvature;
+pub mod efficiency;
+pub mod error;
+pub mod hertz;
+pub mod published;
+
+pub use error::ReferenceError;
