@@ -5,7 +5,6 @@ mod fields;
 mod groove_curvature;
 mod hertz;
 mod lines;
-mod steady_state;
 
 use std::fs::File;
 use std::io::{self, BufWriter, Read, Write};
@@ -39,7 +38,7 @@ use lines::{Line, Lines};
 /// hertz: relative_radius_1, relative_radius_2, load, contact_modulus
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// File with the requests; stdin without it
+    /// File with the requests; stdin without it or for -
     file: Option<PathBuf>,
 }
 
@@ -69,10 +68,9 @@ fn json(value: &impl Serialize) -> Result<Box<RawValue>, BadField> {
 type Model = fn(Fields) -> Result<Answer, BadField>;
 
 /// Every model by its name.
-const MODELS: [(&str, Model); 4] = [
+const MODELS: [(&str, Model); 3] = [
     ("groove_curvature", groove_curvature::evaluate),
     ("efficiency", efficiency::evaluate),
-    ("steady_state", steady_state::evaluate),
     ("hertz", hertz::evaluate),
 ];
 
@@ -92,11 +90,11 @@ struct Reply<'a> {
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let output = BufWriter::new(io::stdout().lock());
     let all_good = match &arguments.file {
-        Some(path) => {
+        Some(path) if path.as_os_str() != "-" => {
             let file = File::open(path).map_err(|error| Failure::file("open", path, &error))?;
             answer_all(file, path, output)?
         }
-        None => answer_all(io::stdin().lock(), Path::new("stdin"), output)?,
+        _ => answer_all(io::stdin().lock(), Path::new("stdin"), output)?,
     };
     if all_good {
         Ok(())

@@ -2,8 +2,12 @@
 //! simulation of manoeuvres, and the `eval` interface for other people's reference data.
 
 mod cli;
+mod designs;
 mod eval;
 mod failure;
+mod files;
+mod plot;
+mod simulate;
 
 use std::process::ExitCode;
 

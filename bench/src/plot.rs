@@ -11,7 +11,7 @@ use plotters::prelude::*;
 
 pub use chart::{Chart, Mark, Series};
 pub use map::ColourMap;
-pub use scale::{Axis, Scale};
+pub use scale::Axis;
 
 use crate::failure::Failure;
 

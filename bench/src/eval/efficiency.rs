@@ -1,6 +1,7 @@
 //! `efficiency`: the closed forms and the locked states.
 
 use epas_friction::{Drive, EfficiencyGeometry, LARGEST_FRICTION};
+use epas_reference::efficiency::Screw;
 use serde::Serialize;
 
 use super::Answer;
@@ -40,5 +41,22 @@ pub fn evaluate(mut fields: Fields) -> Result<Answer, BadField> {
         locked_drive: geometry.locks(Drive::Driving, f),
         locked_backdrive: geometry.locks(Drive::BackDriving, f),
     };
-    Answer::both(&in_loop, &0)
+
+    let screw = Screw {
+        lead_angle,
+        contact_angle,
+        friction,
+        ball_ratio,
+        rolling_tangent,
+    };
+    let reference = Efficiencies {
+        rolling_screw: screw.rolling_screw(),
+        rolling_nut: screw.rolling_nut(),
+        sliding_drive: screw.sliding_drive(),
+        sliding_backdrive: screw.sliding_backdrive(),
+        loss_drive: screw.loss_drive(),
+        locked_drive: screw.locked_drive(),
+        locked_backdrive: screw.locked_backdrive(),
+    };
+    Answer::both(&in_loop, &reference)
 }

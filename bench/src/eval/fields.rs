@@ -5,8 +5,9 @@ use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 use std::fmt;
 
-use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};
+use epas_reference::ReferenceError;
 use serde::Serialize;
+use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};
 use serde_json::value::RawValue;
 
 /// What is wrong with a request, and in which field.
@@ -46,6 +47,12 @@ impl BadField {
 impl From<epas_friction::Error> for BadField {
     fn from(error: epas_friction::Error) -> Self {
         Self::new(error.field(), error.to_string())
+    }
+}
+
+impl From<ReferenceError> for BadField {
+    fn from(error: ReferenceError) -> Self {
+        Self::new(error.field, error.to_string())
     }
 }
 

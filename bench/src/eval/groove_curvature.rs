@@ -4,6 +4,7 @@ use epas_friction::{
     CircularGrooveCurvature, ContactAngle, DEFAULT_FIT_RANGE, FittedCurvature, GothicArch, Groove,
     GrooveProfile, HelixPath, LiteratureCurvature,
 };
+use epas_reference::curvature::{self, Surface};
 use serde::Serialize;
 
 use super::Answer;
@@ -67,7 +68,25 @@ pub fn evaluate(mut fields: Fields) -> Result<Answer, BadField> {
         kappa1: exact.kappa1.into(),
         kappa2: exact.kappa2.into(),
     };
-    Answer::both(&in_loop, &Reference{kappa1: 0.0, kappa2: 0.0})
+
+    let surface = Surface {
+        groove: match groove {
+            Groove::Screw => curvature::Groove::Screw,
+            Groove::Nut => curvature::Groove::Nut,
+        },
+        pitch_radius,
+        lead_angle,
+        groove_radius,
+        offset_h,
+        offset_l,
+    };
+    surface.check(contact_angle)?;
+    let truth = surface.principal(contact_angle);
+    let reference = Reference {
+        kappa1: truth.kappa1,
+        kappa2: truth.kappa2,
+    };
+    Answer::both(&in_loop, &reference)
 }
 
 /// The default range of the fit, or as much more as puts this contact angle well inside.

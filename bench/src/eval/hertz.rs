@@ -1,6 +1,7 @@
 //! `hertz`: the contact ellipse of one contact.
 
 use epas_friction::HertzContact;
+use epas_reference::hertz::Hertz;
 use serde::Serialize;
 
 use super::Answer;
@@ -37,5 +38,15 @@ pub fn evaluate(mut fields: Fields) -> Result<Answer, BadField> {
         deflection: ellipse.deflection.into(),
         max_pressure: ellipse.max_pressure.into(),
     };
-    Answer::both(&in_loop, &0)
+
+    let contact = Hertz::new(relative_radius_1, relative_radius_2, contact_modulus)?;
+    let ellipse = contact.at(load);
+    let reference = Ellipse {
+        axis_ratio: contact.axis_ratio,
+        semi_major: ellipse.semi_major,
+        semi_minor: ellipse.semi_minor,
+        deflection: ellipse.deflection,
+        max_pressure: ellipse.max_pressure,
+    };
+    Answer::both(&in_loop, &reference)
 }

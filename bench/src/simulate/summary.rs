@@ -147,7 +147,7 @@ impl Summary {
 
     /// Prints the table.
     pub fn print(&self, out: &mut impl Write, trace: &Trace, design: &Design) -> io::Result<()> {
-        let mut line = |name: &str, text: String| writeln!(out, "{name:28} {text}");
+        let mut line = |name: &str, text: String| writeln!(out, "{name:30} {text}");
         let samples = trace.samples.len();
         let duration = match (trace.samples.first(), trace.samples.last()) {
             (Some(first), Some(last)) => last.time - first.time,

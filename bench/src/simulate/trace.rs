@@ -1,10 +1,10 @@
 //! Traces of speed and load, and how they are read from CSV.
 
 use std::fs::File;
-use std::io::Read;
+use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
 use std::path::Path;
 
-use csv::{ErrorKind, ReaderBuilder, StringRecord, Trim};
+use csv::{ErrorKind, Position, Reader, ReaderBuilder, StringRecord, Trim};
 
 use crate::failure::Failure;
 
@@ -50,7 +50,7 @@ pub fn read(path: &Path) -> Result<Trace, Failure> {
             path.display()
         )));
     }
-    let samples = parse(file.take(LARGEST_FILE)).map_err(|Fault { line, message }| {
+    let samples = parse(file).map_err(|Fault { line, message }| {
         Failure::Data(format!("{}, line {line}: {message}", path.display()))
     })?;
     Ok(Trace {
@@ -78,9 +78,8 @@ impl Fault {
         }
     }
 
-    /// A fault that the CSV reader found, at about the line given where it names none.
-    fn from_csv(error: &csv::Error, line: u64) -> Self {
-        let line = error.position().map_or(line, csv::Position::line);
+    /// A fault that the CSV reader found in the record that starts at `start`.
+    fn from_csv(error: &csv::Error, reader: Reader<impl Read + Seek>, start: &Position) -> Self {
         let message = match error.kind() {
             ErrorKind::UnequalLengths {
                 expected_len, len, ..
@@ -88,63 +87,88 @@ impl Fault {
             ErrorKind::Utf8 { .. } => "no UTF-8".into(),
             _ => error.to_string(),
         };
-        Self { line, message }
+        Self::new(line_of(reader, start), message)
     }
 }
 
-fn parse(input: impl Read) -> Result<Vec<Sample>, Fault> {
-    let mut reader = ReaderBuilder::new().trim(Trim::All).from_reader(input);
-    let header = reader
-        .headers()
-        .map_err(|error| Fault::from_csv(&error, 1))?
-        .clone();
-    let places = COLUMNS.map(|column| place(&header, column));
-    let [time, nut_speed, axial_load] = match places {
-        [Ok(time), Ok(nut_speed), Ok(axial_load)] => [time, nut_speed, axial_load],
-        places => {
-            let fault = places.into_iter().find_map(Result::err);
-            return Err(fault.unwrap_or_else(|| Fault::new(1, "no header")));
+/// Line of the record that starts at `start`: the CSV reader counts blank lines before a record as
+/// part of it.
+fn line_of(reader: Reader<impl Read + Seek>, start: &Position) -> u64 {
+    let blank_lines = || -> io::Result<u64> {
+        let mut input = reader.into_inner();
+        input.seek(SeekFrom::Start(start.byte()))?;
+        let mut input = BufReader::new(input);
+        let mut count = 0;
+        loop {
+            match input.fill_buf()?.first() {
+                Some(b'\n') => count += 1,
+                Some(b'\r') => {}
+                _ => return Ok(count),
+            }
+            input.consume(1);
         }
     };
+    // Where the file cannot be read again, the line is that of the blank lines.
+    start.line() + blank_lines().unwrap_or(0)
+}
+
+fn parse(input: impl Read + Seek) -> Result<Vec<Sample>, Fault> {
+    let mut reader = ReaderBuilder::new().trim(Trim::All).from_reader(input);
+    let start = reader.position().clone();
+    let header = match reader.headers() {
+        Ok(header) => header.clone(),
+        Err(error) => return Err(Fault::from_csv(&error, reader, &start)),
+    };
+    let [time, nut_speed, axial_load] = places(&header)?;
 
     let mut samples: Vec<Sample> = Vec::new();
     let mut record = StringRecord::new();
     loop {
-        let expected_line = reader.position().line();
+        let start = reader.position().clone();
         match reader.read_record(&mut record) {
             Ok(true) => {}
             Ok(false) => break,
-            Err(error) => return Err(Fault::from_csv(&error, expected_line)),
+            Err(error) => return Err(Fault::from_csv(&error, reader, &start)),
         }
-        let line = record
-            .position()
-            .map_or(expected_line, csv::Position::line);
-        let number = |index, column| number(&record, index, column, line);
-        let sample = Sample {
-            time: number(time, "time")?,
-            nut_speed: number(nut_speed, "nut_speed")?,
-            axial_load: number(axial_load, "axial_load")?,
+        let sample = || -> Result<Sample, String> {
+            Ok(Sample {
+                time: number(&record, time, "time")?,
+                nut_speed: number(&record, nut_speed, "nut_speed")?,
+                axial_load: number(&record, axial_load, "axial_load")?,
+            })
         };
-        if let Some(last) = samples.last()
-            && sample.time < last.time
-        {
-            return Err(Fault::new(
-                line,
-                format!("time goes back from {} to {}", last.time, sample.time),
-            ));
+        match sample().and_then(|sample| follows(&samples, sample)) {
+            Ok(sample) => samples.push(sample),
+            Err(message) => return Err(Fault::new(line_of(reader, &start), message)),
         }
-        if samples.len() == MOST_SAMPLES {
-            return Err(Fault::new(
-                line,
-                format!("a trace has at most {MOST_SAMPLES} samples"),
-            ));
-        }
-        samples.push(sample);
     }
     if samples.is_empty() {
         return Err(Fault::new(reader.position().line(), "the trace is empty"));
     }
     Ok(samples)
+}
+
+/// The sample, where it may follow those before it.
+fn follows(samples: &[Sample], sample: Sample) -> Result<Sample, String> {
+    if samples.len() == MOST_SAMPLES {
+        return Err(format!("a trace has at most {MOST_SAMPLES} samples"));
+    }
+    match samples.last() {
+        Some(last) if sample.time < last.time => Err(format!(
+            "time goes back from {} to {}",
+            last.time, sample.time
+        )),
+        _ => Ok(sample),
+    }
+}
+
+/// Places of the columns that a trace must have.
+fn places(header: &StringRecord) -> Result<[usize; 3], Fault> {
+    let mut places = [0; COLUMNS.len()];
+    for (found, column) in places.iter_mut().zip(COLUMNS) {
+        *found = place(header, column)?;
+    }
+    Ok(places)
 }
 
 /// Place of a column, which must be there once.
@@ -164,11 +188,11 @@ fn place(header: &StringRecord, column: &str) -> Result<usize, Fault> {
 }
 
 /// A number that f32 can hold.
-fn number(record: &StringRecord, index: usize, column: &str, line: u64) -> Result<f64, Fault> {
+fn number(record: &StringRecord, index: usize, column: &str) -> Result<f64, String> {
     let text = record.get(index).unwrap_or_default();
     let fault = |problem: &str| {
         let shown: String = text.chars().take(40).collect();
-        Fault::new(line, format!("{column} = {shown:?} {problem}"))
+        format!("{column} = {shown:?} {problem}")
     };
     let value: f64 = text.parse().map_err(|_| fault("is no number"))?;
     if !value.is_finite() {
@@ -183,6 +207,11 @@ fn number(record: &StringRecord, index: usize, column: &str, line: u64) -> Resul
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::io::Cursor;
+
+    fn parse(text: &[u8]) -> Result<Vec<Sample>, Fault> {
+        super::parse(Cursor::new(text))
+    }
 
     #[test]
     fn columns_stand_in_any_order_among_others() {
@@ -221,7 +250,7 @@ mod tests {
                 "{text:?}: {fault:?}"
             );
         }
-        let fault = parse(&b"time,nut_speed,axial_load\n0,1,2\n0,\xff,2\n"[..]).unwrap_err();
+        let fault = parse(b"time,nut_speed,axial_load\n0,1,2\n0,\xff,2\n").unwrap_err();
         assert_eq!(fault.line, 3);
     }
 }
