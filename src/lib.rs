@@ -1,5 +1,28 @@
-//! placeholder
 #![no_std]
+#![doc = include_str!("../README.md")]
+//!
+//! # Conventions
+//!
+//! SI units and radians everywhere; a field's documentation names its unit and range. Angles: lead
+//! angle `alpha`, contact angle `beta` or `phi` from the plane normal to the axis. The normal of a
+//! groove points into its metal. A right-hand thread; the load is positive where it opposes the travel
+//! that a positive nut speed makes.
+//!
+//! # Where things are
+//!
+//! | module | what |
+//! |---|---|
+//! | [`math`] | square root, cube root, sine and cosine |
+//! | [`material`] | elastic constants |
+//! | [`geometry`] | validated designs, built-in sizes |
+//! | [`curvature`] | groove curvature: literature, circular groove, fitted, exact |
+//! | [`hertz`] | contact ellipse, deflection, pressure |
+//! | [`efficiency`] | closed-form efficiency, self-locking, optimum, design procedure |
+//! | [`scene`] | what a mechanism needs and what it leaves out |
+//! | [`model`] | configured once, stepped in the interrupt |
+//!
+//! Everything is set up once, with errors that name the field, its value and the allowed range; from
+//! then on nothing returns a `Result`, nothing panics, and every output is finite and flagged.
 
 pub mod curvature;
 pub mod efficiency;
@@ -11,11 +34,24 @@ pub mod math;
 pub mod model;
 pub mod scene;
 
-pub use curvature::*;
-pub use efficiency::*;
+pub use curvature::{
+    CircularGrooveCurvature, FittedCurvature, GothicArch, LiteratureCurvature, PrincipalCurvatures,
+    RelativeCurvatures,
+};
+pub use efficiency::{
+    DesignFigures, DesignRequest, Drive, Duty, DynamicCorrection, EfficiencyGeometry,
+    OptimumContactAngle, optimum_contact_angle, optimum_efficiency,
+};
 pub use error::{Error, Range};
-pub use geometry::*;
-pub use hertz::*;
-pub use material::*;
-pub use model::*;
-pub use scene::*;
+pub use geometry::{
+    BallBearing, BallBearingParameters, BallScrew, BallScrewParameters, CATALOGUE, CatalogueSize,
+    ContactAngle, DISSERTATION_DESIGNS, Groove, GrooveProfile, GrooveSize, HelixPath,
+    LinearBearing, LinearBearingParameters, NamedDesign,
+};
+pub use hertz::{ContactEllipse, HertzContact};
+pub use material::{Material, contact_modulus};
+pub use model::FrictionModel;
+pub use scene::{
+    CagedBallScrew, CagedBallScrewConfiguration, Faults, FrictionBranch, Inputs, Limits, Outputs,
+    Regime, Scene,
+};

@@ -51,7 +51,8 @@ pub struct Outputs {
     /// pi`. The motor's torque at constant speed is the sum of the two.
     pub load_torque: f32,
     /// Efficiency of motion in the present direction under the present load, away from the reversal:
-    /// work out over work in. 0 without load, negative where the direction is locked, 0 in a fault.
+    /// work out over work in. 0 without load, negative where the direction is locked (not below -1e6),
+    /// 0 in a fault.
     pub efficiency: f32,
     /// What the mechanism does.
     pub regime: Regime,

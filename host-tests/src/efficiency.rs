@@ -59,8 +59,8 @@ impl Screw {
             / (tan * (sin + friction * grip) + rolling_tangent)
     }
 
-    /// Eq. (11) with the numerator's sign corrected (`Sb + f (Cb cos psiA + ta sin psiA)`, `psiA = psiB
-    /// + pi`): efficiency over the slip angle at the screw contact.
+    /// Eq. (11), efficiency over the slip angle at the screw contact, with the numerator's sign
+    /// corrected: `Sb + f (Cb cos(psiA) + ta sin(psiA))` where psiA is psiB plus pi.
     #[must_use]
     pub fn at_slip_angle(&self, slip_angle: f64) -> f64 {
         let (sin_b, cos_b) = self.contact_angle.sin_cos();
@@ -138,8 +138,8 @@ pub fn optimum_drive(lead_angle: f64, friction: f64) -> Option<f64> {
     (sin <= 1.0).then(|| sin.asin())
 }
 
-/// Optimum contact angle of back-driving, from eq. (18) with its lost `R` restored: `Ca Sb = sin(pi/4
-/// - phi/2)`; `None` beyond its range `alpha <= pi/4 + phi/2`.
+/// Optimum contact angle of back-driving, from eq. (18) with its lost `R` restored:
+/// `Ca Sb = sin(pi/4 - phi/2)`; `None` beyond its range `alpha <= pi/4 + phi/2`.
 #[must_use]
 pub fn optimum_backdrive(lead_angle: f64, friction: f64) -> Option<f64> {
     let sin = (FRAC_PI_4 - 0.5 * friction.atan()).sin() / lead_angle.cos();

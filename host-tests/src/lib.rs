@@ -10,5 +10,6 @@ pub mod efficiency;
 pub mod error;
 pub mod hertz;
 pub mod published;
+pub mod steady_state;
 
 pub use error::ReferenceError;

@@ -132,7 +132,7 @@ fn crate_holds_over_all_cases() {
         ] {
             let error = (f64::from(computed) - expected).abs() / expected.abs().max(1.0);
             assert!(
-                error < 4e-7,
+                error < 6e-7,
                 "{expected} of {case}: {computed} errs by {error:e}"
             );
             worst = worst.max(error);
@@ -141,7 +141,7 @@ fn crate_holds_over_all_cases() {
             (fast.sliding_loss(f), rounded.loss_drive()),
             (fast.sliding_backdrive_loss(f), rounded.loss_backdrive()),
         ] {
-            let error = (f64::from(computed) / expected - 1.0).abs();
+            let error = (f64::from(computed) - expected).abs() / expected.max(f64::MIN_POSITIVE);
             assert!(error < 6e-7, "loss of {case}: {error:e}");
             worst_loss = worst_loss.max(error);
         }

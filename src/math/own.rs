@@ -120,8 +120,7 @@ pub fn sin_cos(x: f32) -> (f32, f32) {
     const PART_3: f32 = 7.549533620476723e-08;
     const PART_4: f32 = 2.5633440682570896e-12;
 
-    // Also false for NaN.
-    if !(x.abs() <= LARGEST_ANGLE) {
+    if x.abs() > LARGEST_ANGLE || x.is_nan() {
         return if x.is_finite() {
             (0.0, 1.0)
         } else {
