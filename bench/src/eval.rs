@@ -5,6 +5,7 @@ mod fields;
 mod groove_curvature;
 mod hertz;
 mod lines;
+mod steady_state;
 
 use std::fs::File;
 use std::io::{self, BufWriter, Read, Write};
@@ -68,9 +69,10 @@ fn json(value: &impl Serialize) -> Result<Box<RawValue>, BadField> {
 type Model = fn(Fields) -> Result<Answer, BadField>;
 
 /// Every model by its name.
-const MODELS: [(&str, Model); 3] = [
+const MODELS: [(&str, Model); 4] = [
     ("groove_curvature", groove_curvature::evaluate),
     ("efficiency", efficiency::evaluate),
+    ("steady_state", steady_state::evaluate),
     ("hertz", hertz::evaluate),
 ];
 

@@ -1,7 +1,8 @@
 //! `groove_curvature`: first and second principal curvature at a contact point.
 
+use epas_friction::curvature::DEFAULT_FIT_RANGE;
 use epas_friction::{
-    CircularGrooveCurvature, ContactAngle, DEFAULT_FIT_RANGE, FittedCurvature, GothicArch, Groove,
+    CircularGrooveCurvature, ContactAngle, FittedCurvature, GothicArch, Groove,
     GrooveProfile, HelixPath, LiteratureCurvature,
 };
 use epas_reference::curvature::{self, Surface};

@@ -2,7 +2,9 @@
 
 use std::f32::consts::TAU;
 
-use epas_friction::{DynamicCorrection, EfficiencyGeometry, LARGEST_FRICTION};
+use epas_friction::efficiency::LARGEST_FRICTION;
+use epas_friction::{DynamicCorrection, EfficiencyGeometry};
+use epas_reference::steady_state::{BallScrewState, NoSteadyState};
 use serde::Serialize;
 
 use super::Answer;
@@ -14,6 +16,17 @@ const BALL_DENSITY: f64 = 7800.0;
 #[derive(Serialize)]
 struct InLoop {
     efficiency: f64,
+}
+
+#[derive(Default, Serialize)]
+struct Reference {
+    efficiency: Option<f64>,
+    torque: Option<f64>,
+    normal_screw: Option<f64>,
+    normal_nut: Option<f64>,
+    normal_nut_minor: Option<f64>,
+    /// None where the solver cannot tell.
+    exists: Option<bool>,
 }
 
 /// Answers one request.
@@ -44,5 +57,34 @@ pub fn evaluate(mut fields: Fields) -> Result<Answer, BadField> {
             .efficiency(dynamic_number)
             .into(),
     };
-    Answer::both(&in_loop, &0)
+
+    let state = BallScrewState {
+        lead_angle,
+        contact_angle,
+        friction,
+        ball_radius,
+        pitch_radius,
+        speed,
+        axial_load,
+        ball_density: density,
+    };
+    let reference = match state.solve() {
+        Ok(solution) => Reference {
+            efficiency: Some(solution.efficiency),
+            torque: Some(solution.torque),
+            normal_screw: Some(solution.normal_screw),
+            normal_nut: Some(solution.normal_nut),
+            normal_nut_minor: Some(solution.normal_nut_minor),
+            exists: Some(true),
+        },
+        Err(NoSteadyState::Input(error)) => return Err(error.into()),
+        Err(NoSteadyState::NotConverged(_)) => Reference::default(),
+        Err(NoSteadyState::Frictionless | NoSteadyState::Locked | NoSteadyState::NoSlip) => {
+            Reference {
+                exists: Some(false),
+                ..Reference::default()
+            }
+        }
+    };
+    Answer::both(&in_loop, &reference)
 }
