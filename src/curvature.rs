@@ -18,6 +18,6 @@ mod gothic_arch;
 mod literature;
 
 pub use circular::CircularGrooveCurvature;
-pub use fitted::FittedCurvature;
+pub use fitted::{DEFAULT_FIT_RANGE, FittedCurvature};
 pub use gothic_arch::{GothicArch, PrincipalCurvatures, RelativeCurvatures};
 pub use literature::LiteratureCurvature;

@@ -1,3 +1,19 @@
-//! The command-line program.
+//! The command-line program of `epas-friction`: the error of every formula beside its run time,
+//! simulation of manoeuvres, and the `eval` interface for other people's reference data.
 
-fn main() {}
+mod cli;
+mod designs;
+mod eval;
+mod failure;
+mod files;
+mod plot;
+mod simulate;
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    match cli::run() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => failure.report(),
+    }
+}

@@ -1,0 +1,391 @@
+//! Designs by name or from a file.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+use epas_friction::{
+    BallScrew, BallScrewParameters, CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration,
+    DISSERTATION_DESIGNS, FrictionBranch, FrictionModel, GrooveSize, Limits, Material,
+};
+use serde::Deserialize;
+
+use crate::failure::Failure;
+
+/// A design with what the in-loop model has to know beside it.
+#[derive(Clone, Debug)]
+pub struct Design {
+    /// Name, for headings and file names.
+    pub name: String,
+    /// Configuration of the in-loop model.
+    pub configuration: CagedBallScrewConfiguration,
+    /// Number of balls that share the load, where it is known.
+    pub loaded_balls: Option<u16>,
+}
+
+/// Settings that a catalogue does not print.
+const FRICTION: f32 = 0.075;
+const REVERSAL_SPEED: f32 = 0.5;
+const LIMITS: Limits = Limits {
+    nut_speed: 2e3,
+    axial_load: 1e5,
+    friction_torque: 100.0,
+};
+
+impl Design {
+    fn built_in(name: &str, design: BallScrew, loaded_balls: Option<u16>) -> Self {
+        Self {
+            name: name.into(),
+            configuration: CagedBallScrewConfiguration {
+                design,
+                friction: FRICTION,
+                rolling_tangent: 0.0,
+                branch: FrictionBranch::Rolling,
+                preload: 0.0,
+                reversal_speed: REVERSAL_SPEED,
+                limits: LIMITS,
+            },
+            loaded_balls,
+        }
+    }
+
+    /// The geometry.
+    pub fn screw(&self) -> &BallScrew {
+        &self.configuration.design
+    }
+}
+
+/// Every built-in design, those of the dissertation last.
+pub fn built_in() -> impl Iterator<Item = (&'static str, BallScrewParameters, Option<u16>)> {
+    let catalogue = CATALOGUE
+        .iter()
+        .map(|size| (size.name, size.parameters(), None));
+    let dissertation = DISSERTATION_DESIGNS
+        .iter()
+        .map(|design| (design.name, design.parameters, Some(design.loaded_balls)));
+    catalogue.chain(dissertation)
+}
+
+/// Where a design comes from.
+#[derive(Clone, Debug)]
+pub enum DesignSource {
+    /// A built-in design.
+    BuiltIn {
+        /// Its name.
+        name: &'static str,
+        /// Its dimensions and materials.
+        parameters: BallScrewParameters,
+        /// Number of balls that share the load.
+        loaded_balls: Option<u16>,
+    },
+    /// A TOML file.
+    File(PathBuf),
+}
+
+impl FromStr for DesignSource {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        if Path::new(text).extension().is_some_and(|end| end == "toml") {
+            return Ok(Self::File(text.into()));
+        }
+        built_in()
+            .find(|(name, ..)| *name == text)
+            .map(|(name, parameters, loaded_balls)| Self::BuiltIn {
+                name,
+                parameters,
+                loaded_balls,
+            })
+            .ok_or_else(|| {
+                "no built-in design has this name (`simulate --list` prints them), and a design file \
+                 ends in .toml"
+                    .into()
+            })
+    }
+}
+
+impl DesignSource {
+    /// The design, checked.
+    pub fn load(&self) -> Result<Design, Failure> {
+        match self {
+            Self::BuiltIn {
+                name,
+                parameters,
+                loaded_balls,
+            } => {
+                let design = BallScrew::new(*parameters)
+                    .map_err(|error| Failure::Data(format!("{name}: {error}")))?;
+                Ok(Design::built_in(name, design, *loaded_balls))
+            }
+            Self::File(path) => from_file(path),
+        }
+    }
+}
+
+/// A design file, as it is written.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct DesignFile {
+    name: Option<String>,
+    pitch_radius: Option<f32>,
+    nominal_diameter: Option<f32>,
+    lead: f32,
+    ball_radius: Option<f32>,
+    ball_diameter: Option<f32>,
+    conformity: Option<f32>,
+    groove_radius: Option<f32>,
+    screw_groove: Option<GrooveTable>,
+    nut_groove: Option<GrooveTable>,
+    contact_angle: f32,
+    youngs_modulus: Option<f32>,
+    poisson_ratio: Option<f32>,
+    density: Option<f32>,
+    ball_material: Option<MaterialTable>,
+    groove_material: Option<MaterialTable>,
+    friction: Option<f32>,
+    rolling_tangent: Option<f32>,
+    branch: Option<BranchName>,
+    preload: Option<f32>,
+    reversal_speed: Option<f32>,
+    loaded_balls: Option<u16>,
+    limits: Option<LimitsTable>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct GrooveTable {
+    conformity: Option<f32>,
+    groove_radius: Option<f32>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct MaterialTable {
+    youngs_modulus: Option<f32>,
+    poisson_ratio: Option<f32>,
+    density: Option<f32>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct LimitsTable {
+    nut_speed: Option<f32>,
+    axial_load: Option<f32>,
+    friction_torque: Option<f32>,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum BranchName {
+    Rolling,
+    Sliding,
+}
+
+/// Largest design file, bytes: a hundred times what one needs.
+const LARGEST_FILE: u64 = 1 << 18;
+
+fn from_file(path: &Path) -> Result<Design, Failure> {
+    let failure = |message: String| Failure::Data(format!("{}: {message}", path.display()));
+    let metadata = fs::metadata(path).map_err(|error| Failure::file("open", path, &error))?;
+    if metadata.len() > LARGEST_FILE {
+        return Err(failure(format!(
+            "a design file has at most {LARGEST_FILE} bytes"
+        )));
+    }
+    let text = fs::read_to_string(path).map_err(|error| Failure::file("read", path, &error))?;
+    let file: DesignFile =
+        toml::from_str(&text).map_err(|error| failure(error.to_string().trim_end().into()))?;
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    file.design(&stem).map_err(failure)
+}
+
+impl DesignFile {
+    fn design(self, stem: &str) -> Result<Design, String> {
+        let ball_radius = radius(
+            ("ball_radius", self.ball_radius),
+            ("ball_diameter", self.ball_diameter),
+        )?;
+        let pitch_radius = radius(
+            ("pitch_radius", self.pitch_radius),
+            ("nominal_diameter", self.nominal_diameter),
+        )?;
+        let both = GrooveTable {
+            conformity: self.conformity,
+            groove_radius: self.groove_radius,
+        };
+        let common = MaterialTable {
+            youngs_modulus: self.youngs_modulus,
+            poisson_ratio: self.poisson_ratio,
+            density: self.density,
+        };
+        let parameters = BallScrewParameters {
+            pitch_radius,
+            lead: self.lead,
+            ball_radius,
+            screw_groove: groove("screw_groove", self.screw_groove.as_ref(), &both)?,
+            nut_groove: groove("nut_groove", self.nut_groove.as_ref(), &both)?,
+            contact_angle: self.contact_angle,
+            ball_material: material(self.ball_material.as_ref(), &common),
+            groove_material: material(self.groove_material.as_ref(), &common),
+        };
+        let screw = BallScrew::new(parameters).map_err(|error| error.to_string())?;
+        if self.loaded_balls == Some(0) {
+            return Err("loaded_balls = 0 is out of range; allowed: 1 to 65535".into());
+        }
+
+        let mut design = Design::built_in(
+            self.name.as_deref().unwrap_or(stem),
+            screw,
+            self.loaded_balls,
+        );
+        let configuration = &mut design.configuration;
+        replace(&mut configuration.friction, self.friction);
+        replace(&mut configuration.rolling_tangent, self.rolling_tangent);
+        replace(&mut configuration.preload, self.preload);
+        replace(&mut configuration.reversal_speed, self.reversal_speed);
+        if matches!(self.branch, Some(BranchName::Sliding)) {
+            configuration.branch = FrictionBranch::Sliding;
+        }
+        if let Some(limits) = self.limits {
+            replace(&mut configuration.limits.nut_speed, limits.nut_speed);
+            replace(&mut configuration.limits.axial_load, limits.axial_load);
+            replace(
+                &mut configuration.limits.friction_torque,
+                limits.friction_torque,
+            );
+        }
+        FrictionModel::<CagedBallScrew>::new(configuration).map_err(|error| error.to_string())?;
+        Ok(design)
+    }
+}
+
+fn replace<T>(value: &mut T, given: Option<T>) {
+    if let Some(given) = given {
+        *value = given;
+    }
+}
+
+/// A radius that may be given as a diameter instead.
+fn radius(
+    (radius_field, radius): (&str, Option<f32>),
+    (diameter_field, diameter): (&str, Option<f32>),
+) -> Result<f32, String> {
+    match (radius, diameter) {
+        (Some(radius), None) => Ok(radius),
+        (None, Some(diameter)) => Ok(0.5 * diameter),
+        (None, None) => Err(format!("{radius_field} or {diameter_field} is missing")),
+        (Some(_), Some(_)) => Err(format!(
+            "{radius_field} and {diameter_field} are both given; one of them follows from the other"
+        )),
+    }
+}
+
+/// A groove's own table, or what is given for both.
+fn groove(name: &str, own: Option<&GrooveTable>, both: &GrooveTable) -> Result<GrooveSize, String> {
+    let table = own.unwrap_or(both);
+    match (table.conformity, table.groove_radius) {
+        (Some(conformity), None) => Ok(GrooveSize::Conformity(conformity)),
+        (None, Some(radius)) => Ok(GrooveSize::Radius(radius)),
+        (None, None) => Err(format!("{name}: conformity or groove_radius is missing")),
+        (Some(_), Some(_)) => Err(format!(
+            "{name}: conformity and groove_radius are both given; one of them follows from the other"
+        )),
+    }
+}
+
+/// A body's own constants, those given for both, or steel's.
+fn material(own: Option<&MaterialTable>, common: &MaterialTable) -> Material {
+    let pick = |own: Option<Option<f32>>, common: Option<f32>, steel: f32| {
+        own.flatten().or(common).unwrap_or(steel)
+    };
+    Material {
+        youngs_modulus: pick(
+            own.map(|table| table.youngs_modulus),
+            common.youngs_modulus,
+            Material::STEEL.youngs_modulus,
+        ),
+        poisson_ratio: pick(
+            own.map(|table| table.poisson_ratio),
+            common.poisson_ratio,
+            Material::STEEL.poisson_ratio,
+        ),
+        density: pick(
+            own.map(|table| table.density),
+            common.density,
+            Material::STEEL.density,
+        ),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_built_in_design_is_valid_and_found_by_its_name() {
+        assert_eq!(built_in().count(), 34);
+        for (name, ..) in built_in() {
+            let design = name.parse::<DesignSource>().unwrap().load().unwrap();
+            assert_eq!(design.name, name);
+            FrictionModel::<CagedBallScrew>::new(&design.configuration).unwrap();
+        }
+        assert!("33x20x6.35".parse::<DesignSource>().is_err());
+    }
+
+    fn parse(text: &str) -> Result<Design, String> {
+        toml::from_str::<DesignFile>(text)
+            .map_err(|error| error.to_string())?
+            .design("stem")
+    }
+
+    const GOOD: &str = "nominal_diameter = 0.032\nlead = 0.02\nball_diameter = 6.35e-3\n\
+                        conformity = 0.528\ncontact_angle = 0.7853982\n";
+
+    #[test]
+    fn a_design_file_equals_the_built_in_design() {
+        let built_in = "32x20x6.35".parse::<DesignSource>().unwrap().load();
+        assert_eq!(parse(GOOD).unwrap().configuration, built_in.unwrap().configuration);
+    }
+
+    #[test]
+    fn every_wrong_field_is_named() {
+        for (addition, field) in [
+            ("friktion = 0.1", "friktion"),
+            ("friction = -0.1", "friction"),
+            ("friction = nan", "friction"),
+            ("friction = inf", "friction"),
+            ("friction = 1e300", "friction"),
+            ("friction = \"low\"", "friction"),
+            ("rolling_tangent = 0.2", "rolling_tangent"),
+            ("branch = \"fast\"", "branch"),
+            ("preload = -1", "preload"),
+            ("reversal_speed = 0", "reversal_speed"),
+            ("loaded_balls = 0", "loaded_balls"),
+            ("loaded_balls = -3", "loaded_balls"),
+            ("youngs_modulus = 0", "youngs_modulus"),
+            ("poisson_ratio = 0.6", "poisson_ratio"),
+            ("density = 0", "density"),
+            ("pitch_radius = 0.016", "pitch_radius"),
+            ("ball_radius = 0.003", "ball_radius"),
+            ("groove_radius = 0.0034", "groove_radius"),
+            ("[screw_groove]\nradius = 0.0034", "radius"),
+            ("[screw_groove]\nconformity = 0.5", "conformity"),
+            ("[nut_groove]", "nut_groove"),
+            ("[limits]\nnut_speed = 0", "nut_speed"),
+            ("[limits]\nspeed = 1", "speed"),
+            ("[ball_material]\nyoungs_modulus = -1", "youngs_modulus"),
+        ] {
+            let error = parse(&format!("{GOOD}{addition}\n")).unwrap_err();
+            assert!(error.contains(field), "{addition}: {error}");
+        }
+        for field in ["nominal_diameter", "lead", "ball_diameter", "conformity", "contact_angle"] {
+            let rest: String = GOOD
+                .lines()
+                .filter(|line| !line.starts_with(field))
+                .flat_map(|line| [line, "\n"])
+                .collect();
+            let error = parse(&rest).unwrap_err();
+            assert!(error.contains(field), "{field}: {error}");
+        }
+    }
+}

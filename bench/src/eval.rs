@@ -1,0 +1,166 @@
+//! `eval`: one JSON object a line in, one a line out, in order.
+
+mod efficiency;
+mod fields;
+mod groove_curvature;
+mod hertz;
+mod lines;
+mod steady_state;
+
+use std::fs::File;
+use std::io::{self, BufWriter, Read, Write};
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+use serde_json::value::{RawValue, to_raw_value};
+
+use crate::failure::Failure;
+use fields::{BadField, Fields};
+use lines::{Line, Lines};
+
+/// Evaluates one model per line: JSON objects in, JSON objects out, in order.
+///
+/// A request is {"id": ANY, "model": NAME, ...fields}; its answer is {"id": ANY, "in_loop": {...},
+/// "reference": {...}} with the values of the f32 crate and of the float64 reference, or {"id": ANY,
+/// "error": {"field": "...", "message": "..."}}. A quantity that does not exist is null. Blank lines
+/// are skipped. A line that is no JSON object answers with a null id and the field "request". The
+/// exit code is 1 where any request was bad.
+///
+/// Models and fields (SI units, radians; those in brackets may be left out):
+///
+/// groove_curvature: groove ("screw" or "nut"), pitch_radius, lead_angle, contact_angle,
+/// groove_radius, offset_h, offset_l, [ball_radius]
+///
+/// efficiency: lead_angle, contact_angle, friction, ball_ratio, [rolling_tangent]
+///
+/// steady_state: lead_angle, contact_angle, friction, ball_radius, pitch_radius, speed, axial_load,
+/// [ball_density]
+///
+/// hertz: relative_radius_1, relative_radius_2, load, contact_modulus
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    /// File with the requests; stdin without it or for -
+    file: Option<PathBuf>,
+}
+
+/// What one model says to one request.
+pub struct Answer {
+    in_loop: Option<Box<RawValue>>,
+    reference: Option<Box<RawValue>>,
+}
+
+impl Answer {
+    /// The answer of a model that both the crate and the reference have.
+    fn both(in_loop: &impl Serialize, reference: &impl Serialize) -> Result<Self, BadField> {
+        Ok(Self {
+            in_loop: Some(json(in_loop)?),
+            reference: Some(json(reference)?),
+        })
+    }
+}
+
+/// Writes numbers with the fewest digits that read back as the same float64, and those that are not
+/// finite as null.
+fn json(value: &impl Serialize) -> Result<Box<RawValue>, BadField> {
+    to_raw_value(value).map_err(|error| BadField::request(error.to_string()))
+}
+
+/// A model: takes the fields it needs, refuses what is left over, and computes.
+type Model = fn(Fields) -> Result<Answer, BadField>;
+
+/// Every model by its name.
+const MODELS: [(&str, Model); 4] = [
+    ("groove_curvature", groove_curvature::evaluate),
+    ("efficiency", efficiency::evaluate),
+    ("steady_state", steady_state::evaluate),
+    ("hertz", hertz::evaluate),
+];
+
+/// A line of the output.
+#[derive(Serialize)]
+struct Reply<'a> {
+    id: Option<&'a RawValue>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    in_loop: Option<Box<RawValue>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reference: Option<Box<RawValue>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    error: Option<BadField>,
+}
+
+/// Answers every request of the file or of stdin.
+pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let output = BufWriter::new(io::stdout().lock());
+    let all_good = match &arguments.file {
+        Some(path) if path.as_os_str() != "-" => {
+            let file = File::open(path).map_err(|error| Failure::file("open", path, &error))?;
+            answer_all(file, path, output)?
+        }
+        _ => answer_all(io::stdin().lock(), Path::new("stdin"), output)?,
+    };
+    if all_good {
+        Ok(())
+    } else {
+        Err(Failure::Answered)
+    }
+}
+
+/// Answers line by line, with no more than one line in memory; true where every request was good.
+fn answer_all(input: impl Read, path: &Path, mut output: impl Write) -> Result<bool, Failure> {
+    let mut lines = Lines::new(input);
+    let mut all_good = true;
+    loop {
+        // A program that waits for its answer before it asks again gets it now.
+        if lines.would_wait() {
+            output.flush()?;
+        }
+        let line = match lines.next_line() {
+            Ok(Some(line)) => line,
+            Ok(None) => break,
+            Err(error) => return Err(Failure::file("read", path, &error)),
+        };
+        let reply = match line {
+            Line::Blank => continue,
+            Line::Text(text) => answer(text),
+            Line::Unreadable(message) => Reply {
+                id: None,
+                in_loop: None,
+                reference: None,
+                error: Some(BadField::request(message)),
+            },
+        };
+        all_good &= reply.error.is_none();
+        serde_json::to_writer(&mut output, &reply).map_err(io::Error::from)?;
+        output.write_all(b"\n")?;
+    }
+    output.flush()?;
+    Ok(all_good)
+}
+
+/// Answers one request.
+fn answer(line: &str) -> Reply<'_> {
+    let (id, result) = match Fields::parse(line) {
+        Ok(mut fields) => (fields.id(), evaluate(fields)),
+        Err(error) => (None, Err(error)),
+    };
+    match result {
+        Ok(Answer { in_loop, reference }) => Reply {
+            id,
+            in_loop,
+            reference,
+            error: None,
+        },
+        Err(error) => Reply {
+            id,
+            in_loop: None,
+            reference: None,
+            error: Some(error),
+        },
+    }
+}
+
+fn evaluate(mut fields: Fields) -> Result<Answer, BadField> {
+    fields.refuse_duplicate()?;
+    let model = fields.choice("model", &MODELS)?;
+    model(fields)
+}

@@ -1,0 +1,264 @@
+//! The fields of one request, taken one by one; what is left over is refused.
+
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
+use std::fmt;
+
+use epas_reference::ReferenceError;
+use serde::Serialize;
+use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};
+use serde_json::value::RawValue;
+
+/// What is wrong with a request, and in which field.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct BadField {
+    field: String,
+    message: String,
+}
+
+impl BadField {
+    /// The field named, with what is wrong with it.
+    pub fn new(field: impl Into<String>, message: impl Into<String>) -> Self {
+        Self {
+            field: field.into(),
+            message: message.into(),
+        }
+    }
+
+    /// The line as a whole is wrong.
+    pub fn request(message: impl Into<String>) -> Self {
+        Self::new("request", message)
+    }
+
+    /// This error under the name that the request has for the field.
+    pub fn renamed(self, from: &str, to: &str) -> Self {
+        if self.field == from {
+            Self {
+                field: to.into(),
+                ..self
+            }
+        } else {
+            self
+        }
+    }
+}
+
+impl From<epas_friction::Error> for BadField {
+    fn from(error: epas_friction::Error) -> Self {
+        Self::new(error.field(), error.to_string())
+    }
+}
+
+impl From<ReferenceError> for BadField {
+    fn from(error: ReferenceError) -> Self {
+        Self::new(error.field, error.to_string())
+    }
+}
+
+/// `value`, where it is within `minimum..=maximum`.
+pub fn in_range(field: &str, value: f64, minimum: f64, maximum: f64) -> Result<f64, BadField> {
+    if (minimum..=maximum).contains(&value) {
+        Ok(value)
+    } else {
+        Err(BadField::new(
+            field,
+            format!("{field} = {value} is out of range; allowed: {minimum} to {maximum}"),
+        ))
+    }
+}
+
+/// The fields of one request that have not been taken yet.
+pub struct Fields<'a> {
+    values: BTreeMap<Cow<'a, str>, &'a RawValue>,
+    duplicate: Option<String>,
+}
+
+impl<'a> Fields<'a> {
+    /// The fields of a line that holds one JSON object.
+    pub fn parse(line: &'a str) -> Result<Self, BadField> {
+        serde_json::from_str(line).map_err(|error| BadField::request(error.to_string()))
+    }
+
+    /// Takes the id, as it was written.
+    pub fn id(&mut self) -> Option<&'a RawValue> {
+        self.values.get("id").copied()
+    }
+
+    /// Refuses a request that gives a field twice or has no id.
+    pub fn refuse_duplicate(&mut self) -> Result<(), BadField> {
+        if let Some(field) = self.duplicate.take() {
+            return Err(BadField::new(field, "is given twice"));
+        }
+        self.take("id").map(drop)
+    }
+
+    /// Takes a number; any that float64 can hold.
+    pub fn number(&mut self, field: &str) -> Result<f64, BadField> {
+        number(field, self.take(field)?)
+    }
+
+    /// Takes a number that may be left out.
+    pub fn optional_number(&mut self, field: &str) -> Result<Option<f64>, BadField> {
+        self.values
+            .remove(field)
+            .map(|raw| number(field, raw))
+            .transpose()
+    }
+
+    /// Takes a name and gives what stands beside it.
+    pub fn choice<T: Copy>(
+        &mut self,
+        field: &str,
+        choices: &[(&str, T)],
+    ) -> Result<T, BadField> {
+        let raw = self.take(field)?;
+        let name: Option<Cow<str>> = serde_json::from_str(raw.get()).ok();
+        choices
+            .iter()
+            .find(|(choice, _)| Some(*choice) == name.as_deref())
+            .map(|&(_, value)| value)
+            .ok_or_else(|| {
+                let names: Vec<_> = choices.iter().map(|(choice, _)| *choice).collect();
+                BadField::new(
+                    field,
+                    format!("{} is none of: {}", shown(raw), names.join(", ")),
+                )
+            })
+    }
+
+    /// Refuses every field that no one has taken.
+    pub fn finish(self) -> Result<(), BadField> {
+        match self.values.into_keys().next() {
+            Some(field) => Err(BadField::new(field, "is unknown to this model")),
+            None => Ok(()),
+        }
+    }
+
+    fn take(&mut self, field: &str) -> Result<&'a RawValue, BadField> {
+        self.values
+            .remove(field)
+            .ok_or_else(|| BadField::new(field, "is missing"))
+    }
+}
+
+/// A JSON number as float64. What is beyond its range reads as infinity and is refused here, so that
+/// the field can be named.
+fn number(field: &str, raw: &RawValue) -> Result<f64, BadField> {
+    let text = raw.get();
+    if !text.starts_with(|first: char| first == '-' || first.is_ascii_digit()) {
+        return Err(BadField::new(
+            field,
+            format!("must be a number, not {}", shown(raw)),
+        ));
+    }
+    match text.parse::<f64>() {
+        Ok(value) if value.is_finite() => Ok(value),
+        _ => Err(BadField::new(
+            field,
+            format!("{} is beyond the range of float64", shown(raw)),
+        )),
+    }
+}
+
+/// The beginning of a JSON value, for a message.
+fn shown(raw: &RawValue) -> Cow<'_, str> {
+    const LENGTH: usize = 40;
+    match raw.get().char_indices().nth(LENGTH) {
+        Some((end, _)) => Cow::Owned(format!("{}...", &raw.get()[..end])),
+        None => Cow::Borrowed(raw.get()),
+    }
+}
+
+impl<'de: 'a, 'a> Deserialize<'de> for Fields<'a> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_map(FieldsVisitor)
+    }
+}
+
+struct FieldsVisitor;
+
+impl<'de> Visitor<'de> for FieldsVisitor {
+    type Value = Fields<'de>;
+
+    fn expecting(&self, formatter: &mut fmt::Formatter) -> fmt::Result {
+        formatter.write_str("a JSON object")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Fields<'de>, A::Error> {
+        let mut fields = Fields {
+            values: BTreeMap::new(),
+            duplicate: None,
+        };
+        while let Some((name, value)) = map.next_entry::<Name, &RawValue>()? {
+            match fields.values.entry(name.0) {
+                Entry::Vacant(entry) => {
+                    entry.insert(value);
+                }
+                Entry::Occupied(entry) => {
+                    fields
+                        .duplicate
+                        .get_or_insert_with(|| entry.key().clone().into_owned());
+                }
+            }
+        }
+        Ok(fields)
+    }
+}
+
+/// A field's name: borrowed where it holds no escapes.
+#[derive(serde::Deserialize)]
+struct Name<'a>(#[serde(borrow)] Cow<'a, str>);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn error(line: &str) -> BadField {
+        let mut fields = match Fields::parse(line) {
+            Ok(fields) => fields,
+            Err(error) => return error,
+        };
+        let taken = fields
+            .refuse_duplicate()
+            .and_then(|()| fields.number("load"))
+            .and_then(|_| fields.finish());
+        taken.unwrap_err()
+    }
+
+    #[test]
+    fn every_fault_names_its_field() {
+        for (line, field) in [
+            (r#"{"id": 1}"#, "load"),
+            (r#"{"load": 1}"#, "id"),
+            (r#"{"id": 1, "load": "NaN"}"#, "load"),
+            (r#"{"id": 1, "load": null}"#, "load"),
+            (r#"{"id": 1, "load": true}"#, "load"),
+            (r#"{"id": 1, "load": [1]}"#, "load"),
+            (r#"{"id": 1, "load": 1e999}"#, "load"),
+            (r#"{"id": 1, "load": -1e999}"#, "load"),
+            (r#"{"id": 1, "load": 1, "load": 2}"#, "load"),
+            (r#"{"id": 1, "load": 1, "l\u006fad": 2}"#, "load"),
+            (r#"{"id": 1, "load": 1, "lead": 2}"#, "lead"),
+            (r#"{"id": 1, "load": NaN}"#, "request"),
+            (r#"{"id": 1, "load": 1"#, "request"),
+            (r#"{"id": 1, "load": 01}"#, "request"),
+            ("[1]", "request"),
+            ("7", "request"),
+        ] {
+            assert_eq!(error(line).field, field, "{line}");
+        }
+    }
+
+    #[test]
+    fn deep_nesting_is_no_danger() {
+        let deep = format!(r#"{{"id": 1, "load": {}}}"#, "[".repeat(100_000));
+        assert_eq!(error(&deep).field, "request");
+        let deep = format!(
+            r#"{{"id": 1, "load": {}{}}}"#,
+            "[".repeat(100_000),
+            "]".repeat(100_000)
+        );
+        assert_eq!(error(&deep).field, "load");
+    }
+}

@@ -1,0 +1,63 @@
+//! Lines of bounded length.
+
+use std::io::{self, BufRead, BufReader, Read};
+
+/// Longest line that is read, in bytes: far above any request, far below what would fill a memory.
+const LONGEST: u64 = 1 << 20;
+
+/// Reads lines into one buffer.
+pub struct Lines<R> {
+    input: BufReader<R>,
+    buffer: Vec<u8>,
+}
+
+/// What a line turned out to be.
+pub enum Line<'a> {
+    /// Nothing but white space.
+    Blank,
+    /// A line of text.
+    Text(&'a str),
+    /// Too long or no UTF-8; with what to say about it.
+    Unreadable(String),
+}
+
+impl<R: Read> Lines<R> {
+    /// Lines of `input`.
+    pub fn new(input: R) -> Self {
+        Self {
+            input: BufReader::new(input),
+            buffer: Vec::new(),
+        }
+    }
+
+    /// True where the next line has not arrived whole yet, so that reading it may wait.
+    pub fn would_wait(&self) -> bool {
+        !self.input.buffer().contains(&b'\n')
+    }
+
+    /// The next line, `None` at the end. A line that is too long is skipped to its end.
+    pub fn next_line(&mut self) -> io::Result<Option<Line<'_>>> {
+        self.buffer.clear();
+        let read = (&mut self.input)
+            .take(LONGEST)
+            .read_until(b'\n', &mut self.buffer)?;
+        if read == 0 {
+            return Ok(None);
+        }
+        if read as u64 == LONGEST && !self.buffer.ends_with(b"\n") && !self.skip_line()? {
+            return Ok(Some(Line::Unreadable(format!(
+                "the line is longer than {LONGEST} bytes"
+            ))));
+        }
+        Ok(Some(match std::str::from_utf8(&self.buffer) {
+            Ok(text) if text.trim_ascii().is_empty() => Line::Blank,
+            Ok(text) => Line::Text(text),
+            Err(error) => Line::Unreadable(format!("the line is no UTF-8: {error}")),
+        }))
+    }
+
+    /// Skips to the end of the line; true where it was there already.
+    fn skip_line(&mut self) -> io::Result<bool> {
+        Ok(self.input.skip_until(b'\n')? == 0)
+    }
+}

@@ -1,0 +1,48 @@
+//! How a run ends when it does not end well.
+
+use std::fmt;
+use std::io;
+use std::path::Path;
+use std::process::ExitCode;
+
+/// Why a run stopped. Wrong usage never gets here: the argument parser ends the program itself, with
+/// exit code 2.
+#[derive(Debug)]
+pub enum Failure {
+    /// Wrong data, or a file that cannot be read or written: exit code 1.
+    Data(String),
+    /// Each wrong request has been answered in its place: exit code 1, nothing more to say.
+    Answered,
+    /// Whoever read the output has gone: no fault of this program.
+    BrokenPipe,
+}
+
+impl Failure {
+    /// The failure to do something (`"read"`, `"write"`) with a file.
+    pub fn file(verb: &str, path: &Path, error: &impl fmt::Display) -> Self {
+        Self::Data(format!("cannot {verb} {}: {error}", path.display()))
+    }
+
+    /// Prints what is to be said on stderr and gives the exit code.
+    pub fn report(&self) -> ExitCode {
+        match self {
+            Self::Data(message) => {
+                eprintln!("error: {message}");
+                ExitCode::FAILURE
+            }
+            Self::Answered => ExitCode::FAILURE,
+            Self::BrokenPipe => ExitCode::SUCCESS,
+        }
+    }
+}
+
+/// Errors of reading stdin and writing stdout; those of files are named by [`Failure::file`].
+impl From<io::Error> for Failure {
+    fn from(error: io::Error) -> Self {
+        if error.kind() == io::ErrorKind::BrokenPipe {
+            Self::BrokenPipe
+        } else {
+            Self::Data(error.to_string())
+        }
+    }
+}

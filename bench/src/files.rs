@@ -1,0 +1,109 @@
+//! Files that are written whole or not at all.
+
+use std::fs;
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use tempfile::{Builder, NamedTempFile};
+
+use crate::failure::Failure;
+
+/// What happens to a file that is there already.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Existing {
+    /// It stays, and the run fails.
+    Keep,
+    /// It is replaced.
+    Replace,
+}
+
+impl Existing {
+    /// Fails before any work is done where a file would be in the way.
+    pub fn check(self, path: &Path) -> Result<(), Failure> {
+        if self == Self::Keep && path.exists() {
+            Err(in_the_way(path))
+        } else {
+            Ok(())
+        }
+    }
+}
+
+fn in_the_way(path: &Path) -> Failure {
+    Failure::Data(format!(
+        "{} exists; --force replaces it",
+        path.display()
+    ))
+}
+
+/// A file beside its place, which takes it only when it is complete; dropped before, it leaves nothing.
+pub struct Pending {
+    path: PathBuf,
+    existing: Existing,
+    writer: BufWriter<NamedTempFile>,
+}
+
+impl Pending {
+    /// A file that will stand at `path`; folders on the way are made.
+    pub fn new(path: &Path, existing: Existing) -> Result<Self, Failure> {
+        let failure = |error: io::Error| Failure::file("write", path, &error);
+        let folder = match path.parent() {
+            Some(folder) if !folder.as_os_str().is_empty() => folder,
+            _ => Path::new("."),
+        };
+        fs::create_dir_all(folder).map_err(failure)?;
+        let mut builder = Builder::new();
+        builder.prefix(".epas-bench-");
+        // A temporary file is private by default; this one is to become an ordinary file.
+        #[cfg(unix)]
+        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+        let file = builder.tempfile_in(folder).map_err(failure)?;
+        Ok(Self {
+            path: path.into(),
+            existing,
+            writer: BufWriter::new(file),
+        })
+    }
+
+    /// Where to write.
+    pub fn writer(&mut self) -> &mut impl Write {
+        &mut self.writer
+    }
+
+    /// Puts the file in its place.
+    pub fn finish(self) -> Result<(), Failure> {
+        let Self {
+            path,
+            existing,
+            writer,
+        } = self;
+        let file = writer
+            .into_inner()
+            .map_err(|error| Failure::file("write", &path, error.error()))?;
+        let placed = match existing {
+            Existing::Replace => file.persist(&path),
+            Existing::Keep => file.persist_noclobber(&path),
+        };
+        match placed {
+            Ok(_) => Ok(()),
+            Err(error) if error.error.kind() == io::ErrorKind::AlreadyExists => {
+                Err(in_the_way(&path))
+            }
+            Err(error) => Err(Failure::file("write", &path, &error.error)),
+        }
+    }
+}
+
+/// Writes the whole text of a file that is pending.
+pub fn all(pending: &mut Pending, path: &Path, contents: &str) -> Result<(), Failure> {
+    pending
+        .writer()
+        .write_all(contents.as_bytes())
+        .map_err(|error| Failure::file("write", path, &error))
+}
+
+/// Writes a whole file.
+pub fn write(path: &Path, contents: &str, existing: Existing) -> Result<(), Failure> {
+    let mut pending = Pending::new(path, existing)?;
+    all(&mut pending, path, contents)?;
+    pending.finish()
+}

@@ -1,0 +1,142 @@
+//! A quantity over two axes, in bands of colour.
+
+use std::error::Error;
+
+use plotters::coord::Shift;
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+
+use super::chart::{draw_title, label_style, tick_style};
+use super::{Axis, LINE_HEIGHT};
+
+/// Values on a grid of cells, in bands between the given bounds.
+#[derive(Clone, Debug)]
+pub struct ColourMap {
+    /// Title.
+    pub title: String,
+    /// Horizontal axis, linear, with its ends.
+    pub x: Axis,
+    /// Vertical axis, linear, with its ends.
+    pub y: Axis,
+    /// Quantity and unit of the bands.
+    pub quantity: String,
+    /// Bounds between bands, rising, each with its text.
+    pub bounds: Vec<(f64, String)>,
+    /// Rows from bottom to top, each from left to right.
+    pub values: Vec<Vec<f64>>,
+}
+
+/// Cividis (Nunez, Anderton, Renslow 2018): even in lightness, the same for every kind of colour
+/// vision.
+const CIVIDIS: [RGBColor; 7] = [
+    RGBColor(0, 34, 78),
+    RGBColor(53, 69, 108),
+    RGBColor(102, 105, 112),
+    RGBColor(148, 142, 119),
+    RGBColor(200, 184, 102),
+    RGBColor(239, 220, 80),
+    RGBColor(254, 240, 150),
+];
+
+/// Colour at `share`, 0 to 1, of the scale.
+fn colour(share: f64) -> RGBColor {
+    let place = share.clamp(0.0, 1.0) * (CIVIDIS.len() - 1) as f64;
+    let index = (place as usize).min(CIVIDIS.len() - 2);
+    let rest = place - index as f64;
+    let (low, high) = (CIVIDIS[index], CIVIDIS[index + 1]);
+    let mix = |low: u8, high: u8| {
+        (f64::from(low) + rest * (f64::from(high) - f64::from(low))).round() as u8
+    };
+    RGBColor(
+        mix(low.0, high.0),
+        mix(low.1, high.1),
+        mix(low.2, high.2),
+    )
+}
+
+impl ColourMap {
+    /// Index of the band of a value; none where it is no number.
+    fn band(&self, value: f64) -> Option<usize> {
+        (!value.is_nan()).then(|| {
+            self.bounds
+                .iter()
+                .take_while(|(bound, _)| value >= *bound)
+                .count()
+        })
+    }
+
+    fn band_colour(&self, band: usize) -> RGBColor {
+        colour(band as f64 / self.bounds.len().max(1) as f64)
+    }
+
+    /// Draws the map into its area, its bands in a column at the right.
+    pub fn draw(
+        &self,
+        area: &DrawingArea<SVGBackend<'_>, Shift>,
+    ) -> Result<(), Box<dyn Error>> {
+        const KEY_WIDTH: i32 = 92;
+        draw_title(area, &self.title)?;
+        let (_, body) = area.split_vertically(8 + LINE_HEIGHT);
+        let (width, height) = body.dim_in_pixel();
+        let (left, key) = body.split_horizontally(width as i32 - KEY_WIDTH);
+
+        let x = self.x.range(std::iter::empty());
+        let y = self.y.range(std::iter::empty());
+        let mut context = ChartBuilder::on(&left)
+            .margin(6)
+            .x_label_area_size(46)
+            .y_label_area_size(58)
+            .build_cartesian_2d(x.clone(), y.clone())?;
+        context
+            .configure_mesh()
+            .disable_mesh()
+            .x_labels(self.x.labels(&x))
+            .y_labels(self.y.labels(&y))
+            .x_label_formatter(&|place| self.x.text(*place, &x))
+            .y_label_formatter(&|place| self.y.text(*place, &y))
+            .x_desc(self.x.label.as_str())
+            .y_desc(self.y.label.as_str())
+            .label_style(tick_style())
+            .axis_desc_style(label_style())
+            .draw()?;
+
+        let cell_height = (y.end - y.start) / self.values.len().max(1) as f64;
+        for (row, values) in self.values.iter().enumerate() {
+            let bottom = y.start + row as f64 * cell_height;
+            let cell_width = (x.end - x.start) / values.len().max(1) as f64;
+            let mut start = 0;
+            // Neighbours of one band are one rectangle.
+            for run in values.chunk_by(|one, other| self.band(*one) == self.band(*other)) {
+                let end = start + run.len();
+                if let Some(band) = run.first().and_then(|value| self.band(*value)) {
+                    context.draw_series([Rectangle::new(
+                        [
+                            (x.start + start as f64 * cell_width, bottom),
+                            (x.start + end as f64 * cell_width, bottom + cell_height),
+                        ],
+                        self.band_colour(band).filled(),
+                    )])?;
+                }
+                start = end;
+            }
+        }
+
+        let bands = self.bounds.len() as i32 + 1;
+        let top = 30;
+        let step = ((height as i32 - 90 - top) / bands).clamp(12, 34);
+        let text = tick_style().pos(Pos::new(HPos::Left, VPos::Center));
+        key.draw(&Text::new(self.quantity.clone(), (4, 12), text.clone()))?;
+        for band in 0..bands {
+            let upper = top + (bands - 1 - band) * step;
+            key.draw(&Rectangle::new(
+                [(4, upper), (24, upper + step)],
+                self.band_colour(band as usize).filled(),
+            ))?;
+        }
+        for (index, (_, label)) in self.bounds.iter().enumerate() {
+            let place = top + (bands - 1 - index as i32) * step;
+            key.draw(&Text::new(label.clone(), (30, place), text.clone()))?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,322 @@
+//! `simulate`: the in-loop model over a trace of speed and load.
+
+mod manoeuvre;
+mod picture;
+mod reference;
+mod summary;
+mod trace;
+
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use epas_friction::{CagedBallScrew, FrictionModel, Inputs, Outputs, Regime};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+use crate::designs::{self, Design, DesignSource};
+use crate::failure::Failure;
+use crate::files::{self, Existing, Pending};
+use manoeuvre::Manoeuvre;
+use reference::ReferenceScene;
+use summary::Summary;
+use trace::{Sample, Trace};
+
+/// Runs the in-loop friction model over a trace.
+///
+/// The trace is a CSV file with the columns time (s), nut_speed (rad/s) and axial_load (N; positive
+/// where it opposes the travel that a positive nut speed makes), in any order, or one of the built-in
+/// manoeuvres. Written are a CSV file with the model's outputs at every sample and an SVG plot; a trace
+/// that is refused leaves neither.
+///
+/// A design file in TOML holds, in m and rad: pitch_radius or nominal_diameter, lead, ball_radius or
+/// ball_diameter, conformity or groove_radius (for both grooves, or each in a table [screw_groove],
+/// [nut_groove]), contact_angle; and if wanted name, youngs_modulus, poisson_ratio, density (for both
+/// bodies, or each in a table [ball_material], [groove_material]; steel without), friction,
+/// rolling_tangent, branch ("rolling" or "sliding"), preload, reversal_speed, loaded_balls, and a table
+/// [limits] with nut_speed, axial_load, friction_torque.
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    /// Print the names of the built-in designs
+    #[arg(long, exclusive = true)]
+    list: bool,
+    /// Built-in design, or design file ending in .toml [default for a manoeuvre: lin-4.1]
+    #[arg(long, value_name = "NAME|FILE.toml", required_unless_present_any = ["list", "manoeuvre"])]
+    design: Option<DesignSource>,
+    /// Trace with the columns time, nut_speed, axial_load
+    #[arg(
+        long,
+        value_name = "TRACE.csv",
+        required_unless_present_any = ["list", "manoeuvre"],
+        conflicts_with = "manoeuvre"
+    )]
+    input: Option<PathBuf>,
+    /// Built-in trace of rack force and rack travel
+    #[arg(long, value_enum)]
+    manoeuvre: Option<Manoeuvre>,
+    /// Where the outputs go [default, with the plot: target/simulate/TRACE-DESIGN.csv]
+    #[arg(long, value_name = "OUT.csv")]
+    output: Option<PathBuf>,
+    /// Where the plot goes
+    #[arg(long, value_name = "OUT.svg")]
+    plot: Option<PathBuf>,
+    /// Compute the float64 reference beside the model
+    #[arg(long)]
+    reference: bool,
+    /// Replace files that exist
+    #[arg(long)]
+    force: bool,
+}
+
+/// One sample with what the models say to it.
+#[derive(Clone, Copy, Debug)]
+pub struct Row {
+    sample: Sample,
+    outputs: Outputs,
+    reference: Option<reference::Friction>,
+}
+
+/// Runs the simulation, or lists the designs.
+pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    if arguments.list {
+        return list();
+    }
+    let design = match &arguments.design {
+        Some(source) => source.load()?,
+        None => "lin-4.1"
+            .parse::<DesignSource>()
+            .map_err(Failure::Data)?
+            .load()?,
+    };
+    let trace = match (&arguments.input, arguments.manoeuvre) {
+        (Some(path), _) => trace::read(path)?,
+        (None, Some(manoeuvre)) => manoeuvre.trace(design.screw())?,
+        (None, None) => return Err(Failure::Data("there is no trace".into())),
+    };
+
+    let (output, plot) = targets(arguments, &trace, &design);
+    let existing = if arguments.force {
+        Existing::Replace
+    } else {
+        Existing::Keep
+    };
+    for path in output.iter().chain(&plot) {
+        existing.check(path)?;
+    }
+    if let Some(input) = &arguments.input {
+        refuse_same(input, output.iter().chain(&plot))?;
+    }
+
+    let (rows, summary) = simulate(&design, &trace, arguments.reference)?;
+    let table = output
+        .as_deref()
+        .map(|path| write_rows(path, &rows, existing))
+        .transpose()?;
+    // Nothing takes its place before everything is complete.
+    let picture = plot
+        .as_deref()
+        .map(|path| -> Result<_, Failure> {
+            let svg = picture::draw(&trace, &design, &rows)?;
+            let mut pending = Pending::new(path, existing)?;
+            files::all(&mut pending, path, &svg)?;
+            Ok(pending)
+        })
+        .transpose()?;
+    for pending in [table, picture].into_iter().flatten() {
+        pending.finish()?;
+    }
+
+    let mut stdout = io::stdout().lock();
+    summary.print(&mut stdout, &trace, &design)?;
+    for path in output.iter().chain(&plot) {
+        writeln!(stdout, "wrote {}", path.display())?;
+    }
+    Ok(())
+}
+
+fn list() -> Result<(), Failure> {
+    let mut stdout = io::stdout().lock();
+    for (name, parameters, loaded_balls) in designs::built_in() {
+        write!(
+            stdout,
+            "{name:14} pitch radius {:8.3} mm, lead {:5.1} mm, ball radius {:6.4} mm",
+            1e3 * parameters.pitch_radius,
+            1e3 * parameters.lead,
+            1e3 * parameters.ball_radius,
+        )?;
+        match loaded_balls {
+            Some(balls) => writeln!(stdout, ", {balls} loaded balls")?,
+            None => writeln!(stdout)?,
+        }
+    }
+    Ok(())
+}
+
+/// Files asked for; both under their default names where none is named.
+fn targets(
+    arguments: &Arguments,
+    trace: &Trace,
+    design: &Design,
+) -> (Option<PathBuf>, Option<PathBuf>) {
+    if arguments.output.is_some() || arguments.plot.is_some() {
+        return (arguments.output.clone(), arguments.plot.clone());
+    }
+    // A design's name comes from a file and may hold anything.
+    let stem: String = format!("{}-{}", trace.name, design.name)
+        .chars()
+        .map(|letter| {
+            if letter.is_alphanumeric() || "-_.".contains(letter) {
+                letter
+            } else {
+                '_'
+            }
+        })
+        .collect();
+    let folder = Path::new("target").join("simulate");
+    (
+        Some(folder.join(format!("{stem}.csv"))),
+        Some(folder.join(format!("{stem}.svg"))),
+    )
+}
+
+/// The trace itself is never overwritten, nor one output by the other.
+fn refuse_same<'a>(
+    input: &Path,
+    outputs: impl Iterator<Item = &'a PathBuf>,
+) -> Result<(), Failure> {
+    let mut taken = vec![fs::canonicalize(input).unwrap_or_else(|_| input.into())];
+    for output in outputs {
+        let place = fs::canonicalize(output).unwrap_or_else(|_| output.clone());
+        if taken.contains(&place) {
+            return Err(Failure::Data(format!(
+                "{} is named twice",
+                output.display()
+            )));
+        }
+        taken.push(place);
+    }
+    Ok(())
+}
+
+fn simulate(
+    design: &Design,
+    trace: &Trace,
+    with_reference: bool,
+) -> Result<(Vec<Row>, Summary), Failure> {
+    let mut model = FrictionModel::<CagedBallScrew>::new(&design.configuration)
+        .map_err(|error| Failure::Data(format!("{}: {error}", design.name)))?;
+    let reference = with_reference
+        .then(|| ReferenceScene::new(&design.configuration))
+        .transpose()?;
+
+    let progress = Progress::new(trace.samples.len());
+    let mut summary = Summary::new(&design.configuration);
+    let mut rows = Vec::with_capacity(trace.samples.len());
+    for (index, &sample) in trace.samples.iter().enumerate() {
+        let outputs = model.step(Inputs {
+            nut_speed: sample.nut_speed as f32,
+            axial_load: sample.axial_load as f32,
+        });
+        let row = Row {
+            sample,
+            outputs,
+            reference: reference.as_ref().map(|scene| scene.friction(&sample)),
+        };
+        summary.add(&row);
+        rows.push(row);
+        progress.show(index);
+    }
+    progress.clear();
+    Ok((rows, summary))
+}
+
+/// A progress bar that appears only when the work takes longer than a second.
+struct Progress {
+    bar: ProgressBar,
+    start: Instant,
+}
+
+impl Progress {
+    fn new(length: usize) -> Self {
+        let bar = ProgressBar::with_draw_target(Some(length as u64), ProgressDrawTarget::hidden());
+        if let Ok(style) = ProgressStyle::with_template("{bar:40} {percent} % {eta} left") {
+            bar.set_style(style);
+        }
+        Self {
+            bar,
+            start: Instant::now(),
+        }
+    }
+
+    fn show(&self, index: usize) {
+        const STRIDE: usize = 1 << 14;
+        if !index.is_multiple_of(STRIDE) {
+            return;
+        }
+        if self.bar.is_hidden() && self.start.elapsed() > Duration::from_secs(1) {
+            self.bar.set_draw_target(ProgressDrawTarget::stderr());
+        }
+        self.bar.set_position(index as u64);
+    }
+
+    fn clear(&self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+fn write_rows(path: &Path, rows: &[Row], existing: Existing) -> Result<Pending, Failure> {
+    let mut pending = Pending::new(path, existing)?;
+    write_table(pending.writer(), rows).map_err(|error| Failure::file("write", path, &error))?;
+    Ok(pending)
+}
+
+fn write_table(writer: &mut impl Write, rows: &[Row]) -> Result<(), csv::Error> {
+    let mut table = csv::Writer::from_writer(writer);
+    let mut columns = vec![
+        "time",
+        "nut_speed",
+        "axial_load",
+        "friction_torque",
+        "load_torque",
+        "efficiency",
+        "regime",
+        "faults",
+    ];
+    if rows.first().is_some_and(|row| row.reference.is_some()) {
+        columns.extend(["reference_friction_torque", "reference_efficiency"]);
+    }
+    table.write_record(&columns)?;
+    for Row {
+        sample,
+        outputs,
+        reference,
+    } in rows
+    {
+        let mut record = vec![
+            sample.time.to_string(),
+            sample.nut_speed.to_string(),
+            sample.axial_load.to_string(),
+            outputs.friction_torque.to_string(),
+            outputs.load_torque.to_string(),
+            outputs.efficiency.to_string(),
+            regime_name(outputs.regime).into(),
+            outputs.faults.bits().to_string(),
+        ];
+        if let Some(reference) = reference {
+            record.push(reference.friction_torque.to_string());
+            record.push(reference.efficiency.to_string());
+        }
+        table.write_record(&record)?;
+    }
+    table.flush()?;
+    Ok(())
+}
+
+fn regime_name(regime: Regime) -> &'static str {
+    match regime {
+        Regime::Standing => "standing",
+        Regime::Driving => "driving",
+        Regime::BackDriving => "back-driving",
+        Regime::Locked => "locked",
+    }
+}

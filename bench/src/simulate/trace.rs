@@ -1,0 +1,256 @@
+//! Traces of speed and load, and how they are read from CSV.
+
+use std::fs::File;
+use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
+use std::path::Path;
+
+use csv::{ErrorKind, Position, Reader, ReaderBuilder, StringRecord, Trim};
+
+use crate::failure::Failure;
+
+/// One moment of a trace.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// Time, s.
+    pub time: f64,
+    /// Speed of the nut, rad/s.
+    pub nut_speed: f64,
+    /// Axial load, N.
+    pub axial_load: f64,
+}
+
+/// A trace, never empty, its times never going back.
+#[derive(Clone, Debug)]
+pub struct Trace {
+    /// Name, for headings and file names.
+    pub name: String,
+    /// The samples in order.
+    pub samples: Vec<Sample>,
+}
+
+/// Columns that a trace must have.
+const COLUMNS: [&str; 3] = ["time", "nut_speed", "axial_load"];
+
+/// Most samples of a trace: more than an hour at 1 kHz, and less than fills a memory.
+const MOST_SAMPLES: usize = 5_000_000;
+
+/// Largest trace file, bytes.
+const LARGEST_FILE: u64 = 1 << 30;
+
+/// Reads a trace.
+pub fn read(path: &Path) -> Result<Trace, Failure> {
+    let file = File::open(path).map_err(|error| Failure::file("open", path, &error))?;
+    let size = file
+        .metadata()
+        .map_err(|error| Failure::file("read", path, &error))?
+        .len();
+    if size > LARGEST_FILE {
+        return Err(Failure::Data(format!(
+            "{}: a trace has at most {LARGEST_FILE} bytes, this one {size}",
+            path.display()
+        )));
+    }
+    let samples = parse(file).map_err(|Fault { line, message }| {
+        Failure::Data(format!("{}, line {line}: {message}", path.display()))
+    })?;
+    Ok(Trace {
+        name: path
+            .file_stem()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .into_owned(),
+        samples,
+    })
+}
+
+/// What is wrong with a trace, and in which line.
+#[derive(Debug, PartialEq)]
+struct Fault {
+    line: u64,
+    message: String,
+}
+
+impl Fault {
+    fn new(line: u64, message: impl Into<String>) -> Self {
+        Self {
+            line,
+            message: message.into(),
+        }
+    }
+
+    /// A fault that the CSV reader found in the record that starts at `start`.
+    fn from_csv(error: &csv::Error, reader: Reader<impl Read + Seek>, start: &Position) -> Self {
+        let message = match error.kind() {
+            ErrorKind::UnequalLengths {
+                expected_len, len, ..
+            } => format!("{len} columns where the first line has {expected_len}"),
+            ErrorKind::Utf8 { .. } => "no UTF-8".into(),
+            _ => error.to_string(),
+        };
+        Self::new(line_of(reader, start), message)
+    }
+}
+
+/// Line of the record that starts at `start`: the CSV reader counts blank lines before a record as
+/// part of it.
+fn line_of(reader: Reader<impl Read + Seek>, start: &Position) -> u64 {
+    let blank_lines = || -> io::Result<u64> {
+        let mut input = reader.into_inner();
+        input.seek(SeekFrom::Start(start.byte()))?;
+        let mut input = BufReader::new(input);
+        let mut count = 0;
+        loop {
+            match input.fill_buf()?.first() {
+                Some(b'\n') => count += 1,
+                Some(b'\r') => {}
+                _ => return Ok(count),
+            }
+            input.consume(1);
+        }
+    };
+    // Where the file cannot be read again, the line is that of the blank lines.
+    start.line() + blank_lines().unwrap_or(0)
+}
+
+fn parse(input: impl Read + Seek) -> Result<Vec<Sample>, Fault> {
+    let mut reader = ReaderBuilder::new().trim(Trim::All).from_reader(input);
+    let start = reader.position().clone();
+    let header = match reader.headers() {
+        Ok(header) => header.clone(),
+        Err(error) => return Err(Fault::from_csv(&error, reader, &start)),
+    };
+    let [time, nut_speed, axial_load] = places(&header)?;
+
+    let mut samples: Vec<Sample> = Vec::new();
+    let mut record = StringRecord::new();
+    loop {
+        let start = reader.position().clone();
+        match reader.read_record(&mut record) {
+            Ok(true) => {}
+            Ok(false) => break,
+            Err(error) => return Err(Fault::from_csv(&error, reader, &start)),
+        }
+        let sample = || -> Result<Sample, String> {
+            Ok(Sample {
+                time: number(&record, time, "time")?,
+                nut_speed: number(&record, nut_speed, "nut_speed")?,
+                axial_load: number(&record, axial_load, "axial_load")?,
+            })
+        };
+        match sample().and_then(|sample| follows(&samples, sample)) {
+            Ok(sample) => samples.push(sample),
+            Err(message) => return Err(Fault::new(line_of(reader, &start), message)),
+        }
+    }
+    if samples.is_empty() {
+        return Err(Fault::new(reader.position().line(), "the trace is empty"));
+    }
+    Ok(samples)
+}
+
+/// The sample, where it may follow those before it.
+fn follows(samples: &[Sample], sample: Sample) -> Result<Sample, String> {
+    if samples.len() == MOST_SAMPLES {
+        return Err(format!("a trace has at most {MOST_SAMPLES} samples"));
+    }
+    match samples.last() {
+        Some(last) if sample.time < last.time => Err(format!(
+            "time goes back from {} to {}",
+            last.time, sample.time
+        )),
+        _ => Ok(sample),
+    }
+}
+
+/// Places of the columns that a trace must have.
+fn places(header: &StringRecord) -> Result<[usize; 3], Fault> {
+    let mut places = [0; COLUMNS.len()];
+    for (found, column) in places.iter_mut().zip(COLUMNS) {
+        *found = place(header, column)?;
+    }
+    Ok(places)
+}
+
+/// Place of a column, which must be there once.
+fn place(header: &StringRecord, column: &str) -> Result<usize, Fault> {
+    // A spreadsheet may put a byte-order mark before the first name.
+    let mut found = header
+        .iter()
+        .enumerate()
+        .filter(|(_, name)| name.trim_start_matches('\u{feff}') == column)
+        .map(|(index, _)| index);
+    match (found.next(), found.next()) {
+        (Some(index), None) => Ok(index),
+        (Some(_), Some(_)) => Err(Fault::new(1, format!("column {column} is there twice"))),
+        (None, _) if header.is_empty() => Err(Fault::new(1, "the file is empty")),
+        (None, _) => Err(Fault::new(1, format!("column {column} is missing"))),
+    }
+}
+
+/// A number that f32 can hold.
+fn number(record: &StringRecord, index: usize, column: &str) -> Result<f64, String> {
+    let text = record.get(index).unwrap_or_default();
+    let fault = |problem: &str| {
+        let shown: String = text.chars().take(40).collect();
+        format!("{column} = {shown:?} {problem}")
+    };
+    let value: f64 = text.parse().map_err(|_| fault("is no number"))?;
+    if !value.is_finite() {
+        return Err(fault("is not finite"));
+    }
+    if value.abs() > f64::from(f32::MAX) {
+        return Err(fault("is beyond the range of float32"));
+    }
+    Ok(value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::io::Cursor;
+
+    fn parse(text: &[u8]) -> Result<Vec<Sample>, Fault> {
+        super::parse(Cursor::new(text))
+    }
+
+    #[test]
+    fn columns_stand_in_any_order_among_others() {
+        let text = "\u{feff}axial_load, gear ,time,nut_speed\n1e3,3,0,-2\n\n1e3,3,0.5,2\n";
+        let samples = parse(text.as_bytes()).unwrap();
+        assert_eq!(
+            samples,
+            [(0.0, -2.0), (0.5, 2.0)].map(|(time, nut_speed)| Sample {
+                time,
+                nut_speed,
+                axial_load: 1e3
+            })
+        );
+    }
+
+    #[test]
+    fn every_fault_names_its_line() {
+        for (text, line, word) in [
+            ("", 1, "empty"),
+            ("time,nut_speed\n0,1\n", 1, "axial_load"),
+            ("time,nut_speed,axial_load,time\n0,1,2,3\n", 1, "twice"),
+            ("time,nut_speed,axial_load\n", 2, "empty"),
+            ("time,nut_speed,axial_load\n0,1,2\n1,fast,2\n", 3, "fast"),
+            ("time,nut_speed,axial_load\n0,1,2\n\n\n1,fast,2\n", 5, "fast"),
+            ("time,nut_speed,axial_load\r\n0,1,2\r\n1,fast,2\r\n", 3, "fast"),
+            ("time,nut_speed,axial_load\n0,1,NaN\n", 2, "finite"),
+            ("time,nut_speed,axial_load\n0,1,-inf\n", 2, "finite"),
+            ("time,nut_speed,axial_load\n0,1,1e39\n", 2, "float32"),
+            ("time,nut_speed,axial_load\n0,1,2\n1,1\n", 3, "columns"),
+            ("time,nut_speed,axial_load\n0,1,\n", 2, "no number"),
+            ("time,nut_speed,axial_load\n0,1,2\n1,1,2\n0.5,1,2\n", 4, "back"),
+        ] {
+            let fault = parse(text.as_bytes()).unwrap_err();
+            assert!(
+                fault.line == line && fault.message.contains(word),
+                "{text:?}: {fault:?}"
+            );
+        }
+        let fault = parse(b"time,nut_speed,axial_load\n0,1,2\n0,\xff,2\n").unwrap_err();
+        assert_eq!(fault.line, 3);
+    }
+}
