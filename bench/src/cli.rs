@@ -4,6 +4,7 @@ use clap::{Parser, Subcommand};
 
 use crate::eval;
 use crate::failure::Failure;
+use crate::report;
 use crate::simulate;
 
 /// Friction of ball screws for electric power steering: error against run time of every formula,
@@ -19,6 +20,7 @@ struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    Report(report::Arguments),
     Simulate(Box<simulate::Arguments>),
     Eval(eval::Arguments),
 }
@@ -28,6 +30,7 @@ pub fn run() -> Result<(), Failure> {
     match Cli::parse().command {
         Some(Command::Simulate(arguments)) => simulate::run(&arguments),
         Some(Command::Eval(arguments)) => eval::run(&arguments),
-        None => Ok(()),
+        Some(Command::Report(arguments)) => report::run(&arguments),
+        None => report::run(&report::Arguments::default()),
     }
 }

@@ -7,7 +7,9 @@ mod eval;
 mod failure;
 mod files;
 mod plot;
+mod report;
 mod simulate;
+mod timing;
 
 use std::process::ExitCode;
 

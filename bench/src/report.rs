@@ -1,0 +1,85 @@
+//! `report`: the error of every formula beside its run time, as tables on the screen and as Markdown,
+//! one HTML page, SVG, CSV and JSON in a folder.
+
+mod curvature;
+mod document;
+mod efficiency;
+mod hertz;
+mod kernels;
+mod kinematics;
+mod statistics;
+mod summary;
+
+use std::path::PathBuf;
+
+use crate::failure::Failure;
+use crate::timing::{Competition, compete};
+use document::{Document, Section};
+
+/// The error of every formula against its run time, on this machine (the main job).
+///
+/// Prints tables and writes them, with plots, to a folder: report.md, report.html (one page that
+/// needs nothing else), and every figure as SVG, CSV and JSON.
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    /// Folder to write to; reports written there before are replaced
+    #[arg(long, default_value = "target/report")]
+    output: PathBuf,
+    /// Fewer timing rounds and coarser sweeps: a look, not a measurement
+    #[arg(long)]
+    quick: bool,
+}
+
+impl Default for Arguments {
+    fn default() -> Self {
+        Self {
+            output: "target/report".into(),
+            quick: false,
+        }
+    }
+}
+
+/// What every section works with.
+struct Context {
+    quick: bool,
+    competition: Vec<Competition>,
+}
+
+impl Context {
+    /// The times of a function by its key.
+    fn times(&self, key: &str) -> Result<&Competition, Failure> {
+        self.competition
+            .iter()
+            .find(|entry| entry.key == key)
+            .ok_or_else(|| Failure::Data(format!("nothing was timed as {key}")))
+    }
+}
+
+/// Every section, in the order of the report.
+const SECTIONS: [fn(&Context) -> Result<Section, Failure>; 6] = [
+    summary::section,
+    curvature::section,
+    hertz::section,
+    efficiency::section,
+    kinematics::section,
+    kernels::section,
+];
+
+/// Makes the report.
+pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let rounds = if arguments.quick { 40 } else { 1500 };
+    let context = Context {
+        quick: arguments.quick,
+        competition: compete(rounds)?,
+    };
+    let sections = SECTIONS
+        .iter()
+        .map(|section| section(&context))
+        .collect::<Result<Vec<_>, _>>()?;
+    let document = Document {
+        title: "epas-friction: error against run time".into(),
+        sections,
+    };
+    document.print()?;
+    document.write(&arguments.output)
+}

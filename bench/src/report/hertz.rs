@@ -1,0 +1,118 @@
+//! The contact ellipse against exact elliptic integrals.
+
+use epas_friction::HertzContact;
+use epas_reference::hertz::Hertz;
+
+use super::Context;
+use super::document::{Block, Cell, Figure, Section, Table};
+use super::statistics::{Errors, evenly};
+use crate::failure::Failure;
+use crate::plot::{Axis, Chart, Mark, Panel, Series};
+
+const PARTS: [&str; 5] = [
+    "axis ratio",
+    "semi-major axis",
+    "semi-minor axis",
+    "deflection",
+    "largest pressure",
+];
+
+/// Errors of the five parts over radius ratios 1 to 1e5, with the ratio of each.
+fn sweep(quick: bool) -> Result<Vec<(f64, [f64; 5])>, Failure> {
+    const MODULUS: f32 = 113.9e9;
+    const SMALL: f32 = 2.5e-3;
+    evenly(0.0, 4.999, if quick { 200 } else { 2000 })
+        .map(|exponent| {
+            let large = (f64::from(SMALL) * 10f64.powf(exponent)) as f32;
+            let fast = HertzContact::checked(SMALL, large, MODULUS)
+                .map_err(|error| Failure::Data(error.to_string()))?;
+            let exact = Hertz::new(f64::from(SMALL), f64::from(large), f64::from(MODULUS))
+                .map_err(|error| Failure::Data(error.to_string()))?;
+            let error = |computed: f32, exact: f64| f64::from(computed) / exact - 1.0;
+            Ok((
+                f64::from(large) / f64::from(SMALL),
+                [
+                    error(fast.axis_ratio(), exact.axis_ratio),
+                    error(fast.semi_major_coefficient(), exact.semi_major),
+                    error(fast.semi_minor_coefficient(), exact.semi_minor),
+                    error(fast.deflection_coefficient(), exact.deflection),
+                    error(fast.max_pressure_coefficient(), exact.max_pressure),
+                ],
+            ))
+        })
+        .collect()
+}
+
+/// Error of the largest part.
+pub fn largest_error(quick: bool) -> Result<Errors, Failure> {
+    Ok(sweep(quick)?
+        .into_iter()
+        .flat_map(|(_, errors)| errors)
+        .collect())
+}
+
+/// The section.
+pub fn section(context: &Context) -> Result<Section, Failure> {
+    let sweep = sweep(context.quick)?;
+    let mut rows = Vec::new();
+    let mut series = Vec::new();
+    for (index, part) in PARTS.into_iter().enumerate() {
+        let errors: Errors = sweep.iter().map(|(_, errors)| errors[index]).collect();
+        rows.push(vec![
+            Cell::from(part),
+            Cell::power(errors.largest),
+            Cell::power(errors.rms()),
+            Cell::power(errors.mean()),
+        ]);
+        let points = sweep
+            .iter()
+            .map(|(ratio, errors)| (*ratio, errors[index].abs().max(1e-9)))
+            .collect();
+        series.push(Series::new(part, index, Mark::Line, points));
+    }
+    // Hamrock and Brewe's power of the ratio, which most programs use.
+    let customary = sweep
+        .iter()
+        .filter_map(|(ratio, _)| {
+            let exact = epas_reference::hertz::axis_ratio(*ratio).ok()?;
+            let brewe = 1.0 / (1.0339 * ratio.powf(0.636));
+            Some((*ratio, (brewe / exact - 1.0).abs()))
+        })
+        .collect();
+    series.push(Series::new(
+        "axis ratio after Brewe and Hamrock 1977",
+        6,
+        Mark::Dashed,
+        customary,
+    ));
+    Ok(Section {
+        title: "Contact ellipse",
+        blocks: vec![
+            Block::Table(Table {
+                name: "hertz_errors",
+                caption: "Errors of the crate's contact ellipse in f32 against exact elliptic integrals, \
+                          ratios of the relative radii 1 to 1e5"
+                    .into(),
+                columns: ["quantity", "largest", "rms", "mean"]
+                    .map(String::from)
+                    .to_vec(),
+                rows,
+            }),
+            Block::Figure(Figure {
+                name: "hertz",
+                caption: "Errors of the contact ellipse over the ratio of the relative radii; a groove of \
+                          conformity 0.528 has a ratio of about 20."
+                    .into(),
+                panels: vec![Panel::Chart(Chart {
+                    title: String::new(),
+                    x: Axis::log("larger over smaller relative radius"),
+                    y: Axis::log("relative error").from_to(1e-8, 0.1),
+                    series,
+                    notes: Vec::new(),
+                })],
+                columns: 1,
+                size: (1080, 420),
+            }),
+        ],
+    })
+}
