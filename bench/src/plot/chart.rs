@@ -106,7 +106,7 @@ impl Chart {
         if title_lines > 0 {
             draw_title(area, &self.title)?;
         }
-        self.draw_legend(area, &legend, (4 + LINE_HEIGHT * title_lines) as i32)?;
+        Self::draw_legend(area, &legend, (4 + LINE_HEIGHT * title_lines) as i32)?;
 
         let (_, body) = area.split_vertically(header);
         let x = self.x.range(self.points().map(|(x, _)| x));
@@ -220,7 +220,7 @@ impl Chart {
         lines
     }
 
-    fn draw_legend(&self, area: &Area<'_>, lines: &[Vec<(i32, &Series)>], top: i32) -> Drawn {
+    fn draw_legend(area: &Area<'_>, lines: &[Vec<(i32, &Series)>], top: i32) -> Drawn {
         for (index, line) in lines.iter().enumerate() {
             let middle = top + LINE_HEIGHT as i32 * index as i32 + LINE_HEIGHT as i32 / 2;
             for &(place, series) in line {

@@ -123,10 +123,15 @@ impl ColourMap {
             for run in values.chunk_by(|one, other| self.band(*one) == self.band(*other)) {
                 let end = start + run.len();
                 if let Some(band) = run.first().and_then(|value| self.band(*value)) {
+                    // Half a cell too wide and too high: what comes next is drawn over it, and no seam
+                    // of background shines through between neighbours.
                     context.draw_series([Rectangle::new(
                         [
                             (x.start + start as f64 * cell_width, bottom),
-                            (x.start + end as f64 * cell_width, bottom + cell_height),
+                            (
+                                (x.start + (end as f64 + 0.5) * cell_width).min(x.end),
+                                (bottom + 1.5 * cell_height).min(y.end),
+                            ),
                         ],
                         self.band_colour(band).filled(),
                     )])?;
