@@ -55,8 +55,11 @@ impl Context {
     }
 }
 
+/// Makes one section.
+type MakeSection = fn(&Context) -> Result<Section, Failure>;
+
 /// Every section, in the order of the report.
-const SECTIONS: [fn(&Context) -> Result<Section, Failure>; 6] = [
+const SECTIONS: [MakeSection; 6] = [
     summary::section,
     curvature::section,
     hertz::section,

@@ -251,8 +251,8 @@ fn map(
     let centre = |cell: usize| 80.0 * (cell as f64 + 0.5) / CELLS as f64;
     Panel::Map(ColourMap {
         title,
-        x: Axis::linear("contact angle (deg)").from_to(0.0, 80.0),
-        y: Axis::linear("lead angle (deg)").from_to(0.0, 80.0),
+        x: Axis::linear("contact angle (deg)").with_ends(0.0, 80.0),
+        y: Axis::linear("lead angle (deg)").with_ends(0.0, 80.0),
         quantity: quantity.into(),
         bounds: bounds
             .iter()
@@ -361,8 +361,8 @@ fn figure_10(quick: bool) -> Result<Figure, Failure> {
         let marks = [Mark::Crosses, Mark::Triangles, Mark::Circles, Mark::Circles];
         panels.push(Panel::Chart(Chart {
             title: groove.2.into(),
-            x: Axis::linear("catalogue size, by lead angle").from_to(0.0, 32.0),
-            y: Axis::log("largest relative error").from_to(1e-8, 10.0),
+            x: Axis::linear("catalogue size, by lead angle").with_ends(0.0, 32.0),
+            y: Axis::log("largest relative error").with_ends(1e-8, 10.0),
             series: curves
                 .into_iter()
                 .enumerate()
@@ -430,7 +430,7 @@ fn figure_11(context: &Context) -> Result<Figure, Failure> {
             .into(),
         panels: vec![Panel::Chart(Chart {
             title: String::new(),
-            x: Axis::log("time of one call (ns)").from_to(ends.0, ends.1),
+            x: Axis::log("time of one call (ns)").with_ends(ends.0, ends.1),
             y: Axis::linear("share of rounds (%)"),
             series,
             notes: Vec::new(),

@@ -167,7 +167,9 @@ impl Table {
         let row = |cells: Vec<&str>| format!("| {} |\n", cells.join(" | ").replace('\n', " "));
         let mut text = format!("{}\n\n", self.caption);
         text += &row(self.columns.iter().map(String::as_str).collect());
-        text += &format!("|{}\n", "---|".repeat(self.columns.len()));
+        text += "|";
+        text += &"---|".repeat(self.columns.len());
+        text += "\n";
         for cells in &self.rows {
             text += &row(cells.iter().map(Cell::shown).collect());
         }

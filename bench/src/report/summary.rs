@@ -237,7 +237,7 @@ fn picture(context: &Context, errors: &[Errors; 4]) -> Result<Figure, Failure> {
         panels: vec![Panel::Chart(Chart {
             title: "Groove curvature: error against run time".into(),
             x: Axis::log("time of one call (ns)"),
-            y: Axis::log("relative error of the first curvature").from_to(1e-13, 10.0),
+            y: Axis::log("relative error of the first curvature").with_ends(1e-13, 10.0),
             series,
             notes: Vec::new(),
         })],
