@@ -270,20 +270,6 @@ impl FrictionMap {
         }
     }
 
-    /// `D / (mu F)` alone and the power loss over `mu F`; see [`FrictionMap::dissipation`].
-    #[inline]
-    #[must_use]
-    pub(crate) fn potential(
-        &self,
-        slip: f32,
-        spin: f32,
-        semi_major: f32,
-        stick_spin: f32,
-    ) -> (f32, f32) {
-        let dissipation = self.dissipation(slip, spin, semi_major, stick_spin);
-        (dissipation.potential, dissipation.power)
-    }
-
     /// `f`, `M` and `f'` inside the contact.
     #[inline]
     fn inside(&self, offset: f32) -> (f32, f32, f32) {

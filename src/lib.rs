@@ -1,13 +1,13 @@
 //! placeholder
 #![no_std]
 
+pub mod ball;
 pub mod contact;
 pub mod error;
 pub mod math;
 
+pub use ball::*;
 pub use contact::*;
 pub use error::{Error, Range};
-/// Published slope
-pub const PUBLISHED_SLOPE: f32 = 1.38;
 /// Placeholder, replaced by the model's fault flags.
 pub struct Faults;

@@ -1,0 +1,543 @@
+//! A ball in up to four contacts on a straight or circular track, moving with the least loss.
+
+use super::symmetric::{Factors, System, Vector};
+use crate::contact::FrictionMap;
+use crate::error::Error;
+use crate::math;
+
+/// Newton steps from the four-force start that [`FourPointBall::solve`] takes.
+pub const DEFAULT_STEPS: u8 = 3;
+
+/// Contact angles are taken at most this far from the nominal one, rad.
+pub const LARGEST_ANGLE_DEVIATION: f32 = 0.5;
+
+/// Contact forces are taken at most this large, N.
+const LARGEST_FORCE: f32 = 1e7;
+
+/// Spin below which a contact counts as sticking, in units of track speed over ball radius.
+const STICK_SPIN: f32 = 0.01;
+
+/// Longest Newton step, in units of the track speed. Contact spins are about one: a step must not
+/// carry a spin far past zero, where the quadratic model of the dissipation ends.
+const STEP_LIMIT: f32 = 0.3;
+
+/// Factor on a step that did not reduce the dissipation, and how often it is tried.
+const BACKTRACK: f32 = 0.35;
+const BACKTRACKS: usize = 2;
+
+/// Rounding of the dissipation in f32, relative: an increase below it is none.
+const ROUNDING: f32 = 1e-6;
+
+/// Below this ratio of the weaker to the stronger diagonal's load, the start also tries two-point
+/// rolling. The switch itself lies below 0.06 for contact angle deviations up to 3 degrees.
+const WEAK_DIAGONAL: f32 = 0.1;
+
+/// Position of the contacts BL, BR, TR, TL about the ball's centre: signs of cosine and sine.
+const QUADRANTS: [(f32, f32); 4] = [(-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0), (1.0, 1.0)];
+
+/// A ball in a four-point contact bearing, linear or rotary, with constants folded at set-up.
+///
+/// Velocities are in units of the track speed `v`: the speed of the top groove of a linear bearing, or
+/// inner speed times pitch radius of a rotary one. With ball speed `v_B` and rotation `omega_x`,
+/// `omega_y` about the axes across the track, contact `i` at `(n_x, n_y) = (∓cos beta_i, ±sin beta_i)`
+/// has
+///
+/// ```text
+/// slip V_i = v_B + R_B (n_x omega_x + n_y omega_y) - groove speed
+/// spin w_i = n_y omega_x - n_x omega_y - groove spin
+/// ```
+///
+/// (Lin 2019, eqs. (3.11), (3.13), (3.23), (F.1)-(F.3); the printed `omega_IR`, `omega_OR` have the
+/// wrong sign). Equilibrium (3.19), (3.25) says that the ball moves with the least dissipation
+/// `sum D_i(V_i, w_i)`, a convex function of three unknowns. Rotary and linear bearings differ in the
+/// speeds of the grooves only.
+///
+/// Made by [`FourPointBall::linear`] or inside [`RotaryBall`](crate::RotaryBall).
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct FourPointBall {
+    friction: f32,
+    contact_angle: f32,
+    cos: f32,
+    sin: f32,
+    speed: f32,
+    inverse_speed: f32,
+    lower: Track,
+    upper: Track,
+}
+
+/// One groove, in units of ball radius and track speed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(super) struct Track {
+    pub(super) map: FrictionMap,
+    /// Semi-major axis over ball radius at one newton, `N^(-1/3)`.
+    pub(super) semi_major: f32,
+    /// Rotation of the ball relative to the groove, about the axis across, in nominal rolling.
+    pub(super) roll: f32,
+}
+
+/// Angles and loads of a ball's contacts, as the equations of motion take them.
+///
+/// Made by [`FourPointBall::contacts`]; one per ball and tick.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct FourPointContacts {
+    contact: [Contact; 4],
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+struct Contact {
+    /// `(n_x, n_y)`: gradient of the slip in roll and yaw.
+    arm: (f32, f32),
+    /// Slip and spin in nominal rolling.
+    slip: f32,
+    spin: f32,
+    /// Friction force `mu F` at full slip, N; 0 where the contact is lost.
+    friction: f32,
+    /// Semi-major axis over ball radius.
+    semi_major: f32,
+}
+
+/// Motion of a ball relative to nominal rolling, in units of the track speed.
+///
+/// Nominal rolling is that of a ball with four equal contact angles; deviations from it are small, and
+/// so they keep their digits in f32.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct BallMotion {
+    /// Deviation of the ball's speed along the track.
+    pub speed: f32,
+    /// Deviation of `R_B omega_x`, the rotation about the axis from left to right.
+    pub roll: f32,
+    /// `R_B omega_y`, the rotation about the axis from bottom to top.
+    pub yaw: f32,
+}
+
+/// What is kept of a ball from tick to tick, and what is known of it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct BallState {
+    /// Motion of the ball: where the next Newton step starts.
+    pub motion: BallMotion,
+    /// Relative deviation `epsilon` of the ball's speed from nominal rolling.
+    pub speed_deviation: f32,
+    /// Change of the speed deviation with a force along the track, 1/N.
+    pub compliance: f32,
+    /// Power loss in the grooves over the track speed, N: the drag on the moving groove.
+    pub friction_force: f32,
+}
+
+/// Slip and spin of one contact.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct ContactMotion {
+    /// Slip of the ball on the groove at the contact's centre, in units of the track speed.
+    pub slip: f32,
+    /// Spin of the ball on the groove, in units of track speed over ball radius.
+    pub spin: f32,
+}
+
+/// One Newton step before the neighbours' force is known.
+#[derive(Clone, Copy)]
+pub(super) struct Proposal {
+    pub(super) potential: f32,
+    /// Step without a force along the track.
+    pub(super) free: Vector,
+    /// Step per unit force along the track.
+    pub(super) column: Vector,
+}
+
+impl FourPointBall {
+    pub(super) fn folded(
+        friction: f32,
+        contact_angle: f32,
+        speed: f32,
+        lower: Track,
+        upper: Track,
+    ) -> Self {
+        let (sin, cos) = math::sin_cos(contact_angle);
+        Self {
+            friction,
+            contact_angle,
+            cos,
+            sin,
+            speed,
+            inverse_speed: 1.0 / speed,
+            lower,
+            upper,
+        }
+    }
+
+    /// Speed of the ball in nominal rolling, in units of the track speed.
+    #[must_use]
+    pub const fn nominal_speed(&self) -> f32 {
+        self.speed
+    }
+
+    /// `R_B omega_x` of the ball in nominal rolling, in units of the track speed.
+    #[must_use]
+    pub const fn nominal_roll(&self) -> f32 {
+        // The upper groove never turns about the axis across: relative rotation is the ball's own.
+        self.upper.roll
+    }
+
+    /// Contacts from their angles, rad, and forces, N, in the order BL, BR, TR, TL.
+    ///
+    /// An angle further than [`LARGEST_ANGLE_DEVIATION`] from the nominal one is taken at that limit, NaN
+    /// as the nominal one; a force up to zero, or NaN, is a lost contact, one above 1e7 N is taken as
+    /// 1e7 N. Cost: 330 modelled cycles, four cube roots among them; no sine or cosine (their series
+    /// about the nominal angle are exact in f32 within the limit).
+    #[inline]
+    #[must_use]
+    pub fn contacts(
+        &self,
+        contact_angles: &[f32; 4],
+        contact_forces: &[f32; 4],
+    ) -> FourPointContacts {
+        let mut contact = [Contact {
+            arm: (0.0, 0.0),
+            slip: 0.0,
+            spin: 0.0,
+            friction: 0.0,
+            semi_major: 1.0,
+        }; 4];
+        let given = contact_angles.iter().zip(contact_forces);
+        for (((contact, given), quadrant), track) in contact
+            .iter_mut()
+            .zip(given)
+            .zip(&QUADRANTS)
+            .zip(self.tracks())
+        {
+            let (&angle, &force) = given;
+            let deviation = limited_angle(angle - self.contact_angle);
+            let square = deviation * deviation;
+            let sin = deviation
+                * (1.0 - square * (1.0 / 6.0 - square * (1.0 / 120.0 - square * (1.0 / 5040.0))));
+            let versine = square * (0.5 - square * (1.0 / 24.0 - square * (1.0 / 720.0)));
+            let cos_change = -(self.cos * versine + self.sin * sin);
+            let sin_now = self.sin + (self.cos * sin - self.sin * versine);
+
+            let (right, left) = *quadrant;
+            let yaw_arm = left * sin_now;
+            contact.arm = (right * (self.cos + cos_change), yaw_arm);
+            contact.slip = right * cos_change * track.roll;
+            contact.spin = yaw_arm * track.roll;
+            if force > 0.0 {
+                let force = if force < LARGEST_FORCE {
+                    force
+                } else {
+                    LARGEST_FORCE
+                };
+                contact.friction = self.friction * force;
+                contact.semi_major = track.semi_major * math::cbrt(force);
+            }
+        }
+        FourPointContacts { contact }
+    }
+
+    /// Motion from a linear problem: the four-force start.
+    ///
+    /// The least `sum a_i² V_i²`: friction forces linear in the slip, each contact with its exact angle
+    /// and its own load (Lin 2019, eqs. (3.37) and (3.41), without the approximations that follow them;
+    /// `a²` stands for `F^(2/3)`). Where one diagonal carries less than a tenth of the other, the two
+    /// states in which the stronger diagonal rolls without slip and one of its contacts without spin are
+    /// tried as well, and the least dissipation wins.
+    ///
+    /// Largest error of the speed deviation for side-force ratios up to 0.8 and contact angle deviations
+    /// up to 3 degrees: 5.6e-3 of `v/2`.
+    #[must_use]
+    pub fn start(&self, contacts: &FourPointContacts) -> BallState {
+        let slip_weights = contacts.contact.map(|contact| {
+            if contact.friction > 0.0 {
+                contact.semi_major * contact.semi_major
+            } else {
+                0.0
+            }
+        });
+        let mut best = least_squares(contacts, &slip_weights, &[0.0; 4]);
+        let [bottom_left, bottom_right, top_right, top_left] =
+            contacts.contact.map(|contact| contact.friction);
+        let up = bottom_left + top_right;
+        let down = bottom_right + top_left;
+        let (weak, strong, rolling) = if up < down {
+            (up, down, [0.0, 1.0, 0.0, 1.0])
+        } else {
+            (down, up, [1.0, 0.0, 1.0, 0.0])
+        };
+        if weak < WEAK_DIAGONAL * strong {
+            let [left, right, _, _] = rolling;
+            let (mut least, _) = self.dissipation(contacts, best);
+            for spinless in [[left, right, 0.0, 0.0], [0.0, 0.0, left, right]] {
+                let candidate = least_squares(contacts, &rolling, &spinless);
+                let (dissipation, _) = self.dissipation(contacts, candidate);
+                if dissipation < least {
+                    least = dissipation;
+                    best = candidate;
+                }
+            }
+        }
+        let (_, power) = self.dissipation(contacts, best);
+        BallState {
+            motion: best,
+            speed_deviation: best.speed * self.inverse_speed,
+            compliance: 0.0,
+            friction_force: power,
+        }
+    }
+
+    /// Motion after the four-force start and [`DEFAULT_STEPS`] Newton steps, with no force from
+    /// neighbours: what to set a ball to before the first tick.
+    #[must_use]
+    pub fn solve(&self, contacts: &FourPointContacts) -> BallState {
+        self.refine(contacts, &self.start(contacts), 0.0, DEFAULT_STEPS)
+    }
+
+    /// Motion after `steps` damped Newton steps from a known state: the last tick's, or the start's.
+    ///
+    /// Each step solves the damped equations `(H + 1e-6 tr H) dy = axial_force - g` for gradient `g` and
+    /// Hessian `H` of the dissipation, is limited to 0.3 of the track speed, and is shortened at most
+    /// twice where the dissipation does not decrease. `axial_force`, N, is the net force of the
+    /// neighbours in the direction of the track speed. No more than ten steps are taken.
+    ///
+    /// The state's compliance and the drag belong to the last step.
+    #[must_use]
+    pub fn refine(
+        &self,
+        contacts: &FourPointContacts,
+        state: &BallState,
+        axial_force: f32,
+        steps: u8,
+    ) -> BallState {
+        let axial_force = finite_or_zero(axial_force);
+        let mut state = *state;
+        for _ in 0..steps.min(10) {
+            let proposal = self.propose(contacts, state.motion, (0.0, 0.0));
+            state = self.advance(contacts, state.motion, &proposal, axial_force, (0.0, 0.0));
+        }
+        state
+    }
+
+    /// Slip and spin of the four contacts at a motion.
+    #[must_use]
+    pub fn contact_motion(
+        &self,
+        contacts: &FourPointContacts,
+        motion: &BallMotion,
+    ) -> [ContactMotion; 4] {
+        contacts.contact.map(|contact| contact.at(*motion))
+    }
+
+    /// Speed with which two touching balls rub, in units of the track speed (Lin 2019, eq. (3.26)).
+    ///
+    /// Balls that roll alike rub with `1/cos(contact angle)`, eq. (3.52).
+    #[must_use]
+    pub fn rubbing_speed(&self, rear: &BallMotion, front: &BallMotion) -> f32 {
+        let (roll, yaw) = self.rubbing(rear, front);
+        math::sqrt(roll * roll + yaw * yaw)
+    }
+
+    /// Sum of two balls' rotations: the velocity of their surfaces against each other.
+    #[inline]
+    pub(super) fn rubbing(&self, rear: &BallMotion, front: &BallMotion) -> (f32, f32) {
+        (
+            2.0 * self.nominal_roll() + rear.roll + front.roll,
+            rear.yaw + front.yaw,
+        )
+    }
+
+    /// Relative speed deviation of a motion.
+    #[inline]
+    pub(super) fn speed_deviation(&self, speed: f32) -> f32 {
+        speed * self.inverse_speed
+    }
+
+    #[inline]
+    fn tracks(&self) -> [&Track; 4] {
+        [&self.lower, &self.lower, &self.upper, &self.upper]
+    }
+
+    /// Potential and power loss at a motion, N.
+    #[inline]
+    fn dissipation(&self, contacts: &FourPointContacts, motion: BallMotion) -> (f32, f32) {
+        let mut potential = 0.0;
+        let mut power = 0.0;
+        for (contact, track) in contacts.contact.iter().zip(self.tracks()) {
+            if contact.friction > 0.0 {
+                let ContactMotion { slip, spin } = contact.at(motion);
+                let at = track
+                    .map
+                    .dissipation(slip, spin, contact.semi_major, STICK_SPIN);
+                potential += contact.friction * at.potential;
+                power += contact.friction * at.power;
+            }
+        }
+        (potential, power)
+    }
+
+    /// The Newton step at a motion, with moments `(roll, yaw)` of the neighbours' friction over the ball
+    /// radius, N.
+    #[inline]
+    pub(super) fn propose(
+        &self,
+        contacts: &FourPointContacts,
+        motion: BallMotion,
+        moments: (f32, f32),
+    ) -> Proposal {
+        let mut potential = 0.0;
+        let mut system = System::EMPTY;
+        for (contact, track) in contacts.contact.iter().zip(self.tracks()) {
+            // A lost contact has no ellipse.
+            if contact.friction > 0.0 {
+                let ContactMotion { slip, spin } = contact.at(motion);
+                let (arm_roll, arm_yaw) = contact.arm;
+                let weight = contact.friction;
+                let at = track
+                    .map
+                    .dissipation(slip, spin, contact.semi_major, STICK_SPIN);
+                potential += weight * at.potential;
+
+                let (force, moment) = (weight * at.force, weight * at.moment);
+                system.right.roll -= force * arm_roll + moment * arm_yaw;
+                system.right.yaw -= force * arm_yaw - moment * arm_roll;
+                system.right.speed -= force;
+                system.add_slip(
+                    weight * at.stiffness,
+                    arm_roll - at.tilt * arm_yaw,
+                    arm_yaw + at.tilt * arm_roll,
+                );
+                system.add_spin(weight * at.stick, arm_yaw, -arm_roll);
+            }
+        }
+        system.right.roll += moments.0;
+        system.right.yaw += moments.1;
+        let factors: Factors = system.factors();
+        Proposal {
+            potential,
+            free: factors.solve(system.right),
+            column: factors.speed_column(),
+        }
+    }
+
+    /// Takes a Newton step under the net force of the neighbours, as far as it reduces dissipation less
+    /// the neighbours' work.
+    #[inline]
+    pub(super) fn advance(
+        &self,
+        contacts: &FourPointContacts,
+        motion: BallMotion,
+        proposal: &Proposal,
+        axial_force: f32,
+        moments: (f32, f32),
+    ) -> BallState {
+        let Proposal {
+            potential,
+            free,
+            column,
+        } = *proposal;
+        let roll = free.roll + axial_force * column.roll;
+        let yaw = free.yaw + axial_force * column.yaw;
+        let speed = free.speed + axial_force * column.speed;
+        let longest = larger(roll.abs(), larger(yaw.abs(), speed.abs()));
+        let mut scale = if longest > STEP_LIMIT {
+            STEP_LIMIT / longest
+        } else {
+            1.0
+        };
+        let work = axial_force * speed + moments.0 * roll + moments.1 * yaw;
+        let at = |scale: f32| BallMotion {
+            speed: motion.speed + scale * speed,
+            roll: motion.roll + scale * roll,
+            yaw: motion.yaw + scale * yaw,
+        };
+        let allowed = potential * (1.0 + ROUNDING);
+        let mut reached = at(scale);
+        let (mut now, mut power) = self.dissipation(contacts, reached);
+        for _ in 0..BACKTRACKS {
+            if now <= allowed + scale * work {
+                break;
+            }
+            scale *= BACKTRACK;
+            reached = at(scale);
+            (now, power) = self.dissipation(contacts, reached);
+        }
+        BallState {
+            motion: reached,
+            speed_deviation: reached.speed * self.inverse_speed,
+            compliance: column.speed * self.inverse_speed,
+            friction_force: power,
+        }
+    }
+}
+
+impl Contact {
+    #[inline]
+    fn at(&self, motion: BallMotion) -> ContactMotion {
+        let (roll, yaw) = self.arm;
+        ContactMotion {
+            slip: self.slip + motion.speed + roll * motion.roll + yaw * motion.yaw,
+            spin: self.spin + yaw * motion.roll - roll * motion.yaw,
+        }
+    }
+}
+
+impl Track {
+    pub(super) fn new(
+        axis_ratio: f32,
+        semi_major: f32,
+        ball_radius: f32,
+        roll: f32,
+    ) -> Result<Self, Error> {
+        Ok(Self {
+            map: FrictionMap::new(axis_ratio)?,
+            semi_major: semi_major / ball_radius,
+            roll,
+        })
+    }
+}
+
+/// The motion with the least sum of weighted squares of slip and spin.
+fn least_squares(
+    contacts: &FourPointContacts,
+    slip_weights: &[f32; 4],
+    spin_weights: &[f32; 4],
+) -> BallMotion {
+    let mut system = System::EMPTY;
+    let weights = slip_weights.iter().zip(spin_weights);
+    for (contact, (&slip_weight, &spin_weight)) in contacts.contact.iter().zip(weights) {
+        let (roll, yaw) = contact.arm;
+        let (slip, spin) = (slip_weight * contact.slip, spin_weight * contact.spin);
+        system.right.roll -= slip * roll + spin * yaw;
+        system.right.yaw -= slip * yaw - spin * roll;
+        system.right.speed -= slip;
+        system.add_slip(slip_weight, roll, yaw);
+        system.add_spin(spin_weight, yaw, -roll);
+    }
+    let Vector { roll, yaw, speed } = system.factors().solve(system.right);
+    BallMotion { speed, roll, yaw }
+}
+
+#[inline]
+fn larger(first: f32, second: f32) -> f32 {
+    if first > second { first } else { second }
+}
+
+#[inline]
+fn finite_or_zero(value: f32) -> f32 {
+    if value.is_finite() { value } else { 0.0 }
+}
+
+/// An angle's deviation within the limits of the series; NaN gives zero.
+#[inline]
+fn limited_angle(deviation: f32) -> f32 {
+    if deviation >= LARGEST_ANGLE_DEVIATION {
+        LARGEST_ANGLE_DEVIATION
+    } else if deviation <= -LARGEST_ANGLE_DEVIATION {
+        -LARGEST_ANGLE_DEVIATION
+    } else if deviation.is_nan() {
+        0.0
+    } else {
+        deviation
+    }
+}
