@@ -100,6 +100,8 @@ pub struct Dissipation {
     pub moment: f32,
     /// Second derivative along the slip, `f'/(a W)`, s/m.
     pub stiffness: f32,
+    /// `force` over slip, s/m: what the stiffness would be were friction viscous.
+    pub secant: f32,
     /// Slip that leaves the offset ratio as it is, per spin: `V w/W²`, m.
     pub tilt: f32,
     /// What the stick treatment adds along the spin, `a M delta²/W³`, m s.
@@ -248,12 +250,15 @@ impl FrictionMap {
 
         let offset = slip * inverse_rim;
         let distance = offset.abs();
-        let (force, moment, curvature) = if distance <= 1.0 {
-            self.inside(offset)
+        let (force, moment, curvature, secant) = if distance <= 1.0 {
+            let (force, moment, curvature) = self.inside(offset);
+            let secant = self.slope - self.cubic * (offset * offset);
+            (force, moment, curvature, secant)
         } else {
             let (_, nearness) = bounded(distance);
             let (force, moment, curvature) = self.outside(nearness);
-            (if slip < 0.0 { -force } else { force }, moment, curvature)
+            let signed = if slip < 0.0 { -force } else { force };
+            (signed, moment, curvature, force * nearness)
         };
 
         let sliding = slip * force;
@@ -265,6 +270,7 @@ impl FrictionMap {
             force,
             moment: semi_major * moment * spin * inverse_spin,
             stiffness: curvature * inverse_rim,
+            secant: secant * inverse_rim,
             tilt: slip * spin * inverse_spin2,
             stick: stick * inverse_spin2,
         }

@@ -14,12 +14,14 @@ pub const LARGEST_ANGLE_DEVIATION: f32 = 0.5;
 /// Contact forces are taken at most this large, N.
 const LARGEST_FORCE: f32 = 1e7;
 
-/// Spin below which a contact counts as sticking, in units of track speed over ball radius.
-const STICK_SPIN: f32 = 0.01;
-
 /// Longest Newton step, in units of the track speed. Contact spins are about one: a step must not
 /// carry a spin far past zero, where the quadratic model of the dissipation ends.
 const STEP_LIMIT: f32 = 0.3;
+
+/// Least stiffness of a contact in the Newton equations, relative to force over slip. A contact that
+/// slides has next to no stiffness of its own: the step would throw its slip from one sign to the other
+/// and back. A tenth costs the convergence little, because such a contact carries little load.
+const LEAST_STIFFNESS: f32 = 0.1;
 
 /// Factor on a step that did not reduce the dissipation, and how often it is tried.
 const BACKTRACK: f32 = 0.35;
@@ -62,6 +64,7 @@ pub struct FourPointBall {
     sin: f32,
     speed: f32,
     inverse_speed: f32,
+    stick_spin: f32,
     lower: Track,
     upper: Track,
 }
@@ -154,6 +157,7 @@ impl FourPointBall {
         friction: f32,
         contact_angle: f32,
         speed: f32,
+        stick_spin: f32,
         lower: Track,
         upper: Track,
     ) -> Self {
@@ -165,6 +169,7 @@ impl FourPointBall {
             sin,
             speed,
             inverse_speed: 1.0 / speed,
+            stick_spin,
             lower,
             upper,
         }
@@ -368,7 +373,7 @@ impl FourPointBall {
                 let ContactMotion { slip, spin } = contact.at(motion);
                 let at = track
                     .map
-                    .dissipation(slip, spin, contact.semi_major, STICK_SPIN);
+                    .dissipation(slip, spin, contact.semi_major, self.stick_spin);
                 potential += contact.friction * at.potential;
                 power += contact.friction * at.power;
             }
@@ -395,7 +400,7 @@ impl FourPointBall {
                 let weight = contact.friction;
                 let at = track
                     .map
-                    .dissipation(slip, spin, contact.semi_major, STICK_SPIN);
+                    .dissipation(slip, spin, contact.semi_major, self.stick_spin);
                 potential += weight * at.potential;
 
                 let (force, moment) = (weight * at.force, weight * at.moment);
@@ -403,7 +408,7 @@ impl FourPointBall {
                 system.right.yaw -= force * arm_yaw - moment * arm_roll;
                 system.right.speed -= force;
                 system.add_slip(
-                    weight * at.stiffness,
+                    weight * larger(at.stiffness, LEAST_STIFFNESS * at.secant),
                     arm_roll - at.tilt * arm_yaw,
                     arm_yaw + at.tilt * arm_roll,
                 );

@@ -4,6 +4,10 @@ use super::four_point::{FourPointBall, Track};
 use crate::error::{Error, in_range};
 use crate::math;
 
+/// Spin below which a contact counts as sticking, in units of track speed over ball radius; contacts of
+/// a ball in four-point contact spin with about half that unit.
+const STICK_SPIN: f32 = 0.01;
+
 /// What a four-point contact linear bearing and its contact ellipse give to a ball.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -59,6 +63,7 @@ impl FourPointBall {
             parameters.friction,
             parameters.contact_angle,
             0.5,
+            STICK_SPIN,
             track,
             track,
         ))

@@ -4,6 +4,10 @@ use super::four_point::{BallState, FourPointBall, FourPointContacts, Track};
 use crate::error::{Error, in_range};
 use crate::math;
 
+/// Spin below which a contact counts as sticking, over the spin `omega_I sin(beta_0)` that the two
+/// contacts of a diagonal share out between them in two-point rolling.
+const STICK_SPIN: f32 = 0.02;
+
 /// What a four-point contact rotary bearing and its contact ellipses give to a ball.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -95,7 +99,7 @@ impl RotaryBall {
 
         // In units of omega_I R_P: inner ring and ball without slip at the nominal angle give
         // omega_B = (1 - g cos)/2, and omega_x + omega_B = -omega_B/(g cos).
-        let (_, cos) = math::sin_cos(contact_angle);
+        let (sin, cos) = math::sin_cos(contact_angle);
         let radius_ratio = ball_radius / pitch_radius;
         let speed = 0.5 * (1.0 - radius_ratio * cos);
         let roll = -speed / cos;
@@ -118,7 +122,14 @@ impl RotaryBall {
             roll,
         )?;
         Ok(Self {
-            ball: FourPointBall::folded(friction, contact_angle, speed, inner, outer),
+            ball: FourPointBall::folded(
+                friction,
+                contact_angle,
+                speed,
+                STICK_SPIN * radius_ratio * sin,
+                inner,
+                outer,
+            ),
             pitch_radius,
             radius_ratio,
         })

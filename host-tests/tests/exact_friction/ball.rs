@@ -80,8 +80,7 @@ impl ExactBall {
             let x = slip / (semi_major * full);
             let [force, moment, power] = self.map.at(x);
             let step = 1e-4 * x.abs().max(1.0);
-            let slope =
-                (self.map.at(x + step)[0] - self.map.at(x - step)[0]) / (2.0 * step);
+            let slope = (self.map.at(x + step)[0] - self.map.at(x - step)[0]) / (2.0 * step);
             let stiffness = slope / (semi_major * full);
             let tilt = slip * spin / (full * full);
             let sticking = semi_major * moment * stick * stick / full.powi(3);
@@ -89,8 +88,7 @@ impl ExactBall {
             for i in 0..3 {
                 let slip_i = rows[0][i + 1];
                 let spin_i = rows[1][i + 1];
-                gradient[i] +=
-                    load * (force * slip_i + semi_major * moment * spin / full * spin_i);
+                gradient[i] += load * (force * slip_i + semi_major * moment * spin / full * spin_i);
                 for (j, entry) in hessian[i].iter_mut().enumerate() {
                     let (slip_j, spin_j) = (rows[0][j + 1], rows[1][j + 1]);
                     *entry += load
@@ -104,21 +102,14 @@ impl ExactBall {
 
     /// The motion of least dissipation under a force along the track, and that dissipation.
     pub fn solve(&self, axial_force: f64) -> ([f64; 3], f64) {
-        let mut best: Option<([f64; 3], f64)> = None;
-        // The start is nominal rolling, or rolling about either diagonal.
+        // The dissipation is convex: one start, nominal rolling, is enough, while the stick spin goes down
+        // in stages to where it no longer counts.
         let cos = self.angles.iter().map(|angle| angle.cos()).sum::<f64>() / 4.0;
-        for yaw in [0.0, -0.6, 0.6] {
-            let mut y = [0.5, 0.5 / cos, yaw];
-            for stick in [1e-1, 1e-2, 1e-3, 1e-4, 1e-6] {
-                y = self.descend(y, axial_force, stick);
-            }
-            let merit = self.dissipation(y, 0.0).0 - axial_force * y[0];
-            if best.is_none_or(|(_, least)| merit < least) {
-                best = Some((y, merit));
-            }
+        let mut y = [0.5, 0.5 / cos, 0.0];
+        for stick in [1e-1, 1e-2, 1e-3, 1e-4, 1e-6] {
+            y = self.descend(y, axial_force, stick);
         }
-        let (y, merit) = best.unwrap();
-        (y, merit + axial_force * y[0])
+        (y, self.dissipation(y, 0.0).0)
     }
 
     fn descend(&self, mut y: [f64; 3], axial_force: f64, stick: f64) -> [f64; 3] {
