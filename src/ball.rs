@@ -16,6 +16,7 @@ mod analytic;
 mod chain;
 mod four_point;
 mod linear;
+mod root;
 mod rotary;
 mod symmetric;
 

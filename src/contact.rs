@@ -106,6 +106,8 @@ pub struct Dissipation {
     pub tilt: f32,
     /// What the stick treatment adds along the spin, `a M delta²/W³`, m s.
     pub stick: f32,
+    /// Slip that carries the velocity centre to the rim of the ellipse, `a W`, m/s.
+    pub rim: f32,
 }
 
 impl FrictionMap {
@@ -273,6 +275,7 @@ impl FrictionMap {
             secant: secant * inverse_rim,
             tilt: slip * spin * inverse_spin2,
             stick: stick * inverse_spin2,
+            rim,
         }
     }
 
@@ -294,8 +297,12 @@ impl FrictionMap {
         let u4 = u2 * u2;
         let third = third * u2;
         let ninth = ninth * (u4 * u4);
-        let force = 1.0 - u2 * (far + 3.0 * third + 9.0 * ninth);
-        let moment = u * (2.0 * far + 4.0 * third + 10.0 * ninth);
+        // q + 3 c3 u² + 9 c9 u⁸ and 2 q + 4 c3 u² + 10 c9 u⁸, with few different factors.
+        let sum = far + third + ninth;
+        let rest = third + 4.0 * ninth;
+        let slope = sum + (rest + rest);
+        let force = 1.0 - u2 * slope;
+        let moment = u * (sum + slope);
         let curvature = u2 * u * (2.0 * far + 12.0 * third + 90.0 * ninth);
         (force, moment, curvature)
     }

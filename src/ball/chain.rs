@@ -1,7 +1,6 @@
 //! Balls that press on each other: one Newton step of all of them.
 
 use super::four_point::{BallMotion, BallState, FourPointBall, FourPointContacts, Proposal};
-use super::symmetric::Vector;
 use crate::math;
 
 impl FourPointBall {
@@ -37,11 +36,7 @@ impl FourPointBall {
 
         let mut free = [0.0; N];
         let mut compliance = [0.0; N];
-        let mut proposals = [Proposal {
-            potential: 0.0,
-            free: Vector::ZERO,
-            column: Vector::ZERO,
-        }; N];
+        let mut proposals = [Proposal::EMPTY; N];
         let given = contacts.iter().zip(states.iter()).zip(&moments);
         let found = free.iter_mut().zip(&mut compliance).zip(&mut proposals);
         for (((contacts, state), moments), ((free, compliance), proposal)) in given.zip(found) {

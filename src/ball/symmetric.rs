@@ -32,6 +32,11 @@ impl Vector {
         yaw: 0.0,
         speed: 0.0,
     };
+
+    #[inline]
+    pub(super) fn dot(self, other: Self) -> f32 {
+        self.roll * other.roll + self.yaw * other.yaw + self.speed * other.speed
+    }
 }
 
 /// The system in triangular form.
