@@ -24,6 +24,11 @@ pub const SMALLEST_AXIS_RATIO: f32 = 0.01;
 /// Beyond this offset ratio a contact slides; `1/x^4` underflows there and nothing changes any more.
 const LARGEST_OFFSET: f32 = 1e9;
 
+/// Least stiffness outside the contact, over force over slip. A contact that slides has next to no
+/// stiffness of its own: speeds and compliances found from tangents alone are far off for a body of which
+/// several contacts slide. A twentieth is too little to slow the convergence of one that grips.
+const LEAST_STIFFNESS: f32 = 0.05;
+
 /// Friction maps of one contact as functions of the offset ratio `x = c/a` of its velocity centre.
 ///
 /// With the axis ratio `k = b/a`, `e² = 1 - k²` and complete elliptic integrals `K`, `E` of `e`:
@@ -98,10 +103,9 @@ pub struct Dissipation {
     pub force: f32,
     /// `dD/dw` over `mu F`, m.
     pub moment: f32,
-    /// Second derivative along the slip, `f'/(a W)`, s/m.
+    /// Second derivative along the slip, `f'/(a W)`, s/m; outside the contact at least a twentieth of
+    /// force over slip.
     pub stiffness: f32,
-    /// `force` over slip, s/m: what the stiffness would be were friction viscous.
-    pub secant: f32,
     /// Slip that leaves the offset ratio as it is, per spin: `V w/W²`, m.
     pub tilt: f32,
     /// What the stick treatment adds along the spin, `a M delta²/W³`, m s.
@@ -252,29 +256,31 @@ impl FrictionMap {
 
         let offset = slip * inverse_rim;
         let distance = offset.abs();
-        let (force, moment, curvature, secant) = if distance <= 1.0 {
-            let (force, moment, curvature) = self.inside(offset);
-            let secant = self.slope - self.cubic * (offset * offset);
-            (force, moment, curvature, secant)
+        let (force, moment, curvature) = if distance <= 1.0 {
+            self.inside(offset)
         } else {
             let (_, nearness) = bounded(distance);
             let (force, moment, curvature) = self.outside(nearness);
-            let signed = if slip < 0.0 { -force } else { force };
-            (signed, moment, curvature, force * nearness)
+            let least = LEAST_STIFFNESS * force * nearness;
+            (
+                if slip < 0.0 { -force } else { force },
+                moment,
+                if curvature > least { curvature } else { least },
+            )
         };
 
         let sliding = slip * force;
-        let stick = semi_major * moment * stick2 * inverse_spin;
-        let potential = sliding + rim * moment;
+        let arm = semi_major * moment;
+        let spin_moment = arm * spin * inverse_spin;
+        let stick = arm * stick2 * inverse_spin * inverse_spin2;
         Dissipation {
-            potential,
-            power: potential - stick,
+            potential: sliding + rim * moment,
+            power: sliding + spin_moment * spin,
             force,
-            moment: semi_major * moment * spin * inverse_spin,
+            moment: spin_moment,
             stiffness: curvature * inverse_rim,
-            secant: secant * inverse_rim,
             tilt: slip * spin * inverse_spin2,
-            stick: stick * inverse_spin2,
+            stick,
             rim,
         }
     }
@@ -284,9 +290,9 @@ impl FrictionMap {
     fn inside(&self, offset: f32) -> (f32, f32, f32) {
         let square = offset * offset;
         let cubic = self.cubic * square;
-        let force = offset * (self.slope - cubic);
-        let moment = self.spin_moment - square * (0.5 * self.slope - 0.75 * cubic);
-        (force, moment, self.slope - 3.0 * cubic)
+        let secant = self.slope - cubic;
+        let moment = self.spin_moment - 0.5 * (square * (secant - 0.5 * cubic));
+        (offset * secant, moment, secant - cubic - cubic)
     }
 
     /// `|f|`, `M` and `f'` outside the contact, from `u = 1/|x|`.

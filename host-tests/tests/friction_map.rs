@@ -173,6 +173,12 @@ fn dissipation_is_the_gradient_of_one_potential() {
             let label = format!("slip {slip} spin {spin}: {here:?}, {force} {moment}");
             assert!((here.force - force).abs() <= 0.03, "{label}");
             assert!((here.moment - moment).abs() <= 0.02 * semi_major, "{label}");
+            // Where a sliding contact is given a least stiffness, there is no derivative to compare.
+            let secant = (here.force / slip).abs();
+            if slip.abs() > here.rim && here.stiffness < 0.0501 * secant {
+                assert!(here.stiffness > 0.0499 * secant, "{label}");
+                continue;
+            }
             // Hessian: [stiffness, -stiffness tilt; ., stiffness tilt² + stick].
             let along = (at(slip, spin + turn).force - at(slip, spin - turn).force) / (2.0 * turn);
             let cross = -here.stiffness * here.tilt;

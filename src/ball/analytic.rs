@@ -1,7 +1,7 @@
 //! The published closed form of one ball in a linear bearing.
 
 use super::linear::LinearBallParameters;
-use super::root::{inverse_cube_root, loaded};
+use super::root::{inverse_cube_roots, loaded};
 use crate::contact::FrictionMap;
 use crate::error::{Error, in_range};
 use crate::math;
@@ -87,7 +87,8 @@ impl AnalyticLinearBall {
         let half_tangent = 0.5 * sin / cos;
         Ok(Self {
             half_tangent,
-            compliance: half_tangent * parameters.semi_major_coefficient
+            // The loads of a diagonal enter by their sum, the formula by their mean.
+            compliance: math::cbrt_squared(2.0) * half_tangent * parameters.semi_major_coefficient
                 / (slope * parameters.friction * parameters.ball_radius),
         })
     }
@@ -97,8 +98,8 @@ impl AnalyticLinearBall {
     ///
     /// Only differences of the angles count: they may be given as such or as deviations from the nominal
     /// one; where one is not a number, or infinite, the deviation is 0. A diagonal counts with the mean
-    /// of its two forces; a mean up to zero, or NaN, is no load, one above 1e7 N is taken as 1e7 N. With
-    /// no load at all the deviation is 0 and the compliance that of 3e-14 N. Cost: 110 modelled cycles.
+    /// of its two forces; a sum up to zero, above 1e7 N, or NaN is no load. With no load at all the
+    /// deviation is 0 and the compliance that of 3e-14 N. Cost: 110 modelled cycles.
     #[inline]
     #[must_use]
     pub fn speed_deviation(
@@ -108,10 +109,10 @@ impl AnalyticLinearBall {
     ) -> SpeedDeviation {
         let [angle_bl, angle_br, angle_tr, angle_tl] = *contact_angles;
         let [force_bl, force_br, force_tr, force_tl] = *contact_forces;
-        let up = loaded(0.5 * (force_bl + force_tr));
-        let down = loaded(0.5 * (force_br + force_tl));
-        let up = up * inverse_cube_root(up);
-        let down = down * inverse_cube_root(down);
+        let up = loaded(force_bl + force_tr);
+        let down = loaded(force_br + force_tl);
+        let [up_root, down_root] = inverse_cube_roots([up, down]);
+        let (up, down) = (up * up_root, down * down_root);
         let inverse = 1.0 / (up + down + SMALLEST_SUM);
         let turn = (angle_tr - angle_bl) * up + (angle_tl - angle_br) * down;
         let speed_deviation = self.half_tangent * turn * inverse;

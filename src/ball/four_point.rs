@@ -1,6 +1,6 @@
 //! A ball in up to four contacts on a straight or circular track, moving with the least loss.
 
-use super::root::{inverse_cube_root, loaded};
+use super::root::{inverse_cube_roots, loaded};
 use super::symmetric::{System, Vector};
 use crate::contact::FrictionMap;
 use crate::error::Error;
@@ -12,8 +12,9 @@ pub const DEFAULT_STEPS: u8 = 3;
 /// Contact angles are taken at most this far from the nominal one, rad.
 pub const LARGEST_ANGLE_DEVIATION: f32 = 0.3;
 
-/// Longest Newton step, in units of the track speed: contact spins are about one.
-const STEP_LIMIT: f32 = 0.3;
+/// Longest Newton step, in units of the track speed, as the sum of its parts: contact spins are about
+/// one half.
+const STEP_LIMIT: f32 = 0.5;
 
 /// Longest change of a contact's slip in one Newton step, over the slip it has and the slip at which its
 /// velocity centre reaches the rim. Friction saturates at the rim: a step that reaches far beyond it,
@@ -22,11 +23,6 @@ const REACH: f32 = 0.6;
 
 /// The reach of a lost contact.
 const ANY: f32 = 1e9;
-
-/// Least stiffness of a contact in the Newton equations, relative to force over slip. A contact that
-/// slides has next to no stiffness of its own, so that speeds and compliances found from the tangent
-/// alone would be far off for a ball of which several contacts slide.
-const LEAST_STIFFNESS: f32 = 0.05;
 
 /// Below this ratio of the weaker to the stronger diagonal's load, the start also tries two-point
 /// rolling. The switch itself lies below 0.06 for contact angle deviations up to 3 degrees.
@@ -204,8 +200,7 @@ impl FourPointBall {
     /// Contacts from their angles, rad, and forces, N, in the order BL, BR, TR, TL.
     ///
     /// An angle further than [`LARGEST_ANGLE_DEVIATION`] from the nominal one is taken at that limit, NaN
-    /// as the nominal one; a force up to zero, or NaN, is a lost contact, one above 1e7 N is taken as
-    /// 1e7 N. Sine and cosine come from their series about the nominal angle, within 1e-6 at the limit and
+    /// as the nominal one; a force up to zero, above 1e7 N, or NaN is a lost contact. Sine and cosine come from their series about the nominal angle, within 1e-6 at the limit and
     /// exact in f32 up to 0.15 rad. Cost: 330 modelled cycles.
     #[inline]
     #[must_use]
@@ -214,15 +209,24 @@ impl FourPointBall {
         contact_angles: &[f32; 4],
         contact_forces: &[f32; 4],
     ) -> FourPointContacts {
+        let [bottom_left, bottom_right, top_right, top_left] = contact_forces.map(loaded);
+        let [left, right] = inverse_cube_roots([bottom_left, bottom_right]);
+        let [far_right, far_left] = inverse_cube_roots([top_right, top_left]);
+        let loads = [
+            (bottom_left, left),
+            (bottom_right, right),
+            (top_right, far_right),
+            (top_left, far_left),
+        ];
         let mut contact = [Contact::default(); 4];
-        let given = contact_angles.iter().zip(contact_forces);
+        let given = contact_angles.iter().zip(loads);
         for (((contact, given), quadrant), track) in contact
             .iter_mut()
             .zip(given)
             .zip(&QUADRANTS)
             .zip(self.tracks())
         {
-            let (&angle, &force) = given;
+            let (&angle, (force, root)) = given;
             let deviation = limited_angle(angle - self.contact_angle);
             let square = deviation * deviation;
             let sin = deviation - deviation * square * (1.0 / 6.0 - square * (1.0 / 120.0));
@@ -235,8 +239,6 @@ impl FourPointBall {
             contact.arm = (right * (self.cos - cos_change), yaw_arm);
             contact.slip = -right * cos_change * track.roll;
             contact.spin = yaw_arm * track.roll;
-            let force = loaded(force);
-            let root = inverse_cube_root(force);
             contact.friction = self.friction * force;
             contact.semi_major = track.semi_major * (force * root * root);
         }
@@ -415,7 +417,7 @@ impl FourPointBall {
                 system.right.yaw -= force * arm_yaw - moment * arm_roll;
                 system.right.speed -= force;
                 system.add_slip(
-                    weight * larger(at.stiffness, LEAST_STIFFNESS * at.secant),
+                    weight * at.stiffness,
                     arm_roll - at.tilt * arm_yaw,
                     arm_yaw + at.tilt * arm_roll,
                 );
@@ -456,18 +458,21 @@ impl FourPointBall {
         let yaw = free.yaw + axial_force * column.yaw;
         let speed = free.speed + axial_force * column.speed;
 
-        let longest = larger(roll.abs(), larger(yaw.abs(), speed.abs()));
-        let mut scale = 1.0;
-        if longest > STEP_LIMIT {
-            scale = STEP_LIMIT / longest;
-        }
+        let length = roll.abs() + yaw.abs() + speed.abs();
+        // The least of one and all ratios of allowed and wanted change, with one division.
+        let (mut allowed, mut wanted) = if length > STEP_LIMIT {
+            (STEP_LIMIT, length)
+        } else {
+            (1.0, 1.0)
+        };
         for (contact, &reach) in contacts.contact.iter().zip(reach) {
             let (arm_roll, arm_yaw) = contact.arm;
             let change = (speed + arm_roll * roll + arm_yaw * yaw).abs();
-            if scale * change > reach {
-                scale = reach / change;
+            if allowed * change > wanted * reach {
+                (allowed, wanted) = (reach, change);
             }
         }
+        let scale = allowed / wanted;
         let motion = BallMotion {
             speed: motion.speed + scale * speed,
             roll: motion.roll + scale * roll,

@@ -1,34 +1,43 @@
 //! Powers of a contact force.
 
-/// Loads are taken at most this large, N.
+/// Largest load, N.
 const LARGEST_LOAD: f32 = 1e7;
 
-/// `x^(-1/3)` of a positive normal number, with a relative error of 2e-7: `x` times it is `x^(2/3)`, `x`
-/// times its square is `x^(1/3)`. Zero gives a finite number, so that both products are zero.
+/// `x^(-1/3)` of two positive normal numbers, with a relative error of 1.2e-6: `x` times it is
+/// `x^(2/3)`, `x` times its square is `x^(1/3)`. Zero gives a finite number, so that both are zero.
 ///
-/// The exponent divided by -3 in integers (error 3.5 %), a step of second order on `c = x y³` (error
-/// 2.4e-4), and a step of first order; without a division, at half the price of a cube root.
+/// The exponent divided by -3 in integers gives `y` within 3 % of a multiple of it; the minimax cubic of
+/// `c^(-1/3)` on the range that `c = x y³` then takes (0.653 to 0.774) does the rest. No division, at half
+/// the price of a cube root. The two run side by side: each instruction then has its operands ready,
+/// which saves a core without reordering a cycle at every second one.
 #[inline]
-pub(super) fn inverse_cube_root(x: f32) -> f32 {
-    const EXPONENT: u32 = 0x548c_2b4b;
-    let start = f32::from_bits(EXPONENT - x.to_bits() / 3);
-    let closeness = x * start * (start * start);
-    let rough = start * (1.752_319_7 - closeness * (1.250_952_4 - 0.509_381_83 * closeness));
-    let closeness = x * rough * (rough * rough);
-    rough * (1.333_333_4 - 0.333_333_34 * closeness)
+pub(super) fn inverse_cube_roots(x: [f32; 2]) -> [f32; 2] {
+    const EXPONENT: u32 = 0x548d_0ddb;
+    let [p, q] = x;
+    let y = f32::from_bits(EXPONENT - p.to_bits() / 3);
+    let z = f32::from_bits(EXPONENT - q.to_bits() / 3);
+    let (c, d) = (p * y, q * z);
+    let (e, f) = (y * y, z * z);
+    let (c, d) = (c * e, d * f);
+    let (e, f) = (0.536_150_5 * c, 0.536_150_5 * d);
+    let (e, f) = (1.638_424_5 - e, 1.638_424_5 - f);
+    let (e, f) = (c * e, d * f);
+    let (e, f) = (2.042_015_6 - e, 2.042_015_6 - f);
+    let (e, f) = (c * e, d * f);
+    let (e, f) = (1.936_729_7 - e, 1.936_729_7 - f);
+    [y * e, z * f]
 }
 
-/// A load above zero as it is, up to 1e7 N; zero for one below, and for NaN.
+/// A load above zero and up to 1e7 N as it is; anything else, NaN included, is none.
 #[inline]
 pub(super) fn loaded(load: f32) -> f32 {
     // Positive numbers are in the order of their bits, everything else is larger: one comparison.
-    if load.to_bits() <= LARGEST_LOAD.to_bits() {
-        load
-    } else if load > 0.0 {
-        LARGEST_LOAD
+    let bits = load.to_bits();
+    f32::from_bits(if bits <= LARGEST_LOAD.to_bits() {
+        bits
     } else {
-        0.0
-    }
+        0
+    })
 }
 
 #[cfg(test)]
@@ -42,8 +51,8 @@ mod tests {
         let mut load = 1e-6_f32;
         while load < 1e7 {
             let exact = f64::from(load).powf(-1.0 / 3.0);
-            let error = f64::from(inverse_cube_root(load)) / exact - 1.0;
-            assert!(error.abs() < 3e-7, "{load}: {error:e}");
+            let error = f64::from(inverse_cube_roots([load, 1.0])[0]) / exact - 1.0;
+            assert!(error.abs() < 1.25e-6, "{load}: {error:e}");
             worst = worst.max(error.abs());
             sum += error;
             count += 1.0;
@@ -53,8 +62,8 @@ mod tests {
             "inverse cube root: max {worst:.1e} mean {:+.1e}",
             sum / count
         );
-        assert!((sum / count).abs() < 1e-7);
-        assert_eq!(0.0 * inverse_cube_root(0.0), 0.0);
+        assert!((sum / count).abs() < 3e-7);
+        assert_eq!(0.0 * inverse_cube_roots([0.0, 1.0])[0], 0.0);
     }
 
     #[test]
@@ -62,7 +71,8 @@ mod tests {
         for load in [0.0, -0.0, -1.0, f32::NAN, -f32::NAN, f32::NEG_INFINITY] {
             assert_eq!(loaded(load), 0.0);
         }
-        assert_eq!(loaded(f32::INFINITY), 1e7);
+        assert_eq!(loaded(f32::INFINITY), 0.0);
+        assert_eq!(loaded(1e7), 1e7);
         assert_eq!(loaded(70.0), 70.0);
     }
 }
