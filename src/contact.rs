@@ -259,7 +259,8 @@ impl FrictionMap {
         let (force, moment, curvature) = if distance <= 1.0 {
             self.inside(offset)
         } else {
-            let (_, nearness) = bounded(distance);
+            // An infinite distance is that of a contact without any spin: nearness zero.
+            let nearness = 1.0 / distance;
             let (force, moment, curvature) = self.outside(nearness);
             let least = LEAST_STIFFNESS * force * nearness;
             (
