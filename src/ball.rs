@@ -21,8 +21,9 @@ mod rotary;
 mod symmetric;
 
 pub use analytic::{AnalyticLinearBall, PUBLISHED_SLOPE, SpeedDeviation};
+pub use chain::BallChain;
 pub use four_point::{
-    BallMotion, BallState, ContactMotion, DEFAULT_STEPS, FourPointBall, FourPointContacts,
+    BallMotion, BallState, ContactMotion, DEFAULT_NEWTON_STEPS, FourPointBall, FourPointContacts,
     LARGEST_ANGLE_DEVIATION,
 };
 pub use linear::LinearBallParameters;

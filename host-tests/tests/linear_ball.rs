@@ -1,14 +1,15 @@
 //! One ball and chains of balls in a linear bearing: published tables, tabulated cases, and the least
 //! exact dissipation found by an f64 minimiser.
 
+mod exact_ball;
 mod exact_friction;
 mod golden;
 
 use epas_friction::{
-    AnalyticLinearBall, BallState, DEFAULT_STEPS, FourPointBall, FourPointContacts,
+    AnalyticLinearBall, BallChain, DEFAULT_NEWTON_STEPS, FourPointBall, FourPointContacts,
     LinearBallParameters, PUBLISHED_SLOPE,
 };
-use exact_friction::ball::{ExactBall, ExactMap};
+use exact_ball::{ExactBall, ExactMap};
 use std::f64::consts::FRAC_PI_4;
 use std::sync::OnceLock;
 
@@ -137,21 +138,14 @@ fn row<const N: usize>(
     direction: f32,
     ball_friction: f32,
     steps: usize,
-) -> ([BallState; N], [f32; N]) {
+) -> BallChain<N> {
     let ball = ball();
-    let mut states = contacts.map(|contacts| ball.start(&contacts));
-    let mut forces = [0.0; N];
+    let mut chain = BallChain::new();
+    chain.balls = contacts.map(|contacts| ball.start(&contacts));
     for _ in 0..steps {
-        ball.refine_chain(
-            contacts,
-            &mut states,
-            &mut forces,
-            direction,
-            ball_friction,
-            exhaustive,
-        );
+        ball.refine_chain(contacts, &mut chain, direction, ball_friction, exhaustive);
     }
-    (states, forces)
+    chain
 }
 
 /// Largest, rms and mean error.
@@ -262,7 +256,7 @@ fn table_3_5_ball_to_ball_force() {
     let pair = [contacts(turned(2.0, -0.6)), contacts(turned(2.0, 0.6))];
     // 4.01 N by the numerical model; 4.023 N without and 4.065 N with friction between the balls.
     for (ball_friction, force) in [(0.0, 4.023), (0.1, 4.065)] {
-        let (_, forces) = row(&pair, 1.0, ball_friction, 3);
+        let forces = row(&pair, 1.0, ball_friction, 3).forces;
         assert!((forces[0] - force).abs() < 2e-3, "{forces:?}");
     }
     // 3.74 N by the formula.
@@ -300,7 +294,7 @@ fn tabulated_single_balls() {
             for (steps, errors) in (0..4).zip(&mut errors[1..]) {
                 let state = ball().refine(&contacts, &start, 0.0, steps);
                 errors.add(f64::from(state.speed_deviation) - eps);
-                if steps == DEFAULT_STEPS {
+                if steps == DEFAULT_NEWTON_STEPS {
                     let power = golden::number(&case, "P_over_v");
                     loss.add(f64::from(state.friction_force) / power - 1.0);
                     if !near {
@@ -354,7 +348,7 @@ fn random_contact_angles_and_side_forces() {
             let state = ball().refine(&contacts, &start, 0.0, steps);
             let error = f64::from(state.speed_deviation) - eps;
             errors.add(error);
-            if steps == DEFAULT_STEPS {
+            if steps == DEFAULT_NEWTON_STEPS {
                 loss.add(f64::from(state.friction_force) / dissipation - 1.0);
                 assert!(
                     error.abs() < 5e-4,
@@ -437,13 +431,14 @@ fn tabulated_pairs() {
                 [(0.0, "F_mu0"), (0.1, "F_mu0.1")].into_iter().enumerate()
             {
                 for steps in 1..=3 {
-                    let (states, forces) = row(&pair.map(contacts), 1.0, ball_friction, steps);
+                    let BallChain { balls, forces, .. } =
+                        row(&pair.map(contacts), 1.0, ball_friction, steps);
                     let error = f64::from(forces[0]) - golden::number(&case, name);
                     errors[which][steps - 1].add(error);
                     assert!(steps < 3 || error.abs() < bound, "{case}: {forces:?}");
                     if steps == 3 && forces[0] > 0.0 && !near {
                         // Touching balls keep step.
-                        let [rear, front] = states.map(|state| state.speed_deviation);
+                        let [rear, front] = balls.map(|ball| ball.speed_deviation);
                         assert!((rear - front).abs() < 1e-6, "{case}");
                     }
                 }
@@ -467,7 +462,7 @@ fn tabulated_chains() {
         for ((ball_friction, suffix), errors) in
             [(0.0, "mu0"), (0.1, "mu0.1")].into_iter().zip(errors)
         {
-            let (states, forces) = row(&contacts, 1.0, ball_friction, 3);
+            let BallChain { balls, forces, .. } = row(&contacts, 1.0, ball_friction, 3);
             for (force, given) in forces
                 .iter()
                 .zip(golden::numbers(case, &format!("F_{suffix}")))
@@ -479,10 +474,10 @@ fn tabulated_chains() {
                 );
             }
             let speeds = golden::numbers(case, &format!("eps_{suffix}"));
-            for (state, given) in states.iter().zip(speeds) {
+            for (state, given) in balls.iter().zip(speeds) {
                 assert!(
                     (f64::from(state.speed_deviation) - given).abs() < 1e-5,
-                    "{case}\n{states:?}"
+                    "{case}\n{balls:?}"
                 );
             }
         }
@@ -511,16 +506,16 @@ fn tabulated_chains() {
 #[test]
 fn reversal_swaps_rear_and_front() {
     let (first, second) = (contacts(turned(2.0, -0.6)), contacts(turned(2.0, 0.6)));
-    let forward = row(&[first, second], 1.0, 0.1, 3).1;
+    let forward = row(&[first, second], 1.0, 0.1, 3).forces;
     assert!((forward[0] - 4.065).abs() < 2e-3);
-    assert_eq!(row(&[first, second], -1.0, 0.1, 3).1, [0.0, 0.0]);
-    assert_eq!(row(&[second, first], 1.0, 0.1, 3).1, [0.0, 0.0]);
-    let backward = row(&[second, first], -1.0, 0.1, 3).1;
+    assert_eq!(row(&[first, second], -1.0, 0.1, 3).forces, [0.0, 0.0]);
+    assert_eq!(row(&[second, first], 1.0, 0.1, 3).forces, [0.0, 0.0]);
+    let backward = row(&[second, first], -1.0, 0.1, 3).forces;
     assert!((backward[0] - forward[0]).abs() < 1e-4, "{backward:?}");
     // Through standstill the force passes with the direction, and vanishes with it.
-    assert_eq!(row(&[first, second], 0.0, 0.1, 3).1, [0.0, 0.0]);
-    assert_eq!(row(&[first, second], f32::NAN, 0.1, 3).1, [0.0, 0.0]);
-    let slow = row(&[first, second], 0.1, 0.1, 3).1;
+    assert_eq!(row(&[first, second], 0.0, 0.1, 3).forces, [0.0, 0.0]);
+    assert_eq!(row(&[first, second], f32::NAN, 0.1, 3).forces, [0.0, 0.0]);
+    let slow = row(&[first, second], 0.1, 0.1, 3).forces;
     assert!((slow[0] - 0.1 * forward[0]).abs() < 0.02, "{slow:?}");
 }
 
@@ -657,11 +652,11 @@ fn compliance_is_the_derivative_of_the_exact_speed() {
 fn balls_in_a_row_rub_faster_than_the_track_moves() {
     // Eq. (3.52): v/cos(beta_0); 1.406 v by the numerical model of the case study.
     let pair = [contacts(turned(2.0, -0.6)), contacts(turned(2.0, 0.6))];
-    let (states, forces) = row(&pair, 1.0, 0.1, 3);
-    let speed = ball().rubbing_speed(&states[0].motion, &states[1].motion);
+    let chain = row(&pair, 1.0, 0.1, 3);
+    let speed = ball().rubbing_speed(&chain.balls[0].motion, &chain.balls[1].motion);
     assert!((speed - 1.406).abs() < 2e-3, "{speed}");
-    let loss = ball().ball_friction_force(&states, &forces, 0.1);
-    assert!((loss - 0.1 * forces[0] * speed).abs() < 1e-6);
+    let loss = ball().ball_friction_force(&chain, 0.1);
+    assert!((loss - 0.1 * chain.forces[0] * speed).abs() < 1e-6);
 }
 
 #[test]

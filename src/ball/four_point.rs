@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::math;
 
 /// Newton steps from the four-force start that [`FourPointBall::solve`] takes.
-pub const DEFAULT_STEPS: u8 = 3;
+pub const DEFAULT_NEWTON_STEPS: u8 = 3;
 
 /// Contact angles are taken at most this far from the nominal one, rad.
 pub const LARGEST_ANGLE_DEVIATION: f32 = 0.3;
@@ -126,6 +126,20 @@ pub struct BallState {
     pub friction_force: f32,
 }
 
+impl BallState {
+    /// A ball in nominal rolling.
+    pub const NOMINAL: Self = Self {
+        motion: BallMotion {
+            speed: 0.0,
+            roll: 0.0,
+            yaw: 0.0,
+        },
+        speed_deviation: 0.0,
+        compliance: 0.0,
+        friction_force: 0.0,
+    };
+}
+
 /// Slip and spin of one contact.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -137,7 +151,8 @@ pub struct ContactMotion {
 }
 
 /// One Newton step before the neighbours' force is known.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Proposal {
     /// Power loss at the motion before the step.
     power: f32,
@@ -295,11 +310,11 @@ impl FourPointBall {
         }
     }
 
-    /// Motion after the four-force start and [`DEFAULT_STEPS`] Newton steps, with no force from
+    /// Motion after the four-force start and [`DEFAULT_NEWTON_STEPS`] Newton steps, with no force from
     /// neighbours: what to set a ball to before the first tick.
     #[must_use]
     pub fn solve(&self, contacts: &FourPointContacts) -> BallState {
-        self.refine(contacts, &self.start(contacts), 0.0, DEFAULT_STEPS)
+        self.refine(contacts, &self.start(contacts), 0.0, DEFAULT_NEWTON_STEPS)
     }
 
     /// Motion after `steps` damped Newton steps from a known state: the last tick's, or the start's.

@@ -19,7 +19,8 @@ pub(super) struct System {
 }
 
 /// Roll, yaw, speed.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Vector {
     pub(super) roll: f32,
     pub(super) yaw: f32,

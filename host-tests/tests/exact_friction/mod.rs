@@ -1,7 +1,5 @@
 //! Friction of one contact by quadrature of the contact integral, in f64.
 
-pub mod ball;
-
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Force, moment and power of one contact over `mu F`, `mu F a`, `mu F a |w|` at offset ratio `x`.
