@@ -6,8 +6,8 @@ mod exact_friction;
 mod golden;
 
 use epas_friction::{
-    AnalyticLinearBall, BallChain, DEFAULT_NEWTON_STEPS, FourPointBall, FourPointContacts,
-    LinearBallParameters, PUBLISHED_SLOPE,
+    AnalyticLinearBall, BallChain, FourPointBall, FourPointContacts, LinearBallParameters,
+    PUBLISHED_SLOPE,
 };
 use exact_ball::{ExactBall, ExactMap};
 use std::f64::consts::FRAC_PI_4;
@@ -37,6 +37,7 @@ fn analytic() -> AnalyticLinearBall {
     AnalyticLinearBall::new(&parameters(), PUBLISHED_SLOPE).unwrap()
 }
 
+/// The exact ball of the case study.
 fn exact(angles: [f64; 4], forces: [f64; 4]) -> ExactBall {
     static MAP: OnceLock<ExactMap> = OnceLock::new();
     ExactBall {
@@ -294,7 +295,7 @@ fn tabulated_single_balls() {
             for (steps, errors) in (0..4).zip(&mut errors[1..]) {
                 let state = ball().refine(&contacts, &start, 0.0, steps);
                 errors.add(f64::from(state.speed_deviation) - eps);
-                if steps == DEFAULT_NEWTON_STEPS {
+                if steps == 3 {
                     let power = golden::number(&case, "P_over_v");
                     loss.add(f64::from(state.friction_force) / power - 1.0);
                     if !near {
@@ -311,7 +312,7 @@ fn tabulated_single_balls() {
         }
         println!("{name}, loss relative: {loss}");
         if !near {
-            assert!(errors[0].max < 7.2e-3 && errors[1].max < 5.7e-3);
+            assert!(errors[0].max < 4.2e-3 && errors[1].max < 4.1e-3);
             assert!(errors[2].max < 1.5e-3 && errors[3].max < 1.5e-4);
             assert!(loss.max < 1e-3, "{loss}");
         }
@@ -348,7 +349,7 @@ fn random_contact_angles_and_side_forces() {
             let state = ball().refine(&contacts, &start, 0.0, steps);
             let error = f64::from(state.speed_deviation) - eps;
             errors.add(error);
-            if steps == DEFAULT_NEWTON_STEPS {
+            if steps == 3 {
                 loss.add(f64::from(state.friction_force) / dissipation - 1.0);
                 assert!(
                     error.abs() < 5e-4,
@@ -364,6 +365,54 @@ fn random_contact_angles_and_side_forces() {
     println!("loss relative: {loss}");
     assert!(errors[4].max < 5e-5 && errors[4].rms() < 3e-6 && errors[4].mean().abs() < 1e-6);
     assert!(loss.max < 1e-3);
+}
+
+/// Other contact angles, and loads down to where contact angle deviations move the contacts by several
+/// times their own size.
+#[test]
+fn other_designs_and_loads() {
+    let mut random = random();
+    println!("load, contact angle: largest error after 2, 3 and 5 steps, in units of v/2");
+    for (load, bounds) in [
+        (1.0, [2e-2, 1e-2, 1e-3]),
+        (10.0, [1e-3, 2e-4, 2e-5]),
+        (100.0, [5e-4, 2e-5, 1e-5]),
+        (1000.0, [5e-4, 2e-5, 1e-5]),
+    ] {
+        for degrees in [30.0_f64, 45.0, 60.0] {
+            let contact_angle = degrees.to_radians();
+            let ball = FourPointBall::linear(&LinearBallParameters {
+                contact_angle: contact_angle as f32,
+                ..parameters()
+            })
+            .unwrap();
+            let mut worst = [0.0_f64; 3];
+            for _ in 0..20 {
+                let angles = [0; 4].map(|_| contact_angle + 3_f64.to_radians() * random());
+                let rho = 0.6 * random();
+                let sides = [1.0 - rho, 1.0 + rho, 1.0 - rho, 1.0 + rho];
+                let forces = sides.map(|side| load * side * (1.0 + 0.05 * random()));
+                let exact = 2.0 * exact(angles, forces).solve(0.0).0[0] - 1.0;
+                let contacts = ball.contacts(&single(angles), &single(forces));
+                let start = ball.start(&contacts);
+                for ((worst, steps), bound) in worst.iter_mut().zip([2, 3, 5]).zip(bounds) {
+                    let state = ball.refine(&contacts, &start, 0.0, steps);
+                    let error = (f64::from(state.speed_deviation) - exact).abs();
+                    assert!(
+                        error < bound,
+                        "{steps} steps {error:e}: angles {angles:?} forces {forces:?}"
+                    );
+                    *worst = worst.max(error);
+                }
+                let solved = ball.solve(&contacts);
+                assert_eq!(solved, ball.refine(&contacts, &start, 0.0, 5));
+            }
+            println!(
+                "{load} N, {degrees}: {}",
+                worst.map(|e| format!("{e:.1e}")).join(", ")
+            );
+        }
+    }
 }
 
 #[test]
@@ -400,7 +449,7 @@ fn side_force_sweep_up_to_two_point_rolling() {
         }
         if rho <= 0.6 {
             assert!(
-                worst[0] < 4.9e-3 && worst[1] < 4.1e-3,
+                worst[0] < 4.2e-3 && worst[1] < 4.1e-3,
                 "rho {rho}: {worst:?}"
             );
         }

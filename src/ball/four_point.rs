@@ -6,8 +6,9 @@ use crate::contact::FrictionMap;
 use crate::error::Error;
 use crate::math;
 
-/// Newton steps from the four-force start that [`FourPointBall::solve`] takes.
-pub const DEFAULT_NEWTON_STEPS: u8 = 3;
+/// Newton steps from the four-force start that [`FourPointBall::solve`] takes: three are enough for
+/// loads under which contact angle deviations move the contacts by less than their own size.
+pub const DEFAULT_NEWTON_STEPS: u8 = 5;
 
 /// Contact angles are taken at most this far from the nominal one, rad.
 pub const LARGEST_ANGLE_DEVIATION: f32 = 0.3;
@@ -216,7 +217,7 @@ impl FourPointBall {
     ///
     /// An angle further than [`LARGEST_ANGLE_DEVIATION`] from the nominal one is taken at that limit, NaN
     /// as the nominal one; a force up to zero, above 1e7 N, or NaN is a lost contact. Sine and cosine come from their series about the nominal angle, within 1e-6 at the limit and
-    /// exact in f32 up to 0.15 rad. Cost: 330 modelled cycles.
+    /// exact in f32 up to 0.15 rad. Cost: 425 modelled cycles.
     #[inline]
     #[must_use]
     pub fn contacts(
@@ -269,7 +270,7 @@ impl FourPointBall {
     /// tried as well, and the least dissipation wins.
     ///
     /// Largest error of the speed deviation for side-force ratios up to 0.8 and contact angle deviations
-    /// up to 3 degrees: 5.6e-3 of `v/2`.
+    /// up to 3 degrees: 5.6e-3 of `v/2`. Cost: 1070 modelled cycles, 3700 with a weak diagonal.
     #[must_use]
     pub fn start(&self, contacts: &FourPointContacts) -> BallState {
         let slip_weights = contacts.contact.map(|contact| {
@@ -311,23 +312,15 @@ impl FourPointBall {
     }
 
     /// Motion after the four-force start and [`DEFAULT_NEWTON_STEPS`] Newton steps, with no force from
-    /// neighbours: what to set a ball to before the first tick.
+    /// neighbours: what to set a ball to before the first tick. Cost: 7300 modelled cycles, 10000 with a
+    /// weak diagonal.
     #[must_use]
     pub fn solve(&self, contacts: &FourPointContacts) -> BallState {
         self.refine(contacts, &self.start(contacts), 0.0, DEFAULT_NEWTON_STEPS)
     }
 
-    /// Motion after `steps` damped Newton steps from a known state: the last tick's, or the start's.
-    ///
-    /// Each step solves the damped equations `(H + 1e-6 tr H) dy = axial_force - g` for gradient `g` and
-    /// Hessian `H` of the dissipation, and is shortened so that no contact's slip changes by more than
-    /// 0.6 of the slip it has and of the slip at which its friction saturates. That takes the place of a
-    /// line search: the dissipation is not evaluated again, and the cost does not depend on the data.
-    /// `axial_force`, N, is the net force of the neighbours in the direction of the track speed; a number
-    /// that is not finite counts as zero. No more than ten steps are taken.
-    ///
-    /// The state's compliance belongs to the start of the last step, its drag to the end, to second
-    /// order in the step. Cost: [`FourPointBall::contacts`] and 1000 modelled cycles a step.
+    /// Motion after `steps` damped Newton steps from a known state; see [`FourPointBall::step`]. No more
+    /// than ten are taken.
     #[must_use]
     pub fn refine(
         &self,
@@ -336,13 +329,37 @@ impl FourPointBall {
         axial_force: f32,
         steps: u8,
     ) -> BallState {
-        let axial_force = finite_or_zero(axial_force);
         let mut state = *state;
         for _ in 0..steps.min(10) {
-            let proposal = self.propose(contacts, state.motion, (0.0, 0.0));
-            state = self.advance(contacts, state.motion, &proposal, axial_force, (0.0, 0.0));
+            state = self.step(contacts, &state, axial_force);
         }
         state
+    }
+
+    /// Motion after one damped Newton step from a known state: what to do once a tick, from the last
+    /// tick's state.
+    ///
+    /// The step solves the damped equations `(H + 1e-6 tr H) dy = axial_force - g` for gradient `g` and
+    /// Hessian `H` of the dissipation, and is shortened so that no contact's slip changes by more than
+    /// 0.6 of the slip it has and of the slip at which its friction saturates. That takes the place of a
+    /// line search: the dissipation is not evaluated again, and the cost does not depend on the data.
+    /// `axial_force`, N, is the net force of the neighbours in the direction of the track speed; a number
+    /// that is not finite counts as zero.
+    ///
+    /// The state's compliance belongs to the start of the step, its drag to the end, to second order in
+    /// the step. Cost with [`FourPointBall::contacts`]: 1480 modelled cycles, 50 more for every contact
+    /// whose velocity centre lies outside its ellipse.
+    #[inline]
+    #[must_use]
+    pub fn step(
+        &self,
+        contacts: &FourPointContacts,
+        state: &BallState,
+        axial_force: f32,
+    ) -> BallState {
+        let axial_force = finite_or_zero(axial_force);
+        let proposal = self.propose(contacts, state.motion, (0.0, 0.0));
+        self.advance(contacts, state.motion, &proposal, axial_force, (0.0, 0.0))
     }
 
     /// Slip and spin of the four contacts at a motion.
