@@ -19,12 +19,16 @@
 //! | [`hertz`] | contact ellipse, deflection, pressure |
 //! | [`efficiency`] | closed-form efficiency, self-locking, optimum, design procedure |
 //! | [`kinematics`] | rolling, side and spin slip of a contact, their ratios and friction power |
+//! | [`contact`] | force, moment and power of one contact with slip and spin |
+//! | [`ball`] | one ball in a linear or rotary four-point bearing: speed deviation, compliance, loss |
 //! | [`scene`] | what a mechanism needs and what it leaves out |
 //! | [`model`] | configured once, stepped in the interrupt |
 //!
 //! Everything is set up once, with errors that name the field, its value and the allowed range; from
 //! then on nothing returns a `Result`, nothing panics, and every output is finite and flagged.
 
+pub mod ball;
+pub mod contact;
 pub mod curvature;
 pub mod efficiency;
 pub mod error;
@@ -36,6 +40,11 @@ pub mod math;
 pub mod model;
 pub mod scene;
 
+pub use ball::{
+    AnalyticLinearBall, BallChain, BallState, FourPointBall, LinearBallParameters, RotaryBall,
+    RotaryBallParameters, SpeedDeviation,
+};
+pub use contact::{Dissipation, FrictionMap, NormalizedFriction};
 pub use curvature::{
     CircularGrooveCurvature, FittedCurvature, GothicArch, LiteratureCurvature, PrincipalCurvatures,
     RelativeCurvatures,

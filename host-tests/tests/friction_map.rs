@@ -1,0 +1,217 @@
+//! Friction of one contact: the library's maps against quadrature and against tabulated cases.
+
+mod exact_friction;
+mod golden;
+
+use epas_friction::FrictionMap;
+use exact_friction::quadrature;
+
+/// Largest, rms and mean error.
+#[derive(Clone, Copy, Default)]
+struct Errors {
+    max: f64,
+    squares: f64,
+    sum: f64,
+    count: f64,
+}
+
+impl Errors {
+    fn add(&mut self, error: f64) {
+        assert!(error.is_finite());
+        self.max = self.max.max(error.abs());
+        self.squares += error * error;
+        self.sum += error;
+        self.count += 1.0;
+    }
+
+    fn rms(&self) -> f64 {
+        (self.squares / self.count).sqrt()
+    }
+
+    fn mean(&self) -> f64 {
+        self.sum / self.count
+    }
+}
+
+/// Offsets of both signs, dense about the rim, up to sliding.
+fn offsets() -> Vec<f32> {
+    let inside = (0..=100).map(|step| step as f32 / 100.0);
+    let outside = (0..=160).map(|step| 1.0 + 10_f32.powf(-4.0 + step as f32 / 20.0));
+    inside
+        .chain(outside)
+        .flat_map(|offset| [offset, -offset])
+        .collect()
+}
+
+#[test]
+fn maps_equal_the_contact_integral() {
+    println!("axis ratio | force max rms mean | moment | power | inside");
+    let mut all = [Errors::default(); 3];
+    for axis_ratio in [
+        0.05_f32,
+        0.08,
+        0.12,
+        0.18,
+        0.232_146_37,
+        0.3,
+        0.4,
+        0.5,
+        0.65,
+        0.8,
+        0.95,
+        1.0,
+    ] {
+        let map = FrictionMap::new(axis_ratio).unwrap();
+        let full_moment = quadrature(f64::from(axis_ratio), 0.0, 2000)[1];
+        let mut errors = [Errors::default(); 3];
+        let mut inside = 0.0_f64;
+        for offset in offsets() {
+            let exact = quadrature(f64::from(axis_ratio), f64::from(offset), 2000);
+            let fast = map.evaluate(offset);
+            // Power grows with the offset: its error is taken relative to it outside the contact.
+            let scale = f64::from(offset.abs()).max(1.0);
+            let error = [
+                f64::from(fast.force) - exact[0],
+                (f64::from(fast.moment) - exact[1]) / full_moment,
+                (f64::from(fast.power) - exact[2]) / scale,
+            ];
+            for ((sum, total), error) in errors.iter_mut().zip(&mut all).zip(error) {
+                sum.add(error);
+                total.add(error);
+            }
+            if offset.abs() <= 1.0 {
+                inside = error.iter().fold(inside, |max, e| max.max(e.abs()));
+            }
+            assert!(
+                error[0].abs() <= 1e-3 && error[1].abs() <= 2e-3 && error[2].abs() <= 1e-3,
+                "axis_ratio {axis_ratio} offset {offset}: {fast:?}, exact {exact:?}"
+            );
+        }
+        // The quartic is exact: what is left are roundings (6e-8 each) of terms up to 1.5.
+        assert!(inside <= 3e-7, "axis_ratio {axis_ratio}: {inside:e}");
+        println!(
+            "{axis_ratio:.3} | {} | inside {inside:.1e}",
+            errors
+                .map(|e| format!("{:.1e} {:.1e} {:+.1e}", e.max, e.rms(), e.mean()))
+                .join(" | ")
+        );
+    }
+    let [force, moment, power] = all;
+    println!(
+        "all: force {:.2e} rms {:.2e}, moment {:.2e} rms {:.2e}, power {:.2e} rms {:.2e}",
+        force.max,
+        force.rms(),
+        moment.max,
+        moment.rms(),
+        power.max,
+        power.rms()
+    );
+    // Documented errors of the maps.
+    assert!(force.max <= 2.6e-4 && force.rms() <= 4.5e-5 && force.mean().abs() <= 1e-6);
+    assert!(moment.max <= 6.5e-4 && moment.rms() <= 1.1e-4 && moment.mean().abs() <= 2e-5);
+    assert!(power.max <= 4.2e-5 && power.rms() <= 5.4e-6 && power.mean().abs() <= 1e-6);
+}
+
+#[test]
+fn maps_equal_the_tabulated_cases() {
+    for case in golden::list("maps") {
+        let axis_ratio = golden::number(&case, "k");
+        let map = FrictionMap::new(axis_ratio as f32).unwrap();
+        let full_moment = golden::number(&case, "p0");
+        assert!((f64::from(map.spin_moment()) - full_moment).abs() <= 2e-7);
+        assert!((f64::from(map.slope()) - 2.0 * golden::number(&case, "p2")).abs() <= 4e-7);
+        let [offset, force, moment, power] =
+            ["kappa", "f", "M", "P"].map(|name| golden::numbers(&case, name));
+        for index in 0..offset.len() {
+            let fast = map.evaluate(offset[index] as f32);
+            let error = [
+                (f64::from(fast.force) - force[index]).abs() / 1e-3,
+                (f64::from(fast.moment) - moment[index]).abs() / (2e-3 * full_moment),
+                (f64::from(fast.power) - power[index]).abs() / (1e-3 * power[index].max(1.0)),
+            ];
+            assert!(
+                error.iter().all(|&e| e <= 1.0),
+                "axis_ratio {axis_ratio} offset {}: {fast:?}",
+                offset[index]
+            );
+        }
+    }
+}
+
+#[test]
+fn power_is_force_times_offset_and_moment() {
+    let map = FrictionMap::new(0.2321).unwrap();
+    for offset in offsets() {
+        let friction = map.evaluate(offset);
+        assert_eq!(friction.force, map.force(offset));
+        assert_eq!(friction.moment, map.moment(offset));
+        assert_eq!(friction.power, map.power(offset));
+        let sum = offset * friction.force + friction.moment;
+        assert!(
+            (friction.power - sum).abs() <= 2e-7 * friction.power,
+            "{offset}"
+        );
+    }
+}
+
+/// Force, moment and Hessian by central differences of the potential itself.
+#[test]
+fn dissipation_is_the_gradient_of_one_potential() {
+    let map = FrictionMap::new(0.25).unwrap();
+    let (semi_major, stick_spin) = (0.05_f32, 0.01_f32);
+    let at = |slip: f32, spin: f32| map.dissipation(slip, spin, semi_major, stick_spin);
+    for slip in [-0.3_f32, -0.02, -0.001, 0.0, 0.004, 0.03, 0.7] {
+        for spin in [-0.8_f32, -0.05, -0.004, 0.0, 0.01, 0.3, 1.0] {
+            let here = at(slip, spin);
+            // Differences of f32 values of size 0.1: 1e-8/step, and curvature times step.
+            let step = 1e-3_f32 * (semi_major * spin.hypot(stick_spin)).max(0.1 * slip.abs());
+            let force = (at(slip + step, spin).potential - at(slip - step, spin).potential)
+                / ((slip + step) - (slip - step));
+            let turn = 1e-2_f32 * spin.hypot(stick_spin);
+            let moment = (at(slip, spin + turn).potential - at(slip, spin - turn).potential)
+                / ((spin + turn) - (spin - turn));
+            let label = format!("slip {slip} spin {spin}: {here:?}, {force} {moment}");
+            assert!((here.force - force).abs() <= 0.03, "{label}");
+            assert!((here.moment - moment).abs() <= 0.02 * semi_major, "{label}");
+            // Where a sliding contact is given a least stiffness, there is no derivative to compare.
+            let secant = (here.force / slip).abs();
+            if slip.abs() > here.rim && here.stiffness < 0.0501 * secant {
+                assert!(here.stiffness > 0.0499 * secant, "{label}");
+                continue;
+            }
+            // Hessian: [stiffness, -stiffness tilt; ., stiffness tilt² + stick].
+            let along = (at(slip, spin + turn).force - at(slip, spin - turn).force) / (2.0 * turn);
+            let cross = -here.stiffness * here.tilt;
+            let size = here.stiffness * semi_major;
+            assert!(
+                (along - cross).abs() <= 0.02 * size + 1e-3,
+                "{label} {along} {cross}"
+            );
+            let around =
+                (at(slip, spin + turn).moment - at(slip, spin - turn).moment) / (2.0 * turn);
+            let own = here.stiffness * here.tilt * here.tilt + here.stick;
+            assert!(
+                (around - own).abs() <= 0.03 * own + 0.02 * size * semi_major + 1e-5,
+                "{label} {around} {own}"
+            );
+        }
+    }
+}
+
+/// `W - |w| <= delta²/(2 |w|)`: the stick treatment changes the loss by no more than that.
+#[test]
+fn stick_treatment_changes_the_loss_by_its_square() {
+    let map = FrictionMap::new(0.25).unwrap();
+    for spin in [0.05_f32, 0.1, 0.3, 0.7] {
+        for slip in [0.0_f32, 0.01, 0.1] {
+            let smooth = map.dissipation(slip, spin, 0.05, 0.01);
+            let sharp = map.dissipation(slip, spin, 0.05, 0.0);
+            let square = (0.01 / spin) * (0.01 / spin);
+            assert!(
+                (smooth.power - sharp.power).abs() <= square * sharp.power,
+                "slip {slip} spin {spin}: {smooth:?} {sharp:?}"
+            );
+            assert!((smooth.force - sharp.force).abs() <= square);
+        }
+    }
+}
