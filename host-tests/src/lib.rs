@@ -1,1 +1,3 @@
 //! Exact float64 reference models.
+
+pub mod friction;
