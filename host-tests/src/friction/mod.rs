@@ -21,9 +21,12 @@
 use std::fmt;
 
 pub mod area;
+pub mod chain;
+pub mod linear_ball;
 pub mod maps;
 mod newton;
 pub mod patch;
+pub mod planar;
 
 /// Why a friction model could not answer.
 #[derive(Clone, Copy, Debug, PartialEq)]
