@@ -80,7 +80,11 @@ fn panels(points: &[f64]) -> Vec<(f64, f64)> {
         // Between two points the panels are largest in the middle; before the first one, at the end.
         if last.is_some() {
             let middle = 0.5 * (from + knot);
-            edges.extend((1..=LEVELS).rev().map(|level| from + (middle - from) * 0.5_f64.powi(level)));
+            edges.extend(
+                (1..=LEVELS)
+                    .rev()
+                    .map(|level| from + (middle - from) * 0.5_f64.powi(level)),
+            );
             edges.push(middle);
         }
         let start = edges.last().copied().unwrap_or(from);
@@ -89,7 +93,16 @@ fn panels(points: &[f64]) -> Vec<(f64, f64)> {
         last = Some(knot);
     }
     let from = edges.last().copied().unwrap_or(-FRAC_PI_2);
-    edges.extend((1..=LEVELS).rev().map(|level| from + (FRAC_PI_2 - from) * 0.5_f64.powi(level)));
+    edges.extend(
+        (1..=LEVELS)
+            .rev()
+            .map(|level| from + (FRAC_PI_2 - from) * 0.5_f64.powi(level)),
+    );
     edges.push(FRAC_PI_2);
-    edges.iter().zip(edges.iter().skip(1)).filter(|(low, high)| high > low).map(|(&low, &high)| (low, high)).collect()
+    edges
+        .iter()
+        .zip(edges.iter().skip(1))
+        .filter(|(low, high)| high > low)
+        .map(|(&low, &high)| (low, high))
+        .collect()
 }

@@ -25,7 +25,11 @@ pub fn pool_adjacent_violators(free: &[f64], compliance: &[f64]) -> (Vec<f64>, V
     }
     let mut clusters: Vec<Cluster> = Vec::with_capacity(free.len());
     for (&x, &s) in free.iter().zip(compliance) {
-        clusters.push(Cluster { weight: 1.0 / s, moment: x / s, balls: 1 });
+        clusters.push(Cluster {
+            weight: 1.0 / s,
+            moment: x / s,
+            balls: 1,
+        });
         while let [.., rear, front] = clusters.as_slice() {
             if rear.moment * front.weight <= front.moment * rear.weight {
                 break;
@@ -39,8 +43,10 @@ pub fn pool_adjacent_violators(free: &[f64], compliance: &[f64]) -> (Vec<f64>, V
             clusters.push(merged);
         }
     }
-    let speeds: Vec<f64> =
-        clusters.iter().flat_map(|c| std::iter::repeat_n(c.moment / c.weight, c.balls)).collect();
+    let speeds: Vec<f64> = clusters
+        .iter()
+        .flat_map(|c| std::iter::repeat_n(c.moment / c.weight, c.balls))
+        .collect();
     let mut forces = Vec::with_capacity(free.len().saturating_sub(1));
     let mut balls = free.iter().zip(compliance).zip(&speeds);
     for cluster in &clusters {
@@ -101,7 +107,9 @@ pub fn exhaustive_contacts(free: &[f64], compliance: &[f64]) -> Option<(Vec<f64>
     }
     let mut best: Option<(f64, Vec<f64>, Vec<f64>)> = None;
     for set in 0..1_usize << n.saturating_sub(1) {
-        let active: Vec<usize> = (0..n.saturating_sub(1)).filter(|j| set >> j & 1 == 1).collect();
+        let active: Vec<usize> = (0..n.saturating_sub(1))
+            .filter(|j| set >> j & 1 == 1)
+            .collect();
         let m = active.len();
         // x_j = free_j + s_j (F_(j-1) - F_j) with x_j = x_(j+1) for every active contact j.
         let matrix = DMatrix::from_fn(m, m, |row, column| {
@@ -117,7 +125,11 @@ pub fn exhaustive_contacts(free: &[f64], compliance: &[f64]) -> Option<(Vec<f64>
             }
         });
         let right = DVector::from_fn(m, |row, _| free[active[row]] - free[active[row] + 1]);
-        let solution = if m == 0 { Some(right) } else { matrix.lu().solve(&right) };
+        let solution = if m == 0 {
+            Some(right)
+        } else {
+            matrix.lu().solve(&right)
+        };
         let Some(solution) = solution else { continue };
         let mut forces = vec![0.0; n.saturating_sub(1)];
         for (&j, &force) in active.iter().zip(solution.iter()) {
@@ -129,8 +141,14 @@ pub fn exhaustive_contacts(free: &[f64], compliance: &[f64]) -> Option<(Vec<f64>
                 free[j] + compliance[j] * (behind - forces.get(j).copied().unwrap_or(0.0))
             })
             .collect();
-        let pull = active.iter().map(|&j| -forces[j] * compliance[j]).fold(0.0, f64::max);
-        let overtake = speeds.windows(2).map(|pair| pair[0] - pair[1]).fold(0.0, f64::max);
+        let pull = active
+            .iter()
+            .map(|&j| -forces[j] * compliance[j])
+            .fold(0.0, f64::max);
+        let overtake = speeds
+            .windows(2)
+            .map(|pair| pair[0] - pair[1])
+            .fold(0.0, f64::max);
         let violation = pull.max(overtake);
         if best.as_ref().is_none_or(|(least, ..)| violation < *least) {
             best = Some((violation, speeds, forces));
@@ -162,7 +180,10 @@ pub(crate) fn minimise_chain<const N: usize>(
     let n = start.len();
     let mut points = start.to_vec();
     let first: Vec<f64> = points.iter().map(|y| y[0]).collect();
-    for (y, speed) in points.iter_mut().zip(pool_adjacent_violators(&first, &vec![1.0; n]).0) {
+    for (y, speed) in points
+        .iter_mut()
+        .zip(pool_adjacent_violators(&first, &vec![1.0; n]).0)
+    {
         y[0] = speed;
     }
     let evaluate = |points: &[SVector<f64, N>]| -> Vec<Local<N>> {
@@ -170,7 +191,12 @@ pub(crate) fn minimise_chain<const N: usize>(
     };
     let mut locals = evaluate(&points);
     let mut shift = 1e-14;
-    let mut result = ChainMinimum { points: points.clone(), multipliers: vec![0.0; n.saturating_sub(1)], residual: f64::INFINITY, iterations: 0 };
+    let mut result = ChainMinimum {
+        points: points.clone(),
+        multipliers: vec![0.0; n.saturating_sub(1)],
+        residual: f64::INFINITY,
+        iterations: 0,
+    };
     let mut stalled = 0;
     while result.iterations < 200 && stalled < 4 {
         result.iterations += 1;
@@ -230,7 +256,11 @@ pub(crate) fn minimise_chain<const N: usize>(
         let mut fraction = 1.0;
         let mut moved = false;
         while fraction > 1e-10 {
-            let there: Vec<_> = points.iter().zip(&directions).map(|(y, d)| y + d * fraction).collect();
+            let there: Vec<_> = points
+                .iter()
+                .zip(&directions)
+                .map(|(y, d)| y + d * fraction)
+                .collect();
             let new = evaluate(&there);
             let value: f64 = new.iter().map(|l| l.value).sum();
             if value <= total + 1e-4 * fraction * slope || (value - total).abs() <= rounding {
@@ -244,7 +274,11 @@ pub(crate) fn minimise_chain<const N: usize>(
             }
             fraction *= 0.5;
         }
-        shift = if moved { (shift * 0.1).max(1e-14) } else { (shift * 100.0).max(1e-12) };
+        shift = if moved {
+            (shift * 0.1).max(1e-14)
+        } else {
+            (shift * 100.0).max(1e-12)
+        };
         if shift > 1e3 {
             break;
         }
@@ -295,7 +329,9 @@ fn full_system(
     let mut jacobian = DMatrix::zeros(size, size);
     for (j, local) in locals.iter().enumerate() {
         residual.rows_mut(3 * j, 3).copy_from(&local.gradient);
-        jacobian.view_mut((3 * j, 3 * j), (3, 3)).copy_from(&local.hessian);
+        jacobian
+            .view_mut((3 * j, 3 * j), (3, 3))
+            .copy_from(&local.hessian);
     }
     for (k, (&force, pair)) in forces.iter().zip(points.windows(2)).enumerate() {
         let (rear, front, unknown) = (3 * k, 3 * k + 3, 3 * n + k);
@@ -316,7 +352,8 @@ fn full_system(
                     for (column, w) in unit.iter().enumerate() {
                         let across = if row == column { 1.0 } else { 0.0 } - u * w;
                         for other in [rear, front] {
-                            jacobian[(at, other + 1 + column)] += ball_friction * force * across / slip;
+                            jacobian[(at, other + 1 + column)] +=
+                                ball_friction * force * across / slip;
                         }
                     }
                 }
@@ -346,18 +383,29 @@ fn solve_full_system(
     let n = start.points.len();
     let none = Vector3::zeros();
     let locals = |points: &[Vector3<f64>]| -> Vec<Local<3>> {
-        contacts.iter().zip(points).map(|(c, y)| planar::dissipation(c, &none, y, rest_spin)).collect()
+        contacts
+            .iter()
+            .zip(points)
+            .map(|(c, y)| planar::dissipation(c, &none, y, rest_spin))
+            .collect()
     };
     // A force per speed of the size of a ball's stiffness, so that forces and partings weigh alike.
-    let penalty = contacts.iter().flatten().map(|c| c.friction_limit).fold(0.0, f64::max);
+    let penalty = contacts
+        .iter()
+        .flatten()
+        .map(|c| c.friction_limit)
+        .fold(0.0, f64::max);
     let mut points = start.points.clone();
     let mut forces = start.multipliers.clone();
-    let (mut residual, mut jacobian) = full_system(&locals(&points), &points, &forces, ball_friction, penalty);
+    let (mut residual, mut jacobian) =
+        full_system(&locals(&points), &points, &forces, ball_friction, penalty);
     let mut iterations = 0;
     let mut stalled = 0;
     while iterations < 100 && stalled < 3 && residual.amax() > tolerance {
         iterations += 1;
-        let Some(step) = jacobian.clone().lu().solve(&residual) else { break };
+        let Some(step) = jacobian.clone().lu().solve(&residual) else {
+            break;
+        };
         let mut fraction = 1.0;
         loop {
             let there: Vec<_> = points
@@ -365,8 +413,13 @@ fn solve_full_system(
                 .enumerate()
                 .map(|(j, y)| y - Vector3::from_fn(|i, _| step[3 * j + i]) * fraction)
                 .collect();
-            let pushed: Vec<_> = forces.iter().enumerate().map(|(k, f)| f - fraction * step[3 * n + k]).collect();
-            let (new, slope) = full_system(&locals(&there), &there, &pushed, ball_friction, penalty);
+            let pushed: Vec<_> = forces
+                .iter()
+                .enumerate()
+                .map(|(k, f)| f - fraction * step[3 * n + k])
+                .collect();
+            let (new, slope) =
+                full_system(&locals(&there), &there, &pushed, ball_friction, penalty);
             let better = new.norm() < (1.0 - 1e-4 * fraction) * residual.norm();
             if better || fraction < 1e-6 {
                 stalled = if better { 0 } else { stalled + 1 };
@@ -379,7 +432,12 @@ fn solve_full_system(
         }
     }
     // Rounding may leave touching balls unequal in the last digit, and open contacts with a trace of force.
-    ChainMinimum { points, multipliers: forces.iter().map(|f| f.max(0.0)).collect(), residual: residual.amax(), iterations }
+    ChainMinimum {
+        points,
+        multipliers: forces.iter().map(|f| f.max(0.0)).collect(),
+        residual: residual.amax(),
+        iterations,
+    }
 }
 
 /// Follows the solution of the full system from no friction between balls to `ball_friction`, in strides as long as
@@ -424,7 +482,11 @@ fn raise_ball_friction(
 ///
 /// # Errors
 /// As [`LinearBall::solve`]; when the balls' radii or friction coefficients differ; with an empty list.
-pub fn solve_chain(balls: &[LinearBall], ball_friction: f64, speed: f64) -> Result<LinearChain, FrictionError> {
+pub fn solve_chain(
+    balls: &[LinearBall],
+    ball_friction: f64,
+    speed: f64,
+) -> Result<LinearChain, FrictionError> {
     within("ball_friction", ball_friction, 0.0, 1.0)?;
     within("speed", speed, -1e6, 1e6)?;
     within("balls", balls.len() as f64, 1.0, 1e4)?;
@@ -443,11 +505,17 @@ pub fn solve_chain(balls: &[LinearBall], ball_friction: f64, speed: f64) -> Resu
     if speed < 0.0 {
         contacts.reverse();
     }
-    let limits: f64 = contacts.iter().flatten().map(|c| c.friction_limit).fold(0.0, f64::max);
+    let limits: f64 = contacts
+        .iter()
+        .flatten()
+        .map(|c| c.friction_limit)
+        .fold(0.0, f64::max);
     let tolerance = 4e-14 * limits;
     let none = Vector3::zeros();
     let minimum_at = |start: &[Vector3<f64>], rest_spin: f64| {
-        minimise_chain(start, tolerance, |j, y| planar::dissipation(&contacts[j], &none, y, rest_spin))
+        minimise_chain(start, tolerance, |j, y| {
+            planar::dissipation(&contacts[j], &none, y, rest_spin)
+        })
     };
     let mut points = vec![Vector3::new(0.5, 0.7, 0.0); contacts.len()];
     let mut rest_spin = 1.0;
@@ -459,7 +527,11 @@ pub fn solve_chain(balls: &[LinearBall], ball_friction: f64, speed: f64) -> Resu
         iterations += stage.iterations;
         points.clone_from(&stage.points);
         solution = Some((stage, rest_spin));
-        if contacts.iter().zip(&points).all(|(c, y)| planar::all_move(c, y, rest_spin)) {
+        if contacts
+            .iter()
+            .zip(&points)
+            .all(|(c, y)| planar::all_move(c, y, rest_spin))
+        {
             let exact = minimum_at(&points, 0.0);
             iterations += exact.iterations;
             if exact.residual <= 1e-10 * limits {
@@ -468,14 +540,25 @@ pub fn solve_chain(balls: &[LinearBall], ball_friction: f64, speed: f64) -> Resu
             }
         }
     }
-    let Some((mut solution, rest_spin)) = solution else { return Err(FrictionError::NotConverged { residual: f64::INFINITY }) };
+    let Some((mut solution, rest_spin)) = solution else {
+        return Err(FrictionError::NotConverged {
+            residual: f64::INFINITY,
+        });
+    };
 
     // The friction coefficient scales groove forces and contact forces alike, so the moments carry `ball_friction` alone.
     let mut residual = solution.residual;
     let mut rest_spin = rest_spin;
     if ball_friction > 0.0 {
         let accept = f64::max(1e-10 * limits, 2.0 * residual);
-        let raised = raise_ball_friction(&contacts, &solution, ball_friction, rest_spin, tolerance, accept);
+        let raised = raise_ball_friction(
+            &contacts,
+            &solution,
+            ball_friction,
+            rest_spin,
+            tolerance,
+            accept,
+        );
         if let Some(raised) = raised {
             iterations += raised.iterations;
             residual = raised.residual;
@@ -483,7 +566,14 @@ pub fn solve_chain(balls: &[LinearBall], ball_friction: f64, speed: f64) -> Resu
         } else {
             // Near the switch to two-point contact: raise the coefficient where the power is smooth, then sharpen it.
             let smooth = minimum_at(&vec![Vector3::new(0.5, 0.7, 0.0); contacts.len()], 0.1);
-            let mut path = raise_ball_friction(&contacts, &smooth, ball_friction, 0.1, tolerance, 1e-8 * limits);
+            let mut path = raise_ball_friction(
+                &contacts,
+                &smooth,
+                ball_friction,
+                0.1,
+                tolerance,
+                1e-8 * limits,
+            );
             let mut spin = 0.1;
             while let (Some(here), true) = (&path, spin > 1.0001e-8) {
                 spin = f64::max(spin * 0.5, 1e-8);
@@ -495,13 +585,19 @@ pub fn solve_chain(balls: &[LinearBall], ball_friction: f64, speed: f64) -> Resu
             }
             match path {
                 Some(path) => solution = path,
-                None => return Err(FrictionError::NotConverged { residual: friction * residual.max(accept) }),
+                None => {
+                    return Err(FrictionError::NotConverged {
+                        residual: friction * residual.max(accept),
+                    });
+                }
             }
             rest_spin = spin;
         }
     }
     if residual.is_nan() || residual > 1e-6 * limits {
-        return Err(FrictionError::NotConverged { residual: friction * residual });
+        return Err(FrictionError::NotConverged {
+            residual: friction * residual,
+        });
     }
 
     let mut motions = Vec::with_capacity(balls.len());
@@ -515,7 +611,12 @@ pub fn solve_chain(balls: &[LinearBall], ball_friction: f64, speed: f64) -> Resu
     for ((ball, contacts), y) in balls.iter().zip(&contacts).zip(&points) {
         let y = [y.x, y.y, y.z];
         let frictions: [ContactFriction; 4] = contacts.map(|c| c.friction(&y, rest_spin));
-        let gap = contacts.iter().zip(&frictions).map(|(c, f)| c.friction(&y, 0.0).power - f.power).sum::<f64>().max(0.0);
+        let gap = contacts
+            .iter()
+            .zip(&frictions)
+            .map(|(c, f)| c.friction(&y, 0.0).power - f.power)
+            .sum::<f64>()
+            .max(0.0);
         let gap = if rest_spin == 0.0 { 0.0 } else { gap };
         motions.push(ball.dimensional(speed, y, frictions, residual, gap, iterations));
     }
@@ -524,7 +625,11 @@ pub fn solve_chain(balls: &[LinearBall], ball_friction: f64, speed: f64) -> Resu
         .map(|pair| speed.abs() * (pair[0].y + pair[1].y).hypot(pair[0].z + pair[1].z))
         .collect();
     Ok(LinearChain {
-        ball_loss: forces.iter().zip(&ball_slip).map(|(f, slip)| ball_friction * f * slip).sum(),
+        ball_loss: forces
+            .iter()
+            .zip(&ball_slip)
+            .map(|(f, slip)| ball_friction * f * slip)
+            .sum(),
         groove_loss: motions.iter().map(|m| m.power_loss).sum(),
         balls: motions,
         contact_forces: forces,

@@ -62,14 +62,28 @@ impl LinearBall {
         within("ball_radius", self.ball_radius, 1e-6, 1.0)?;
         within("friction", self.friction, 0.0, 1.0)?;
         for angle in self.contact_angles {
-            within("contact_angles", angle, 1e-3, std::f64::consts::FRAC_PI_2 - 1e-3)?;
+            within(
+                "contact_angles",
+                angle,
+                1e-3,
+                std::f64::consts::FRAC_PI_2 - 1e-3,
+            )?;
         }
         for force in self.contact_forces {
             within("contact_forces", force, -1e9, 1e9)?;
         }
-        within("semi_major_constant", self.ellipse.semi_major_constant, 1e-9, 1.0)?;
+        within(
+            "semi_major_constant",
+            self.ellipse.semi_major_constant,
+            1e-9,
+            1.0,
+        )?;
         let [bl, br, tr, tl] = self.contact_forces.map(|force| force > 0.0);
-        if (bl || br) && (tr || tl) { Ok(()) } else { Err(FrictionError::Undriven) }
+        if (bl || br) && (tr || tl) {
+            Ok(())
+        } else {
+            Err(FrictionError::Undriven)
+        }
     }
 
     /// Contacts for the unknowns `(v_B, R_B w_x, R_B w_y)/v`, with a friction coefficient of one.
@@ -99,7 +113,9 @@ impl LinearBall {
             contact.spin = [0.0, -sign_x * sin, -sign_y * cos];
             contact.slip_base = if sign_y > 0.0 { -1.0 } else { 0.0 };
             contact.friction_limit = force.max(0.0);
-            contact.semi_major = self.ellipse.semi_major_constant * force.max(f64::MIN_POSITIVE).cbrt() / self.ball_radius;
+            contact.semi_major = self.ellipse.semi_major_constant
+                * force.max(f64::MIN_POSITIVE).cbrt()
+                / self.ball_radius;
         }
         Ok(contacts)
     }
@@ -130,13 +146,22 @@ impl LinearBall {
         let motion = least_dissipation(&contacts, start, 1.0);
         let largest = self.contact_forces.iter().fold(0.0_f64, |m, f| m.max(*f));
         if motion.residual.is_nan() || motion.residual > 1e-6 * largest {
-            return Err(FrictionError::NotConverged { residual: self.friction * motion.residual });
+            return Err(FrictionError::NotConverged {
+                residual: self.friction * motion.residual,
+            });
         }
         let mut friction = [ContactFriction::default(); 4];
         for (to, from) in friction.iter_mut().zip(&motion.contacts) {
             *to = *from;
         }
-        Ok(self.dimensional(speed, motion.motion, friction, motion.residual, motion.gap, motion.iterations))
+        Ok(self.dimensional(
+            speed,
+            motion.motion,
+            friction,
+            motion.residual,
+            motion.gap,
+            motion.iterations,
+        ))
     }
 
     /// Puts speed, ball radius and friction coefficient back.
@@ -173,7 +198,9 @@ impl LinearBall {
 
     /// Speed deviation by the published closed form, see [`analytic_speed_deviation`].
     pub fn analytic_speed_deviation(&self, nominal_contact_angle: f64) -> f64 {
-        let deviations = self.contact_angles.map(|angle| angle - nominal_contact_angle);
+        let deviations = self
+            .contact_angles
+            .map(|angle| angle - nominal_contact_angle);
         analytic_speed_deviation(nominal_contact_angle, deviations, self.contact_forces)
     }
 
@@ -221,7 +248,10 @@ pub fn contact_forces(contact_angles: [f64; 4], side_load: f64, normal_load: f64
 /// Mean loads of the diagonals U (BL, TR) and D (BR, TL), to the power 2/3.
 fn diagonals(forces: [f64; 4]) -> (f64, f64) {
     let [bl, br, tr, tl] = forces.map(|force| force.max(0.0));
-    ((0.5 * (bl + tr)).cbrt().powi(2), (0.5 * (br + tl)).cbrt().powi(2))
+    (
+        (0.5 * (bl + tr)).cbrt().powi(2),
+        (0.5 * (br + tl)).cbrt().powi(2),
+    )
 }
 
 /// Deviation of the ball's speed from half the groove's, for small deviations from four equal contact angles.
@@ -230,7 +260,11 @@ fn diagonals(forces: [f64; 4]) -> (f64, f64) {
 ///
 /// Source: Lin 2019, eqs. (3.42), (3.43). Corrected: the printed factor `1 - cos 2 b0` must be `tan b0 = (1 - cos 2 b0)/sin 2 b0`,
 /// equal at 45 degrees only.
-pub fn analytic_speed_deviation(nominal_contact_angle: f64, angle_deviations: [f64; 4], forces: [f64; 4]) -> f64 {
+pub fn analytic_speed_deviation(
+    nominal_contact_angle: f64,
+    angle_deviations: [f64; 4],
+    forces: [f64; 4],
+) -> f64 {
     let [bl, br, tr, tl] = angle_deviations;
     let (up, down) = diagonals(forces);
     if up + down <= 0.0 {
@@ -254,7 +288,8 @@ pub fn analytic_compliance(
     forces: [f64; 4],
 ) -> f64 {
     let (up, down) = diagonals(forces);
-    nominal_contact_angle.tan() * semi_major_constant / (2.0 * force_slope * friction * ball_radius * (up + down))
+    nominal_contact_angle.tan() * semi_major_constant
+        / (2.0 * force_slope * friction * ball_radius * (up + down))
 }
 
 /// Force between two balls that touch, the first one behind: `max(0, (eps_1 - eps_2)/(s_1 + s_2))`.

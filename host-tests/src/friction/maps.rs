@@ -89,7 +89,13 @@ impl FrictionMap {
             // The closed form loses digits like 1/m; the defining integral is smooth here.
             1.5 * quarter(1.0, |s2, _| (1.0 - m * s2).sqrt() * s2 * (4.0 - 5.0 * s2))
         };
-        Ok(Self { axis_ratio: k, parameter: m, p0: 0.375 * complete_e, p2: 0.75 * complete_b, p4: -0.25 * k3 })
+        Ok(Self {
+            axis_ratio: k,
+            parameter: m,
+            p0: 0.375 * complete_e,
+            p2: 0.75 * complete_b,
+            p4: -0.25 * k3,
+        })
     }
 
     /// Axis ratio `b/a`.
@@ -129,7 +135,12 @@ impl FrictionMap {
         if x > 1e9 {
             // Force and moment differ from pure sliding by less than k^2/10 times 1e-18.
             let moment = 0.2 * self.axis_ratio * self.axis_ratio / x;
-            return MapValue { force: sign, moment, power: x, slope: moment / (x * x) };
+            return MapValue {
+                force: sign,
+                moment,
+                power: x,
+                slope: moment / (x * x),
+            };
         }
         let m = self.parameter;
         let inverse = 1.0 / x;
@@ -153,7 +164,12 @@ impl FrictionMap {
         let moment = 0.375 * moment;
         let edge = 8.0 * excess(inverse2) * ((x - 1.0) * (x + 1.0)).sqrt() * inverse;
         let moment_slope = 0.375 * (moment_slope - edge);
-        MapValue { force: sign * force, moment, power: moment + x * force, slope: -moment_slope * inverse }
+        MapValue {
+            force: sign * force,
+            moment,
+            power: moment + x * force,
+            slope: -moment_slope * inverse,
+        }
     }
 
     /// The same integrals without closed form or rearrangement, by the Gauss rule on the integral as it stands in the
@@ -167,17 +183,30 @@ impl FrictionMap {
         let m = self.parameter;
         let end = if x > 1.0 { 1.0 / x } else { 1.0 };
         let power = 0.375
-            * quarter(end, |s2, _| (1.0 - m * s2).sqrt() * (1.0 - x2 * s2) * (1.0 + x2 * (4.0 - 5.0 * s2)));
+            * quarter(end, |s2, _| {
+                (1.0 - m * s2).sqrt() * (1.0 - x2 * s2) * (1.0 + x2 * (4.0 - 5.0 * s2))
+            });
         let force = 0.75
             * x
             * quarter(end, |s2, _| {
                 (1.0 - m * s2).sqrt() * (4.0 - 6.0 * s2 - 2.0 * x2 * s2 * (4.0 - 5.0 * s2))
             });
-        let edge = if x > 1.0 { 3.0 * (1.0 - m / x2).sqrt() * (x2 - 1.0).sqrt() / x2 } else { 0.0 };
+        let edge = if x > 1.0 {
+            3.0 * (1.0 - m / x2).sqrt() * (x2 - 1.0).sqrt() / x2
+        } else {
+            0.0
+        };
         let slope = 0.375
-            * quarter(end, |s2, _| (1.0 - m * s2).sqrt() * (8.0 - 12.0 * s2 - 12.0 * x2 * s2 * (4.0 - 5.0 * s2)))
+            * quarter(end, |s2, _| {
+                (1.0 - m * s2).sqrt() * (8.0 - 12.0 * s2 - 12.0 * x2 * s2 * (4.0 - 5.0 * s2))
+            })
             + edge;
-        MapValue { force: sign * force, moment: power - x * force, power, slope }
+        MapValue {
+            force: sign * force,
+            moment: power - x * force,
+            power,
+            slope,
+        }
     }
 }
 

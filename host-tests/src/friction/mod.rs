@@ -22,11 +22,13 @@ use std::fmt;
 
 pub mod area;
 pub mod chain;
+pub mod contact_law;
 pub mod linear_ball;
 pub mod maps;
 mod newton;
 pub mod patch;
 pub mod planar;
+pub mod rotary_ball;
 
 /// Why a friction model could not answer.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,10 +59,18 @@ pub enum FrictionError {
 impl fmt::Display for FrictionError {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::OutOfRange { field, value, min, max } => {
+            Self::OutOfRange {
+                field,
+                value,
+                min,
+                max,
+            } => {
                 write!(out, "{field} = {value} is outside {min} to {max}")
             }
-            Self::Standstill => write!(out, "speed is zero: Coulomb friction has no direction at rest"),
+            Self::Standstill => write!(
+                out,
+                "speed is zero: Coulomb friction has no direction at rest"
+            ),
             Self::Undriven => write!(out, "the loaded contacts leave the speed of the ball open"),
             Self::NotConverged { residual } => write!(out, "no convergence, {residual} N left"),
         }
@@ -70,10 +80,20 @@ impl fmt::Display for FrictionError {
 impl std::error::Error for FrictionError {}
 
 /// Passes `value` when it is finite and lies in `min..=max`.
-pub(crate) fn within(field: &'static str, value: f64, min: f64, max: f64) -> Result<f64, FrictionError> {
+pub(crate) fn within(
+    field: &'static str,
+    value: f64,
+    min: f64,
+    max: f64,
+) -> Result<f64, FrictionError> {
     if value.is_finite() && value >= min && value <= max {
         Ok(value)
     } else {
-        Err(FrictionError::OutOfRange { field, value, min, max })
+        Err(FrictionError::OutOfRange {
+            field,
+            value,
+            min,
+            max,
+        })
     }
 }

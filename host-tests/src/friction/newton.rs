@@ -51,7 +51,8 @@ pub(crate) fn minimise<const N: usize>(
         };
         let step = -factor.solve(&here.gradient);
         let slope = here.gradient.dot(&step);
-        let rounding = 1e-14 * here.value.abs().max(f64::MIN_POSITIVE);
+        // Terms of both signs may be a hundred times larger than their sum.
+        let rounding = 1e-12 * here.value.abs().max(f64::MIN_POSITIVE);
         let mut fraction = 1.0;
         let mut accepted = None;
         while fraction > 1e-10 {
@@ -75,5 +76,9 @@ pub(crate) fn minimise<const N: usize>(
             }
         }
     }
-    Minimum { point, residual: here.gradient.amax(), iterations }
+    Minimum {
+        point,
+        residual: here.gradient.amax(),
+        iterations,
+    }
 }

@@ -82,7 +82,11 @@ impl Patch {
         // Velocity centre, where slip - spin y = 0 and slip + spin x = 0, scaled to the unit disc.
         let (centre_1, centre_2) = (-sign * v2 / (w * a), sign * v1 / (w * b));
         let e = centre_1.hypot(centre_2);
-        let (cos_p, sin_p) = if e > 0.0 { (centre_1 / e, centre_2 / e) } else { (1.0, 0.0) };
+        let (cos_p, sin_p) = if e > 0.0 {
+            (centre_1 / e, centre_2 / e)
+        } else {
+            (1.0, 0.0)
+        };
         let reach = e.min(1.0);
         let inverse = if e > 1.0 { 1.0 / e } else { 1.0 };
 
@@ -96,18 +100,26 @@ impl Patch {
             let h2 = 1.0 - s * s;
             // Angle between the line and the direction to the contact centre: sin = s/e.
             let sin_a = inverse * sin_t;
-            let cos_a = if e > 1.0 { ((1.0 - sin_a) * (1.0 + sin_a)).sqrt() } else { cos_t };
+            let cos_a = if e > 1.0 {
+                ((1.0 - sin_a) * (1.0 + sin_a)).sqrt()
+            } else {
+                cos_t
+            };
             let k = e * cos_a;
             // Step of the line's angle, d theta = min(e, 1) cos t / k dt.
             let turn = weight * inverse * cos_t / cos_a;
-            let along = (-(cos_p * cos_a - sin_p * sin_a), -(sin_p * cos_a + cos_p * sin_a));
+            let along = (
+                -(cos_p * cos_a - sin_p * sin_a),
+                -(sin_p * cos_a + cos_p * sin_a),
+            );
             let (u1, u2) = (a * along.0, b * along.1);
             let g = u1.hypot(u2);
             power += turn * h2 * (k * k + 0.25 * h2) * g;
             gradient[0] -= turn * h2 * k * u2 / g;
             gradient[1] += turn * h2 * k * u1 / g;
             // Moment about the contact centre: of the resultant at the middle of the chord, and of its spread.
-            gradient[2] += turn * h2 * (0.25 * h2 * g - k * s * (a - b) * (a + b) * along.0 * along.1 / g);
+            gradient[2] +=
+                turn * h2 * (0.25 * h2 * g - k * s * (a - b) * (a + b) * along.0 * along.1 / g);
             let normal = [u1, u2, -s * a * b];
             let scale = turn * h2 / (g * g * g);
             for (row, n_i) in hessian.iter_mut().zip(normal) {

@@ -64,7 +64,10 @@ impl PlanarContact {
     /// Slip and spin at `y`.
     pub fn velocity(&self, y: &[f64; 3]) -> (f64, f64) {
         let dot = |row: &[f64; 3]| row.iter().zip(y).map(|(r, y)| r * y).sum::<f64>();
-        (self.slip_base + dot(&self.slip), self.spin_base + dot(&self.spin))
+        (
+            self.slip_base + dot(&self.slip),
+            self.spin_base + dot(&self.spin),
+        )
     }
 
     /// Friction at `y` with the spin replaced by `sqrt(spin^2 + rest_spin^2)` inside the power, which keeps the power
@@ -73,7 +76,12 @@ impl PlanarContact {
         let (slip, spin) = self.velocity(y);
         if self.friction_limit <= 0.0 {
             let offset = slip / (spin * self.semi_major);
-            return ContactFriction { slip, spin, offset, ..ContactFriction::default() };
+            return ContactFriction {
+                slip,
+                spin,
+                offset,
+                ..ContactFriction::default()
+            };
         }
         let smooth = spin.hypot(rest_spin).max(1e-150);
         let value = self.map.at(slip / (self.semi_major * smooth));
@@ -120,8 +128,17 @@ impl PlanarContact {
 }
 
 /// Power of all contacts with gradient and Hessian, plus a linear `load . y`.
-pub(crate) fn dissipation(contacts: &[PlanarContact], load: &Vector3<f64>, y: &Vector3<f64>, rest_spin: f64) -> Local<3> {
-    let mut sum = Local { value: load.dot(y), gradient: *load, hessian: Matrix3::zeros() };
+pub(crate) fn dissipation(
+    contacts: &[PlanarContact],
+    load: &Vector3<f64>,
+    y: &Vector3<f64>,
+    rest_spin: f64,
+) -> Local<3> {
+    let mut sum = Local {
+        value: load.dot(y),
+        gradient: *load,
+        hessian: Matrix3::zeros(),
+    };
     for contact in contacts {
         contact.accumulate(y, rest_spin, &mut sum);
     }
@@ -143,7 +160,11 @@ pub(crate) fn all_move(contacts: &[PlanarContact], y: &Vector3<f64>, rest_spin: 
 /// of the last; as soon as every loaded contact moves, the exact power is minimised. A contact
 /// that sticks in the solution (two-point contact, and near it) stays smoothed at the
 /// last stage: its force and moment are inside Coulomb's limit, balance is exact, and `gap` bounds the error of the power.
-pub fn least_dissipation(contacts: &[PlanarContact], start: [f64; 3], spin_scale: f64) -> PlanarMotion {
+pub fn least_dissipation(
+    contacts: &[PlanarContact],
+    start: [f64; 3],
+    spin_scale: f64,
+) -> PlanarMotion {
     let zero = Vector3::zeros();
     let total: f64 = contacts.iter().map(|c| c.friction_limit.max(0.0)).sum();
     let tolerance = 1e-14 * total;
@@ -153,7 +174,9 @@ pub fn least_dissipation(contacts: &[PlanarContact], start: [f64; 3], spin_scale
     let mut rest_spin = spin_scale;
     for _ in 0..STAGES {
         rest_spin *= 0.1;
-        let stage = minimise(point, tolerance, |y| dissipation(contacts, &zero, y, rest_spin));
+        let stage = minimise(point, tolerance, |y| {
+            dissipation(contacts, &zero, y, rest_spin)
+        });
         iterations += stage.iterations;
         point = stage.point;
         residual = stage.residual;
@@ -169,12 +192,21 @@ pub fn least_dissipation(contacts: &[PlanarContact], start: [f64; 3], spin_scale
         }
     }
     let motion = [point.x, point.y, point.z];
-    let friction: Vec<_> = contacts.iter().map(|c| c.friction(&motion, rest_spin)).collect();
+    let friction: Vec<_> = contacts
+        .iter()
+        .map(|c| c.friction(&motion, rest_spin))
+        .collect();
     let gap = contacts
         .iter()
         .zip(&friction)
         .map(|(c, f)| c.friction(&motion, 0.0).power - f.power)
         .sum::<f64>()
         .max(0.0);
-    PlanarMotion { motion, contacts: friction, residual, gap: if rest_spin == 0.0 { 0.0 } else { gap }, iterations }
+    PlanarMotion {
+        motion,
+        contacts: friction,
+        residual,
+        gap: if rest_spin == 0.0 { 0.0 } else { gap },
+        iterations,
+    }
 }
