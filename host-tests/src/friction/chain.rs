@@ -7,7 +7,7 @@
 use nalgebra::{DMatrix, DVector, SVector, Vector3};
 
 use super::linear_ball::{LinearBall, LinearMotion};
-use super::newton::Local;
+use super::newton::{Local, STAGES};
 use super::planar::{self, ContactFriction, PlanarContact};
 use super::{FrictionError, within};
 
@@ -521,7 +521,7 @@ pub fn solve_chain(
     let mut rest_spin = 1.0;
     let mut iterations = 0;
     let mut solution = None;
-    for _ in 0..planar::STAGES {
+    for _ in 0..STAGES {
         rest_spin *= 0.1;
         let stage = minimum_at(&points, rest_spin);
         iterations += stage.iterations;

@@ -143,7 +143,7 @@ impl LinearBall {
             within("start", value, -1e6, 1e6)?;
         }
         let contacts = self.contacts()?;
-        let motion = least_dissipation(&contacts, start, 1.0);
+        let motion = least_dissipation(&contacts, start);
         let largest = self.contact_forces.iter().fold(0.0_f64, |m, f| m.max(*f));
         if motion.residual.is_nan() || motion.residual > 1e-6 * largest {
             return Err(FrictionError::NotConverged {

@@ -21,6 +21,8 @@
 use std::fmt;
 
 pub mod area;
+pub mod ball_screw_ball;
+pub mod ball_screw_elastic;
 pub mod chain;
 pub mod contact_law;
 pub mod linear_ball;

@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::maps::FrictionMap;
-use super::newton::{Local, minimise};
+use super::newton::{Local, sharpen};
 
 /// One contact of a ball with three unknowns `y`: slip and spin are linear in `y`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,10 +55,6 @@ pub struct PlanarMotion {
     /// Newton steps over all stages.
     pub iterations: usize,
 }
-
-/// Stages of the smoothing, each ten times finer: from 0.1 to 1e-8 of the spin scale. Finer ones drown in rounding: a
-/// contact at rest has a stiffness of the friction limit over the rest speed.
-pub(crate) const STAGES: usize = 8;
 
 impl PlanarContact {
     /// Slip and spin at `y`.
@@ -156,41 +152,22 @@ pub(crate) fn all_move(contacts: &[PlanarContact], y: &Vector3<f64>, rest_spin: 
 /// Finds the motion of least dissipation.
 ///
 /// The power is smoothed at rest (see [`PlanarContact::friction`]) and minimised by damped Newton steps
-/// for a smoothing that falls tenfold from 0.1 to 1e-8 of `spin_scale`, each stage from the result
+/// for a smoothing that falls tenfold from 0.1 to 1e-8 (spins are of the order of one), each stage from the result
 /// of the last; as soon as every loaded contact moves, the exact power is minimised. A contact
 /// that sticks in the solution (two-point contact, and near it) stays smoothed at the
 /// last stage: its force and moment are inside Coulomb's limit, balance is exact, and `gap` bounds the error of the power.
-pub fn least_dissipation(
-    contacts: &[PlanarContact],
-    start: [f64; 3],
-    spin_scale: f64,
-) -> PlanarMotion {
+pub fn least_dissipation(contacts: &[PlanarContact], start: [f64; 3]) -> PlanarMotion {
     let zero = Vector3::zeros();
     let total: f64 = contacts.iter().map(|c| c.friction_limit.max(0.0)).sum();
     let tolerance = 1e-14 * total;
-    let mut point = Vector3::from(start);
-    let mut iterations = 0;
-    let mut residual = f64::INFINITY;
-    let mut rest_spin = spin_scale;
-    for _ in 0..STAGES {
-        rest_spin *= 0.1;
-        let stage = minimise(point, tolerance, |y| {
-            dissipation(contacts, &zero, y, rest_spin)
-        });
-        iterations += stage.iterations;
-        point = stage.point;
-        residual = stage.residual;
-        if all_move(contacts, &point, rest_spin) {
-            let exact = minimise(point, tolerance, |y| dissipation(contacts, &zero, y, 0.0));
-            iterations += exact.iterations;
-            if exact.residual <= 1e-10 * total {
-                point = exact.point;
-                residual = exact.residual;
-                rest_spin = 0.0;
-                break;
-            }
-        }
-    }
+    let (end, rest_spin) = sharpen(
+        Vector3::from(start),
+        tolerance,
+        1e-10 * total,
+        |y, rest_spin| dissipation(contacts, &zero, y, rest_spin),
+        |y, rest_spin| all_move(contacts, y, rest_spin),
+    );
+    let (point, residual, iterations) = (end.point, end.residual, end.iterations);
     let motion = [point.x, point.y, point.z];
     let friction: Vec<_> = contacts
         .iter()

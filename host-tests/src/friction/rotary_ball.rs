@@ -243,7 +243,7 @@ impl RotaryBearing {
             return Err(FrictionError::Standstill);
         }
         let rows = self.rows(contacts)?;
-        let solution = least_dissipation(&rows, self.rolling_start(), 1.0);
+        let solution = least_dissipation(&rows, self.rolling_start());
         let largest = contacts
             .contact_forces
             .iter()
@@ -312,7 +312,7 @@ impl RotaryBearing {
         // Sharpened from a broad sigmoid, and from both rolling starts: the equations have no merit function of their own.
         let starts = [
             Vector3::from(self.rolling_start()),
-            Vector3::from(least_dissipation(&rows, self.rolling_start(), 1.0).motion),
+            Vector3::from(least_dissipation(&rows, self.rolling_start()).motion),
         ];
         for start in starts {
             let mut y = start;
