@@ -4,11 +4,12 @@
 //! balls press on each other when the rear one would be faster. The speeds then are those that minimise the total power under
 //! `v_j <= v_(j+1)`, and the contact forces are the multipliers.
 
-use nalgebra::{DMatrix, DVector, SVector, Vector3};
+use nalgebra::{DMatrix, DVector, SMatrix, Vector3};
 
 use super::linear_ball::{LinearBall, LinearMotion};
-use super::newton::{Local, STAGES};
+use super::newton::Local;
 use super::planar::{self, ContactFriction, PlanarContact};
+use super::train_newton::{Train, solve_train};
 use super::{FrictionError, within};
 
 /// Pools the adjacent violators of `x_j <= x_(j+1)` in `min sum (x_j - free_j)^2/(2 compliance_j)`.
@@ -157,135 +158,6 @@ pub fn exhaustive_contacts(free: &[f64], compliance: &[f64]) -> Option<(Vec<f64>
     best.map(|(_, speeds, forces)| (speeds, forces))
 }
 
-/// Result of the chain's minimisation.
-#[derive(Clone)]
-pub(crate) struct ChainMinimum<const N: usize> {
-    pub points: Vec<SVector<f64, N>>,
-    pub multipliers: Vec<f64>,
-    pub residual: f64,
-    pub iterations: usize,
-}
-
-/// Minimises `sum_j f_j(y_j)` under `y_j[0] <= y_(j+1)[0]` by sequential quadratic programming.
-///
-/// The quadratic model's constraint acts on one unknown of each ball, so that its exact solution (active set
-/// and all `N n + n - 1` unknowns of (3.31)) is `pool_adjacent_violators` on the Newton speeds
-/// with the compliances `(H^-1)_00`. The start is made feasible; each step is a descent direction within the feasible
-/// set, shortened until the total falls.
-pub(crate) fn minimise_chain<const N: usize>(
-    start: &[SVector<f64, N>],
-    tolerance: f64,
-    f: impl Fn(usize, &SVector<f64, N>) -> Local<N>,
-) -> ChainMinimum<N> {
-    let n = start.len();
-    let mut points = start.to_vec();
-    let first: Vec<f64> = points.iter().map(|y| y[0]).collect();
-    for (y, speed) in points
-        .iter_mut()
-        .zip(pool_adjacent_violators(&first, &vec![1.0; n]).0)
-    {
-        y[0] = speed;
-    }
-    let evaluate = |points: &[SVector<f64, N>]| -> Vec<Local<N>> {
-        points.iter().enumerate().map(|(j, y)| f(j, y)).collect()
-    };
-    let mut locals = evaluate(&points);
-    let mut shift = 1e-14;
-    let mut result = ChainMinimum {
-        points: points.clone(),
-        multipliers: vec![0.0; n.saturating_sub(1)],
-        residual: f64::INFINITY,
-        iterations: 0,
-    };
-    let mut stalled = 0;
-    while result.iterations < 200 && stalled < 4 {
-        result.iterations += 1;
-        let mut free = Vec::with_capacity(n);
-        let mut compliance = Vec::with_capacity(n);
-        let mut steps = Vec::with_capacity(n);
-        for (y, local) in points.iter().zip(&locals) {
-            let mean = (local.hessian.trace() / N as f64).max(1e-300);
-            let mut shifted = local.hessian + nalgebra::SMatrix::identity() * (shift * mean);
-            let factor = loop {
-                if let Some(factor) = shifted.cholesky() {
-                    break factor;
-                }
-                shift = (shift * 100.0).max(1e-12);
-                shifted = local.hessian + nalgebra::SMatrix::identity() * (shift * mean);
-                if shift > 1e6 || !shift.is_finite() {
-                    return result;
-                }
-            };
-            let newton = factor.solve(&local.gradient);
-            let mut unit = SVector::<f64, N>::zeros();
-            unit[0] = 1.0;
-            let column = factor.solve(&unit);
-            free.push(y[0] - newton[0]);
-            compliance.push(column[0]);
-            steps.push((newton, column));
-        }
-        let (speeds, multipliers) = pool_adjacent_violators(&free, &compliance);
-        let mut slope = 0.0;
-        let mut residual = 0.0_f64;
-        let mut directions = Vec::with_capacity(n);
-        for (j, ((newton, column), local)) in steps.iter().zip(&locals).enumerate() {
-            let behind = if j > 0 { multipliers[j - 1] } else { 0.0 };
-            let net = multipliers.get(j).copied().unwrap_or(0.0) - behind;
-            let mut step = -newton - column * net;
-            // The speed as pooled, so that touching balls are exactly equally fast.
-            step[0] = speeds[j] - points[j][0];
-            let mut balance = local.gradient;
-            balance[0] += net;
-            residual = residual.max(balance.amax());
-            slope += local.gradient.dot(&step);
-            directions.push(step);
-        }
-        if residual < result.residual {
-            result.points.clone_from(&points);
-            result.multipliers = multipliers;
-            result.residual = residual;
-            stalled = 0;
-        } else {
-            stalled += 1;
-        }
-        if residual <= tolerance {
-            break;
-        }
-        let total: f64 = locals.iter().map(|l| l.value).sum();
-        let rounding = 1e-13 * total.abs();
-        let mut fraction = 1.0;
-        let mut moved = false;
-        while fraction > 1e-10 {
-            let there: Vec<_> = points
-                .iter()
-                .zip(&directions)
-                .map(|(y, d)| y + d * fraction)
-                .collect();
-            let new = evaluate(&there);
-            let value: f64 = new.iter().map(|l| l.value).sum();
-            if value <= total + 1e-4 * fraction * slope || (value - total).abs() <= rounding {
-                if (value - total).abs() > rounding {
-                    stalled = 0;
-                }
-                points = there;
-                locals = new;
-                moved = true;
-                break;
-            }
-            fraction *= 0.5;
-        }
-        shift = if moved {
-            (shift * 0.1).max(1e-14)
-        } else {
-            (shift * 100.0).max(1e-12)
-        };
-        if shift > 1e3 {
-            break;
-        }
-    }
-    result
-}
-
 /// Motion of a chain of touching balls in a linear bearing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinearChain {
@@ -312,169 +184,47 @@ impl LinearChain {
     }
 }
 
-/// The system (3.29) to (3.31) at given motions and forces: unbalanced forces, moments and contact conditions, with the Jacobian.
-///
-/// Unknowns: three per ball, then the contact forces. A contact is closed when its force minus `penalty` times the
-/// speed of parting is positive: then the condition is equal speed, otherwise no force.
-fn full_system(
-    locals: &[Local<3>],
-    points: &[Vector3<f64>],
-    forces: &[f64],
+struct LinearTrain<'a> {
+    contacts: &'a [[PlanarContact; 4]],
     ball_friction: f64,
-    penalty: f64,
-) -> (DVector<f64>, DMatrix<f64>) {
-    let n = points.len();
-    let size = 4 * n - 1;
-    let mut residual = DVector::zeros(size);
-    let mut jacobian = DMatrix::zeros(size, size);
-    for (j, local) in locals.iter().enumerate() {
-        residual.rows_mut(3 * j, 3).copy_from(&local.gradient);
-        jacobian
-            .view_mut((3 * j, 3 * j), (3, 3))
-            .copy_from(&local.hessian);
-    }
-    for (k, (&force, pair)) in forces.iter().zip(points.windows(2)).enumerate() {
-        let (rear, front, unknown) = (3 * k, 3 * k + 3, 3 * n + k);
-        residual[rear] += force;
-        residual[front] -= force;
-        jacobian[(rear, unknown)] += 1.0;
-        jacobian[(front, unknown)] -= 1.0;
-        // Friction moment over R_B, (3.27): against the sum of the rotations, the same on both balls.
-        let sum = [pair[0].y + pair[1].y, pair[0].z + pair[1].z];
-        let slip = sum[0].hypot(sum[1]);
-        if slip > 0.0 {
-            let unit = sum.map(|x| x / slip);
-            for (row, u) in unit.iter().enumerate() {
-                for ball in [rear, front] {
-                    let at = ball + 1 + row;
-                    residual[at] += ball_friction * force * u;
-                    jacobian[(at, unknown)] += ball_friction * u;
-                    for (column, w) in unit.iter().enumerate() {
-                        let across = if row == column { 1.0 } else { 0.0 } - u * w;
-                        for other in [rear, front] {
-                            jacobian[(at, other + 1 + column)] +=
-                                ball_friction * force * across / slip;
-                        }
-                    }
-                }
-            }
-        }
-        let parting = pair[1].x - pair[0].x;
-        if force - penalty * parting > 0.0 {
-            residual[unknown] = penalty * parting;
-            jacobian[(unknown, front)] = penalty;
-            jacobian[(unknown, rear)] = -penalty;
-        } else {
-            residual[unknown] = force;
-            jacobian[(unknown, unknown)] = 1.0;
-        }
-    }
-    (residual, jacobian)
 }
 
-/// Newton steps on the `4 n - 1` equations with ball-to-ball friction, the set of contacts chosen anew at each step.
-fn solve_full_system(
-    contacts: &[[PlanarContact; 4]],
-    start: &ChainMinimum<3>,
-    ball_friction: f64,
-    rest_spin: f64,
-    tolerance: f64,
-) -> ChainMinimum<3> {
-    let n = start.points.len();
-    let none = Vector3::zeros();
-    let locals = |points: &[Vector3<f64>]| -> Vec<Local<3>> {
-        contacts
-            .iter()
-            .zip(points)
-            .map(|(c, y)| planar::dissipation(c, &none, y, rest_spin))
-            .collect()
-    };
-    // A force per speed of the size of a ball's stiffness, so that forces and partings weigh alike.
-    let penalty = contacts
-        .iter()
-        .flatten()
-        .map(|c| c.friction_limit)
-        .fold(0.0, f64::max);
-    let mut points = start.points.clone();
-    let mut forces = start.multipliers.clone();
-    let (mut residual, mut jacobian) =
-        full_system(&locals(&points), &points, &forces, ball_friction, penalty);
-    let mut iterations = 0;
-    let mut stalled = 0;
-    while iterations < 100 && stalled < 3 && residual.amax() > tolerance {
-        iterations += 1;
-        let Some(step) = jacobian.clone().lu().solve(&residual) else {
-            break;
-        };
-        let mut fraction = 1.0;
-        loop {
-            let there: Vec<_> = points
-                .iter()
-                .enumerate()
-                .map(|(j, y)| y - Vector3::from_fn(|i, _| step[3 * j + i]) * fraction)
-                .collect();
-            let pushed: Vec<_> = forces
-                .iter()
-                .enumerate()
-                .map(|(k, f)| f - fraction * step[3 * n + k])
-                .collect();
-            let (new, slope) =
-                full_system(&locals(&there), &there, &pushed, ball_friction, penalty);
-            let better = new.norm() < (1.0 - 1e-4 * fraction) * residual.norm();
-            if better || fraction < 1e-6 {
-                stalled = if better { 0 } else { stalled + 1 };
-                if better {
-                    (points, forces, residual, jacobian) = (there, pushed, new, slope);
-                }
-                break;
-            }
-            fraction *= 0.5;
-        }
+impl Train<3> for LinearTrain<'_> {
+    fn balls(&self) -> usize {
+        self.contacts.len()
     }
-    // Rounding may leave touching balls unequal in the last digit, and open contacts with a trace of force.
-    ChainMinimum {
-        points,
-        multipliers: forces.iter().map(|f| f.max(0.0)).collect(),
-        residual: residual.amax(),
-        iterations,
-    }
-}
 
-/// Follows the solution of the full system from no friction between balls to `ball_friction`, in strides as long as
-/// Newton's method bears.
-fn raise_ball_friction(
-    contacts: &[[PlanarContact; 4]],
-    start: &ChainMinimum<3>,
-    ball_friction: f64,
-    rest_spin: f64,
-    tolerance: f64,
-    accept: f64,
-) -> Option<ChainMinimum<3>> {
-    let mut here = start.clone();
-    let mut reached = 0.0;
-    let mut stride = ball_friction;
-    while reached < ball_friction {
-        let target = f64::min(reached + stride, ball_friction);
-        let mut next = solve_full_system(contacts, &here, target, rest_spin, tolerance);
-        if next.residual <= accept {
-            next.iterations += here.iterations;
-            here = next;
-            reached = target;
-        } else {
-            stride *= 0.5;
-            if stride < 0.02 * ball_friction {
-                return None;
-            }
-        }
+    fn start(&self, _ball: usize) -> Vector3<f64> {
+        Vector3::new(0.5, 0.7, 0.0)
     }
-    Some(here)
+
+    fn local(&self, ball: usize, y: &Vector3<f64>, rest_spin: f64) -> Local<3> {
+        planar::dissipation(&self.contacts[ball], &Vector3::zeros(), y, rest_spin)
+    }
+
+    fn moves(&self, ball: usize, y: &Vector3<f64>, rest_spin: f64) -> bool {
+        planar::all_move(&self.contacts[ball], y, rest_spin)
+    }
+
+    /// (3.26): the sums of the rotations about x and y.
+    fn slip(&self) -> [SMatrix<f64, 2, 3>; 2] {
+        [SMatrix::<f64, 2, 3>::new(0.0, 1.0, 0.0, 0.0, 0.0, 1.0); 2]
+    }
+
+    fn ball_friction(&self) -> f64 {
+        self.ball_friction
+    }
+
+    fn largest(&self) -> f64 {
+        self.contacts.iter().flatten().map(|c| c.friction_limit).fold(0.0, f64::max)
+    }
 }
 
 /// Solves a chain of touching balls, rear to front along +z: the `4 n - 1` equations (3.29) to (3.31).
 ///
 /// `ball_friction` is the coefficient between balls; zero leaves the ball-to-ball moments out. Without them the
 /// problem is convex and is solved as such. With them it has no potential; from the convex solution, Newton
-/// steps on the full system with its contact conditions follow the rising coefficient.
+/// steps on the full system of `4 n - 1` unknowns with its contact conditions follow the rising coefficient.
 /// With a negative speed the balls roll the other way, and the front ball of the list becomes the rear one.
 ///
 /// Corrected: the count of unknowns after (3.31) is `4 n - 1`; for the front ball of a pair the normal force reverses, but the
@@ -505,100 +255,13 @@ pub fn solve_chain(
     if speed < 0.0 {
         contacts.reverse();
     }
-    let limits: f64 = contacts
-        .iter()
-        .flatten()
-        .map(|c| c.friction_limit)
-        .fold(0.0, f64::max);
-    let tolerance = 4e-14 * limits;
-    let none = Vector3::zeros();
-    let minimum_at = |start: &[Vector3<f64>], rest_spin: f64| {
-        minimise_chain(start, tolerance, |j, y| {
-            planar::dissipation(&contacts[j], &none, y, rest_spin)
-        })
-    };
-    let mut points = vec![Vector3::new(0.5, 0.7, 0.0); contacts.len()];
-    let mut rest_spin = 1.0;
-    let mut iterations = 0;
-    let mut solution = None;
-    for _ in 0..STAGES {
-        rest_spin *= 0.1;
-        let stage = minimum_at(&points, rest_spin);
-        iterations += stage.iterations;
-        points.clone_from(&stage.points);
-        solution = Some((stage, rest_spin));
-        if contacts
-            .iter()
-            .zip(&points)
-            .all(|(c, y)| planar::all_move(c, y, rest_spin))
-        {
-            let exact = minimum_at(&points, 0.0);
-            iterations += exact.iterations;
-            if exact.residual <= 1e-10 * limits {
-                solution = Some((exact, 0.0));
-                break;
-            }
-        }
-    }
-    let Some((mut solution, rest_spin)) = solution else {
-        return Err(FrictionError::NotConverged {
-            residual: f64::INFINITY,
-        });
-    };
-
-    // The friction coefficient scales groove forces and contact forces alike, so the moments carry `ball_friction` alone.
-    let mut residual = solution.residual;
-    let mut rest_spin = rest_spin;
-    if ball_friction > 0.0 {
-        let accept = f64::max(1e-10 * limits, 2.0 * residual);
-        let raised = raise_ball_friction(
-            &contacts,
-            &solution,
-            ball_friction,
-            rest_spin,
-            tolerance,
-            accept,
-        );
-        if let Some(raised) = raised {
-            iterations += raised.iterations;
-            residual = raised.residual;
-            solution = raised;
-        } else {
-            // Near the switch to two-point contact: raise the coefficient where the power is smooth, then sharpen it.
-            let smooth = minimum_at(&vec![Vector3::new(0.5, 0.7, 0.0); contacts.len()], 0.1);
-            let mut path = raise_ball_friction(
-                &contacts,
-                &smooth,
-                ball_friction,
-                0.1,
-                tolerance,
-                1e-8 * limits,
-            );
-            let mut spin = 0.1;
-            while let (Some(here), true) = (&path, spin > 1.0001e-8) {
-                spin = f64::max(spin * 0.5, 1e-8);
-                let next = solve_full_system(&contacts, here, ball_friction, spin, tolerance);
-                iterations += next.iterations;
-                residual = next.residual;
-                let accept = f64::max(1e-8, 1e-14 / spin) * limits;
-                path = (next.residual <= accept).then_some(next);
-            }
-            match path {
-                Some(path) => solution = path,
-                None => {
-                    return Err(FrictionError::NotConverged {
-                        residual: friction * residual.max(accept),
-                    });
-                }
-            }
-            rest_spin = spin;
-        }
-    }
-    if residual.is_nan() || residual > 1e-6 * limits {
-        return Err(FrictionError::NotConverged {
-            residual: friction * residual,
-        });
-    }
+    // The friction coefficient scales groove forces and contact forces alike, so the ball's moments carry `ball_friction` alone.
+    let train = LinearTrain { contacts: &contacts, ball_friction };
+    let (solution, rest_spin) = solve_train(&train).map_err(|error| match error {
+        FrictionError::NotConverged { residual } => FrictionError::NotConverged { residual: friction * residual },
+        other => other,
+    })?;
+    let (residual, iterations) = (solution.residual, solution.iterations);
 
     let mut motions = Vec::with_capacity(balls.len());
     let mut points = solution.points;

@@ -22,7 +22,9 @@ use std::fmt;
 
 pub mod area;
 pub mod ball_screw_ball;
+pub mod ball_screw_closed;
 pub mod ball_screw_elastic;
+pub mod ball_screw_train;
 pub mod chain;
 pub mod contact_law;
 pub mod linear_ball;
@@ -31,6 +33,8 @@ mod newton;
 pub mod patch;
 pub mod planar;
 pub mod rotary_ball;
+mod train_newton;
+pub mod whole_screw;
 
 /// Why a friction model could not answer.
 #[derive(Clone, Copy, Debug, PartialEq)]
