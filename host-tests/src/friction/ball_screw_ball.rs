@@ -26,7 +26,12 @@ pub enum Groove {
 
 impl Groove {
     /// All four, SL, SR, NL, NR.
-    pub const ALL: [Self; 4] = [Self::ScrewLeft, Self::ScrewRight, Self::NutLeft, Self::NutRight];
+    pub const ALL: [Self; 4] = [
+        Self::ScrewLeft,
+        Self::ScrewRight,
+        Self::NutLeft,
+        Self::NutRight,
+    ];
 
     /// True for the nut's flanks.
     pub const fn on_nut(self) -> bool {
@@ -62,7 +67,12 @@ impl ScrewTrack {
     /// When a value is outside its range.
     pub fn check(&self) -> Result<(), FrictionError> {
         within("ball_radius", self.ball_radius, 1e-6, 1.0)?;
-        within("pitch_radius", self.pitch_radius, 1.2 * self.ball_radius, 100.0)?;
+        within(
+            "pitch_radius",
+            self.pitch_radius,
+            1.2 * self.ball_radius,
+            100.0,
+        )?;
         within("lead", self.lead, 0.0, 20.0 * self.pitch_radius)?;
         Ok(())
     }
@@ -75,7 +85,10 @@ impl ScrewTrack {
     /// Sine and cosine of the lead angle, (3.63).
     pub fn lead_angle(&self) -> (f64, f64) {
         let length = self.path_radius();
-        (self.lead / std::f64::consts::TAU / length, self.pitch_radius / length)
+        (
+            self.lead / std::f64::consts::TAU / length,
+            self.pitch_radius / length,
+        )
     }
 
     /// Sine and cosine of the ball-to-ball contact angle, (3.72): `sin b = 2 pi R_B/L`.
@@ -148,7 +161,12 @@ impl ScrewRow {
         let angle = within("contact_angle", contact.contact_angle, 1e-3, 1.57)?;
         let load = within("load", contact.load, -1e9, 1e9)?.max(0.0);
         within("axis_ratio", contact.ellipse.axis_ratio, 1e-3, 1.0)?;
-        within("semi_major_constant", contact.ellipse.semi_major_constant, 1e-9, 1.0)?;
+        within(
+            "semi_major_constant",
+            contact.ellipse.semi_major_constant,
+            1e-9,
+            1.0,
+        )?;
         let (sx, sz) = contact.groove.signs();
         let (nx, nz) = (sx * angle.cos(), sz * angle.sin());
         let path = track.path_radius() / track.ball_radius;
@@ -160,9 +178,19 @@ impl ScrewRow {
         );
         let nut = if contact.groove.on_nut() { 1.0 } else { 0.0 };
         let base = Vector3::new(-sin_a, -path - cos_a * nx, -cos_a * nz) * nut;
-        let a = contact.ellipse.semi_major_constant * load.max(f64::MIN_POSITIVE).cbrt() / track.ball_radius;
-        let patch = Patch { semi_major: a, semi_minor: a * contact.ellipse.axis_ratio, friction_limit: load };
-        Ok(Self { contact, patch, rows, base })
+        let a = contact.ellipse.semi_major_constant * load.max(f64::MIN_POSITIVE).cbrt()
+            / track.ball_radius;
+        let patch = Patch {
+            semi_major: a,
+            semi_minor: a * contact.ellipse.axis_ratio,
+            friction_limit: load,
+        };
+        Ok(Self {
+            contact,
+            patch,
+            rows,
+            base,
+        })
     }
 
     pub fn velocity(&self, y: &Vector4<f64>) -> Vector3<f64> {
@@ -170,14 +198,22 @@ impl ScrewRow {
     }
 
     /// Power, gradient and Hessian by `(slip_major, slip_minor, spin)` with the spin smoothed at rest.
-    fn local(&self, y: &Vector4<f64>, rest_spin: f64) -> Local<3> {
+    pub fn local(&self, y: &Vector4<f64>, rest_spin: f64) -> Local<3> {
         let v = self.velocity(y);
         if self.patch.friction_limit <= 0.0 {
-            return Local { value: 0.0, gradient: Vector3::zeros(), hessian: SMatrix::zeros() };
+            return Local {
+                value: 0.0,
+                gradient: Vector3::zeros(),
+                hessian: SMatrix::zeros(),
+            };
         }
         let smooth = v.z.hypot(rest_spin);
         let share = if smooth > 0.0 { v.z / smooth } else { 0.0 };
-        let here = self.patch.friction(PatchVelocity { slip_major: v.x, slip_minor: v.y, spin: smooth });
+        let here = self.patch.friction(PatchVelocity {
+            slip_major: v.x,
+            slip_minor: v.y,
+            spin: smooth,
+        });
         let mut gradient = Vector3::from(here.gradient);
         let mut hessian = SMatrix::<f64, 3, 3>::from_fn(|i, j| here.hessian[i][j]);
         let moment = gradient.z;
@@ -187,7 +223,11 @@ impl ScrewRow {
         if smooth > 0.0 {
             hessian[(2, 2)] += moment * (rest_spin / smooth).powi(2) / smooth;
         }
-        Local { value: here.power, gradient, hessian }
+        Local {
+            value: here.power,
+            gradient,
+            hessian,
+        }
     }
 
     pub fn accumulate(&self, y: &Vector4<f64>, rest_spin: f64, sum: &mut Local<4>) {
@@ -199,7 +239,8 @@ impl ScrewRow {
 
     pub fn moves(&self, y: &Vector4<f64>, rest_spin: f64) -> bool {
         let v = self.velocity(y);
-        self.patch.friction_limit <= 0.0 || (v.x.hypot(v.y) / self.patch.semi_major).hypot(v.z) > 30.0 * rest_spin
+        self.patch.friction_limit <= 0.0
+            || (v.x.hypot(v.y) / self.patch.semi_major).hypot(v.z) > 30.0 * rest_spin
     }
 
     /// Friction in units of the ball radius and the nut's speed, and the true Coulomb power beside that of the forces.
@@ -207,10 +248,18 @@ impl ScrewRow {
         let v = self.velocity(y);
         let here = self.local(y, rest_spin);
         let power = here.gradient.dot(&v);
-        let exact = if rest_spin > 0.0 { self.local(y, 0.0).value } else { power };
+        let exact = if rest_spin > 0.0 {
+            self.local(y, 0.0).value
+        } else {
+            power
+        };
         let friction = ScrewContactFriction {
             contact: self.contact,
-            velocity: PatchVelocity { slip_major: v.x, slip_minor: v.y, spin: v.z },
+            velocity: PatchVelocity {
+                slip_major: v.x,
+                slip_minor: v.y,
+                spin: v.z,
+            },
             force: [-here.gradient.x, -here.gradient.y],
             moment: -here.gradient.z,
             power,
@@ -221,7 +270,11 @@ impl ScrewRow {
 
 /// Power of a ball in units of `R_B w_N`, with friction coefficient one.
 pub(crate) fn ball_dissipation(rows: &[ScrewRow], y: &Vector4<f64>, rest_spin: f64) -> Local<4> {
-    let mut sum = Local { value: 0.0, gradient: Vector4::zeros(), hessian: Matrix4::zeros() };
+    let mut sum = Local {
+        value: 0.0,
+        gradient: Vector4::zeros(),
+        hessian: Matrix4::zeros(),
+    };
     for row in rows {
         row.accumulate(y, rest_spin, &mut sum);
     }
@@ -229,20 +282,42 @@ pub(crate) fn ball_dissipation(rows: &[ScrewRow], y: &Vector4<f64>, rest_spin: f
 }
 
 /// Rows of a ball's contacts; at least one loaded contact on the screw and one on the nut.
-pub(crate) fn ball_rows(track: &ScrewTrack, contacts: &[ScrewContact]) -> Result<Vec<ScrewRow>, FrictionError> {
+pub(crate) fn ball_rows(
+    track: &ScrewTrack,
+    contacts: &[ScrewContact],
+) -> Result<Vec<ScrewRow>, FrictionError> {
     track.check()?;
-    let rows = contacts.iter().map(|c| ScrewRow::new(track, *c)).collect::<Result<Vec<_>, _>>()?;
-    let loaded = |nut: bool| rows.iter().any(|r| r.contact.groove.on_nut() == nut && r.patch.friction_limit > 0.0);
-    if loaded(false) && loaded(true) { Ok(rows) } else { Err(FrictionError::Undriven) }
+    let rows = contacts
+        .iter()
+        .map(|c| ScrewRow::new(track, *c))
+        .collect::<Result<Vec<_>, _>>()?;
+    let loaded = |nut: bool| {
+        rows.iter()
+            .any(|r| r.contact.groove.on_nut() == nut && r.patch.friction_limit > 0.0)
+    };
+    if loaded(false) && loaded(true) {
+        Ok(rows)
+    } else {
+        Err(FrictionError::Undriven)
+    }
 }
 
 /// Start: half the nut's speed, rolling about z.
 pub(crate) fn rolling(track: &ScrewTrack) -> Vector4<f64> {
-    Vector4::new(0.55, 0.0, 0.1, 0.5 * track.path_radius() / track.ball_radius / 0.7)
+    Vector4::new(
+        0.55,
+        0.0,
+        0.1,
+        0.5 * track.path_radius() / track.ball_radius / 0.7,
+    )
 }
 
 /// Motion of least dissipation for given rows; `None` start means a cold one. Returns the smoothing left.
-pub(crate) fn ball_minimum(rows: &[ScrewRow], start: Vector4<f64>, warm: bool) -> (Minimum<4>, f64) {
+pub(crate) fn ball_minimum(
+    rows: &[ScrewRow],
+    start: Vector4<f64>,
+    warm: bool,
+) -> (Minimum<4>, f64) {
     let total: f64 = rows.iter().map(|r| r.patch.friction_limit).sum();
     let tolerance = 2e-14 * total;
     if warm {
@@ -320,7 +395,13 @@ pub fn motion_with_contacts(
 ) -> Result<ScrewMotion, FrictionError> {
     track.check()?;
     let start = rolling(track);
-    motion_from(track, contacts, friction, nut_speed, [start[0], start[1], start[2], start[3]])
+    motion_from(
+        track,
+        contacts,
+        friction,
+        nut_speed,
+        [start[0], start[1], start[2], start[3]],
+    )
 }
 
 /// As [`motion_with_contacts`], from a given start of `(w_B, Om_x, Om_y, Om_z)/w_N`.
@@ -344,11 +425,26 @@ pub fn motion_from(
     }
     let rows = ball_rows(track, contacts)?;
     let (end, rest_spin) = ball_minimum(&rows, Vector4::from(start), false);
-    let largest = rows.iter().map(|r| r.patch.friction_limit).fold(0.0, f64::max);
-    if end.residual.is_nan() || end.residual > 1e-6 * largest * track.path_radius() / track.ball_radius {
-        return Err(FrictionError::NotConverged { residual: mu * end.residual });
+    let largest = rows
+        .iter()
+        .map(|r| r.patch.friction_limit)
+        .fold(0.0, f64::max);
+    if end.residual.is_nan()
+        || end.residual > 1e-6 * largest * track.path_radius() / track.ball_radius
+    {
+        return Err(FrictionError::NotConverged {
+            residual: mu * end.residual,
+        });
     }
-    Ok(dimensional(track, &rows, &end.point, rest_spin, mu, nut_speed, end.residual))
+    Ok(dimensional(
+        track,
+        &rows,
+        &end.point,
+        rest_spin,
+        mu,
+        nut_speed,
+        end.residual,
+    ))
 }
 
 /// Grooves with their elasticity: four arcs of one radius around the ball.
@@ -399,7 +495,10 @@ impl ElasticGrooves {
         for ((arm, groove), angle) in arms.iter_mut().zip(Groove::ALL).zip(self.arc_angles) {
             let (sx, sz) = groove.signs();
             let moved = if groove.on_nut() { 0.0 } else { shift };
-            *arm = [position[0] + offset * sx * angle.cos(), position[1] + offset * sz * angle.sin() - moved];
+            *arm = [
+                position[0] + offset * sx * angle.cos(),
+                position[1] + offset * sz * angle.sin() - moved,
+            ];
         }
         arms
     }
@@ -416,11 +515,19 @@ impl ElasticGrooves {
             groove,
             load: 0.0,
             contact_angle: 0.0,
-            ellipse: if groove.on_nut() { self.nut.ellipse } else { self.screw.ellipse },
+            ellipse: if groove.on_nut() {
+                self.nut.ellipse
+            } else {
+                self.screw.ellipse
+            },
         });
         for (contact, arm) in contacts.iter_mut().zip(arms) {
             let (sx, sz) = contact.groove.signs();
-            let law = if contact.groove.on_nut() { self.nut } else { self.screw };
+            let law = if contact.groove.on_nut() {
+                self.nut
+            } else {
+                self.screw
+            };
             contact.load = law.load(arm[0].hypot(arm[1]) - self.offset() + self.oversize);
             contact.contact_angle = (arm[1] * sz).atan2(arm[0] * sx);
         }
@@ -430,9 +537,21 @@ impl ElasticGrooves {
     /// Elastic energy of one ball by `(x, z, screw displacement)`, in units of `unit` for the displacements.
     pub(crate) fn energy(&self, y: &Vector3<f64>, unit: f64) -> Local<3> {
         let cos_a = self.track.lead_angle().1;
-        let mut sum = Local { value: 0.0, gradient: Vector3::zeros(), hessian: SMatrix::zeros() };
-        for (arm, groove) in self.arms([y.x * unit, y.y * unit], y.z * unit).iter().zip(Groove::ALL) {
-            let law = if groove.on_nut() { self.nut } else { self.screw };
+        let mut sum = Local {
+            value: 0.0,
+            gradient: Vector3::zeros(),
+            hessian: SMatrix::zeros(),
+        };
+        for (arm, groove) in self
+            .arms([y.x * unit, y.y * unit], y.z * unit)
+            .iter()
+            .zip(Groove::ALL)
+        {
+            let law = if groove.on_nut() {
+                self.nut
+            } else {
+                self.screw
+            };
             let length = arm[0].hypot(arm[1]);
             let deflection = (length - self.offset() + self.oversize).max(0.0);
             let force = law.load(deflection);
@@ -458,7 +577,10 @@ impl ElasticGrooves {
         let reach = (self.screw.compliance + self.nut.compliance) * normal.powf(2.0 / 3.0);
         let offset = self.offset();
         let length = f64::max(2.0 * (offset - self.oversize) + reach, 0.0);
-        let travel = (length.powi(2) - (2.0 * offset * cos).powi(2)).max(0.0).sqrt() - 2.0 * offset * sin;
+        let travel = (length.powi(2) - (2.0 * offset * cos).powi(2))
+            .max(0.0)
+            .sqrt()
+            - 2.0 * offset * sin;
         (travel.max(0.0) / cos_a * axial_load.signum(), reach)
     }
 }

@@ -31,7 +31,11 @@ impl Support {
     ///
     /// `axial_load` is the screw's force on the ball along z: positive for SL-NR.
     pub fn of(axial_load: f64, nut_speed: f64) -> Self {
-        if (axial_load < 0.0) == (nut_speed > 0.0) { Self::ThirdOnScrew } else { Self::ThirdOnNut }
+        if (axial_load < 0.0) == (nut_speed > 0.0) {
+            Self::ThirdOnScrew
+        } else {
+            Self::ThirdOnNut
+        }
     }
 }
 
@@ -149,15 +153,25 @@ impl ThreePointModel {
         let orbital_speed = speed_ratio(track, support, angles) * nut_speed;
         let across = 0.5 * r * nut_speed * sin_a;
         let spin = match support {
-            Support::ThirdOnNut => nut_speed * cos_a + (nut_speed - orbital_speed) * path / (r * cos_b),
+            Support::ThirdOnNut => {
+                nut_speed * cos_a + (nut_speed - orbital_speed) * path / (r * cos_b)
+            }
             _ => orbital_speed * path / (r * cos_b),
         };
         // Spins of the contacts against their grooves.
         let spins = [spin * sin_b, (spin - nut_speed * cos_a) * sin_b];
         let contact = |ellipse: EllipseLaw, normal: f64, slip: f64, spin: f64| {
             let a = ellipse.semi_major_constant * normal.cbrt();
-            let patch = Patch { semi_major: a, semi_minor: a * ellipse.axis_ratio, friction_limit: mu * normal };
-            patch.friction(PatchVelocity { slip_major: slip, slip_minor: 0.0, spin })
+            let patch = Patch {
+                semi_major: a,
+                semi_minor: a * ellipse.axis_ratio,
+                friction_limit: mu * normal,
+            };
+            patch.friction(PatchVelocity {
+                slip_major: slip,
+                slip_minor: 0.0,
+                spin,
+            })
         };
         let ellipses = [self.screw.ellipse, self.nut.ellipse];
         let mut share = 0.5;
@@ -167,7 +181,9 @@ impl ThreePointModel {
             let next = ellipses
                 .iter()
                 .zip(spins)
-                .map(|(ellipse, spin)| contact(*ellipse, main_load, across, spin).gradient[0].abs() / (mu * main_load))
+                .map(|(ellipse, spin)| {
+                    contact(*ellipse, main_load, across, spin).gradient[0].abs() / (mu * main_load)
+                })
                 .sum::<f64>()
                 / 2.0;
             let change = (next - share).abs();

@@ -11,7 +11,6 @@ use super::ball_screw_ball::{
     ElasticGrooves, ScrewMotion, ScrewRow, ball_dissipation, ball_minimum, dimensional, rolling,
 };
 use super::newton::{Local, minimise};
-use super::patch::PatchVelocity;
 use super::{FrictionError, within};
 
 /// Which angular velocity enters the slip between two balls, (3.73).
@@ -74,6 +73,11 @@ impl ElasticMotion {
     }
 }
 
+/// Last smoothing of a contact that sticks, over the nut's speed: with finer ones rounding moves the contact through it.
+const FINEST: f64 = 1e-5;
+/// Coarsest smoothing that still counts as a solution, where rounding stops the sharpening (loads of millinewtons with play).
+const COARSEST: f64 = 1e-3;
+
 /// Unknowns of one ball: place in units of the approach, and motion in units of the nut's speed.
 const PER_BALL: usize = 6;
 
@@ -82,6 +86,8 @@ struct Problem<'a> {
     support: ScrewSupport,
     unit: f64,
     touching: bool,
+    /// Spin below which friction is smoothed, over the nut's speed; zero for Coulomb's law itself.
+    rest_spin: f64,
 }
 
 impl Problem<'_> {
@@ -93,8 +99,13 @@ impl Problem<'_> {
         let grooves = &self.balls.grooves[ball];
         let at = PER_BALL * ball;
         let displacement = q[PER_BALL * self.balls.grooves.len()] * self.unit;
-        let contacts = grooves.contacts_at([q[at] * self.unit, q[at + 1] * self.unit], displacement);
-        contacts.iter().filter(|c| c.load > 0.0).map(|c| ScrewRow::new(&grooves.track, *c)).collect()
+        let contacts =
+            grooves.contacts_at([q[at] * self.unit, q[at + 1] * self.unit], displacement);
+        contacts
+            .iter()
+            .filter(|c| c.load > 0.0)
+            .map(|c| ScrewRow::new(&grooves.track, *c))
+            .collect()
     }
 
     fn motion_of(ball: usize, q: &DVector<f64>) -> Vector4<f64> {
@@ -115,7 +126,10 @@ impl Problem<'_> {
             [y[1], y[2] - orbit * sin_a, y[3] - orbit * cos_a]
         };
         let (one, two) = (spin(0), spin(1));
-        [(one[0] + two[0]) * cos_b + (one[1] - two[1]) * sin_b, -(one[2] + two[2])]
+        [
+            (one[0] + two[0]) * cos_b + (one[1] - two[1]) * sin_b,
+            -(one[2] + two[2]),
+        ]
     }
 
     /// Unbalanced forces and moments (over `R_B`), N: per ball in-plane x and z, along the track (times path over ball
@@ -133,15 +147,21 @@ impl Problem<'_> {
             let (sin_a, cos_a) = self.balls.grooves[ball].track.lead_angle();
             let at = PER_BALL * ball;
             for row in &rows {
-                let v = row.velocity(&y);
-                let here = row.patch.friction(PatchVelocity { slip_major: v.x, slip_minor: v.y, spin: v.z });
+                let gradient = row.local(&y, self.rest_spin).gradient;
                 let (sx, sz) = row.contact.groove.signs();
-                let (nx, nz) = (sx * row.contact.contact_angle.cos(), sz * row.contact.contact_angle.sin());
-                let [across, along, _] = here.gradient.map(|g| -mu * sign * g);
-                let force = [-row.contact.load * nx + across * nz, along, -row.contact.load * nz - across * nx];
+                let (nx, nz) = (
+                    sx * row.contact.contact_angle.cos(),
+                    sz * row.contact.contact_angle.sin(),
+                );
+                let (across, along) = (-mu * sign * gradient.x, -mu * sign * gradient.y);
+                let force = [
+                    -row.contact.load * nx + across * nz,
+                    along,
+                    -row.contact.load * nz - across * nx,
+                ];
                 r[at] += force[0];
                 r[at + 1] += force[2];
-                let generalised = row.rows.transpose() * Vector3::from(here.gradient);
+                let generalised = row.rows.transpose() * gradient;
                 for i in 0..4 {
                     r[at + 2 + i] -= mu * sign * generalised[i];
                 }
@@ -152,7 +172,9 @@ impl Problem<'_> {
         }
         match self.support {
             ScrewSupport::Load(load) => r[axial] -= load,
-            ScrewSupport::Displacement(u) => r[axial] = (q[axial] - u / self.unit) * self.stiffness(),
+            ScrewSupport::Displacement(u) => {
+                r[axial] = (q[axial] - u / self.unit) * self.stiffness()
+            }
         }
         if self.touching {
             self.add_ball_contact(q, &mut r);
@@ -195,29 +217,84 @@ impl Problem<'_> {
         r[PER_BALL * n + 1] = difference * self.stiffness();
     }
 
-    /// Damped Newton steps with central differences, until the residual no longer falls.
+    /// Jacobian: by the power's Hessian for the motions, which a contact at rest makes stiff; central differences for places,
+    /// displacement and contact force, and for the friction between balls.
+    fn jacobian(&self, q: &DVector<f64>) -> Option<DMatrix<f64>> {
+        let n = self.balls.grooves.len();
+        let axial = PER_BALL * n;
+        let scale = self.balls.friction * self.balls.nut_speed.signum();
+        let mut jacobian = DMatrix::zeros(self.size(), self.size());
+        for ball in 0..n {
+            let y = Self::motion_of(ball, q);
+            let (sin_a, cos_a) = self.balls.grooves[ball].track.lead_angle();
+            let at = PER_BALL * ball;
+            for row in &self.rows_of(ball, q).ok()? {
+                let by_motion = row.local(&y, self.rest_spin).hessian * row.rows * -scale;
+                let (sx, sz) = row.contact.groove.signs();
+                let (nx, nz) = (
+                    sx * row.contact.contact_angle.cos(),
+                    sz * row.contact.contact_angle.sin(),
+                );
+                let generalised = row.rows.transpose() * by_motion;
+                for i in 0..4 {
+                    let column = at + 2 + i;
+                    jacobian[(at, column)] += by_motion[(0, i)] * nz;
+                    jacobian[(at + 1, column)] -= by_motion[(0, i)] * nx;
+                    for k in 0..4 {
+                        jacobian[(at + 2 + k, column)] += generalised[(k, i)];
+                    }
+                    if !row.contact.groove.on_nut() && matches!(self.support, ScrewSupport::Load(_))
+                    {
+                        jacobian[(axial, column)] +=
+                            by_motion[(1, i)] * sin_a - by_motion[(0, i)] * nx * cos_a;
+                    }
+                }
+            }
+        }
+        for j in 0..self.size() {
+            let motion = j < axial && j % PER_BALL >= 2;
+            if motion && !self.touching {
+                continue;
+            }
+            let step = 1e-7 * q[j].abs().max(0.1);
+            let (mut up, mut down) = (q.clone(), q.clone());
+            up[j] += step;
+            down[j] -= step;
+            let difference = if motion {
+                let (mut above, mut below) =
+                    (DVector::zeros(self.size()), DVector::zeros(self.size()));
+                self.add_ball_contact(&up, &mut above);
+                self.add_ball_contact(&down, &mut below);
+                above - below
+            } else {
+                self.residual(&up)? - self.residual(&down)?
+            };
+            let mut column = jacobian.column_mut(j);
+            column += difference / (2.0 * step);
+        }
+        Some(jacobian)
+    }
+
+    /// Damped Newton steps until the residual no longer falls.
     fn solve(&self, start: DVector<f64>, tolerance: f64) -> (DVector<f64>, f64) {
-        let size = self.size();
         let mut q = start;
-        let Some(mut r) = self.residual(&q) else { return (q, f64::INFINITY) };
-        for _ in 0..60 {
+        let Some(mut r) = self.residual(&q) else {
+            return (q, f64::INFINITY);
+        };
+        // With play and a light load the ball follows a curved valley in short steps; a few steps are the rule.
+        for _ in 0..400 {
             if r.amax() <= tolerance {
                 break;
             }
-            let mut jacobian = DMatrix::zeros(size, size);
-            for j in 0..size {
-                let step = 1e-6 * q[j].abs().max(1e-2);
-                let (mut up, mut down) = (q.clone(), q.clone());
-                up[j] += step;
-                down[j] -= step;
-                if let (Some(up), Some(down)) = (self.residual(&up), self.residual(&down)) {
-                    jacobian.set_column(j, &((up - down) / (2.0 * step)));
-                }
-            }
-            let Some(step) = jacobian.lu().solve(&r) else { break };
+            let Some(step) = self
+                .jacobian(&q)
+                .and_then(|jacobian| jacobian.lu().solve(&r))
+            else {
+                break;
+            };
             let mut fraction = 1.0;
             let mut moved = false;
-            while fraction > 1e-6 {
+            while fraction > 1e-5 {
                 let there = &q - &step * fraction;
                 if let Some(new) = self.residual(&there)
                     && new.norm() < (1.0 - 1e-4 * fraction) * r.norm()
@@ -263,13 +340,22 @@ impl ElasticBalls {
 
     /// Least energy with a constant in-plane force on every ball; the start of the solution with friction. Two balls share the load
     /// through one displacement of the screw: five unknowns.
-    fn elastic_start(&self, load: f64, push: [f64; 2]) -> Result<(Vec<[f64; 2]>, f64, f64), FrictionError> {
+    fn elastic_start(
+        &self,
+        load: f64,
+        push: [f64; 2],
+    ) -> Result<(Vec<[f64; 2]>, f64, f64), FrictionError> {
         let n = self.grooves.len() as f64;
         let first = self.grooves.first().ok_or(FrictionError::Undriven)?;
-        let (travel, reach) = first.two_point_start(within("axial_load", load.abs(), 1e-9, 1e9)? / n * load.signum());
+        let (travel, reach) =
+            first.two_point_start(within("axial_load", load.abs(), 1e-9, 1e9)? / n * load.signum());
         let unit = reach;
         let energy = |y: &SMatrix<f64, 5, 1>| {
-            let mut sum = Local { value: -load * unit * y[4], gradient: SMatrix::zeros(), hessian: SMatrix::zeros() };
+            let mut sum = Local {
+                value: -load * unit * y[4],
+                gradient: SMatrix::zeros(),
+                hessian: SMatrix::zeros(),
+            };
             sum.gradient[4] = -load * unit;
             for ball in 0..2 {
                 // A single ball is solved as two equal halves of a pair, each with its share of the load.
@@ -295,7 +381,9 @@ impl ElasticBalls {
         if residual.is_nan() || residual > 1e-4 * (load.abs() + push[0].hypot(push[1])) {
             return Err(FrictionError::NotConverged { residual });
         }
-        let positions = (0..self.grooves.len()).map(|b| [y[2 * b] * unit, y[2 * b + 1] * unit]).collect();
+        let positions = (0..self.grooves.len())
+            .map(|b| [y[2 * b] * unit, y[2 * b + 1] * unit])
+            .collect();
         Ok((positions, y[4] * unit, unit))
     }
 
@@ -311,8 +399,8 @@ impl ElasticBalls {
     ///
     /// Newton's method on the `7 n` (and with contact one more) equations: in-plane balance, balance along the track and of moments of each
     /// ball, the screw's axial balance, equal orbital speeds. Starts from the frictionless balance with the friction forces of
-    /// a pinned third contact, and motions of least dissipation there; if need be, friction is raised or
-    /// lowered to the wanted value in steps.
+    /// a pinned third contact, and motions of least dissipation there; where a contact sticks, from friction smoothed at rest that
+    /// is sharpened in steps down to 1e-5 of the nut's speed (at least 1e-3).
     ///
     /// Source: Lin 2019, eqs. (3.69) to (3.76). Corrected: (3.69) is lost in the text and rebuilt as six equations of balance per ball;
     /// for the front ball the outward part of the normal force does not reverse.
@@ -321,7 +409,9 @@ impl ElasticBalls {
     /// When an input is out of range, at `nut_speed = 0`, or when the residual stays above 1e-6 of the load.
     pub fn solve(&self, support: ScrewSupport) -> Result<ElasticMotion, FrictionError> {
         let apart = self.run(support, false)?;
-        let [rear, front] = apart.balls.as_slice() else { return Ok(apart) };
+        let [rear, front] = apart.balls.as_slice() else {
+            return Ok(apart);
+        };
         if rear.orbital_speed <= front.orbital_speed {
             return Ok(apart);
         }
@@ -338,35 +428,54 @@ impl ElasticBalls {
         if load == 0.0 {
             return Err(FrictionError::Undriven);
         }
+        let tolerance = 1e-12 * load.abs();
+        let accept = 1e-7 * load.abs();
+        let (cold, unit) = self.cold_start(load)?;
+        let problem = |touching: bool, rest_spin: f64| Problem {
+            balls: self,
+            support,
+            unit,
+            touching,
+            rest_spin,
+        };
         let mut best = f64::INFINITY;
-        for first_friction in [self.friction, f64::max(self.friction, 0.1), 0.2] {
-            let mut here = self.clone();
-            here.friction = first_friction;
-            here.ball_friction = 0.0;
-            let (q, unit) = here.cold_start(load)?;
-            let mut problem = Problem { balls: &here, support, unit, touching: false };
-            let tolerance = 1e-12 * load.abs();
-            let (mut q, mut residual) = problem.solve(q, tolerance);
-            // Friction is moved to the wanted value in steps of at most a fifth.
-            let mut friction = first_friction;
-            let mut now = here.clone();
-            while friction != self.friction && residual <= 1e-7 * load.abs() {
-                friction = self.friction.max(0.8 * friction);
-                now.friction = friction;
-                problem = Problem { balls: &now, support, unit, touching: false };
-                (q, residual) = problem.solve(q, tolerance);
+        let (mut q, mut residual) = problem(false, 0.0).solve(cold.clone(), tolerance);
+        let mut rest_spin = 0.0;
+        if residual > accept {
+            // A contact sticks in the solution or on the way: from smooth friction, sharpened as fast as Newton's method bears.
+            rest_spin = 3.0;
+            (q, residual) = problem(false, rest_spin).solve(cold, tolerance);
+            let mut factor = 0.3;
+            let mut refused = 0.0;
+            while residual <= accept && rest_spin > FINEST && factor < 0.98 {
+                let finer = f64::max(rest_spin * factor, FINEST);
+                let (next, left) = problem(false, finer).solve(q.clone(), tolerance);
+                if left <= accept {
+                    (q, residual, rest_spin) = (next, left, finer);
+                    factor = f64::max(factor * factor, 0.3);
+                    let (exact, left) = problem(false, 0.0).solve(q.clone(), tolerance);
+                    if rest_spin < 0.1 && left <= 1e-9 * load.abs() {
+                        (q, residual, rest_spin) = (exact, left, 0.0);
+                    }
+                } else {
+                    refused = left;
+                    factor = factor.sqrt();
+                }
             }
-            if touching && residual <= 1e-7 * load.abs() {
-                let problem = Problem { balls: self, support, unit, touching: true };
-                let mut longer = DVector::zeros(problem.size());
-                longer.rows_mut(0, q.len()).copy_from(&q);
-                (q, residual) = problem.solve(longer, tolerance);
+            if rest_spin > COARSEST {
+                residual = f64::max(residual, refused);
             }
-            best = best.min(residual);
-            if residual <= 1e-7 * load.abs() {
-                let problem = Problem { balls: self, support, unit, touching };
-                return Ok(self.result(&problem, &q, residual, n));
-            }
+        }
+        best = best.min(residual);
+        if residual <= accept && touching {
+            let joined = problem(true, rest_spin);
+            let mut longer = DVector::zeros(joined.size());
+            longer.rows_mut(0, q.len()).copy_from(&q);
+            (q, residual) = joined.solve(longer, tolerance);
+            best = residual;
+        }
+        if residual <= accept {
+            return Ok(self.result(&problem(touching, rest_spin), &q, residual, n));
         }
         Err(FrictionError::NotConverged { residual: best })
     }
@@ -396,7 +505,10 @@ impl ElasticBalls {
         // forward, NL for SL-NR loads.
         let turn = self.nut_speed.signum();
         let push = 1.4 * self.friction * normal;
-        let push = [push * turn * -angle.cos() * -load.signum(), push * turn * -angle.sin()];
+        let push = [
+            push * turn * -angle.cos() * -load.signum(),
+            push * turn * -angle.sin(),
+        ];
         let (positions, displacement, unit) = self.elastic_start(load, push)?;
         let mut q = DVector::zeros(PER_BALL * n + 1);
         q[PER_BALL * n] = displacement / unit;
@@ -416,18 +528,41 @@ impl ElasticBalls {
         Ok((q, unit))
     }
 
-    fn result(&self, problem: &Problem<'_>, q: &DVector<f64>, residual: f64, n: usize) -> ElasticMotion {
+    fn result(
+        &self,
+        problem: &Problem<'_>,
+        q: &DVector<f64>,
+        residual: f64,
+        n: usize,
+    ) -> ElasticMotion {
         let mut positions = Vec::with_capacity(n);
         let mut balls = Vec::with_capacity(n);
         for ball in 0..n {
             let y = Problem::motion_of(ball, q);
-            positions.push([q[PER_BALL * ball] * problem.unit, q[PER_BALL * ball + 1] * problem.unit]);
+            positions.push([
+                q[PER_BALL * ball] * problem.unit,
+                q[PER_BALL * ball + 1] * problem.unit,
+            ]);
             let rows = problem.rows_of(ball, q).unwrap_or_default();
             let track = &self.grooves[ball].track;
-            let unbalanced = ball_dissipation(&rows, &y, 0.0).gradient.amax();
-            balls.push(dimensional(track, &rows, &y, 0.0, self.friction, self.nut_speed, unbalanced));
+            let unbalanced = ball_dissipation(&rows, &y, problem.rest_spin)
+                .gradient
+                .amax();
+            balls.push(dimensional(
+                track,
+                &rows,
+                &y,
+                problem.rest_spin,
+                self.friction,
+                self.nut_speed,
+                unbalanced,
+            ));
         }
-        let contact_force = if problem.touching { q[PER_BALL * n + 1] * problem.stiffness() } else { 0.0 };
+        let contact_force = if problem.touching {
+            q[PER_BALL * n + 1] * problem.stiffness()
+        } else {
+            0.0
+        };
         let radius = self.grooves.first().map_or(0.0, |g| g.track.ball_radius);
         let ball_slip = if n == 2 {
             let slip = problem.slip_between(q);

@@ -7,7 +7,8 @@
 use nalgebra::{SMatrix, Vector4};
 
 use super::ball_screw_ball::{
-    ScrewContact, ScrewMotion, ScrewRow, ScrewTrack, ball_dissipation, ball_minimum, ball_rows, dimensional, rolling,
+    ScrewContact, ScrewMotion, ScrewRow, ScrewTrack, ball_dissipation, ball_minimum, ball_rows,
+    dimensional, rolling,
 };
 use super::newton::Local;
 use super::train_newton::{Train, solve_train};
@@ -54,7 +55,9 @@ impl Train<4> for Rows<'_> {
     }
 
     fn start(&self, ball: usize) -> Vector4<f64> {
-        ball_minimum(&self.balls[ball], rolling(self.track), false).0.point
+        ball_minimum(&self.balls[ball], rolling(self.track), false)
+            .0
+            .point
     }
 
     fn local(&self, ball: usize, y: &Vector4<f64>, rest_spin: f64) -> Local<4> {
@@ -71,8 +74,14 @@ impl Train<4> for Rows<'_> {
         let (sin_b, cos_b) = self.track.ball_contact_angle();
         let of = |way: f64| {
             SMatrix::<f64, 2, 4>::new(
-                -way * sin_b * sin_a, cos_b, way * sin_b, 0.0, //
-                cos_a, 0.0, 0.0, -1.0,
+                -way * sin_b * sin_a,
+                cos_b,
+                way * sin_b,
+                0.0, //
+                cos_a,
+                0.0,
+                0.0,
+                -1.0,
             )
         };
         [of(self.way), of(-self.way)]
@@ -83,7 +92,11 @@ impl Train<4> for Rows<'_> {
     }
 
     fn largest(&self) -> f64 {
-        self.balls.iter().flatten().map(|row| row.patch.friction_limit).fold(0.0, f64::max)
+        self.balls
+            .iter()
+            .flatten()
+            .map(|row| row.patch.friction_limit)
+            .fold(0.0, f64::max)
     }
 }
 
@@ -113,14 +126,26 @@ pub fn solve_screw_train(
     if nut_speed == 0.0 {
         return Err(FrictionError::Standstill);
     }
-    let rows = balls.iter().map(|contacts| ball_rows(track, contacts)).collect::<Result<Vec<_>, _>>()?;
-    let free_speeds =
-        rows.iter().map(|rows| ball_minimum(rows, rolling(track), false).0.point[0] * nut_speed).collect();
+    let rows = balls
+        .iter()
+        .map(|contacts| ball_rows(track, contacts))
+        .collect::<Result<Vec<_>, _>>()?;
+    let free_speeds = rows
+        .iter()
+        .map(|rows| ball_minimum(rows, rolling(track), false).0.point[0] * nut_speed)
+        .collect();
     let (_, cos_b) = track.ball_contact_angle();
     let arm = cos_b * track.path_radius() / track.ball_radius;
-    let train = Rows { track, balls: &rows, ball_friction: between / arm, way: nut_speed.signum() };
+    let train = Rows {
+        track,
+        balls: &rows,
+        ball_friction: between / arm,
+        way: nut_speed.signum(),
+    };
     let (solution, rest_spin) = solve_train(&train).map_err(|error| match error {
-        FrictionError::NotConverged { residual } => FrictionError::NotConverged { residual: mu * residual },
+        FrictionError::NotConverged { residual } => FrictionError::NotConverged {
+            residual: mu * residual,
+        },
         other => other,
     })?;
     let motions: Vec<_> = rows
@@ -133,12 +158,18 @@ pub fn solve_screw_train(
     let ball_slip: Vec<f64> = solution
         .points
         .windows(2)
-        .map(|pair| (of_rear * pair[0] + of_front * pair[1]).norm() * track.ball_radius * nut_speed.abs())
+        .map(|pair| {
+            (of_rear * pair[0] + of_front * pair[1]).norm() * track.ball_radius * nut_speed.abs()
+        })
         .collect();
     Ok(ScrewTrain {
         free_speeds,
         groove_loss: motions.iter().map(|m| m.power_loss).sum(),
-        ball_loss: contact_forces.iter().zip(&ball_slip).map(|(force, slip)| between * force * slip).sum(),
+        ball_loss: contact_forces
+            .iter()
+            .zip(&ball_slip)
+            .map(|(force, slip)| between * force * slip)
+            .sum(),
         balls: motions,
         contact_forces,
         ball_slip,

@@ -216,7 +216,11 @@ impl Train<3> for LinearTrain<'_> {
     }
 
     fn largest(&self) -> f64 {
-        self.contacts.iter().flatten().map(|c| c.friction_limit).fold(0.0, f64::max)
+        self.contacts
+            .iter()
+            .flatten()
+            .map(|c| c.friction_limit)
+            .fold(0.0, f64::max)
     }
 }
 
@@ -256,9 +260,14 @@ pub fn solve_chain(
         contacts.reverse();
     }
     // The friction coefficient scales groove forces and contact forces alike, so the ball's moments carry `ball_friction` alone.
-    let train = LinearTrain { contacts: &contacts, ball_friction };
+    let train = LinearTrain {
+        contacts: &contacts,
+        ball_friction,
+    };
     let (solution, rest_spin) = solve_train(&train).map_err(|error| match error {
-        FrictionError::NotConverged { residual } => FrictionError::NotConverged { residual: friction * residual },
+        FrictionError::NotConverged { residual } => FrictionError::NotConverged {
+            residual: friction * residual,
+        },
         other => other,
     })?;
     let (residual, iterations) = (solution.residual, solution.iterations);

@@ -27,7 +27,9 @@ pub(crate) trait Train<const N: usize> {
 /// Solves a train: the convex problem without friction between balls, then with it.
 ///
 /// Returns motions, multipliers and residual, and the smoothing they belong to.
-pub(crate) fn solve_train<const N: usize>(train: &impl Train<N>) -> Result<(TrainMinimum<N>, f64), FrictionError> {
+pub(crate) fn solve_train<const N: usize>(
+    train: &impl Train<N>,
+) -> Result<(TrainMinimum<N>, f64), FrictionError> {
     let cold: Vec<_> = (0..train.balls()).map(|j| train.start(j)).collect();
     let tolerance = 4e-14 * train.largest();
     let minimum_at = |start: &[SVector<f64, N>], rest_spin: f64| {
@@ -41,7 +43,11 @@ pub(crate) fn solve_train<const N: usize>(train: &impl Train<N>) -> Result<(Trai
         let stage = minimum_at(&points, rest_spin);
         iterations += stage.iterations;
         points.clone_from(&stage.points);
-        if points.iter().enumerate().all(|(j, y)| train.moves(j, y, rest_spin)) {
+        if points
+            .iter()
+            .enumerate()
+            .all(|(j, y)| train.moves(j, y, rest_spin))
+        {
             let exact = minimum_at(&points, 0.0);
             iterations += exact.iterations;
             if exact.residual <= 1e-10 * train.largest() {
@@ -63,7 +69,8 @@ pub(crate) fn solve_train<const N: usize>(train: &impl Train<N>) -> Result<(Trai
         } else {
             // Near the switch to two-point contact: raise the coefficient where the power is smooth, then sharpen it.
             let smooth = minimum_at(&cold, 0.1);
-            let mut path = raise_ball_friction(train, &smooth, 0.1, tolerance, 1e-8 * train.largest());
+            let mut path =
+                raise_ball_friction(train, &smooth, 0.1, tolerance, 1e-8 * train.largest());
             let mut spin = 0.1;
             let mut residual = f64::INFINITY;
             while let (Some(here), true) = (&path, spin > 1.0001e-8) {
@@ -79,7 +86,9 @@ pub(crate) fn solve_train<const N: usize>(train: &impl Train<N>) -> Result<(Trai
         }
     }
     if solution.residual.is_nan() || solution.residual > 1e-6 * train.largest() {
-        return Err(FrictionError::NotConverged { residual: solution.residual });
+        return Err(FrictionError::NotConverged {
+            residual: solution.residual,
+        });
     }
     solution.iterations += iterations;
     Ok((solution, rest_spin))
@@ -233,7 +242,9 @@ fn full_system<const N: usize>(
     let mut jacobian = DMatrix::zeros(size, size);
     for (j, local) in locals.iter().enumerate() {
         residual.rows_mut(N * j, N).copy_from(&local.gradient);
-        jacobian.view_mut((N * j, N * j), (N, N)).copy_from(&local.hessian);
+        jacobian
+            .view_mut((N * j, N * j), (N, N))
+            .copy_from(&local.hessian);
     }
     let [of_rear, of_front] = train.slip();
     for (k, (&force, pair)) in forces.iter().zip(points.windows(2)).enumerate() {
@@ -246,7 +257,8 @@ fn full_system<const N: usize>(
         let size = slip.norm();
         if size > 0.0 {
             let unit = slip / size;
-            let across = (SMatrix::<f64, 2, 2>::identity() - unit * unit.transpose()) * (ball_friction * force / size);
+            let across = (SMatrix::<f64, 2, 2>::identity() - unit * unit.transpose())
+                * (ball_friction * force / size);
             for (at, map) in [(rear, of_rear), (front, of_front)] {
                 let pull = map.transpose() * unit * ball_friction;
                 for i in 0..N {
@@ -284,7 +296,11 @@ fn solve_full_system<const N: usize>(
     // A force per speed of the size of a ball's stiffness, so that forces and partings weigh alike.
     let penalty = train.largest();
     let system = |points: &[SVector<f64, N>], forces: &[f64]| {
-        let locals: Vec<_> = points.iter().enumerate().map(|(j, y)| train.local(j, y, rest_spin)).collect();
+        let locals: Vec<_> = points
+            .iter()
+            .enumerate()
+            .map(|(j, y)| train.local(j, y, rest_spin))
+            .collect();
         full_system(train, &locals, points, forces, ball_friction, penalty)
     };
     let mut points = start.points.clone();
@@ -294,7 +310,9 @@ fn solve_full_system<const N: usize>(
     let mut stalled = 0;
     while iterations < 100 && stalled < 3 && residual.amax() > tolerance {
         iterations += 1;
-        let Some(step) = jacobian.clone().lu().solve(&residual) else { break };
+        let Some(step) = jacobian.clone().lu().solve(&residual) else {
+            break;
+        };
         let mut fraction = 1.0;
         loop {
             let there: Vec<_> = points
@@ -302,7 +320,11 @@ fn solve_full_system<const N: usize>(
                 .enumerate()
                 .map(|(j, y)| y - SVector::<f64, N>::from_fn(|i, _| step[N * j + i]) * fraction)
                 .collect();
-            let pushed: Vec<_> = forces.iter().enumerate().map(|(k, f)| f - fraction * step[N * n + k]).collect();
+            let pushed: Vec<_> = forces
+                .iter()
+                .enumerate()
+                .map(|(k, f)| f - fraction * step[N * n + k])
+                .collect();
             let (new, slope) = system(&there, &pushed);
             let better = new.norm() < (1.0 - 1e-4 * fraction) * residual.norm();
             if better || fraction < 1e-6 {
@@ -316,7 +338,12 @@ fn solve_full_system<const N: usize>(
         }
     }
     // Rounding may leave open contacts with a trace of force.
-    TrainMinimum { points, multipliers: forces.iter().map(|f| f.max(0.0)).collect(), residual: residual.amax(), iterations }
+    TrainMinimum {
+        points,
+        multipliers: forces.iter().map(|f| f.max(0.0)).collect(),
+        residual: residual.amax(),
+        iterations,
+    }
 }
 
 /// Follows the solution of the full system from no friction between balls to the train's, in strides as long as Newton's
@@ -333,7 +360,13 @@ fn raise_ball_friction<const N: usize>(
     let mut stride = 1.0;
     while reached < 1.0 {
         let target = f64::min(reached + stride, 1.0);
-        let mut next = solve_full_system(train, &here, target * train.ball_friction(), rest_spin, tolerance);
+        let mut next = solve_full_system(
+            train,
+            &here,
+            target * train.ball_friction(),
+            rest_spin,
+            tolerance,
+        );
         if next.residual <= accept {
             next.iterations += here.iterations;
             here = next;

@@ -59,7 +59,10 @@ impl WholeScrewState {
 
     /// Number of pressing ball-to-ball contacts.
     pub fn contacts(&self) -> usize {
-        self.contact_forces.iter().filter(|force| **force > 0.0).count()
+        self.contact_forces
+            .iter()
+            .filter(|force| **force > 0.0)
+            .count()
     }
 }
 
@@ -71,12 +74,29 @@ impl WholeScrew {
         let support = Support::of(self.axial_load, self.nut_speed);
         let angle = self.model.contact_angle;
         // The load is carried by SR-NL when negative along z: then the main contact on the screw is SR.
-        let main = if self.axial_load < 0.0 { deviation } else { -deviation };
-        let angles = match support {
-            Support::ThirdOnNut => ContactAngles { screw: angle + main, nut: angle, third: angle },
-            _ => ContactAngles { screw: angle + main, nut: angle, third: angle - main },
+        let main = if self.axial_load < 0.0 {
+            deviation
+        } else {
+            -deviation
         };
-        self.model.ball(support, angles, self.axial_load / self.balls as f64, self.nut_speed)
+        let angles = match support {
+            Support::ThirdOnNut => ContactAngles {
+                screw: angle + main,
+                nut: angle,
+                third: angle,
+            },
+            _ => ContactAngles {
+                screw: angle + main,
+                nut: angle,
+                third: angle - main,
+            },
+        };
+        self.model.ball(
+            support,
+            angles,
+            self.axial_load / self.balls as f64,
+            self.nut_speed,
+        )
     }
 
     /// Share of the track that the balls fill: `n 2 asin(2 pi R_B/L)/(2 pi turns)`, 97.8 per cent in the text.
@@ -96,7 +116,12 @@ impl WholeScrew {
     ///
     /// # Errors
     /// When an input is out of range, or the balls do not fit.
-    pub fn simulate(&self, nut_angle: f64, steps: usize, substeps: usize) -> Result<Vec<WholeScrewState>, FrictionError> {
+    pub fn simulate(
+        &self,
+        nut_angle: f64,
+        steps: usize,
+        substeps: usize,
+    ) -> Result<Vec<WholeScrewState>, FrictionError> {
         within("balls", self.balls as f64, 2.0, 1000.0)?;
         within("turns", self.turns, 0.1, 100.0)?;
         within("deviation", self.deviation, -0.2, 0.2)?;
@@ -120,18 +145,34 @@ impl WholeScrew {
         for count in 0..=steps * substeps {
             let balls: Vec<_> = azimuths
                 .iter()
-                .map(|phi| interpolate(&table, (self.deviation * (self.cycles * phi).sin() / size + 1.0) * TABLE as f64))
+                .map(|phi| {
+                    interpolate(
+                        &table,
+                        (self.deviation * (self.cycles * phi).sin() / size + 1.0) * TABLE as f64,
+                    )
+                })
                 .collect();
             let gaps: Vec<_> = (0..n)
                 .map(|j| {
-                    let ahead = if j + 1 < n { azimuths[j + 1] } else { azimuths[0] + way * ring };
+                    let ahead = if j + 1 < n {
+                        azimuths[j + 1]
+                    } else {
+                        azimuths[0] + way * ring
+                    };
                     (ahead - azimuths[j]) * way - diameter
                 })
                 .collect();
             let (speeds, forces) = self.press(&balls, &gaps, step);
             if count % substeps == 0 {
                 let nut_angle = count as f64 * step * self.nut_speed.abs();
-                states.push(self.state(nut_angle, &azimuths, &balls, speeds.clone(), forces, &gaps));
+                states.push(self.state(
+                    nut_angle,
+                    &azimuths,
+                    &balls,
+                    speeds.clone(),
+                    forces,
+                    &gaps,
+                ));
             }
             for (phi, speed) in azimuths.iter_mut().zip(&speeds) {
                 *phi += speed * step;
@@ -150,8 +191,9 @@ impl WholeScrew {
         let mut forces = vec![0.0; n];
         let mut active = vec![false; n];
         loop {
-            let speeds: Vec<_> =
-                (0..n).map(|j| free[j] + give[j] * (forces[(j + n - 1) % n] - forces[j])).collect();
+            let speeds: Vec<_> = (0..n)
+                .map(|j| free[j] + give[j] * (forces[(j + n - 1) % n] - forces[j]))
+                .collect();
             let mut grown = false;
             for j in 0..n {
                 let gap = gaps[j] + step * (speeds[(j + 1) % n] - speeds[j]);
@@ -233,7 +275,8 @@ fn interpolate(table: &[ThreePointBall], at: f64) -> ThreePointBall {
     let at = at.clamp(0.0, last as f64);
     let low = (at as usize).min(last - 1);
     let part = at - low as f64;
-    let mix = |f: fn(&ThreePointBall) -> f64| f(&table[low]) * (1.0 - part) + f(&table[low + 1]) * part;
+    let mix =
+        |f: fn(&ThreePointBall) -> f64| f(&table[low]) * (1.0 - part) + f(&table[low + 1]) * part;
     ThreePointBall {
         orbital_speed: mix(|b| b.orbital_speed),
         spin: mix(|b| b.spin),
