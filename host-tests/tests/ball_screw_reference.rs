@@ -2,8 +2,7 @@
 
 use epas_reference::friction::FrictionError;
 use epas_reference::friction::ball_screw_ball::{
-    ElasticGrooves, Groove, ScrewContact, ScrewMotion, ScrewTrack, motion_from,
-    motion_with_contacts,
+    Groove, ScrewContact, ScrewMotion, ScrewTrack, motion_from, motion_with_contacts,
 };
 use epas_reference::friction::ball_screw_closed::{
     ContactAngles, Support, ThreePointModel, speed_ratio,
@@ -11,6 +10,7 @@ use epas_reference::friction::ball_screw_closed::{
 use epas_reference::friction::ball_screw_elastic::{
     BallSlip, ElasticBalls, ElasticMotion, ScrewSupport,
 };
+use epas_reference::friction::ball_screw_grooves::ElasticGrooves;
 use epas_reference::friction::ball_screw_train::{ScrewTrain, solve_screw_train};
 use epas_reference::friction::contact_law::HertzLaw;
 use epas_reference::friction::linear_ball::EllipseLaw;
@@ -487,7 +487,7 @@ fn longer_trains_balance_and_reverse() {
     );
     let train: Vec<_> = [&one, &two, &one, &one, &two, &two, &one, &two]
         .iter()
-        .map(|c| c.to_vec())
+        .map(|c| (*c).clone())
         .collect();
     let forward = solve_screw_train(&TRACK, &train, 0.1, 0.1, TAU).unwrap();
     check_train(&forward, TAU);
@@ -768,7 +768,7 @@ fn hostile_input_converges_or_is_named() {
     match loose.solve(ScrewSupport::Load(-1e-3)) {
         Ok(motion) => assert!(motion.residual < 1e-9),
         Err(FrictionError::NotConverged { residual }) => {
-            assert!(residual.is_finite() && residual < 1e-3)
+            assert!(residual.is_finite() && residual < 1e-3);
         }
         Err(other) => panic!("{other}"),
     }

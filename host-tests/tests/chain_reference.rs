@@ -310,7 +310,7 @@ fn linear_model_three_ways() {
         assert!(
             f.iter()
                 .zip(&f2)
-                .all(|(a, b)| (a - b).abs() < 1e-13 * scale * n as f64),
+                .all(|(a, b)| (a - b).abs() < 1e-13 * scale * f64::from(n)),
             "n = {n}"
         );
     }

@@ -34,8 +34,7 @@ fn maps_agree_with_high_precision_values() {
             );
         }
         let columns = ["kappa", "f", "M", "P", "df"].map(|name| list(&case[name]));
-        for i in 0..columns[0].len() {
-            let x = columns[0][i];
+        for (i, &x) in columns[0].iter().enumerate() {
             let here = map.at(x);
             let mirrored = map.at(-x);
             assert_eq!(here.force, -mirrored.force);

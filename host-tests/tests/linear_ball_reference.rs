@@ -353,9 +353,9 @@ fn switch_to_rolling_where_the_moment_bound_says() {
     for _ in 0..40 {
         let middle = 0.5 * (rolling + spinning);
         if ratio_of(middle).0 < 0.05 {
-            rolling = middle
+            rolling = middle;
         } else {
-            spinning = middle
+            spinning = middle;
         }
     }
     let (_, ratio, up) = ratio_of(rolling);

@@ -177,7 +177,10 @@ fn four_groups_release_and_build_up_again() {
         "{second} {}",
         peak.ball_torque
     );
-    let grooves: Vec<_> = run.iter().map(|s| s.groove_torque()).collect();
+    let grooves: Vec<_> = run
+        .iter()
+        .map(epas_reference::friction::whole_screw::WholeScrewState::groove_torque)
+        .collect();
     let (low, high) = grooves
         .iter()
         .fold((f64::INFINITY, 0.0_f64), |(l, h), t| (l.min(*t), h.max(*t)));

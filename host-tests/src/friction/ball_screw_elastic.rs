@@ -8,8 +8,9 @@
 use nalgebra::{DMatrix, DVector, SMatrix, Vector3, Vector4};
 
 use super::ball_screw_ball::{
-    ElasticGrooves, ScrewMotion, ScrewRow, ball_dissipation, ball_minimum, dimensional, rolling,
+    ScrewMotion, ScrewRow, ball_dissipation, ball_minimum, dimensional, rolling,
 };
+use super::ball_screw_grooves::ElasticGrooves;
 use super::newton::{Local, minimise};
 use super::{FrictionError, within};
 
@@ -173,7 +174,7 @@ impl Problem<'_> {
         match self.support {
             ScrewSupport::Load(load) => r[axial] -= load,
             ScrewSupport::Displacement(u) => {
-                r[axial] = (q[axial] - u / self.unit) * self.stiffness()
+                r[axial] = (q[axial] - u / self.unit) * self.stiffness();
             }
         }
         if self.touching {

@@ -11,9 +11,20 @@
 //!
 //! | file | what |
 //! |---|---|
-//! | [`maps`] | one contact whose velocity centre lies on the major axis: (3.16) to (3.18) in closed form and as a one-dimensional integral |
-//! | [`patch`] | one contact with any velocity centre (ball screw), the exact one-dimensional reduction |
+//! | [`maps`] | one contact whose velocity centre lies on the major axis: (3.16) to (3.18) in closed form and as a line integral |
+//! | [`patch`] | one contact with any velocity centre (ball screw), the exact reduction to one integral |
 //! | [`area`] | the same integrals over the area of the ellipse, without any reduction, as the check |
+//! | [`contact_law`] | size and stiffness of a Hertzian contact, exact and as the dissertation takes it |
+//! | [`planar`] | equilibrium of a ball whose contacts slip along the track only |
+//! | [`linear_ball`] | ball of a linear bearing, statics, the published analytical formulas |
+//! | [`chain`] | chains of touching balls in a linear bearing, with and without ball-to-ball friction |
+//! | [`rotary_ball`] | four-point rotary bearing, statics and friction (Tables 3.1 and 3.2) |
+//! | [`ball_screw_ball`] | ball of a ball screw with given contacts, (3.65) to (3.69) |
+//! | [`ball_screw_grooves`] | the grooves as elastic arcs, (2.11) to (2.14) |
+//! | [`ball_screw_elastic`] | in-plane balance with elasticity, and two touching balls, (3.69) to (3.76) |
+//! | [`ball_screw_train`] | trains of any length with given contacts, (3.77) |
+//! | [`ball_screw_closed`] | closed-form orbital speed, spin, loads and compliance in a ball screw |
+//! | [`whole_screw`] | balls that recirculate (section 3.4.4) |
 //!
 //! Units: m, rad, s, N, W, Pa. Signs: the velocity of a contact is that of the ball minus that of
 //! the groove; forces and moments are those on the ball.
@@ -24,6 +35,7 @@ pub mod area;
 pub mod ball_screw_ball;
 pub mod ball_screw_closed;
 pub mod ball_screw_elastic;
+pub mod ball_screw_grooves;
 pub mod ball_screw_train;
 pub mod chain;
 pub mod contact_law;
