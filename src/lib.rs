@@ -41,8 +41,9 @@ pub mod model;
 pub mod scene;
 
 pub use ball::{
-    AnalyticLinearBall, BallChain, BallState, FourPointBall, LinearBallParameters, RotaryBall,
-    RotaryBallParameters, SpeedDeviation,
+    AnalyticLinearBall, BallChain, BallMotion, BallState, ContactMotion, FourPointBall,
+    FourPointContacts, LinearBallParameters, PUBLISHED_SLOPE, RotaryBall, RotaryBallParameters,
+    RotaryMotion, SpeedDeviation,
 };
 pub use contact::{Dissipation, FrictionMap, NormalizedFriction};
 pub use curvature::{

@@ -2,7 +2,7 @@
 //! simulation of manoeuvres, and the `eval` interface for other people's reference data.
 
 // The documentation of arguments is the program's help text, where back-quotes would only be noise.
-#![allow(clippy::doc_markdown)]
+#![allow(clippy::doc_markdown, rustdoc::broken_intra_doc_links)]
 
 mod cli;
 mod designs;

@@ -8,6 +8,7 @@
 pub mod curvature;
 pub mod efficiency;
 pub mod error;
+pub mod friction;
 pub mod hertz;
 pub mod kinematics;
 pub mod published;

@@ -1,0 +1,146 @@
+//! Grooves of a ball screw as elastic arcs: where a ball lies, and which contacts carry it (Lin 2019, eqs. (2.11) to (2.14)).
+
+use nalgebra::{SMatrix, Vector3};
+
+use super::ball_screw_ball::{Groove, ScrewContact, ScrewTrack};
+use super::contact_law::HertzLaw;
+use super::newton::Local;
+use super::{FrictionError, within};
+
+/// Grooves with their elasticity: four arcs of one radius around the ball.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ElasticGrooves {
+    /// Track.
+    pub track: ScrewTrack,
+    /// Groove radius, m.
+    pub groove_radius: f64,
+    /// Angles of the arc centres, SL, SR, NL, NR, rad: the nominal contact angle plus its deviation.
+    pub arc_angles: [f64; 4],
+    /// Contact law on the screw.
+    pub screw: HertzLaw,
+    /// Contact law on the nut.
+    pub nut: HertzLaw,
+    /// Ball radius above nominal, m; negative for play.
+    pub oversize: f64,
+}
+
+impl ElasticGrooves {
+    /// Checks the design.
+    ///
+    /// # Errors
+    /// When a value is outside its range.
+    pub fn check(&self) -> Result<(), FrictionError> {
+        self.track.check()?;
+        let r = self.track.ball_radius;
+        within("groove_radius", self.groove_radius, 1.001 * r, 2.0 * r)?;
+        for angle in self.arc_angles {
+            within("arc_angles", angle, 0.05, 1.5)?;
+        }
+        within("oversize", self.oversize, -0.2 * r, 0.05 * r)?;
+        for law in [self.screw, self.nut] {
+            within("compliance", law.compliance, 1e-15, 1.0)?;
+        }
+        Ok(())
+    }
+
+    pub(crate) fn offset(&self) -> f64 {
+        self.groove_radius - self.track.ball_radius
+    }
+
+    /// Vector from each arc's centre to the ball centre at `position` in the cross section, with the screw displaced axially.
+    fn arms(&self, position: [f64; 2], screw_displacement: f64) -> [[f64; 2]; 4] {
+        let shift = screw_displacement * self.track.lead_angle().1;
+        let offset = self.offset();
+        let mut arms = [[0.0; 2]; 4];
+        for ((arm, groove), angle) in arms.iter_mut().zip(Groove::ALL).zip(self.arc_angles) {
+            let (sx, sz) = groove.signs();
+            let moved = if groove.on_nut() { 0.0 } else { shift };
+            *arm = [
+                position[0] + offset * sx * angle.cos(),
+                position[1] + offset * sz * angle.sin() - moved,
+            ];
+        }
+        arms
+    }
+
+    /// Contacts at a given position of the ball centre in the cross section (x, z) and axial displacement of the screw.
+    ///
+    /// `deflection = |p - o| - (r_G - r_B) + oversize`, `F = (deflection/C)^(3/2)`, contact angle from the direction `p - o`.
+    /// An axial displacement `u` of the screw moves its arcs by `u cos a` along z: the rest is a slide along the helix.
+    ///
+    /// Source: Lin 2019, eqs. (2.11) to (2.14). Corrected: (2.11), the normal is orthogonal to the tangent.
+    pub fn contacts_at(&self, position: [f64; 2], screw_displacement: f64) -> [ScrewContact; 4] {
+        let arms = self.arms(position, screw_displacement);
+        let mut contacts = Groove::ALL.map(|groove| ScrewContact {
+            groove,
+            load: 0.0,
+            contact_angle: 0.0,
+            ellipse: if groove.on_nut() {
+                self.nut.ellipse
+            } else {
+                self.screw.ellipse
+            },
+        });
+        for (contact, arm) in contacts.iter_mut().zip(arms) {
+            let (sx, sz) = contact.groove.signs();
+            let law = if contact.groove.on_nut() {
+                self.nut
+            } else {
+                self.screw
+            };
+            contact.load = law.load(arm[0].hypot(arm[1]) - self.offset() + self.oversize);
+            contact.contact_angle = (arm[1] * sz).atan2(arm[0] * sx);
+        }
+        contacts
+    }
+
+    /// Elastic energy of one ball by `(x, z, screw displacement)`, in units of `unit` for the displacements.
+    pub(crate) fn energy(&self, y: &Vector3<f64>, unit: f64) -> Local<3> {
+        let cos_a = self.track.lead_angle().1;
+        let mut sum = Local {
+            value: 0.0,
+            gradient: Vector3::zeros(),
+            hessian: SMatrix::zeros(),
+        };
+        for (arm, groove) in self
+            .arms([y.x * unit, y.y * unit], y.z * unit)
+            .iter()
+            .zip(Groove::ALL)
+        {
+            let law = if groove.on_nut() {
+                self.nut
+            } else {
+                self.screw
+            };
+            let length = arm[0].hypot(arm[1]);
+            let deflection = (length - self.offset() + self.oversize).max(0.0);
+            let force = law.load(deflection);
+            if force > 0.0 {
+                let moved = if groove.on_nut() { 0.0 } else { -cos_a };
+                let along = Vector3::new(arm[0], arm[1], moved * arm[1]) * (unit / length);
+                let across = Vector3::new(-arm[1], arm[0], moved * arm[0]) * (unit / length);
+                sum.value += 0.4 * force * deflection;
+                sum.gradient += along * force;
+                sum.hessian += along * along.transpose() * (1.5 * force / deflection)
+                    + across * across.transpose() * (force / length);
+            }
+        }
+        sum
+    }
+
+    /// Approach of screw and nut under an axial load on the two-point pair that carries it: `(axial displacement, unit)`.
+    pub(crate) fn two_point_start(&self, axial_load: f64) -> (f64, f64) {
+        let angle = self.arc_angles.iter().sum::<f64>() / 4.0;
+        let (sin, cos) = angle.sin_cos();
+        let cos_a = self.track.lead_angle().1;
+        let normal = axial_load.abs() / (sin * cos_a);
+        let reach = (self.screw.compliance + self.nut.compliance) * normal.powf(2.0 / 3.0);
+        let offset = self.offset();
+        let length = f64::max(2.0 * (offset - self.oversize) + reach, 0.0);
+        let travel = (length.powi(2) - (2.0 * offset * cos).powi(2))
+            .max(0.0)
+            .sqrt()
+            - 2.0 * offset * sin;
+        (travel.max(0.0) / cos_a * axial_load.signum(), reach)
+    }
+}

@@ -1,0 +1,117 @@
+//! Friction of balls between grooves and between each other, by the exact Coulomb model (Lin 2019, ch. 3.2 to 3.4).
+//!
+//! The models rest on one fact that the dissertation does not state. For given normal loads and
+//! contact angles, the power lost in the Coulomb contacts is a convex function of the ball's
+//! motion, homogeneous of degree one, and the equilibrium of friction forces and moments
+//! ((3.19), (3.25), the friction rows of (3.69)) is that its gradient vanishes: **a ball moves so
+//! that it loses the least power**. So the motion is the minimum of a convex function: it exists,
+//! the loss and the forces are unique, and a damped Newton method finds it from any start. The
+//! ball-to-ball contact force is the multiplier of the constraint that a ball behind must not be
+//! faster than the ball in front.
+//!
+//! | file | what |
+//! |---|---|
+//! | [`maps`] | one contact whose velocity centre lies on the major axis: (3.16) to (3.18) in closed form and as a line integral |
+//! | [`patch`] | one contact with any velocity centre (ball screw), the exact reduction to one integral |
+//! | [`area`] | the same integrals over the area of the ellipse, without any reduction, as the check |
+//! | [`contact_law`] | size and stiffness of a Hertzian contact, exact and as the dissertation takes it |
+//! | [`planar`] | equilibrium of a ball whose contacts slip along the track only |
+//! | [`linear_ball`] | ball of a linear bearing, statics, the published analytical formulas |
+//! | [`chain`] | chains of touching balls in a linear bearing, with and without ball-to-ball friction |
+//! | [`rotary_ball`] | four-point rotary bearing, statics and friction (Tables 3.1 and 3.2) |
+//! | [`ball_screw_ball`] | ball of a ball screw with given contacts, (3.65) to (3.69) |
+//! | [`ball_screw_grooves`] | the grooves as elastic arcs, (2.11) to (2.14) |
+//! | [`ball_screw_elastic`] | in-plane balance with elasticity, and two touching balls, (3.69) to (3.76) |
+//! | [`ball_screw_train`] | trains of any length with given contacts, (3.77) |
+//! | [`ball_screw_closed`] | closed-form orbital speed, spin, loads and compliance in a ball screw |
+//! | [`whole_screw`] | balls that recirculate (section 3.4.4) |
+//!
+//! Units: m, rad, s, N, W, Pa. Signs: the velocity of a contact is that of the ball minus that of
+//! the groove; forces and moments are those on the ball.
+
+use std::fmt;
+
+pub mod area;
+pub mod ball_screw_ball;
+pub mod ball_screw_closed;
+pub mod ball_screw_elastic;
+pub mod ball_screw_grooves;
+pub mod ball_screw_train;
+pub mod chain;
+pub mod contact_law;
+pub mod linear_ball;
+pub mod maps;
+mod newton;
+pub mod patch;
+pub mod planar;
+pub mod rotary_ball;
+mod train_newton;
+pub mod whole_screw;
+
+/// Why a friction model could not answer.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum FrictionError {
+    /// An input outside the range in which the model means something.
+    OutOfRange {
+        /// Name of the input, as spelled in the structure or argument list.
+        field: &'static str,
+        /// The value given.
+        value: f64,
+        /// Smallest value allowed.
+        min: f64,
+        /// Largest value allowed.
+        max: f64,
+    },
+    /// Coulomb friction does not depend on the magnitude of the speed, and has no direction at rest.
+    Standstill,
+    /// The loaded contacts leave the speed of the ball open (a loaded contact is missing on one side).
+    Undriven,
+    /// The iteration stopped before the residual came under its tolerance.
+    NotConverged {
+        /// Largest residual left, in N.
+        residual: f64,
+    },
+}
+
+impl fmt::Display for FrictionError {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::OutOfRange {
+                field,
+                value,
+                min,
+                max,
+            } => {
+                write!(out, "{field} = {value} is outside {min} to {max}")
+            }
+            Self::Standstill => write!(
+                out,
+                "speed is zero: Coulomb friction has no direction at rest"
+            ),
+            Self::Undriven => write!(out, "the loaded contacts leave the speed of the ball open"),
+            Self::NotConverged { residual } => write!(out, "no convergence, {residual} N left"),
+        }
+    }
+}
+
+impl std::error::Error for FrictionError {}
+
+/// Passes `value` when it is finite and lies in `min..=max`.
+pub(crate) fn within(
+    field: &'static str,
+    value: f64,
+    min: f64,
+    max: f64,
+) -> Result<f64, FrictionError> {
+    if value.is_finite() && value >= min && value <= max {
+        Ok(value)
+    } else {
+        Err(FrictionError::OutOfRange {
+            field,
+            value,
+            min,
+            max,
+        })
+    }
+}

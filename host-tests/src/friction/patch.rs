@@ -1,0 +1,138 @@
+//! Friction of one Hertzian contact with slip in both directions and spin (Lin 2019, eqs. (3.65) to (3.69)).
+
+use super::maps::gauss_rule;
+
+/// One loaded contact ellipse with Coulomb friction.
+///
+/// Coordinates in the contact plane: 1 along the major axis, 2 along the minor axis, the normal
+/// completing a right-handed system. Velocity of the ball against the groove at the point `(x, y)`:
+/// `(slip_1 - spin y, slip_2 + spin x)`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Patch {
+    /// Semi-major axis, m.
+    pub semi_major: f64,
+    /// Semi-minor axis, m; not larger than the semi-major axis, and positive.
+    pub semi_minor: f64,
+    /// Friction coefficient times normal load, N.
+    pub friction_limit: f64,
+}
+
+/// Velocity of the ball against the groove at a contact.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PatchVelocity {
+    /// Slip at the contact centre along the major axis, m/s.
+    pub slip_major: f64,
+    /// Slip at the contact centre along the minor axis, m/s.
+    pub slip_minor: f64,
+    /// Relative spin about the normal, rad/s.
+    pub spin: f64,
+}
+
+impl PatchVelocity {
+    /// As a column `(slip_major, slip_minor, spin)`.
+    pub const fn to_array(self) -> [f64; 3] {
+        [self.slip_major, self.slip_minor, self.spin]
+    }
+}
+
+/// Power lost in a contact with its first and second derivatives by `(slip_major, slip_minor, spin)`.
+///
+/// Minus the gradient is friction force and moment on the ball.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PatchFriction {
+    /// Power lost, W.
+    pub power: f64,
+    /// Gradient of the power: N, N, N m.
+    pub gradient: [f64; 3],
+    /// Hessian of the power; positive semi-definite, and zero along the velocity itself (degree one).
+    pub hessian: [[f64; 3]; 3],
+}
+
+/// Beyond this scaled distance of the velocity centre the contact is taken at this distance: force and moment differ
+/// from their limits by less than one part in 1e12.
+const FARTHEST: f64 = 1e12;
+
+impl Patch {
+    /// Power, force and moment by the exact reduction of the area integrals to one integral.
+    ///
+    /// In the plane scaled to the unit disc let the velocity centre lie at distance `e` from the contact centre.
+    /// Along a straight line through the velocity centre, at distance `s` from the contact centre, the
+    /// direction of slip is constant and the pressure is a half-ellipse, so the integral along the
+    /// line is elementary. There remains, with `h^2 = 1 - s^2`, `k^2 = e^2 - s^2`, `s = min(e, 1) sin t` and
+    /// `g` the length of the physical image of the line's unit direction,
+    ///
+    /// `P = |w| (3 mu N/4) int h^2 (k^2 + h^2/4) g (min(e, 1) cos t/k) dt`, t from -pi/2 to pi/2,
+    ///
+    /// and likewise the force, the moment about the contact centre (in a form that does not cancel when the velocity
+    /// centre is far away) and all second derivatives. One smooth integrand serves a centre inside and outside
+    /// the ellipse; 160 Gauss nodes.
+    ///
+    /// A contact at rest (all three zero) gives zero power, force, moment and Hessian.
+    ///
+    /// Source: Lin 2019, eqs. (3.15) to (3.18) and (3.68); the reduction is not in the text.
+    pub fn friction(&self, velocity: PatchVelocity) -> PatchFriction {
+        let (a, b) = (self.semi_major, self.semi_minor);
+        let [v1, v2, spin] = velocity.to_array();
+        let far = (v2 / a).hypot(v1 / b);
+        if far == 0.0 && spin == 0.0 {
+            return PatchFriction::default();
+        }
+        let w = spin.abs().max(far / FARTHEST);
+        let sign = if spin < 0.0 { -1.0 } else { 1.0 };
+        // Velocity centre, where slip - spin y = 0 and slip + spin x = 0, scaled to the unit disc.
+        let (centre_1, centre_2) = (-sign * v2 / (w * a), sign * v1 / (w * b));
+        let e = centre_1.hypot(centre_2);
+        let (cos_p, sin_p) = if e > 0.0 {
+            (centre_1 / e, centre_2 / e)
+        } else {
+            (1.0, 0.0)
+        };
+        let reach = e.min(1.0);
+        let inverse = if e > 1.0 { 1.0 / e } else { 1.0 };
+
+        let mut power = 0.0;
+        let mut gradient = [0.0; 3];
+        let mut hessian = [[0.0; 3]; 3];
+        for &(node, weight) in gauss_rule() {
+            let t = std::f64::consts::FRAC_PI_2 * node;
+            let (sin_t, cos_t) = t.sin_cos();
+            let s = reach * sin_t;
+            let h2 = 1.0 - s * s;
+            // Angle between the line and the direction to the contact centre: sin = s/e.
+            let sin_a = inverse * sin_t;
+            let cos_a = if e > 1.0 {
+                ((1.0 - sin_a) * (1.0 + sin_a)).sqrt()
+            } else {
+                cos_t
+            };
+            let k = e * cos_a;
+            // Step of the line's angle, d theta = min(e, 1) cos t / k dt.
+            let turn = weight * inverse * cos_t / cos_a;
+            let along = (
+                -(cos_p * cos_a - sin_p * sin_a),
+                -(sin_p * cos_a + cos_p * sin_a),
+            );
+            let (u1, u2) = (a * along.0, b * along.1);
+            let g = u1.hypot(u2);
+            power += turn * h2 * (k * k + 0.25 * h2) * g;
+            gradient[0] -= turn * h2 * k * u2 / g;
+            gradient[1] += turn * h2 * k * u1 / g;
+            // Moment about the contact centre: of the resultant at the middle of the chord, and of its spread.
+            gradient[2] +=
+                turn * h2 * (0.25 * h2 * g - k * s * (a - b) * (a + b) * along.0 * along.1 / g);
+            let normal = [u1, u2, -s * a * b];
+            let scale = turn * h2 / (g * g * g);
+            for (row, n_i) in hessian.iter_mut().zip(normal) {
+                for (entry, n_j) in row.iter_mut().zip(normal) {
+                    *entry += scale * n_i * n_j;
+                }
+            }
+        }
+        let limit = 0.75 * std::f64::consts::FRAC_PI_2 * self.friction_limit;
+        PatchFriction {
+            power: limit * w * power,
+            gradient: gradient.map(|x| sign * limit * x),
+            hessian: hessian.map(|row| row.map(|x| limit * x / w)),
+        }
+    }
+}
