@@ -28,6 +28,11 @@ pub fn run() -> Result<(), Failure> {
     match Cli::parse().command {
         Some(Command::Simulate(arguments)) => simulate::run(&arguments),
         Some(Command::Eval(arguments)) => eval::run(&arguments),
-        None => Ok(()),
+        None => { tmp(); Ok(()) }
+    }
+}
+pub fn tmp() {
+    for c in crate::timing::compete(400).unwrap_or_default() {
+        println!("{:46} {:44} lat {:7.2} [{:6.2} {:6.2}] x{:6.2}  thr {:7.2} [{:6.2} {:6.2}] x{:6.2}", c.group, c.name, c.latency.median, c.latency.quartiles.0, c.latency.quartiles.1, c.ratios.0, c.throughput.median, c.throughput.quartiles.0, c.throughput.quartiles.1, c.ratios.1);
     }
 }

@@ -17,3 +17,4 @@ fn main() -> ExitCode {
         Err(failure) => failure.report(),
     }
 }
+mod timing;
