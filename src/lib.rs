@@ -18,6 +18,7 @@
 //! | [`curvature`] | groove curvature: literature, circular groove, fitted, exact |
 //! | [`hertz`] | contact ellipse, deflection, pressure |
 //! | [`efficiency`] | closed-form efficiency, self-locking, optimum, design procedure |
+//! | [`kinematics`] | rolling, side and spin slip of a contact, their ratios and friction power |
 //! | [`scene`] | what a mechanism needs and what it leaves out |
 //! | [`model`] | configured once, stepped in the interrupt |
 //!
@@ -29,6 +30,7 @@ pub mod efficiency;
 pub mod error;
 pub mod geometry;
 pub mod hertz;
+pub mod kinematics;
 pub mod material;
 pub mod math;
 pub mod model;
@@ -49,6 +51,10 @@ pub use geometry::{
     LinearBearing, LinearBearingParameters, NamedDesign,
 };
 pub use hertz::{ContactEllipse, HertzContact};
+pub use kinematics::{
+    BallKinematics, ContactKinematics, ContactSlip, EllipticContact, FrictionPower,
+    KinematicsParameters, PitchMethod, SlipRatios, SlipVector, TraditionalKinematics,
+};
 pub use material::{Material, contact_modulus};
 pub use model::FrictionModel;
 pub use scene::{

@@ -344,7 +344,10 @@ mod tests {
     #[test]
     fn a_design_file_equals_the_built_in_design() {
         let built_in = "32x20x6.35".parse::<DesignSource>().unwrap().load();
-        assert_eq!(parse(GOOD).unwrap().configuration, built_in.unwrap().configuration);
+        assert_eq!(
+            parse(GOOD).unwrap().configuration,
+            built_in.unwrap().configuration
+        );
     }
 
     #[test]
@@ -378,7 +381,13 @@ mod tests {
             let error = parse(&format!("{GOOD}{addition}\n")).unwrap_err();
             assert!(error.contains(field), "{addition}: {error}");
         }
-        for field in ["nominal_diameter", "lead", "ball_diameter", "conformity", "contact_angle"] {
+        for field in [
+            "nominal_diameter",
+            "lead",
+            "ball_diameter",
+            "conformity",
+            "contact_angle",
+        ] {
             let rest: String = GOOD
                 .lines()
                 .filter(|line| !line.starts_with(field))

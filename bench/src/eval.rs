@@ -1,5 +1,6 @@
 //! `eval`: one JSON object a line in, one a line out, in order.
 
+mod contact_kinematics;
 mod efficiency;
 mod fields;
 mod groove_curvature;
@@ -37,6 +38,11 @@ use lines::{Line, Lines};
 /// [ball_density]
 ///
 /// hertz: relative_radius_1, relative_radius_2, load, contact_modulus
+///
+/// contact_kinematics: ball_diameter, pitch_radius, lead_angle, groove_radius_screw,
+/// groove_radius_nut, contact_angle_screw, contact_angle_nut, pitch_angle, yaw_angle,
+/// rolling_radius_screw, rolling_radius_nut, speed, semi_major_screw, semi_minor_screw,
+/// semi_major_nut, semi_minor_nut
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// File with the requests; stdin without it or for -
@@ -69,11 +75,12 @@ fn json(value: &impl Serialize) -> Result<Box<RawValue>, BadField> {
 type Model = fn(Fields) -> Result<Answer, BadField>;
 
 /// Every model by its name.
-const MODELS: [(&str, Model); 4] = [
+const MODELS: [(&str, Model); 5] = [
     ("groove_curvature", groove_curvature::evaluate),
     ("efficiency", efficiency::evaluate),
     ("steady_state", steady_state::evaluate),
     ("hertz", hertz::evaluate),
+    ("contact_kinematics", contact_kinematics::evaluate),
 ];
 
 /// A line of the output.

@@ -29,10 +29,7 @@ impl Existing {
 }
 
 fn in_the_way(path: &Path) -> Failure {
-    Failure::Data(format!(
-        "{} exists; --force replaces it",
-        path.display()
-    ))
+    Failure::Data(format!("{} exists; --force replaces it", path.display()))
 }
 
 /// A file beside its place, which takes it only when it is complete; dropped before, it leaves nothing.

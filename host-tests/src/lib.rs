@@ -9,6 +9,7 @@ pub mod curvature;
 pub mod efficiency;
 pub mod error;
 pub mod hertz;
+pub mod kinematics;
 pub mod published;
 pub mod steady_state;
 

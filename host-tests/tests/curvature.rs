@@ -95,8 +95,8 @@ const GROOVES: [Groove; 2] = [Groove::Screw, Groove::Nut];
 /// Inputs are exact in f32. About 20 roundings of 2^-24 follow one another, those of `A` and `D` to
 /// the third power; measured worst 4e-7, promised 1e-6. Near the nut's zero of kappa1 the bound is
 /// absolute, 1e-7 of kappa2. Where the screw's surface is about to fold (`A` small) the cosine of the
-/// contact angle, the curvature of the path and their product, each rounded to 2^-24, enter as
-/// 3 x 2^-24 / A: the bound grows below A = 0.2.
+/// contact angle, the curvature of the path and their product, each rounded to 2^-24, enter with
+/// 2^-24 / A: four such roundings, and the bound grows below A = 0.3.
 #[test]
 fn exact_form_holds_in_f32_over_all_cases() {
     let mut worst = [0.0_f64; 2];
@@ -106,7 +106,7 @@ fn exact_form_holds_in_f32_over_all_cases() {
         for groove in GROOVES {
             let truth = case.truth(groove);
             let computed = case.arch(groove).principal(case.contact_angle());
-            let allowed1 = (1e-6 * truth.kappa1.abs() * (0.2 / case.area(groove)).max(1.0))
+            let allowed1 = (1e-6 * truth.kappa1.abs() * (0.3 / case.area(groove)).max(1.0))
                 .max(1e-7 * truth.kappa2.abs());
             let error1 = f64::from(computed.kappa1) - truth.kappa1;
             let error2 = f64::from(computed.kappa2) / truth.kappa2 - 1.0;
@@ -117,7 +117,7 @@ fn exact_form_holds_in_f32_over_all_cases() {
                 truth.kappa1,
                 truth.kappa2
             );
-            if case.area(groove) > 0.2 && error1.abs() > 1e-7 * truth.kappa2.abs() {
+            if case.area(groove) > 0.3 && error1.abs() > 1e-7 * truth.kappa2.abs() {
                 worst[0] = worst[0].max((error1 / truth.kappa1).abs());
                 sum[0] += error1 / truth.kappa1;
             }

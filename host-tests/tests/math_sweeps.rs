@@ -166,7 +166,7 @@ fn check_angles(stride: usize) {
             full_turn,
             &absolute_sin as &(dyn Fn(f32) -> f64 + Sync),
         ),
-        ("cos, absolute", 1.2e-7, full_turn, &absolute_cos),
+        ("cos, absolute", 1e-7, full_turn, &absolute_cos),
         // The same beside a smallest value of 0.5 in the leading octave, 2^-24 of the reduced angle.
         ("sin, relative", 2e-7, full_turn, &relative_sin),
         ("cos, relative", 2e-7, full_turn, &relative_cos),

@@ -51,7 +51,7 @@ impl FittedCurvature {
     }
 
     /// The fit for contact angles 0 to `largest_contact_angle`, rad, 0.2 to 1.55; outside it is
-    /// moved to the nearer bound. Set-up only: about 2000 cycles.
+    /// moved to the nearer bound. Set-up only: five exact curvatures and one 5 x 5 system.
     #[must_use]
     pub fn new(arch: &GothicArch, largest_contact_angle: f32) -> Self {
         let half_range = 0.5 * largest_contact_angle.clamp(0.2, 1.55);

@@ -72,7 +72,7 @@ struct Section {
 }
 
 impl BallScrew {
-    /// Checks every field and folds the constants. Set-up only: about 500 cycles.
+    /// Checks every field and folds the constants. Set-up only.
     ///
     /// # Errors
     /// [`Error`] naming the first field that is not finite or out of range: `pitch_radius`, `lead`,

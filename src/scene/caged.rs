@@ -231,7 +231,12 @@ impl CagedConstants {
         } else if load_work > 0.0 {
             load_work / (load_work + full)
         } else {
-            (1.0 + full / load_work).max(LEAST_EFFICIENCY)
+            let efficiency = 1.0 + full / load_work;
+            if efficiency > LEAST_EFFICIENCY {
+                efficiency
+            } else {
+                LEAST_EFFICIENCY
+            }
         };
         let regime = if speed.abs() < self.reversal_speed {
             Regime::Standing

@@ -114,10 +114,9 @@ impl Limits {
             let faults = Faults::NONE
                 .with(nut_speed.abs() > self.nut_speed, Faults::SPEED_RANGE)
                 .with(axial_load.abs() > self.axial_load, Faults::LOAD_RANGE);
-            // `max` and `min` rather than `clamp`, which panics where the bounds are not ordered.
             let admitted = Inputs {
-                nut_speed: nut_speed.max(-self.nut_speed).min(self.nut_speed),
-                axial_load: axial_load.max(-self.axial_load).min(self.axial_load),
+                nut_speed: bounded(nut_speed, self.nut_speed),
+                axial_load: bounded(axial_load, self.axial_load),
             };
             (Some(admitted), faults)
         } else {
@@ -131,10 +130,24 @@ impl Limits {
     /// The friction torque within its limit, and whether it was cut.
     #[inline]
     pub(crate) fn limit_torque(&self, torque: f32) -> (f32, Faults) {
-        let limited = torque.max(-self.friction_torque).min(self.friction_torque);
         (
-            limited,
+            bounded(torque, self.friction_torque),
             Faults::NONE.with(torque.abs() > self.friction_torque, Faults::TORQUE_LIMIT),
         )
+    }
+}
+
+/// `value` within plus and minus `bound`.
+///
+/// Written with comparisons: `max` and `min` become calls of C functions on a Cortex-M, and `clamp`
+/// keeps a panic for bounds that are not ordered.
+#[inline]
+fn bounded(value: f32, bound: f32) -> f32 {
+    if value > bound {
+        bound
+    } else if value < -bound {
+        -bound
+    } else {
+        value
     }
 }

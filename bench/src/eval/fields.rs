@@ -107,11 +107,7 @@ impl<'a> Fields<'a> {
     }
 
     /// Takes a name and gives what stands beside it.
-    pub fn choice<T: Copy>(
-        &mut self,
-        field: &str,
-        choices: &[(&str, T)],
-    ) -> Result<T, BadField> {
+    pub fn choice<T: Copy>(&mut self, field: &str, choices: &[(&str, T)]) -> Result<T, BadField> {
         let raw = self.take(field)?;
         let name: Option<Cow<str>> = serde_json::from_str(raw.get()).ok();
         choices

@@ -2,8 +2,8 @@
 
 use epas_friction::curvature::DEFAULT_FIT_RANGE;
 use epas_friction::{
-    CircularGrooveCurvature, ContactAngle, FittedCurvature, GothicArch, Groove,
-    GrooveProfile, HelixPath, LiteratureCurvature,
+    CircularGrooveCurvature, ContactAngle, FittedCurvature, GothicArch, Groove, GrooveProfile,
+    HelixPath, LiteratureCurvature,
 };
 use epas_reference::curvature::{self, Surface};
 use serde::Serialize;

@@ -46,7 +46,12 @@ pub fn evaluate(mut fields: Fields) -> Result<Answer, BadField> {
     in_range("ball_radius", ball_radius, 1e-5, pitch_radius)?;
     in_range("speed", speed, -1e6, 1e6)?;
     in_range("axial_load", axial_load, 1e-3, 1e7)?;
-    let density = in_range("ball_density", ball_density.unwrap_or(BALL_DENSITY), 1.0, 1e5)?;
+    let density = in_range(
+        "ball_density",
+        ball_density.unwrap_or(BALL_DENSITY),
+        1.0,
+        1e5,
+    )?;
 
     let (r_b, r_m) = (ball_radius as f32, pitch_radius as f32);
     let geometry = EfficiencyGeometry::new(lead_angle as f32, contact_angle as f32, r_b / r_m)?;

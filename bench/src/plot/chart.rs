@@ -7,7 +7,9 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::{Axis, FONT, LABEL_SIZE, LINE_HEIGHT, PALETTE, TEXT, TICK_SIZE, TITLE_SIZE, text_width};
+use super::{
+    Axis, FONT, LABEL_SIZE, LINE_HEIGHT, PALETTE, TEXT, TICK_SIZE, TITLE_SIZE, text_width,
+};
 
 /// How a series is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -184,8 +186,9 @@ impl Chart {
         for (px, py, text) in &self.notes {
             if let (Some(px), Some(py)) = (self.x.place(*px), self.y.place(*py)) {
                 let style = tick_style().pos(Pos::new(HPos::Left, VPos::Center));
-                context.draw_series([EmptyElement::at((px, py))
-                    + Text::new(text.clone(), (10, 0), style)])?;
+                context.draw_series([
+                    EmptyElement::at((px, py)) + Text::new(text.clone(), (10, 0), style)
+                ])?;
             }
         }
         Ok(())

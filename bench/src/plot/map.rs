@@ -47,11 +47,7 @@ fn colour(share: f64) -> RGBColor {
     let mix = |low: u8, high: u8| {
         (f64::from(low) + rest * (f64::from(high) - f64::from(low))).round() as u8
     };
-    RGBColor(
-        mix(low.0, high.0),
-        mix(low.1, high.1),
-        mix(low.2, high.2),
-    )
+    RGBColor(mix(low.0, high.0), mix(low.1, high.1), mix(low.2, high.2))
 }
 
 impl ColourMap {
@@ -70,10 +66,7 @@ impl ColourMap {
     }
 
     /// Draws the map into its area, its bands in a column at the right.
-    pub fn draw(
-        &self,
-        area: &DrawingArea<SVGBackend<'_>, Shift>,
-    ) -> Result<(), Box<dyn Error>> {
+    pub fn draw(&self, area: &DrawingArea<SVGBackend<'_>, Shift>) -> Result<(), Box<dyn Error>> {
         const KEY_WIDTH: i32 = 92;
         draw_title(area, &self.title)?;
         let (_, body) = area.split_vertically(8 + LINE_HEIGHT);

@@ -84,7 +84,11 @@ impl Axis {
                     0.5 * start.abs().max(1e-3)
                 };
                 // An axis that starts at zero keeps its zero at the edge.
-                let low = if start >= 0.0 && start < margin { 0.0 } else { start - margin };
+                let low = if start >= 0.0 && start < margin {
+                    0.0
+                } else {
+                    start - margin
+                };
                 low..end + margin
             }
         }
@@ -109,7 +113,11 @@ impl Axis {
 }
 
 fn linear_text(value: f64, span: f64) -> String {
-    let value = if value.abs() < 1e-9 * span { 0.0 } else { value };
+    let value = if value.abs() < 1e-9 * span {
+        0.0
+    } else {
+        value
+    };
     // Ticks are about a tenth of the span apart; one digit more than that tells them apart.
     let decimals = (1.0 - (span / 10.0).log10().floor()).clamp(0.0, 9.0) as usize;
     let text = format!("{value:.decimals$}");

@@ -124,8 +124,8 @@ impl Manoeuvre {
                 let mut scrub = Scrub::new(120.0, 0.3e-3);
                 Box::new(move |time| {
                     let travel = 3e-3 * (slow * time).sin() + 0.4e-3 * (fast * time).sin();
-                    let speed = 3e-3 * slow * (slow * time).cos()
-                        + 0.4e-3 * fast * (fast * time).cos();
+                    let speed =
+                        3e-3 * slow * (slow * time).cos() + 0.4e-3 * fast * (fast * time).cos();
                     Rack {
                         speed,
                         // Self-alignment holds the wheels straight.

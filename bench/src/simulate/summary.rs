@@ -7,8 +7,8 @@ use epas_friction::{
     CagedBallScrewConfiguration, EfficiencyGeometry, Faults, Groove, HertzContact, Regime,
 };
 
-use super::{Row, regime_name};
 use super::trace::{Sample, Trace};
+use super::{Row, regime_name};
 use crate::designs::Design;
 
 /// Sums and peaks of a run.
@@ -188,7 +188,10 @@ impl Summary {
             let pressure = self.peak_pressure(design, balls);
             line(
                 "peak contact pressure",
-                format!("{:.2} GPa at the screw, {balls} loaded balls", 1e-9 * pressure),
+                format!(
+                    "{:.2} GPa at the screw, {balls} loaded balls",
+                    1e-9 * pressure
+                ),
             )?;
         }
         let faults: Vec<_> = FAULTS

@@ -235,14 +235,26 @@ mod tests {
             ("time,nut_speed,axial_load,time\n0,1,2,3\n", 1, "twice"),
             ("time,nut_speed,axial_load\n", 2, "empty"),
             ("time,nut_speed,axial_load\n0,1,2\n1,fast,2\n", 3, "fast"),
-            ("time,nut_speed,axial_load\n0,1,2\n\n\n1,fast,2\n", 5, "fast"),
-            ("time,nut_speed,axial_load\r\n0,1,2\r\n1,fast,2\r\n", 3, "fast"),
+            (
+                "time,nut_speed,axial_load\n0,1,2\n\n\n1,fast,2\n",
+                5,
+                "fast",
+            ),
+            (
+                "time,nut_speed,axial_load\r\n0,1,2\r\n1,fast,2\r\n",
+                3,
+                "fast",
+            ),
             ("time,nut_speed,axial_load\n0,1,NaN\n", 2, "finite"),
             ("time,nut_speed,axial_load\n0,1,-inf\n", 2, "finite"),
             ("time,nut_speed,axial_load\n0,1,1e39\n", 2, "float32"),
             ("time,nut_speed,axial_load\n0,1,2\n1,1\n", 3, "columns"),
             ("time,nut_speed,axial_load\n0,1,\n", 2, "no number"),
-            ("time,nut_speed,axial_load\n0,1,2\n1,1,2\n0.5,1,2\n", 4, "back"),
+            (
+                "time,nut_speed,axial_load\n0,1,2\n1,1,2\n0.5,1,2\n",
+                4,
+                "back",
+            ),
         ] {
             let fault = parse(text.as_bytes()).unwrap_err();
             assert!(

@@ -1,0 +1,967 @@
+//! The in-loop kinematics (f32) against the float64 reference.
+
+use epas_friction::Error;
+use epas_friction::kinematics::{
+    ContactKinematics, ContactSlip, EllipticContact, FrictionPower, KinematicsParameters,
+    PitchMethod, SlipParts, TraditionalKinematics,
+};
+use epas_reference::kinematics::{
+    self as reference, HertzMean, KinematicsInput, MeanSlip, Raceway, Revised, Traditional,
+    operating, pitch_angle,
+};
+use serde_json::Value;
+use std::f64::consts::{PI, TAU};
+
+const DEGREE: f64 = PI / 180.0;
+
+fn golden_cases() -> Vec<(String, KinematicsInput)> {
+    let text = include_str!(concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/golden/kinematics.json"
+    ));
+    let file: Value = serde_json::from_str(text).unwrap();
+    let cases = file["cases"].as_array().unwrap();
+    cases
+        .iter()
+        .map(|case| {
+            let number = |group: &str, key: &str| case[group][key].as_f64().unwrap();
+            let length = |group: &str, key: &str| 1e-3 * number(group, key);
+            let input = KinematicsInput {
+                ball_diameter: length("geom", "D"),
+                pitch_radius: length("geom", "r_m"),
+                lead_angle: number("geom", "psi"),
+                groove_radius_screw: length("geom", "r_i"),
+                groove_radius_nut: length("geom", "r_o"),
+                contact_angle_screw: number("state", "alpha_i"),
+                contact_angle_nut: number("state", "alpha_o"),
+                pitch_angle: number("state", "beta"),
+                yaw_angle: number("state", "betap"),
+                rolling_radius_screw: length("state", "rp_i"),
+                rolling_radius_nut: length("state", "rp_o"),
+                speed: number("state", "omega"),
+                semi_major_screw: length("inner", "a"),
+                semi_minor_screw: length("inner", "b"),
+                semi_major_nut: length("outer", "a"),
+                semi_minor_nut: length("outer", "b"),
+            };
+            (case["tag"].as_str().unwrap().to_owned(), input)
+        })
+        .collect()
+}
+
+/// xorshift64*, so that a printed seed reproduces a case.
+struct Random(u64);
+
+impl Random {
+    fn unit(&mut self) -> f64 {
+        self.0 ^= self.0 >> 12;
+        self.0 ^= self.0 << 25;
+        self.0 ^= self.0 >> 27;
+        (self.0.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    fn within(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.unit()
+    }
+
+    /// The domain that the documentation of `ContactKinematics` states.
+    fn input(&mut self) -> KinematicsInput {
+        let pitch_radius = self.within(2e-3, 80e-3);
+        let ball_diameter = 2.0 * pitch_radius * self.within(0.04, 0.29);
+        let half = 0.5 * ball_diameter;
+        let contact_angle = self.within(10.0, 80.0) * DEGREE;
+        let [major_screw, major_nut] = [(); 2].map(|()| half * self.within(0.005, 0.3 - 1e-6));
+        // One in eight each: no lead; the customary axis and radii.
+        let special = self.within(0.0, 8.0);
+        let mut input = KinematicsInput {
+            ball_diameter,
+            pitch_radius,
+            lead_angle: self.within(0.0, 40.0) * DEGREE,
+            groove_radius_screw: ball_diameter * self.within(0.505, 0.58),
+            groove_radius_nut: ball_diameter * self.within(0.505, 0.58),
+            contact_angle_screw: contact_angle,
+            contact_angle_nut: contact_angle + self.within(-0.1, 0.1),
+            pitch_angle: contact_angle + self.within(-0.17, 0.17),
+            yaw_angle: self.within(-0.1, 0.1),
+            rolling_radius_screw: half * self.within(0.99, 1.01),
+            rolling_radius_nut: half * self.within(0.99, 1.01),
+            speed: self.within(-1000.0, 1000.0),
+            semi_major_screw: major_screw,
+            semi_minor_screw: major_screw * self.within(0.05, 0.3),
+            semi_major_nut: major_nut,
+            semi_minor_nut: major_nut * self.within(0.05, 0.3),
+        };
+        if special < 1.0 {
+            input.lead_angle = 0.0;
+        } else if special < 2.0 {
+            input.yaw_angle = 0.0;
+            input.rolling_radius_screw = half;
+            input.rolling_radius_nut = half;
+        }
+        input
+    }
+}
+
+fn parameters(input: &KinematicsInput) -> KinematicsParameters {
+    KinematicsParameters {
+        ball_diameter: input.ball_diameter as f32,
+        pitch_radius: input.pitch_radius as f32,
+        lead_angle: input.lead_angle as f32,
+        groove_radius_screw: input.groove_radius_screw as f32,
+        groove_radius_nut: input.groove_radius_nut as f32,
+        contact_angle_screw: input.contact_angle_screw as f32,
+        contact_angle_nut: input.contact_angle_nut as f32,
+        pitch_angle: input.pitch_angle as f32,
+        yaw_angle: input.yaw_angle as f32,
+        rolling_radius_screw: input.rolling_radius_screw as f32,
+        rolling_radius_nut: input.rolling_radius_nut as f32,
+        semi_major_screw: input.semi_major_screw as f32,
+        semi_minor_screw: input.semi_minor_screw as f32,
+        semi_major_nut: input.semi_major_nut as f32,
+        semi_minor_nut: input.semi_minor_nut as f32,
+    }
+}
+
+/// What the crate was given, as the reference takes it.
+fn rounded(given: &KinematicsParameters, speed: f64) -> KinematicsInput {
+    KinematicsInput {
+        ball_diameter: given.ball_diameter.into(),
+        pitch_radius: given.pitch_radius.into(),
+        lead_angle: given.lead_angle.into(),
+        groove_radius_screw: given.groove_radius_screw.into(),
+        groove_radius_nut: given.groove_radius_nut.into(),
+        contact_angle_screw: given.contact_angle_screw.into(),
+        contact_angle_nut: given.contact_angle_nut.into(),
+        pitch_angle: given.pitch_angle.into(),
+        yaw_angle: given.yaw_angle.into(),
+        rolling_radius_screw: given.rolling_radius_screw.into(),
+        rolling_radius_nut: given.rolling_radius_nut.into(),
+        speed,
+        semi_major_screw: given.semi_major_screw.into(),
+        semi_minor_screw: given.semi_minor_screw.into(),
+        semi_major_nut: given.semi_major_nut.into(),
+        semi_minor_nut: given.semi_minor_nut.into(),
+    }
+}
+
+fn slip_of(ball: &epas_friction::kinematics::BallKinematics, raceway: Raceway) -> &ContactSlip {
+    match raceway {
+        Raceway::Screw => &ball.screw,
+        Raceway::Nut => &ball.nut,
+    }
+}
+
+/// Largest, root-mean-square and mean error.
+#[derive(Default)]
+struct Errors {
+    count: f64,
+    largest: f64,
+    sum: f64,
+    squares: f64,
+}
+
+impl Errors {
+    fn add(&mut self, error: f64, case: impl FnOnce() -> String) {
+        assert!(error.is_finite(), "{}", case());
+        self.count += 1.0;
+        self.sum += error;
+        self.squares += error * error;
+        self.largest = self.largest.max(error.abs());
+    }
+
+    fn assert(&self, name: &str, bound: f64) {
+        let rms = (self.squares / self.count).sqrt();
+        let mean = self.sum / self.count;
+        println!(
+            "{name}: largest {:.2e}, rms {rms:.1e}, mean {mean:.1e}",
+            self.largest
+        );
+        assert!(
+            self.largest <= bound,
+            "{name}: {:.3e} above {bound:.1e}",
+            self.largest
+        );
+        assert!(rms <= 0.4 * bound, "{name}: rms {rms:e}");
+        // A bias would show as a mean beside which the scatter is small.
+        assert!(mean.abs() <= 0.1 * bound, "{name}: mean {mean:e}");
+    }
+}
+
+fn turn(left: f64, right: f64) -> f64 {
+    (left - right + PI).rem_euclid(TAU) - PI
+}
+
+#[derive(Default)]
+struct Sweep {
+    orbital: Errors,
+    spin_speed: Errors,
+    entrainment: Errors,
+    rolling: Errors,
+    side: Errors,
+    spin: Errors,
+    point: Errors,
+    slide_to_roll: Errors,
+    slide_angle: Errors,
+    slide_vector: Errors,
+    entrainment_angle: Errors,
+    spin_to_roll: Errors,
+}
+
+impl Sweep {
+    /// Compares one case; the reference takes the numbers before they are rounded to f32.
+    fn add(&mut self, input: &KinematicsInput, tag: &str) {
+        let exact = Revised::new(input).unwrap();
+        let wanted = exact.evaluate();
+        let kinematics = ContactKinematics::new(&parameters(input))
+            .unwrap_or_else(|error| panic!("{tag}: {error} {input:?}"));
+        let ball = kinematics.tick(input.speed as f32);
+        let case = || format!("{tag} {input:?}");
+        if input.speed != 0.0 {
+            let relative = |found: f32, wanted: f64| f64::from(found) / wanted - 1.0;
+            self.orbital
+                .add(relative(ball.orbital_speed, wanted.orbital_speed), case);
+            self.spin_speed
+                .add(relative(ball.spin_speed, wanted.spin_speed), case);
+        }
+        for raceway in Raceway::BOTH {
+            let (found, wanted) = (slip_of(&ball, raceway), wanted.contact(raceway));
+            let coefficients = match raceway {
+                Raceway::Screw => kinematics.screw(),
+                Raceway::Nut => kinematics.nut(),
+            };
+            let contact = input.contact(raceway);
+            let scale = wanted.entrainment_speed;
+            let radius = 0.5 * input.ball_diameter;
+            if input.speed != 0.0 {
+                let scaled = |found: f32, wanted: f64| (f64::from(found) - wanted) / scale;
+                self.entrainment
+                    .add(scaled(found.entrainment_speed, scale), case);
+                self.rolling
+                    .add(scaled(found.rolling_slip, wanted.rolling_slip), case);
+                self.side
+                    .add(scaled(found.side_slip, wanted.side_slip), case);
+                // Spin as the speed that it makes on the ball's radius, which no ellipse reaches.
+                self.spin
+                    .add(radius * scaled(found.spin, wanted.spin), case);
+                for (u, v) in [(0.5, -0.8), (-0.6, 0.7)] {
+                    let (x, y) = (u * contact.semi_minor, v * contact.semi_major);
+                    let slip = coefficients.slip_at(input.speed as f32, x as f32, y as f32);
+                    let exact = exact.slip(raceway, x, y);
+                    self.point.add(scaled(slip.rolling, exact[0]), case);
+                    self.point.add(scaled(slip.side, exact[1]), case);
+                }
+            }
+            let ratios = coefficients.ratios();
+            let difference = |found: f32, wanted: f64| f64::from(found) - wanted;
+            let srr = wanted.slide_to_roll;
+            self.slide_to_roll
+                .add(difference(ratios.slide_to_roll, srr), case);
+            let angle = wanted
+                .slide_angle
+                .map_or(0.0, |wanted| turn(ratios.slide_angle.into(), wanted));
+            self.slide_vector.add(angle * srr, case);
+            if srr > 0.01 {
+                self.slide_angle.add(angle, case);
+            }
+            self.entrainment_angle.add(
+                difference(ratios.entrainment_angle, wanted.entrainment_angle),
+                case,
+            );
+            self.spin_to_roll
+                .add(difference(ratios.spin_to_roll, wanted.spin_to_roll), case);
+        }
+    }
+
+    fn assert(&self) {
+        self.orbital.assert("orbital speed, relative", 5e-7);
+        self.spin_speed.assert("spin speed, relative", 5e-7);
+        self.entrainment.assert("entrainment speed, relative", 5e-7);
+        self.rolling.assert("rolling slip / v_e", 4e-7);
+        self.side.assert("side slip / v_e", 2e-7);
+        self.spin.assert("spin D/2 / v_e", 4e-7);
+        self.point.assert("slip at a point / v_e", 4e-7);
+        self.slide_to_roll.assert("slide-to-roll, absolute", 4e-7);
+        self.slide_angle
+            .assert("slide angle where SRR > 1 %, rad", 2e-5);
+        self.slide_vector
+            .assert("slide angle times slide-to-roll", 4e-7);
+        self.entrainment_angle
+            .assert("entrainment angle, rad", 1e-7);
+        self.spin_to_roll.assert("spin-to-roll, absolute", 1e-7);
+    }
+}
+
+/// Orbital and spin speed within 5e-7, slip within 4e-7 of the entrainment speed (2e-6 would do), ratios
+/// likewise (5e-6 would do). Some twenty roundings of 6e-8, those of the inputs among them, add up like
+/// a random walk to 3e-7; slip is formed without cancellation and is a small share of the speed.
+#[test]
+fn golden_cases_within_the_promise() {
+    let mut sweep = Sweep::default();
+    for (tag, input) in golden_cases() {
+        sweep.add(&input, &tag);
+        sweep.add(
+            &KinematicsInput {
+                lead_angle: 0.0,
+                ..input
+            },
+            &tag,
+        );
+        sweep.add(
+            &KinematicsInput {
+                speed: 0.0,
+                ..input
+            },
+            &tag,
+        );
+        // Yaw angles at which side slip vanishes at one contact.
+        for raceway in Raceway::BOTH {
+            if let Ok(yaw_angle) = reference::published::yaw_without_side_slip(&input, raceway) {
+                sweep.add(&KinematicsInput { yaw_angle, ..input }, &tag);
+            }
+        }
+    }
+    sweep.assert();
+}
+
+#[test]
+fn random_geometries() {
+    let mut sweep = Sweep::default();
+    let mut random = Random(0x5EED_1001);
+    for step in 0..200_000 {
+        sweep.add(&random.input(), &format!("random {step}"));
+    }
+    sweep.assert();
+}
+
+/// Alberdi et al., sections 4.1 and 4.2, and yaw angles of section 4.3.2.
+#[test]
+fn published_values() {
+    let input = operating::table_two().unwrap();
+    let kinematics = ContactKinematics::new(&parameters(&input)).unwrap();
+    let ball = kinematics.tick(operating::SPEED as f32);
+    for slip in [ball.screw, ball.nut] {
+        assert!((slip.entrainment_speed - 1.00).abs() < 0.005);
+    }
+    let degrees = |radians: f32| f64::from(radians) / DEGREE;
+    let (screw, nut) = (kinematics.screw().ratios(), kinematics.nut().ratios());
+    assert!((degrees(screw.entrainment_angle) - 1.19).abs() < 0.005);
+    assert!((degrees(nut.entrainment_angle) - 0.87).abs() < 0.01);
+    assert!((100.0 * screw.slide_to_roll - 4.16).abs() < 0.011);
+    for (yaw, side) in [(-2.291, "nut"), (3.105, "screw")] {
+        let turned = KinematicsInput {
+            yaw_angle: yaw * DEGREE,
+            ..input
+        };
+        let ball = ContactKinematics::new(&parameters(&turned)).unwrap();
+        let slip = if side == "nut" {
+            ball.per_speed().nut
+        } else {
+            ball.per_speed().screw
+        };
+        assert!(
+            slip.side_slip.abs() < 1e-4 * slip.entrainment_speed,
+            "{side}"
+        );
+    }
+}
+
+/// Every method against the reference: closed forms to 1e-6 rad (a dozen roundings of 6e-8 on angles
+/// near 1), least power to the flatness of its minimum.
+#[test]
+fn pitch_angles() {
+    let mut random = Random(0x5EED_1002);
+    let inputs = std::iter::once((operating::table_two().unwrap(), [151.0, 151.0]))
+        .chain((0..500).map(|_| {
+            (
+                random.input(),
+                [random.within(10.0, 500.0), random.within(10.0, 500.0)],
+            )
+        }))
+        .collect::<Vec<_>>();
+    let mut worst = 0.0_f64;
+    for (input, [load_screw, load_nut]) in inputs {
+        let given = parameters(&input);
+        let pairs = [
+            (
+                PitchMethod::InnerRacewayControl,
+                pitch_angle::inner_raceway_control(&input),
+            ),
+            (
+                PitchMethod::OuterRacewayControl,
+                pitch_angle::outer_raceway_control(&input),
+            ),
+            (
+                PitchMethod::InnerRacewayControlPrinted,
+                Some(pitch_angle::inner_raceway_control_printed(&input)),
+            ),
+            (
+                PitchMethod::OuterRacewayControlPrinted,
+                Some(pitch_angle::outer_raceway_control_printed(&input)),
+            ),
+            (
+                PitchMethod::Mean,
+                Some(pitch_angle::mean_contact_angle(&input)),
+            ),
+            (
+                PitchMethod::DAlembert,
+                pitch_angle::d_alembert(&input, load_screw, load_nut),
+            ),
+            (
+                PitchMethod::DAlembertPrinted,
+                pitch_angle::d_alembert_printed(&input, load_screw, load_nut),
+            ),
+            (
+                PitchMethod::BalancedSpin,
+                pitch_angle::balanced_spin(&input, load_screw, load_nut),
+            ),
+        ];
+        for (method, wanted) in pairs {
+            let found = method.angle(&given, load_screw as f32, load_nut as f32);
+            match (found, wanted) {
+                (Ok(found), Some(wanted)) => {
+                    let error = (f64::from(found) - wanted).abs();
+                    // Weights by an elliptic integral of 4e-4 cost what they are of the range between
+                    // the raceway controls, 0.3 rad at most.
+                    let weighted = matches!(
+                        method,
+                        PitchMethod::DAlembert
+                            | PitchMethod::DAlembertPrinted
+                            | PitchMethod::BalancedSpin
+                    );
+                    let bound = if weighted { 1e-4 } else { 1e-6 };
+                    assert!(error < bound, "{method:?} {found} {wanted} {input:?}");
+                    if !weighted {
+                        worst = worst.max(error);
+                    }
+                }
+                // An angle past a right angle is refused by both.
+                (Err(error), None) => assert_eq!(error.field(), "pitch_angle"),
+                (Err(error), Some(wanted)) => {
+                    assert!(wanted > 0.99 * PI / 2.0, "{method:?} {error} {wanted}");
+                }
+                (Ok(found), None) => assert!(found > 1.4, "{method:?} {found} {input:?}"),
+            }
+        }
+    }
+    println!("pitch angles in closed form: largest error {worst:.1e} rad");
+
+    let input = operating::table_two().unwrap();
+    let rule = HertzMean::new(24, 48);
+    let given = parameters(&input);
+    let exact = pitch_angle::least_power(&input, &rule, 151.0, 151.0).unwrap();
+    let found = f64::from(PitchMethod::LeastPower.angle(&given, 151.0, 151.0).unwrap());
+    println!("least power: {} deg for {}", found / DEGREE, exact / DEGREE);
+    assert!((found - exact).abs() < 0.02);
+    let power = |angle: f64| -> f64 {
+        let revised = Revised::new(&KinematicsInput {
+            pitch_angle: angle,
+            ..input
+        })
+        .unwrap();
+        reference::friction_power(&revised, &rule, 0.1, 151.0, 151.0)
+            .iter()
+            .map(|p| p.total)
+            .sum()
+    };
+    assert!(power(found) / power(exact) - 1.0 < 5e-4);
+
+    let constant = PitchMethod::Constant(0.698).angle(&given, 1.0, 1.0);
+    assert_eq!(constant, Ok(0.698));
+    for (method, loads, field) in [
+        (PitchMethod::Constant(f32::NAN), [1.0, 1.0], "pitch_angle"),
+        (
+            PitchMethod::Constant(-0.8),
+            [1.0, 1.0],
+            "contact_angle_screw",
+        ),
+        (PitchMethod::BalancedSpin, [0.0, 0.0], "load_screw"),
+        (PitchMethod::BalancedSpin, [-1.0, 2.0], "load_screw"),
+        (PitchMethod::LeastPower, [1.0, f32::INFINITY], "load_nut"),
+    ] {
+        assert_eq!(
+            method
+                .angle(&given, loads[0], loads[1])
+                .unwrap_err()
+                .field(),
+            field
+        );
+    }
+}
+
+/// The traditional formulation is there to be compared, so it need not be better than 1e-6 of the
+/// speed `omega q` that it subtracts from.
+#[test]
+fn traditional_formulation() {
+    let mut random = Random(0x5EED_1003);
+    let mut worst = 0.0_f64;
+    for _ in 0..20_000 {
+        let input = random.input();
+        let exact = Traditional::new(&Revised::new(&input).unwrap());
+        let crate_given = TraditionalKinematics::new(&parameters(&input)).unwrap();
+        let ball = crate_given.tick(input.speed as f32);
+        let scale = (input.speed * input.pitch_radius / input.lead_angle.cos()).abs();
+        let mut check = |found: f32, wanted: f64, scale: f64| {
+            let error = (f64::from(found) - wanted).abs() / scale;
+            worst = worst.max(error);
+            assert!(error < 1e-6, "{found} {wanted} {input:?}");
+        };
+        let speed = input.speed.abs();
+        check(
+            ball.orbital_speed,
+            input.speed * exact.orbital_ratio(),
+            speed,
+        );
+        let spin = exact.spin_ratio();
+        check(ball.spin_speed, input.speed * spin, speed * spin);
+        for raceway in Raceway::BOTH {
+            let slip = slip_of(&ball, raceway);
+            let [x, y] = exact.slip(raceway, 0.0, 0.0, exact.distance(raceway));
+            let [v_x, v_y] = exact.entrainment(raceway);
+            check(slip.rolling_slip, x, scale);
+            check(slip.side_slip, y, scale);
+            check(slip.entrainment_speed, v_x.hypot(v_y), scale);
+            check(slip.spin, exact.spin(raceway), speed * spin);
+        }
+    }
+    println!("traditional formulation: largest error {worst:.1e} of omega q");
+}
+
+fn parts(parts: &SlipParts) -> [f64; 4] {
+    [parts.total(), parts.rolling, parts.side, parts.spin].map(f64::from)
+}
+
+fn reference_parts(mean: &MeanSlip) -> [f64; 4] {
+    [mean.total, mean.rolling, mean.side, mean.spin]
+}
+
+/// The paper's cases: Table 2, and Table 4's grid of selected constraints. Power within 0.2 % of
+/// quadrature of the full field.
+#[test]
+fn friction_power_of_the_published_cases() {
+    let rule = HertzMean::new(96, 192);
+    let input = operating::table_two().unwrap();
+    let mut worst = 0.0_f64;
+    let mut worst_share = 0.0_f64;
+    for rolling_radius in [3.95e-3, 3.97e-3, 3.99e-3] {
+        for yaw in [0.0, 1.0, 2.0] {
+            for pitch in [34.3, 40.0, 44.0, 50.1] {
+                let input = KinematicsInput {
+                    rolling_radius_screw: rolling_radius,
+                    rolling_radius_nut: rolling_radius,
+                    yaw_angle: yaw * DEGREE,
+                    pitch_angle: pitch * DEGREE,
+                    ..input
+                };
+                let revised = Revised::new(&input).unwrap();
+                let kinematics = ContactKinematics::new(&parameters(&input)).unwrap();
+                let power = FrictionPower::new(&kinematics).of_ball(
+                    0.075,
+                    151.0,
+                    151.0,
+                    input.speed as f32,
+                );
+                let exact = reference::friction_power(&revised, &rule, 0.075, 151.0, 151.0);
+                for (found, wanted) in [power.screw, power.nut].iter().zip(&exact) {
+                    let (found, wanted) = (parts(found), reference_parts(wanted));
+                    let error = (found[0] / wanted[0] - 1.0).abs();
+                    worst = worst.max(error);
+                    for (found, wanted_part) in found.iter().zip(&wanted).skip(1) {
+                        worst_share = worst_share.max((found - wanted_part).abs() / wanted[0]);
+                    }
+                    assert!(
+                        error < 2e-3,
+                        "r' {rolling_radius} yaw {yaw} pitch {pitch}: {error:e}"
+                    );
+                }
+            }
+        }
+    }
+    println!("published cases: power {worst:.2e}, share {worst_share:.2e} of the total");
+    assert!(worst_share < 1e-2);
+}
+
+/// Power over random geometries (full field with both parabolas): distribution, not only the largest. The
+/// worst are those whose slip nearly vanishes somewhere near the centre; they also have the least power.
+#[test]
+fn friction_power_of_random_geometries() {
+    let rule = HertzMean::new(32, 64);
+    let mut random = Random(0x5EED_1004);
+    let mut errors = Vec::new();
+    for _ in 0..3000 {
+        let input = random.input();
+        let revised = Revised::new(&KinematicsInput {
+            speed: 1.0,
+            ..input
+        })
+        .unwrap();
+        let kinematics = ContactKinematics::new(&parameters(&input)).unwrap();
+        let power = FrictionPower::new(&kinematics);
+        for (raceway, found) in [(Raceway::Screw, power.screw()), (Raceway::Nut, power.nut())] {
+            let wanted = reference::mean_slip(&revised, &rule, raceway);
+            let error = f64::from(found.total()) / wanted.total - 1.0;
+            assert!(error.is_finite(), "{input:?}");
+            errors.push((error.abs(), error, input));
+        }
+    }
+    errors.sort_by(|left, right| left.0.total_cmp(&right.0));
+    let at = |share: f64| errors[((errors.len() - 1) as f64 * share) as usize].0;
+    let mean = errors.iter().map(|error| error.1).sum::<f64>() / errors.len() as f64;
+    let (median, ninety_five, largest) = (at(0.5), at(0.95), at(1.0));
+    println!(
+        "power, random geometries: median {median:.1e}, 95 % {ninety_five:.1e}, largest {largest:.1e}, mean {mean:.1e}"
+    );
+    assert!(
+        median < 1e-4 && ninety_five < 0.01 && largest < 0.05,
+        "{:?}",
+        errors.last()
+    );
+    assert!(mean.abs() < 1e-3);
+}
+
+/// The lower bound holds for what the crate computes, at any axis of rotation: the mean distance is in
+/// it, so the cubature's own error (5e-4 where side slip rules) is all that can cross it.
+#[test]
+fn friction_power_keeps_above_its_bound() {
+    let mut random = Random(0x5EED_1005);
+    for _ in 0..20_000 {
+        let input = random.input();
+        let kinematics = ContactKinematics::new(&parameters(&input)).unwrap();
+        let power = FrictionPower::new(&kinematics).of_ball(1.0, 1.0, 1.0, 1.0);
+        let bound = kinematics.least_mean_slip();
+        assert!(
+            power.total() >= bound * (1.0 - 5e-4),
+            "{} {bound} {input:?}",
+            power.total()
+        );
+        // Parts add up, over kinds of slip and over contacts, to a few roundings.
+        let kinds = power.by_slip();
+        assert!((kinds.total() - power.total()).abs() <= 4e-7 * power.total());
+        let nut = power.of_nut(37);
+        assert!((nut.total() / (37.0 * power.total()) - 1.0).abs() < 4e-7);
+    }
+}
+
+/// Fields of any direction, offset and spin on any ellipse, set by rolling radius and yaw angle. On an
+/// ellipse of a fiftieth of the ball the parabola of rolling slip is a hundredth of the spin's slip: as
+/// good as linear.
+#[test]
+fn friction_power_of_linear_fields_within_3_1_percent() {
+    let rule = HertzMean::new(64, 128);
+    let mut random = Random(0x5EED_1006);
+    let mut worst = 0.0_f64;
+    let mut count = 0;
+    for _ in 0..6000 {
+        let mut input = random.input();
+        let half = 0.5 * input.ball_diameter;
+        // A small ellipse is a linear field: the parabola is a / D of the spin's share.
+        input.semi_major_screw = half * 0.02;
+        input.semi_minor_screw = input.semi_major_screw * random.within(0.03, 1.0);
+        // Slip of the size of spin times semi-axis, in any direction.
+        let moment = random.within(0.0, 3.0) * 0.02;
+        let direction = random.within(0.0, TAU);
+        let revised = Revised::new(&input).unwrap();
+        let spin = revised.spin(Raceway::Screw).abs();
+        input.rolling_radius_screw = half
+            + half * moment * direction.cos() * spin
+                / revised.rolling_gradient(Raceway::Screw).abs();
+        if let Ok(yaw) = reference::published::yaw_without_side_slip(&input, Raceway::Screw) {
+            input.yaw_angle = yaw + moment * direction.sin() * spin / revised.spin_ratio();
+        }
+        // Little spin on a small ellipse is slip of the size of f32's rounding: no test of a mean.
+        if input.yaw_angle.abs() > 0.5 || spin < 0.1 {
+            continue;
+        }
+        count += 1;
+        let given = parameters(&input);
+        let revised = Revised::new(&rounded(&given, 1.0)).unwrap();
+        let kinematics = ContactKinematics::new(&given).unwrap();
+        let found = f64::from(FrictionPower::new(&kinematics).screw().total());
+        let wanted = reference::mean_slip(&revised, &rule, Raceway::Screw).total;
+        let error = (found / wanted - 1.0).abs();
+        worst = worst.max(error);
+        assert!(error < 0.031, "{error} {input:?}");
+    }
+    assert!(count > 2000, "{count}");
+    println!("linear fields: power within {:.2} %", 100.0 * worst);
+}
+
+type Setter = fn(&mut KinematicsParameters, f32);
+
+const FIELDS: [(&str, Setter); 15] = [
+    ("ball_diameter", |p, v| p.ball_diameter = v),
+    ("pitch_radius", |p, v| p.pitch_radius = v),
+    ("lead_angle", |p, v| p.lead_angle = v),
+    ("groove_radius_screw", |p, v| p.groove_radius_screw = v),
+    ("groove_radius_nut", |p, v| p.groove_radius_nut = v),
+    ("contact_angle_screw", |p, v| p.contact_angle_screw = v),
+    ("contact_angle_nut", |p, v| p.contact_angle_nut = v),
+    ("pitch_angle", |p, v| p.pitch_angle = v),
+    ("yaw_angle", |p, v| p.yaw_angle = v),
+    ("rolling_radius_screw", |p, v| p.rolling_radius_screw = v),
+    ("rolling_radius_nut", |p, v| p.rolling_radius_nut = v),
+    ("semi_major_screw", |p, v| p.semi_major_screw = v),
+    ("semi_minor_screw", |p, v| p.semi_minor_screw = v),
+    ("semi_major_nut", |p, v| p.semi_major_nut = v),
+    ("semi_minor_nut", |p, v| p.semi_minor_nut = v),
+];
+
+const ODD: [f32; 16] = [
+    f32::NAN,
+    f32::INFINITY,
+    f32::NEG_INFINITY,
+    f32::MAX,
+    f32::MIN,
+    f32::MIN_POSITIVE,
+    1e-45,
+    0.0,
+    -0.0,
+    -1.0,
+    1e-20,
+    1e20,
+    1.0,
+    1e-3,
+    -1e-3,
+    3.0,
+];
+
+fn all_finite(kinematics: &ContactKinematics) -> bool {
+    let slip = |s: &ContactSlip| [s.rolling_slip, s.side_slip, s.spin, s.entrainment_speed];
+    let mut numbers = Vec::new();
+    for speed in [0.0, 100.0, -1e6, 1e6, 1e-38] {
+        let ball = kinematics.tick(speed);
+        numbers.extend([ball.orbital_speed, ball.spin_speed]);
+        numbers.extend(slip(&ball.screw));
+        numbers.extend(slip(&ball.nut));
+    }
+    for contact in [kinematics.screw(), kinematics.nut()] {
+        let r = contact.ratios();
+        numbers.extend([
+            r.entrainment_angle,
+            r.slide_to_roll,
+            r.slide_angle,
+            r.spin_to_roll,
+        ]);
+        for at in ODD {
+            let v = contact.slip_at(100.0, at, at);
+            numbers.extend([v.rolling, v.side]);
+        }
+    }
+    let power = FrictionPower::new(kinematics);
+    for parts in [power.screw(), power.nut()] {
+        numbers.extend([parts.rolling, parts.side, parts.spin]);
+    }
+    numbers.push(kinematics.least_mean_slip());
+    numbers.iter().all(|number| number.is_finite())
+}
+
+/// Each field with NaN, infinities, zeros, negative, huge and tiny numbers: an error that names it, or finite
+/// results.
+#[test]
+fn odd_parameters_are_refused_by_name_or_give_finite_numbers() {
+    let good = parameters(&operating::table_two().unwrap());
+    for (name, set) in FIELDS {
+        for value in ODD {
+            let mut given = good;
+            set(&mut given, value);
+            match ContactKinematics::new(&given) {
+                Ok(kinematics) => {
+                    assert!(value.is_finite(), "{name} {value}");
+                    assert!(all_finite(&kinematics), "{name} {value}");
+                }
+                Err(error) if value.is_finite() => {
+                    // A smaller ball or major axis can make another field the wrong one.
+                    assert!(!error.field().is_empty());
+                }
+                Err(error) => {
+                    assert_eq!(error.field(), name);
+                    assert!(matches!(error, Error::NotFinite { .. }));
+                }
+            }
+            assert_eq!(
+                TraditionalKinematics::new(&given).is_ok(),
+                ContactKinematics::new(&given).is_ok()
+            );
+        }
+    }
+}
+
+/// The refusals that the physics asks for, each with its field and a range that would do.
+#[test]
+fn what_cannot_roll_is_refused() {
+    let good = parameters(&operating::table_two().unwrap());
+    let refused = |given: KinematicsParameters| ContactKinematics::new(&given).unwrap_err();
+    // Contact angle far from the pitch angle.
+    let error = refused(KinematicsParameters {
+        contact_angle_screw: -0.8,
+        ..good
+    });
+    assert_eq!(error.field(), "contact_angle_screw");
+    assert!(!error.allowed().contains(-0.8));
+    let error = refused(KinematicsParameters {
+        contact_angle_nut: -0.8,
+        ..good
+    });
+    assert_eq!(error.field(), "contact_angle_nut");
+    // Ellipse beyond 0.3 of the ball's radius, 1.191 mm.
+    assert!(
+        ContactKinematics::new(&KinematicsParameters {
+            semi_major_nut: 1.19e-3,
+            ..good
+        })
+        .is_ok()
+    );
+    let error = refused(KinematicsParameters {
+        semi_major_nut: 1.192e-3,
+        ..good
+    });
+    assert_eq!(error.field(), "semi_major_nut");
+    let error = refused(KinematicsParameters {
+        semi_minor_screw: 0.7e-3,
+        ..good
+    });
+    assert_eq!(error.field(), "semi_minor_screw");
+    // Rolling radius that folds the path: r' cos(alpha) cos^2(psi) beyond 0.9 r_m.
+    let small = KinematicsParameters {
+        pitch_radius: 4e-3,
+        ..good
+    };
+    let folded = KinematicsParameters {
+        rolling_radius_screw: 6e-3,
+        ..small
+    };
+    let error = refused(folded);
+    assert!(matches!(error, Error::FoldedGroove { .. }));
+    assert_eq!(error.field(), "rolling_radius_screw");
+    let limit = error.allowed().maximum;
+    assert!(
+        ContactKinematics::new(&KinematicsParameters {
+            rolling_radius_screw: limit * 0.9999,
+            ..small
+        })
+        .is_ok()
+    );
+    // A groove narrower than the ball.
+    let error = refused(KinematicsParameters {
+        groove_radius_nut: 3.9e-3,
+        ..good
+    });
+    assert_eq!(error.field(), "groove_radius_nut");
+}
+
+/// An update is the set-up with other contacts, bit for bit; a refused one changes nothing.
+#[test]
+fn update_is_set_up_again() {
+    let mut random = Random(0x5EED_1007);
+    for _ in 0..5000 {
+        let first = parameters(&random.input());
+        let other = random.input();
+        let ratio = f64::from(first.ball_diameter) / other.ball_diameter;
+        let contact = |angle: f32, major: f64, minor: f64| EllipticContact {
+            contact_angle: angle + 0.02,
+            semi_major: (major * ratio) as f32,
+            semi_minor: (minor * ratio) as f32,
+        };
+        let screw = contact(
+            first.contact_angle_screw,
+            other.semi_major_screw,
+            other.semi_minor_screw,
+        );
+        let nut = contact(
+            first.contact_angle_nut,
+            other.semi_major_nut,
+            other.semi_minor_nut,
+        );
+        let second = KinematicsParameters {
+            contact_angle_screw: screw.contact_angle,
+            contact_angle_nut: nut.contact_angle,
+            semi_major_screw: screw.semi_major,
+            semi_minor_screw: screw.semi_minor,
+            semi_major_nut: nut.semi_major,
+            semi_minor_nut: nut.semi_minor,
+            ..first
+        };
+        let mut kinematics = ContactKinematics::new(&first).unwrap();
+        assert!(kinematics.update(screw, nut));
+        assert_eq!(kinematics, ContactKinematics::new(&second).unwrap());
+
+        let before = kinematics;
+        for wrong in [f32::NAN, f32::INFINITY, -3.0, 3.0] {
+            for bad in [
+                EllipticContact {
+                    contact_angle: wrong,
+                    ..screw
+                },
+                EllipticContact {
+                    semi_major: wrong,
+                    ..screw
+                },
+                EllipticContact {
+                    semi_minor: wrong,
+                    ..screw
+                },
+            ] {
+                assert!(!kinematics.update(bad, nut));
+                assert!(!kinematics.update(screw, bad));
+            }
+        }
+        // The pitch angle is within 0.2 rad of the contact angle: the other flank is too far.
+        let far = EllipticContact {
+            contact_angle: screw.contact_angle - 1.55,
+            ..screw
+        };
+        if first.pitch_angle - far.contact_angle > 1.35 {
+            assert!(!kinematics.update(far, nut));
+        }
+        assert_eq!(kinematics, before);
+    }
+}
+
+/// In the loop a wrong speed, friction or load counts as none.
+#[test]
+fn wrong_numbers_in_the_loop_count_as_zero() {
+    let kinematics = ContactKinematics::new(&parameters(&operating::table_two().unwrap())).unwrap();
+    let still = kinematics.tick(0.0);
+    assert_eq!(still.screw.entrainment_speed, 0.0);
+    for speed in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1.1e6, f32::MIN] {
+        assert_eq!(kinematics.tick(speed), still);
+    }
+    assert_eq!(
+        kinematics.tick(1e6).screw.entrainment_speed,
+        1e6 * kinematics.per_speed().screw.entrainment_speed
+    );
+    let power = FrictionPower::new(&kinematics);
+    for wrong in [f32::NAN, f32::INFINITY, -1.0, 1e30] {
+        assert_eq!(power.of_ball(wrong, 1.0, 1.0, 100.0).total(), 0.0);
+        assert_eq!(power.of_ball(0.1, wrong, 1.0, 100.0).screw.total(), 0.0);
+        assert!(power.of_ball(0.1, wrong, 1.0, 100.0).nut.total() > 0.0);
+        assert_eq!(power.of_ball(0.1, 1.0, wrong, 100.0).nut.total(), 0.0);
+    }
+    // Points off the ellipse touch nothing.
+    let screw = kinematics.screw();
+    for (x, y) in [
+        (f32::NAN, 0.0),
+        (0.0, f32::INFINITY),
+        (1e-3, 0.0),
+        (0.0, -1e-3),
+    ] {
+        let slip = screw.slip_at(100.0, x, y);
+        assert_eq!((slip.rolling, slip.side), (0.0, 0.0));
+    }
+}
+
+/// No load: an ellipse without extent. The ball rolls on a point; slip there is exact.
+#[test]
+fn unloaded_contact() {
+    let input = KinematicsInput {
+        semi_major_screw: 0.0,
+        semi_minor_screw: 0.0,
+        ..operating::table_two().unwrap()
+    };
+    let kinematics = ContactKinematics::new(&parameters(&input)).unwrap();
+    assert_eq!(kinematics.per_speed().screw.rolling_slip, 0.0);
+    assert_eq!(kinematics.screw().ratios().spin_to_roll, 0.0);
+    let power = FrictionPower::new(&kinematics);
+    let side = kinematics.per_speed().screw.side_slip.abs();
+    assert!((power.screw().total() / side - 1.0).abs() < 1e-6);
+    assert!(all_finite(&kinematics));
+}

@@ -1,0 +1,298 @@
+//! What the kinematics of one ball are set up from, checked once.
+
+use super::coefficients::{Direction, Groove};
+use crate::error::{Error, Range, in_range};
+use crate::math;
+use core::f32::consts::FRAC_PI_2;
+
+/// Geometry and state of one ball with a contact on the screw and one on the nut.
+///
+/// The fields are the symbols of Alberdi et al., section 2, in SI units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct KinematicsParameters {
+    /// Diameter of the ball (`D`), m; 1e-4 to 0.2.
+    pub ball_diameter: f32,
+    /// Radius of the helix of ball centres (`r_m`), m; 1e-4 to 2.
+    pub pitch_radius: f32,
+    /// Lead angle of that helix (`psi`), rad; -1.2 to 1.2. Positive for a right-hand thread, 0 for a
+    /// ball bearing. For a given lead see [`lead_angle_of`](Self::lead_angle_of).
+    pub lead_angle: f32,
+    /// Radius of the groove's profile on the screw (`r_i`), m; 0.5 to 2 ball diameters.
+    pub groove_radius_screw: f32,
+    /// Radius of the groove's profile on the nut (`r_o`), m; 0.5 to 2 ball diameters.
+    pub groove_radius_nut: f32,
+    /// Contact angle on the screw (`alpha_i`), rad, from the radial direction; -pi/2 to pi/2.
+    /// Positive where the screw pushes the ball along its axis (the paper's case).
+    pub contact_angle_screw: f32,
+    /// Contact angle on the nut (`alpha_o`), rad; -pi/2 to pi/2.
+    pub contact_angle_nut: f32,
+    /// Pitch angle of the ball's axis of rotation (`beta`), rad; -pi/2 to pi/2.
+    pub pitch_angle: f32,
+    /// Yaw angle of the ball's axis of rotation (`beta'`), rad; -0.5 to 0.5. Customary: 0.
+    pub yaw_angle: f32,
+    /// Distance from the ball's centre at which rolling slip vanishes at the screw (`r'_i`), m; 0.5
+    /// to 2 ball radii. Customary: the ball's radius.
+    pub rolling_radius_screw: f32,
+    /// The same at the nut (`r'_o`), m; 0.5 to 2 ball radii.
+    pub rolling_radius_nut: f32,
+    /// Semi-major axis of the contact ellipse on the screw (`a_H`), m; 0 to 0.3 ball radii.
+    pub semi_major_screw: f32,
+    /// Semi-minor axis of the contact ellipse on the screw (`b_H`), m; 0 to the semi-major axis.
+    pub semi_minor_screw: f32,
+    /// Semi-major axis of the contact ellipse on the nut, m; 0 to 0.3 ball radii.
+    pub semi_major_nut: f32,
+    /// Semi-minor axis of the contact ellipse on the nut, m; 0 to the semi-major axis.
+    pub semi_minor_nut: f32,
+}
+
+impl KinematicsParameters {
+    /// Lead angle (rad) of a helix: `tan psi = lead / (2 pi r_m)`, any finite lead and a positive
+    /// pitch radius, both m.
+    #[must_use]
+    pub fn lead_angle_of(lead: f32, pitch_radius: f32) -> f32 {
+        libm::atan2f(lead, core::f32::consts::TAU * pitch_radius)
+    }
+
+    pub(super) const fn screw(&self) -> EllipticContact {
+        EllipticContact {
+            contact_angle: self.contact_angle_screw,
+            semi_major: self.semi_major_screw,
+            semi_minor: self.semi_minor_screw,
+        }
+    }
+
+    pub(super) const fn nut(&self) -> EllipticContact {
+        EllipticContact {
+            contact_angle: self.contact_angle_nut,
+            semi_major: self.semi_major_nut,
+            semi_minor: self.semi_minor_nut,
+        }
+    }
+}
+
+/// What load changes at one contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct EllipticContact {
+    /// Contact angle, rad; -pi/2 to pi/2.
+    pub contact_angle: f32,
+    /// Semi-major axis of the contact ellipse, m; 0 to 0.3 ball radii.
+    pub semi_major: f32,
+    /// Semi-minor axis of the contact ellipse, m; 0 to the semi-major axis.
+    pub semi_minor: f32,
+}
+
+/// Hertz' half-space holds for ellipses small beside the ball: the share of the ball's radius that
+/// the semi-major axis may have.
+const LARGEST_ELLIPSE: f32 = 0.3;
+/// Least `b_k`, the speed of the ball's surface at the contact in units of `omega_R r'_k`. Below it
+/// (an axis of rotation within 15° of the contact normal) the ball drills more than it rolls, and
+/// spin speed loses digits as `1 / b_k`.
+pub(super) const LEAST_GRIP: f32 = 0.25;
+/// Least part of `q = r_m / cos psi` that `A_k` may keep.
+const LEAST_REACH: f32 = 0.1;
+
+/// What the set-up fixes at one groove.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(super) struct GroovePath {
+    /// `q / r'`: path radius over rolling radius.
+    pub path_over_rolling: f32,
+    /// `r'`, m.
+    pub rolling_radius: f32,
+    /// `r' - D/2`, m; exact in f32 because the two are within a factor of two (Sterbenz).
+    pub rolling_excess: f32,
+    /// Half the curvature of the deformed surface, `1 / (2 R)`, 1/m; eq. (15).
+    pub half_curvature: f32,
+    /// Sagitta of ball and deformed surface over the ellipse, as a power series in `(a / (D/2))^2`.
+    pub deficit: [f32; 4],
+}
+
+impl GroovePath {
+    fn new(path_radius: f32, ball_radius: f32, groove_radius: f32, rolling_radius: f32) -> Self {
+        let ball_diameter = 2.0 * ball_radius;
+        // rho = (D/2) / R = (2 r + D) / (4 r); 1 - rho from 2 r - D, which is exact for
+        // D/2 <= 2 r <= 2 D: conformity would otherwise lose 1 / (2 r / D - 1) = 20 fold.
+        let gap = (2.0 * groove_radius - ball_diameter) / (4.0 * groove_radius);
+        let rho = (2.0 * groove_radius + ball_diameter) / (4.0 * groove_radius);
+        let rho_2 = rho * rho;
+        let rho_4 = rho_2 * rho_2;
+        // D/2 - S(0) = [u - sqrt(u^2 - a^2)] - [R - sqrt(R^2 - a^2)] from (14) by 1 - sqrt(1 - z) =
+        // z/2 + z^2/8 + z^3/16 + 5 z^4/128 + ..., and 1 - rho^(2n-1) = (1 - rho)(1 + rho + ...).
+        let sum_3 = 1.0 + rho + rho_2;
+        let sum_5 = sum_3 + rho_2 * rho + rho_4;
+        let sum_7 = sum_5 + rho_4 * rho + rho_4 * rho_2;
+        let scale = ball_radius * gap;
+        Self {
+            path_over_rolling: path_radius / rolling_radius,
+            rolling_radius,
+            rolling_excess: rolling_radius - ball_radius,
+            half_curvature: 0.5 * rho / ball_radius,
+            deficit: [
+                scale * 0.5,
+                scale * sum_3 * 0.125,
+                scale * sum_5 * 0.0625,
+                scale * sum_7 * 0.0390625,
+            ],
+        }
+    }
+}
+
+/// What the set-up fixes for the ball: helix, axis of rotation, both grooves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(super) struct Path {
+    /// `sin psi`.
+    pub sin_lead: f32,
+    /// `cos psi`.
+    pub cos_lead: f32,
+    /// `q = r_m / cos psi`, m.
+    pub radius: f32,
+    /// `h = cos beta cos beta'`: direction of the axis of rotation against the binormal.
+    pub axis_binormal: f32,
+    /// `t = cos beta sin beta'`: along the path.
+    pub axis_tangent: f32,
+    /// `sin beta`: against the normal.
+    pub axis_normal: f32,
+    /// `1 / (D/2)^2`, 1/m^2.
+    pub inverse_ball_radius_squared: f32,
+    /// Largest semi-major axis, m.
+    pub largest_ellipse: f32,
+    pub screw: GroovePath,
+    pub nut: GroovePath,
+}
+
+impl Path {
+    pub fn new(parameters: &KinematicsParameters) -> Result<Self, Error> {
+        let p = parameters;
+        let diameter = in_range("ball_diameter", p.ball_diameter, 1.0e-4, 0.2)?;
+        let pitch_radius = in_range("pitch_radius", p.pitch_radius, 1.0e-4, 2.0)?;
+        let lead_angle = in_range("lead_angle", p.lead_angle, -1.2, 1.2)?;
+        let ball_radius = 0.5 * diameter;
+        let groove = |field, radius| in_range(field, radius, ball_radius, 2.0 * diameter);
+        let groove_screw = groove("groove_radius_screw", p.groove_radius_screw)?;
+        let groove_nut = groove("groove_radius_nut", p.groove_radius_nut)?;
+        let angle = |field, angle| in_range(field, angle, -FRAC_PI_2, FRAC_PI_2);
+        angle("contact_angle_screw", p.contact_angle_screw)?;
+        angle("contact_angle_nut", p.contact_angle_nut)?;
+        let pitch_angle = angle("pitch_angle", p.pitch_angle)?;
+        let yaw_angle = in_range("yaw_angle", p.yaw_angle, -0.5, 0.5)?;
+        let rolling = |field, radius| in_range(field, radius, 0.5 * ball_radius, diameter);
+        let rolling_screw = rolling("rolling_radius_screw", p.rolling_radius_screw)?;
+        let rolling_nut = rolling("rolling_radius_nut", p.rolling_radius_nut)?;
+        let largest_ellipse = LARGEST_ELLIPSE * ball_radius;
+        let major = |field, semi_major| in_range(field, semi_major, 0.0, largest_ellipse);
+        let semi_major_screw = major("semi_major_screw", p.semi_major_screw)?;
+        in_range(
+            "semi_minor_screw",
+            p.semi_minor_screw,
+            0.0,
+            semi_major_screw,
+        )?;
+        let semi_major_nut = major("semi_major_nut", p.semi_major_nut)?;
+        in_range("semi_minor_nut", p.semi_minor_nut, 0.0, semi_major_nut)?;
+
+        let (sin_lead, cos_lead) = math::sin_cos(lead_angle);
+        let (sin_pitch, cos_pitch) = math::sin_cos(pitch_angle);
+        let (sin_yaw, cos_yaw) = math::sin_cos(yaw_angle);
+        let radius = pitch_radius / cos_lead;
+        Ok(Self {
+            sin_lead,
+            cos_lead,
+            radius,
+            axis_binormal: cos_pitch * cos_yaw,
+            axis_tangent: cos_pitch * sin_yaw,
+            axis_normal: sin_pitch,
+            inverse_ball_radius_squared: 1.0 / (ball_radius * ball_radius),
+            largest_ellipse,
+            screw: GroovePath::new(radius, ball_radius, groove_screw, rolling_screw),
+            nut: GroovePath::new(radius, ball_radius, groove_nut, rolling_nut),
+        })
+    }
+
+    /// True where contact angle and ellipse are within their own ranges.
+    #[inline]
+    pub fn accepts(&self, contact: EllipticContact) -> bool {
+        // Written so that a comparison with NaN refuses.
+        contact.contact_angle.abs() <= FRAC_PI_2
+            && contact.semi_major <= self.largest_ellipse
+            && contact.semi_minor <= contact.semi_major
+            && contact.semi_minor >= 0.0
+    }
+
+    /// Directions of both contacts, or the field that keeps the ball from rolling.
+    pub fn checked_directions(
+        &self,
+        parameters: &KinematicsParameters,
+    ) -> Result<(Direction, Direction), Error> {
+        let screw = self.direction(&self.screw, parameters.screw(), Groove::Screw);
+        let nut = self.direction(&self.nut, parameters.nut(), Groove::Nut);
+        self.check(&screw, &self.screw, Groove::Screw, parameters)?;
+        self.check(&nut, &self.nut, Groove::Nut, parameters)?;
+        Ok((screw, nut))
+    }
+
+    fn check(
+        &self,
+        direction: &Direction,
+        groove_path: &GroovePath,
+        groove: Groove,
+        parameters: &KinematicsParameters,
+    ) -> Result<(), Error> {
+        let (angle_field, angle, radius_field) = match groove {
+            Groove::Screw => (
+                "contact_angle_screw",
+                parameters.contact_angle_screw,
+                "rolling_radius_screw",
+            ),
+            Groove::Nut => (
+                "contact_angle_nut",
+                parameters.contact_angle_nut,
+                "rolling_radius_nut",
+            ),
+        };
+        if !direction.grips() {
+            // acos(0.25) = 1.318 either side of the pitch angle, exact for zero yaw.
+            return Err(Error::OutOfRange {
+                field: angle_field,
+                value: angle,
+                allowed: Range::new(
+                    (parameters.pitch_angle - 1.318).max(-FRAC_PI_2),
+                    (parameters.pitch_angle + 1.318).min(FRAC_PI_2),
+                ),
+            });
+        }
+        if !direction.reaches(groove_path) {
+            // A >= 0.1 q, that is r' cos(alpha) cos^2(psi) <= 0.9 r_m, with q = r_m / cos(psi).
+            let limit =
+                (1.0 - LEAST_REACH) * self.radius / (self.cos_lead * direction.cosine.abs());
+            return Err(Error::FoldedGroove {
+                field: radius_field,
+                value: groove_path.rolling_radius,
+                allowed: Range::new(0.25 * parameters.ball_diameter, limit),
+            });
+        }
+        Ok(())
+    }
+}
+
+impl Direction {
+    /// True where the ball's surface moves fast enough at the contact to roll there.
+    #[inline]
+    pub fn grips(&self) -> bool {
+        self.grip >= LEAST_GRIP
+    }
+
+    /// True where the ball's path does not fold past the axis.
+    #[inline]
+    pub fn reaches(&self, groove_path: &GroovePath) -> bool {
+        self.reach >= LEAST_REACH * groove_path.path_over_rolling
+    }
+
+    /// True where both hold.
+    #[inline]
+    pub fn rolls(&self, groove_path: &GroovePath) -> bool {
+        self.grips() && self.reaches(groove_path)
+    }
+}
