@@ -4,6 +4,7 @@ use clap::{Parser, Subcommand};
 
 use crate::eval;
 use crate::failure::Failure;
+use crate::report;
 use crate::simulate;
 
 /// Friction of ball screws for electric power steering: error against run time of every formula,
@@ -19,6 +20,7 @@ struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    Report(report::Arguments),
     Simulate(Box<simulate::Arguments>),
     Eval(eval::Arguments),
 }
@@ -28,11 +30,7 @@ pub fn run() -> Result<(), Failure> {
     match Cli::parse().command {
         Some(Command::Simulate(arguments)) => simulate::run(&arguments),
         Some(Command::Eval(arguments)) => eval::run(&arguments),
-        None => { tmp(); Ok(()) }
-    }
-}
-pub fn tmp() {
-    for c in crate::timing::compete(400).unwrap_or_default() {
-        println!("{:46} {:44} lat {:7.2} [{:6.2} {:6.2}] x{:6.2}  thr {:7.2} [{:6.2} {:6.2}] x{:6.2}", c.group, c.name, c.latency.median, c.latency.quartiles.0, c.latency.quartiles.1, c.ratios.0, c.throughput.median, c.throughput.quartiles.0, c.throughput.quartiles.1, c.ratios.1);
+        Some(Command::Report(arguments)) => report::run(&arguments),
+        None => report::run(&report::Arguments::default()),
     }
 }

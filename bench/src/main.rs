@@ -7,7 +7,9 @@ mod eval;
 mod failure;
 mod files;
 mod plot;
+mod report;
 mod simulate;
+mod timing;
 
 use std::process::ExitCode;
 
@@ -17,4 +19,3 @@ fn main() -> ExitCode {
         Err(failure) => failure.report(),
     }
 }
-mod timing;

@@ -78,9 +78,7 @@ impl<'a, I: Feed + 'static> Group<'a, I> {
         name: &'static str,
         function: impl FnMut(I) -> O + Clone + 'static,
     ) -> Self {
-        let place = self
-            .race
-            .competitor(self.baseline, &self.inputs, function);
+        let place = self.race.competitor(self.baseline, &self.inputs, function);
         let unit = *self.unit.get_or_insert(place);
         self.list.push((key, name, self.heading, place, unit));
         self
@@ -114,7 +112,9 @@ pub fn compete(rounds: usize) -> Result<Vec<Competition>, Failure> {
         |share| ContactAngle::new(angle(share) as f32),
         |angle: ContactAngle| angle.cos,
     )
-    .time("literature", "literature (27)", move |a| literature.first(a))
+    .time("literature", "literature (27)", move |a| {
+        literature.first(a)
+    })
     .time("circular_groove", "circular groove (25)", move |a| {
         circular.first(a)
     })
