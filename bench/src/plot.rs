@@ -3,6 +3,9 @@
 //! Nothing is asked of the machine: text is SVG text in the viewer's sans-serif font. A logarithmic
 //! axis is a linear one over the decimal logarithm.
 
+// Counts of pixels, lines and bands are far below the largest i32, which the drawing library counts in.
+#![allow(clippy::cast_possible_wrap)]
+
 mod chart;
 mod map;
 mod scale;

@@ -23,6 +23,7 @@ use document::{Block, Section};
 
 /// Error against run time of every model, on this machine: tables on stdout, and a folder with
 /// Markdown, a self-contained HTML page, SVG plots, and CSV and JSON of every figure and table.
+#[allow(clippy::doc_markdown)] // Help text, where backticks would stand as they are.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// Folder that the report goes to; a report that is there is replaced
@@ -61,8 +62,11 @@ impl Context {
     }
 }
 
+/// Makes a section.
+type MakeSection = fn(&Context) -> Result<Section, Failure>;
+
 /// Every section, in the order of the report.
-const SECTIONS: [fn(&Context) -> Result<Section, Failure>; 7] = [
+const SECTIONS: [MakeSection; 7] = [
     curvature_sizes::section,
     curvature_maps::section,
     curvature_cost::section,
@@ -87,12 +91,13 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         .map(|section| section(&context))
         .collect::<Result<Vec<_>, _>>()?;
 
+    // Files first: whoever reads only the head of the output gets the whole report all the same.
+    let folder = &arguments.output;
+    write_files(folder, &sections)?;
     let mut stdout = io::stdout().lock();
     for section in &sections {
         console::print(&mut stdout, section)?;
     }
-    let folder = &arguments.output;
-    write_files(folder, &sections)?;
     writeln!(
         stdout,
         "wrote {} and {}, with every figure and table beside them",

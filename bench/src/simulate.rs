@@ -35,6 +35,7 @@ use trace::{Sample, Trace};
 /// bodies, or each in a table [ball_material], [groove_material]; steel without), friction,
 /// rolling_tangent, branch ("rolling" or "sliding"), preload, reversal_speed, loaded_balls, and a table
 /// [limits] with nut_speed, axial_load, friction_torque.
+#[allow(clippy::doc_markdown)] // Help text, where backticks would stand as they are.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// Print the names of the built-in designs
@@ -103,9 +104,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     for path in output.iter().chain(&plot) {
         existing.check(path)?;
     }
-    if let Some(input) = &arguments.input {
-        refuse_same(input, output.iter().chain(&plot))?;
-    }
+    refuse_same(arguments.input.as_deref(), output.iter().chain(&plot))?;
 
     let (rows, summary) = simulate(&design, &trace, arguments.reference)?;
     let table = output
@@ -181,12 +180,12 @@ fn targets(
 
 /// The trace itself is never overwritten, nor one output by the other.
 fn refuse_same<'a>(
-    input: &Path,
+    input: Option<&Path>,
     outputs: impl Iterator<Item = &'a PathBuf>,
 ) -> Result<(), Failure> {
-    let mut taken = vec![fs::canonicalize(input).unwrap_or_else(|_| input.into())];
+    let mut taken: Vec<PathBuf> = input.map(place).into_iter().collect();
     for output in outputs {
-        let place = fs::canonicalize(output).unwrap_or_else(|_| output.clone());
+        let place = place(output);
         if taken.contains(&place) {
             return Err(Failure::Data(format!(
                 "{} is named twice",
@@ -196,6 +195,17 @@ fn refuse_same<'a>(
         taken.push(place);
     }
     Ok(())
+}
+
+/// Where a file is or will be, under one name however it is spelled.
+fn place(path: &Path) -> PathBuf {
+    fs::canonicalize(path).unwrap_or_else(|_| {
+        let absolute = std::path::absolute(path).unwrap_or_else(|_| path.into());
+        match (absolute.parent().map(fs::canonicalize), path.file_name()) {
+            (Some(Ok(folder)), Some(name)) => folder.join(name),
+            _ => absolute,
+        }
+    })
 }
 
 fn simulate(

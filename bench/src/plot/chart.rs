@@ -8,7 +8,8 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::{
-    Axis, FONT, LABEL_SIZE, LINE_HEIGHT, PALETTE, TEXT, TICK_SIZE, TITLE_SIZE, text_width,
+    Axis, FONT, LABEL_SIZE, LINE_HEIGHT, PALETTE, STROKE, TEXT, TICK_SIZE, TITLE_SIZE, px,
+    text_width,
 };
 
 /// How a series is drawn.
@@ -123,7 +124,7 @@ impl Chart {
         if title_lines > 0 {
             draw_title(area, &self.title)?;
         }
-        self.draw_legend(area, &legend, px(4) + LINE_HEIGHT * title_lines)?;
+        draw_legend(area, &legend, px(4) + LINE_HEIGHT * title_lines)?;
 
         let (_, body) = area.split_vertically(header);
         let x = self.x.range(self.points().map(|(x, _)| x));
@@ -252,48 +253,49 @@ impl Chart {
         }
         lines
     }
+}
 
-    fn draw_legend(&self, area: &Area<'_>, lines: &[Vec<(i32, &Series)>], top: i32) -> Drawn {
-        for (index, line) in lines.iter().enumerate() {
-            let middle = top + LINE_HEIGHT * index as i32 + LINE_HEIGHT / 2;
-            for &(place, series) in line {
-                let colour = series.rgb();
-                let stroke = colour.stroke_width(STROKE);
-                let centre = (place + px(13), middle);
-                match series.mark {
-                    Mark::Line => area.draw(&PathElement::new(
-                        vec![(place, middle), (place + px(26), middle)],
-                        stroke,
-                    ))?,
-                    Mark::Dashed => {
-                        for start in [place, place + px(10), place + px(20)] {
-                            area.draw(&PathElement::new(
-                                vec![(start, middle), (start + px(6), middle)],
-                                stroke,
-                            ))?;
-                        }
+/// Draws the legend's lines from `top` on.
+fn draw_legend(area: &Area<'_>, lines: &[Vec<(i32, &Series)>], top: i32) -> Drawn {
+    for (index, line) in lines.iter().enumerate() {
+        let middle = top + LINE_HEIGHT * index as i32 + LINE_HEIGHT / 2;
+        for &(place, series) in line {
+            let colour = series.rgb();
+            let stroke = colour.stroke_width(STROKE);
+            let centre = (place + px(13), middle);
+            match series.mark {
+                Mark::Line => area.draw(&PathElement::new(
+                    vec![(place, middle), (place + px(26), middle)],
+                    stroke,
+                ))?,
+                Mark::Dashed => {
+                    for start in [place, place + px(10), place + px(20)] {
+                        area.draw(&PathElement::new(
+                            vec![(start, middle), (start + px(6), middle)],
+                            stroke,
+                        ))?;
                     }
-                    Mark::Circles => area.draw(&Circle::new(centre, px(5), colour.filled()))?,
-                    Mark::Crosses => area.draw(&Cross::new(centre, px(5), stroke))?,
-                    Mark::Triangles => {
-                        area.draw(&TriangleMarker::new(centre, px(7), colour.filled()))?;
-                    }
-                    Mark::Dots => area.draw(&Circle::new(centre, px(3), colour.filled()))?,
-                    Mark::ShadedBelow | Mark::ShadedAbove => area.draw(&Rectangle::new(
-                        [(place, middle - px(6)), (place + px(26), middle + px(6))],
-                        colour.mix(0.4).filled(),
-                    ))?,
                 }
-                let style = tick_style().pos(Pos::new(HPos::Left, VPos::Center));
-                area.draw(&Text::new(
-                    series.name.clone(),
-                    (place + px(34), middle),
-                    style,
-                ))?;
+                Mark::Circles => area.draw(&Circle::new(centre, px(5), colour.filled()))?,
+                Mark::Crosses => area.draw(&Cross::new(centre, px(5), stroke))?,
+                Mark::Triangles => {
+                    area.draw(&TriangleMarker::new(centre, px(7), colour.filled()))?;
+                }
+                Mark::Dots => area.draw(&Circle::new(centre, px(3), colour.filled()))?,
+                Mark::ShadedBelow | Mark::ShadedAbove => area.draw(&Rectangle::new(
+                    [(place, middle - px(6)), (place + px(26), middle + px(6))],
+                    colour.mix(0.4).filled(),
+                ))?,
             }
+            let style = tick_style().pos(Pos::new(HPos::Left, VPos::Center));
+            area.draw(&Text::new(
+                series.name.clone(),
+                (place + px(34), middle),
+                style,
+            ))?;
         }
-        Ok(())
     }
+    Ok(())
 }
 
 /// Cuts a line where it is interrupted or leaves the axis, so that nothing is drawn outside.

@@ -41,7 +41,7 @@ impl Axis {
     }
 
     /// This axis with the ends given.
-    pub fn from_to(self, start: f64, end: f64) -> Self {
+    pub fn between(self, start: f64, end: f64) -> Self {
         Self {
             ends: Some((start, end)),
             ..self

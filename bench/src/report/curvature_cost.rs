@@ -63,7 +63,7 @@ const OPERATIONS: [&str; 4] = [
     "1 division, 2 others",
     "1 division, 2 others",
     "1 division, 8 others",
-    "2 divisions, 2 roots, 43 others",
+    "2 divisions, 2 roots, 40 others",
 ];
 
 /// The section.
@@ -93,7 +93,7 @@ pub fn section(context: &Context) -> Result<Section, Failure> {
              times the literature formula's time from the contact angle, and {:.2} times with cosine and \
              sine at hand. Three things make the difference. First, the paper's exact solution is the \
              expanded formula of its Appendix B, about 730 operations; the same curvature follows from \
-             the shape operator in orthonormal directions with 2 divisions, 2 square roots and 43 other \
+             the shape operator in orthonormal directions with 2 divisions, 2 square roots and 40 other \
              operations, after everything that depends on the design alone has been folded at set-up, \
              and both curvatures come out. Second, cosine and sine of the contact angle are more work \
              than the literature formula, and every form needs the cosine. Third, compiled code has none \
@@ -249,8 +249,8 @@ fn scatter(contenders: &[Contender]) -> Result<Figure, Failure> {
     }
     let chart = Chart {
         title: "Largest error of the first radius of curvature against the time of a call".into(),
-        x: Axis::log("latency of one call (ns)").from_to(1.0, 1000.0),
-        y: Axis::log("largest relative error on the 31 sizes").from_to(1e-16, 10.0),
+        x: Axis::log("latency of one call (ns)").between(1.0, 1000.0),
+        y: Axis::log("largest relative error on the 31 sizes").between(1e-16, 10.0),
         series,
         notes,
     };
@@ -322,8 +322,8 @@ fn histograms(context: &Context) -> Result<Figure, Failure> {
     }
     let chart = Chart {
         title: "Distribution of the time of one call, from the contact angle".into(),
-        x: Axis::log("latency of one call (ns)").from_to(10.0, 1000.0),
-        y: Axis::linear("share of the rounds (%)").from_to(0.0, 100.0),
+        x: Axis::log("latency of one call (ns)").between(10.0, 1000.0),
+        y: Axis::linear("share of the rounds (%)").between(0.0, 100.0),
         series,
         notes: Vec::new(),
     };

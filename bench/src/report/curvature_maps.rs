@@ -129,7 +129,7 @@ fn radius_curves() -> Result<Figure, Failure> {
         series.push(Series::new("circular groove", 6, Mark::Crosses, crosses));
         panels.push(Panel::Chart(Chart {
             title: format!("First radius of curvature, {name}"),
-            x: Axis::linear("contact angle (deg)").from_to(0.0, LARGEST),
+            x: Axis::linear("contact angle (deg)").between(0.0, LARGEST),
             y: Axis::log("radius (mm)"),
             series,
             notes: Vec::new(),
@@ -143,8 +143,8 @@ fn radius_curves() -> Result<Figure, Failure> {
 
 fn angle_axes() -> (Axis, Axis) {
     (
-        Axis::linear("lead angle (deg)").from_to(0.0, LARGEST),
-        Axis::linear("contact angle (deg)").from_to(0.0, LARGEST),
+        Axis::linear("lead angle (deg)").between(0.0, LARGEST),
+        Axis::linear("contact angle (deg)").between(0.0, LARGEST),
     )
 }
 

@@ -153,7 +153,7 @@ fn figure(data: &[(&str, Vec<Compared>)]) -> Result<Figure, Failure> {
             Panel::Chart(Chart {
                 title: format!("First radius of curvature, {name}: mean error"),
                 x: Axis::linear("lead angle (deg)"),
-                y: Axis::log("mean error (%)").from_to(1e-6, 1e2),
+                y: Axis::log("mean error (%)").between(1e-6, 1e2),
                 series,
                 notes: Vec::new(),
             })

@@ -121,7 +121,7 @@ fn figure_3(over_lead: &[Point], over_contact: &[Point]) -> Result<Figure, Failu
         Panel::Chart(Chart {
             title: title.into(),
             x: Axis::linear(label),
-            y: Axis::linear("efficiency").from_to(0.5, 1.0),
+            y: Axis::linear("efficiency").between(0.5, 1.0),
             series: vec![
                 Series::new(
                     "rolling (3)",
@@ -302,8 +302,8 @@ fn figure_5() -> Result<Figure, Failure> {
     }
     let chart = Chart {
         title: "Efficiency over the slip angle at the screw".into(),
-        x: Axis::linear("slip angle (deg)").from_to(0.0, 90.0),
-        y: Axis::linear("efficiency").from_to(0.5, 1.0),
+        x: Axis::linear("slip angle (deg)").between(0.0, 90.0),
+        y: Axis::linear("efficiency").between(0.5, 1.0),
         series,
         notes: Vec::new(),
     };

@@ -82,8 +82,8 @@ fn figure_6() -> Result<Figure, Failure> {
     let [drive, backdrive, drive_f32, backdrive_f32] = curves;
     let chart = Chart {
         title: "Contact angle of highest full-sliding efficiency, friction 0.075".into(),
-        x: Axis::linear("lead angle (deg)").from_to(0.0, 50.0),
-        y: Axis::linear("contact angle (deg)").from_to(40.0, 90.0),
+        x: Axis::linear("lead angle (deg)").between(0.0, 50.0),
+        y: Axis::linear("contact angle (deg)").between(40.0, 90.0),
         series: vec![
             Series::new("driving (15)", 0, Mark::Line, drive),
             Series::new("back-driving (18)", 1, Mark::Line, backdrive),
@@ -149,8 +149,8 @@ fn figure_7() -> Result<Figure, Failure> {
             .collect();
         Panel::Chart(Chart {
             title: title.into(),
-            x: Axis::linear("lead angle (deg)").from_to(ends.0, ends.1),
-            y: Axis::linear("contact angle (deg)").from_to(contact.0, contact.1),
+            x: Axis::linear("lead angle (deg)").between(ends.0, ends.1),
+            y: Axis::linear("contact angle (deg)").between(contact.0, contact.1),
             series,
             notes: Vec::new(),
         })

@@ -116,7 +116,7 @@ fn figure(points: &[Point]) -> Result<Figure, Failure> {
     let chart = Chart {
         title: "Contact ellipse in f32 against exact elliptic integrals".into(),
         x: Axis::log("ratio of the relative radii"),
-        y: Axis::log("relative error").from_to(1e-9, 1e-4),
+        y: Axis::log("relative error").between(1e-9, 1e-4),
         series,
         notes: Vec::new(),
     };

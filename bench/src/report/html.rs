@@ -52,7 +52,7 @@ pub fn render(title: &str, sections: &[Section]) -> String {
         for block in &section.blocks {
             match block {
                 Block::Paragraph(text) => {
-                    push(&mut page, format_args!("<p>{}</p>\n", escape(text)))
+                    push(&mut page, format_args!("<p>{}</p>\n", escape(text)));
                 }
                 Block::Table(table) => push_table(&mut page, table),
                 Block::Figure(figure) => push(
