@@ -43,7 +43,6 @@ use lines::{Line, Lines};
 /// groove_radius_nut, contact_angle_screw, contact_angle_nut, pitch_angle, yaw_angle,
 /// rolling_radius_screw, rolling_radius_nut, speed, semi_major_screw, semi_minor_screw,
 /// semi_major_nut, semi_minor_nut
-#[allow(clippy::doc_markdown)] // Help text, where backticks would stand as they are.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// File with the requests; stdin without it or for -

@@ -1,6 +1,9 @@
 //! The command-line program of `epas-friction`: the error of every formula beside its run time,
 //! simulation of manoeuvres, and the `eval` interface for other people's reference data.
 
+// The documentation of arguments is the program's help text, where back-quotes would only be noise.
+#![allow(clippy::doc_markdown)]
+
 mod cli;
 mod designs;
 mod eval;

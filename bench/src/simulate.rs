@@ -35,7 +35,6 @@ use trace::{Sample, Trace};
 /// bodies, or each in a table [ball_material], [groove_material]; steel without), friction,
 /// rolling_tangent, branch ("rolling" or "sliding"), preload, reversal_speed, loaded_balls, and a table
 /// [limits] with nut_speed, axial_load, friction_torque.
-#[allow(clippy::doc_markdown)] // Help text, where backticks would stand as they are.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// Print the names of the built-in designs

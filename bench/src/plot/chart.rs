@@ -25,8 +25,6 @@ pub enum Mark {
     Crosses,
     /// Triangles.
     Triangles,
-    /// Small dots.
-    Dots,
     /// A line with the area down to the lower edge shaded.
     ShadedBelow,
     /// A line with the area up to the upper edge shaded.
@@ -179,11 +177,6 @@ impl Chart {
                         visible().map(|point| TriangleMarker::new(point, px(7), colour.filled())),
                     )?;
                 }
-                Mark::Dots => {
-                    context.draw_series(
-                        visible().map(|point| Circle::new(point, px(3), colour.filled())),
-                    )?;
-                }
                 Mark::Line | Mark::Dashed | Mark::ShadedBelow | Mark::ShadedAbove => {
                     for piece in pieces(places(), &y) {
                         if matches!(series.mark, Mark::ShadedBelow | Mark::ShadedAbove) {
@@ -281,7 +274,6 @@ fn draw_legend(area: &Area<'_>, lines: &[Vec<(i32, &Series)>], top: i32) -> Draw
                 Mark::Triangles => {
                     area.draw(&TriangleMarker::new(centre, px(7), colour.filled()))?;
                 }
-                Mark::Dots => area.draw(&Circle::new(centre, px(3), colour.filled()))?,
                 Mark::ShadedBelow | Mark::ShadedAbove => area.draw(&Rectangle::new(
                     [(place, middle - px(6)), (place + px(26), middle + px(6))],
                     colour.mix(0.4).filled(),

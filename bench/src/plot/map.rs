@@ -51,6 +51,27 @@ fn colour(share: f64) -> RGBColor {
 }
 
 impl ColourMap {
+    /// Centre and value of every cell.
+    pub fn cells(&self) -> impl Iterator<Item = (f64, f64, f64)> + '_ {
+        let x = self.x.range(std::iter::empty());
+        let y = self.y.range(std::iter::empty());
+        let centre = |range: &std::ops::Range<f64>, index: usize, count: usize| {
+            range.start + (range.end - range.start) * (index as f64 + 0.5) / count.max(1) as f64
+        };
+        let rows = self.values.len();
+        self.values
+            .iter()
+            .enumerate()
+            .flat_map(move |(row, values)| {
+                let height = centre(&y, row, rows);
+                let x = x.clone();
+                values
+                    .iter()
+                    .enumerate()
+                    .map(move |(column, value)| (centre(&x, column, values.len()), height, *value))
+            })
+    }
+
     /// Index of the band of a value; none where it is no number.
     fn band(&self, value: f64) -> Option<usize> {
         (!value.is_nan()).then(|| {
@@ -104,10 +125,15 @@ impl ColourMap {
             for run in values.chunk_by(|one, other| self.band(*one) == self.band(*other)) {
                 let end = start + run.len();
                 if let Some(band) = run.first().and_then(|value| self.band(*value)) {
+                    // Half a cell too wide and too high: what comes next is drawn over it, and no seam
+                    // of background shines through between neighbours.
                     context.draw_series([Rectangle::new(
                         [
                             (x.start + start as f64 * cell_width, bottom),
-                            (x.start + end as f64 * cell_width, bottom + cell_height),
+                            (
+                                (x.start + (end as f64 + 0.5) * cell_width).min(x.end),
+                                (bottom + 1.5 * cell_height).min(y.end),
+                            ),
                         ],
                         self.band_colour(band).filled(),
                     )])?;

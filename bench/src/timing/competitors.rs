@@ -19,10 +19,6 @@ use crate::failure::Failure;
 pub struct Competition {
     /// Short name, the same from one report to the next.
     pub key: &'static str,
-    /// What it is.
-    pub name: &'static str,
-    /// Heading that it belongs under.
-    pub group: &'static str,
     /// Time where each call waits for the one before.
     pub latency: Measure,
     /// Time where calls are independent.
@@ -31,31 +27,25 @@ pub struct Competition {
     pub ratios: (f64, f64),
 }
 
-/// Headings.
-pub const GIVEN_COSINE: &str = "f32, from cosine and sine of the contact angle";
-pub const FROM_ANGLE: &str = "f32, from the contact angle";
-pub const DOUBLE: &str = "f64 reference, from the contact angle";
-
 /// Inputs of a batch.
 const INPUTS: usize = 256;
 
 /// Functions that are measured against one empty call.
 struct Group<'a, I> {
     race: &'a mut Race,
-    list: &'a mut Vec<(&'static str, &'static str, &'static str, Place, Place)>,
-    heading: &'static str,
+    list: &'a mut List,
     inputs: Vec<I>,
     baseline: Place,
     unit: Option<Place>,
 }
 
-type List = Vec<(&'static str, &'static str, &'static str, Place, Place)>;
+/// Key, place and unit of each competitor.
+type List = Vec<(&'static str, Place, Place)>;
 
 impl<'a, I: Feed + 'static> Group<'a, I> {
     fn new<O: Taken + 'static>(
         race: &'a mut Race,
         list: &'a mut List,
-        heading: &'static str,
         input: impl Fn(f64) -> I,
         empty: impl FnMut(I) -> O + Clone + 'static,
     ) -> Self {
@@ -64,7 +54,6 @@ impl<'a, I: Feed + 'static> Group<'a, I> {
         Self {
             race,
             list,
-            heading,
             inputs,
             baseline,
             unit: None,
@@ -75,12 +64,11 @@ impl<'a, I: Feed + 'static> Group<'a, I> {
     fn time<O: Taken + 'static>(
         mut self,
         key: &'static str,
-        name: &'static str,
         function: impl FnMut(I) -> O + Clone + 'static,
     ) -> Self {
         let place = self.race.competitor(self.baseline, &self.inputs, function);
         let unit = *self.unit.get_or_insert(place);
-        self.list.push((key, name, self.heading, place, unit));
+        self.list.push((key, place, unit));
         self
     }
 }
@@ -108,90 +96,63 @@ pub fn compete(rounds: usize) -> Result<Vec<Competition>, Failure> {
     Group::new(
         &mut race,
         &mut list,
-        GIVEN_COSINE,
         |share| ContactAngle::new(angle(share) as f32),
         |angle: ContactAngle| angle.cos,
     )
-    .time("literature", "literature (27)", move |a| {
-        literature.first(a)
-    })
-    .time("circular_groove", "circular groove (25)", move |a| {
-        circular.first(a)
-    })
-    .time("fitted", "fitted", move |a| fitted.first(a))
-    .time("exact", "exact, both curvatures", move |a| {
-        exact.principal(a)
-    });
+    .time("literature", move |a| literature.first(a))
+    .time("circular_groove", move |a| circular.first(a))
+    .time("fitted", move |a| fitted.first(a))
+    .time("exact", move |a| exact.principal(a));
 
     Group::new(
         &mut race,
         &mut list,
-        FROM_ANGLE,
         |share| angle(share) as f32,
         |angle: f32| angle,
     )
-    .time("literature_angle", "literature (27)", move |a| {
+    .time("literature_angle", move |a| {
         literature.first(ContactAngle::new(a))
     })
-    .time("circular_groove_angle", "circular groove (25)", move |a| {
+    .time("circular_groove_angle", move |a| {
         circular.first(ContactAngle::new(a))
     })
-    .time("fitted_angle", "fitted", move |a| {
-        fitted.first(ContactAngle::new(a))
-    })
-    .time("exact_angle", "exact, both curvatures", move |a| {
+    .time("fitted_angle", move |a| fitted.first(ContactAngle::new(a)))
+    .time("exact_angle", move |a| {
         exact.principal(ContactAngle::new(a))
     });
 
     let row = black_box(TABLE_A1[15]);
     let surface = black_box(row.surface(reference::Groove::Screw));
     let ball_radius = black_box(0.5 * row.ball_diameter);
-    Group::new(&mut race, &mut list, DOUBLE, angle, |angle: f64| angle)
-        .time("literature_f64", "literature (27)", move |a| {
+    Group::new(&mut race, &mut list, angle, |angle: f64| angle)
+        .time("literature_f64", move |a| {
             reference::literature(surface.groove, surface.pitch_radius, ball_radius, a)
         })
-        .time("circular_groove_f64", "circular groove (25)", move |a| {
-            surface.circular_groove(a)
+        .time("circular_groove_f64", move |a| surface.circular_groove(a))
+        .time("weingarten_f64", move |a| surface.principal(a))
+        .time("weingarten_printed_f64", move |a| {
+            surface.principal_cartesian(a)
         })
-        .time(
-            "weingarten_f64",
-            "Weingarten map (12)-(24) in the Frenet frame",
-            move |a| surface.principal(a),
-        )
-        .time(
-            "weingarten_printed_f64",
-            "Weingarten map as printed",
-            move |a| surface.principal_cartesian(a),
-        )
-        .time("appendix_b_f64", "Appendix B, corrected", move |a| {
-            surface.appendix_b(a)
-        });
+        .time("appendix_b_f64", move |a| surface.appendix_b(a));
 
     let screw = EfficiencyGeometry::of(&design);
     let correction = DynamicCorrection::new(&screw, black_box(0.075));
     Group::new(
         &mut race,
         &mut list,
-        "efficiency, from the friction coefficient",
         |share| (0.02 + 0.2 * share) as f32,
         |friction: f32| friction,
     )
-    .time("efficiency_rolling", "rolling (3)", move |f| {
+    .time("efficiency_rolling", move |f| {
         screw.rolling_efficiency(f, 0.0)
     })
-    .time("efficiency_sliding", "full sliding (14)", move |f| {
-        screw.sliding_efficiency(f)
+    .time("efficiency_sliding", move |f| screw.sliding_efficiency(f))
+    .time("efficiency_sliding_backdrive", move |f| {
+        screw.sliding_backdrive_efficiency(f)
     })
-    .time(
-        "efficiency_sliding_backdrive",
-        "full sliding, back-driving (17)",
-        move |f| screw.sliding_backdrive_efficiency(f),
-    )
-    .time(
-        "efficiency_dynamic",
-        "dynamic correction of (14)",
-        move |number| correction.efficiency(number),
-    );
+    .time("efficiency_dynamic", move |number| {
+        correction.efficiency(number)
+    });
 
     let contact = HertzContact::of(&design, Groove::Screw);
     let modulus = black_box(113.9e9);
@@ -199,24 +160,17 @@ pub fn compete(rounds: usize) -> Result<Vec<Competition>, Failure> {
     Group::new(
         &mut race,
         &mut list,
-        "contact ellipse and model",
         |share| (10.0 + 500.0 * share) as f32,
         |load: f32| load,
     )
-    .time("hertz_ellipse", "ellipse under a load", move |load| {
-        contact.at(load)
-    })
-    .time(
-        "hertz_setup",
-        "constants from curvatures (set-up)",
-        move |load| {
-            let angle = ContactAngle {
-                cos: 0.7 + 1e-4 * load,
-                sin: 0.7 - 1e-4 * load,
-            };
-            HertzContact::new(exact.relative(angle, clearance), modulus)
-        },
-    );
+    .time("hertz_ellipse", move |load| contact.at(load))
+    .time("hertz_setup", move |load| {
+        let angle = ContactAngle {
+            cos: 0.7 + 1e-4 * load,
+            sin: 0.7 - 1e-4 * load,
+        };
+        HertzContact::new(exact.relative(angle, clearance), modulus)
+    });
 
     let mut model = FrictionModel::<CagedBallScrew>::new(&CagedBallScrewConfiguration {
         design,
@@ -235,26 +189,21 @@ pub fn compete(rounds: usize) -> Result<Vec<Competition>, Failure> {
     Group::new(
         &mut race,
         &mut list,
-        "one tick of the model",
         |share| Inputs {
             nut_speed: (80.0 * share - 40.0) as f32,
             axial_load: (8e3 * (7.0 * share).fract() - 4e3) as f32,
         },
         |inputs: Inputs| inputs.nut_speed,
     )
-    .time("step_caged", "caged ball screw, step()", move |inputs| {
-        model.step(inputs)
-    });
+    .time("step_caged", move |inputs| model.step(inputs));
 
     kernels(&mut race, &mut list);
 
     race.run(rounds);
     Ok(list
         .into_iter()
-        .map(|(key, name, group, place, unit)| Competition {
+        .map(|(key, place, unit)| Competition {
             key,
-            name,
-            group,
             latency: race.measure(place, Mode::Latency),
             throughput: race.measure(place, Mode::Throughput),
             ratios: (
@@ -267,25 +216,21 @@ pub fn compete(rounds: usize) -> Result<Vec<Competition>, Failure> {
 
 fn kernels(race: &mut Race, list: &mut List) {
     let positive = |share: f64| (1e-3 + 100.0 * share) as f32;
-    Group::new(race, list, "square root", positive, |x: f32| x)
-        .time("sqrt", "own (instruction)", math::sqrt)
-        .time("sqrt_libm", "libm", ::libm::sqrtf)
-        .time("sqrt_micromath", "micromath", micromath::sqrt);
-    Group::new(race, list, "cube root", positive, |x: f32| x)
-        .time("cbrt", "own", own::cbrt)
-        .time("cbrt_libm", "libm", libm::cbrt)
-        .time("cbrt_micromath", "micromath", micromath::cbrt);
-    Group::new(race, list, "cube root and its square", positive, |x: f32| x)
-        .time("cbrt_and_squared", "own", own::cbrt_and_squared)
-        .time("cbrt_and_squared_libm", "libm", libm::cbrt_and_squared)
-        .time(
-            "cbrt_and_squared_micromath",
-            "micromath",
-            micromath::cbrt_and_squared,
-        );
+    Group::new(race, list, positive, |x: f32| x)
+        .time("sqrt", math::sqrt)
+        .time("sqrt_libm", ::libm::sqrtf)
+        .time("sqrt_micromath", micromath::sqrt);
+    Group::new(race, list, positive, |x: f32| x)
+        .time("cbrt", own::cbrt)
+        .time("cbrt_libm", libm::cbrt)
+        .time("cbrt_micromath", micromath::cbrt);
+    Group::new(race, list, positive, |x: f32| x)
+        .time("cbrt_and_squared", own::cbrt_and_squared)
+        .time("cbrt_and_squared_libm", libm::cbrt_and_squared)
+        .time("cbrt_and_squared_micromath", micromath::cbrt_and_squared);
     let turn = |share: f64| (std::f64::consts::TAU * (2.0 * share - 1.0)) as f32;
-    Group::new(race, list, "sine and cosine", turn, |x: f32| x)
-        .time("sin_cos", "own", own::sin_cos)
-        .time("sin_cos_libm", "libm", libm::sin_cos)
-        .time("sin_cos_micromath", "micromath", micromath::sin_cos);
+    Group::new(race, list, turn, |x: f32| x)
+        .time("sin_cos", own::sin_cos)
+        .time("sin_cos_libm", libm::sin_cos)
+        .time("sin_cos_micromath", micromath::sin_cos);
 }
