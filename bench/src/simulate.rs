@@ -6,6 +6,7 @@ mod reference;
 mod summary;
 mod trace;
 
+use std::cell::Cell;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -105,11 +106,15 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     refuse_same(arguments.input.as_deref(), output.iter().chain(&plot))?;
 
-    let (rows, summary) = simulate(&design, &trace, arguments.reference)?;
+    // Every sample is computed once and written once.
+    let steps = trace.samples.len() * (1 + usize::from(output.is_some()));
+    let progress = Progress::new(steps);
+    let (rows, summary) = simulate(&design, &trace, arguments.reference, &progress)?;
     let table = output
         .as_deref()
-        .map(|path| write_rows(path, &rows, existing))
+        .map(|path| write_rows(path, &rows, existing, &progress))
         .transpose()?;
+    progress.clear();
     // Nothing takes its place before everything is complete.
     let picture = plot
         .as_deref()
@@ -211,6 +216,7 @@ fn simulate(
     design: &Design,
     trace: &Trace,
     with_reference: bool,
+    progress: &Progress,
 ) -> Result<(Vec<Row>, Summary), Failure> {
     let mut model = FrictionModel::<CagedBallScrew>::new(&design.configuration)
         .map_err(|error| Failure::Data(format!("{}: {error}", design.name)))?;
@@ -218,10 +224,9 @@ fn simulate(
         .then(|| ReferenceScene::new(&design.configuration))
         .transpose()?;
 
-    let progress = Progress::new(trace.samples.len());
     let mut summary = Summary::new(&design.configuration);
     let mut rows = Vec::with_capacity(trace.samples.len());
-    for (index, &sample) in trace.samples.iter().enumerate() {
+    for &sample in &trace.samples {
         let outputs = model.step(Inputs {
             nut_speed: sample.nut_speed as f32,
             axial_load: sample.axial_load as f32,
@@ -233,9 +238,8 @@ fn simulate(
         };
         summary.add(&row);
         rows.push(row);
-        progress.show(index);
+        progress.step();
     }
-    progress.clear();
     Ok((rows, summary))
 }
 
@@ -243,6 +247,7 @@ fn simulate(
 struct Progress {
     bar: ProgressBar,
     start: Instant,
+    done: Cell<u64>,
 }
 
 impl Progress {
@@ -254,18 +259,21 @@ impl Progress {
         Self {
             bar,
             start: Instant::now(),
+            done: Cell::new(0),
         }
     }
 
-    fn show(&self, index: usize) {
-        const STRIDE: usize = 1 << 14;
-        if !index.is_multiple_of(STRIDE) {
+    fn step(&self) {
+        const STRIDE: u64 = 1 << 14;
+        let done = self.done.get() + 1;
+        self.done.set(done);
+        if !done.is_multiple_of(STRIDE) {
             return;
         }
         if self.bar.is_hidden() && self.start.elapsed() > Duration::from_secs(1) {
             self.bar.set_draw_target(ProgressDrawTarget::stderr());
         }
-        self.bar.set_position(index as u64);
+        self.bar.set_position(done);
     }
 
     fn clear(&self) {
@@ -273,13 +281,23 @@ impl Progress {
     }
 }
 
-fn write_rows(path: &Path, rows: &[Row], existing: Existing) -> Result<Pending, Failure> {
+fn write_rows(
+    path: &Path,
+    rows: &[Row],
+    existing: Existing,
+    progress: &Progress,
+) -> Result<Pending, Failure> {
     let mut pending = Pending::new(path, existing)?;
-    write_table(pending.writer(), rows).map_err(|error| Failure::file("write", path, &error))?;
+    write_table(pending.writer(), rows, progress)
+        .map_err(|error| Failure::file("write", path, &error))?;
     Ok(pending)
 }
 
-fn write_table(writer: &mut impl Write, rows: &[Row]) -> Result<(), csv::Error> {
+fn write_table(
+    writer: &mut impl Write,
+    rows: &[Row],
+    progress: &Progress,
+) -> Result<(), csv::Error> {
     let mut table = csv::Writer::from_writer(writer);
     let mut columns = vec![
         "time",
@@ -316,6 +334,7 @@ fn write_table(writer: &mut impl Write, rows: &[Row]) -> Result<(), csv::Error> 
             record.push(reference.efficiency.to_string());
         }
         table.write_record(&record)?;
+        progress.step();
     }
     table.flush()?;
     Ok(())
