@@ -1,7 +1,8 @@
 //! The command-line program of `epas-friction`: the error of every formula beside its run time,
 //! simulation of manoeuvres, and the `eval` interface for other people's reference data.
 
-// The documentation of arguments is the program's help text, where back-quotes would only be noise.
+// The documentation of arguments is the program's help text, where back-quotes would be noise and
+// square brackets are no links.
 #![allow(clippy::doc_markdown, rustdoc::broken_intra_doc_links)]
 
 mod cli;

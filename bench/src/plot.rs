@@ -3,13 +3,16 @@
 //! Nothing is asked of the machine: text is SVG text in the viewer's sans-serif font. A logarithmic
 //! axis is a linear one over the decimal logarithm.
 
+// Counts of pixels, lines and bands are far below the largest i32, which the drawing library counts in.
+#![allow(clippy::cast_possible_wrap)]
+
 mod chart;
 mod map;
 mod scale;
 
 use plotters::prelude::*;
 
-pub use chart::{Chart, Mark, Series};
+pub use chart::{Chart, Mark, Note, Series};
 pub use map::ColourMap;
 pub use scale::Axis;
 
@@ -26,17 +29,28 @@ const PALETTE: [RGBColor; 7] = [
     RGBColor(60, 60, 60),
 ];
 
+/// The drawing library rounds to whole pixels: everything is drawn so many times too large, and the
+/// picture scaled down.
+const SCALE: i32 = 8;
+
+/// A length in pixels of the finished picture, as it is drawn.
+const fn px(pixels: i32) -> i32 {
+    pixels * SCALE
+}
+
 const TEXT: RGBColor = RGBColor(40, 40, 40);
 const FONT: &str = "sans-serif";
-const TITLE_SIZE: f64 = 17.0;
-const LABEL_SIZE: f64 = 14.0;
-const TICK_SIZE: f64 = 13.0;
-/// Height of a line of title or legend, pixels.
-const LINE_HEIGHT: u32 = 22;
+const TITLE_SIZE: i32 = px(17);
+const LABEL_SIZE: i32 = px(14);
+const TICK_SIZE: i32 = px(13);
+/// Height of a line of title or legend.
+const LINE_HEIGHT: i32 = px(22);
+/// Width of a line.
+const STROKE: u32 = px(2).unsigned_abs();
 
-/// Width of a text, pixels, near enough to set one entry of a legend beside the other.
-fn text_width(text: &str, size: f64) -> i32 {
-    (0.56 * size * text.chars().count() as f64).ceil() as i32
+/// Width of a text, near enough to set one entry of a legend beside the other.
+fn text_width(text: &str, size: i32) -> i32 {
+    size * 14 / 25 * text.chars().count() as i32
 }
 
 /// One panel of a figure.
@@ -55,10 +69,11 @@ pub fn render(
 ) -> Result<String, Failure> {
     let columns = columns.clamp(1, panels.len().max(1));
     let rows = panels.len().div_ceil(columns);
+    let size = (width * columns as u32, height * rows as u32);
+    let drawn = (size.0 * SCALE.unsigned_abs(), size.1 * SCALE.unsigned_abs());
     let mut svg = String::new();
     {
-        let size = (width * columns as u32, height * rows as u32);
-        let root = SVGBackend::with_string(&mut svg, size).into_drawing_area();
+        let root = SVGBackend::with_string(&mut svg, drawn).into_drawing_area();
         let draw = || -> Result<(), Box<dyn std::error::Error>> {
             root.fill(&WHITE)?;
             for (panel, area) in panels.iter().zip(root.split_evenly((rows, columns))) {
@@ -72,5 +87,10 @@ pub fn render(
         };
         draw().map_err(|error| Failure::Data(format!("cannot draw a figure: {error}")))?;
     }
-    Ok(svg)
+    // The view box stays as large as it was drawn.
+    Ok(svg.replacen(
+        &format!(r#"width="{}" height="{}""#, drawn.0, drawn.1),
+        &format!(r#"width="{}" height="{}""#, size.0, size.1),
+        1,
+    ))
 }

@@ -55,7 +55,7 @@ impl Context {
     }
 }
 
-/// Makes one section.
+/// Makes a section.
 type MakeSection = fn(&Context) -> Result<Section, Failure>;
 
 /// Every section, in the order of the report.
@@ -83,6 +83,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         title: "epas-friction: error against run time".into(),
         sections,
     };
-    document.print()?;
-    document.write(&arguments.output)
+    // Files first: whoever reads only the head of the output gets the whole report all the same.
+    document.write(&arguments.output)?;
+    document.print(&arguments.output)
 }

@@ -6,6 +6,7 @@ mod reference;
 mod summary;
 mod trace;
 
+use std::cell::Cell;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -103,15 +104,17 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     for path in output.iter().chain(&plot) {
         existing.check(path)?;
     }
-    if let Some(input) = &arguments.input {
-        refuse_same(input, output.iter().chain(&plot))?;
-    }
+    refuse_same(arguments.input.as_deref(), output.iter().chain(&plot))?;
 
-    let (rows, summary) = simulate(&design, &trace, arguments.reference)?;
+    // Every sample is computed once and written once.
+    let steps = trace.samples.len() * (1 + usize::from(output.is_some()));
+    let progress = Progress::new(steps);
+    let (rows, summary) = simulate(&design, &trace, arguments.reference, &progress)?;
     let table = output
         .as_deref()
-        .map(|path| write_rows(path, &rows, existing))
+        .map(|path| write_rows(path, &rows, existing, &progress))
         .transpose()?;
+    progress.clear();
     // Nothing takes its place before everything is complete.
     let picture = plot
         .as_deref()
@@ -181,12 +184,12 @@ fn targets(
 
 /// The trace itself is never overwritten, nor one output by the other.
 fn refuse_same<'a>(
-    input: &Path,
+    input: Option<&Path>,
     outputs: impl Iterator<Item = &'a PathBuf>,
 ) -> Result<(), Failure> {
-    let mut taken = vec![fs::canonicalize(input).unwrap_or_else(|_| input.into())];
+    let mut taken: Vec<PathBuf> = input.map(place).into_iter().collect();
     for output in outputs {
-        let place = fs::canonicalize(output).unwrap_or_else(|_| output.clone());
+        let place = place(output);
         if taken.contains(&place) {
             return Err(Failure::Data(format!(
                 "{} is named twice",
@@ -198,10 +201,22 @@ fn refuse_same<'a>(
     Ok(())
 }
 
+/// Where a file is or will be, under one name however it is spelled.
+fn place(path: &Path) -> PathBuf {
+    fs::canonicalize(path).unwrap_or_else(|_| {
+        let absolute = std::path::absolute(path).unwrap_or_else(|_| path.into());
+        match (absolute.parent().map(fs::canonicalize), path.file_name()) {
+            (Some(Ok(folder)), Some(name)) => folder.join(name),
+            _ => absolute,
+        }
+    })
+}
+
 fn simulate(
     design: &Design,
     trace: &Trace,
     with_reference: bool,
+    progress: &Progress,
 ) -> Result<(Vec<Row>, Summary), Failure> {
     let mut model = FrictionModel::<CagedBallScrew>::new(&design.configuration)
         .map_err(|error| Failure::Data(format!("{}: {error}", design.name)))?;
@@ -209,10 +224,9 @@ fn simulate(
         .then(|| ReferenceScene::new(&design.configuration))
         .transpose()?;
 
-    let progress = Progress::new(trace.samples.len());
     let mut summary = Summary::new(&design.configuration);
     let mut rows = Vec::with_capacity(trace.samples.len());
-    for (index, &sample) in trace.samples.iter().enumerate() {
+    for &sample in &trace.samples {
         let outputs = model.step(Inputs {
             nut_speed: sample.nut_speed as f32,
             axial_load: sample.axial_load as f32,
@@ -224,9 +238,8 @@ fn simulate(
         };
         summary.add(&row);
         rows.push(row);
-        progress.show(index);
+        progress.step();
     }
-    progress.clear();
     Ok((rows, summary))
 }
 
@@ -234,6 +247,7 @@ fn simulate(
 struct Progress {
     bar: ProgressBar,
     start: Instant,
+    done: Cell<u64>,
 }
 
 impl Progress {
@@ -245,18 +259,21 @@ impl Progress {
         Self {
             bar,
             start: Instant::now(),
+            done: Cell::new(0),
         }
     }
 
-    fn show(&self, index: usize) {
-        const STRIDE: usize = 1 << 14;
-        if !index.is_multiple_of(STRIDE) {
+    fn step(&self) {
+        const STRIDE: u64 = 1 << 14;
+        let done = self.done.get() + 1;
+        self.done.set(done);
+        if !done.is_multiple_of(STRIDE) {
             return;
         }
         if self.bar.is_hidden() && self.start.elapsed() > Duration::from_secs(1) {
             self.bar.set_draw_target(ProgressDrawTarget::stderr());
         }
-        self.bar.set_position(index as u64);
+        self.bar.set_position(done);
     }
 
     fn clear(&self) {
@@ -264,13 +281,23 @@ impl Progress {
     }
 }
 
-fn write_rows(path: &Path, rows: &[Row], existing: Existing) -> Result<Pending, Failure> {
+fn write_rows(
+    path: &Path,
+    rows: &[Row],
+    existing: Existing,
+    progress: &Progress,
+) -> Result<Pending, Failure> {
     let mut pending = Pending::new(path, existing)?;
-    write_table(pending.writer(), rows).map_err(|error| Failure::file("write", path, &error))?;
+    write_table(pending.writer(), rows, progress)
+        .map_err(|error| Failure::file("write", path, &error))?;
     Ok(pending)
 }
 
-fn write_table(writer: &mut impl Write, rows: &[Row]) -> Result<(), csv::Error> {
+fn write_table(
+    writer: &mut impl Write,
+    rows: &[Row],
+    progress: &Progress,
+) -> Result<(), csv::Error> {
     let mut table = csv::Writer::from_writer(writer);
     let mut columns = vec![
         "time",
@@ -307,6 +334,7 @@ fn write_table(writer: &mut impl Write, rows: &[Row]) -> Result<(), csv::Error> 
             record.push(reference.efficiency.to_string());
         }
         table.write_record(&record)?;
+        progress.step();
     }
     table.flush()?;
     Ok(())

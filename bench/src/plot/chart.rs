@@ -8,7 +8,8 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::{
-    Axis, FONT, LABEL_SIZE, LINE_HEIGHT, PALETTE, TEXT, TICK_SIZE, TITLE_SIZE, text_width,
+    Axis, FONT, LABEL_SIZE, LINE_HEIGHT, PALETTE, STROKE, TEXT, TICK_SIZE, TITLE_SIZE, px,
+    text_width,
 };
 
 /// How a series is drawn.
@@ -71,7 +72,18 @@ pub struct Chart {
     /// What it shows.
     pub series: Vec<Series>,
     /// Texts beside points.
-    pub notes: Vec<(f64, f64, String)>,
+    pub notes: Vec<Note>,
+}
+
+/// A text beside a point.
+#[derive(Clone, Debug)]
+pub struct Note {
+    /// The point.
+    pub at: (f64, f64),
+    /// What it is.
+    pub text: String,
+    /// Whether it stands on the left of the point.
+    pub left: bool,
 }
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
@@ -83,7 +95,11 @@ pub fn draw_title(area: &Area<'_>, title: &str) -> Drawn {
     let style = TextStyle::from((FONT, TITLE_SIZE).into_font())
         .color(&TEXT)
         .pos(Pos::new(HPos::Center, VPos::Top));
-    area.draw(&Text::new(title.to_owned(), (width as i32 / 2, 6), style))?;
+    area.draw(&Text::new(
+        title.to_owned(),
+        (width as i32 / 2, px(6)),
+        style,
+    ))?;
     Ok(())
 }
 
@@ -101,21 +117,21 @@ impl Chart {
     /// Draws the chart into its area.
     pub fn draw(&self, area: &Area<'_>) -> Drawn {
         let legend = self.legend_lines(area.dim_in_pixel().0 as i32);
-        let title_lines = u32::from(!self.title.is_empty());
-        let header = 8 + LINE_HEIGHT * (title_lines + legend.len() as u32);
+        let title_lines = i32::from(!self.title.is_empty());
+        let header = px(8) + LINE_HEIGHT * (title_lines + legend.len() as i32);
         if title_lines > 0 {
             draw_title(area, &self.title)?;
         }
-        Self::draw_legend(area, &legend, (4 + LINE_HEIGHT * title_lines) as i32)?;
+        draw_legend(area, &legend, px(4) + LINE_HEIGHT * title_lines)?;
 
         let (_, body) = area.split_vertically(header);
         let x = self.x.range(self.points().map(|(x, _)| x));
         let y = self.y.range(self.points().map(|(_, y)| y));
         let mut context = ChartBuilder::on(&body)
-            .margin(6)
-            .margin_right(22)
-            .x_label_area_size(48)
-            .y_label_area_size(74)
+            .margin(px(6))
+            .margin_right(px(22))
+            .x_label_area_size(px(48))
+            .y_label_area_size(px(74))
             .build_cartesian_2d(x.clone(), y.clone())?;
         context
             .configure_mesh()
@@ -127,37 +143,38 @@ impl Chart {
             .y_desc(self.y.label.as_str())
             .label_style(tick_style())
             .axis_desc_style(label_style())
-            .axis_style(RGBColor(120, 120, 120))
-            .bold_line_style(RGBColor(222, 222, 222))
+            .axis_style(RGBColor(120, 120, 120).stroke_width(px(1).unsigned_abs()))
+            .bold_line_style(RGBColor(222, 222, 222).stroke_width(px(1).unsigned_abs()))
+            .set_all_tick_mark_size(px(4))
             .light_line_style(TRANSPARENT)
             .draw()?;
 
         for series in &self.series {
             let colour = series.rgb();
-            let line = colour.stroke_width(2);
+            let line = colour.stroke_width(STROKE);
             let places = || {
                 series
                     .points
                     .iter()
-                    .map(|&(px, py)| Some((self.x.place(px)?, self.y.place(py)?)))
+                    .map(|&(at_x, at_y)| Some((self.x.place(at_x)?, self.y.place(at_y)?)))
             };
             let visible = || {
-                places().flatten().filter(|(px, py)| {
-                    (x.start..=x.end).contains(px) && (y.start..=y.end).contains(py)
+                places().flatten().filter(|(at_x, at_y)| {
+                    (x.start..=x.end).contains(at_x) && (y.start..=y.end).contains(at_y)
                 })
             };
             match series.mark {
                 Mark::Circles => {
                     context.draw_series(
-                        visible().map(|point| Circle::new(point, 5, colour.filled())),
+                        visible().map(|point| Circle::new(point, px(5), colour.filled())),
                     )?;
                 }
                 Mark::Crosses => {
-                    context.draw_series(visible().map(|point| Cross::new(point, 5, line)))?;
+                    context.draw_series(visible().map(|point| Cross::new(point, px(5), line)))?;
                 }
                 Mark::Triangles => {
                     context.draw_series(
-                        visible().map(|point| TriangleMarker::new(point, 7, colour.filled())),
+                        visible().map(|point| TriangleMarker::new(point, px(7), colour.filled())),
                     )?;
                 }
                 Mark::Line | Mark::Dashed | Mark::ShadedBelow | Mark::ShadedAbove => {
@@ -175,7 +192,12 @@ impl Chart {
                             ))?;
                         }
                         if series.mark == Mark::Dashed {
-                            context.draw_series(DashedLineSeries::new(piece, 7, 5, line))?;
+                            context.draw_series(DashedLineSeries::new(
+                                piece,
+                                px(7).unsigned_abs(),
+                                px(5).unsigned_abs(),
+                                line,
+                            ))?;
                         } else {
                             context.draw_series(LineSeries::new(piece, line))?;
                         }
@@ -183,11 +205,16 @@ impl Chart {
                 }
             }
         }
-        for (px, py, text) in &self.notes {
-            if let (Some(px), Some(py)) = (self.x.place(*px), self.y.place(*py)) {
-                let style = tick_style().pos(Pos::new(HPos::Left, VPos::Center));
+        for Note { at, text, left } in &self.notes {
+            if let (Some(x), Some(y)) = (self.x.place(at.0), self.y.place(at.1)) {
+                let (side, distance) = if *left {
+                    (HPos::Right, px(-10))
+                } else {
+                    (HPos::Left, px(10))
+                };
+                let style = tick_style().pos(Pos::new(side, VPos::Center));
                 context.draw_series([
-                    EmptyElement::at((px, py)) + Text::new(text.clone(), (10, 0), style)
+                    EmptyElement::at((x, y)) + Text::new(text.clone(), (distance, 0), style)
                 ])?;
             }
         }
@@ -202,12 +229,12 @@ impl Chart {
 
     /// The legend's entries, with their places, broken into lines that fit.
     fn legend_lines(&self, width: i32) -> Vec<Vec<(i32, &Series)>> {
-        const START: i32 = 84;
-        const SAMPLE: i32 = 34;
+        const START: i32 = px(84);
+        const SAMPLE: i32 = px(34);
         let mut lines: Vec<Vec<(i32, &Series)>> = Vec::new();
         let mut place = i32::MAX;
         for series in self.series.iter().filter(|series| !series.name.is_empty()) {
-            let entry = SAMPLE + text_width(&series.name, TICK_SIZE) + 16;
+            let entry = SAMPLE + text_width(&series.name, TICK_SIZE) + px(16);
             if place.saturating_add(entry) > width {
                 lines.push(Vec::new());
                 place = START;
@@ -219,43 +246,48 @@ impl Chart {
         }
         lines
     }
+}
 
-    fn draw_legend(area: &Area<'_>, lines: &[Vec<(i32, &Series)>], top: i32) -> Drawn {
-        for (index, line) in lines.iter().enumerate() {
-            let middle = top + LINE_HEIGHT as i32 * index as i32 + LINE_HEIGHT as i32 / 2;
-            for &(place, series) in line {
-                let colour = series.rgb();
-                let stroke = colour.stroke_width(2);
-                let centre = (place + 13, middle);
-                match series.mark {
-                    Mark::Line => area.draw(&PathElement::new(
-                        vec![(place, middle), (place + 26, middle)],
-                        stroke,
-                    ))?,
-                    Mark::Dashed => {
-                        for start in [place, place + 10, place + 20] {
-                            area.draw(&PathElement::new(
-                                vec![(start, middle), (start + 6, middle)],
-                                stroke,
-                            ))?;
-                        }
+/// Draws the legend's lines from `top` on.
+fn draw_legend(area: &Area<'_>, lines: &[Vec<(i32, &Series)>], top: i32) -> Drawn {
+    for (index, line) in lines.iter().enumerate() {
+        let middle = top + LINE_HEIGHT * index as i32 + LINE_HEIGHT / 2;
+        for &(place, series) in line {
+            let colour = series.rgb();
+            let stroke = colour.stroke_width(STROKE);
+            let centre = (place + px(13), middle);
+            match series.mark {
+                Mark::Line => area.draw(&PathElement::new(
+                    vec![(place, middle), (place + px(26), middle)],
+                    stroke,
+                ))?,
+                Mark::Dashed => {
+                    for start in [place, place + px(10), place + px(20)] {
+                        area.draw(&PathElement::new(
+                            vec![(start, middle), (start + px(6), middle)],
+                            stroke,
+                        ))?;
                     }
-                    Mark::Circles => area.draw(&Circle::new(centre, 5, colour.filled()))?,
-                    Mark::Crosses => area.draw(&Cross::new(centre, 5, stroke))?,
-                    Mark::Triangles => {
-                        area.draw(&TriangleMarker::new(centre, 7, colour.filled()))?;
-                    }
-                    Mark::ShadedBelow | Mark::ShadedAbove => area.draw(&Rectangle::new(
-                        [(place, middle - 6), (place + 26, middle + 6)],
-                        colour.mix(0.4).filled(),
-                    ))?,
                 }
-                let style = tick_style().pos(Pos::new(HPos::Left, VPos::Center));
-                area.draw(&Text::new(series.name.clone(), (place + 34, middle), style))?;
+                Mark::Circles => area.draw(&Circle::new(centre, px(5), colour.filled()))?,
+                Mark::Crosses => area.draw(&Cross::new(centre, px(5), stroke))?,
+                Mark::Triangles => {
+                    area.draw(&TriangleMarker::new(centre, px(7), colour.filled()))?;
+                }
+                Mark::ShadedBelow | Mark::ShadedAbove => area.draw(&Rectangle::new(
+                    [(place, middle - px(6)), (place + px(26), middle + px(6))],
+                    colour.mix(0.4).filled(),
+                ))?,
             }
+            let style = tick_style().pos(Pos::new(HPos::Left, VPos::Center));
+            area.draw(&Text::new(
+                series.name.clone(),
+                (place + px(34), middle),
+                style,
+            ))?;
         }
-        Ok(())
     }
+    Ok(())
 }
 
 /// Cuts a line where it is interrupted or leaves the axis, so that nothing is drawn outside.

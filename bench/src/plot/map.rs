@@ -7,7 +7,7 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::chart::{draw_title, label_style, tick_style};
-use super::{Axis, LINE_HEIGHT};
+use super::{Axis, LINE_HEIGHT, px};
 
 /// Values on a grid of cells, in bands between the given bounds.
 #[derive(Clone, Debug)]
@@ -88,22 +88,24 @@ impl ColourMap {
 
     /// Draws the map into its area, its bands in a column at the right.
     pub fn draw(&self, area: &DrawingArea<SVGBackend<'_>, Shift>) -> Result<(), Box<dyn Error>> {
-        const KEY_WIDTH: i32 = 92;
+        const KEY_WIDTH: i32 = px(92);
         draw_title(area, &self.title)?;
-        let (_, body) = area.split_vertically(8 + LINE_HEIGHT);
+        let (_, body) = area.split_vertically(px(8) + LINE_HEIGHT);
         let (width, height) = body.dim_in_pixel();
         let (left, key) = body.split_horizontally(width as i32 - KEY_WIDTH);
 
         let x = self.x.range(std::iter::empty());
         let y = self.y.range(std::iter::empty());
         let mut context = ChartBuilder::on(&left)
-            .margin(6)
-            .x_label_area_size(46)
-            .y_label_area_size(58)
+            .margin(px(6))
+            .x_label_area_size(px(46))
+            .y_label_area_size(px(58))
             .build_cartesian_2d(x.clone(), y.clone())?;
         context
             .configure_mesh()
             .disable_mesh()
+            .axis_style(RGBColor(120, 120, 120).stroke_width(px(1).unsigned_abs()))
+            .set_all_tick_mark_size(px(4))
             .x_labels(self.x.labels(&x))
             .y_labels(self.y.labels(&y))
             .x_label_formatter(&|place| self.x.text(*place, &x))
@@ -141,20 +143,24 @@ impl ColourMap {
         }
 
         let bands = self.bounds.len() as i32 + 1;
-        let top = 30;
-        let step = ((height as i32 - 90 - top) / bands).clamp(12, 34);
+        let top = px(30);
+        let step = ((height as i32 - px(90) - top) / bands).clamp(px(12), px(34));
         let text = tick_style().pos(Pos::new(HPos::Left, VPos::Center));
-        key.draw(&Text::new(self.quantity.clone(), (4, 12), text.clone()))?;
+        key.draw(&Text::new(
+            self.quantity.clone(),
+            (px(4), px(12)),
+            text.clone(),
+        ))?;
         for band in 0..bands {
             let upper = top + (bands - 1 - band) * step;
             key.draw(&Rectangle::new(
-                [(4, upper), (24, upper + step)],
+                [(px(4), upper), (px(24), upper + step)],
                 self.band_colour(band as usize).filled(),
             ))?;
         }
         for (index, (_, label)) in self.bounds.iter().enumerate() {
             let place = top + (bands - 1 - index as i32) * step;
-            key.draw(&Text::new(label.clone(), (30, place), text.clone()))?;
+            key.draw(&Text::new(label.clone(), (px(30), place), text.clone()))?;
         }
         Ok(())
     }

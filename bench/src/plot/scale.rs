@@ -41,7 +41,7 @@ impl Axis {
     }
 
     /// This axis with the ends given.
-    pub fn with_ends(self, start: f64, end: f64) -> Self {
+    pub fn between(self, start: f64, end: f64) -> Self {
         Self {
             ends: Some((start, end)),
             ..self
@@ -135,7 +135,7 @@ fn log_text(place: f64) -> String {
     if (place - exponent).abs() > 1e-6 {
         return String::new();
     }
-    if (-2.0..=4.0).contains(&exponent) {
+    if (-2.0..=3.0).contains(&exponent) {
         return format!("{}", 10f64.powf(exponent));
     }
     let digits: String = format!("{exponent}")

@@ -110,6 +110,29 @@ pub fn catalogue_errors(quick: bool) -> Result<[Errors; 4], Failure> {
     Ok(all)
 }
 
+/// Largest differences of the reference's separate derivations from the Weingarten map in the Frenet
+/// frame, over all sizes and both grooves: the map as printed, and Appendix B.
+pub fn double_errors() -> [f64; 2] {
+    let mut errors = [Errors::default(); 2];
+    for (_, same, _) in GROOVES {
+        for row in &TABLE_A1 {
+            let surface = row.surface(same);
+            for degrees in 0..=70 {
+                let angle = f64::from(degrees).to_radians();
+                let exact = surface.principal(angle).kappa1;
+                let others = [
+                    surface.principal_cartesian(angle).kappa1,
+                    surface.appendix_b(angle),
+                ];
+                for (errors, other) in errors.iter_mut().zip(others) {
+                    errors.add(other / exact - 1.0);
+                }
+            }
+        }
+    }
+    errors.map(|errors| errors.largest)
+}
+
 /// The section.
 pub fn section(context: &Context) -> Result<Section, Failure> {
     let (screw, screw_matches) = published_table(
@@ -251,8 +274,8 @@ fn map(
     let centre = |cell: usize| 80.0 * (cell as f64 + 0.5) / CELLS as f64;
     Panel::Map(ColourMap {
         title,
-        x: Axis::linear("contact angle (deg)").with_ends(0.0, 80.0),
-        y: Axis::linear("lead angle (deg)").with_ends(0.0, 80.0),
+        x: Axis::linear("contact angle (deg)").between(0.0, 80.0),
+        y: Axis::linear("lead angle (deg)").between(0.0, 80.0),
         quantity: quantity.into(),
         bounds: bounds
             .iter()
@@ -361,8 +384,8 @@ fn figure_10(quick: bool) -> Result<Figure, Failure> {
         let marks = [Mark::Crosses, Mark::Triangles, Mark::Circles, Mark::Circles];
         panels.push(Panel::Chart(Chart {
             title: groove.2.into(),
-            x: Axis::linear("catalogue size, by lead angle").with_ends(0.0, 32.0),
-            y: Axis::log("largest relative error").with_ends(1e-8, 10.0),
+            x: Axis::linear("catalogue size, by lead angle").between(0.0, 32.0),
+            y: Axis::log("largest relative error").between(1e-8, 10.0),
             series: curves
                 .into_iter()
                 .enumerate()
@@ -430,7 +453,7 @@ fn figure_11(context: &Context) -> Result<Figure, Failure> {
             .into(),
         panels: vec![Panel::Chart(Chart {
             title: String::new(),
-            x: Axis::log("time of one call (ns)").with_ends(ends.0, ends.1),
+            x: Axis::log("time of one call (ns)").between(ends.0, ends.1),
             y: Axis::linear("share of rounds (%)"),
             series,
             notes: Vec::new(),

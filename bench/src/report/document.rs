@@ -167,9 +167,7 @@ impl Table {
         let row = |cells: Vec<&str>| format!("| {} |\n", cells.join(" | ").replace('\n', " "));
         let mut text = format!("{}\n\n", self.caption);
         text += &row(self.columns.iter().map(String::as_str).collect());
-        text += "|";
-        text += &"---|".repeat(self.columns.len());
-        text += "\n";
+        let _ = writeln!(text, "|{}", "---|".repeat(self.columns.len()));
         for cells in &self.rows {
             text += &row(cells.iter().map(Cell::shown).collect());
         }
@@ -284,24 +282,30 @@ impl Figure {
 }
 
 impl Document {
-    /// Prints the text and the tables.
-    pub fn print(&self) -> Result<(), Failure> {
+    /// Prints the text and the tables, and where the rest is.
+    pub fn print(&self, folder: &Path) -> Result<(), Failure> {
         let mut output = std::io::stdout().lock();
         writeln!(output, "{}", self.title)?;
         for section in &self.sections {
             writeln!(output, "\n== {}", section.title)?;
             for block in &section.blocks {
                 match block {
-                    Block::Text(text) => writeln!(output, "\n{text}")?,
+                    Block::Text(text) => writeln!(output, "\n{}", wrapped(text))?,
                     Block::Table(table) => write!(output, "\n{}", table.text())?,
                     Block::Figure(_) => {}
                 }
             }
         }
+        writeln!(
+            output,
+            "\nWritten to {}: report.html (open it in a browser), report.md, report.json, and every\n\
+             figure as SVG and CSV.",
+            folder.display()
+        )?;
         Ok(())
     }
 
-    /// Writes every form into a folder and says where.
+    /// Writes every form into a folder.
     pub fn write(&self, folder: &Path) -> Result<(), Failure> {
         let mut markdown = format!("# {}\n", self.title);
         let mut html = format!(
@@ -357,15 +361,7 @@ impl Document {
         save("report", "html", &html)?;
         let json = serde_json::to_string(&Value::Object(figures))
             .map_err(|error| Failure::Data(error.to_string()))?;
-        save("report", "json", &json)?;
-        let mut output = std::io::stdout().lock();
-        writeln!(
-            output,
-            "\nWritten to {}: report.html (open it in a browser), report.md, report.json, and every\n\
-             figure as SVG and CSV.",
-            folder.display()
-        )?;
-        Ok(())
+        save("report", "json", &json)
     }
 }
 
@@ -375,6 +371,22 @@ table{border-collapse:collapse;font-size:14px}th,td{padding:.25rem .6rem;border-
 text-align:left}td.number{text-align:right;font-variant-numeric:tabular-nums}thead th{border-bottom:2px \
 solid #888}figure{margin:1.2rem 0}figcaption{color:#444;margin:.4rem 0}.wide{overflow-x:auto}\
 svg{max-width:100%;height:auto}";
+
+/// The text in lines that a terminal holds.
+fn wrapped(text: &str) -> String {
+    const WIDTH: usize = 100;
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        match lines.last_mut() {
+            Some(line) if line.chars().count() + 1 + word.chars().count() <= WIDTH => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.into()),
+        }
+    }
+    lines.join("\n")
+}
 
 fn escaped(text: &str) -> String {
     text.replace('&', "&amp;")

@@ -195,7 +195,7 @@ fn figure_3(quick: bool) -> Result<Figure, Failure> {
         panels.push(Panel::Chart(Chart {
             title: title.into(),
             x: Axis::linear(label),
-            y: Axis::linear("efficiency").with_ends(0.5, 1.0),
+            y: Axis::linear("efficiency").between(0.5, 1.0),
             series: vec![
                 Series::new("rolling (3)", 0, Mark::Line, rolling),
                 Series::new("full sliding (14)", 1, Mark::Line, sliding),
@@ -230,8 +230,8 @@ fn figure_5() -> Figure {
             .into(),
         panels: vec![Panel::Chart(Chart {
             title: String::new(),
-            x: Axis::linear("slip angle (deg)").with_ends(0.0, 90.0),
-            y: Axis::linear("efficiency").with_ends(0.6, 1.0),
+            x: Axis::linear("slip angle (deg)").between(0.0, 90.0),
+            y: Axis::linear("efficiency").between(0.6, 1.0),
             series: vec![
                 Series::new("eq. (11)", 0, Mark::Line, curve),
                 Series::new(
@@ -286,8 +286,8 @@ fn figure_6() -> Result<Figure, Failure> {
             .into(),
         panels: vec![Panel::Chart(Chart {
             title: String::new(),
-            x: Axis::linear("lead angle (deg)").with_ends(0.0, 50.0),
-            y: Axis::linear("contact angle (deg)").with_ends(40.0, 92.0),
+            x: Axis::linear("lead angle (deg)").between(0.0, 50.0),
+            y: Axis::linear("contact angle (deg)").between(40.0, 92.0),
             series,
             notes: Vec::new(),
         })],
@@ -320,10 +320,16 @@ fn figure_7() -> Figure {
             .iter()
             .enumerate()
             .map(|(colour, friction)| {
+                // Beyond the end of its border driving locks at every contact angle, back-driving at none.
+                let beyond = if mark == Mark::ShadedBelow {
+                    contacts.1
+                } else {
+                    f64::NAN
+                };
                 let curve = evenly(leads.0, leads.1, 400)
                     .map(|lead| {
                         let contact = border(lead.to_radians(), *friction);
-                        (lead, contact.map_or(f64::NAN, f64::to_degrees))
+                        (lead, contact.map_or(beyond, f64::to_degrees))
                     })
                     .collect();
                 Series::new(&format!("friction {friction}"), colour, mark, curve)
@@ -331,8 +337,8 @@ fn figure_7() -> Figure {
             .collect();
         panels.push(Panel::Chart(Chart {
             title: title.into(),
-            x: Axis::linear("lead angle (deg)").with_ends(leads.0, leads.1),
-            y: Axis::linear("contact angle (deg)").with_ends(contacts.0, contacts.1),
+            x: Axis::linear("lead angle (deg)").between(leads.0, leads.1),
+            y: Axis::linear("contact angle (deg)").between(contacts.0, contacts.1),
             series,
             notes: Vec::new(),
         }));

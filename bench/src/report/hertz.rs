@@ -106,7 +106,7 @@ pub fn section(context: &Context) -> Result<Section, Failure> {
                 panels: vec![Panel::Chart(Chart {
                     title: String::new(),
                     x: Axis::log("larger over smaller relative radius"),
-                    y: Axis::log("relative error").with_ends(1e-8, 0.1),
+                    y: Axis::log("relative error").between(1e-8, 0.1),
                     series,
                     notes: Vec::new(),
                 })],

@@ -127,7 +127,7 @@ fn figure_6(steps: usize) -> Result<Figure, Failure> {
         }
         panels.push(Panel::Chart(Chart {
             title: String::new(),
-            x: Axis::linear("lead angle (deg)").with_ends(0.0, 40.0),
+            x: Axis::linear("lead angle (deg)").between(0.0, 40.0),
             y: Axis::linear(label),
             series,
             notes: Vec::new(),
@@ -199,8 +199,8 @@ fn fields() -> Result<Figure, Failure> {
             .collect();
         panels.push(Panel::Chart(Chart {
             title: title.into(),
-            x: Axis::linear("along rolling (mm)").with_ends(-0.5, 0.5),
-            y: Axis::linear("across rolling (mm)").with_ends(-0.75, 0.65),
+            x: Axis::linear("along rolling (mm)").between(-0.5, 0.5),
+            y: Axis::linear("across rolling (mm)").between(-0.75, 0.65),
             series: vec![
                 Series::new("contact ellipse", 6, Mark::Line, outline),
                 Series::new(

@@ -7,7 +7,6 @@ pub struct Errors {
     /// Largest magnitude.
     pub largest: f64,
     sum: f64,
-    magnitudes: f64,
     squares: f64,
 }
 
@@ -20,13 +19,7 @@ impl Errors {
             self.largest = error.abs();
         }
         self.sum += error;
-        self.magnitudes += error.abs();
         self.squares += error * error;
-    }
-
-    /// Mean of the magnitudes.
-    pub fn mean_magnitude(&self) -> f64 {
-        self.magnitudes / self.count
     }
 
     /// Mean: the bias.

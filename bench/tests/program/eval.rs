@@ -1,0 +1,443 @@
+//! `eval`: golden cases, and every way to ask wrongly.
+
+use std::fs;
+
+use serde_json::{Value, json};
+
+use super::run;
+
+/// Asks, and gives the answers in order.
+fn ask(requests: &[String]) -> (i32, Vec<Value>) {
+    let run = run(&["eval"], &requests.join("\n"));
+    assert!(run.stderr.is_empty(), "{}", run.stderr);
+    let answers = run
+        .stdout
+        .lines()
+        .map(|line| serde_json::from_str(line).unwrap())
+        .collect();
+    (run.code, answers)
+}
+
+fn golden(name: &str) -> Value {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../host-tests/golden/");
+    serde_json::from_str(&fs::read_to_string(format!("{folder}{name}")).unwrap()).unwrap()
+}
+
+/// A number, which some golden files hold as text.
+fn number(value: &Value) -> f64 {
+    match value {
+        Value::String(text) => text.parse().unwrap(),
+        other => other
+            .as_f64()
+            .unwrap_or_else(|| panic!("{other} is no number")),
+    }
+}
+
+fn relative(found: &Value, truth: f64) -> f64 {
+    (number(found) / truth - 1.0).abs()
+}
+
+/// The reference answers within 1e-12 of the 65-digit truth; the f32 form within 1e-6, and near the
+/// nut's zero of kappa1 within 1e-7 of kappa2. Where the surface is about to fold, `A < 0.3`, f32 loses
+/// digits as 1 / A.
+#[test]
+fn groove_curvature_is_that_of_the_golden_cases() {
+    let cases = golden("curvature.json");
+    let mut requests = Vec::new();
+    let mut truths = Vec::new();
+    for case in cases["cases"].as_array().unwrap() {
+        for groove in ["screw", "nut"] {
+            let request = json!({
+                "id": requests.len(), "model": "groove_curvature", "groove": groove,
+                "pitch_radius": case["r_m"], "lead_angle": case["alpha"],
+                "contact_angle": case["phi"], "groove_radius": case["r_s"],
+                "offset_h": case["H"], "offset_l": case["L"],
+            });
+            requests.push(request.to_string());
+            let get = |name: &str| number(&case[name]);
+            let sign = if groove == "screw" { 1.0 } else { -1.0 };
+            let area = 1.0
+                + sign * get("alpha").cos().powi(2) / get("r_m")
+                    * (get("H") - get("r_s") * get("phi").cos());
+            truths.push((
+                number(&case[groove]["kappa1"]),
+                number(&case[groove]["kappa2"]),
+                area,
+            ));
+        }
+    }
+    let (code, answers) = ask(&requests);
+    assert_eq!((code, answers.len()), (0, requests.len()));
+    for ((request, answer), (kappa1, kappa2, area)) in requests.iter().zip(&answers).zip(truths) {
+        let (in_loop, reference) = (&answer["in_loop"], &answer["reference"]);
+        let allowed = (1e-6 * kappa1.abs() * (0.3 / area).max(1.0)).max(1e-7 * kappa2.abs());
+        assert!(
+            (number(&in_loop["kappa1"]) - kappa1).abs() <= allowed
+                && relative(&in_loop["kappa2"], kappa2) <= 5e-7
+                && relative(&reference["kappa1"], kappa1) <= 1e-12
+                && relative(&reference["kappa2"], kappa2) <= 1e-12,
+            "{request}: {answer}"
+        );
+        assert!(in_loop["literature"].is_null());
+        assert!(in_loop["fitted"].is_f64() && in_loop["circular_groove"].is_f64());
+    }
+}
+
+#[test]
+fn literature_formula_needs_the_ball_radius() {
+    let request = json!({
+        "id": null, "model": "groove_curvature", "groove": "screw", "pitch_radius": 8.0,
+        "lead_angle": 0.0, "contact_angle": 0.0, "groove_radius": 1.7, "offset_h": 0.0,
+        "offset_l": 0.0, "ball_radius": 1.5,
+    });
+    let (code, answers) = ask(&[request.to_string()]);
+    assert_eq!(code, 0);
+    // 1 / (8 - 1.5), and without lead and offsets 1 / (8 - 1.7) by every other form.
+    assert!(relative(&answers[0]["in_loop"]["literature"], 1.0 / 6.5) < 2e-7);
+    assert!(relative(&answers[0]["in_loop"]["circular_groove"], 1.0 / 6.3) < 2e-7);
+    assert!(relative(&answers[0]["reference"]["kappa1"], 1.0 / 6.3) < 1e-15);
+}
+
+/// Efficiencies within 1e-6 absolute and losses within 1e-6 relative, apart from what rounding the
+/// angles to f32 changes: next to 90 degrees of contact angle the cosine loses its digits, by
+/// 2^-24 beta / cos(beta).
+#[test]
+fn efficiency_is_that_of_the_golden_cases() {
+    let cases = golden("efficiency.json");
+    let cases = cases["closed_form"].as_array().unwrap();
+    let requests: Vec<_> = cases
+        .iter()
+        .enumerate()
+        .map(|(index, case)| {
+            json!({
+                "id": index, "model": "efficiency", "lead_angle": number(&case["alpha"]),
+                "contact_angle": number(&case["beta"]), "friction": number(&case["f"]),
+                "ball_ratio": number(&case["a"]), "rolling_tangent": number(&case["t_rho"]),
+            })
+            .to_string()
+        })
+        .collect();
+    let (code, answers) = ask(&requests);
+    assert_eq!((code, answers.len()), (0, cases.len()));
+    for ((case, answer), request) in cases.iter().zip(&answers).zip(&requests) {
+        let beta = number(&case["beta"]);
+        let lost = 6e-8 * beta / beta.cos().abs();
+        for (field, name) in [
+            ("rolling_screw", "eta3"),
+            ("rolling_nut", "eta4"),
+            ("sliding_drive", "eta14"),
+            ("sliding_backdrive", "eta17"),
+        ] {
+            let truth = number(&case[name]);
+            // Values beyond 0 to 1 belong to locked states and grow without bound.
+            let scale = (1.0 - truth).abs().max(1.0);
+            let reference = (number(&answer["reference"][field]) - truth).abs();
+            let in_loop = (number(&answer["in_loop"][field]) - truth).abs();
+            assert!(
+                reference <= 1e-12 * scale && in_loop <= (1e-6 + lost) * scale,
+                "{request}: {field} {answer}, truth {truth}"
+            );
+        }
+        let loss = number(&case["loss14"]);
+        assert!(
+            (number(&answer["in_loop"]["loss_drive"]) - loss).abs() <= (1e-6 + lost) * loss
+                && (number(&answer["reference"]["loss_drive"]) - loss).abs() <= 1e-12 * loss,
+            "{request}: {answer}"
+        );
+        for side in ["in_loop", "reference"] {
+            assert_eq!(answer[side]["locked_drive"], case["self_braking_16"]);
+            assert_eq!(answer[side]["locked_backdrive"], case["self_braking_19"]);
+        }
+    }
+}
+
+/// The dynamic correction's own error is 6e-9 at these speeds and loads; f32 adds a few 2^-24.
+#[test]
+fn steady_state_is_that_of_the_golden_cases() {
+    let cases = golden("efficiency.json");
+    let request = |case: &Value| {
+        json!({
+            "id": 0, "model": "steady_state", "lead_angle": number(&case["alpha"]),
+            "contact_angle": number(&case["beta"]), "friction": number(&case["f"]),
+            "ball_radius": number(&case["r_b"]), "pitch_radius": number(&case["r_m"]),
+            "speed": number(&case["omega"]), "axial_load": number(&case["f_a"]),
+            "ball_density": number(&case["rho"]),
+        })
+        .to_string()
+    };
+    let exact = cases["exact"].as_array().unwrap();
+    let (code, answers) = ask(&exact.iter().map(request).collect::<Vec<_>>());
+    assert_eq!((code, answers.len()), (0, exact.len()));
+    for (case, answer) in exact.iter().zip(&answers) {
+        let reference = &answer["reference"];
+        assert_eq!(reference["exists"], true);
+        for (field, name) in [
+            ("efficiency", "eta"),
+            ("torque", "torque"),
+            ("normal_screw", "Q_B"),
+            ("normal_nut", "Q_A"),
+            ("normal_nut_minor", "Q_Ap"),
+        ] {
+            assert!(
+                relative(&reference[field], number(&case[name])) <= 1e-12,
+                "{field}: {answer} for {case}"
+            );
+        }
+        let corrected = number(&case["eta_dyn1"]);
+        assert!((number(&answer["in_loop"]["efficiency"]) - corrected).abs() <= 3e-7);
+    }
+
+    let none = cases["exact_no_steady_state"].as_array().unwrap();
+    let (code, answers) = ask(&none.iter().map(request).collect::<Vec<_>>());
+    assert_eq!((code, answers.len()), (0, none.len()));
+    for answer in &answers {
+        assert_eq!(answer["reference"]["exists"], false);
+        assert!(answer["reference"]["efficiency"].is_null());
+        assert!(answer["in_loop"]["efficiency"].is_f64());
+    }
+}
+
+#[test]
+fn the_circle_is_a_contact_ellipse_too() {
+    let request = json!({
+        "id": 0, "model": "hertz", "relative_radius_1": 2e-3, "relative_radius_2": 2e-3,
+        "load": 100.0, "contact_modulus": 1e11,
+    });
+    let (code, answers) = ask(&[request.to_string()]);
+    assert_eq!(code, 0);
+    // Sphere on plane with R = 1/(1/R1 + 1/R2) doubled: a = (3 F R / (4 E*))^(1/3).
+    let a = (3.0 * 100.0 * 2e-3 / (4.0 * 1e11_f64)).cbrt();
+    let expected = [
+        ("axis_ratio", 1.0),
+        ("semi_major", a),
+        ("semi_minor", a),
+        ("deflection", a * a / 2e-3),
+        ("max_pressure", 1.5 * 100.0 / (std::f64::consts::PI * a * a)),
+    ];
+    for (field, truth) in expected {
+        assert!(relative(&answers[0]["reference"][field], truth) < 1e-12);
+        // The axis ratio's rational function is within 1.1e-5.
+        assert!(relative(&answers[0]["in_loop"][field], truth) < 2e-5);
+    }
+}
+
+/// A good request of every model.
+fn good_requests() -> Vec<Value> {
+    vec![
+        json!({
+            "id": 0, "model": "groove_curvature", "groove": "nut", "pitch_radius": 8e-3,
+            "lead_angle": 0.2, "contact_angle": 0.8, "groove_radius": 1.7e-3, "offset_h": 6e-5,
+            "offset_l": 6e-5, "ball_radius": 1.6e-3,
+        }),
+        json!({
+            "id": 0, "model": "efficiency", "lead_angle": 0.2, "contact_angle": 0.8,
+            "friction": 0.1, "ball_ratio": 0.2, "rolling_tangent": 0.001,
+        }),
+        json!({
+            "id": 0, "model": "steady_state", "lead_angle": 0.2, "contact_angle": 0.8,
+            "friction": 0.05, "ball_radius": 4e-3, "pitch_radius": 24e-3, "speed": 200.0,
+            "axial_load": 2000.0, "ball_density": 7800.0,
+        }),
+        json!({
+            "id": 0, "model": "hertz", "relative_radius_1": 3e-3, "relative_radius_2": 6e-2,
+            "load": 100.0, "contact_modulus": 1.1e11,
+        }),
+        json!({
+            "id": 0, "model": "contact_kinematics", "ball_diameter": 6.35e-3,
+            "pitch_radius": 16e-3, "lead_angle": 0.2, "groove_radius_screw": 3.4e-3,
+            "groove_radius_nut": 3.4e-3, "contact_angle_screw": 0.8, "contact_angle_nut": 0.75,
+            "pitch_angle": 0.7, "yaw_angle": 0.1, "rolling_radius_screw": 3.1e-3,
+            "rolling_radius_nut": 3.1e-3, "speed": 100.0, "semi_major_screw": 4e-4,
+            "semi_minor_screw": 6e-5, "semi_major_nut": 4e-4, "semi_minor_nut": 6e-5,
+        }),
+    ]
+}
+
+/// Names of the number fields of a request.
+fn number_fields(request: &Value) -> Vec<String> {
+    request
+        .as_object()
+        .unwrap()
+        .keys()
+        .filter(|field| !["id", "model", "groove"].contains(&field.as_str()))
+        .cloned()
+        .collect()
+}
+
+/// The request with one field's value as the text given.
+fn with_field(request: &Value, field: &str, text: &str) -> String {
+    let mut request = request.clone();
+    request[field] = json!("REPLACED");
+    request.to_string().replace("\"REPLACED\"", text)
+}
+
+#[test]
+fn what_is_no_finite_number_names_its_field() {
+    let mut requests = Vec::new();
+    let mut fields = Vec::new();
+    for good in good_requests() {
+        for field in number_fields(&good) {
+            for text in [
+                "\"NaN\"", "\"1\"", "null", "true", "[1]", "{}", "1e999", "-1e999", "1e300",
+                "-1e300",
+            ] {
+                requests.push(with_field(&good, &field, text));
+                fields.push(field.clone());
+            }
+        }
+    }
+    let (code, answers) = ask(&requests);
+    assert_eq!((code, answers.len()), (1, requests.len()));
+    for ((request, answer), field) in requests.iter().zip(&answers).zip(fields) {
+        assert_eq!(answer["error"]["field"], *field, "{request}: {answer}");
+        assert_eq!(answer["id"], 0);
+        assert!(!answer["error"]["message"].as_str().unwrap().is_empty());
+    }
+}
+
+#[test]
+fn missing_and_unknown_fields_are_named() {
+    const OPTIONAL: [&str; 3] = ["ball_radius", "rolling_tangent", "ball_density"];
+    for good in good_requests() {
+        for field in number_fields(&good) {
+            let mut request = good.clone();
+            request.as_object_mut().unwrap().remove(&field);
+            let (code, answers) = ask(&[request.to_string()]);
+            let optional = OPTIONAL.contains(&field.as_str()) && good["model"] != "steady_state"
+                || field == "ball_density";
+            if optional {
+                assert_eq!(code, 0, "{request}: {answers:?}");
+            } else {
+                assert_eq!((code, &answers[0]["error"]["field"]), (1, &json!(field)));
+            }
+        }
+        let mut request = good.clone();
+        request["colour"] = json!(1);
+        let (code, answers) = ask(&[request.to_string()]);
+        assert_eq!((code, &answers[0]["error"]["field"]), (1, &json!("colour")));
+    }
+}
+
+/// Zero, negative, huge and tiny numbers: an error that names a field, or an answer.
+#[test]
+fn numbers_at_the_ends_are_refused_or_answered() {
+    let mut requests = Vec::new();
+    for good in good_requests() {
+        for field in number_fields(&good) {
+            for text in [
+                "0",
+                "-0.0",
+                "-1",
+                "-1e-30",
+                "1e-45",
+                "1e-30",
+                "1e-300",
+                "1e30",
+                "3.5e38",
+                "1.5707964",
+                "1.5707963267948966",
+                "1",
+                "1e9",
+                "1e-9",
+            ] {
+                requests.push(with_field(&good, &field, text));
+            }
+        }
+    }
+    let (_, answers) = ask(&requests);
+    assert_eq!(answers.len(), requests.len());
+    for (request, answer) in requests.iter().zip(&answers) {
+        let known: Value = serde_json::from_str(request).unwrap();
+        match answer["error"]["field"].as_str() {
+            Some(field) => assert!(known.get(field).is_some(), "{request}: {answer}"),
+            None => assert!(answer["in_loop"].is_object(), "{request}: {answer}"),
+        }
+    }
+}
+
+#[test]
+fn the_run_goes_on_in_order_after_a_bad_line() {
+    let good = good_requests()[3].to_string();
+    let long = format!(r#"{{"id": 1, "model": "{}"}}"#, "x".repeat(2 << 20));
+    let input = [
+        "",
+        &good.replace("\"id\":0", r#""id":{"a": [1, 2.50]}"#),
+        "   \t ",
+        "no json",
+        "[1, 2]",
+        r#"{"id": 7, "model": "astrology"}"#,
+        r#"{"id": 8}"#,
+        &good.replace("\"id\":0,", ""),
+        &good.replace("100.0", "NaN"),
+        &long,
+        &good.replace("\"id\":0", "\"id\":12345678901234567890123"),
+        &good.replace("\"load\"", "\"load\":1,\"load\""),
+    ]
+    .join("\r\n");
+    let run = run(&["eval", "-"], &input);
+    assert_eq!(run.code, 1);
+    let lines: Vec<_> = run.stdout.lines().collect();
+    let expected = [
+        (r#"{"id":{"a": [1, 2.50]},"in_loop""#, ""),
+        (r#"{"id":null,"#, "request"),
+        (r#"{"id":null,"#, "request"),
+        (r#"{"id":7,"#, "model"),
+        (r#"{"id":8,"#, "model"),
+        (r#"{"id":null,"#, "id"),
+        (r#"{"id":null,"#, "request"),
+        (r#"{"id":null,"#, "request"),
+        (r#"{"id":12345678901234567890123,"in_loop""#, ""),
+        (r#"{"id":0,"#, "load"),
+    ];
+    assert_eq!(lines.len(), expected.len(), "{}", run.stdout);
+    for (line, (start, field)) in lines.iter().zip(expected) {
+        assert!(line.starts_with(start), "{line}");
+        let answer: Value = serde_json::from_str(line).unwrap();
+        assert_eq!(answer["error"]["field"].as_str().unwrap_or(""), field);
+    }
+}
+
+#[test]
+fn a_file_is_read_and_a_missing_one_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("requests.jsonl");
+    let text: String = good_requests()
+        .iter()
+        .flat_map(|request| [request.to_string(), "\n".into()])
+        .collect();
+    fs::write(&path, text).unwrap();
+    let good = run(&["eval", path.to_str().unwrap()], "");
+    assert_eq!(good.code, 0, "{}", good.stdout);
+    assert_eq!(good.stdout.lines().count(), good_requests().len());
+    let missing = run(&["eval", "no-such-file.jsonl"], "");
+    assert_eq!(missing.code, 1);
+    assert!(missing.stderr.contains("no-such-file.jsonl"));
+}
+
+#[test]
+fn nothing_in_nothing_out() {
+    let run = run(&["eval"], "\n\n");
+    assert_eq!((run.code, run.stdout.as_str()), (0, ""));
+}
+
+/// A reader that goes away early is no error of this program.
+#[test]
+fn a_closed_pipe_is_quiet() {
+    use std::io::Write;
+    use std::process::{Command, Stdio};
+    let mut child = Command::new(env!("CARGO_BIN_EXE_epas-bench"))
+        .arg("eval")
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let mut stdin = child.stdin.take().unwrap();
+    // The program may have gone before all is written.
+    let _ = stdin.write_all(format!("{}\n", good_requests()[3]).repeat(1000).as_bytes());
+    drop(stdin);
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(0));
+    assert!(output.stderr.is_empty());
+}

@@ -1,0 +1,84 @@
+//! The program as its users start it.
+
+mod eval;
+mod report;
+mod simulate;
+
+use std::io::Write;
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+/// How a run of the program ended.
+struct Run {
+    code: i32,
+    stdout: String,
+    stderr: String,
+}
+
+/// Runs the program in a folder with some input.
+fn run_in(folder: &Path, arguments: &[&str], input: &str) -> Run {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_epas-bench"))
+        .args(arguments)
+        .current_dir(folder)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    // From a thread of its own: the program answers while it reads, and a full pipe would stop both.
+    let mut stdin = child.stdin.take().unwrap();
+    let input = input.to_owned();
+    let writer = std::thread::spawn(move || stdin.write_all(input.as_bytes()));
+    let output = child.wait_with_output().unwrap();
+    let _ = writer.join().unwrap();
+    let run = Run {
+        code: output.status.code().unwrap(),
+        stdout: String::from_utf8(output.stdout).unwrap(),
+        stderr: String::from_utf8(output.stderr).unwrap(),
+    };
+    assert!(
+        !run.stderr.contains("panicked"),
+        "{arguments:?}: {}",
+        run.stderr
+    );
+    run
+}
+
+fn run(arguments: &[&str], input: &str) -> Run {
+    run_in(Path::new("."), arguments, input)
+}
+
+#[test]
+fn help_names_every_subcommand() {
+    let help = run(&["--help"], "");
+    assert_eq!(help.code, 0);
+    for subcommand in ["report", "simulate", "eval"] {
+        assert!(help.stdout.contains(subcommand));
+        assert_eq!(run(&[subcommand, "--help"], "").code, 0);
+    }
+}
+
+#[test]
+fn wrong_usage_ends_with_code_2() {
+    for arguments in [
+        &["fly"][..],
+        &["eval", "--fast"],
+        &["simulate"],
+        &[
+            "simulate",
+            "--design",
+            "33x20x6.35",
+            "--manoeuvre",
+            "parking",
+        ],
+        &["simulate", "--manoeuvre", "jump"],
+        &["simulate", "--input", "trace.csv"],
+        &["simulate", "--input", "trace.csv", "--manoeuvre", "kerb"],
+        &["simulate", "--list", "--force"],
+        &["report", "--output"],
+    ] {
+        let run = run(arguments, "");
+        assert_eq!(run.code, 2, "{arguments:?}: {}", run.stderr);
+        assert!(!run.stderr.is_empty() && run.stdout.is_empty());
+    }
+}

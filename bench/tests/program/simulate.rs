@@ -1,0 +1,376 @@
+//! `simulate`: manoeuvres, traces and designs of users, and what is refused.
+
+use std::fs;
+use std::path::Path;
+
+use tempfile::{TempDir, tempdir};
+
+use super::{Run, run, run_in};
+
+const TRACE: &str = "time,nut_speed,axial_load\n0,10,1000\n0.001,0,-1000\n0.002,-10,1000\n";
+
+const DESIGN: &str = "\
+name = \"rack\"
+nominal_diameter = 0.032
+lead = 0.02
+ball_diameter = 6.35e-3
+conformity = 0.528
+contact_angle = 0.7853982
+friction = 0.1
+preload = 200
+loaded_balls = 40
+";
+
+/// A folder with a trace and a design.
+fn folder() -> TempDir {
+    let folder = tempdir().unwrap();
+    fs::write(folder.path().join("trace.csv"), TRACE).unwrap();
+    fs::write(folder.path().join("design.toml"), DESIGN).unwrap();
+    folder
+}
+
+fn simulate(folder: &Path, arguments: &[&str]) -> Run {
+    let all: Vec<_> = ["simulate"].iter().chain(arguments).copied().collect();
+    run_in(folder, &all, "")
+}
+
+/// Names of all files in a folder, hidden ones too.
+fn files(folder: &Path) -> Vec<String> {
+    let mut names: Vec<_> = fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn the_list_holds_every_built_in_design() {
+    let list = run(&["simulate", "--list"], "");
+    assert_eq!((list.code, list.stdout.lines().count()), (0, 34));
+    for name in ["32x20x6.35", "20x60x3.5", "lin-2.1", "lin-3.6", "lin-4.1"] {
+        assert!(list.stdout.lines().any(|line| line.starts_with(name)));
+    }
+}
+
+/// The f32 model is within a few 2^-24 of the same scene in float64.
+#[test]
+fn manoeuvres_run_beside_the_reference() {
+    for manoeuvre in ["parking", "weave", "kerb"] {
+        let folder = tempdir().unwrap();
+        let run = simulate(
+            folder.path(),
+            &[
+                "--manoeuvre",
+                manoeuvre,
+                "--output",
+                "out.csv",
+                "--plot",
+                "out.svg",
+                "--reference",
+            ],
+        );
+        assert_eq!(run.code, 0, "{}", run.stderr);
+        assert_eq!(files(folder.path()), ["out.csv", "out.svg"]);
+        let svg = fs::read_to_string(folder.path().join("out.svg")).unwrap();
+        assert!(svg.starts_with("<svg") && svg.contains("friction torque (N m)"));
+
+        let mut reader = csv::Reader::from_path(folder.path().join("out.csv")).unwrap();
+        let heads: Vec<_> = reader.headers().unwrap().iter().map(String::from).collect();
+        assert_eq!(
+            heads,
+            [
+                "time",
+                "nut_speed",
+                "axial_load",
+                "friction_torque",
+                "load_torque",
+                "efficiency",
+                "regime",
+                "faults",
+                "reference_friction_torque",
+                "reference_efficiency",
+            ]
+        );
+        let mut largest = 0.0_f64;
+        let mut worst = 0.0_f64;
+        let mut count = 0;
+        for record in reader.records() {
+            let record = record.unwrap();
+            let number = |index: usize| record[index].parse::<f64>().unwrap();
+            assert_eq!(&record[7], "0");
+            largest = largest.max(number(8).abs());
+            worst = worst.max((number(3) - number(8)).abs());
+            assert!((number(5) - number(9)).abs() < 1e-6, "{record:?}");
+            count += 1;
+        }
+        assert!(
+            count > 5000 && worst < 2e-6 * largest,
+            "{worst:e} of {largest}"
+        );
+        assert!(run.stdout.contains("peak friction torque"));
+    }
+}
+
+#[test]
+fn a_users_trace_and_design_give_their_own_numbers() {
+    let folder = folder();
+    let run = simulate(
+        folder.path(),
+        &[
+            "--design",
+            "design.toml",
+            "--input",
+            "trace.csv",
+            "--output",
+            "out.csv",
+        ],
+    );
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    assert_eq!(
+        files(folder.path()),
+        ["design.toml", "out.csv", "trace.csv"]
+    );
+    let table = fs::read_to_string(folder.path().join("out.csv")).unwrap();
+    let regimes: Vec<_> = table
+        .lines()
+        .skip(1)
+        .map(|line| line.split(',').nth(6).unwrap())
+        .collect();
+    assert_eq!(regimes, ["driving", "standing", "back-driving"]);
+    assert!(run.stdout.contains("rack") && run.stdout.contains("40 loaded balls"));
+}
+
+#[test]
+fn default_names_say_what_was_run() {
+    let folder = folder();
+    let run = simulate(
+        folder.path(),
+        &["--design", "lin-3.6", "--input", "trace.csv"],
+    );
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    assert_eq!(
+        files(&folder.path().join("target").join("simulate")),
+        ["trace-lin-3.6.csv", "trace-lin-3.6.svg"]
+    );
+}
+
+#[test]
+fn an_existing_file_is_replaced_only_by_force() {
+    let folder = folder();
+    let arguments = [
+        "--design",
+        "lin-4.1",
+        "--input",
+        "trace.csv",
+        "--output",
+        "out.csv",
+    ];
+    fs::write(folder.path().join("out.csv"), "precious").unwrap();
+    let refused = simulate(folder.path(), &arguments);
+    assert_eq!(refused.code, 1);
+    assert!(refused.stderr.contains("out.csv") && refused.stderr.contains("--force"));
+    let content = || fs::read_to_string(folder.path().join("out.csv")).unwrap();
+    assert_eq!(content(), "precious");
+
+    let forced = simulate(folder.path(), &[&arguments[..], &["--force"]].concat());
+    assert_eq!(forced.code, 0, "{}", forced.stderr);
+    assert!(content().starts_with("time,"));
+}
+
+#[test]
+fn a_plot_in_the_way_leaves_no_table() {
+    let folder = folder();
+    fs::write(folder.path().join("out.svg"), "precious").unwrap();
+    let run = simulate(
+        folder.path(),
+        &[
+            "--design",
+            "lin-4.1",
+            "--input",
+            "trace.csv",
+            "--output",
+            "out.csv",
+            "--plot",
+            "out.svg",
+        ],
+    );
+    assert_eq!(run.code, 1);
+    assert_eq!(
+        files(folder.path()),
+        ["design.toml", "out.svg", "trace.csv"]
+    );
+}
+
+#[test]
+fn the_trace_is_never_overwritten() {
+    let folder = folder();
+    for output in ["trace.csv", "./trace.csv"] {
+        let run = simulate(
+            folder.path(),
+            &[
+                "--design",
+                "lin-4.1",
+                "--input",
+                "trace.csv",
+                "--output",
+                output,
+                "--force",
+            ],
+        );
+        assert_eq!(run.code, 1);
+    }
+    let twice = simulate(
+        folder.path(),
+        &[
+            "--manoeuvre",
+            "kerb",
+            "--output",
+            "out",
+            "--plot",
+            "./out",
+            "--force",
+        ],
+    );
+    assert_eq!(twice.code, 1);
+    assert_eq!(files(folder.path()), ["design.toml", "trace.csv"]);
+    assert_eq!(
+        fs::read_to_string(folder.path().join("trace.csv")).unwrap(),
+        TRACE
+    );
+}
+
+#[test]
+fn a_malformed_trace_stops_with_its_line_and_leaves_nothing() {
+    for (text, line, word) in [
+        ("", "line 1", "empty"),
+        ("time,nut_speed,axial_load\n", "line 2", "empty"),
+        ("time,axial_load\n0,1\n", "line 1", "nut_speed"),
+        (
+            "time,nut_speed,axial_load\n0,1,2\n1,fast,2\n",
+            "line 3",
+            "nut_speed",
+        ),
+        (
+            "time,nut_speed,axial_load\n0,1,2\n\n1,2,heavy\n",
+            "line 4",
+            "axial_load",
+        ),
+        (
+            "time,nut_speed,axial_load\n0,1,2\n2,1,2\n1,1,2\n",
+            "line 4",
+            "back",
+        ),
+        (
+            "time,nut_speed,axial_load\n0,1,2\n1,NaN,2\n",
+            "line 3",
+            "finite",
+        ),
+        (
+            "time,nut_speed,axial_load\n0,1,2\n1,1e99,2\n",
+            "line 3",
+            "range",
+        ),
+        (
+            "time,nut_speed,axial_load\n0,1,2\n1,1\n",
+            "line 3",
+            "columns",
+        ),
+    ] {
+        let folder = folder();
+        fs::write(folder.path().join("trace.csv"), text).unwrap();
+        let run = simulate(
+            folder.path(),
+            &[
+                "--design",
+                "lin-4.1",
+                "--input",
+                "trace.csv",
+                "--output",
+                "out.csv",
+                "--plot",
+                "out.svg",
+            ],
+        );
+        assert_eq!(run.code, 1, "{text:?}");
+        assert!(
+            run.stderr.contains(line) && run.stderr.contains(word),
+            "{text:?}: {}",
+            run.stderr
+        );
+        assert_eq!(files(folder.path()), ["design.toml", "trace.csv"]);
+    }
+}
+
+#[test]
+fn a_wrong_design_file_is_named_with_its_field() {
+    for (from, to, field) in [
+        ("lead = 0.02", "lead = -0.02", "lead"),
+        ("lead = 0.02", "", "lead"),
+        ("lead = 0.02", "lead = \"long\"", "lead"),
+        ("conformity = 0.528", "conformity = 0.5", "conformity"),
+        ("friction = 0.1", "friction = nan", "friction"),
+        ("friction = 0.1", "fricton = 0.1", "fricton"),
+        ("name = \"rack\"", "name = ", "line 1"),
+    ] {
+        let folder = folder();
+        fs::write(folder.path().join("design.toml"), DESIGN.replace(from, to)).unwrap();
+        let run = simulate(
+            folder.path(),
+            &[
+                "--design",
+                "design.toml",
+                "--manoeuvre",
+                "kerb",
+                "--output",
+                "out.csv",
+            ],
+        );
+        assert_eq!(run.code, 1, "{to}");
+        assert!(
+            run.stderr.contains("design.toml") && run.stderr.contains(field),
+            "{to}: {}",
+            run.stderr
+        );
+        assert_eq!(files(folder.path()), ["design.toml", "trace.csv"]);
+    }
+    let missing = simulate(
+        Path::new("."),
+        &["--design", "no-such-design.toml", "--manoeuvre", "kerb"],
+    );
+    assert_eq!(missing.code, 1);
+    assert!(missing.stderr.contains("no-such-design.toml"));
+}
+
+#[test]
+fn a_design_without_lead_makes_no_manoeuvre() {
+    let folder = folder();
+    let design = DESIGN.replace("lead = 0.02", "lead = 0");
+    fs::write(folder.path().join("design.toml"), design).unwrap();
+    for arguments in [
+        &["--manoeuvre", "kerb"][..],
+        &["--input", "trace.csv", "--reference"],
+    ] {
+        let all = [
+            &["--design", "design.toml", "--output", "out.csv"],
+            arguments,
+        ]
+        .concat();
+        let run = simulate(folder.path(), &all);
+        assert_eq!(run.code, 1);
+        assert!(run.stderr.contains("lead"));
+    }
+    // Its friction torque can still be had.
+    let run = simulate(
+        folder.path(),
+        &[
+            "--design",
+            "design.toml",
+            "--input",
+            "trace.csv",
+            "--output",
+            "out.csv",
+        ],
+    );
+    assert_eq!(run.code, 0, "{}", run.stderr);
+}
