@@ -3,6 +3,7 @@
 mod contact_kinematics;
 mod efficiency;
 mod fields;
+mod friction_map;
 mod groove_curvature;
 mod hertz;
 mod lines;
@@ -43,6 +44,8 @@ use lines::{Line, Lines};
 /// groove_radius_nut, contact_angle_screw, contact_angle_nut, pitch_angle, yaw_angle,
 /// rolling_radius_screw, rolling_radius_nut, speed, semi_major_screw, semi_minor_screw,
 /// semi_major_nut, semi_minor_nut
+///
+/// friction_map: axis_ratio, offset
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// File with the requests; stdin without it or for -
@@ -75,12 +78,13 @@ fn json(value: &impl Serialize) -> Result<Box<RawValue>, BadField> {
 type Model = fn(Fields) -> Result<Answer, BadField>;
 
 /// Every model by its name.
-const MODELS: [(&str, Model); 5] = [
+const MODELS: [(&str, Model); 6] = [
     ("groove_curvature", groove_curvature::evaluate),
     ("efficiency", efficiency::evaluate),
     ("steady_state", steady_state::evaluate),
     ("hertz", hertz::evaluate),
     ("contact_kinematics", contact_kinematics::evaluate),
+    ("friction_map", friction_map::evaluate),
 ];
 
 /// A line of the output.

@@ -1,9 +1,9 @@
-//! Contact kinematics: Figures 6 to 12 of Alberdi et al., traditional beside revised, and the table of
+//! Contact kinematics: Figures 6 to 13 of Alberdi et al., traditional beside revised, and the table of
 //! printed against computed numbers.
 
 use epas_reference::kinematics::figures::{self, ConstraintRow, FieldPoint, Formulation};
 use epas_reference::kinematics::published::{Verdict, table};
-use epas_reference::kinematics::{ContactKinematics, InvalidInput, Raceway};
+use epas_reference::kinematics::{ContactKinematics, InvalidInput, Raceway, Revised};
 
 use super::Context;
 use super::document::{Block, Cell, Figure, Section, Table};
@@ -32,6 +32,7 @@ pub fn section(context: &Context) -> Result<Section, Failure> {
             Block::Table(published()?),
             Block::Figure(figure_6(steps)?),
             Block::Figure(fields()?),
+            Block::Figure(figure_9()?),
             Block::Figure(sweep(
                 "kinematics_figure_10",
                 "Figure 10: both rolling radii.",
@@ -163,6 +164,60 @@ fn arrows(points: &[FieldPoint], scale: f64) -> Vec<(f64, f64)> {
         .collect()
 }
 
+/// A slip field over the contact ellipse at the screw.
+fn field_panel(title: &str, revised: &Revised, field: &[FieldPoint]) -> Panel {
+    let contact = revised.input().contact(Raceway::Screw);
+    let outline = (0..=120)
+        .map(|step| {
+            let (sin, cos) = (std::f64::consts::TAU * f64::from(step) / 120.0).sin_cos();
+            (
+                1e3 * contact.semi_minor * cos,
+                1e3 * contact.semi_major * sin,
+            )
+        })
+        .collect();
+    Panel::Chart(Chart {
+        title: title.into(),
+        x: Axis::linear("along rolling (mm)").between(-0.5, 0.5),
+        y: Axis::linear("across rolling (mm)").between(-0.75, 0.65),
+        series: vec![
+            Series::new("contact ellipse", 6, Mark::Line, outline),
+            Series::new(
+                "slip, 0.1 mm for 60 mm/s",
+                0,
+                Mark::Line,
+                arrows(field, 0.1 / 0.06),
+            ),
+        ],
+        notes: Vec::new(),
+    })
+}
+
+/// Figure 9: three fields with one slide-to-roll ratio.
+fn figure_9() -> Result<Figure, Failure> {
+    let revised = figures::case_one(10f64.to_radians())?;
+    let same = figures::same_slide_to_roll(4)?;
+    Ok(Figure {
+        name: "kinematics_figure_9",
+        caption: format!(
+            "Figure 9: three slip fields with the same slide-to-roll ratio of {:.2} %: the ratio alone \
+             tells neither the direction of slip nor the spin.",
+            100.0 * same.slide_to_roll
+        ),
+        panels: vec![
+            field_panel("as it is", &revised, &same.reference),
+            field_panel(
+                "with the slide angle, without spin",
+                &revised,
+                &same.without_spin,
+            ),
+            field_panel("the ratio alone", &revised, &same.rolling_only),
+        ],
+        columns: 3,
+        size: (380, 460),
+    })
+}
+
 /// Figures 7 and 8: slip over the contact ellipse of the screw, arrows to one scale.
 fn fields() -> Result<Figure, Failure> {
     let bearing = figures::case_one(1e-9)?;
@@ -184,35 +239,13 @@ fn fields() -> Result<Figure, Failure> {
             Formulation::Traditional,
         ),
     ];
-    let mut panels = Vec::new();
-    for (title, revised, formulation) in cases {
-        let field = figures::slip_field(revised, formulation, Raceway::Screw, 4);
-        let contact = revised.input().contact(Raceway::Screw);
-        let outline = (0..=120)
-            .map(|step| {
-                let (sin, cos) = (std::f64::consts::TAU * f64::from(step) / 120.0).sin_cos();
-                (
-                    1e3 * contact.semi_minor * cos,
-                    1e3 * contact.semi_major * sin,
-                )
-            })
-            .collect();
-        panels.push(Panel::Chart(Chart {
-            title: title.into(),
-            x: Axis::linear("along rolling (mm)").between(-0.5, 0.5),
-            y: Axis::linear("across rolling (mm)").between(-0.75, 0.65),
-            series: vec![
-                Series::new("contact ellipse", 6, Mark::Line, outline),
-                Series::new(
-                    "slip, 0.1 mm for 60 mm/s",
-                    0,
-                    Mark::Line,
-                    arrows(&field, 0.1 / 0.06),
-                ),
-            ],
-            notes: Vec::new(),
-        }));
-    }
+    let panels = cases
+        .into_iter()
+        .map(|(title, revised, formulation)| {
+            let field = figures::slip_field(revised, formulation, Raceway::Screw, 4);
+            field_panel(title, revised, &field)
+        })
+        .collect();
     Ok(Figure {
         name: "kinematics_figures_7_8",
         caption: "Figures 7 and 8: slip over the contact ellipse at the screw. In a bearing there is spin; a \
