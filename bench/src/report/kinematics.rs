@@ -136,7 +136,9 @@ fn figure_6(steps: usize) -> Result<Figure, Failure> {
     }
     Ok(Figure {
         name: "kinematics_figure_6",
-        caption: "Figure 6: revised and traditional formulation over the lead angle; they agree without lead."
+        caption: "Figure 6: revised and traditional formulation over the lead angle. The traditional one takes \
+                  the ball's rotation relative to the moving frame, and its classic speeds: wrong for rolling \
+                  slip and spin even without lead, where side slip vanishes in both."
             .into(),
         panels,
         columns: 2,
