@@ -82,21 +82,17 @@ fn reference_equals_tabulated_ball_screw_contacts() {
     }
 }
 
-/// The circle, in closed form: `a³ = 3 F R / (4 E*)` with `1/R = 1/R1 + 1/R2` and `R1 = R2`, `delta =
-/// a²/R`.
+/// Equal relative radii `R` give a circle, in closed form: `a³ = 3 F R / (4 E*)`, `delta = a² / R`.
 #[test]
 fn equal_radii_give_a_circle() {
     let (radius, modulus) = (0.01, 1e11);
-    let equivalent = 0.5 * radius;
     let contact = Hertz::new(radius, radius, modulus).unwrap();
-    // Johnson's R for crossed equal radii 1/R' = 1/R'' = 1/radius is `radius` itself.
     let expected = (3.0 * radius / (4.0 * modulus)).cbrt();
     assert!((contact.axis_ratio - 1.0).abs() < 1e-14);
     assert!((contact.semi_major / expected - 1.0).abs() < 1e-12);
     assert!((contact.deflection / (expected * expected / radius) - 1.0).abs() < 1e-12);
     let fast = HertzContact::checked(radius as f32, radius as f32, modulus as f32).unwrap();
     assert!((f64::from(fast.semi_major_coefficient()) / expected - 1.0).abs() < 1e-5);
-    let _ = equivalent;
 }
 
 /// The crate's constants over the whole range of radius ratios: the axis ratio's fit is within 1.02e-5
