@@ -39,6 +39,7 @@ pub mod material;
 pub mod math;
 pub mod model;
 pub mod scene;
+pub mod train;
 
 pub use ball::{
     AnalyticLinearBall, BallChain, BallMotion, BallState, ContactMotion, FourPointBall,
