@@ -72,3 +72,4 @@ pub use scene::{
     CagedBallScrew, CagedBallScrewConfiguration, Faults, FrictionBranch, Inputs, Limits, Outputs,
     Regime, Scene,
 };
+pub use train::{Press, Train};

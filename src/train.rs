@@ -1,5 +1,12 @@
 //! The train of balls: ball-to-ball contacts, clusters, recirculation.
+//!
+//! | | what it is |
+//! |---|---|
+//! | [`Press`] | forces between balls from their free speeds, compliances and distances: one exact pass |
+//! | [`Train`] | the balls' positions on a closed track, and a tick that moves them |
 
 mod press;
+mod track;
 
 pub use press::{COMPLIANCE_RANGE, LARGEST_FREE_SPEED, Press};
+pub use track::{LARGEST_TRAVEL, Train};

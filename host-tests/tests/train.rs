@@ -1,7 +1,7 @@
 //! The train of balls: the pooling pass against exhaustive search, a general complementarity solver
 //! and stored chains; positions over many ticks.
 
-use epas_friction::train::Press;
+use epas_friction::{Press, Train};
 
 /// Deterministic numbers in 0..1 (splitmix64).
 struct Random(u64);
@@ -227,4 +227,205 @@ fn long_trains_agree_with_a_general_complementarity_solver() {
     let random = &mut Random(2);
     println!("N = 37: {:?}", compare_with_relaxation::<37>(random, 40));
     println!("N = 64: {:?}", compare_with_relaxation::<64>(random, 40));
+}
+
+/// Smallest distance of a train, and whether its balls still stand in their order: the distances and the
+/// balls add up to the track, once around.
+fn check_order<const N: usize>(train: &Train<N>, length: f64, pitch: f64) -> f64 {
+    let sum: f64 = train.gaps().map(f64::from).sum();
+    let rounding = 1e-6 * length;
+    assert!(
+        (sum + N as f64 * pitch - length).abs() < rounding,
+        "the balls fill {} of {length}",
+        sum + N as f64 * pitch
+    );
+    train
+        .gaps()
+        .fold(f64::INFINITY, |m, gap| m.min(f64::from(gap)))
+}
+
+/// A million ticks of 37 balls on a track they fill to 97.8 per cent, at speeds that vary along the
+/// track, with reversals and standstill: the balls neither overlap nor get lost.
+///
+/// Balls that press are set in contact exactly; others lose at most a unit of 2^-32 of the track each to
+/// rounding (1e-10 m here), so 1e-9 m is ten times what is left.
+#[test]
+fn a_million_ticks_leave_no_overlap() {
+    const N: usize = 37;
+    let (length, pitch) = (0.2248_f64, 0.00594_f64);
+    let mut train = Train::<N>::evenly_spaced(length as f32, pitch as f32).unwrap();
+    let (mut worst, mut pressing, mut most) = (f64::INFINITY, 0, 0);
+    let mut phase = 0.0_f64;
+    for tick in 0..1_000_000_u32 {
+        // One second each of forward, standstill, backward; slow and fast.
+        let way = match tick / 1000 % 4 {
+            0 => 2e-4,
+            1 => 0.0,
+            2 => -1.3e-4,
+            _ => 3.7e-6,
+        };
+        phase += way / length;
+        let sense = if way < 0.0 { -1.0_f32 } else { 1.0 };
+        let mut free = [0.0; N];
+        for (free, position) in free.iter_mut().zip(train.positions()) {
+            let at = f64::from(position) / 4_294_967_296.0 + phase;
+            *free = sense * (0.05 * (3.0 * std::f64::consts::TAU * at).sin()) as f32;
+        }
+        train.step(&free, &[1e-3; N], way as f32);
+        let contacts = train.forces().iter().filter(|&&force| force > 0.0).count();
+        pressing += contacts;
+        most = most.max(contacts);
+        if tick % 64 == 0 {
+            worst = worst.min(check_order(&train, length, pitch));
+        }
+    }
+    worst = worst.min(check_order(&train, length, pitch));
+    println!(
+        "largest overlap {} m, contacts {pressing}, at most {most}",
+        -worst
+    );
+    assert!(worst > -1e-9, "overlap {worst} m");
+    assert!(most > 5 && pressing > 1_000_000, "the balls hardly met");
+}
+
+/// The same balls, numbered from another one, do the same.
+#[test]
+fn numbering_does_not_matter() {
+    const N: usize = 8;
+    let gaps = [0.0, 0.001, 0.0, 0.0, 0.002, 0.0, 0.0, 0.0];
+    let length = 0.1_f32;
+    let pitch = 0.01_f32;
+    let last = f64::from(length) - 0.08 - 0.003;
+    let speed = |j: usize| 0.01 * ((j * 5 % 8) as f32 - 3.5);
+    let mut one = Train::<N>::new(length, pitch, &gaps).unwrap();
+    // Ball 3 of the first is ball 0 of the second.
+    let mut turned = gaps;
+    turned[7] = last as f32;
+    turned.rotate_left(3);
+    let mut other = Train::<N>::new(length, pitch, &turned).unwrap();
+    let mut most = 0;
+    for _ in 0..400 {
+        one.step(&std::array::from_fn(speed), &[2e-3; N], 5e-5);
+        other.step(
+            &std::array::from_fn(|j| speed((j + 3) % N)),
+            &[2e-3; N],
+            5e-5,
+        );
+        for j in 0..N {
+            let (a, b) = (one.forces()[(j + 3) % N], other.forces()[j]);
+            // A unit of distance counts for 2e-11 m / 5e-5 m / (2 2e-3 / N) of force.
+            assert!((a - b).abs() < 2e-3, "ball {j}: {a} and {b} N");
+        }
+        most = most.max(one.forces().iter().filter(|&&f| f > 0.0).count());
+    }
+    assert!(most > 1, "{most} contacts");
+}
+
+/// One ball has nothing to press on; a full track moves as one, whatever its balls would do.
+#[test]
+fn a_single_ball_and_a_full_track() {
+    let mut single = Train::<1>::evenly_spaced(0.1, 0.01).unwrap();
+    let start = single.positions().next().unwrap();
+    for _ in 0..1000 {
+        single.step(&[0.1], &[1e-3], 1e-3);
+    }
+    assert_eq!((single.forces()[0], single.speeds()[0]), (0.0, 0.1));
+    // 1000 steps of 1.1 mm on 0.1 m: eleven times around; rounding of a travel of 4.3e7 units in f32.
+    let end = single.positions().next().unwrap();
+    assert!((end.wrapping_sub(start) as i32).abs() < 20_000);
+
+    let mut full = Train::<10>::evenly_spaced(0.1, 0.01).unwrap();
+    let free = [0.03, -0.02, 0.01, 0.0, 0.0, 0.05, -0.05, 0.02, 0.01, 0.05];
+    for _ in 0..1000 {
+        full.step(&free, &[1e-3; 10], 1e-4);
+        for (j, &speed) in full.speeds().iter().enumerate() {
+            // The pitch is rounded to f32, 32 units, which are 1e-5 of the travel's 4.3e6.
+            assert!((speed - 0.01).abs() < 2e-5, "ball {j}: {speed}");
+        }
+        assert_eq!(full.forces().iter().fold(1.0, |m: f32, &f| m.min(f)), 0.0);
+    }
+}
+
+/// Balls at equal speeds, and balls that drift apart, press on none; at standstill those in contact do
+/// with what sets them in motion.
+#[test]
+fn equal_speeds_gaps_and_standstill() {
+    let mut train = Train::<4>::new(1.0, 0.01, &[0.0; 4]).unwrap();
+    train.step(&[0.01; 4], &[1e-3; 4], 1e-3);
+    assert_eq!(train.forces(), &[0.0; 4]);
+    train.step(&[-0.02, -0.01, 0.0, 0.01], &[1e-3; 4], 1e-3);
+    assert_eq!(train.forces(), &[0.0; 4]);
+    // Now the gaps are 1e-5 m: pushed together again they close, and then they press.
+    train.step(&[0.004, 0.002, 0.0, 0.0], &[1e-3; 4], 1e-3);
+    assert_eq!(train.forces(), &[0.0; 4]);
+    for _ in 0..20 {
+        train.step(&[0.004, 0.002, 0.0, 0.0], &[1e-3; 4], 1e-3);
+    }
+    let pressed = *train.forces();
+    assert!(pressed[0] > 0.9 && pressed[1] > 0.9 && pressed[3] == 0.0);
+    let places: Vec<_> = train.positions().collect();
+    for _ in 0..10 {
+        train.step(&[0.004, 0.002, 0.0, 0.0], &[1e-3; 4], 0.0);
+    }
+    assert_eq!(places, train.positions().collect::<Vec<_>>());
+    assert_eq!(&pressed, train.forces());
+    // Backwards the same speeds would drive them apart.
+    train.step(&[-0.004, -0.002, 0.0, 0.0], &[1e-3; 4], -1e-3);
+    assert_eq!(train.forces(), &[0.0; 4]);
+}
+
+/// Whatever comes in, forces and speeds are finite, forces not negative, and the next sound tick finds
+/// the balls in their order.
+#[test]
+fn absurd_inputs_do_no_harm() {
+    let wild = [
+        f32::NAN,
+        f32::INFINITY,
+        f32::NEG_INFINITY,
+        f32::MAX,
+        -f32::MAX,
+        f32::MIN_POSITIVE,
+        -0.0,
+        1e-45,
+        1.0,
+        -1.0,
+        1e4,
+    ];
+    let random = &mut Random(3);
+    let mut train = Train::<7>::new(0.1, 0.01, &[0.0, 0.0, 1e-4, 0.0, 1e-3, 0.0, 0.0]).unwrap();
+    for _ in 0..20_000 {
+        let mut pick = || wild[(random.next() * wild.len() as f64) as usize];
+        let free = std::array::from_fn(|_| pick());
+        let compliance = std::array::from_fn(|_| pick());
+        let travel = pick();
+        train.step(&free, &compliance, travel);
+        for (force, speed) in train.forces().iter().zip(train.speeds()) {
+            assert!(
+                force.is_finite() && *force >= 0.0 && speed.is_finite(),
+                "{free:?} {compliance:?} {travel}: {train:?}"
+            );
+        }
+        assert!(check_order(&train, 0.1, 0.01) > -1e-8);
+    }
+}
+
+/// What does not fit on the track is refused by name.
+#[test]
+fn bad_tracks_are_refused() {
+    let field = |result: Result<Train<5>, epas_friction::Error>| result.unwrap_err().field();
+    for bad in [f32::NAN, f32::INFINITY, 0.0, -1.0, 1e5] {
+        assert_eq!(field(Train::new(bad, 0.01, &[0.0; 5])), "length");
+        assert_eq!(field(Train::new(1.0, bad, &[0.0; 5])), "pitch");
+    }
+    assert_eq!(field(Train::new(1.0, 0.21, &[0.0; 5])), "pitch");
+    for bad in [f32::NAN, f32::INFINITY, -1e-3, 0.6] {
+        assert_eq!(
+            field(Train::new(1.0, 0.1, &[0.0, bad, 0.0, 0.0, 0.0])),
+            "gaps"
+        );
+    }
+    assert_eq!(
+        field(Train::new(1.0, 0.1, &[0.2, 0.2, 0.2, 0.0, 0.0])),
+        "gaps"
+    );
 }

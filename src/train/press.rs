@@ -1,7 +1,7 @@
 //! Which balls of a train press on each other, and how hard: one exact pass, without iteration.
 
-/// Largest free speed that counts; one beyond it, infinite or NaN, counts as zero.
-pub const LARGEST_FREE_SPEED: f32 = 1e4;
+/// Largest free speed that counts, a relative deviation; one beyond it, infinite or NaN, counts as zero.
+pub const LARGEST_FREE_SPEED: f32 = 1.0;
 
 /// Least and largest compliance that count; one outside, or NaN, counts as the largest: such a ball goes
 /// along with its neighbours and presses on none.
@@ -26,8 +26,8 @@ pub const COMPLIANCE_RANGE: (f32, f32) = (1e-9, 1e9);
 /// holds: a join slows what is behind and speeds up what is ahead, so no force inside a cluster ever
 /// falls.
 ///
-/// Speeds may be in any unit and from any origin; small differences keep their digits when the origin is
-/// near. The direction of travel does not matter: a train that runs backwards has negative speeds.
+/// Speeds are deviations from a common nominal one over its size, so that small differences keep their
+/// digits; they are signed along the row, also for a train that runs backwards.
 ///
 /// Scratch and results stand here, in the caller's memory, and not on the stack of an interrupt.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -160,7 +160,7 @@ impl<const N: usize> Press<N> {
                 cluster = joined;
                 clusters -= 1;
                 last = self.cluster(clusters.wrapping_sub(1));
-                room_behind = self.room_behind(room, cluster.rear);
+                room_behind = room_at_back_of(room, cluster.rear);
             }
             self.push(clusters, &cluster);
             clusters += 1;
@@ -185,11 +185,11 @@ impl<const N: usize> Press<N> {
                     ring.rear
                 };
                 front = next.wrapping_sub(1);
-                room_ahead = self.room_behind(room, next);
+                room_ahead = room_at_back_of(room, next);
                 continue;
             }
             let behind = self.cluster(top - 1);
-            let Some(joined) = behind.joined(&ring, self.room_behind(room, ring.rear)) else {
+            let Some(joined) = behind.joined(&ring, room_at_back_of(room, ring.rear)) else {
                 break;
             };
             ring = joined;
@@ -209,13 +209,6 @@ impl<const N: usize> Press<N> {
         self.expand(&ring, length, free, room);
         self.foremost = front as u8;
         N - whole
-    }
-
-    #[inline(always)]
-    fn room_behind(&self, room: &[f32; N], ball: usize) -> f32 {
-        room.get(ball.wrapping_sub(1))
-            .copied()
-            .unwrap_or(f32::INFINITY)
     }
 
     #[inline(always)]
@@ -319,6 +312,14 @@ impl<const N: usize> Default for Press<N> {
     fn default() -> Self {
         Self::new()
     }
+}
+
+/// Room between `ball` and the ball behind it; none is behind the first.
+#[inline(always)]
+fn room_at_back_of<const N: usize>(room: &[f32; N], ball: usize) -> f32 {
+    room.get(ball.wrapping_sub(1))
+        .copied()
+        .unwrap_or(f32::INFINITY)
 }
 
 /// `speed` where it counts, else zero: by its bits, so that NaN needs no test of its own.

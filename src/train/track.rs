@@ -1,0 +1,251 @@
+//! Where the balls of a train are, and how they get on.
+
+use super::press::Press;
+use crate::error::{Error, in_range};
+
+/// Units of length on the track: positions wrap around where it closes.
+const UNITS: f32 = 4_294_967_296.0;
+
+/// A position keeps sixteenths of a unit: slow balls move by less than a unit in a tick.
+const FRACTION_BITS: u32 = 4;
+const FRACTIONS: f32 = 16.0;
+
+/// Largest travel in a tick over the length of the track that counts.
+pub const LARGEST_TRAVEL: f32 = 0.03;
+
+/// Distances this far below zero, in units, are contact: what rounding of two positions leaves.
+const ROUNDING: u32 = 1 << 10;
+
+/// Balls on a closed track, which they fill in part: positions, distances, forces, from tick to tick.
+///
+/// Positions are integers, in units of the track's length over 2³² (a tenth of a nanometre on half a
+/// metre): they wrap around where the track closes, and distances that open and close for hours do not
+/// drift. Balls that press on each other are set in contact exactly, the others are within two units of
+/// where their speeds lead, so that no overlap grows.
+///
+/// What the balls would do on their own comes as deviations from a common nominal speed, in units of its
+/// size, and the forces follow from [`Press`]: nothing here depends on the size of the speed, only on the
+/// sense of motion and on the way travelled.
+///
+/// ```
+/// use epas_friction::Train;
+/// // Three balls of 10 mm in contact on a track of 1 m, the fastest at the rear.
+/// let mut train = Train::<3>::new(1.0, 0.01, &[0.0; 3])?;
+/// train.step(&[0.02, 0.01, 0.0], &[1e-3; 3], 1e-4);
+/// assert!((train.forces()[0] - 10.0).abs() < 1e-4 && train.forces()[2] == 0.0);
+/// // They go on as one, at the mean speed.
+/// assert!(train.speeds().iter().all(|speed| (speed - 0.01).abs() < 1e-7));
+/// # Ok::<(), epas_friction::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Train<const N: usize> {
+    /// Relative to the origin.
+    position: [u32; N],
+    fraction: [u8; N],
+    origin: u32,
+    origin_rest: f32,
+    room: [f32; N],
+    press: Press<N>,
+    pitch: u32,
+    units: f32,
+}
+
+impl<const N: usize> Train<N> {
+    /// Balls on a closed track of `length`, m, that stand `pitch`, m, from centre to centre in contact:
+    /// on a straight track the ball diameter, on a helix the arc over it. Ball 0 starts at 0; `gaps[j]`,
+    /// m, is left in front of ball `j`, in front of the last one whatever is left.
+    ///
+    /// # Errors
+    /// [`Error`] naming `length` (1e-4 to 1e4), `pitch` (1e-6 of the length to its `N`-th part) or
+    /// `gaps` (each zero or more, the last one not counted, all no more than the balls leave).
+    pub fn new(length: f32, pitch: f32, gaps: &[f32; N]) -> Result<Self, Error> {
+        in_range("length", length, 1e-4, 1e4)?;
+        in_range("pitch", pitch, 1e-6 * length, length / N as f32)?;
+        let units = UNITS / length;
+        // f32 holds the pitch to 2^-24; balls that fill the track must not overfill it by that.
+        let fits = u32::try_from((1_u64 << 32) / N as u64).unwrap_or(u32::MAX);
+        let pitch = if (pitch * units) as u32 > fits {
+            fits
+        } else {
+            (pitch * units) as u32
+        };
+        let mut room = (1_u64 << 32) - N as u64 * u64::from(pitch);
+        let mut position = [0; N];
+        let mut next = 0_u32;
+        for (place, &gap) in position.iter_mut().zip(gaps) {
+            *place = next;
+            let last = room as f32 / units;
+            let gap = (in_range("gaps", gap, 0.0, last)? * units) as u64;
+            let gap = if gap > room { room } else { gap };
+            room -= gap;
+            next = next.wrapping_add(pitch).wrapping_add(gap as u32);
+        }
+        Ok(Self {
+            position,
+            fraction: [0; N],
+            origin: 0,
+            origin_rest: 0.0,
+            room: [0.0; N],
+            press: Press::new(),
+            pitch,
+            units,
+        })
+    }
+
+    /// Balls at equal distances.
+    ///
+    /// # Errors
+    /// As [`Train::new`].
+    pub fn evenly_spaced(length: f32, pitch: f32) -> Result<Self, Error> {
+        let mut train = Self::new(length, pitch, &[0.0; N])?;
+        let step = (1_u64 << 32) / N as u64;
+        for (ball, place) in train.position.iter_mut().enumerate() {
+            *place = (ball as u64 * step) as u32;
+        }
+        Ok(train)
+    }
+
+    /// Position of each ball, from the rear one to the front one, as a part of the track's length in
+    /// units of 2^-32.
+    #[inline]
+    pub fn positions(&self) -> impl Iterator<Item = u32> + '_ {
+        let origin = self.origin;
+        self.position
+            .iter()
+            .map(move |position| position.wrapping_add(origin))
+    }
+
+    /// Distance in front of each ball, m: zero in contact, up to a few units below by rounding.
+    pub fn gaps(&self) -> impl Iterator<Item = f32> + '_ {
+        let metre = 1.0 / self.units;
+        distances(&self.position, self.pitch).map(move |distance| {
+            if distance > u32::MAX - ROUNDING {
+                (distance as i32) as f32 * metre
+            } else {
+                distance as f32 * metre
+            }
+        })
+    }
+
+    /// Force between each ball and the one in front of it, in the unit of speed over compliance; the last
+    /// one acts between the last ball and the first.
+    #[inline]
+    #[must_use]
+    pub const fn forces(&self) -> &[f32; N] {
+        self.press.forces()
+    }
+
+    /// Actual speed of each ball in the last tick, as the free speeds are counted.
+    #[inline]
+    #[must_use]
+    pub const fn speeds(&self) -> &[f32; N] {
+        self.press.speeds()
+    }
+
+    /// Joins of clusters that the last tick needed, at most `N - 1`.
+    #[inline]
+    #[must_use]
+    pub const fn joins(&self) -> usize {
+        self.press.joins()
+    }
+
+    /// Moves the train by one tick.
+    ///
+    /// `travel`, m, is the nominal way of a ball in this tick, signed along the track. `free[j]` is the
+    /// speed ball `j` would take on its own, less the nominal one, over the size of the nominal one;
+    /// `compliance[j]` how much of that a newton takes from it, 1/N. Speeds are signed along the track: of
+    /// a train that runs backwards, a ball that is faster than the nominal one has a negative speed.
+    ///
+    /// Without travel the forces are those with which motion sets in; what the free speeds' signs say
+    /// then is up to the caller. A travel that is NaN counts as zero, one beyond [`LARGEST_TRAVEL`] of
+    /// the track as that; speeds and compliances count as in [`Press::solve`].
+    #[inline]
+    pub fn step(&mut self, free: &[f32; N], compliance: &[f32; N], travel: f32) {
+        let travel = self.counted(travel);
+        let way = if travel < 0.0 { -travel } else { travel };
+        let per_unit = if way > 1e-20 { 1.0 / way } else { 1e20 };
+
+        for (room, distance) in self
+            .room
+            .iter_mut()
+            .zip(distances(&self.position, self.pitch))
+        {
+            *room = if distance > u32::MAX - ROUNDING {
+                0.0
+            } else {
+                distance as f32 * per_unit
+            };
+        }
+        self.press.solve(free, compliance, &self.room);
+        self.advance(way);
+
+        let travel = travel + self.origin_rest;
+        let whole = travel as i32;
+        self.origin = self.origin.wrapping_add_signed(whole);
+        self.origin_rest = travel - whole as f32;
+    }
+
+    /// Travel in units.
+    #[inline]
+    fn counted(&self, travel: f32) -> f32 {
+        let travel = travel * self.units;
+        let largest = LARGEST_TRAVEL * UNITS;
+        if travel > largest {
+            largest
+        } else if travel < -largest {
+            -largest
+        } else if travel.is_nan() {
+            0.0
+        } else {
+            travel
+        }
+    }
+
+    /// Moves the balls by their speeds' deviations from the nominal one over a way of `way` units, each
+    /// after the one in front of it, from a ball that presses on none.
+    #[inline]
+    fn advance(&mut self, way: f32) {
+        let scale = way * FRACTIONS;
+        let mut ball = self.press.foremost();
+        // Where the ball in front was, how far it moves, and what is left of a unit there.
+        let mut ahead: Option<(u32, i32, u8)> = None;
+        for _ in 0..N {
+            if let (Some(position), Some(fraction), Some(&speed), Some(&force)) = (
+                self.position.get_mut(ball),
+                self.fraction.get_mut(ball),
+                self.press.speeds().get(ball),
+                self.press.forces().get(ball),
+            ) {
+                let moves = (speed * scale) as i32;
+                let moves = moves.wrapping_add(i32::from(*fraction));
+                let mut whole = moves >> FRACTION_BITS;
+                let mut rest = (moves & 15) as u8;
+                if let Some((place, step, left)) = ahead {
+                    let distance = place.wrapping_sub(*position).wrapping_sub(self.pitch);
+                    let reach = step.wrapping_add_unsigned(distance);
+                    let near = distance.wrapping_add(ROUNDING) < 1 << 28;
+                    if force > 0.0 || (near && whole > reach) {
+                        whole = reach;
+                        rest = left;
+                    }
+                }
+                ahead = Some((*position, whole, rest));
+                *position = position.wrapping_add_signed(whole);
+                *fraction = rest;
+            }
+            ball = if ball == 0 { N - 1 } else { ball - 1 };
+        }
+    }
+}
+
+/// Distances in front of the balls, in units.
+#[inline]
+fn distances<const N: usize>(position: &[u32; N], pitch: u32) -> impl Iterator<Item = u32> + '_ {
+    let first = position.first().copied().unwrap_or(0);
+    let ahead = position.iter().skip(1).copied();
+    position
+        .iter()
+        .zip(ahead.chain(core::iter::once(first)))
+        .map(move |(&position, ahead)| ahead.wrapping_sub(position).wrapping_sub(pitch))
+}
