@@ -339,8 +339,8 @@ fn a_single_ball_and_a_full_track() {
     for _ in 0..1000 {
         full.step(&free, &[1e-3; 10], 1e-4);
         for (j, &speed) in full.speeds().iter().enumerate() {
-            // The pitch is rounded to f32, 32 units, which are 1e-5 of the travel's 4.3e6.
-            assert!((speed - 0.01).abs() < 2e-5, "ball {j}: {speed}");
+            // The pitch is rounded to f32, up to 64 units, 1.5e-5 of the travel's 4.3e6.
+            assert!((speed - 0.01).abs() < 5e-5, "ball {j}: {speed}");
         }
         assert_eq!(full.forces().iter().fold(1.0, |m: f32, &f| m.min(f)), 0.0);
     }
