@@ -8,5 +8,5 @@
 mod press;
 mod track;
 
-pub use press::{COMPLIANCE_RANGE, LARGEST_FREE_SPEED, Press};
+pub use press::{IMPEDANCE_RANGE, LARGEST_FREE_SPEED, Press};
 pub use track::{LARGEST_TRAVEL, Train};

@@ -29,11 +29,11 @@ struct Case {
 }
 
 impl Case {
-    fn of<const N: usize>(free: &[f32; N], compliance: &[f32; N], room: &[f32; N]) -> Self {
+    fn of<const N: usize>(free: &[f32; N], impedance: &[f32; N], room: &[f32; N]) -> Self {
         let exact = |numbers: &[f32; N]| numbers.iter().map(|&x| f64::from(x)).collect();
         Self {
             free: exact(free),
-            compliance: exact(compliance),
+            compliance: impedance.iter().map(|&x| 1.0 / f64::from(x)).collect(),
             room: exact(room),
         }
     }
@@ -59,7 +59,7 @@ impl Case {
     /// do not overlap is the solution. Each set splits the train into arcs at a common offset speed.
     fn exhaustive(&self) -> Vec<f64> {
         let n = self.balls();
-        let tolerance = 1e-12 * self.free.iter().fold(1e-3, |m: f64, x| m.max(x.abs()));
+        let tolerance = 1e-10 * self.free.iter().fold(1e-3, |m: f64, x| m.max(x.abs()));
         for set in 0..(1_u32 << n) - 1 {
             let closed = |j: usize| set >> j & 1 == 1;
             if (0..n).any(|j| closed(j) && self.room[j].is_infinite()) {
@@ -124,26 +124,42 @@ impl Case {
 }
 
 /// Largest force error relative to the largest force of the train.
-fn force_error<const N: usize>(found: &Press<N>, exact: &[f64]) -> f64 {
+fn force_error<const N: usize>(case: &Case, found: &Press<N>, exact: &[f64]) -> f64 {
     let largest = exact.iter().fold(0.0, |m: f64, &f| m.max(f));
     let worst = found
         .forces()
-        .iter()
         .zip(exact)
-        .fold(0.0, |m: f64, (&f, &e)| m.max((f64::from(f) - e).abs()));
-    worst / largest.max(1e-6)
+        .fold(0.0, |m: f64, (f, &e)| m.max((f64::from(f) - e).abs()));
+    // Where rooms all but let the balls go free, forces are small differences of what drives them.
+    let driving = case
+        .free
+        .iter()
+        .zip(&case.compliance)
+        .fold(0.0, |m: f64, (u, y)| m.max(u.abs() / y));
+    worst / largest.max(1e-2 * driving)
 }
 
-/// A random train; `touching` is the share of closed gaps, `ring` whether the last ball meets the first.
+/// Speeds within rounding of 2^-24 of the largest one, a few times.
+fn check_speeds(case: &Case, found: &[f32], exact: &[f64]) {
+    let exact = case.speeds(exact);
+    for (ball, (&found, exact)) in found.iter().zip(exact).enumerate() {
+        assert!(
+            (f64::from(found) - exact).abs() < 1e-8,
+            "ball {ball}: speed {found} instead of {exact}: {case:?}"
+        );
+    }
+}
+
+/// A random train; `touching` is the share of closed gaps, `ring` whether the last ball meets the first,
+/// `spread` how far impedances are from their mean.
 fn random_train<const N: usize>(
     random: &mut Random,
     touching: f64,
     ring: bool,
+    spread: f64,
 ) -> ([f32; N], [f32; N], [f32; N]) {
     let free = std::array::from_fn(|_| random.within(-1e-2, 1e-2) as f32);
-    let spread = random.within(0.0, 2.0);
-    let compliance =
-        std::array::from_fn(|_| (2.6e-4 * 2.0_f64.powf(spread * random.within(-1.0, 1.0))) as f32);
+    let impedance = std::array::from_fn(|_| (4e3 * spread.powf(random.within(-1.0, 1.0))) as f32);
     let room = std::array::from_fn(|j| {
         if j + 1 == N && !ring {
             f32::INFINITY
@@ -154,18 +170,28 @@ fn random_train<const N: usize>(
             (1e-2 * random.next() * 10.0_f64.powf(random.within(-2.0, 4.0))) as f32
         }
     });
-    (free, compliance, room)
+    (free, impedance, room)
 }
 
-fn compare_with_exhaustive_search<const N: usize>(random: &mut Random) -> (f64, usize) {
+fn compare_with_exhaustive_search<const N: usize>(
+    random: &mut Random,
+    spread: f64,
+) -> (f64, usize) {
     let (mut worst, mut joins) = (0.0_f64, 0);
     for trial in 0..400 {
-        let (free, compliance, room) =
-            random_train::<N>(random, [0.0, 0.5, 0.9, 1.0][trial % 4], trial % 3 != 0);
+        let (free, impedance, room) = random_train::<N>(
+            random,
+            [0.0, 0.5, 0.9, 1.0][trial % 4],
+            trial % 3 != 0,
+            spread,
+        );
         let mut found = Press::new();
-        found.solve(&free, &compliance, &room);
-        let case = Case::of(&free, &compliance, &room);
-        let error = force_error(&found, &case.exhaustive());
+        assert!(found.solve(&free, &impedance, &room));
+        let speed: Vec<_> = found.speeds().collect();
+        let case = Case::of(&free, &impedance, &room);
+        let exact = case.exhaustive();
+        check_speeds(&case, &speed, &exact);
+        let error = force_error(&case, &found, &exact);
         assert!(
             error <= 1e-5,
             "N = {N}: error {error} for {case:?}, found {found:?}"
@@ -183,27 +209,47 @@ fn compare_with_exhaustive_search<const N: usize>(random: &mut Random) -> (f64, 
 fn forces_equal_an_exhaustive_search_over_all_sets_of_contacts() {
     let random = &mut Random(1);
     let results = [
-        compare_with_exhaustive_search::<1>(random),
-        compare_with_exhaustive_search::<2>(random),
-        compare_with_exhaustive_search::<3>(random),
-        compare_with_exhaustive_search::<5>(random),
-        compare_with_exhaustive_search::<8>(random),
-        compare_with_exhaustive_search::<10>(random),
+        compare_with_exhaustive_search::<1>(random, 2.0),
+        compare_with_exhaustive_search::<2>(random, 2.0),
+        compare_with_exhaustive_search::<3>(random, 2.0),
+        compare_with_exhaustive_search::<5>(random, 2.0),
+        compare_with_exhaustive_search::<8>(random, 2.0),
+        compare_with_exhaustive_search::<10>(random, 2.0),
     ];
     println!("largest force error over largest force, most joins: {results:?}");
     // The sweep did reach the bound of N - 1 joins.
     assert_eq!(results[4].1, 7);
 }
 
+/// Light balls between heavy ones, impedances that differ by up to a factor 1e6. What rounding of the
+/// common speed leaves would be 0.06 of the light balls' forces; taken out, 2^-24 of it remains beside
+/// the rounding of the sums.
+#[test]
+fn stiff_trains_keep_their_forces() {
+    let random = &mut Random(4);
+    let results = [
+        compare_with_exhaustive_search::<2>(random, 1e3),
+        compare_with_exhaustive_search::<4>(random, 1e3),
+        compare_with_exhaustive_search::<9>(random, 1e3),
+    ];
+    println!("largest force error over largest force, most joins: {results:?}");
+}
+
 fn compare_with_relaxation<const N: usize>(random: &mut Random, trials: usize) -> (f64, f64) {
     let (mut worst, mut sum) = (0.0_f64, 0.0);
     for trial in 0..trials {
-        let (free, compliance, room) =
-            random_train::<N>(random, [0.3, 0.8, 0.97, 1.0][trial % 4], trial % 2 == 0);
+        let (free, impedance, room) = random_train::<N>(
+            random,
+            [0.3, 0.8, 0.97, 1.0][trial % 4],
+            trial % 2 == 0,
+            2.0,
+        );
         let mut found = Press::new();
-        found.solve(&free, &compliance, &room);
-        let case = Case::of(&free, &compliance, &room);
+        assert!(found.solve(&free, &impedance, &room));
+        let speed: Vec<_> = found.speeds().collect();
+        let case = Case::of(&free, &impedance, &room);
         let exact = case.relaxation();
+        check_speeds(&case, &speed, &exact);
         // A closed ring leaves the forces open by a constant: the least is zero by definition.
         let least = if room.iter().all(|&room| room == 0.0) {
             exact.iter().fold(f64::INFINITY, |m, &f| m.min(f))
@@ -211,7 +257,7 @@ fn compare_with_relaxation<const N: usize>(random: &mut Random, trials: usize) -
             0.0
         };
         let exact: Vec<f64> = exact.iter().map(|f| f - least).collect();
-        let error = force_error(&found, &exact);
+        let error = force_error(&case, &found, &exact);
         assert!(
             error <= 1e-5,
             "N = {N}, trial {trial}: error {error}, rooms {room:?}"
@@ -271,8 +317,8 @@ fn a_million_ticks_leave_no_overlap() {
             let at = f64::from(position) / 4_294_967_296.0 + phase;
             *free = sense * (0.05 * (3.0 * std::f64::consts::TAU * at).sin()) as f32;
         }
-        train.step(&free, &[1e-3; N], way as f32);
-        let contacts = train.forces().iter().filter(|&&force| force > 0.0).count();
+        train.step(&free, &[1e3; N], way as f32);
+        let contacts = train.forces().filter(|&force| force > 0.0).count();
         pressing += contacts;
         most = most.max(contacts);
         if tick % 64 == 0 {
@@ -305,18 +351,19 @@ fn numbering_does_not_matter() {
     let mut other = Train::<N>::new(length, pitch, &turned).unwrap();
     let mut most = 0;
     for _ in 0..400 {
-        one.step(&std::array::from_fn(speed), &[2e-3; N], 5e-5);
+        one.step(&std::array::from_fn(speed), &[500.0; N], 5e-5);
         other.step(
             &std::array::from_fn(|j| speed((j + 3) % N)),
-            &[2e-3; N],
+            &[500.0; N],
             5e-5,
         );
         for j in 0..N {
-            let (a, b) = (one.forces()[(j + 3) % N], other.forces()[j]);
+            let force = |train: &Train<N>, j| train.forces().nth(j).unwrap();
+            let (a, b) = (force(&one, (j + 3) % N), force(&other, j));
             // A unit of distance counts for 2e-11 m / 5e-5 m / (2 2e-3 / N) of force.
             assert!((a - b).abs() < 2e-3, "ball {j}: {a} and {b} N");
         }
-        most = most.max(one.forces().iter().filter(|&&f| f > 0.0).count());
+        most = most.max(one.forces().filter(|&f| f > 0.0).count());
     }
     assert!(most > 1, "{most} contacts");
 }
@@ -327,9 +374,12 @@ fn a_single_ball_and_a_full_track() {
     let mut single = Train::<1>::evenly_spaced(0.1, 0.01).unwrap();
     let start = single.positions().next().unwrap();
     for _ in 0..1000 {
-        single.step(&[0.1], &[1e-3], 1e-3);
+        single.step(&[0.1], &[1e3], 1e-3);
     }
-    assert_eq!((single.forces()[0], single.speeds()[0]), (0.0, 0.1));
+    assert_eq!(
+        (single.forces().next(), single.speeds().next()),
+        (Some(0.0), Some(0.1))
+    );
     // 1000 steps of 1.1 mm on 0.1 m: eleven times around; rounding of a travel of 4.3e7 units in f32.
     let end = single.positions().next().unwrap();
     assert!((end.wrapping_sub(start) as i32).abs() < 20_000);
@@ -337,12 +387,12 @@ fn a_single_ball_and_a_full_track() {
     let mut full = Train::<10>::evenly_spaced(0.1, 0.01).unwrap();
     let free = [0.03, -0.02, 0.01, 0.0, 0.0, 0.05, -0.05, 0.02, 0.01, 0.05];
     for _ in 0..1000 {
-        full.step(&free, &[1e-3; 10], 1e-4);
-        for (j, &speed) in full.speeds().iter().enumerate() {
+        full.step(&free, &[1e3; 10], 1e-4);
+        for (j, speed) in full.speeds().enumerate() {
             // The pitch is rounded to f32, up to 64 units, 1.5e-5 of the travel's 4.3e6.
             assert!((speed - 0.01).abs() < 5e-5, "ball {j}: {speed}");
         }
-        assert_eq!(full.forces().iter().fold(1.0, |m: f32, &f| m.min(f)), 0.0);
+        assert_eq!(full.forces().fold(1.0, f32::min), 0.0);
     }
 }
 
@@ -351,27 +401,27 @@ fn a_single_ball_and_a_full_track() {
 #[test]
 fn equal_speeds_gaps_and_standstill() {
     let mut train = Train::<4>::new(1.0, 0.01, &[0.0; 4]).unwrap();
-    train.step(&[0.01; 4], &[1e-3; 4], 1e-3);
-    assert_eq!(train.forces(), &[0.0; 4]);
-    train.step(&[-0.02, -0.01, 0.0, 0.01], &[1e-3; 4], 1e-3);
-    assert_eq!(train.forces(), &[0.0; 4]);
+    train.step(&[0.01; 4], &[1e3; 4], 1e-3);
+    assert!(train.forces().eq([0.0; 4]));
+    train.step(&[-0.02, -0.01, 0.0, 0.01], &[1e3; 4], 1e-3);
+    assert!(train.forces().eq([0.0; 4]));
     // Now the gaps are 1e-5 m: pushed together again they close, and then they press.
-    train.step(&[0.004, 0.002, 0.0, 0.0], &[1e-3; 4], 1e-3);
-    assert_eq!(train.forces(), &[0.0; 4]);
+    train.step(&[0.004, 0.002, 0.0, 0.0], &[1e3; 4], 1e-3);
+    assert!(train.forces().eq([0.0; 4]));
     for _ in 0..20 {
-        train.step(&[0.004, 0.002, 0.0, 0.0], &[1e-3; 4], 1e-3);
+        train.step(&[0.004, 0.002, 0.0, 0.0], &[1e3; 4], 1e-3);
     }
-    let pressed = *train.forces();
+    let pressed: Vec<_> = train.forces().collect();
     assert!(pressed[0] > 0.9 && pressed[1] > 0.9 && pressed[3] == 0.0);
     let places: Vec<_> = train.positions().collect();
     for _ in 0..10 {
-        train.step(&[0.004, 0.002, 0.0, 0.0], &[1e-3; 4], 0.0);
+        train.step(&[0.004, 0.002, 0.0, 0.0], &[1e3; 4], 0.0);
     }
     assert_eq!(places, train.positions().collect::<Vec<_>>());
-    assert_eq!(&pressed, train.forces());
+    assert_eq!(pressed, train.forces().collect::<Vec<_>>());
     // Backwards the same speeds would drive them apart.
-    train.step(&[-0.004, -0.002, 0.0, 0.0], &[1e-3; 4], -1e-3);
-    assert_eq!(train.forces(), &[0.0; 4]);
+    train.step(&[-0.004, -0.002, 0.0, 0.0], &[1e3; 4], -1e-3);
+    assert!(train.forces().eq([0.0; 4]));
 }
 
 /// Whatever comes in, forces and speeds are finite, forces not negative, and the next sound tick finds
@@ -396,13 +446,13 @@ fn absurd_inputs_do_no_harm() {
     for _ in 0..20_000 {
         let mut pick = || wild[(random.next() * wild.len() as f64) as usize];
         let free = std::array::from_fn(|_| pick());
-        let compliance = std::array::from_fn(|_| pick());
+        let impedance = std::array::from_fn(|_| pick());
         let travel = pick();
-        train.step(&free, &compliance, travel);
-        for (force, speed) in train.forces().iter().zip(train.speeds()) {
+        train.step(&free, &impedance, travel);
+        for (force, speed) in train.forces().zip(train.speeds()) {
             assert!(
-                force.is_finite() && *force >= 0.0 && speed.is_finite(),
-                "{free:?} {compliance:?} {travel}: {train:?}"
+                force.is_finite() && force >= 0.0 && speed.is_finite(),
+                "{free:?} {impedance:?} {travel}: {train:?}"
             );
         }
         assert!(check_order(&train, 0.1, 0.01) > -1e-8);

@@ -1,11 +1,13 @@
 //! Which balls of a train press on each other, and how hard: one exact pass, without iteration.
 
-/// Largest free speed that counts, a relative deviation; one beyond it, infinite or NaN, counts as zero.
+/// Largest free speed that counts, a relative deviation.
 pub const LARGEST_FREE_SPEED: f32 = 1.0;
 
-/// Least and largest compliance that count; one outside, or NaN, counts as the largest: such a ball goes
-/// along with its neighbours and presses on none.
-pub const COMPLIANCE_RANGE: (f32, f32) = (1e-9, 1e9);
+/// Least and largest impedance that count.
+pub const IMPEDANCE_RANGE: (f32, f32) = (1e-9, 1e9);
+
+/// What rounding may leave of a cluster's pushes over its largest force before it is taken out.
+const ROUNDING: f32 = 1e-6;
 
 /// Speeds and forces of a train of `N` balls, 1 to 255, which touch or may touch.
 ///
@@ -29,25 +31,50 @@ pub const COMPLIANCE_RANGE: (f32, f32) = (1e-9, 1e9);
 /// Speeds are deviations from a common nominal one over its size, so that small differences keep their
 /// digits; they are signed along the row, also for a train that runs backwards.
 ///
-/// Scratch and results stand here, in the caller's memory, and not on the stack of an interrupt.
+/// Scratch and results stand in the caller's memory, and not on the stack of an interrupt.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Press<const N: usize> {
-    speed: [f32; N],
-    force: [f32; N],
-    weight: [f32; N],
-    span: [f32; N],
-    rear: [u8; N],
+    pub(super) balls: [Ball; N],
     foremost: u8,
     joins: u8,
+}
+
+/// One ball, the room in front of it, and a place on the stack of clusters.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(super) struct Ball {
+    /// Free speed, then actual speed.
+    pub(super) speed: f32,
+    pub(super) impedance: f32,
+    /// Speed at which the ball may run up to the one in front.
+    pub(super) room: f32,
+    /// Force between the ball and the one in front. Until it is known, the span of the cluster that stands
+    /// at this index of the stack, beside its other sums.
+    pub(super) force: f32,
+    sum: f32,
+    weight: f32,
+    rear: u8,
+}
+
+impl Ball {
+    const REST: Self = Self {
+        speed: 0.0,
+        impedance: 1.0,
+        room: 0.0,
+        force: 0.0,
+        sum: 0.0,
+        weight: 0.0,
+        rear: 0,
+    };
 }
 
 /// Balls that move as one: they touch, or close their last distance within the tick.
 #[derive(Clone, Copy, Default)]
 struct Cluster {
-    /// Sum of weight times free speed, less how much faster than the front ball each ball has to run.
+    /// Sum of impedance times free speed, less how much faster than the front ball each ball has to run.
     sum: f32,
-    /// Sum of the weights `1/Y`.
+    /// Sum of the impedances.
     weight: f32,
     /// How much faster than the front ball the rear ball runs: the sum of the rooms between.
     span: f32,
@@ -83,27 +110,21 @@ impl<const N: usize> Press<N> {
     pub const fn new() -> Self {
         let () = Self::BALLS_FIT;
         Self {
-            speed: [0.0; N],
-            force: [0.0; N],
-            weight: [0.0; N],
-            span: [0.0; N],
-            rear: [0; N],
+            balls: [Ball::REST; N],
             foremost: (N - 1) as u8,
             joins: 0,
         }
     }
 
-    /// Actual speed of each ball, in the unit of the free speeds.
-    #[must_use]
-    pub const fn speeds(&self) -> &[f32; N] {
-        &self.speed
+    /// Force between ball `j` and the ball in front of it, in the unit of speed times impedance; zero
+    /// where they do not press. The last one acts between the last ball and the first.
+    pub fn forces(&self) -> impl DoubleEndedIterator<Item = f32> + ExactSizeIterator + '_ {
+        self.balls.iter().map(|ball| ball.force)
     }
 
-    /// Force between ball `j` and the ball in front of it, in the unit of free speed over compliance; zero
-    /// where they do not press. The last one acts between the last ball and the first.
-    #[must_use]
-    pub const fn forces(&self) -> &[f32; N] {
-        &self.force
+    /// Actual speed of each ball.
+    pub fn speeds(&self) -> impl DoubleEndedIterator<Item = f32> + ExactSizeIterator + '_ {
+        self.balls.iter().map(|ball| ball.speed)
     }
 
     /// A ball that does not press on the one in front of it.
@@ -112,46 +133,73 @@ impl<const N: usize> Press<N> {
         self.foremost as usize
     }
 
-    /// Joins that the last pass needed, at most `N - 1`: all of its cost that depends on data.
+    /// Joins that the last pass needed, at most `N - 1`: what of its cost depends on data.
     #[must_use]
     pub const fn joins(&self) -> usize {
         self.joins as usize
     }
 
-    /// Finds speeds and forces from free speeds, compliances and rooms.
+    /// Finds actual speeds and forces from free speeds, impedances `1/Y` and rooms.
     ///
     /// `room[j]` belongs to ball `j` and the one in front of it, the last one to the last ball and the
-    /// first: infinite on an open track. Zero is contact; a room below zero pushes two balls apart that
-    /// overlap; NaN is no contact. Inputs out of [`LARGEST_FREE_SPEED`] and [`COMPLIANCE_RANGE`] are
-    /// replaced as said there. A ring without any room moves as one at the weighted mean speed; its forces are
-    /// known but for a constant, and the least one is taken as zero.
+    /// first: infinite on an open track. Zero is contact, NaN is none. A ring without any room
+    /// moves as one at the weighted mean speed; its forces are known but for a constant, and the least one
+    /// is taken as zero. A ball that nothing drives has a small impedance: it goes along with its
+    /// neighbours and presses on none.
     ///
-    /// Largest error of a force over the largest force, against a complementarity solver in f64: 1e-5 for
-    /// compliances that differ by up to a factor 4, 37 and 64 balls. Exact otherwise: no iteration, `N` divisions,
-    /// two more for each cluster of two or more balls, at most `N - 1` joins.
-    pub fn solve(&mut self, free: &[f32; N], compliance: &[f32; N], room: &[f32; N]) {
-        let joins = self.pool(free, compliance, room);
-        self.joins = joins as u8;
+    /// Returns whether all speeds lie within [`LARGEST_FREE_SPEED`] and all impedances within
+    /// [`IMPEDANCE_RANGE`]; where not, all speeds and forces are zero.
+    ///
+    /// Largest error of a force over the largest force, against a complementarity solver in f64, 37 and
+    /// 64 balls: 6e-7 for impedances that differ by up to a factor 4, NNN for a factor 1e6. Exact
+    /// otherwise: no iteration, at most `N - 1` joins, one division for each cluster of two or more balls.
+    pub fn solve(&mut self, free: &[f32; N], impedance: &[f32; N], room: &[f32; N]) -> bool {
+        let sound = self.set(free, impedance);
+        for (ball, &room) in self.balls.iter_mut().zip(room) {
+            ball.room = room;
+        }
+        self.pool();
+        for ball in &mut self.balls {
+            ball.force = if ball.force > 0.0 { ball.force } else { 0.0 };
+        }
+        sound
     }
 
-    #[inline(always)]
-    fn pool(&mut self, free: &[f32; N], compliance: &[f32; N], room: &[f32; N]) -> usize {
+    /// Takes over free speeds and impedances where all of them count, and says so; else balls at rest.
+    pub(super) fn set(&mut self, free: &[f32; N], impedance: &[f32; N]) -> bool {
+        let (least, most) = IMPEDANCE_RANGE;
+        let counted = |(speed, impedance): (&f32, &f32)| {
+            (-LARGEST_FREE_SPEED..=LARGEST_FREE_SPEED).contains(speed)
+                && (least..=most).contains(impedance)
+        };
+        let sound = free.iter().zip(impedance).all(counted);
+        for (ball, (&speed, &impedance)) in self.balls.iter_mut().zip(free.iter().zip(impedance)) {
+            (ball.speed, ball.impedance) = if sound {
+                (speed, impedance)
+            } else {
+                (0.0, 1.0)
+            };
+        }
+        sound
+    }
+
+    /// Speeds and forces from what stands in the balls; rounding may leave a force a little below zero
+    /// where it should be zero.
+    pub(super) fn pool(&mut self) {
+        // From rear to front: each ball is a cluster, joined with those behind that run into it. A joined
+        // cluster stands in the place of the rear one of the two, where its rear ball is already known.
         let mut clusters = 0_usize;
-        // From rear to front: each ball is a cluster, joined with those behind that run into it.
         let mut last = Cluster::default();
         let mut room_behind = f32::INFINITY;
-        for (ball, ((&free, &compliance), &room_ahead)) in
-            free.iter().zip(compliance).zip(room).enumerate()
-        {
-            let weight = 1.0 / counted_compliance(compliance);
-            if let Some(stored) = self.weight.get_mut(ball) {
-                *stored = weight;
-            }
+        for index in 0..N {
+            let Some(&ball) = self.balls.get(index) else {
+                break;
+            };
             let mut cluster = Cluster {
-                sum: counted_speed(free) * weight,
-                weight,
+                sum: ball.speed * ball.impedance,
+                weight: ball.impedance,
                 span: 0.0,
-                rear: ball,
+                rear: index,
             };
             while clusters > 0 {
                 let Some(joined) = last.joined(&cluster, room_behind) else {
@@ -160,17 +208,17 @@ impl<const N: usize> Press<N> {
                 cluster = joined;
                 clusters -= 1;
                 last = self.cluster(clusters.wrapping_sub(1));
-                room_behind = room_at_back_of(room, cluster.rear);
+                room_behind = self.room_at_back_of(cluster.rear);
             }
             self.push(clusters, &cluster);
             clusters += 1;
             last = cluster;
-            room_behind = room_ahead;
+            room_behind = ball.room;
         }
 
         // On a ring the last cluster has the first one in front.
         let mut first = 0;
-        let mut top = clusters - 1;
+        let mut top = clusters.wrapping_sub(1);
         let mut front = N - 1;
         let mut ring = last;
         let mut room_ahead = room_behind;
@@ -185,125 +233,107 @@ impl<const N: usize> Press<N> {
                     ring.rear
                 };
                 front = next.wrapping_sub(1);
-                room_ahead = room_at_back_of(room, next);
+                room_ahead = self.room_at_back_of(next);
                 continue;
             }
             let behind = self.cluster(top - 1);
-            let Some(joined) = behind.joined(&ring, room_at_back_of(room, ring.rear)) else {
+            let Some(joined) = behind.joined(&ring, self.room_at_back_of(ring.rear)) else {
                 break;
             };
             ring = joined;
             top -= 1;
         }
-        let whole = top + 1 - first;
+        self.foremost = front as u8;
+        self.joins = (N - 1 + first - top) as u8;
 
-        // Backwards, because the clusters' sums stand in the places of the results: cluster k at index k,
+        // Backwards, because the clusters' spans stand in the places of the forces: cluster k at index k,
         // which is not in front of its rear ball. The one that may reach across the ends comes last.
         let mut end = ring.rear;
         for index in (first..top).rev() {
             let cluster = self.cluster(index);
-            self.expand(&cluster, end - cluster.rear, free, room);
+            self.expand(&cluster, end.wrapping_sub(1));
             end = cluster.rear;
         }
-        let length = front + 1 + if front < ring.rear { N } else { 0 } - ring.rear;
-        self.expand(&ring, length, free, room);
-        self.foremost = front as u8;
-        N - whole
+        self.expand(&ring, front);
+    }
+
+    /// Room between a ball and the one behind it; none is behind the first.
+    #[inline(always)]
+    fn room_at_back_of(&self, ball: usize) -> f32 {
+        self.balls
+            .get(ball.wrapping_sub(1))
+            .map_or(f32::INFINITY, |behind| behind.room)
     }
 
     #[inline(always)]
     fn cluster(&self, index: usize) -> Cluster {
-        match (
-            self.speed.get(index),
-            self.force.get(index),
-            self.span.get(index),
-            self.rear.get(index),
-        ) {
-            (Some(&sum), Some(&weight), Some(&span), Some(&rear)) => Cluster {
-                sum,
-                weight,
-                span,
-                rear: usize::from(rear),
-            },
-            _ => Cluster::default(),
-        }
+        self.balls
+            .get(index)
+            .map_or(Cluster::default(), |place| Cluster {
+                sum: place.sum,
+                weight: place.weight,
+                span: place.force,
+                rear: usize::from(place.rear),
+            })
     }
 
     #[inline(always)]
     fn push(&mut self, index: usize, cluster: &Cluster) {
-        if let (Some(sum), Some(weight), Some(span), Some(rear)) = (
-            self.speed.get_mut(index),
-            self.force.get_mut(index),
-            self.span.get_mut(index),
-            self.rear.get_mut(index),
-        ) {
-            *sum = cluster.sum;
-            *weight = cluster.weight;
-            *span = cluster.span;
-            *rear = cluster.rear as u8;
+        if let Some(place) = self.balls.get_mut(index) {
+            place.sum = cluster.sum;
+            place.weight = cluster.weight;
+            place.force = cluster.span;
+            place.rear = cluster.rear as u8;
         }
     }
 
-    /// Speeds and forces of the `length` balls of a cluster, from its rear ball, which nothing pushes from
-    /// behind, to its front ball.
-    #[inline(always)]
-    fn expand(&mut self, cluster: &Cluster, length: usize, free: &[f32; N], room: &[f32; N]) {
-        if length == 1 {
-            if let (Some(speed), Some(force), Some(&free)) = (
-                self.speed.get_mut(cluster.rear),
-                self.force.get_mut(cluster.rear),
-                free.get(cluster.rear),
-            ) {
-                *speed = counted_speed(free);
-                *force = 0.0;
+    /// Speeds and forces of the balls of a cluster, from its rear ball, which nothing pushes from behind,
+    /// to its front ball, which pushes nothing.
+    #[inline]
+    fn expand(&mut self, cluster: &Cluster, front: usize) {
+        if cluster.rear == front {
+            if let Some(ball) = self.balls.get_mut(front) {
+                ball.force = 0.0;
             }
             return;
         }
-        let mean = cluster.sum / cluster.weight;
+        let inverse = 1.0 / cluster.weight;
+        let mean = cluster.sum * inverse;
+        let (mut push, mut largest) = (0.0, 0.0);
+        let mut faster = cluster.span;
+        let mut index = cluster.rear;
+        while let Some(ball) = self.balls.get_mut(index) {
+            let common = mean + faster;
+            push += (ball.speed - common) * ball.impedance;
+            ball.speed = common;
+            faster -= ball.room;
+            if index == front {
+                ball.force = 0.0;
+                break;
+            }
+            ball.force = push;
+            largest = if push > largest { push } else { largest };
+            index = next::<N>(index);
+        }
         // The pushes of a cluster sum to zero. What rounding of the mean leaves instead is small, but a
         // stiff ball turns it into a large force.
-        let mut residual = 0.0;
-        let mut faster = cluster.span;
-        let mut ball = cluster.rear;
-        for _ in 0..length {
-            if let (Some(&free), Some(&weight), Some(&room)) =
-                (free.get(ball), self.weight.get(ball), room.get(ball))
-            {
-                residual += ((counted_speed(free) - faster) - mean) * weight;
-                faster -= room;
-            }
-            ball += 1;
-            if ball == N {
-                ball = 0;
-            }
+        if push > ROUNDING * largest || push < -ROUNDING * largest {
+            self.correct(cluster.rear, front, push * inverse);
         }
-        let correction = residual / cluster.weight;
-        let mut push = 0.0;
-        let mut faster = cluster.span;
-        let mut ball = cluster.rear;
-        for _ in 0..length {
-            if let (Some(&free), Some(&weight), Some(&room), Some(speed), Some(force)) = (
-                free.get(ball),
-                self.weight.get(ball),
-                room.get(ball),
-                self.speed.get_mut(ball),
-                self.force.get_mut(ball),
-            ) {
-                push += (((counted_speed(free) - faster) - mean) - correction) * weight;
-                *speed = (mean + faster) + correction;
-                // Rounding may leave a little less than nothing.
-                *force = if push > 0.0 { push } else { 0.0 };
-                faster -= room;
-            }
-            ball += 1;
-            if ball == N {
-                ball = 0;
-            }
-        }
-        // Nothing stands in front within reach.
-        let front = if ball == 0 { N - 1 } else { ball - 1 };
-        if let Some(force) = self.force.get_mut(front) {
-            *force = 0.0;
+    }
+
+    /// Takes a `rest` of speed out of the forces of a cluster.
+    #[inline(never)]
+    #[cold]
+    fn correct(&mut self, rear: usize, front: usize, rest: f32) {
+        let mut correction = 0.0;
+        let mut index = rear;
+        while index != front
+            && let Some(ball) = self.balls.get_mut(index)
+        {
+            correction += rest * ball.impedance;
+            ball.force -= correction;
+            index = next::<N>(index);
         }
     }
 }
@@ -314,34 +344,8 @@ impl<const N: usize> Default for Press<N> {
     }
 }
 
-/// Room between `ball` and the ball behind it; none is behind the first.
+/// The ball in front.
 #[inline(always)]
-fn room_at_back_of<const N: usize>(room: &[f32; N], ball: usize) -> f32 {
-    room.get(ball.wrapping_sub(1))
-        .copied()
-        .unwrap_or(f32::INFINITY)
-}
-
-/// `speed` where it counts, else zero: by its bits, so that NaN needs no test of its own.
-#[inline(always)]
-fn counted_speed(speed: f32) -> f32 {
-    const LIMIT: u32 = LARGEST_FREE_SPEED.to_bits();
-    if speed.to_bits() & 0x7fff_ffff <= LIMIT {
-        speed
-    } else {
-        0.0
-    }
-}
-
-/// `compliance` where it counts, else the largest.
-#[inline(always)]
-fn counted_compliance(compliance: f32) -> f32 {
-    const LEAST: u32 = COMPLIANCE_RANGE.0.to_bits();
-    const SPAN: u32 = COMPLIANCE_RANGE.1.to_bits() - LEAST;
-    // The bits of positive numbers are ordered as the numbers; all else lies above after the shift.
-    if compliance.to_bits().wrapping_sub(LEAST) <= SPAN {
-        compliance
-    } else {
-        COMPLIANCE_RANGE.1
-    }
+const fn next<const N: usize>(index: usize) -> usize {
+    if index == N - 1 { 0 } else { index + 1 }
 }

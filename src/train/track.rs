@@ -31,10 +31,10 @@ const ROUNDING: u32 = 1 << 10;
 /// use epas_friction::Train;
 /// // Three balls of 10 mm in contact on a track of 1 m, the fastest at the rear.
 /// let mut train = Train::<3>::new(1.0, 0.01, &[0.0; 3])?;
-/// train.step(&[0.02, 0.01, 0.0], &[1e-3; 3], 1e-4);
-/// assert!((train.forces()[0] - 10.0).abs() < 1e-4 && train.forces()[2] == 0.0);
+/// train.step(&[0.02, 0.01, 0.0], &[1e3; 3], 1e-4);
+/// assert!(train.forces().zip([10.0, 10.0, 0.0]).all(|(force, exact)| (force - exact).abs() < 1e-4));
 /// // They go on as one, at the mean speed.
-/// assert!(train.speeds().iter().all(|speed| (speed - 0.01).abs() < 1e-7));
+/// assert!(train.speeds().all(|speed| (speed - 0.01).abs() < 1e-7));
 /// # Ok::<(), epas_friction::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,7 +45,6 @@ pub struct Train<const N: usize> {
     fraction: [u8; N],
     origin: u32,
     origin_rest: f32,
-    room: [f32; N],
     press: Press<N>,
     pitch: u32,
     units: f32,
@@ -86,7 +85,6 @@ impl<const N: usize> Train<N> {
             fraction: [0; N],
             origin: 0,
             origin_rest: 0.0,
-            room: [0.0; N],
             press: Press::new(),
             pitch,
             units,
@@ -128,18 +126,16 @@ impl<const N: usize> Train<N> {
         })
     }
 
-    /// Force between each ball and the one in front of it, in the unit of speed over compliance; the last
+    /// Force between each ball and the one in front of it, in the unit of speed times impedance; the last
     /// one acts between the last ball and the first.
     #[inline]
-    #[must_use]
-    pub const fn forces(&self) -> &[f32; N] {
+    pub fn forces(&self) -> impl DoubleEndedIterator<Item = f32> + ExactSizeIterator + '_ {
         self.press.forces()
     }
 
     /// Actual speed of each ball in the last tick, as the free speeds are counted.
     #[inline]
-    #[must_use]
-    pub const fn speeds(&self) -> &[f32; N] {
+    pub fn speeds(&self) -> impl DoubleEndedIterator<Item = f32> + ExactSizeIterator + '_ {
         self.press.speeds()
     }
 
@@ -154,30 +150,56 @@ impl<const N: usize> Train<N> {
     ///
     /// `travel`, m, is the nominal way of a ball in this tick, signed along the track. `free[j]` is the
     /// speed ball `j` would take on its own, less the nominal one, over the size of the nominal one;
-    /// `compliance[j]` how much of that a newton takes from it, 1/N. Speeds are signed along the track: of
-    /// a train that runs backwards, a ball that is faster than the nominal one has a negative speed.
+    /// `impedance[j]` the force that takes all of the nominal speed from it, N. Speeds are signed along
+    /// the track: of a train that runs backwards, a ball that is faster than the nominal one has a negative
+    /// speed.
     ///
     /// Without travel the forces are those with which motion sets in; what the free speeds' signs say
     /// then is up to the caller. A travel that is NaN counts as zero, one beyond [`LARGEST_TRAVEL`] of
-    /// the track as that; speeds and compliances count as in [`Press::solve`].
-    #[inline]
-    pub fn step(&mut self, free: &[f32; N], compliance: &[f32; N], travel: f32) {
+    /// the track as that. Speeds and impedances as in [`Press::solve`], whose answer is returned: where it
+    /// is false, all balls move with the nominal speed and press on none.
+    pub fn step(&mut self, free: &[f32; N], impedance: &[f32; N], travel: f32) -> bool {
+        let sound = self.press.set(free, impedance);
+        self.run(travel);
+        sound
+    }
+
+    /// Position, free speed and impedance of each ball, to be set before [`Train::run`].
+    #[inline(always)]
+    pub(crate) fn balls(&mut self) -> impl Iterator<Item = (u32, &mut f32, &mut f32)> {
+        let origin = self.origin;
+        self.position
+            .iter()
+            .zip(&mut self.press.balls)
+            .map(move |(position, ball)| {
+                (
+                    position.wrapping_add(origin),
+                    &mut ball.speed,
+                    &mut ball.impedance,
+                )
+            })
+    }
+
+    /// [`Train::step`] with the speeds and impedances that stand in the train.
+    #[inline(always)]
+    pub(crate) fn run(&mut self, travel: f32) {
         let travel = self.counted(travel);
         let way = if travel < 0.0 { -travel } else { travel };
         let per_unit = if way > 1e-20 { 1.0 / way } else { 1e20 };
 
-        for (room, distance) in self
-            .room
+        for (ball, distance) in self
+            .press
+            .balls
             .iter_mut()
             .zip(distances(&self.position, self.pitch))
         {
-            *room = if distance > u32::MAX - ROUNDING {
+            ball.room = if distance > u32::MAX - ROUNDING {
                 0.0
             } else {
                 distance as f32 * per_unit
             };
         }
-        self.press.solve(free, compliance, &self.room);
+        self.press.pool();
         self.advance(way);
 
         let travel = travel + self.origin_rest;
@@ -207,17 +229,20 @@ impl<const N: usize> Train<N> {
     #[inline]
     fn advance(&mut self, way: f32) {
         let scale = way * FRACTIONS;
-        let mut ball = self.press.foremost();
+        let mut index = self.press.foremost();
         // Where the ball in front was, how far it moves, and what is left of a unit there.
         let mut ahead: Option<(u32, i32, u8)> = None;
         for _ in 0..N {
-            if let (Some(position), Some(fraction), Some(&speed), Some(&force)) = (
-                self.position.get_mut(ball),
-                self.fraction.get_mut(ball),
-                self.press.speeds().get(ball),
-                self.press.forces().get(ball),
+            if let (Some(position), Some(fraction), Some(ball)) = (
+                self.position.get_mut(index),
+                self.fraction.get_mut(index),
+                self.press.balls.get_mut(index),
             ) {
-                let moves = (speed * scale) as i32;
+                // Rounding may leave a little less than nothing.
+                if ball.force < 0.0 {
+                    ball.force = 0.0;
+                }
+                let moves = (ball.speed * scale) as i32;
                 let moves = moves.wrapping_add(i32::from(*fraction));
                 let mut whole = moves >> FRACTION_BITS;
                 let mut rest = (moves & 15) as u8;
@@ -225,7 +250,7 @@ impl<const N: usize> Train<N> {
                     let distance = place.wrapping_sub(*position).wrapping_sub(self.pitch);
                     let reach = step.wrapping_add_unsigned(distance);
                     let near = distance.wrapping_add(ROUNDING) < 1 << 28;
-                    if force > 0.0 || (near && whole > reach) {
+                    if ball.force > 0.0 || (near && whole > reach) {
                         whole = reach;
                         rest = left;
                     }
@@ -234,7 +259,7 @@ impl<const N: usize> Train<N> {
                 *position = position.wrapping_add_signed(whole);
                 *fraction = rest;
             }
-            ball = if ball == 0 { N - 1 } else { ball - 1 };
+            index = if index == 0 { N - 1 } else { index - 1 };
         }
     }
 }
