@@ -43,8 +43,8 @@ pub mod train;
 
 pub use ball::{
     AnalyticLinearBall, BallChain, BallMotion, BallState, ContactMotion, FourPointBall,
-    FourPointContacts, LinearBallParameters, PUBLISHED_SLOPE, RotaryBall, RotaryBallParameters,
-    RotaryMotion, SpeedDeviation,
+    FourPointContacts, GrooveFit, LinearBallParameters, LoadShare, PUBLISHED_SLOPE, RotaryBall,
+    RotaryBallParameters, RotaryMotion, ScrewBallLoop, ScrewRow, ScrewTick, SpeedDeviation,
 };
 pub use contact::{Dissipation, FrictionMap, NormalizedFriction};
 pub use curvature::{
