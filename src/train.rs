@@ -9,4 +9,5 @@ mod press;
 mod track;
 
 pub use press::{IMPEDANCE_RANGE, LARGEST_FREE_SPEED, Press};
-pub use track::{LARGEST_TRAVEL, Train};
+pub(crate) use track::Track;
+pub use track::{BallContact, LARGEST_TRAVEL, Train};

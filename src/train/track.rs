@@ -46,8 +46,57 @@ pub struct Train<const N: usize> {
     origin: u32,
     origin_rest: f32,
     press: Press<N>,
+    track: Track,
+}
+
+/// Two balls that press on each other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct BallContact {
+    /// Index of the ball behind; the one in front is the next, or ball 0.
+    pub ball: u8,
+    /// Position of the ball behind, as a part of the track's length in units of 2^-32.
+    pub position: u32,
+    /// Force between the two, in the unit of speed times impedance.
+    pub force: f32,
+}
+
+/// What the contacts between balls add up to in a tick.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Pressing {
+    /// Pairs that press on each other.
+    pub(crate) contacts: u8,
+    /// Largest force.
+    pub(crate) largest: f32,
+    /// Sum of the forces.
+    pub(crate) force: f32,
+    /// Sum of the forces times the speeds of the balls behind.
+    pub(crate) power: f32,
+}
+
+/// Length of a closed track and of what a ball takes of it, checked for a number of balls.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(crate) struct Track {
+    /// Distance of the centres of two balls in contact, in units.
     pitch: u32,
+    /// Units in a metre.
     units: f32,
+}
+
+impl Track {
+    pub(crate) fn new(length: f32, pitch: f32, balls: usize) -> Result<Self, Error> {
+        in_range("length", length, 1e-4, 1e4)?;
+        in_range("pitch", pitch, 1e-6 * length, length / balls as f32)?;
+        let units = UNITS / length;
+        let pitch = (pitch * units) as u32;
+        // f32 holds the pitch to 2^-24; balls that fill the track must not overfill it by that.
+        let fits = u32::try_from((1_u64 << 32) / balls as u64).unwrap_or(u32::MAX);
+        Ok(Self {
+            pitch: if pitch > fits { fits } else { pitch },
+            units,
+        })
+    }
 }
 
 impl<const N: usize> Train<N> {
@@ -59,36 +108,19 @@ impl<const N: usize> Train<N> {
     /// [`Error`] naming `length` (1e-4 to 1e4), `pitch` (1e-6 of the length to its `N`-th part) or
     /// `gaps` (each zero or more, the last one not counted, all no more than the balls leave).
     pub fn new(length: f32, pitch: f32, gaps: &[f32; N]) -> Result<Self, Error> {
-        in_range("length", length, 1e-4, 1e4)?;
-        in_range("pitch", pitch, 1e-6 * length, length / N as f32)?;
-        let units = UNITS / length;
-        // f32 holds the pitch to 2^-24; balls that fill the track must not overfill it by that.
-        let fits = u32::try_from((1_u64 << 32) / N as u64).unwrap_or(u32::MAX);
-        let pitch = if (pitch * units) as u32 > fits {
-            fits
-        } else {
-            (pitch * units) as u32
-        };
-        let mut room = (1_u64 << 32) - N as u64 * u64::from(pitch);
+        let track = Track::new(length, pitch, N)?;
+        let mut room = (1_u64 << 32) - N as u64 * u64::from(track.pitch);
         let mut position = [0; N];
         let mut next = 0_u32;
         for (place, &gap) in position.iter_mut().zip(gaps) {
             *place = next;
-            let last = room as f32 / units;
-            let gap = (in_range("gaps", gap, 0.0, last)? * units) as u64;
+            let last = room as f32 / track.units;
+            let gap = (in_range("gaps", gap, 0.0, last)? * track.units) as u64;
             let gap = if gap > room { room } else { gap };
             room -= gap;
-            next = next.wrapping_add(pitch).wrapping_add(gap as u32);
+            next = next.wrapping_add(track.pitch).wrapping_add(gap as u32);
         }
-        Ok(Self {
-            position,
-            fraction: [0; N],
-            origin: 0,
-            origin_rest: 0.0,
-            press: Press::new(),
-            pitch,
-            units,
-        })
+        Ok(Self::at(position, track))
     }
 
     /// Balls at equal distances.
@@ -96,12 +128,26 @@ impl<const N: usize> Train<N> {
     /// # Errors
     /// As [`Train::new`].
     pub fn evenly_spaced(length: f32, pitch: f32) -> Result<Self, Error> {
-        let mut train = Self::new(length, pitch, &[0.0; N])?;
+        Ok(Self::spread(Track::new(length, pitch, N)?))
+    }
+
+    pub(crate) fn spread(track: Track) -> Self {
         let step = (1_u64 << 32) / N as u64;
-        for (ball, place) in train.position.iter_mut().enumerate() {
-            *place = (ball as u64 * step) as u32;
+        Self::at(
+            core::array::from_fn(|ball| (ball as u64 * step) as u32),
+            track,
+        )
+    }
+
+    const fn at(position: [u32; N], track: Track) -> Self {
+        Self {
+            position,
+            fraction: [0; N],
+            origin: 0,
+            origin_rest: 0.0,
+            press: Press::new(),
+            track,
         }
-        Ok(train)
     }
 
     /// Position of each ball, from the rear one to the front one, as a part of the track's length in
@@ -116,8 +162,8 @@ impl<const N: usize> Train<N> {
 
     /// Distance in front of each ball, m: zero in contact, up to a few units below by rounding.
     pub fn gaps(&self) -> impl Iterator<Item = f32> + '_ {
-        let metre = 1.0 / self.units;
-        distances(&self.position, self.pitch).map(move |distance| {
+        let metre = 1.0 / self.track.units;
+        distances(&self.position, self.track.pitch).map(move |distance| {
             if distance > u32::MAX - ROUNDING {
                 (distance as i32) as f32 * metre
             } else {
@@ -137,6 +183,21 @@ impl<const N: usize> Train<N> {
     #[inline]
     pub fn speeds(&self) -> impl DoubleEndedIterator<Item = f32> + ExactSizeIterator + '_ {
         self.press.speeds()
+    }
+
+    /// Pairs of balls that press on each other, from the rear of the train on.
+    #[must_use]
+    pub fn contacts(&self) -> heapless::Vec<BallContact, N> {
+        self.positions()
+            .zip(self.forces())
+            .enumerate()
+            .filter(|(_, (_, force))| *force > 0.0)
+            .map(|(ball, (position, force))| BallContact {
+                ball: ball as u8,
+                position,
+                force,
+            })
+            .collect()
     }
 
     /// Joins of clusters that the last tick needed, at most `N - 1`.
@@ -182,7 +243,7 @@ impl<const N: usize> Train<N> {
 
     /// [`Train::step`] with the speeds and impedances that stand in the train.
     #[inline(always)]
-    pub(crate) fn run(&mut self, travel: f32) {
+    pub(crate) fn run(&mut self, travel: f32) -> Pressing {
         let travel = self.counted(travel);
         let way = if travel < 0.0 { -travel } else { travel };
         let per_unit = if way > 1e-20 { 1.0 / way } else { 1e20 };
@@ -191,7 +252,7 @@ impl<const N: usize> Train<N> {
             .press
             .balls
             .iter_mut()
-            .zip(distances(&self.position, self.pitch))
+            .zip(distances(&self.position, self.track.pitch))
         {
             ball.room = if distance > u32::MAX - ROUNDING {
                 0.0
@@ -200,18 +261,19 @@ impl<const N: usize> Train<N> {
             };
         }
         self.press.pool();
-        self.advance(way);
+        let pressing = self.advance(way);
 
         let travel = travel + self.origin_rest;
         let whole = travel as i32;
         self.origin = self.origin.wrapping_add_signed(whole);
         self.origin_rest = travel - whole as f32;
+        pressing
     }
 
     /// Travel in units.
     #[inline]
     fn counted(&self, travel: f32) -> f32 {
-        let travel = travel * self.units;
+        let travel = travel * self.track.units;
         let largest = LARGEST_TRAVEL * UNITS;
         if travel > largest {
             largest
@@ -226,8 +288,9 @@ impl<const N: usize> Train<N> {
 
     /// Moves the balls by their speeds' deviations from the nominal one over a way of `way` units, each
     /// after the one in front of it, from a ball that presses on none.
-    #[inline]
-    fn advance(&mut self, way: f32) {
+    #[inline(always)]
+    fn advance(&mut self, way: f32) -> Pressing {
+        let mut pressing = Pressing::default();
         let scale = way * FRACTIONS;
         let mut index = self.press.foremost();
         // Where the ball in front was, how far it moves, and what is left of a unit there.
@@ -238,8 +301,15 @@ impl<const N: usize> Train<N> {
                 self.fraction.get_mut(index),
                 self.press.balls.get_mut(index),
             ) {
-                // Rounding may leave a little less than nothing.
-                if ball.force < 0.0 {
+                if ball.force > 0.0 {
+                    pressing.contacts += 1;
+                    pressing.force += ball.force;
+                    pressing.power += ball.force * ball.speed;
+                    if ball.force > pressing.largest {
+                        pressing.largest = ball.force;
+                    }
+                } else {
+                    // Rounding may leave a little less than nothing.
                     ball.force = 0.0;
                 }
                 let moves = (ball.speed * scale) as i32;
@@ -247,7 +317,7 @@ impl<const N: usize> Train<N> {
                 let mut whole = moves >> FRACTION_BITS;
                 let mut rest = (moves & 15) as u8;
                 if let Some((place, step, left)) = ahead {
-                    let distance = place.wrapping_sub(*position).wrapping_sub(self.pitch);
+                    let distance = place.wrapping_sub(*position).wrapping_sub(self.track.pitch);
                     let reach = step.wrapping_add_unsigned(distance);
                     let near = distance.wrapping_add(ROUNDING) < 1 << 28;
                     if ball.force > 0.0 || (near && whole > reach) {
@@ -261,6 +331,7 @@ impl<const N: usize> Train<N> {
             }
             index = if index == 0 { N - 1 } else { index - 1 };
         }
+        pressing
     }
 }
 

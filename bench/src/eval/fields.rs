@@ -138,9 +138,7 @@ impl<'a> Fields<'a> {
         values
             .into_iter()
             .enumerate()
-            .map(|(index, raw)| {
-                Self::nested(field, raw).map_err(|error| error.of_ball(index))
-            })
+            .map(|(index, raw)| Self::nested(field, raw).map_err(|error| error.of_ball(index)))
             .collect()
     }
 

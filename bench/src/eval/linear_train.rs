@@ -147,9 +147,8 @@ impl Request {
             friction: self.friction as f32,
         };
         Ok(InLoop {
-            analytic: self.analytic(
-                &AnalyticLinearBall::new(&parameters, PUBLISHED_SLOPE).map_err(renamed)?,
-            ),
+            analytic: self
+                .analytic(&AnalyticLinearBall::new(&parameters, PUBLISHED_SLOPE).map_err(renamed)?),
             refined: self.refined(&FourPointBall::linear(&parameters).map_err(renamed)?),
         })
     }
@@ -193,10 +192,8 @@ impl Request {
         // Places without a ball have no contacts, and infinite room on both sides.
         let mut contacts = [ball.contacts(&[0.0; 4], &[0.0; 4]); LARGEST_TRAIN];
         let mut chain = BallChain::<LARGEST_TRAIN>::new();
-        for ((contacts, state), request) in contacts
-            .iter_mut()
-            .zip(&mut chain.balls)
-            .zip(&self.balls)
+        for ((contacts, state), request) in
+            contacts.iter_mut().zip(&mut chain.balls).zip(&self.balls)
         {
             let (angles, forces) = request.rounded();
             *contacts = ball.contacts(&angles, &forces);
@@ -250,9 +247,13 @@ impl Request {
             .collect();
         let chain = solved(solve_chain(&balls, self.ball_friction, self.speed))?;
         Ok(Reference {
-            speed_deviation: chain
-                .as_ref()
-                .map(|chain| chain.balls.iter().map(|ball| ball.speed_deviation).collect()),
+            speed_deviation: chain.as_ref().map(|chain| {
+                chain
+                    .balls
+                    .iter()
+                    .map(|ball| ball.speed_deviation)
+                    .collect()
+            }),
             power_loss: if self.speed == 0.0 {
                 Some(0.0)
             } else {
