@@ -183,8 +183,8 @@ impl Request {
             &compliance,
             &room_of_a_row(count),
         );
-        let actual = press.speeds().map(|speed| direction * speed);
-        Row::of(&actual, press.forces(), count)
+        let actual: Vec<_> = press.speeds().map(|speed| direction * speed).collect();
+        Row::of(&actual, &contact_forces(&press), count)
     }
 
     fn refined(&self, ball: &FourPointBall) -> Row {
@@ -209,7 +209,7 @@ impl Request {
                 self.ball_friction as f32,
                 |free, compliance, forces| {
                     press.solve(free, compliance, &room);
-                    *forces = *press.forces();
+                    *forces = contact_forces(&press);
                 },
             );
         }
@@ -257,7 +257,7 @@ impl Request {
             power_loss: if self.speed == 0.0 {
                 Some(0.0)
             } else {
-                chain.as_ref().map(|chain| chain.power_loss())
+                chain.as_ref().map(LinearChain::power_loss)
             },
             contact_force: chain.map(|chain| chain.contact_forces),
         })
@@ -271,6 +271,15 @@ impl Ball {
             self.contact_forces.map(|force| force as f32),
         )
     }
+}
+
+/// Between every ball and the next, the last one and the first included.
+fn contact_forces(press: &Press<LARGEST_TRAIN>) -> [f32; LARGEST_TRAIN] {
+    let mut forces = [0.0; LARGEST_TRAIN];
+    for (place, force) in forces.iter_mut().zip(press.forces()) {
+        *place = force;
+    }
+    forces
 }
 
 impl Row {
