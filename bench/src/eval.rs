@@ -1,5 +1,6 @@
 //! `eval`: one JSON object a line in, one a line out, in order.
 
+mod ball_screw_train;
 mod contact_kinematics;
 mod efficiency;
 mod fields;
@@ -85,7 +86,7 @@ fn json(value: &impl Serialize) -> Result<Box<RawValue>, BadField> {
 type Model = fn(Fields) -> Result<Answer, BadField>;
 
 /// Every model by its name.
-const MODELS: [(&str, Model); 7] = [
+const MODELS: [(&str, Model); 8] = [
     ("groove_curvature", groove_curvature::evaluate),
     ("efficiency", efficiency::evaluate),
     ("steady_state", steady_state::evaluate),
@@ -93,6 +94,7 @@ const MODELS: [(&str, Model); 7] = [
     ("contact_kinematics", contact_kinematics::evaluate),
     ("friction_map", friction_map::evaluate),
     ("linear_train", linear_train::evaluate),
+    ("ball_screw_train", ball_screw_train::evaluate),
 ];
 
 /// A line of the output.
