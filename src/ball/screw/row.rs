@@ -65,6 +65,19 @@ impl LoadShare {
         })
     }
 
+    /// Its power of 2/3.
+    #[inline]
+    pub(crate) const fn two_thirds(&self) -> f32 {
+        let root = self.four_thirds * self.inverse;
+        root * root
+    }
+
+    /// Its power of 4/3.
+    #[inline]
+    pub(crate) const fn four_thirds(&self) -> f32 {
+        self.four_thirds
+    }
+
     /// Load over the mean load.
     #[must_use]
     pub const fn share(&self) -> f32 {
@@ -178,6 +191,12 @@ pub struct ScrewBallLoop {
 }
 
 impl ScrewRow {
+    /// Speed along the track of a ball with nominal contact angles, m per unit of nut speed.
+    #[must_use]
+    pub const fn nominal_speed(&self) -> f32 {
+        self.nominal_speed
+    }
+
     /// Folds the constants of a design.
     ///
     /// # Errors
@@ -459,6 +478,18 @@ impl ScrewTick {
     #[must_use]
     pub const fn third_load(&self) -> f32 {
         self.third_load
+    }
+
+    /// Half the speed with which two nominal balls rub, m per unit of nut speed.
+    #[must_use]
+    pub const fn rubbing(&self) -> f32 {
+        self.rubbing
+    }
+
+    /// Change of that with the speed along the track.
+    #[must_use]
+    pub const fn rubbing_slope(&self) -> f32 {
+        self.rubbing_slope
     }
 
     /// One ball.
