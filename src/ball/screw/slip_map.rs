@@ -65,7 +65,7 @@ const LARGEST_AXIS_RATIO: f32 = 0.95;
 /// serve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub(super) struct SlipMap {
+pub struct SlipMap {
     axis_ratio: f32,
     square: f32,
     inverse_square: f32,
@@ -107,23 +107,32 @@ struct Potential {
 /// The Hessian of the potential by slip and spin is the form with the three stiffnesses of `dV_1 - tilt_across
 /// dw` and `dV_2 - tilt_along dw`, plus `stick dw²`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct SlipFriction {
-    /// The potential, m/s.
-    pub(super) potential: f32,
-    /// Forces times slips and moment times spin, m/s.
-    pub(super) power: f32,
-    pub(super) across: f32,
-    pub(super) along: f32,
-    /// m.
-    pub(super) moment: f32,
-    pub(super) stiffness_across: f32,
-    pub(super) stiffness_mixed: f32,
-    pub(super) stiffness_along: f32,
-    pub(super) tilt_across: f32,
-    pub(super) tilt_along: f32,
-    pub(super) stick: f32,
-    /// `a W`: slip along the minor axis that carries the velocity centre to the rim, m/s.
-    pub(super) rim: f32,
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct SlipFriction {
+    /// The potential, m/s; with no stick spin the power loss.
+    pub potential: f32,
+    /// Power loss, m/s: forces times slips and moment times spin.
+    pub power: f32,
+    /// Derivative by the slip across the track, -1 to 1.
+    pub across: f32,
+    /// Derivative by the slip along the track, -1 to 1.
+    pub along: f32,
+    /// Derivative by the spin, m.
+    pub moment: f32,
+    /// Second derivative by the slip across the track, s/m.
+    pub stiffness_across: f32,
+    /// Mixed second derivative by the two slips, s/m.
+    pub stiffness_mixed: f32,
+    /// Second derivative by the slip along the track, s/m.
+    pub stiffness_along: f32,
+    /// Slip across the track that keeps the velocity centre where it is, per spin, m.
+    pub tilt_across: f32,
+    /// Slip along the track that keeps the velocity centre where it is, per spin, m.
+    pub tilt_along: f32,
+    /// What the stick treatment adds along the spin, m s.
+    pub stick: f32,
+    /// `a W`: slip along the track that carries the velocity centre to the end of the ellipse, m/s.
+    pub rim: f32,
 }
 
 /// One contact that slips across the track only.
@@ -144,7 +153,7 @@ pub(super) struct Across {
 impl SlipMap {
     /// # Errors
     /// [`Error`] naming `axis_ratio` where it is not within 0.01 to 0.95.
-    pub(super) fn new(axis_ratio: f32) -> Result<Self, Error> {
+    pub fn new(axis_ratio: f32) -> Result<Self, Error> {
         let k = in_range(
             "axis_ratio",
             axis_ratio,
@@ -189,7 +198,8 @@ impl SlipMap {
 
     /// Axis ratio of the ellipse.
     #[inline]
-    pub(super) const fn axis_ratio(&self) -> f32 {
+    #[must_use]
+    pub const fn axis_ratio(&self) -> f32 {
         self.axis_ratio
     }
 
@@ -202,7 +212,8 @@ impl SlipMap {
     /// Forces, moment and Hessian at a slip across and along the track and a spin, with stick treated as in
     /// [`FrictionMap::dissipation`](crate::FrictionMap::dissipation).
     #[inline]
-    pub(super) fn dissipation(
+    #[must_use]
+    pub fn dissipation(
         &self,
         across: f32,
         along: f32,
