@@ -1,6 +1,6 @@
 //! Closed form for a row of balls in a ball screw, at the price of a control loop.
 
-use super::across::{Across, AcrossMap};
+use super::slip_map::{Across, SlipMap};
 use crate::ball::root::{inverse_cube_roots, loaded};
 use crate::error::{Error, in_range};
 use crate::geometry::{BallScrew, Groove};
@@ -110,7 +110,7 @@ pub struct ScrewRow {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 struct Race {
-    map: AcrossMap,
+    map: SlipMap,
     /// Semi-major axis times spin at one newton, `m/N^(1/3)`.
     rim: f32,
 }
@@ -118,7 +118,7 @@ struct Race {
 impl Race {
     #[inline]
     fn at(&self, slip: f32, root: f32) -> Across {
-        self.map.at(slip, self.rim * root)
+        self.map.across(slip, self.rim * root)
     }
 }
 
@@ -236,7 +236,7 @@ impl ScrewRow {
         let race = |groove: Groove, spin: f32| -> Result<Race, Error> {
             let contact = HertzContact::of(design, groove);
             Ok(Race {
-                map: AcrossMap::new(contact.axis_ratio())?,
+                map: SlipMap::new(contact.axis_ratio())?,
                 rim: contact.semi_major_coefficient() * spin,
             })
         };
@@ -345,7 +345,7 @@ impl ScrewRow {
     fn in_more_points(&self, normal: f32, side: f32, on_screw: bool) -> ScrewTick {
         // Share of sliding friction across the track, to some per cent.
         let sliding = self.screw.map.share_slope() * self.slip;
-        let rim = self.screw.map.axis_ratio() * self.screw.rim * cube_root(normal);
+        let rim = self.screw.rim * cube_root(normal);
         let share = sliding / math::sqrt(rim * rim + sliding * sliding + 1e-30);
         let (main, _) = self.diagonals(normal / (1.0 - self.friction * share));
         let root = cube_root(main);
