@@ -1,6 +1,10 @@
 //! `ball_screw_train`: a row of touching balls in a ball screw, each with given contacts.
 
 use epas_friction::geometry::{LARGEST_CONFORMITY, SMALLEST_CONFORMITY};
+use epas_friction::{
+    BallScrew, BallScrewParameters, GrooveSize, Material, Press, ScrewBall, ScrewBallState,
+    ScrewChain,
+};
 use epas_reference::curvature::{self, Surface};
 use epas_reference::friction::ball_screw_ball::{Groove, ScrewContact, ScrewTrack};
 use epas_reference::friction::ball_screw_train::solve_screw_train;
@@ -10,7 +14,7 @@ use serde::Serialize;
 
 use super::Answer;
 use super::fields::{BadField, Fields, in_range};
-use super::train::{LARGEST_TRAIN, solved};
+use super::train::{LARGEST_TRAIN, contact_forces, pressed, room_of_a_row, solved};
 
 /// Names of the grooves' flanks: screw or nut, left or right.
 const FLANKS: [(&str, Groove); 4] = [
@@ -20,7 +24,18 @@ const FLANKS: [(&str, Groove); 4] = [
     ("NR", Groove::NutRight),
 ];
 
-#[derive(Serialize)]
+/// Most impedance steps of the whole row. A ball alone has settled after
+/// [`DEFAULT_IMPEDANCE_STEPS`](epas_friction::ball::DEFAULT_IMPEDANCE_STEPS); friction between the balls lags
+/// one step behind.
+const STEPS: usize = 32;
+
+/// Change of a force in the last step over the largest force, below which the row has settled. Long rows
+/// under forces that make their third contacts slide do not: friction between their balls changes the forces
+/// by more than it was changed by them.
+const SETTLED: f32 = 1e-4;
+
+/// What cannot be found is none.
+#[derive(Default, Serialize)]
 struct Row {
     /// Free speeds.
     orbital_speed: Option<Vec<f64>>,
@@ -66,10 +81,7 @@ pub fn evaluate(mut fields: Fields) -> Result<Answer, BadField> {
     };
     fields.finish()?;
     request.check()?;
-    Ok(Answer {
-        in_loop: None,
-        reference: Some(super::json(&request.reference()?)?),
-    })
+    Answer::both(&request.in_loop()?, &request.reference()?)
 }
 
 fn contacts(mut ball: Fields) -> Result<Vec<Contact>, BadField> {
@@ -94,6 +106,14 @@ fn contacts(mut ball: Fields) -> Result<Vec<Contact>, BadField> {
         ));
     }
     Ok(contacts)
+}
+
+/// Whether screw and nut both carry the ball: one that either has lost does not move with the nut.
+fn is_driven(ball: &[Contact]) -> bool {
+    [false, true].into_iter().all(|on_nut| {
+        ball.iter()
+            .any(|contact| contact.groove.on_nut() == on_nut && contact.load > 0.0)
+    })
 }
 
 impl Request {
@@ -127,13 +147,136 @@ impl Request {
         Ok(())
     }
 
+    /// The impedance iteration, in f32.
+    fn in_loop(&self) -> Result<Row, BadField> {
+        let ball = self.ball()?;
+        if self.nut_speed == 0.0 {
+            return Ok(self.standstill());
+        }
+        if !self.balls.iter().all(|ball| is_driven(ball)) {
+            return Ok(Row::default());
+        }
+        // The chain of the crate runs from rear to front for a nut that turns forward.
+        let (direction, backward) = if self.nut_speed < 0.0 {
+            (-1.0, true)
+        } else {
+            (1.0, false)
+        };
+        let count = self.balls.len();
+        // Places without a ball have no contacts, and infinite room on both sides.
+        let mut contacts = [ball.contacts(&[0.0; 4], &[0.0; 4]); LARGEST_TRAIN];
+        let mut states = [ScrewBallState::default(); LARGEST_TRAIN];
+        let mut orbital_speed = Vec::with_capacity(count);
+        for (index, request) in self.balls.iter().enumerate() {
+            let place = if backward { count - 1 - index } else { index };
+            let (mut angles, mut loads) = ([0.0; 4], [0.0; 4]);
+            for contact in request {
+                let flank = contact.groove as usize;
+                (angles[flank], loads[flank]) = (contact.contact_angle as f32, contact.load as f32);
+            }
+            contacts[place] = ball.contacts(&angles, &loads);
+            states[place] = ball.solve(&contacts[place]);
+            let speed = ball.orbital_speed(&states[place].motion);
+            orbital_speed.push(self.nut_speed * f64::from(speed));
+        }
+
+        let mut chain = ScrewChain::new(states);
+        let room = room_of_a_row(count);
+        let mut press = Press::new();
+        let mut sound = true;
+        let mut settled = false;
+        for _ in 0..STEPS {
+            let before = chain.forces;
+            ball.refine_chain(
+                &contacts,
+                &mut chain,
+                direction,
+                self.friction as f32,
+                |free, compliance, forces| {
+                    sound &= pressed(&mut press, free, compliance, &room);
+                    *forces = contact_forces(&press);
+                },
+            );
+            let largest = chain
+                .forces
+                .iter()
+                .fold(0.0_f32, |most, force| most.max(*force));
+            settled = chain
+                .forces
+                .iter()
+                .zip(&before)
+                .all(|(force, before)| (force - before).abs() <= SETTLED * largest);
+            if settled {
+                break;
+            }
+        }
+        let grooves: f64 = chain.balls[..count]
+            .iter()
+            .map(|state| f64::from(state.groove_torque))
+            .sum();
+        let between = f64::from(ball.ball_torque(&chain, self.friction as f32));
+        let mut forces: Vec<_> = chain.forces[..count - 1]
+            .iter()
+            .map(|&force| force.into())
+            .collect();
+        if backward {
+            forces.reverse();
+        }
+        Ok(if sound && settled {
+            Row {
+                orbital_speed: Some(orbital_speed),
+                contact_force: Some(forces),
+                power_loss: Some(self.nut_speed.abs() * (grooves + between)),
+            }
+        } else {
+            Row {
+                orbital_speed: Some(orbital_speed),
+                ..Row::default()
+            }
+        })
+    }
+
+    /// The crate's ball, with the mean contact angle for its nominal one.
+    fn ball(&self) -> Result<ScrewBall, BadField> {
+        let angles = || {
+            self.balls
+                .iter()
+                .flatten()
+                .map(|contact| contact.contact_angle)
+        };
+        let mean = angles().sum::<f64>() / angles().count() as f64;
+        let material = Material {
+            youngs_modulus: self.youngs_modulus as f32,
+            poisson_ratio: self.poisson_ratio as f32,
+            ..Material::STEEL
+        };
+        let groove = GrooveSize::Radius(self.groove_radius as f32);
+        let design = BallScrew::new(BallScrewParameters {
+            pitch_radius: self.pitch_radius as f32,
+            lead: self.lead as f32,
+            ball_radius: self.ball_radius as f32,
+            screw_groove: groove,
+            nut_groove: groove,
+            contact_angle: mean as f32,
+            ball_material: material,
+            groove_material: material,
+        })?;
+        ScrewBall::new(&design, self.friction as f32)
+            .map_err(|error| BadField::from(error).renamed("axis_ratio", "groove_radius"))
+    }
+
+    /// Nothing moves; forces between balls are undefined.
+    fn standstill(&self) -> Row {
+        Row {
+            orbital_speed: Some(vec![0.0; self.balls.len()]),
+            contact_force: None,
+            power_loss: Some(0.0),
+        }
+    }
+
     fn reference(&self) -> Result<Row, BadField> {
         if self.nut_speed == 0.0 {
-            return Ok(Row {
-                orbital_speed: Some(vec![0.0; self.balls.len()]),
-                contact_force: None,
-                power_loss: Some(0.0),
-            });
+            return Ok(self.standstill());
         }
         let track = ScrewTrack {
             pitch_radius: self.pitch_radius,
@@ -167,18 +310,11 @@ impl Request {
             self.friction,
             self.nut_speed,
         ))?;
-        Ok(match train {
-            Some(train) => Row {
-                power_loss: Some(train.power_loss()),
-                orbital_speed: Some(train.free_speeds),
-                contact_force: Some(train.contact_forces),
-            },
-            None => Row {
-                orbital_speed: None,
-                contact_force: None,
-                power_loss: None,
-            },
-        })
+        Ok(train.map_or_else(Row::default, |train| Row {
+            power_loss: Some(train.power_loss()),
+            orbital_speed: Some(train.free_speeds),
+            contact_force: Some(train.contact_forces),
+        }))
     }
 
     /// Ellipse of a contact, from the principal curvatures of the groove there: its arc meets the ball
@@ -197,7 +333,9 @@ impl Request {
             offset_h: clearance * cos,
             offset_l: clearance * sin,
         };
-        surface.check(contact.contact_angle)?;
+        surface
+            .check(contact.contact_angle)
+            .map_err(|error| BadField::from(error).renamed("offset_h", "groove_radius"))?;
         let groove = surface.principal(contact.contact_angle);
         let material = (self.youngs_modulus, self.poisson_ratio);
         let ball = 1.0 / self.ball_radius;

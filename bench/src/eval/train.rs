@@ -29,7 +29,8 @@ pub fn solved<T>(result: Result<T, FrictionError>) -> Result<Option<T>, BadField
     }
 }
 
-/// Lets balls press on each other by what each would do alone; false where the crate takes no part of it.
+/// Lets balls press on each other by what each would do alone; false where one of them runs further from
+/// nominal rolling than the crate counts.
 pub fn pressed(
     press: &mut Press<LARGEST_TRAIN>,
     free: &[f32; LARGEST_TRAIN],
@@ -38,11 +39,8 @@ pub fn pressed(
 ) -> bool {
     let (least, most) = IMPEDANCE_RANGE;
     // Balls that hardly anything holds are as good as free.
-    press.solve(
-        free,
-        &compliance.map(|compliance| compliance.recip().clamp(least, most)),
-        room,
-    )
+    let impedance = compliance.map(|compliance| compliance.recip().clamp(least, most));
+    press.solve(free, &impedance, room)
 }
 
 /// Between every ball and the next, the last one and the first included.

@@ -33,7 +33,7 @@ pub fn number(value: &Value) -> f64 {
     }
 }
 
-fn relative(found: &Value, truth: f64) -> f64 {
+pub fn relative(found: &Value, truth: f64) -> f64 {
     (number(found) / truth - 1.0).abs()
 }
 
