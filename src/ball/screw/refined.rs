@@ -121,12 +121,49 @@ impl ScrewBall {
         self.advance(contacts, &state.motion, &proposal, force, &[0.0; 4])
     }
 
+    /// Motion and compliance where all contacts have the impedances of rolling.
+    pub(super) fn linear(
+        &self,
+        contacts: &ScrewContacts,
+        motion: &ScrewBallMotion,
+    ) -> ScrewBallState {
+        let proposal = self.linearised(contacts, motion, &[0.0; 4], true);
+        self.advance(
+            contacts,
+            motion,
+            &Proposal {
+                reach: [ANY; 4],
+                ..proposal
+            },
+            0.0,
+            &[0.0; 4],
+        )
+    }
+
+    /// Compliance of the speed along the track at a motion.
+    pub(super) fn compliance(&self, contacts: &ScrewContacts, motion: &ScrewBallMotion) -> f32 {
+        self.propose(contacts, motion, &[0.0; 4]).column.speed
+    }
+
     #[inline]
     pub(super) fn propose(
         &self,
         contacts: &ScrewContacts,
         motion: &ScrewBallMotion,
         rubbing: &Rubbing,
+    ) -> Proposal {
+        self.linearised(contacts, motion, rubbing, false)
+    }
+
+    /// The equations at a motion, with impedances that belong to it or, when `rolling`, to a ball that does not
+    /// slip along the track.
+    #[inline]
+    fn linearised(
+        &self,
+        contacts: &ScrewContacts,
+        motion: &ScrewBallMotion,
+        rubbing: &Rubbing,
+        rolling: bool,
     ) -> Proposal {
         let mut power = 0.0;
         let mut reach = [ANY; 4];
@@ -143,7 +180,7 @@ impl ScrewBall {
                 let slip = contact.at(motion);
                 let at = race.map.dissipation(
                     slip.across,
-                    slip.along,
+                    if rolling { 0.0 } else { slip.along },
                     slip.spin,
                     contact.semi_major,
                     STICK_SPIN,
@@ -153,21 +190,26 @@ impl ScrewBall {
                 let size = slip.along.abs();
                 *reach = REACH * (at.rim + size);
 
-                let (force, moment) = (weight * at.along, weight * at.moment);
+                let force = if rolling {
+                    at.stiffness_along * slip.along
+                } else {
+                    at.along
+                };
+                let (force, moment) = (weight * force, weight * at.moment);
                 system.right.roll += force * nz - moment * nx;
                 system.right.yaw -= force * nx + moment * nz;
                 system.right.speed -= force;
                 right -= weight * at.across;
 
                 let floor = LEAST_STIFFNESS * at.along.abs();
-                let along = if at.stiffness_along * size > floor {
+                let along = if at.stiffness_along * size >= floor {
                     at.stiffness_along
                 } else {
                     floor / size
                 };
                 let floor = LEAST_STIFFNESS * at.across.abs();
                 let across_size = slip.across.abs();
-                let across = if at.stiffness_across * across_size > floor {
+                let across = if at.stiffness_across * across_size >= floor {
                     at.stiffness_across
                 } else {
                     floor / across_size
