@@ -13,6 +13,7 @@ pub const CONTACT_ANGLE_RANGE: (f32, f32) = (0.05, 1.5);
 /// Spin below which a contact sticks, over the nut's speed.
 pub(super) const STICK_SPIN: f32 = 0.01;
 
+const SEARCH: usize = 3;
 /// Ratio of the other contacts' load to that of the loaded pair from which on they hold a ball for certain.
 const WEAK: f32 = 0.3;
 
@@ -255,15 +256,37 @@ impl ScrewBall {
         if contacts.contact.iter().filter(|c| c.friction > 0.0).count() < 3 {
             best.groove_torque = f32::INFINITY;
         }
-        for motion in self.rolling(screw, nut) {
+        let rolling = self.rolling(screw, nut);
+        let corners = [pinned.motion, rolling[0], rolling[1]];
+        let mut from = pinned.motion;
+        let mut least = best.groove_torque;
+        for motion in rolling {
             let torque = self.groove_torque(contacts, &motion);
-            if torque < best.groove_torque {
-                let compliance = self.compliance(contacts, &motion);
-                best = ScrewBallState {
-                    groove_torque: torque,
-                    ..self.state(motion, compliance, 0.0)
-                };
+            if torque < least {
+                least = torque;
+                from = motion;
             }
+        }
+        let start = from;
+        for round in 0..SEARCH {
+            let part = [0.5, 0.25, 0.1][round];
+            let base = from;
+            for corner in corners {
+                let motion = base.towards(&corner, part);
+                let torque = self.groove_torque(contacts, &motion);
+                if torque < least {
+                    least = torque;
+                    from = motion;
+                }
+            }
+        }
+        let _ = start;
+        if from != pinned.motion {
+            let compliance = self.compliance(contacts, &from);
+            best = ScrewBallState {
+                groove_torque: least,
+                ..self.state(from, compliance, 0.0)
+            };
         }
         best
     }
@@ -344,6 +367,21 @@ impl ScrewBall {
                 turn: [back * nut_z, self.sin_lead, self.cos_lead - back * nut_x],
             },
         ]
+    }
+}
+
+impl ScrewBallMotion {
+    fn towards(&self, other: &Self, part: f32) -> Self {
+        let [x, y, z] = self.turn;
+        let [to_x, to_y, to_z] = other.turn;
+        Self {
+            speed: self.speed + part * (other.speed - self.speed),
+            turn: [
+                x + part * (to_x - x),
+                y + part * (to_y - y),
+                z + part * (to_z - z),
+            ],
+        }
     }
 }
 

@@ -13,6 +13,7 @@ const STEP_LIMIT: f32 = 3.0;
 /// centre reaches the end of the ellipse.
 const REACH: f32 = 0.6;
 
+const ACROSS: f32 = 1.0;
 /// The reach of a lost contact.
 const ANY: f32 = 1e9;
 
@@ -37,6 +38,7 @@ pub(super) struct Proposal {
     decrement: f32,
     /// Longest changes of the contacts' slips.
     reach: [f32; 4],
+    across_reach: [f32; 4],
 }
 
 /// Change of `(speed, Omega_x, Omega_y, Omega_z)`.
@@ -65,6 +67,7 @@ impl Proposal {
         column: Step::ZERO,
         decrement: 0.0,
         reach: [ANY; 4],
+        across_reach: [ANY; 4],
     };
 }
 
@@ -167,6 +170,7 @@ impl ScrewBall {
     ) -> Proposal {
         let mut power = 0.0;
         let mut reach = [ANY; 4];
+        let mut across_reach = [ANY; 4];
         let mut system = System::EMPTY;
         // Row of Omega_y in the system, and its right side.
         let mut cross = Vector::ZERO;
@@ -174,7 +178,9 @@ impl ScrewBall {
         let [along_track, x, y, z] = *rubbing;
         let mut right = y;
         let grooves = contacts.contact.iter().zip(self.races());
-        for ((contact, race), reach) in grooves.zip(&mut reach) {
+        for (((contact, race), reach), across_reach) in
+            grooves.zip(&mut reach).zip(&mut across_reach)
+        {
             if contact.friction > 0.0 {
                 let (nx, nz) = contact.arm;
                 let slip = contact.at(motion);
@@ -189,6 +195,7 @@ impl ScrewBall {
                 power += weight * at.power;
                 let size = slip.along.abs();
                 *reach = REACH * (at.rim + size);
+                *across_reach = ACROSS * (at.rim * race.map.axis_ratio() + slip.across.abs());
 
                 let force = if rolling {
                     at.stiffness_along * slip.along
@@ -256,6 +263,7 @@ impl ScrewBall {
             column: complete(factors.speed_column(), 0.0),
             decrement: whole.dot(found) + right * free.y,
             reach,
+            across_reach,
         }
     }
 
@@ -274,6 +282,7 @@ impl ScrewBall {
             column,
             decrement,
             reach,
+            across_reach,
         } = proposal;
         let speed = free.speed + force * column.speed;
         let x = free.x + force * column.x;
@@ -285,11 +294,26 @@ impl ScrewBall {
         } else {
             (1.0, 1.0)
         };
-        for (contact, &reach) in contacts.contact.iter().zip(reach) {
+        for ((contact, &reach), &across_reach) in
+            contacts.contact.iter().zip(reach).zip(across_reach)
+        {
             let (nx, nz) = contact.arm;
             let change = (speed + nx * z - nz * x).abs();
+            let spun = contact.semi_major * (nx * x + nz * z).abs();
+            let before = reach;
+            let reach = reach + if reach < ANY { REACH * spun } else { 0.0 };
             if allowed * change > wanted * reach {
                 (allowed, wanted) = (reach, change);
+            }
+            let change = y.abs();
+            let across_reach = across_reach
+                + if before < ANY {
+                    ACROSS * 0.2 * spun
+                } else {
+                    0.0
+                };
+            if allowed * change > wanted * across_reach {
+                (allowed, wanted) = (across_reach, change);
             }
         }
         let scale = allowed / wanted;
