@@ -2,7 +2,6 @@
 
 use super::slip_map::SlipMap;
 use crate::ball::root::{inverse_cube_roots, loaded};
-use crate::ball::symmetric::{System, Vector};
 use crate::error::{Error, in_range};
 use crate::geometry::{BallScrew, Groove};
 use crate::hertz::HertzContact;
@@ -13,6 +12,10 @@ pub const CONTACT_ANGLE_RANGE: (f32, f32) = (0.05, 1.5);
 
 /// Spin below which a contact sticks, over the nut's speed.
 pub(super) const STICK_SPIN: f32 = 0.01;
+
+const SEARCH: usize = 3;
+/// Ratio of the other contacts' load to that of the loaded pair from which on they hold a ball for certain.
+const WEAK: f32 = 0.3;
 
 /// Signs of the radial and the axial component of the direction from the ball's centre to the contact:
 /// SL, SR, NL, NR.
@@ -238,45 +241,54 @@ impl ScrewBall {
     /// last element of the inverse.
     #[must_use]
     pub fn closed_form(&self, contacts: &ScrewContacts) -> ScrewBallState {
-        let motion = self.nominal(contacts);
-        let mut system = System::EMPTY;
-        let mut torque = 0.0;
-        for (contact, race) in contacts.contact.iter().zip(self.races()) {
-            if contact.friction > 0.0 {
-                let (nx, nz) = contact.arm;
-                let at = contact.at(&motion);
-                let spin = math::sqrt(at.spin * at.spin + STICK_SPIN * STICK_SPIN);
-                let across = race.map.across(at.across.abs(), contact.semi_major * spin);
-                let impedance = contact.friction / across.give;
-                let moment = contact.friction * (across.drag - at.across.abs() * across.share)
-                    / (spin * spin);
-                torque += contact.friction * across.drag;
-                let slip = impedance * at.along;
-                // The moment of a contact that sticks grows with its spin, that of a spinning one does not.
-                let sticking = if at.spin.abs() < STICK_SPIN {
-                    moment
-                } else {
-                    0.0
-                };
-                let moment = (moment - sticking) * at.spin;
-                system.right.roll += slip * nz - moment * nx;
-                system.right.yaw -= slip * nx + moment * nz;
-                system.right.speed -= slip;
-                system.add_slip(impedance, -nz, nx);
-                system.add_spin(sticking, nx, nz);
+        let nominal = ScrewBallMotion {
+            speed: 0.0,
+            turn: [0.0, 0.5 * self.sin_lead, self.roll],
+        };
+        let pinned = self.linear(contacts, &nominal);
+        let mut best = ScrewBallState {
+            groove_torque: self.groove_torque(contacts, &pinned.motion),
+            ..pinned
+        };
+        let Some((screw, nut)) = contacts.weakly_held() else {
+            return best;
+        };
+        if contacts.contact.iter().filter(|c| c.friction > 0.0).count() < 3 {
+            best.groove_torque = f32::INFINITY;
+        }
+        let rolling = self.rolling(screw, nut);
+        let corners = [pinned.motion, rolling[0], rolling[1]];
+        let mut from = pinned.motion;
+        let mut least = best.groove_torque;
+        for motion in rolling {
+            let torque = self.groove_torque(contacts, &motion);
+            if torque < least {
+                least = torque;
+                from = motion;
             }
         }
-        let factors = system.factors();
-        let Vector { roll, yaw, speed } = factors.solve(system.right);
-        let [x, y, z] = motion.turn;
-        self.state(
-            ScrewBallMotion {
-                speed,
-                turn: [x + roll, y, z + yaw],
-            },
-            factors.speed_column().speed,
-            torque,
-        )
+        let start = from;
+        for round in 0..SEARCH {
+            let part = [0.5, 0.25, 0.1][round];
+            let base = from;
+            for corner in corners {
+                let motion = base.towards(&corner, part);
+                let torque = self.groove_torque(contacts, &motion);
+                if torque < least {
+                    least = torque;
+                    from = motion;
+                }
+            }
+        }
+        let _ = start;
+        if from != pinned.motion {
+            let compliance = self.compliance(contacts, &from);
+            best = ScrewBallState {
+                groove_torque: least,
+                ..self.state(from, compliance, 0.0)
+            };
+        }
+        best
     }
 
     /// Slip and spin of the four contacts at a motion.
@@ -336,35 +348,55 @@ impl ScrewBall {
         }
     }
 
-    /// Motion about which the closed form is linear.
-    fn nominal(&self, contacts: &ScrewContacts) -> ScrewBallMotion {
-        let [screw_left, screw_right, nut_left, nut_right] = &contacts.contact;
-        let pair = |screw: &Contact, nut: &Contact, others: [&Contact; 2]| {
-            let alone = others.iter().all(|other| other.friction <= 0.0);
-            (alone && screw.friction > 0.0 && nut.friction > 0.0).then_some((*screw, *nut))
-        };
-        let two = pair(screw_left, nut_right, [screw_right, nut_left])
-            .or_else(|| pair(screw_right, nut_left, [screw_left, nut_right]));
-        match two {
-            None => ScrewBallMotion {
-                speed: 0.0,
-                turn: [0.0, 0.5 * self.sin_lead, self.roll],
+    /// Motions in which a ball in two contacts sticks to the screw, and to the nut, and does not slip along
+    /// the other's track.
+    fn rolling(&self, screw: &Contact, nut: &Contact) -> [ScrewBallMotion; 2] {
+        let ((screw_x, screw_z), (nut_x, nut_z)) = (screw.arm, nut.arm);
+        let opposed = screw_x * nut_x + screw_z * nut_z;
+        let inverse = 1.0 / (1.0 - opposed);
+        let on_screw = (self.path + self.cos_lead * nut_x) * inverse;
+        let on_nut = -(self.path * opposed + self.cos_lead * screw_x) * inverse;
+        let back = on_nut - self.path;
+        [
+            ScrewBallMotion {
+                speed: on_screw - self.nominal_speed,
+                turn: [on_screw * screw_z, 0.0, -on_screw * screw_x],
             },
-            Some((screw, nut)) => {
-                // No spin and no slip on the race with the longer ellipse.
-                let (nx, nz) = screw.arm;
-                let (spin, across) = if screw.semi_major > nut.semi_major {
-                    (0.0, 0.0)
-                } else {
-                    (self.cos_lead * nz, self.sin_lead)
-                };
-                let rolling = -self.nominal_speed;
-                ScrewBallMotion {
-                    speed: 0.0,
-                    turn: [spin * nx - rolling * nz, across, spin * nz + rolling * nx],
-                }
-            }
+            ScrewBallMotion {
+                speed: on_nut - self.nominal_speed,
+                turn: [back * nut_z, self.sin_lead, self.cos_lead - back * nut_x],
+            },
+        ]
+    }
+}
+
+impl ScrewBallMotion {
+    fn towards(&self, other: &Self, part: f32) -> Self {
+        let [x, y, z] = self.turn;
+        let [to_x, to_y, to_z] = other.turn;
+        Self {
+            speed: self.speed + part * (other.speed - self.speed),
+            turn: [
+                x + part * (to_x - x),
+                y + part * (to_y - y),
+                z + part * (to_z - z),
+            ],
         }
+    }
+}
+
+impl ScrewContacts {
+    /// The loaded pair, where the other contacts are too light to hold the ball for certain.
+    fn weakly_held(&self) -> Option<(&Contact, &Contact)> {
+        let [screw_left, screw_right, nut_left, nut_right] = &self.contact;
+        let up = screw_left.friction + nut_right.friction;
+        let down = screw_right.friction + nut_left.friction;
+        let (weak, strong, pair) = if up > down {
+            (down, up, (screw_left, nut_right))
+        } else {
+            (up, down, (screw_right, nut_left))
+        };
+        (weak < WEAK * strong).then_some(pair)
     }
 }
 

@@ -13,6 +13,7 @@ const STEP_LIMIT: f32 = 3.0;
 /// centre reaches the end of the ellipse.
 const REACH: f32 = 0.6;
 
+const ACROSS: f32 = 1.0;
 /// The reach of a lost contact.
 const ANY: f32 = 1e9;
 
@@ -37,6 +38,7 @@ pub(super) struct Proposal {
     decrement: f32,
     /// Longest changes of the contacts' slips.
     reach: [f32; 4],
+    across_reach: [f32; 4],
 }
 
 /// Change of `(speed, Omega_x, Omega_y, Omega_z)`.
@@ -65,6 +67,7 @@ impl Proposal {
         column: Step::ZERO,
         decrement: 0.0,
         reach: [ANY; 4],
+        across_reach: [ANY; 4],
     };
 }
 
@@ -121,6 +124,30 @@ impl ScrewBall {
         self.advance(contacts, &state.motion, &proposal, force, &[0.0; 4])
     }
 
+    /// Motion and compliance where all contacts have the impedances of rolling.
+    pub(super) fn linear(
+        &self,
+        contacts: &ScrewContacts,
+        motion: &ScrewBallMotion,
+    ) -> ScrewBallState {
+        let proposal = self.linearised(contacts, motion, &[0.0; 4], true);
+        self.advance(
+            contacts,
+            motion,
+            &Proposal {
+                reach: [ANY; 4],
+                ..proposal
+            },
+            0.0,
+            &[0.0; 4],
+        )
+    }
+
+    /// Compliance of the speed along the track at a motion.
+    pub(super) fn compliance(&self, contacts: &ScrewContacts, motion: &ScrewBallMotion) -> f32 {
+        self.propose(contacts, motion, &[0.0; 4]).column.speed
+    }
+
     #[inline]
     pub(super) fn propose(
         &self,
@@ -128,8 +155,22 @@ impl ScrewBall {
         motion: &ScrewBallMotion,
         rubbing: &Rubbing,
     ) -> Proposal {
+        self.linearised(contacts, motion, rubbing, false)
+    }
+
+    /// The equations at a motion, with impedances that belong to it or, when `rolling`, to a ball that does not
+    /// slip along the track.
+    #[inline]
+    fn linearised(
+        &self,
+        contacts: &ScrewContacts,
+        motion: &ScrewBallMotion,
+        rubbing: &Rubbing,
+        rolling: bool,
+    ) -> Proposal {
         let mut power = 0.0;
         let mut reach = [ANY; 4];
+        let mut across_reach = [ANY; 4];
         let mut system = System::EMPTY;
         // Row of Omega_y in the system, and its right side.
         let mut cross = Vector::ZERO;
@@ -137,13 +178,15 @@ impl ScrewBall {
         let [along_track, x, y, z] = *rubbing;
         let mut right = y;
         let grooves = contacts.contact.iter().zip(self.races());
-        for ((contact, race), reach) in grooves.zip(&mut reach) {
+        for (((contact, race), reach), across_reach) in
+            grooves.zip(&mut reach).zip(&mut across_reach)
+        {
             if contact.friction > 0.0 {
                 let (nx, nz) = contact.arm;
                 let slip = contact.at(motion);
                 let at = race.map.dissipation(
                     slip.across,
-                    slip.along,
+                    if rolling { 0.0 } else { slip.along },
                     slip.spin,
                     contact.semi_major,
                     STICK_SPIN,
@@ -152,22 +195,28 @@ impl ScrewBall {
                 power += weight * at.power;
                 let size = slip.along.abs();
                 *reach = REACH * (at.rim + size);
+                *across_reach = ACROSS * (at.rim * race.map.axis_ratio() + slip.across.abs());
 
-                let (force, moment) = (weight * at.along, weight * at.moment);
+                let force = if rolling {
+                    at.stiffness_along * slip.along
+                } else {
+                    at.along
+                };
+                let (force, moment) = (weight * force, weight * at.moment);
                 system.right.roll += force * nz - moment * nx;
                 system.right.yaw -= force * nx + moment * nz;
                 system.right.speed -= force;
                 right -= weight * at.across;
 
                 let floor = LEAST_STIFFNESS * at.along.abs();
-                let along = if at.stiffness_along * size > floor {
+                let along = if at.stiffness_along * size >= floor {
                     at.stiffness_along
                 } else {
                     floor / size
                 };
                 let floor = LEAST_STIFFNESS * at.across.abs();
                 let across_size = slip.across.abs();
-                let across = if at.stiffness_across * across_size > floor {
+                let across = if at.stiffness_across * across_size >= floor {
                     at.stiffness_across
                 } else {
                     floor / across_size
@@ -214,6 +263,7 @@ impl ScrewBall {
             column: complete(factors.speed_column(), 0.0),
             decrement: whole.dot(found) + right * free.y,
             reach,
+            across_reach,
         }
     }
 
@@ -232,6 +282,7 @@ impl ScrewBall {
             column,
             decrement,
             reach,
+            across_reach,
         } = proposal;
         let speed = free.speed + force * column.speed;
         let x = free.x + force * column.x;
@@ -243,11 +294,26 @@ impl ScrewBall {
         } else {
             (1.0, 1.0)
         };
-        for (contact, &reach) in contacts.contact.iter().zip(reach) {
+        for ((contact, &reach), &across_reach) in
+            contacts.contact.iter().zip(reach).zip(across_reach)
+        {
             let (nx, nz) = contact.arm;
             let change = (speed + nx * z - nz * x).abs();
+            let spun = contact.semi_major * (nx * x + nz * z).abs();
+            let before = reach;
+            let reach = reach + if reach < ANY { REACH * spun } else { 0.0 };
             if allowed * change > wanted * reach {
                 (allowed, wanted) = (reach, change);
+            }
+            let change = y.abs();
+            let across_reach = across_reach
+                + if before < ANY {
+                    ACROSS * 0.2 * spun
+                } else {
+                    0.0
+                };
+            if allowed * change > wanted * across_reach {
+                (allowed, wanted) = (across_reach, change);
             }
         }
         let scale = allowed / wanted;

@@ -32,6 +32,19 @@ const LARGEST_ROOT: f32 = 2.0;
 /// Steps of Carlson's duplication: each divides the spread of the arguments by four.
 const DUPLICATIONS: u8 = 9;
 
+/// Panels over which `C5` is integrated at set-up, each half as long as its distance from zero: up to 1300
+/// times the lower limit.
+const PANELS: u8 = 18;
+
+/// Gauss-Legendre nodes on -1 to 1 and their weights.
+const GAUSS: [(f32, f32); 5] = [
+    (-0.906_179_85, 0.236_926_88),
+    (-0.538_469_3, 0.478_628_67),
+    (0.0, 0.568_888_9),
+    (0.538_469_3, 0.478_628_67),
+    (0.906_179_85, 0.236_926_88),
+];
+
 /// Largest axis ratio; beyond it differences of the elliptic integrals lose too many digits.
 const LARGEST_AXIS_RATIO: f32 = 0.95;
 
@@ -68,7 +81,6 @@ const LARGEST_AXIS_RATIO: f32 = 0.95;
 pub struct SlipMap {
     axis_ratio: f32,
     square: f32,
-    inverse_square: f32,
     inverse_eccentricity: f32,
     /// `sqrt(k)`, and what brings the interpolation's variable to -1 to 1.
     scale: f32,
@@ -76,6 +88,7 @@ pub struct SlipMap {
     inside: Coefficients,
     first: [f32; POINTS],
     second: [f32; POINTS],
+    fifth: [f32; POINTS],
     /// `C3`, `C4`, `C5` of the far field's quartic.
     quartic: [f32; 3],
 }
@@ -165,18 +178,32 @@ impl SlipMap {
         let largest = LARGEST_ROOT / (LARGEST_ROOT + scale);
         let mut first = [0.0; POINTS];
         let mut second = [0.0; POINTS];
-        for ((point, first), second) in CHEBYSHEV.iter().zip(&mut first).zip(&mut second) {
+        let mut fifth = [0.0; POINTS];
+        for (point, ((first, second), fifth)) in CHEBYSHEV
+            .iter()
+            .zip(first.iter_mut().zip(&mut second).zip(&mut fifth))
+        {
             let part = 0.5 * (1.0 + point) * largest;
             let root = scale * part / (1.0 - part);
-            let (along, across) = integrals(square, root * root);
-            *first = along * (root + scale);
-            *second = across * (root + scale);
+            let lambda = root * root;
+            let (along, across) = integrals(square, lambda);
+            let stretch = root + scale;
+            *first = along * stretch;
+            *second = across * stretch;
+            let narrow = if lambda < square {
+                let (long, short) = (1.0 + lambda, square + lambda);
+                let weight = 2.0 * lambda * root / math::sqrt(long * short);
+                let both = (across - along) / ((1.0 - k) * (1.0 + k));
+                (across - both - weight / short) / (3.0 * square)
+            } else {
+                narrow_integral(square, root)
+            };
+            *fifth = narrow * (square + lambda) * stretch;
         }
         let (along, across) = integrals(square, 0.0);
         let mut map = Self {
             axis_ratio: k,
             square,
-            inverse_square: 1.0 / square,
             inverse_eccentricity: 1.0 / ((1.0 - k) * (1.0 + k)),
             scale,
             stretch: 2.0 / largest,
@@ -190,9 +217,11 @@ impl SlipMap {
             },
             first: divided_differences(first),
             second: divided_differences(second),
+            fifth: divided_differences(fifth),
             quartic: far_quartic(square),
         };
-        map.inside = map.complete(along, across, 0.0, 1.0, 1.0 / square);
+        let narrow = (across - (across - along) * map.inverse_eccentricity) / (3.0 * square);
+        map.inside = map.complete(along, across, narrow, 0.0, 1.0);
         Ok(map)
     }
 
@@ -384,13 +413,13 @@ impl SlipMap {
         let root = math::sqrt(lambda);
         let scaled = 1.0 / (root + self.scale);
         let place = self.stretch * (root * scaled) - 1.0;
-        let mut along = 0.0;
-        let mut across = 0.0;
-        let differences = self.first.iter().zip(&self.second);
-        for ((first, second), point) in differences.zip(&CHEBYSHEV).rev() {
+        let (mut along, mut across, mut narrow) = (0.0, 0.0, 0.0);
+        let differences = self.first.iter().zip(&self.second).zip(&self.fifth);
+        for (((first, second), fifth), point) in differences.zip(&CHEBYSHEV).rev() {
             let distance = place - point;
             along = along * distance + first;
             across = across * distance + second;
+            narrow = narrow * distance + fifth;
         }
         let (long, short) = (1.0 + lambda, self.square + lambda);
         let inverse = 1.0 / (long * short);
@@ -398,22 +427,24 @@ impl SlipMap {
         self.complete(
             along * scaled,
             across * scaled,
+            narrow * scaled * (long * inverse),
             weight,
             short * inverse,
-            long * inverse,
         )
     }
 
-    /// The other coefficients by parts, with `weight = 2 lambda T` and the reciprocals of `1 + lambda` and
-    /// `k² + lambda`.
+    /// The other coefficients by parts, with `weight = 2 lambda T` and the reciprocal of `1 + lambda`.
+    ///
+    /// `C5` by parts would be a difference divided by `k²`, which leaves nothing of it far from a slender
+    /// ellipse.
     #[inline]
     fn complete(
         &self,
         along: f32,
         across: f32,
+        across_across: f32,
         weight: f32,
         long: f32,
-        short: f32,
     ) -> Coefficients {
         let both = (across - along) * self.inverse_eccentricity;
         Coefficients {
@@ -422,7 +453,7 @@ impl SlipMap {
             across,
             along_along: (1.0 / 3.0) * (along - self.square * both - weight * long),
             both,
-            across_across: (1.0 / 3.0) * self.inverse_square * (across - both - weight * short),
+            across_across,
         }
     }
 }
@@ -478,6 +509,24 @@ fn integrals(square: f32, lambda: f32) -> (f32, f32) {
         first - (2.0 / 3.0) * long,
         first - (2.0 / 3.0) * square * short,
     )
+}
+
+/// `C5` from `lambda = root²` on, by Gauss-Legendre quadrature in `sqrt(s)`, panel by panel.
+fn narrow_integral(square: f32, root: f32) -> f32 {
+    let mut sum = 0.0;
+    let mut end = root;
+    for _ in 0..PANELS {
+        for (node, weight) in GAUSS {
+            let part = 0.5 * (1.0 + node);
+            let r = end * (1.0 + 0.5 * part);
+            let r2 = r * r;
+            let short = 1.0 / (square + r2);
+            let value = 2.0 * r2 * short * short * math::sqrt(short / (1.0 + r2));
+            sum += 0.25 * weight * end * value;
+        }
+        end *= 1.5;
+    }
+    sum
 }
 
 fn divided_differences(mut values: [f32; POINTS]) -> [f32; POINTS] {
