@@ -211,7 +211,7 @@ fn random() {
             let forces = [11, 12, 13, 14].map(|i| c[i] as f32);
             let contacts = ball.contacts(&angles, &forces);
             count += 1.0;
-            let mut s = ball.closed_form(&contacts);
+            let mut s = ball.start(&contacts);
             for k in 0..8 {
                 let e = f64::from(ball.orbital_speed(&s.motion)) - c[15];
                 let t = f64::from(s.groove_torque) / c[16] - 1.0;

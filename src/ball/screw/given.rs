@@ -13,7 +13,9 @@ pub const CONTACT_ANGLE_RANGE: (f32, f32) = (0.05, 1.5);
 /// Spin below which a contact sticks, over the nut's speed.
 pub(super) const STICK_SPIN: f32 = 0.01;
 
-const SEARCH: usize = 3;
+/// Parts of the way towards a corner that [`ScrewBall::start`] tries.
+const SEARCH: [f32; 3] = [0.5, 0.25, 0.1];
+
 /// Ratio of the other contacts' load to that of the loaded pair from which on they hold a ball for certain.
 const WEAK: f32 = 0.3;
 
@@ -241,54 +243,82 @@ impl ScrewBall {
     /// last element of the inverse.
     #[must_use]
     pub fn closed_form(&self, contacts: &ScrewContacts) -> ScrewBallState {
+        let pinned = self.pinned(contacts);
+        match contacts.weakly_held() {
+            None => pinned,
+            Some((screw, nut)) => self.least(contacts, &pinned, self.rolling(screw, nut)),
+        }
+    }
+
+    /// Where the impedance iteration starts: the closed form, and where the third contact is light, motions in
+    /// between.
+    ///
+    /// Between a ball that is pinned and one that rolls on two contacts lie those whose third contact slides. They
+    /// fill a triangle between the three motions of the closed form, in which the loss is convex: three times the
+    /// best one found moves towards a corner by a half, a quarter, a tenth of the way, where that is less. Eleven
+    /// to fourteen evaluations of the loss.
+    #[must_use]
+    pub fn start(&self, contacts: &ScrewContacts) -> ScrewBallState {
+        let pinned = self.pinned(contacts);
+        let Some((screw, nut)) = contacts.weakly_held() else {
+            return pinned;
+        };
+        let [on_screw, on_nut] = self.rolling(screw, nut);
+        let mut best = self.least(contacts, &pinned, [on_screw, on_nut]);
+        if contacts.loaded() > 2 {
+            for part in SEARCH {
+                let towards = |corner| best.motion.towards(corner, part);
+                let candidates = [&pinned.motion, &on_screw, &on_nut].map(towards);
+                best = self.least(contacts, &best, candidates);
+            }
+        }
+        best
+    }
+
+    /// The closed form where every contact that is loaded holds the ball.
+    fn pinned(&self, contacts: &ScrewContacts) -> ScrewBallState {
         let nominal = ScrewBallMotion {
             speed: 0.0,
             turn: [0.0, 0.5 * self.sin_lead, self.roll],
         };
-        let pinned = self.linear(contacts, &nominal);
-        let mut best = ScrewBallState {
-            groove_torque: self.groove_torque(contacts, &pinned.motion),
-            ..pinned
+        let state = self.linear(contacts, &nominal);
+        // Two contacts leave open how the ball turns about them.
+        let groove_torque = if contacts.loaded() > 2 {
+            self.groove_torque(contacts, &state.motion)
+        } else {
+            f32::MAX
         };
-        let Some((screw, nut)) = contacts.weakly_held() else {
-            return best;
-        };
-        if contacts.contact.iter().filter(|c| c.friction > 0.0).count() < 3 {
-            best.groove_torque = f32::INFINITY;
+        ScrewBallState {
+            groove_torque,
+            ..state
         }
-        let rolling = self.rolling(screw, nut);
-        let corners = [pinned.motion, rolling[0], rolling[1]];
-        let mut from = pinned.motion;
-        let mut least = best.groove_torque;
-        for motion in rolling {
-            let torque = self.groove_torque(contacts, &motion);
+    }
+
+    /// The state, or the motion with the least loss if that is less.
+    fn least<const N: usize>(
+        &self,
+        contacts: &ScrewContacts,
+        state: &ScrewBallState,
+        candidates: [ScrewBallMotion; N],
+    ) -> ScrewBallState {
+        let mut motion = state.motion;
+        let mut least = state.groove_torque;
+        for candidate in candidates {
+            let torque = self.groove_torque(contacts, &candidate);
             if torque < least {
                 least = torque;
-                from = motion;
+                motion = candidate;
             }
         }
-        let start = from;
-        for round in 0..SEARCH {
-            let part = [0.5, 0.25, 0.1][round];
-            let base = from;
-            for corner in corners {
-                let motion = base.towards(&corner, part);
-                let torque = self.groove_torque(contacts, &motion);
-                if torque < least {
-                    least = torque;
-                    from = motion;
-                }
-            }
-        }
-        let _ = start;
-        if from != pinned.motion {
-            let compliance = self.compliance(contacts, &from);
-            best = ScrewBallState {
+        if least < state.groove_torque {
+            let compliance = self.compliance(contacts, &motion);
+            ScrewBallState {
                 groove_torque: least,
-                ..self.state(from, compliance, 0.0)
-            };
+                ..self.state(motion, compliance, 0.0)
+            }
+        } else {
+            *state
         }
-        best
     }
 
     /// Slip and spin of the four contacts at a motion.
@@ -386,6 +416,10 @@ impl ScrewBallMotion {
 }
 
 impl ScrewContacts {
+    fn loaded(&self) -> usize {
+        self.contact.iter().filter(|c| c.friction > 0.0).count()
+    }
+
     /// The loaded pair, where the other contacts are too light to hold the ball for certain.
     fn weakly_held(&self) -> Option<(&Contact, &Contact)> {
         let [screw_left, screw_right, nut_left, nut_right] = &self.contact;
