@@ -1,9 +1,12 @@
 //! The ball of a ball screw: closed form and refined variant against the exact models.
 
 use epas_friction::{
-    BallScrew, BallScrewParameters, GrooveFit, GrooveSize, LoadShare, Material, ScrewRow,
+    BallScrew, BallScrewParameters, ContactAngle, Groove, GrooveFit, GrooveSize, HertzContact,
+    LoadShare, Material, Press, ScrewBall, ScrewChain, ScrewRow,
 };
-use epas_reference::friction::ball_screw_ball::ScrewTrack;
+use epas_reference::friction::ball_screw_ball::{
+    Groove as Flank, ScrewContact, ScrewTrack, motion_with_contacts,
+};
 use epas_reference::friction::ball_screw_closed::{ContactAngles, Support, ThreePointModel};
 use epas_reference::friction::contact_law::HertzLaw;
 use epas_reference::friction::linear_ball::EllipseLaw;
@@ -102,4 +105,296 @@ fn row_is_the_closed_form() {
             }
         }
     }
+}
+
+/// Errors of a sweep: no case above `bound`; largest, rms and mean are printed for the documentation.
+struct Errors {
+    name: String,
+    bound: f64,
+    max: f64,
+    squares: f64,
+    sum: f64,
+    count: f64,
+}
+
+impl Errors {
+    fn within(bound: f64, name: impl Into<String>) -> Self {
+        Self {
+            name: name.into(),
+            bound,
+            max: 0.0,
+            squares: 0.0,
+            sum: 0.0,
+            count: 0.0,
+        }
+    }
+
+    fn add(&mut self, error: f64, case: &str) {
+        assert!(
+            error.abs() <= self.bound,
+            "{}: {error:.2e} above {:.1e} in {case}",
+            self.name,
+            self.bound
+        );
+        self.max = self.max.max(error.abs());
+        self.squares += error * error;
+        self.sum += error;
+        self.count += 1.0;
+    }
+
+    fn rms(&self) -> f64 {
+        (self.squares / self.count).sqrt()
+    }
+
+    /// Largest rms and mean that are accepted.
+    fn finish(self, rms: f64, bias: f64) {
+        println!(
+            "{}: max {:.1e} rms {:.1e} mean {:+.1e} of {}",
+            self.name,
+            self.max,
+            self.rms(),
+            self.sum / self.count,
+            self.count
+        );
+        assert!(self.rms() <= rms, "{}: rms {:.2e}", self.name, self.rms());
+        assert!(
+            (self.sum / self.count).abs() <= bias,
+            "{}: mean {:.2e}",
+            self.name,
+            self.sum / self.count
+        );
+    }
+}
+
+/// Numbers between two limits, the same in every run.
+struct Random(u64);
+
+impl Random {
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        self.0 = self
+            .0
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        let unit = (self.0 >> 11) as f64 / (1_u64 << 53) as f64;
+        low + (high - low) * unit
+    }
+
+    fn design(&mut self) -> BallScrew {
+        let pitch_radius = self.between(5e-3, 40e-3);
+        let ball_radius = pitch_radius * self.between(0.1, 0.3);
+        let groove = GrooveSize::Conformity(self.between(0.515, 0.58) as f32);
+        BallScrew::new(BallScrewParameters {
+            pitch_radius: pitch_radius as f32,
+            lead: (pitch_radius * self.between(0.2, 1.8)) as f32,
+            ball_radius: ball_radius as f32,
+            screw_groove: groove,
+            nut_groove: groove,
+            contact_angle: self.between(0.61, 0.96) as f32,
+            ball_material: Material::STEEL,
+            groove_material: Material::STEEL,
+        })
+        .unwrap()
+    }
+
+    /// Angles that deviate by up to `deviation` from the design's, each on its own.
+    fn angles(&mut self, design: &BallScrew, deviation: f64) -> [f32; 4] {
+        let nominal = design.parameters().contact_angle;
+        [(); 4].map(|()| nominal + self.between(-deviation, deviation) as f32)
+    }
+
+    /// Forces of 2 to 200 N on one diagonal, and shares of them on the other one's screw and nut.
+    fn forces(&mut self, first: f64, second: f64) -> [f32; 4] {
+        let force = 2.0 * self.between(0.0, 100_f64.ln()).exp();
+        let near = force * self.between(0.97, 1.03);
+        let (first, second) = if self.between(0.0, 1.0) < 0.5 {
+            (first, second)
+        } else {
+            (second, first)
+        };
+        let forces = if self.between(0.0, 1.0) < 0.5 {
+            [force, first * force, second * force, near]
+        } else {
+            [first * force, force, near, second * force]
+        };
+        forces.map(|force| force as f32)
+    }
+}
+
+fn track(design: &BallScrew) -> ScrewTrack {
+    ScrewTrack {
+        pitch_radius: f64::from(design.pitch_radius()),
+        lead: f64::from(design.lead()),
+        ball_radius: f64::from(design.ball_radius()),
+    }
+}
+
+/// The same contacts for the exact model, each with the ellipse of its own contact angle.
+fn exact_contacts(design: &BallScrew, angles: &[f32; 4], forces: &[f32; 4]) -> Vec<ScrewContact> {
+    let grooves = [Groove::Screw, Groove::Screw, Groove::Nut, Groove::Nut];
+    let given = Flank::ALL
+        .into_iter()
+        .zip(grooves)
+        .zip(angles.iter().zip(forces));
+    given
+        .filter(|(_, (_, force))| **force > 0.0)
+        .map(|((flank, groove), (angle, force))| {
+            let contact = HertzContact::of_at(design, groove, ContactAngle::new(*angle));
+            ScrewContact {
+                groove: flank,
+                load: f64::from(*force),
+                contact_angle: f64::from(*angle),
+                ellipse: EllipseLaw {
+                    semi_major_constant: f64::from(contact.semi_major_coefficient()),
+                    axis_ratio: f64::from(contact.axis_ratio()),
+                },
+            }
+        })
+        .collect()
+}
+
+/// Forces of an open row of balls.
+fn press<const N: usize>(free: &[f32; N], compliance: &[f32; N], forces: &mut [f32; N]) {
+    let mut press = Press::<N>::new();
+    let mut room = [0.0; N];
+    room[N - 1] = f32::INFINITY;
+    assert!(press.solve(free, &compliance.map(|y| 1.0 / y), &room));
+    for (force, found) in forces.iter_mut().zip(press.forces()) {
+        *force = found;
+    }
+}
+
+/// One kind of contact: shares of the other diagonal's two contacts as ranges, and bounds of the orbital
+/// speed's error (largest, rms) and of the groove torque's after 0, 1, 2, ... impedance steps.
+struct Kind {
+    name: &'static str,
+    deviation: f64,
+    first: (f64, f64),
+    second: (f64, f64),
+    speed: [(f64, f64); 6],
+    torque: [(f64, f64); 6],
+}
+
+fn sweep(kind: &Kind, closed: bool) {
+    let mut random = Random(7);
+    let errors = |quantity: &str, bounds: &[(f64, f64); 6]| -> Vec<Errors> {
+        bounds
+            .iter()
+            .enumerate()
+            .map(|(steps, bound)| {
+                Errors::within(
+                    bound.0,
+                    format!("{}, {quantity} after {steps} steps", kind.name),
+                )
+            })
+            .collect()
+    };
+    let mut speed = errors("orbital speed", &kind.speed);
+    let mut torque = errors("groove torque", &kind.torque);
+    for _ in 0..60 {
+        let design = random.design();
+        let friction = random.between(0.03, 0.2) as f32;
+        let angles = random.angles(&design, kind.deviation);
+        let first = random.between(kind.first.0, kind.first.1);
+        let second = random.between(kind.second.0, kind.second.1);
+        let scale = if second > 0.0 {
+            1.0
+        } else {
+            f64::from(friction)
+        };
+        let forces = random.forces(scale * first, scale * second);
+        let case = format!(
+            "{:?}, friction {friction}, angles {angles:?}, forces {forces:?}",
+            design.parameters()
+        );
+        let exact = motion_with_contacts(
+            &track(&design),
+            &exact_contacts(&design, &angles, &forces),
+            f64::from(friction),
+            1.0,
+        )
+        .expect(&case);
+
+        let ball = ScrewBall::new(&design, friction).unwrap();
+        let contacts = ball.contacts(&angles, &forces);
+        let mut state = if closed {
+            ball.closed_form(&contacts)
+        } else {
+            ball.start(&contacts)
+        };
+        for (speed, torque) in speed.iter_mut().zip(&mut torque) {
+            let found = f64::from(ball.orbital_speed(&state.motion));
+            speed.add(found - exact.orbital_speed, &case);
+            torque.add(
+                f64::from(state.groove_torque) / exact.power_loss - 1.0,
+                &case,
+            );
+            state = ball.step(&contacts, &state, 0.0);
+        }
+    }
+    for (errors, (max, rms)) in speed
+        .into_iter()
+        .zip(kind.speed)
+        .chain(torque.into_iter().zip(kind.torque))
+    {
+        errors.finish(rms, 0.5 * max);
+    }
+}
+
+const ANY: [(f64, f64); 6] = [(9.0, 9.0); 6];
+
+#[test]
+fn four_given_contacts() {
+    for (degrees, name) in [
+        (1.0_f64, "four contacts, 1 degree"),
+        (3.0, "four contacts, 3 degrees"),
+    ] {
+        sweep(
+            &Kind {
+                name,
+                deviation: degrees.to_radians(),
+                first: (0.1, 1.0),
+                second: (0.1, 1.0),
+                speed: ANY,
+                torque: ANY,
+            },
+            true,
+        );
+    }
+}
+
+#[test]
+fn three_given_contacts() {
+    for (first, name) in [
+        ((0.5, 1.4), "pinned third contact"),
+        ((0.02, 0.5), "light third contact"),
+    ] {
+        for closed in [true, false] {
+            sweep(
+                &Kind {
+                    name: if closed { name } else { "from the start" },
+                    deviation: 3_f64.to_radians(),
+                    first,
+                    second: (0.0, 0.0),
+                    speed: ANY,
+                    torque: ANY,
+                },
+                closed,
+            );
+        }
+    }
+}
+
+#[test]
+fn two_given_contacts() {
+    sweep(
+        &Kind {
+            name: "two contacts",
+            deviation: 3_f64.to_radians(),
+            first: (0.0, 0.0),
+            second: (0.0, 0.0),
+            speed: ANY,
+            torque: ANY,
+        },
+        true,
+    );
 }
