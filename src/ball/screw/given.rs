@@ -16,6 +16,9 @@ pub(super) const STICK_SPIN: f32 = 0.01;
 /// Parts of the way towards a corner that [`ScrewBall::start`] tries.
 const SEARCH: [f32; 3] = [0.5, 0.25, 0.1];
 
+/// Times that the closed form shares the slip across the track between the races.
+const SHARINGS: u8 = 2;
+
 /// Ratio of the other contacts' load to that of the loaded pair from which on they hold a ball for certain.
 const WEAK: f32 = 0.3;
 
@@ -277,10 +280,7 @@ impl ScrewBall {
 
     /// The closed form where every contact that is loaded holds the ball.
     fn pinned(&self, contacts: &ScrewContacts) -> ScrewBallState {
-        let nominal = ScrewBallMotion {
-            speed: 0.0,
-            turn: [0.0, 0.5 * self.sin_lead, self.roll],
-        };
+        let nominal = self.shared(contacts);
         let state = self.linear(contacts, &nominal);
         // Two contacts leave open how the ball turns about them.
         let groove_torque = if contacts.loaded() > 2 {
@@ -292,6 +292,31 @@ impl ScrewBall {
             groove_torque,
             ..state
         }
+    }
+
+    /// Nominal rolling, with the slip across the track shared by screw and nut as their impedances against it
+    /// ask for.
+    fn shared(&self, contacts: &ScrewContacts) -> ScrewBallMotion {
+        let mut nominal = ScrewBallMotion {
+            speed: 0.0,
+            turn: [0.0, 0.5 * self.sin_lead, self.roll],
+        };
+        for _ in 0..SHARINGS {
+            let (mut all, mut nut) = (1e-9, 0.5e-9);
+            for (contact, race) in contacts.contact.iter().zip(self.races()) {
+                if contact.friction > 0.0 {
+                    let at = contact.at(&nominal);
+                    let slip = at.across.abs() + 1e-6;
+                    let rim = contact.semi_major * (at.spin.abs() + STICK_SPIN);
+                    let impedance = contact.friction * race.map.across(slip, rim).share / slip;
+                    all += impedance;
+                    nut += race.speed * impedance;
+                }
+            }
+            let [_, y, _] = &mut nominal.turn;
+            *y = self.sin_lead * (nut / all);
+        }
+        nominal
     }
 
     /// The state, or the motion with the least loss if that is less.
