@@ -13,6 +13,12 @@ pub const CONTACT_ANGLE_RANGE: (f32, f32) = (0.05, 1.5);
 /// Spin below which a contact sticks, over the nut's speed.
 pub(super) const STICK_SPIN: f32 = 0.01;
 
+/// Sum of speeds that no ball reaches: ball radii and radians per radian of the nut.
+const LARGEST_MOTION: f32 = 1e6;
+
+/// Smallest contact force, N: below it a contact is lost.
+const LEAST_FORCE: f32 = 1e-9;
+
 /// Parts of the way towards a corner that [`ScrewBall::start`] tries.
 const SEARCH: [f32; 3] = [0.5, 0.25, 0.1];
 
@@ -194,8 +200,8 @@ impl ScrewBall {
 
     /// Contacts from their angles, rad, and forces, N, in the order SL, SR, NL, NR.
     ///
-    /// Angles outside [`CONTACT_ANGLE_RANGE`] are taken at its ends, NaN at the lower one; a force up to
-    /// zero, above 1e7 N, or NaN is a lost contact. Ellipses are those of the nominal contact angle.
+    /// Angles outside [`CONTACT_ANGLE_RANGE`] are taken at its ends, NaN at the lower one; a force below
+    /// 1e-9 N, above 1e7 N, or NaN is a lost contact. Ellipses are those of the nominal contact angle.
     #[must_use]
     pub fn contacts(&self, contact_angles: &[f32; 4], contact_forces: &[f32; 4]) -> ScrewContacts {
         let (least, most) = CONTACT_ANGLE_RANGE;
@@ -221,8 +227,10 @@ impl ScrewBall {
             contact.along = self.nominal_speed - race.speed * (self.path + self.cos_lead * nx);
             contact.across = -race.speed * self.sin_lead;
             contact.spin = -race.speed * self.cos_lead * nz;
-            contact.friction = self.friction * force;
-            contact.semi_major = race.semi_major * (force * root * root);
+            if force >= LEAST_FORCE {
+                contact.friction = self.friction * force;
+                contact.semi_major = race.semi_major * (force * root * root);
+            }
         }
         ScrewContacts { contact }
     }
@@ -291,6 +299,21 @@ impl ScrewBall {
         ScrewBallState {
             groove_torque,
             ..state
+        }
+    }
+
+    /// A motion as it is; one that is no number, or of a ball that nothing holds, becomes nominal rolling.
+    #[inline]
+    pub(super) fn sound(&self, motion: ScrewBallMotion) -> ScrewBallMotion {
+        let [x, y, z] = motion.turn;
+        // False for NaN.
+        if motion.speed.abs() + x.abs() + y.abs() + z.abs() < LARGEST_MOTION {
+            motion
+        } else {
+            ScrewBallMotion {
+                speed: 0.0,
+                turn: [0.0, 0.5 * self.sin_lead, self.roll],
+            }
         }
     }
 

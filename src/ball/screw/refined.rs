@@ -15,6 +15,9 @@ const STEP_LIMIT: f32 = 3.0;
 const REACH_ALONG: f32 = 0.6;
 const REACH_ACROSS: f32 = 1.0;
 
+/// Largest force along the track that counts, N.
+const LARGEST_FORCE: f32 = 1e7;
+
 /// Impedance that keeps a rotation as it is, N.
 const HELD: f32 = 1e12;
 
@@ -129,7 +132,7 @@ impl ScrewBall {
     /// than 0.6 of what it has and of what saturates its friction.
     ///
     /// `force`, N, is the net force of the neighbours along the track in the direction of positive nut speed; a
-    /// number that is not finite counts as zero.
+    /// number that is not finite, or above 1e7, counts as zero.
     #[must_use]
     pub fn step(
         &self,
@@ -137,7 +140,11 @@ impl ScrewBall {
         state: &ScrewBallState,
         force: f32,
     ) -> ScrewBallState {
-        let force = if force.is_finite() { force } else { 0.0 };
+        let force = if force.abs() <= LARGEST_FORCE {
+            force
+        } else {
+            0.0
+        };
         let proposal = self.propose(contacts, &state.motion, &[0.0; 4]);
         self.advance(contacts, &state.motion, &proposal, force, &[0.0; 4])
     }
@@ -323,10 +330,10 @@ impl ScrewBall {
         }
         let scale = allowed / wanted;
         let [turn_x, turn_y, turn_z] = motion.turn;
-        let motion = ScrewBallMotion {
+        let motion = self.sound(ScrewBallMotion {
             speed: motion.speed + scale * speed,
             turn: [turn_x + scale * x, turn_y + scale * y, turn_z + scale * z],
-        };
+        });
         // Loss after the step: with outer forces L and H dy = L - g it changes by scale g dy +
         // scale²/2 (L - g) dy.
         let pull = decrement + force * (2.0 * free.speed + force * column.speed);
