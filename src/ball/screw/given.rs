@@ -257,7 +257,10 @@ impl ScrewBall {
         let pinned = self.pinned(contacts);
         match contacts.weakly_held() {
             None => pinned,
-            Some((screw, nut)) => self.least(contacts, &pinned, self.rolling(screw, nut)),
+            Some((screw, nut)) => {
+                let rolling = self.rolling(screw, nut);
+                self.least(contacts, &contacts.unheld(pinned), rolling)
+            }
         }
     }
 
@@ -275,7 +278,7 @@ impl ScrewBall {
             return pinned;
         };
         let [on_screw, on_nut] = self.rolling(screw, nut);
-        let mut best = self.least(contacts, &pinned, [on_screw, on_nut]);
+        let mut best = self.least(contacts, &contacts.unheld(pinned), [on_screw, on_nut]);
         if contacts.loaded() > 2 {
             for part in SEARCH {
                 let towards = |corner| best.motion.towards(corner, part);
@@ -290,14 +293,8 @@ impl ScrewBall {
     fn pinned(&self, contacts: &ScrewContacts) -> ScrewBallState {
         let nominal = self.shared(contacts);
         let state = self.linear(contacts, &nominal);
-        // Two contacts leave open how the ball turns about them.
-        let groove_torque = if contacts.loaded() > 2 {
-            self.groove_torque(contacts, &state.motion)
-        } else {
-            f32::MAX
-        };
         ScrewBallState {
-            groove_torque,
+            groove_torque: self.groove_torque(contacts, &state.motion),
             ..state
         }
     }
@@ -478,7 +475,20 @@ impl ScrewContacts {
         } else {
             (up, down, (screw_right, nut_left))
         };
-        (weak < WEAK * strong).then_some(pair)
+        let both = pair.0.friction > 0.0 && pair.1.friction > 0.0;
+        (both && weak < WEAK * strong).then_some(pair)
+    }
+
+    /// Two contacts leave open how the ball turns: the state in which they would hold it counts for nothing.
+    fn unheld(&self, pinned: ScrewBallState) -> ScrewBallState {
+        if self.loaded() > 2 {
+            pinned
+        } else {
+            ScrewBallState {
+                groove_torque: f32::MAX,
+                ..pinned
+            }
+        }
     }
 }
 

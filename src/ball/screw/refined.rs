@@ -145,8 +145,9 @@ impl ScrewBall {
         } else {
             0.0
         };
-        let proposal = self.propose(contacts, &state.motion, &[0.0; 4]);
-        self.advance(contacts, &state.motion, &proposal, force, &[0.0; 4])
+        let motion = self.sound(state.motion);
+        let proposal = self.propose(contacts, &motion, &[0.0; 4]);
+        self.advance(contacts, &motion, &proposal, force, &[0.0; 4])
     }
 
     /// Motion and compliance where all contacts have the impedances of rolling.
@@ -330,10 +331,10 @@ impl ScrewBall {
         }
         let scale = allowed / wanted;
         let [turn_x, turn_y, turn_z] = motion.turn;
-        let motion = self.sound(ScrewBallMotion {
+        let motion = ScrewBallMotion {
             speed: motion.speed + scale * speed,
             turn: [turn_x + scale * x, turn_y + scale * y, turn_z + scale * z],
-        });
+        };
         // Loss after the step: with outer forces L and H dy = L - g it changes by scale g dy +
         // scale²/2 (L - g) dy.
         let pull = decrement + force * (2.0 * free.speed + force * column.speed);
