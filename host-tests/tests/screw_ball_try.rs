@@ -203,6 +203,7 @@ fn random() {
         let mut worst = [(0.0f64, 0.0f64, 0.0f64); 8];
         let mut torque = [(0.0f64, 0.0f64, 0.0f64); 8];
         let mut bad = [0; 8];
+        let mut sol = vec![];
         let mut count = 0.0;
         for c in all.iter().filter(|c| c[0] as i32 == points) {
             let d = design(c[1], c[2], c[3], c[4], c[5]);
@@ -211,7 +212,16 @@ fn random() {
             let forces = [11, 12, 13, 14].map(|i| c[i] as f32);
             let contacts = ball.contacts(&angles, &forces);
             count += 1.0;
-            let mut s = ball.closed_form(&contacts);
+            let z = ball.solve(&contacts);
+            let e = (f64::from(ball.orbital_speed(&z.motion)) - c[15]).abs();
+            sol.push(e);
+            if e > 2e-4 {
+                println!(
+                    "sol {points} {e:.1e} {:.1e}",
+                    f64::from(z.groove_torque) / c[16] - 1.0
+                );
+            }
+            let mut s = ball.start(&contacts);
             for k in 0..8 {
                 let e = f64::from(ball.orbital_speed(&s.motion)) - c[15];
                 let t = f64::from(s.groove_torque) / c[16] - 1.0;
@@ -232,6 +242,12 @@ fn random() {
                 s = ball.step(&contacts, &s, 0.0);
             }
         }
+        println!(
+            "SOL {points} max {:.1e} rms {:.1e} bad {}",
+            sol.iter().fold(0.0f64, |a, b| a.max(*b)),
+            (sol.iter().map(|x| x * x).sum::<f64>() / count).sqrt(),
+            sol.iter().filter(|x| **x > 2e-4).count()
+        );
         for k in 0..8 {
             println!(
                 "points {points} step {k}: speed max {:.1e} rms {:.1e} mean {:+.1e} bad {}/{count}; torque max {:.1e} rms {:.1e} mean {:+.1e}",

@@ -92,6 +92,9 @@ impl ScrewBall {
             rubbing,
             proposals,
         } = chain;
+        for state in states.iter_mut() {
+            state.motion = self.sound(state.motion);
+        }
         self.rub(states, forces, ball_friction, rubbing);
 
         let given = contacts.iter().zip(states.iter()).zip(rubbing.iter());

@@ -10,12 +10,16 @@ pub const DEFAULT_IMPEDANCE_STEPS: u8 = 4;
 const STEP_LIMIT: f32 = 3.0;
 
 /// Longest change of a contact's slip in one step, over the slip it has and that at which its velocity
-/// centre reaches the end of the ellipse.
-const REACH: f32 = 0.6;
+/// centre reaches the rim of the ellipse: friction saturates there, and a longer step relies on an
+/// impedance that is not there.
+const REACH_ALONG: f32 = 0.6;
+const REACH_ACROSS: f32 = 1.0;
 
-const ACROSS: f32 = 1.0;
-/// The reach of a lost contact.
-const ANY: f32 = 1e9;
+/// Largest force along the track that counts, N.
+const LARGEST_FORCE: f32 = 1e7;
+
+/// Impedance that keeps a rotation as it is, N.
+const HELD: f32 = 1e12;
 
 /// Least impedance of a contact that slides, over force over slip.
 const LEAST_STIFFNESS: f32 = 0.05;
@@ -37,8 +41,26 @@ pub(super) struct Proposal {
     /// `(outer forces - gradient)` times the free step.
     decrement: f32,
     /// Longest changes of the contacts' slips.
-    reach: [f32; 4],
-    across_reach: [f32; 4],
+    reach: [Reach; 4],
+}
+
+/// Longest change of one contact's slip.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+struct Reach {
+    along: f32,
+    across: f32,
+    /// Part of the semi-major axis times the change of the spin that adds to `across`.
+    narrow: f32,
+}
+
+impl Reach {
+    /// That of a lost contact.
+    const ANY: Self = Self {
+        along: 1e9,
+        across: 1e9,
+        narrow: 0.0,
+    };
 }
 
 /// Change of `(speed, Omega_x, Omega_y, Omega_z)`.
@@ -66,19 +88,18 @@ impl Proposal {
         free: Step::ZERO,
         column: Step::ZERO,
         decrement: 0.0,
-        reach: [ANY; 4],
-        across_reach: [ANY; 4],
+        reach: [Reach::ANY; 4],
     };
 }
 
 impl ScrewBall {
-    /// Motion after the closed form and [`DEFAULT_IMPEDANCE_STEPS`] impedance steps, with no force from
+    /// Motion after [`ScrewBall::start`] and [`DEFAULT_IMPEDANCE_STEPS`] impedance steps, with no force from
     /// neighbours: what to set a ball to before the first tick.
     #[must_use]
     pub fn solve(&self, contacts: &ScrewContacts) -> ScrewBallState {
         self.refine(
             contacts,
-            &self.closed_form(contacts),
+            &self.start(contacts),
             0.0,
             DEFAULT_IMPEDANCE_STEPS,
         )
@@ -111,7 +132,7 @@ impl ScrewBall {
     /// than 0.6 of what it has and of what saturates its friction.
     ///
     /// `force`, N, is the net force of the neighbours along the track in the direction of positive nut speed; a
-    /// number that is not finite counts as zero.
+    /// number that is not finite, or above 1e7, counts as zero.
     #[must_use]
     pub fn step(
         &self,
@@ -119,9 +140,14 @@ impl ScrewBall {
         state: &ScrewBallState,
         force: f32,
     ) -> ScrewBallState {
-        let force = if force.is_finite() { force } else { 0.0 };
-        let proposal = self.propose(contacts, &state.motion, &[0.0; 4]);
-        self.advance(contacts, &state.motion, &proposal, force, &[0.0; 4])
+        let force = if force.abs() <= LARGEST_FORCE {
+            force
+        } else {
+            0.0
+        };
+        let motion = self.sound(state.motion);
+        let proposal = self.propose(contacts, &motion, &[0.0; 4]);
+        self.advance(contacts, &motion, &proposal, force, &[0.0; 4])
     }
 
     /// Motion and compliance where all contacts have the impedances of rolling.
@@ -131,16 +157,11 @@ impl ScrewBall {
         motion: &ScrewBallMotion,
     ) -> ScrewBallState {
         let proposal = self.linearised(contacts, motion, &[0.0; 4], true);
-        self.advance(
-            contacts,
-            motion,
-            &Proposal {
-                reach: [ANY; 4],
-                ..proposal
-            },
-            0.0,
-            &[0.0; 4],
-        )
+        let unbounded = Proposal {
+            reach: [Reach::ANY; 4],
+            ..proposal
+        };
+        self.advance(contacts, motion, &unbounded, 0.0, &[0.0; 4])
     }
 
     /// Compliance of the speed along the track at a motion.
@@ -169,18 +190,16 @@ impl ScrewBall {
         rolling: bool,
     ) -> Proposal {
         let mut power = 0.0;
-        let mut reach = [ANY; 4];
-        let mut across_reach = [ANY; 4];
+        let mut reach = [Reach::ANY; 4];
         let mut system = System::EMPTY;
         // Row of Omega_y in the system, and its right side.
         let mut cross = Vector::ZERO;
-        let mut own = 1e-9;
+        // The closed form holds it: the two races share the slip across the track.
+        let mut own = if rolling { HELD } else { 1e-9 };
         let [along_track, x, y, z] = *rubbing;
         let mut right = y;
         let grooves = contacts.contact.iter().zip(self.races());
-        for (((contact, race), reach), across_reach) in
-            grooves.zip(&mut reach).zip(&mut across_reach)
-        {
+        for ((contact, race), reach) in grooves.zip(&mut reach) {
             if contact.friction > 0.0 {
                 let (nx, nz) = contact.arm;
                 let slip = contact.at(motion);
@@ -194,8 +213,12 @@ impl ScrewBall {
                 let weight = contact.friction;
                 power += weight * at.power;
                 let size = slip.along.abs();
-                *reach = REACH * (at.rim + size);
-                *across_reach = ACROSS * (at.rim * race.map.axis_ratio() + slip.across.abs());
+                let narrow = REACH_ACROSS * race.map.axis_ratio();
+                *reach = Reach {
+                    along: REACH_ALONG * (at.rim + size),
+                    across: narrow * at.rim + REACH_ACROSS * slip.across.abs(),
+                    narrow,
+                };
 
                 let force = if rolling {
                     at.stiffness_along * slip.along
@@ -263,7 +286,6 @@ impl ScrewBall {
             column: complete(factors.speed_column(), 0.0),
             decrement: whole.dot(found) + right * free.y,
             reach,
-            across_reach,
         }
     }
 
@@ -282,7 +304,6 @@ impl ScrewBall {
             column,
             decrement,
             reach,
-            across_reach,
         } = proposal;
         let speed = free.speed + force * column.speed;
         let x = free.x + force * column.x;
@@ -294,26 +315,18 @@ impl ScrewBall {
         } else {
             (1.0, 1.0)
         };
-        for ((contact, &reach), &across_reach) in
-            contacts.contact.iter().zip(reach).zip(across_reach)
-        {
+        for (contact, reach) in contacts.contact.iter().zip(reach) {
             let (nx, nz) = contact.arm;
             let change = (speed + nx * z - nz * x).abs();
+            // A contact that starts to spin takes more slip before it saturates.
             let spun = contact.semi_major * (nx * x + nz * z).abs();
-            let before = reach;
-            let reach = reach + if reach < ANY { REACH * spun } else { 0.0 };
-            if allowed * change > wanted * reach {
-                (allowed, wanted) = (reach, change);
+            let along = reach.along + REACH_ALONG * spun;
+            if allowed * change > wanted * along {
+                (allowed, wanted) = (along, change);
             }
-            let change = y.abs();
-            let across_reach = across_reach
-                + if before < ANY {
-                    ACROSS * 0.2 * spun
-                } else {
-                    0.0
-                };
-            if allowed * change > wanted * across_reach {
-                (allowed, wanted) = (across_reach, change);
+            let across = reach.across + reach.narrow * spun;
+            if allowed * y.abs() > wanted * across {
+                (allowed, wanted) = (across, y.abs());
             }
         }
         let scale = allowed / wanted;
