@@ -165,7 +165,7 @@ pub fn whole_screw<const N: usize>() -> Result<FrictionModel<UncagedBallScrew<N>
         friction: FRICTION as f32,
         ball_friction: FRICTION as f32,
         fit: GrooveFit::Zero,
-        turns: 2.0 * N as f32 / 37.0,
+        turns: (2.0 * N as f32 / 37.0).max(0.11),
         return_length: 0.0,
         screw_deviation: &SCREW_DEVIATION,
         nut_deviation: &DeviationMap::NONE,

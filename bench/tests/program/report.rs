@@ -33,6 +33,11 @@ fn the_report_reproduces_the_printed_tables_and_writes_every_figure() {
         "efficiency_figure_6",
         "efficiency_figure_7",
         "hertz",
+        "linear_ball_error_against_time",
+        "linear_ball_errors",
+        "linear_pair_errors",
+        "screw_ball_error_against_time",
+        "train_times_picture",
     ];
     for figure in figures {
         assert!(read(&format!("{figure}.svg")).starts_with("<svg"));
@@ -45,6 +50,11 @@ fn the_report_reproduces_the_printed_tables_and_writes_every_figure() {
         "summary",
         "curvature_times",
         "kernels",
+        "linear_ball",
+        "linear_ball_published",
+        "screw_ball",
+        "pair_times",
+        "train_times",
     ] {
         let rows = json[table]["rows"].as_array().unwrap();
         assert!(!rows.is_empty());
