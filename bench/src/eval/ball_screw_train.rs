@@ -58,7 +58,7 @@ struct Request {
 struct Contact {
     groove: Groove,
     load: f64,
-    contact_angle: f64,
+    angle: f64,
 }
 
 /// Answers one request.
@@ -93,7 +93,7 @@ fn contacts(mut ball: Fields) -> Result<Vec<Contact>, BadField> {
             contacts.push(Contact {
                 groove,
                 load: contact.number("load")?,
-                contact_angle: contact.number("contact_angle")?,
+                angle: contact.number("contact_angle")?,
             });
             contact.finish()?;
         }
@@ -140,7 +140,7 @@ impl Request {
         for (index, ball) in self.balls.iter().enumerate() {
             for contact in ball {
                 in_range("load", contact.load, 0.0, 1e7)
-                    .and_then(|_| in_range("contact_angle", contact.contact_angle, 0.05, 1.5))
+                    .and_then(|_| in_range("contact_angle", contact.angle, 0.05, 1.5))
                     .map_err(|error| error.of_ball(index))?;
             }
         }
@@ -172,7 +172,7 @@ impl Request {
             let (mut angles, mut loads) = ([0.0; 4], [0.0; 4]);
             for contact in request {
                 let flank = contact.groove as usize;
-                (angles[flank], loads[flank]) = (contact.contact_angle as f32, contact.load as f32);
+                (angles[flank], loads[flank]) = (contact.angle as f32, contact.load as f32);
             }
             contacts[place] = ball.contacts(&angles, &loads);
             states[place] = ball.solve(&contacts[place]);
@@ -239,12 +239,7 @@ impl Request {
 
     /// The crate's ball, with the mean contact angle for its nominal one.
     fn ball(&self) -> Result<ScrewBall, BadField> {
-        let angles = || {
-            self.balls
-                .iter()
-                .flatten()
-                .map(|contact| contact.contact_angle)
-        };
+        let angles = || self.balls.iter().flatten().map(|contact| contact.angle);
         let mean = angles().sum::<f64>() / angles().count() as f64;
         let material = Material {
             youngs_modulus: self.youngs_modulus as f32,
@@ -294,7 +289,7 @@ impl Request {
                         Ok(ScrewContact {
                             groove: contact.groove,
                             load: contact.load,
-                            contact_angle: contact.contact_angle,
+                            contact_angle: contact.angle,
                             ellipse: self
                                 .ellipse(contact)
                                 .map_err(|error| error.of_ball(index))?,
@@ -322,7 +317,7 @@ impl Request {
     /// at the contact's own angle.
     fn ellipse(&self, contact: &Contact) -> Result<EllipseLaw, BadField> {
         let clearance = self.groove_radius - self.ball_radius;
-        let (sin, cos) = contact.contact_angle.sin_cos();
+        let (sin, cos) = contact.angle.sin_cos();
         let surface = Surface {
             groove: match contact.groove {
                 Groove::ScrewLeft | Groove::ScrewRight => curvature::Groove::Screw,
@@ -335,9 +330,9 @@ impl Request {
             offset_l: clearance * sin,
         };
         surface
-            .check(contact.contact_angle)
+            .check(contact.angle)
             .map_err(|error| BadField::from(error).renamed("offset_h", "groove_radius"))?;
-        let groove = surface.principal(contact.contact_angle);
+        let groove = surface.principal(contact.angle);
         let material = (self.youngs_modulus, self.poisson_ratio);
         let ball = 1.0 / self.ball_radius;
         let hertz = Hertz::new(

@@ -108,13 +108,12 @@ fn screw_pair(race: &mut Race, list: &mut List) -> Result<(), Failure> {
     let contacts =
         move |pair: [Loads; 2]| pair.map(|loads| ball.contacts(&loads.angles, &loads.forces));
     let mut press = Press::<2>::new();
-    let mut pool = move |free: &[f32; 2], compliance: &[f32; 2], forces: &mut [f32; 2]| {
+    let pool = move |free: &[f32; 2], compliance: &[f32; 2], forces: &mut [f32; 2]| {
         press.solve(free, &compliance.map(f32::recip), &OPEN);
         for (place, force) in forces.iter_mut().zip(press.forces()) {
             *place = force;
         }
     };
-    let (mut closed_pool, mut warm_pool) = (pool, pool);
     let mut warm = ScrewChain::<2>::new([ball.solve(&contacts([screw_loads(0.0); 2])[0]); 2]);
     Group::new(
         race,
@@ -131,18 +130,18 @@ fn screw_pair(race: &mut Race, list: &mut List) -> Result<(), Failure> {
     .time("screw_closed_pair", move |pair| {
         let contacts = contacts(pair);
         let mut chain = ScrewChain::new(contacts.map(|contacts| ball.closed_form(&contacts)));
-        ball.press_chain(&mut chain, 1.0, &mut closed_pool);
+        ball.press_chain(&mut chain, 1.0, pool);
         chain.forces[0]
     })
     .time("screw_warm_pair", move |pair| {
-        ball.refine_chain(&contacts(pair), &mut warm, 1.0, friction, &mut warm_pool);
+        ball.refine_chain(&contacts(pair), &mut warm, 1.0, friction, pool);
         warm.forces[0]
     })
     .time("screw_cold_pair", move |pair| {
         let contacts = contacts(pair);
         let mut chain = ScrewChain::new(contacts.map(|contacts| ball.start(&contacts)));
         for _ in 0..3 {
-            ball.refine_chain(&contacts, &mut chain, 1.0, friction, &mut pool);
+            ball.refine_chain(&contacts, &mut chain, 1.0, friction, pool);
         }
         chain.forces[0]
     });
