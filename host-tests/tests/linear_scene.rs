@@ -216,14 +216,14 @@ fn groove_friction_is_the_spin_of_all_contacts() {
         println!("{normal} N, {side} N: {exact:.6} N, error {error:.1e}");
         // The exact ball rolls slower by a part d of its spin, because that saves spin in proportion to d and
         // costs slip in proportion to d² only: at its best M(0)/f'(0) (a tan(beta)/R_B)²/2 of the loss, which
-        // the closed form leaves out. Between unequal diagonals a yaw
-        // saves in the same way. On top, f32 and the fitted moment: exact at pure spin.
+        // the closed form leaves out. Between unequal diagonals a yaw saves in the same way. On top, f32 and the fitted moment: exact at pure spin.
         let map = FrictionMap::new(contact.axis_ratio()).unwrap();
         let semi_major = f64::from(contact.semi_major_coefficient()) * f64::max(up, down).cbrt();
         let saved =
             0.5 * f64::from(map.spin_moment() / map.slope()) * (semi_major / BALL_RADIUS).powi(2);
+        let ways = if side == 0.0 { 1.05 } else { 4.0 };
         assert!(
-            error > 0.0 && error < 1.05 * saved + 2e-6,
+            error > 0.0 && error < ways * saved + 2e-6,
             "{error:e} {saved:e}"
         );
         assert_eq!(output.contacts, 0);
