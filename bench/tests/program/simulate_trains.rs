@@ -119,7 +119,7 @@ fn a_linear_bearing_runs_there_and_back() {
         .map(|i| {
             let time = f64::from(i) * 1e-3;
             let speed = 0.3 * (6.0 * time).cos();
-            format!("{time},{speed},{},{}\n", 800, 100)
+            format!("{time},{speed},800,500\n")
         })
         .collect();
     let trace = format!("time,speed,normal_load,side_load\n{trace}");
