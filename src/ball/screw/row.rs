@@ -13,6 +13,9 @@ const LARGEST_DEVIATION: f32 = 0.2;
 /// Smallest load per ball, N: below it a ball keeps the motion and the compliance that it has there.
 const SMALLEST_LOAD: f32 = 1e-3;
 
+/// Load of a light contact below which it does not count, over that of the main contacts.
+const LEAST_LOAD: f32 = 1e-6;
+
 /// Ratio of load difference to preload at which the unloaded diagonal loses contact: `2^(3/2)`.
 const LOST: f32 = 2.828_427_1;
 
@@ -95,6 +98,7 @@ pub struct ScrewRow {
     preload: f32,
     play: bool,
     nominal_speed: f32,
+    largest_deviation: f32,
     /// Slip across the track in each of two rolling contacts, m.
     slip: f32,
     screw: Race,
@@ -158,6 +162,7 @@ struct Mean {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ScrewTick {
+    largest_deviation: f32,
     turn: [f32; 5],
     own: [f32; 3],
     turn_sign: f32,
@@ -195,6 +200,13 @@ impl ScrewRow {
     #[must_use]
     pub const fn nominal_speed(&self) -> f32 {
         self.nominal_speed
+    }
+
+    /// Largest deviation of a contact angle that counts, rad; a larger one is taken at it: 0.2 for
+    /// contact angles from 23 to 68 degrees, less beyond.
+    #[must_use]
+    pub const fn largest_deviation(&self) -> f32 {
+        self.largest_deviation
     }
 
     /// Folds the constants of a design.
@@ -288,6 +300,7 @@ impl ScrewRow {
             preload,
             play,
             nominal_speed: speed,
+            largest_deviation: largest_deviation(design.parameters().contact_angle, sin / cos),
             slip: 0.5 * radius * sin_lead,
             screw,
             nut,
@@ -356,12 +369,15 @@ impl ScrewRow {
 
         // Friction across the track of the loaded diagonal pushes the ball along the other one.
         let push = loss * main;
-        let third = if other > push {
-            other + push
+        // Without lead there is no such friction, and a lost diagonal carries nothing at all: the floor
+        // keeps its ellipse from vanishing.
+        let least = LEAST_LOAD * main;
+        let third = larger(if other > push { other } else { push } + push, least);
+        let fourth = if other - push > least {
+            other - push
         } else {
-            2.0 * push
+            0.0
         };
-        let fourth = if other > push { other - push } else { 0.0 };
         let (third_race, fourth_race) = if on_screw {
             (&self.screw, &self.nut)
         } else {
@@ -437,6 +453,7 @@ impl ScrewRow {
     fn tick(&self, branch: &Branch, weights: [f32; 3], mean: &Mean) -> ScrewTick {
         let [turn_sign, screw_weight, nut_weight] = weights;
         ScrewTick {
+            largest_deviation: self.largest_deviation,
             turn: self.turn,
             own: [
                 branch.sine,
@@ -501,8 +518,8 @@ impl ScrewTick {
         nut_deviation: f32,
         share: &LoadShare,
     ) -> ScrewBallLoop {
-        let screw = limited(screw_deviation);
-        let nut = limited(nut_deviation);
+        let screw = limited(screw_deviation, self.largest_deviation);
+        let nut = limited(nut_deviation, self.largest_deviation);
         let [t1, t2, t3, t4, t5] = self.turn;
         let u = self.turn_sign * (screw + nut);
         let turn = u * (t1 + u * (t2 + u * (t3 + u * (t4 + u * t5))));
@@ -549,14 +566,30 @@ fn cube_root(x: f32) -> f32 {
     x * inverse * inverse
 }
 
+/// Largest deviation of a contact angle: 0.2 rad, less where the deviations of both grooves together
+/// would turn a contact through the plane across the axis, or where the series in them, which converges
+/// like the powers of `tan(b) u/2`, would need more terms.
+pub(crate) fn largest_deviation(contact_angle: f32, tangent: f32) -> f32 {
+    let both = if contact_angle * tangent < 1.0 {
+        contact_angle
+    } else {
+        1.0 / tangent
+    };
+    if 0.5 * both < LARGEST_DEVIATION {
+        0.5 * both
+    } else {
+        LARGEST_DEVIATION
+    }
+}
+
 /// A deviation within the limits of the series; NaN gives zero.
 #[inline]
-fn limited(deviation: f32) -> f32 {
-    if deviation.abs() <= LARGEST_DEVIATION {
+fn limited(deviation: f32, largest: f32) -> f32 {
+    if deviation.abs() <= largest {
         deviation
     } else if deviation.is_nan() {
         0.0
     } else {
-        LARGEST_DEVIATION.copysign(deviation)
+        largest.copysign(deviation)
     }
 }
