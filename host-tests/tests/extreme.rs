@@ -26,3 +26,16 @@ fn random_inputs_give_finite_flagged_bounded_outputs() {
     let ticks = all_scenes(1, 200, 1000);
     println!("{ticks} random ticks in all scenes");
 }
+
+/// The recorded full run.
+#[test]
+#[ignore = "half an hour: cargo test --release -p epas-reference --test extreme -- --ignored --nocapture"]
+fn a_thousand_million_random_inputs() {
+    let mut ticks = 0;
+    let mut round = 2;
+    while ticks < 1_000_000_000 {
+        ticks += all_scenes(round, 4000, 1000);
+        round += 1;
+    }
+    println!("{ticks} random ticks in all scenes");
+}

@@ -16,6 +16,9 @@ const SMALLEST_LOAD: f32 = 1e-3;
 /// Load of a light contact below which it does not count, over that of the main contacts.
 const LEAST_LOAD: f32 = 1e-6;
 
+/// Least `give` of a contact over its `drag`, far below any true one: it keeps divisions finite.
+const LEAST_GIVE: f32 = 1e-3;
+
 /// Ratio of load difference to preload at which the unloaded diagonal loses contact: `2^(3/2)`.
 const LOST: f32 = 2.828_427_1;
 
@@ -120,9 +123,19 @@ struct Race {
 }
 
 impl Race {
+    /// The contact within its physical bounds, whatever the interpolation does at the slenderest ellipses:
+    /// the mean sliding speed is not below the speed of the mean, friction not beyond `mu F`.
     #[inline]
     fn at(&self, slip: f32, root: f32) -> Across {
-        self.map.at(slip, self.rim * root)
+        let contact = self.map.at(slip, self.rim * root);
+        let drag = larger(contact.drag, slip);
+        Across {
+            drag,
+            give: larger(contact.give, LEAST_GIVE * drag),
+            share: part(contact.share),
+            drag_growth: part(contact.drag_growth),
+            give_growth: part(contact.give_growth),
+        }
     }
 }
 
@@ -452,6 +465,11 @@ impl ScrewRow {
     #[inline]
     fn tick(&self, branch: &Branch, weights: [f32; 3], mean: &Mean) -> ScrewTick {
         let [turn_sign, screw_weight, nut_weight] = weights;
+        let Mean {
+            give_growth,
+            drag_growth,
+            ..
+        } = *mean;
         ScrewTick {
             largest_deviation: self.largest_deviation,
             turn: self.turn,
@@ -467,10 +485,10 @@ impl ScrewRow {
             spin: branch.spin,
             rubbing: branch.rubbing,
             rubbing_slope: branch.rubbing_slope,
-            compliance_rolling: mean.compliance * mean.give_growth,
-            compliance_sliding: mean.compliance * (1.0 - mean.give_growth),
-            torque_rolling: mean.torque * mean.drag_growth,
-            torque_sliding: mean.torque * (1.0 - mean.drag_growth),
+            compliance_rolling: mean.compliance * give_growth,
+            compliance_sliding: mean.compliance * (1.0 - give_growth),
+            torque_rolling: mean.torque * drag_growth,
+            torque_sliding: mean.torque * (1.0 - drag_growth),
             nominal_speed: self.nominal_speed,
             main_load: mean.main_load,
             third_load: mean.third_load,
@@ -552,6 +570,12 @@ fn turn_series(tangent: f32) -> [f32; 5] {
     let c4 = -(x1 * c3 + x2 * c2 + x3 * c1 + x4);
     let c5 = -(x1 * c4 + x2 * c3 + x3 * c2 + x4 * c1 + x5);
     [c1, c2, c3, c4, c5]
+}
+
+/// `x` within 0 to 1.
+#[inline]
+fn part(x: f32) -> f32 {
+    if x < 1.0 { larger(x, 0.0) } else { 1.0 }
 }
 
 #[inline]
