@@ -34,4 +34,5 @@ pub use four_point::{
 };
 pub use linear::LinearBallParameters;
 pub use rotary::{RotaryBall, RotaryBallParameters, RotaryMotion};
+pub(crate) use screw::largest_deviation;
 pub use screw::{GrooveFit, LoadShare, ScrewBallLoop, ScrewRow, ScrewTick};

@@ -3,4 +3,5 @@
 mod across;
 mod row;
 
+pub(crate) use row::largest_deviation;
 pub use row::{GrooveFit, LoadShare, ScrewBallLoop, ScrewRow, ScrewTick};
