@@ -6,6 +6,7 @@
 //! m, forces in N, angles in rad unless a function is free of units.
 
 mod ball_motion;
+pub mod bearing_study;
 pub mod curvature;
 pub mod efficiency;
 pub mod error;
