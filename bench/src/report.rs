@@ -7,6 +7,7 @@ mod efficiency;
 mod hertz;
 mod kernels;
 mod kinematics;
+mod published;
 mod statistics;
 mod summary;
 
@@ -59,12 +60,13 @@ impl Context {
 type MakeSection = fn(&Context) -> Result<Section, Failure>;
 
 /// Every section, in the order of the report.
-const SECTIONS: [MakeSection; 6] = [
+const SECTIONS: [MakeSection; 7] = [
     summary::section,
     curvature::section,
     hertz::section,
     efficiency::section,
     kinematics::section,
+    published::section,
     kernels::section,
 ];
 

@@ -14,6 +14,7 @@ pub mod friction;
 pub mod hertz;
 pub mod kinematics;
 pub mod published;
+pub mod record;
 pub mod rolling_ball;
 pub mod steady_state;
 
