@@ -23,6 +23,7 @@ mod four_point;
 mod linear;
 mod root;
 mod rotary;
+mod screw;
 mod symmetric;
 
 pub use analytic::{AnalyticLinearBall, PUBLISHED_SLOPE, SpeedDeviation};
@@ -33,3 +34,4 @@ pub use four_point::{
 };
 pub use linear::LinearBallParameters;
 pub use rotary::{RotaryBall, RotaryBallParameters, RotaryMotion};
+pub use screw::{GrooveFit, LoadShare, ScrewBallLoop, ScrewRow, ScrewTick};

@@ -39,11 +39,12 @@ pub mod material;
 pub mod math;
 pub mod model;
 pub mod scene;
+pub mod train;
 
 pub use ball::{
     AnalyticLinearBall, BallChain, BallMotion, BallState, ContactMotion, FourPointBall,
-    FourPointContacts, LinearBallParameters, PUBLISHED_SLOPE, RotaryBall, RotaryBallParameters,
-    RotaryMotion, SpeedDeviation,
+    FourPointContacts, GrooveFit, LinearBallParameters, LoadShare, PUBLISHED_SLOPE, RotaryBall,
+    RotaryBallParameters, RotaryMotion, ScrewBallLoop, ScrewRow, ScrewTick, SpeedDeviation,
 };
 pub use contact::{Dissipation, FrictionMap, NormalizedFriction};
 pub use curvature::{
@@ -68,6 +69,8 @@ pub use kinematics::{
 pub use material::{Material, contact_modulus};
 pub use model::FrictionModel;
 pub use scene::{
-    CagedBallScrew, CagedBallScrewConfiguration, Faults, FrictionBranch, Inputs, Limits, Outputs,
-    Regime, Scene,
+    CagedBallScrew, CagedBallScrewConfiguration, DeviationMap, Faults, FrictionBranch, Harmonic,
+    Inputs, Limits, LinearBearingConfiguration, LinearBearingTrain, LinearInputs, LinearLimits,
+    Outputs, Regime, Scene, TrainOutputs, UncagedBallScrew, UncagedBallScrewConfiguration,
 };
+pub use train::{BallContact, Press, Train};

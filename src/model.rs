@@ -1,7 +1,7 @@
 //! The model that runs in the interrupt: constants folded at set-up, a small state, one `step`.
 
 use crate::error::Error;
-use crate::scene::{Inputs, Scene};
+use crate::scene::Scene;
 
 /// Friction of one scene: configured once, stepped in the interrupt.
 ///
@@ -46,7 +46,7 @@ impl<S: Scene> FrictionModel<S> {
 
     /// One tick: bounded time, no panic, finite outputs whatever the inputs are.
     #[inline]
-    pub fn step(&mut self, inputs: Inputs) -> S::Outputs {
+    pub fn step(&mut self, inputs: S::Inputs) -> S::Outputs {
         S::step(&self.constants, &mut self.state, inputs)
     }
 
@@ -58,6 +58,10 @@ impl<S: Scene> FrictionModel<S> {
     /// The folded constants.
     pub const fn constants(&self) -> &S::Constants {
         &self.constants
+    }
+
+    pub(crate) const fn state_mut(&mut self) -> &mut S::State {
+        &mut self.state
     }
 
     /// The state, for diagnosis.

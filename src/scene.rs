@@ -5,12 +5,24 @@
 //! ball-to-ball contacts, a bearing no lead, a scene without slip output no kinematics.
 
 mod caged;
+mod deviation;
 mod faults;
+mod linear;
+mod screw;
+mod uncaged;
+mod zone;
 
 pub use caged::{
     CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, CagedState, FrictionBranch,
 };
+pub use deviation::{DeviationMap, HIGHEST_ORDER, Harmonic, LARGEST_DEVIATION};
 pub use faults::{Faults, Limits};
+pub use linear::{
+    LinearBearingConfiguration, LinearBearingTrain, LinearConstants, LinearInputs, LinearLimits,
+    LinearState,
+};
+pub use screw::{UncagedBallScrew, UncagedBallScrewConfiguration, UncagedConstants, UncagedState};
+pub use uncaged::TrainOutputs;
 
 use crate::error::Error;
 
@@ -84,6 +96,8 @@ pub trait Scene {
     type Constants;
     /// What a tick changes.
     type State;
+    /// What the control interrupt knows at a tick.
+    type Inputs;
     /// What a tick returns.
     type Outputs;
 
@@ -97,5 +111,9 @@ pub trait Scene {
     fn initial_state(constants: &Self::Constants) -> Self::State;
 
     /// One tick: bounded time, no panic, finite outputs whatever the inputs are.
-    fn step(constants: &Self::Constants, state: &mut Self::State, inputs: Inputs) -> Self::Outputs;
+    fn step(
+        constants: &Self::Constants,
+        state: &mut Self::State,
+        inputs: Self::Inputs,
+    ) -> Self::Outputs;
 }

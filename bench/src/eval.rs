@@ -6,8 +6,10 @@ mod fields;
 mod friction_map;
 mod groove_curvature;
 mod hertz;
+mod linear_train;
 mod lines;
 mod steady_state;
+mod train;
 
 use std::fs::File;
 use std::io::{self, BufWriter, Read, Write};
@@ -46,6 +48,11 @@ use lines::{Line, Lines};
 /// semi_major_nut, semi_minor_nut
 ///
 /// friction_map: axis_ratio, offset
+///
+/// linear_train: ball_radius, conformity, nominal_contact_angle, youngs_modulus, poisson_ratio,
+/// friction, [ball_friction], speed, balls: a list, rear to front, of 1 to 64 {"contact_angles": [BL, BR,
+/// TR, TL], "contact_forces": [BL, BR, TR, TL]}; a force of 0 is a lost contact. Answers with actual
+/// speeds, under the forces between the balls; at standstill the reference has none of them.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// File with the requests; stdin without it or for -
@@ -78,13 +85,14 @@ fn json(value: &impl Serialize) -> Result<Box<RawValue>, BadField> {
 type Model = fn(Fields) -> Result<Answer, BadField>;
 
 /// Every model by its name.
-const MODELS: [(&str, Model); 6] = [
+const MODELS: [(&str, Model); 7] = [
     ("groove_curvature", groove_curvature::evaluate),
     ("efficiency", efficiency::evaluate),
     ("steady_state", steady_state::evaluate),
     ("hertz", hertz::evaluate),
     ("contact_kinematics", contact_kinematics::evaluate),
     ("friction_map", friction_map::evaluate),
+    ("linear_train", linear_train::evaluate),
 ];
 
 /// A line of the output.

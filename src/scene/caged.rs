@@ -133,6 +133,7 @@ impl Scene for CagedBallScrew {
     type Configuration = CagedBallScrewConfiguration;
     type Constants = CagedConstants;
     type State = CagedState;
+    type Inputs = Inputs;
     type Outputs = Outputs;
 
     fn constants(configuration: &CagedBallScrewConfiguration) -> Result<CagedConstants, Error> {

@@ -142,7 +142,7 @@ impl Limits {
 /// Written with comparisons: `max` and `min` become calls of C functions on a Cortex-M, and `clamp`
 /// keeps a panic for bounds that are not ordered.
 #[inline]
-fn bounded(value: f32, bound: f32) -> f32 {
+pub(super) fn bounded(value: f32, bound: f32) -> f32 {
     if value > bound {
         bound
     } else if value < -bound {

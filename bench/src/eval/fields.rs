@@ -31,6 +31,14 @@ impl BadField {
         Self::new("request", message)
     }
 
+    /// This error with the place in a list where it was found.
+    pub fn of_ball(self, index: usize) -> Self {
+        Self {
+            message: format!("ball {index} (counted from 0): {}", self.message),
+            ..self
+        }
+    }
+
     /// This error under the name that the request has for the field.
     pub fn renamed(self, from: &str, to: &str) -> Self {
         if self.field == from {
@@ -91,6 +99,70 @@ impl<'a> Fields<'a> {
             return Err(BadField::new(field, "is given twice"));
         }
         self.take("id").map(drop)
+    }
+
+    /// Takes a list of exactly `N` numbers.
+    pub fn numbers<const N: usize>(&mut self, field: &str) -> Result<[f64; N], BadField> {
+        let raw = self.take(field)?;
+        let values: Option<Vec<&RawValue>> = serde_json::from_str(raw.get()).ok();
+        let values: Option<[&RawValue; N]> = values.and_then(|values| values.try_into().ok());
+        let Some(values) = values else {
+            return Err(BadField::new(
+                field,
+                format!("must be a list of {N} numbers, not {}", shown(raw)),
+            ));
+        };
+        let mut numbers = [0.0; N];
+        for (to, raw) in numbers.iter_mut().zip(values) {
+            *to = number(field, raw)?;
+        }
+        Ok(numbers)
+    }
+
+    /// Takes a list of `1..=largest` objects.
+    pub fn objects(&mut self, field: &str, largest: usize) -> Result<Vec<Fields<'a>>, BadField> {
+        let raw = self.take(field)?;
+        let values: Option<Vec<&RawValue>> = serde_json::from_str(raw.get()).ok();
+        let Some(values) = values else {
+            return Err(BadField::new(
+                field,
+                format!("must be a list of objects, not {}", shown(raw)),
+            ));
+        };
+        if values.is_empty() || values.len() > largest {
+            return Err(BadField::new(
+                field,
+                format!("{} of them; allowed: 1 to {largest}", values.len()),
+            ));
+        }
+        values
+            .into_iter()
+            .enumerate()
+            .map(|(index, raw)| Self::nested(field, raw).map_err(|error| error.of_ball(index)))
+            .collect()
+    }
+
+    /// Takes an object.
+    pub fn object(&mut self, field: &str) -> Result<Fields<'a>, BadField> {
+        let raw = self.take(field)?;
+        Self::nested(field, raw)
+    }
+
+    /// Takes an object that may be left out.
+    pub fn optional_object(&mut self, field: &str) -> Result<Option<Fields<'a>>, BadField> {
+        self.values
+            .remove(field)
+            .map(|raw| Self::nested(field, raw))
+            .transpose()
+    }
+
+    fn nested(field: &str, raw: &'a RawValue) -> Result<Self, BadField> {
+        let mut fields: Fields = serde_json::from_str(raw.get())
+            .map_err(|_| BadField::new(field, format!("must be an object, not {}", shown(raw))))?;
+        match fields.duplicate.take() {
+            Some(twice) => Err(BadField::new(twice, "is given twice")),
+            None => Ok(fields),
+        }
     }
 
     /// Takes a number; any that float64 can hold.

@@ -1,0 +1,294 @@
+//! `linear_train`: a row of touching balls in a four-point contact linear bearing.
+
+use epas_friction::ball::{DEFAULT_NEWTON_STEPS, LARGEST_ANGLE_DEVIATION};
+use epas_friction::train::Press;
+use epas_friction::{
+    AnalyticLinearBall, BallChain, FourPointBall, GrooveSize, HertzContact, LinearBallParameters,
+    LinearBearing, LinearBearingParameters, Material, PUBLISHED_SLOPE,
+};
+use epas_reference::friction::chain::solve_chain;
+use epas_reference::friction::linear_ball::{EllipseLaw, LinearBall};
+use epas_reference::hertz::{Hertz, contact_modulus};
+use serde::Serialize;
+
+use super::Answer;
+use super::fields::{BadField, Fields, in_range};
+use super::train::{LARGEST_TRAIN, room_of_a_row, solved};
+
+/// Steps of the whole row from the four-force start. A ball alone has settled after
+/// [`DEFAULT_NEWTON_STEPS`]; friction between the balls lags one step behind, and settles with some per
+/// cent of itself a step.
+const STEPS: usize = 2 * DEFAULT_NEWTON_STEPS as usize;
+
+#[derive(Serialize)]
+struct InLoop {
+    analytic: Row,
+    refined: Row,
+}
+
+#[derive(Serialize)]
+struct Row {
+    speed_deviation: Vec<f64>,
+    contact_force: Vec<f64>,
+}
+
+#[derive(Serialize)]
+struct Reference {
+    speed_deviation: Option<Vec<f64>>,
+    contact_force: Option<Vec<f64>>,
+    power_loss: Option<f64>,
+}
+
+struct Request {
+    ball_radius: f64,
+    conformity: f64,
+    nominal_contact_angle: f64,
+    youngs_modulus: f64,
+    poisson_ratio: f64,
+    friction: f64,
+    ball_friction: f64,
+    speed: f64,
+    balls: Vec<Ball>,
+}
+
+/// Contact angles and forces in the order BL, BR, TR, TL.
+struct Ball {
+    contact_angles: [f64; 4],
+    contact_forces: [f64; 4],
+}
+
+/// Answers one request.
+pub fn evaluate(mut fields: Fields) -> Result<Answer, BadField> {
+    let request = Request {
+        ball_radius: fields.number("ball_radius")?,
+        conformity: fields.number("conformity")?,
+        nominal_contact_angle: fields.number("nominal_contact_angle")?,
+        youngs_modulus: fields.number("youngs_modulus")?,
+        poisson_ratio: fields.number("poisson_ratio")?,
+        friction: fields.number("friction")?,
+        ball_friction: fields.optional_number("ball_friction")?.unwrap_or(0.0),
+        speed: fields.number("speed")?,
+        balls: fields
+            .objects("balls", LARGEST_TRAIN)?
+            .into_iter()
+            .enumerate()
+            .map(|(index, ball)| Ball::read(ball).map_err(|error| error.of_ball(index)))
+            .collect::<Result<_, _>>()?,
+    };
+    fields.finish()?;
+    request.check()?;
+    Answer::both(&request.in_loop()?, &request.reference()?)
+}
+
+impl Ball {
+    fn read(mut fields: Fields) -> Result<Self, BadField> {
+        let ball = Self {
+            contact_angles: fields.numbers("contact_angles")?,
+            contact_forces: fields.numbers("contact_forces")?,
+        };
+        fields.finish()?;
+        Ok(ball)
+    }
+}
+
+impl Request {
+    fn check(&self) -> Result<(), BadField> {
+        let nominal = in_range(
+            "nominal_contact_angle",
+            self.nominal_contact_angle,
+            0.05,
+            1.5,
+        )?;
+        in_range("friction", self.friction, 1e-6, 1.0)?;
+        in_range("ball_friction", self.ball_friction, 0.0, 1.0)?;
+        in_range("speed", self.speed, -1e6, 1e6)?;
+        let (lowest, highest) = (
+            (nominal - f64::from(LARGEST_ANGLE_DEVIATION)).max(0.01),
+            (nominal + f64::from(LARGEST_ANGLE_DEVIATION)).min(1.56),
+        );
+        for (index, ball) in self.balls.iter().enumerate() {
+            let here = |error: BadField| error.of_ball(index);
+            for angle in ball.contact_angles {
+                in_range("contact_angles", angle, lowest, highest).map_err(here)?;
+            }
+            for force in ball.contact_forces {
+                in_range("contact_forces", force, 0.0, 1e7).map_err(here)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn in_loop(&self) -> Result<InLoop, BadField> {
+        let renamed = |error: epas_friction::Error| {
+            BadField::from(error)
+                .renamed("contact_angle", "nominal_contact_angle")
+                .renamed("axis_ratio", "conformity")
+                .renamed("semi_major_coefficient", "youngs_modulus")
+        };
+        let material = Material {
+            youngs_modulus: self.youngs_modulus as f32,
+            poisson_ratio: self.poisson_ratio as f32,
+            ..Material::STEEL
+        };
+        let bearing = LinearBearing::new(LinearBearingParameters {
+            ball_radius: self.ball_radius as f32,
+            groove: GrooveSize::Conformity(self.conformity as f32),
+            contact_angle: self.nominal_contact_angle as f32,
+            ball_material: material,
+            groove_material: material,
+        })
+        .map_err(renamed)?;
+        let contact = HertzContact::of_linear(&bearing);
+        let parameters = LinearBallParameters {
+            ball_radius: bearing.ball_radius(),
+            contact_angle: self.nominal_contact_angle as f32,
+            axis_ratio: contact.axis_ratio(),
+            semi_major_coefficient: contact.semi_major_coefficient(),
+            friction: self.friction as f32,
+        };
+        Ok(InLoop {
+            analytic: self
+                .analytic(&AnalyticLinearBall::new(&parameters, PUBLISHED_SLOPE).map_err(renamed)?),
+            refined: self.refined(&FourPointBall::linear(&parameters).map_err(renamed)?),
+        })
+    }
+
+    /// Sign of the track speed, zero at standstill.
+    fn direction(&self) -> f32 {
+        if self.speed == 0.0 {
+            0.0
+        } else {
+            self.speed.signum() as f32
+        }
+    }
+
+    fn analytic(&self, ball: &AnalyticLinearBall) -> Row {
+        let count = self.balls.len();
+        let mut free = [0.0; LARGEST_TRAIN];
+        let mut compliance = [1.0; LARGEST_TRAIN];
+        for (request, (free, compliance)) in
+            self.balls.iter().zip(free.iter_mut().zip(&mut compliance))
+        {
+            let (angles, forces) = request.rounded();
+            let found = ball.speed_deviation(&angles, &forces);
+            (*free, *compliance) = (found.speed_deviation, found.compliance);
+        }
+        let direction = self.direction();
+        if direction == 0.0 {
+            return Row::of(&free, &[0.0; LARGEST_TRAIN], count);
+        }
+        let mut press = Press::new();
+        press.solve(
+            &free.map(|deviation| direction * deviation),
+            &compliance,
+            &room_of_a_row(count),
+        );
+        let actual: Vec<_> = press.speeds().map(|speed| direction * speed).collect();
+        Row::of(&actual, &contact_forces(&press), count)
+    }
+
+    fn refined(&self, ball: &FourPointBall) -> Row {
+        let count = self.balls.len();
+        // Places without a ball have no contacts, and infinite room on both sides.
+        let mut contacts = [ball.contacts(&[0.0; 4], &[0.0; 4]); LARGEST_TRAIN];
+        let mut chain = BallChain::<LARGEST_TRAIN>::new();
+        for ((contacts, state), request) in
+            contacts.iter_mut().zip(&mut chain.balls).zip(&self.balls)
+        {
+            let (angles, forces) = request.rounded();
+            *contacts = ball.contacts(&angles, &forces);
+            *state = ball.start(contacts);
+        }
+        let room = room_of_a_row(count);
+        let mut press = Press::new();
+        for _ in 0..STEPS {
+            ball.refine_chain(
+                &contacts,
+                &mut chain,
+                self.direction(),
+                self.ball_friction as f32,
+                |free, compliance, forces| {
+                    press.solve(free, compliance, &room);
+                    *forces = contact_forces(&press);
+                },
+            );
+        }
+        let deviations = chain.balls.map(|state| state.speed_deviation);
+        Row::of(&deviations, &chain.forces, count)
+    }
+
+    fn reference(&self) -> Result<Reference, BadField> {
+        let material = (self.youngs_modulus, self.poisson_ratio);
+        let groove_radius_factor = 2.0 * self.conformity / (2.0 * self.conformity - 1.0);
+        let contact = Hertz::new(
+            self.ball_radius,
+            groove_radius_factor * self.ball_radius,
+            contact_modulus(material, material),
+        )
+        .map_err(|error| {
+            BadField::from(error)
+                .renamed("relative_radius_1", "ball_radius")
+                .renamed("relative_radius_2", "conformity")
+                .renamed("contact_modulus", "youngs_modulus")
+        })?;
+        let balls: Vec<_> = self
+            .balls
+            .iter()
+            .map(|ball| LinearBall {
+                ball_radius: self.ball_radius,
+                friction: self.friction,
+                contact_angles: ball.contact_angles,
+                contact_forces: ball.contact_forces,
+                ellipse: EllipseLaw {
+                    semi_major_constant: contact.semi_major,
+                    axis_ratio: contact.axis_ratio,
+                },
+            })
+            .collect();
+        let chain = solved(solve_chain(&balls, self.ball_friction, self.speed))?;
+        Ok(Reference {
+            speed_deviation: chain.as_ref().map(|chain| {
+                chain
+                    .balls
+                    .iter()
+                    .map(|ball| ball.speed_deviation)
+                    .collect()
+            }),
+            power_loss: if self.speed == 0.0 {
+                Some(0.0)
+            } else {
+                chain.as_ref().map(LinearChain::power_loss)
+            },
+            contact_force: chain.map(|chain| chain.contact_forces),
+        })
+    }
+}
+
+impl Ball {
+    fn rounded(&self) -> ([f32; 4], [f32; 4]) {
+        (
+            self.contact_angles.map(|angle| angle as f32),
+            self.contact_forces.map(|force| force as f32),
+        )
+    }
+}
+
+/// Between every ball and the next, the last one and the first included.
+fn contact_forces(press: &Press<LARGEST_TRAIN>) -> [f32; LARGEST_TRAIN] {
+    let mut forces = [0.0; LARGEST_TRAIN];
+    for (place, force) in forces.iter_mut().zip(press.forces()) {
+        *place = force;
+    }
+    forces
+}
+
+impl Row {
+    fn of(deviations: &[f32], forces: &[f32], count: usize) -> Self {
+        let numbers =
+            |values: &[f32], count: usize| values.iter().take(count).map(|&v| v.into()).collect();
+        Self {
+            speed_deviation: numbers(deviations, count),
+            contact_force: numbers(forces, count - 1),
+        }
+    }
+}

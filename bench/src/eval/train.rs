@@ -1,0 +1,28 @@
+//! What requests about trains of balls have in common.
+
+use epas_reference::friction::FrictionError;
+
+use super::fields::BadField;
+
+/// Most balls in a request.
+pub const LARGEST_TRAIN: usize = 64;
+
+/// Rooms of a row of `count` balls that all touch, with nothing behind the first and ahead of the last.
+pub fn room_of_a_row(count: usize) -> [f32; LARGEST_TRAIN] {
+    let mut room = [f32::INFINITY; LARGEST_TRAIN];
+    for room in room.iter_mut().take(count.saturating_sub(1)) {
+        *room = 0.0;
+    }
+    room
+}
+
+/// The solution, `None` where there is none; an input out of range is a bad request.
+pub fn solved<T>(result: Result<T, FrictionError>) -> Result<Option<T>, BadField> {
+    match result {
+        Ok(solution) => Ok(Some(solution)),
+        Err(error @ FrictionError::OutOfRange { field, .. }) => {
+            Err(BadField::new(field, error.to_string()))
+        }
+        Err(_) => Ok(None),
+    }
+}

@@ -1,0 +1,562 @@
+//! Closed form for a row of balls in a ball screw, at the price of a control loop.
+
+use super::across::{Across, AcrossMap};
+use crate::ball::root::{inverse_cube_roots, loaded};
+use crate::error::{Error, in_range};
+use crate::geometry::{BallScrew, Groove};
+use crate::hertz::HertzContact;
+use crate::math;
+
+/// Largest deviation of a contact angle from the nominal one, rad.
+const LARGEST_DEVIATION: f32 = 0.2;
+
+/// Smallest load per ball, N: below it a ball keeps the motion and the compliance that it has there.
+const SMALLEST_LOAD: f32 = 1e-3;
+
+/// Ratio of load difference to preload at which the unloaded diagonal loses contact: `2^(3/2)`.
+const LOST: f32 = 2.828_427_1;
+
+/// How balls fit between the grooves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum GrooveFit {
+    /// No play and no preload: friction across the track closes a light third contact.
+    Zero,
+    /// So much play that only two contacts carry a ball (from about 20 micrometres on).
+    Play,
+    /// Oversized balls in four-point contact.
+    Preload {
+        /// Force of each of the four contacts without an external load, N; 1e-3 to 1e6.
+        contact_force: f32,
+    },
+}
+
+/// Powers of a ball's share of the load, folded at set-up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct LoadShare {
+    share: f32,
+    four_thirds: f32,
+    inverse: f32,
+    inverse_two_thirds: f32,
+}
+
+impl LoadShare {
+    /// The mean load.
+    pub const MEAN: Self = Self {
+        share: 1.0,
+        four_thirds: 1.0,
+        inverse: 1.0,
+        inverse_two_thirds: 1.0,
+    };
+
+    /// Powers of a ball's load over the mean load of all balls, 0.01 to 100.
+    ///
+    /// # Errors
+    /// [`Error`] naming `share`.
+    pub fn new(share: f32) -> Result<Self, Error> {
+        let share = in_range("share", share, 0.01, 100.0)?;
+        let (root, square) = math::cbrt_and_squared(share);
+        Ok(Self {
+            share,
+            four_thirds: share * root,
+            inverse: 1.0 / share,
+            inverse_two_thirds: 1.0 / square,
+        })
+    }
+
+    /// Its power of 2/3.
+    #[inline]
+    pub(crate) const fn two_thirds(&self) -> f32 {
+        let root = self.four_thirds * self.inverse;
+        root * root
+    }
+
+    /// Its power of 4/3.
+    #[inline]
+    pub(crate) const fn four_thirds(&self) -> f32 {
+        self.four_thirds
+    }
+
+    /// Load over the mean load.
+    #[must_use]
+    pub const fn share(&self) -> f32 {
+        self.share
+    }
+}
+
+/// Balls of one ball screw: constants of the closed form.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct ScrewRow {
+    friction: f32,
+    /// Normal force of a contact over the axial load, `1/(sin beta cos alpha)`.
+    normal: f32,
+    preload: f32,
+    play: bool,
+    nominal_speed: f32,
+    /// Slip across the track in each of two rolling contacts, m.
+    slip: f32,
+    screw: Race,
+    nut: Race,
+    /// Coefficients of `2 cos b/(cos b + cos(b - u)) - 1` from `u` on.
+    turn: [f32; 5],
+    on_screw: Branch,
+    on_nut: Branch,
+    two_point: Branch,
+}
+
+/// One groove.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+struct Race {
+    map: AcrossMap,
+    /// Semi-major axis times spin at one newton, `m/N^(1/3)`.
+    rim: f32,
+}
+
+impl Race {
+    #[inline]
+    fn at(&self, slip: f32, root: f32) -> Across {
+        self.map.at(slip, self.rim * root)
+    }
+}
+
+/// How a ball's speed follows its contact angles, and how it rubs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+struct Branch {
+    /// Speed, m, that the relative deviation multiplies; negative where it is that of the nut against the ball.
+    scale: f32,
+    /// `r sin b` and `r cos b` over `1 ± r cos b`, signed.
+    sine: f32,
+    versine: f32,
+    /// Rubbing speed at the nominal speed, and its change with the ball's speed.
+    rubbing: f32,
+    rubbing_slope: f32,
+    /// Relative change of the contacts' spin with the ball's speed, 1/m.
+    spin: f32,
+}
+
+/// A ball under the mean load.
+#[derive(Clone, Copy)]
+struct Mean {
+    gain: f32,
+    compliance: f32,
+    give_growth: f32,
+    torque: f32,
+    drag_growth: f32,
+    main_load: f32,
+    third_load: f32,
+}
+
+/// A row of balls at one tick; all values per unit of nut speed.
+///
+/// The true speeds along the track are `nut_speed * (nominal_speed + speed_deviation)`, compliances
+/// `|nut_speed| * compliance`, and a touching pair loses the torque
+/// `ball_friction * contact_force * (rear.rubbing + front.rubbing)` on the nut.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct ScrewTick {
+    turn: [f32; 5],
+    own: [f32; 3],
+    turn_sign: f32,
+    screw_weight: f32,
+    nut_weight: f32,
+    scale: f32,
+    spin: f32,
+    rubbing: f32,
+    rubbing_slope: f32,
+    compliance_rolling: f32,
+    compliance_sliding: f32,
+    torque_rolling: f32,
+    torque_sliding: f32,
+    nominal_speed: f32,
+    main_load: f32,
+    third_load: f32,
+}
+
+/// One ball at one tick, per unit of nut speed.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct ScrewBallLoop {
+    /// Speed along the track when no neighbour presses, less [`ScrewTick::nominal_speed`], m.
+    pub speed_deviation: f32,
+    /// Speed along the track lost per newton of force along it, m/N.
+    pub compliance: f32,
+    /// Power loss in the grooves, N m: the ball's friction torque on the nut.
+    pub groove_torque: f32,
+    /// Half the speed with which balls alike rub against each other, m.
+    pub rubbing: f32,
+}
+
+impl ScrewRow {
+    /// Speed along the track of a ball with nominal contact angles, m per unit of nut speed.
+    #[must_use]
+    pub const fn nominal_speed(&self) -> f32 {
+        self.nominal_speed
+    }
+
+    /// Folds the constants of a design.
+    ///
+    /// # Errors
+    /// [`Error`] naming `friction` (1e-6 to 0.5), `contact_angle` (0.05 to 1.5), `contact_force` or `axis_ratio`.
+    pub fn new(design: &BallScrew, friction: f32, fit: GrooveFit) -> Result<Self, Error> {
+        let friction = in_range("friction", friction, 1e-6, 0.5)?;
+        in_range(
+            "contact_angle",
+            design.parameters().contact_angle,
+            0.05,
+            1.5,
+        )?;
+        let preload = match fit {
+            GrooveFit::Preload { contact_force } => {
+                in_range("contact_force", contact_force, 1e-3, 1e6)?
+            }
+            GrooveFit::Zero | GrooveFit::Play => 0.0,
+        };
+        let play = matches!(fit, GrooveFit::Play);
+        let angle = design.contact_angle();
+        let (sin, cos) = (angle.sin, angle.cos);
+        let radius = design.ball_radius();
+        let cos_lead = design.cos_lead_angle();
+        let sin_lead = cos_lead * design.tan_lead_angle();
+        let path = design.pitch_radius() / cos_lead;
+        // R_B R_P/(L/2 pi)², and the ball's rotation that the path's curvature makes.
+        let ratio = radius * cos_lead / path;
+
+        // Spin of a ball in rolling, and of its contacts against screw and nut.
+        let rolling = path / (radius * cos);
+        let half = 0.5 * sin;
+        let spins = if play {
+            [cos_lead * sin; 2]
+        } else {
+            [half * (rolling + cos_lead), half * (rolling - cos_lead)]
+        };
+        let race = |groove: Groove, spin: f32| -> Result<Race, Error> {
+            let contact = HertzContact::of(design, groove);
+            Ok(Race {
+                map: AcrossMap::new(contact.axis_ratio())?,
+                rim: contact.semi_major_coefficient() * spin,
+            })
+        };
+        let [screw_spin, nut_spin] = spins;
+        let screw = race(Groove::Screw, screw_spin)?;
+        let nut = race(Groove::Nut, nut_spin)?;
+
+        let (plus, minus) = (1.0 + ratio * cos, 1.0 - ratio * cos);
+        let speed = 0.5 * path * plus;
+        let rest = 0.5 * path * minus;
+        let on_screw = Branch {
+            scale: speed,
+            sine: ratio * sin / plus,
+            versine: -ratio * cos / plus,
+            rubbing: speed * (1.0 / cos - ratio),
+            rubbing_slope: 1.0 / cos - ratio,
+            spin: 2.0 / path,
+        };
+        let on_nut = Branch {
+            scale: -rest,
+            sine: ratio * sin / minus,
+            versine: ratio * cos / minus,
+            rubbing: rest * (1.0 / cos + ratio),
+            rubbing_slope: -(1.0 / cos + ratio),
+            spin: -2.0 / path,
+        };
+        // The ball sticks to the race on which it would lose more: that with the longer ellipse.
+        let sticks_to_screw = screw.rim > nut.rim;
+        let chord = 1.0 - (radius / path) * (radius / path);
+        let tumbling = |cosine: f32| math::sqrt(sin * sin * chord + cosine * cosine);
+        let two_point = if sticks_to_screw {
+            Branch {
+                rubbing: speed * tumbling(cos - ratio),
+                rubbing_slope: tumbling(cos - ratio),
+                spin: 0.0,
+                ..on_screw
+            }
+        } else {
+            Branch {
+                rubbing: rest * tumbling(cos + ratio),
+                rubbing_slope: -tumbling(cos + ratio),
+                spin: 0.0,
+                ..on_screw
+            }
+        };
+        Ok(Self {
+            friction,
+            normal: 1.0 / (sin * cos_lead),
+            preload,
+            play,
+            nominal_speed: speed,
+            slip: 0.5 * radius * sin_lead,
+            screw,
+            nut,
+            turn: turn_series(sin / cos),
+            on_screw,
+            on_nut,
+            two_point,
+        })
+    }
+
+    /// The row under a load: once a tick.
+    #[inline]
+    #[must_use]
+    pub fn at(&self, nut_speed: f32, axial_load_per_ball: f32) -> ScrewTick {
+        let size = loaded(axial_load_per_ball.abs());
+        let normal = self.normal
+            * if size > SMALLEST_LOAD {
+                size
+            } else {
+                SMALLEST_LOAD
+            };
+        let side = if axial_load_per_ball < 0.0 { 1.0 } else { -1.0 };
+        if self.play {
+            self.in_two_points(normal, side)
+        } else {
+            let on_screw = (axial_load_per_ball < 0.0) != (nut_speed < 0.0);
+            self.in_more_points(normal, side, on_screw)
+        }
+    }
+
+    fn in_two_points(&self, normal: f32, side: f32) -> ScrewTick {
+        let slides = if self.screw.rim > self.nut.rim {
+            &self.nut
+        } else {
+            &self.screw
+        };
+        let root = cube_root(normal);
+        let contact = slides.at(2.0 * self.slip, root);
+        let limit = self.friction * normal;
+        self.tick(
+            &self.two_point,
+            [0.0, -0.5 * side, 0.5 * side],
+            &Mean {
+                gain: 1.0,
+                compliance: contact.give / (4.0 * limit),
+                give_growth: contact.give_growth,
+                torque: limit * contact.drag,
+                drag_growth: contact.drag_growth,
+                main_load: normal,
+                third_load: 0.0,
+            },
+        )
+    }
+
+    fn in_more_points(&self, normal: f32, side: f32, on_screw: bool) -> ScrewTick {
+        // Share of sliding friction across the track, to some per cent.
+        let sliding = self.screw.map.share_slope() * self.slip;
+        let rim = self.screw.map.axis_ratio() * self.screw.rim * cube_root(normal);
+        let share = sliding / math::sqrt(rim * rim + sliding * sliding + 1e-30);
+        let (main, _) = self.diagonals(normal / (1.0 - self.friction * share));
+        let root = cube_root(main);
+        let screw = self.screw.at(self.slip, root);
+        let nut = self.nut.at(self.slip, root);
+        let loss = 0.5 * self.friction * (screw.share + nut.share);
+        let (main, other) = self.diagonals(normal / (1.0 - loss));
+
+        // Friction across the track of the loaded diagonal pushes the ball along the other one.
+        let push = loss * main;
+        let third = if other > push {
+            other + push
+        } else {
+            2.0 * push
+        };
+        let fourth = if other > push { other - push } else { 0.0 };
+        let (third_race, fourth_race) = if on_screw {
+            (&self.screw, &self.nut)
+        } else {
+            (&self.nut, &self.screw)
+        };
+        let third_contact = third_race.at(self.slip, cube_root(third));
+
+        let friction = self.friction;
+        let mut torque = friction * main * (screw.drag + nut.drag);
+        let mut growth =
+            friction * main * (screw.drag * screw.drag_growth + nut.drag * nut.drag_growth);
+        let of_third = friction * third * third_contact.drag;
+        torque += of_third;
+        growth += of_third * third_contact.drag_growth;
+
+        // Force along the track per speed: of the loaded diagonal, and of the other where both of its
+        // contacts carry load.
+        let give = screw.give + nut.give;
+        let loaded_impedance = 4.0 * friction * main / give;
+        let give_growth = (screw.give * screw.give_growth + nut.give * nut.give_growth) / give;
+        let mut impedance = loaded_impedance;
+        let mut gain = 1.0;
+        if fourth > 0.0 {
+            let contact = fourth_race.at(self.slip, cube_root(fourth));
+            let other_impedance = 4.0 * friction * third * fourth
+                / (third_contact.give * fourth + contact.give * third);
+            impedance += other_impedance;
+            gain = (loaded_impedance - other_impedance) / impedance;
+            let of_fourth = friction * fourth * contact.drag;
+            torque += of_fourth;
+            growth += of_fourth * contact.drag_growth;
+        }
+        let (branch, weights) = if on_screw {
+            (&self.on_screw, [side, 0.0, side])
+        } else {
+            (&self.on_nut, [-side, side, 0.0])
+        };
+        self.tick(
+            branch,
+            weights,
+            &Mean {
+                gain,
+                compliance: 1.0 / impedance,
+                give_growth,
+                torque,
+                drag_growth: growth / torque,
+                main_load: main,
+                third_load: third,
+            },
+        )
+    }
+
+    /// Normal forces of the loaded and the other diagonal with a given difference.
+    ///
+    /// Both follow from one displacement `x` over the preload's deflection, `F (1 ± x)^(3/2)`.
+    #[inline]
+    fn diagonals(&self, difference: f32) -> (f32, f32) {
+        if difference < LOST * self.preload {
+            let third = difference / (3.0 * self.preload);
+            let x = third * (1.0 + third * third * (1.0 / 24.0));
+            let (up, down) = (math::sqrt(1.0 + x), math::sqrt(larger(1.0 - x, 0.0)));
+            let excess = (1.0 + x) * up - (1.0 - x) * down - 3.0 * third;
+            let x = x - excess / (1.5 * (up + down));
+            let (plus, minus) = (1.0 + x, larger(1.0 - x, 0.0));
+            let main = self.preload * (plus * math::sqrt(plus));
+            (main, self.preload * (minus * math::sqrt(minus)))
+        } else {
+            (difference, 0.0)
+        }
+    }
+
+    #[inline]
+    fn tick(&self, branch: &Branch, weights: [f32; 3], mean: &Mean) -> ScrewTick {
+        let [turn_sign, screw_weight, nut_weight] = weights;
+        ScrewTick {
+            turn: self.turn,
+            own: [
+                branch.sine,
+                0.5 * branch.versine,
+                -branch.sine * (1.0 / 6.0),
+            ],
+            turn_sign,
+            screw_weight,
+            nut_weight,
+            scale: mean.gain * branch.scale,
+            spin: branch.spin,
+            rubbing: branch.rubbing,
+            rubbing_slope: branch.rubbing_slope,
+            compliance_rolling: mean.compliance * mean.give_growth,
+            compliance_sliding: mean.compliance * (1.0 - mean.give_growth),
+            torque_rolling: mean.torque * mean.drag_growth,
+            torque_sliding: mean.torque * (1.0 - mean.drag_growth),
+            nominal_speed: self.nominal_speed,
+            main_load: mean.main_load,
+            third_load: mean.third_load,
+        }
+    }
+}
+
+impl ScrewTick {
+    /// Speed along the track of a ball with nominal contact angles, m per unit of nut speed.
+    #[must_use]
+    pub const fn nominal_speed(&self) -> f32 {
+        self.nominal_speed
+    }
+
+    /// Load of each main contact of a ball under the mean load, N.
+    #[must_use]
+    pub const fn main_load(&self) -> f32 {
+        self.main_load
+    }
+
+    /// Load of the third contact of a ball under the mean load, N.
+    #[must_use]
+    pub const fn third_load(&self) -> f32 {
+        self.third_load
+    }
+
+    /// Half the speed with which two nominal balls rub, m per unit of nut speed.
+    #[must_use]
+    pub const fn rubbing(&self) -> f32 {
+        self.rubbing
+    }
+
+    /// Change of that with the speed along the track.
+    #[must_use]
+    pub const fn rubbing_slope(&self) -> f32 {
+        self.rubbing_slope
+    }
+
+    /// One ball.
+    #[inline]
+    #[must_use]
+    pub fn ball(
+        &self,
+        screw_deviation: f32,
+        nut_deviation: f32,
+        share: &LoadShare,
+    ) -> ScrewBallLoop {
+        let screw = limited(screw_deviation);
+        let nut = limited(nut_deviation);
+        let [t1, t2, t3, t4, t5] = self.turn;
+        let u = self.turn_sign * (screw + nut);
+        let turn = u * (t1 + u * (t2 + u * (t3 + u * (t4 + u * t5))));
+        let [o1, o2, o3] = self.own;
+        let v = self.screw_weight * screw + self.nut_weight * nut;
+        let own = v * (o1 + v * (o2 + v * o3));
+        let speed_deviation = self.scale * (turn + own * (1.0 + turn));
+        let spin = 1.0 + self.spin * speed_deviation;
+        ScrewBallLoop {
+            speed_deviation,
+            compliance: self.compliance_sliding * share.inverse
+                + self.compliance_rolling * (share.inverse_two_thirds * spin),
+            groove_torque: self.torque_sliding * share.share
+                + self.torque_rolling * (share.four_thirds * spin),
+            rubbing: self.rubbing + self.rubbing_slope * speed_deviation,
+        }
+    }
+}
+
+/// Series of `1/(1 + x) - 1` with `x = (tan b sin u - (1 - cos u))/2`, from the power of one on.
+fn turn_series(tangent: f32) -> [f32; 5] {
+    let x1 = 0.5 * tangent;
+    let x2 = -0.25;
+    let x3 = -tangent / 12.0;
+    let x4 = 1.0 / 48.0;
+    let x5 = tangent / 240.0;
+    let c1 = -x1;
+    let c2 = -(x1 * c1 + x2);
+    let c3 = -(x1 * c2 + x2 * c1 + x3);
+    let c4 = -(x1 * c3 + x2 * c2 + x3 * c1 + x4);
+    let c5 = -(x1 * c4 + x2 * c3 + x3 * c2 + x4 * c1 + x5);
+    [c1, c2, c3, c4, c5]
+}
+
+#[inline]
+fn larger(first: f32, second: f32) -> f32 {
+    if first > second { first } else { second }
+}
+
+/// `x^(1/3)` of a positive normal number within 6e-5.
+#[inline]
+fn cube_root(x: f32) -> f32 {
+    let [inverse, _] = inverse_cube_roots([x, 1.0]);
+    x * inverse * inverse
+}
+
+/// A deviation within the limits of the series; NaN gives zero.
+#[inline]
+fn limited(deviation: f32) -> f32 {
+    if deviation.abs() <= LARGEST_DEVIATION {
+        deviation
+    } else if deviation.is_nan() {
+        0.0
+    } else {
+        LARGEST_DEVIATION.copysign(deviation)
+    }
+}

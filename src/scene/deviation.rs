@@ -1,0 +1,191 @@
+//! How contact angles deviate along a groove: manufacturing errors, as a table made once.
+
+use crate::error::{Error, in_range};
+
+/// Samples of a period; the one after the last repeats the first.
+const SAMPLES: usize = 64;
+
+/// Largest sample in units of the table: two of them and a fraction of 15 bits stay within 31 bits.
+const LARGEST: f32 = 16383.0;
+
+/// Largest deviation of a contact angle, rad.
+pub const LARGEST_DEVIATION: f32 = 0.2;
+
+/// Highest order of a harmonic: eight samples to a wave.
+pub const HIGHEST_ORDER: u8 = 8;
+
+/// One wave of a deviation along a groove: `cosine cos(order p) + sine sin(order p)` at the phase `p` of
+/// the map's period.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Harmonic {
+    /// Waves in a period, 0 (a constant) to [`HIGHEST_ORDER`].
+    pub order: u8,
+    /// Amplitude of the cosine, rad, at most [`LARGEST_DEVIATION`].
+    pub cosine: f32,
+    /// Amplitude of the sine, rad, at most [`LARGEST_DEVIATION`].
+    pub sine: f32,
+}
+
+/// Deviation of a groove's contact angles along the track, periodic: a table of 64 samples.
+///
+/// Where it is positive the right flank's contact angle is larger by it and the left flank's smaller
+/// (Lin 2019, Fig. 3.21: `+theta` on SR, `-theta` on SL). Made at compile time, it stands in flash:
+///
+/// ```
+/// use epas_friction::{DeviationMap, Harmonic};
+/// // Two waves of 2.3 degrees in every turn, as in Lin 2019, Fig. 3.23.
+/// static SCREW: DeviationMap = match DeviationMap::from_harmonics(
+///     1,
+///     &[Harmonic { order: 2, cosine: 0.0, sine: 0.04014 }],
+/// ) {
+///     Ok(map) => map,
+///     Err(_) => panic!("a deviation is too large"),
+/// };
+/// // An eighth of a turn on, at a crest of the two waves.
+/// assert!((SCREW.at(1 << 29) - 0.04014).abs() < 1e-5);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct DeviationMap {
+    samples: [i16; SAMPLES + 1],
+    /// Angle of one unit and one fraction of 2^-15, rad.
+    unit: f32,
+    turns: u16,
+}
+
+/// No deviation.
+impl Default for DeviationMap {
+    fn default() -> Self {
+        Self::NONE
+    }
+}
+
+impl DeviationMap {
+    /// No deviation.
+    pub const NONE: Self = Self {
+        samples: [0; SAMPLES + 1],
+        unit: 0.0,
+        turns: 1,
+    };
+
+    /// A sum of waves over a period of `turns` turns of a ball screw; on a straight track the period is
+    /// that part of its length.
+    ///
+    /// # Errors
+    /// [`Error`] naming `turns` (1 to 100), `order`, `cosine`, `sine`, or `deviation` where the sum of the
+    /// waves is too large.
+    pub const fn from_harmonics(turns: u16, harmonics: &[Harmonic]) -> Result<Self, Error> {
+        let mut samples = [0.0; SAMPLES];
+        let mut wave = 0;
+        while wave < harmonics.len() {
+            let Harmonic {
+                order,
+                cosine,
+                sine,
+            } = harmonics[wave];
+            if let Err(error) = in_range("order", order as f32, 0.0, HIGHEST_ORDER as f32) {
+                return Err(error);
+            }
+            if let Err(error) = in_range("cosine", cosine, -LARGEST_DEVIATION, LARGEST_DEVIATION) {
+                return Err(error);
+            }
+            if let Err(error) = in_range("sine", sine, -LARGEST_DEVIATION, LARGEST_DEVIATION) {
+                return Err(error);
+            }
+            let mut sample = 0;
+            while sample < SAMPLES {
+                let phase = sample * order as usize;
+                samples[sample] +=
+                    cosine * SINES[(phase + SAMPLES / 4) % SAMPLES] + sine * SINES[phase % SAMPLES];
+                sample += 1;
+            }
+            wave += 1;
+        }
+        Self::from_samples(turns, &samples)
+    }
+
+    /// Measured deviations, rad, at equal distances along a period of `turns` turns, from its start.
+    ///
+    /// # Errors
+    /// [`Error`] naming `turns` (1 to 100), or `deviation` (plus or minus [`LARGEST_DEVIATION`]).
+    pub const fn from_samples(turns: u16, deviations: &[f32; SAMPLES]) -> Result<Self, Error> {
+        if let Err(error) = in_range("turns", turns as f32, 1.0, 100.0) {
+            return Err(error);
+        }
+        let mut largest = 1e-9;
+        let mut sample = 0;
+        while sample < SAMPLES {
+            let deviation = deviations[sample];
+            if let Err(error) = in_range(
+                "deviation",
+                deviation,
+                -LARGEST_DEVIATION,
+                LARGEST_DEVIATION,
+            ) {
+                return Err(error);
+            }
+            let size = if deviation < 0.0 {
+                -deviation
+            } else {
+                deviation
+            };
+            largest = if size > largest { size } else { largest };
+            sample += 1;
+        }
+        let scale = LARGEST / largest;
+        let mut samples = [0; SAMPLES + 1];
+        let mut sample = 0;
+        while sample <= SAMPLES {
+            let scaled = deviations[sample % SAMPLES] * scale;
+            samples[sample] = (if scaled < 0.0 {
+                scaled - 0.5
+            } else {
+                scaled + 0.5
+            }) as i16;
+            sample += 1;
+        }
+        Ok(Self {
+            samples,
+            unit: largest / (LARGEST * 32768.0),
+            turns,
+        })
+    }
+
+    /// Turns of a ball screw in a period.
+    #[must_use]
+    pub const fn turns(&self) -> u16 {
+        self.turns
+    }
+
+    /// Deviation at a phase of the period in units of 2^-32, rad: linear between samples, which is within
+    /// `(pi order/64)²/2` of a wave's amplitude, 1.2e-3 for the first order.
+    #[inline]
+    #[must_use]
+    pub fn at(&self, phase: u32) -> f32 {
+        let index = (phase >> 26) as usize;
+        let fraction = ((phase >> 11) & 0x7fff) as i32;
+        match (self.samples.get(index), self.samples.get(index + 1)) {
+            (Some(&low), Some(&high)) => {
+                let (low, high) = (i32::from(low), i32::from(high));
+                ((low << 15) + (high - low) * fraction) as f32 * self.unit
+            }
+            _ => 0.0,
+        }
+    }
+}
+
+/// Sines of the samples' phases, by rotation from one to the next at compile time.
+const SINES: [f32; SAMPLES] = {
+    // cos and sin of 2 pi/64.
+    const STEP: (f64, f64) = (0.995_184_726_672_196_9, 0.098_017_140_329_560_6);
+    let mut sines = [0.0; SAMPLES];
+    let (mut cos, mut sin) = (1.0_f64, 0.0_f64);
+    let mut sample = 0;
+    while sample < SAMPLES {
+        sines[sample] = sin as f32;
+        (cos, sin) = (cos * STEP.0 - sin * STEP.1, sin * STEP.0 + cos * STEP.1);
+        sample += 1;
+    }
+    sines
+};

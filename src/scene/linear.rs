@@ -1,0 +1,319 @@
+//! A linear bearing with four-point contact and balls that press on each other.
+
+use super::deviation::DeviationMap;
+use super::faults::bounded;
+use super::uncaged::TrainOutputs;
+use super::zone::{LoadedZone, Phase};
+use super::{Faults, Regime, Scene};
+use crate::ball::LoadShare;
+use crate::contact::FrictionMap;
+use crate::error::{Error, in_range};
+use crate::geometry::LinearBearing;
+use crate::hertz::HertzContact;
+use crate::math;
+use crate::train::{LARGEST_TRAVEL, Track, Train};
+
+/// Impedance of a ball that no load presses into its grooves, N: it goes along with its neighbours.
+const UNLOADED: f32 = 1e-6;
+
+/// Force on a diagonal below which it does not count, N.
+const SMALLEST_FORCE: f32 = 1e-6;
+
+/// A linear bearing without cage, with `N` balls in one circuit, in four-point contact: the published
+/// closed form for every ball ([`AnalyticLinearBall`](crate::AnalyticLinearBall)), with its corrections.
+///
+/// Speed deviations are within 6e-3 of `v/2` for side-force ratios up to 0.8 and deviations up to 3
+/// degrees, where [`FourPointBall::refine_chain`](crate::FourPointBall::refine_chain) is within 4e-5 at
+/// some 1,500 cycles a ball.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct LinearBearingTrain<const N: usize>;
+
+/// What the control interrupt knows of a linear bearing at a tick.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct LinearInputs {
+    /// Speed of the carriage on the rail, m/s.
+    pub speed: f32,
+    /// Force that presses the carriage on the row of balls, N, preload included; zero or less lifts it
+    /// off.
+    pub normal_load: f32,
+    /// Force across, N: positive loads the diagonal from bottom left to top right.
+    pub side_load: f32,
+}
+
+/// Bounds that are kept whatever comes in.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct LinearLimits {
+    /// Largest speed that is believed, m/s, 1e-6 to 1e3.
+    pub speed: f32,
+    /// Largest normal and side load that is believed, N, 1e-3 to 1e7.
+    pub load: f32,
+    /// Largest friction force that is put out, N, 1e-6 to 1e6.
+    pub friction_force: f32,
+}
+
+/// What the engineer sets for a linear bearing; unchecked.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct LinearBearingConfiguration {
+    /// The validated design.
+    pub bearing: LinearBearing,
+    /// Coulomb friction coefficient of ball and groove, 1e-3 to 1.
+    pub friction: f32,
+    /// Coulomb friction coefficient of ball and ball, 0 to 1.
+    pub ball_friction: f32,
+    /// Length of the loaded track, m, 1e-4 to 100.
+    pub loaded_length: f32,
+    /// Length of the return, m, 0 to 100: there balls carry no load.
+    pub return_length: f32,
+    /// Length that counts as one turn of the deviation maps, m, 1e-4 to 100.
+    pub wavelength: f32,
+    /// Deviation of the contact angles along the rail: added on BR, taken off on BL.
+    pub rail_deviation: &'static DeviationMap,
+    /// Deviation of the contact angles along the carriage: added on TR, taken off on TL.
+    pub carriage_deviation: &'static DeviationMap,
+    /// Load of a ball over the mean load, in equal parts of the loaded track from its start; 1 to 256.
+    pub load_shares: &'static [LoadShare],
+    /// Speed over which friction changes its direction, m/s, 1e-9 to 10: at this speed it has 71 % of
+    /// its full value.
+    pub reversal_speed: f32,
+    /// Time between two ticks, s, 1e-6 to 1; at the largest speed the balls may move by 3 % of the track
+    /// in it.
+    pub tick: f32,
+    /// Bounds that are kept whatever comes in.
+    pub limits: LinearLimits,
+}
+
+/// Constants of a linear bearing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct LinearConstants {
+    zone: LoadedZone,
+    track: Track,
+    /// Loads over the diagonals' forces: `1/(2 n cos beta)` and `1/(2 n sin beta)` for `n` loaded balls.
+    normal: f32,
+    side: f32,
+    /// `tan(beta)/2`.
+    half_tangent: f32,
+    /// Impedance of a ball over `F_U^(2/3) + F_D^(2/3)`, N^(1/3).
+    impedance: f32,
+    /// Drag of a ball over `F_U^(4/3) + F_D^(4/3)`, N^(-1/3).
+    drag: f32,
+    /// Friction force of two balls over the force between them.
+    rubbing: f32,
+    travel: f32,
+    phase: f32,
+    reversal_speed: f32,
+    reversal_squared: f32,
+    limits: LinearLimits,
+}
+
+/// State of a linear bearing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct LinearState<const N: usize> {
+    /// The balls.
+    pub train: Train<N>,
+    phase: Phase,
+    /// Consecutive ticks whose outputs were flagged, up to `u32::MAX`; 0 after a sound tick.
+    pub faulted_ticks: u32,
+}
+
+impl LinearLimits {
+    fn checked(self) -> Result<Self, Error> {
+        in_range("speed", self.speed, 1e-6, 1e3)?;
+        in_range("load", self.load, 1e-3, 1e7)?;
+        in_range("friction_force", self.friction_force, 1e-6, 1e6)?;
+        Ok(self)
+    }
+
+    /// The inputs within their limits, with what was wrong; `None` beside the flags where no number can
+    /// stand in.
+    #[inline]
+    fn admit(&self, inputs: LinearInputs) -> (Option<LinearInputs>, Faults) {
+        let LinearInputs {
+            speed,
+            normal_load,
+            side_load,
+        } = inputs;
+        let loads = normal_load.is_finite() && side_load.is_finite();
+        if speed.is_finite() && loads {
+            let beyond = normal_load.abs() > self.load || side_load.abs() > self.load;
+            let admitted = LinearInputs {
+                speed: bounded(speed, self.speed),
+                normal_load: bounded(normal_load, self.load),
+                side_load: bounded(side_load, self.load),
+            };
+            let faults = Faults::NONE
+                .with(speed.abs() > self.speed, Faults::SPEED_RANGE)
+                .with(beyond, Faults::LOAD_RANGE);
+            (Some(admitted), faults)
+        } else {
+            let faults = Faults::NONE
+                .with(!speed.is_finite(), Faults::SPEED_NOT_FINITE)
+                .with(!loads, Faults::LOAD_NOT_FINITE);
+            (None, faults)
+        }
+    }
+}
+
+impl<const N: usize> Scene for LinearBearingTrain<N> {
+    type Configuration = LinearBearingConfiguration;
+    type Constants = LinearConstants;
+    type State = LinearState<N>;
+    type Inputs = LinearInputs;
+    type Outputs = TrainOutputs;
+
+    fn constants(configuration: &LinearBearingConfiguration) -> Result<LinearConstants, Error> {
+        let bearing = &configuration.bearing;
+        let friction = in_range("friction", configuration.friction, 1e-3, 1.0)?;
+        let ball_friction = in_range("ball_friction", configuration.ball_friction, 0.0, 1.0)?;
+        let loaded = in_range("loaded_length", configuration.loaded_length, 1e-4, 100.0)?;
+        let return_length = in_range("return_length", configuration.return_length, 0.0, 100.0)?;
+        let wavelength = in_range("wavelength", configuration.wavelength, 1e-4, 100.0)?;
+        let reversal_speed = in_range("reversal_speed", configuration.reversal_speed, 1e-9, 10.0)?;
+        let tick = in_range("tick", configuration.tick, 1e-6, 1.0)?;
+        let limits = configuration.limits.checked()?;
+
+        let length = loaded + return_length;
+        let radius = bearing.ball_radius();
+        let track = Track::new(length, 2.0 * radius, N)?;
+        let turns = length / wavelength;
+        in_range("wavelength", turns, 0.0, 1000.0)?;
+        let zone = LoadedZone::new(
+            loaded / wavelength,
+            turns,
+            configuration.rail_deviation,
+            configuration.carriage_deviation,
+            configuration.load_shares,
+        )?;
+        in_range(
+            "tick",
+            tick,
+            0.0,
+            2.0 * LARGEST_TRAVEL * length / limits.speed,
+        )?;
+
+        let contact = HertzContact::of_linear(bearing);
+        let map = FrictionMap::new(contact.axis_ratio())?;
+        let angle = bearing.contact_angle();
+        let per_ball = length / (loaded * N as f32);
+        let half_tangent = 0.5 * angle.sin / angle.cos;
+        let semi_major = contact.semi_major_coefficient();
+        Ok(LinearConstants {
+            zone,
+            track,
+            normal: 0.5 * per_ball / angle.cos,
+            side: 0.5 * per_ball / angle.sin,
+            half_tangent,
+            // (3.43), (3.49) with tan(beta) for 1 - cos(2 beta), in units of v/2.
+            impedance: map.slope() * friction * radius / (half_tangent * semi_major),
+            // Four contacts that spin with v tan(beta)/(2 R_B) each.
+            drag: 2.0 * map.spin_moment() * friction * semi_major * half_tangent / radius,
+            // (3.52): balls that roll alike rub with v/cos(beta).
+            rubbing: ball_friction / angle.cos,
+            travel: -0.5 * tick,
+            phase: zone.phase_per_turn() * tick / wavelength,
+            reversal_speed,
+            reversal_squared: reversal_speed * reversal_speed,
+            limits,
+        })
+    }
+
+    fn initial_state(constants: &LinearConstants) -> LinearState<N> {
+        LinearState {
+            train: Train::spread(constants.track),
+            phase: Phase::default(),
+            faulted_ticks: 0,
+        }
+    }
+
+    #[inline]
+    fn step(
+        constants: &LinearConstants,
+        state: &mut LinearState<N>,
+        inputs: LinearInputs,
+    ) -> TrainOutputs {
+        let (admitted, faults) = constants.limits.admit(inputs);
+        let outputs = match admitted {
+            Some(inputs) => constants.outputs(state, inputs, faults),
+            None => TrainOutputs::safe(faults),
+        };
+        state.faulted_ticks = if outputs.faults.any() {
+            state.faulted_ticks.saturating_add(1)
+        } else {
+            0
+        };
+        outputs
+    }
+}
+
+impl LinearConstants {
+    #[inline(always)]
+    fn outputs<const N: usize>(
+        &self,
+        state: &mut LinearState<N>,
+        inputs: LinearInputs,
+        faults: Faults,
+    ) -> TrainOutputs {
+        let LinearInputs {
+            speed,
+            normal_load,
+            side_load,
+        } = inputs;
+        let direction = speed / math::sqrt(speed * speed + self.reversal_squared);
+        let (normal, side) = (normal_load * self.normal, side_load * self.side);
+        let up = at_least(normal + side, SMALLEST_FORCE);
+        let down = at_least(normal - side, SMALLEST_FORCE);
+        let (up_root, up_squared) = math::cbrt_and_squared(up);
+        let (down_root, down_squared) = math::cbrt_and_squared(down);
+        let sum = up_squared + down_squared;
+
+        // epsilon = tan(beta) ((dTR - dBL) A_U + (dTL - dBR) A_D)/(2 (A_U + A_D)).
+        let turn = self.half_tangent * (up_squared - down_squared) / sum;
+        let turn = if speed < 0.0 { -turn } else { turn };
+        let impedance = self.impedance * sum;
+        let drag = self.drag * (up * up_root + down * down_root);
+
+        let phase = state.phase.units();
+        let mut drags = 0.0;
+        for (position, free, stiff) in state.train.balls() {
+            if let Some(place) = self.zone.at(position, phase) {
+                *free = turn * (place.own + place.passing);
+                *stiff = impedance * place.share.two_thirds();
+                drags += place.share.four_thirds();
+            } else {
+                *free = 0.0;
+                *stiff = UNLOADED;
+            }
+        }
+        let pressing = state.train.run(speed * self.travel);
+        state.phase.advance(speed * self.phase);
+
+        let groove_friction = direction * (drag * drags);
+        let ball_friction = direction * (self.rubbing * pressing.force);
+        let total = groove_friction + ball_friction;
+        let friction = bounded(total, self.limits.friction_force);
+        TrainOutputs {
+            friction,
+            groove_friction,
+            ball_friction,
+            load_torque: 0.0,
+            contacts: pressing.contacts,
+            largest_contact_force: pressing.largest,
+            regime: if speed.abs() < self.reversal_speed {
+                Regime::Standing
+            } else {
+                Regime::Driving
+            },
+            faults: faults.with(friction != total, Faults::TORQUE_LIMIT),
+        }
+    }
+}
+
+#[inline]
+fn at_least(value: f32, bound: f32) -> f32 {
+    if value > bound { value } else { bound }
+}

@@ -1,0 +1,267 @@
+//! A ball screw without cage: its balls press on each other.
+
+use core::f32::consts::TAU;
+
+use super::deviation::DeviationMap;
+use super::uncaged::TrainOutputs;
+use super::zone::{LoadedZone, Phase};
+use super::{Faults, Inputs, Limits, Regime, Scene};
+use crate::ball::{GrooveFit, LoadShare, ScrewRow};
+use crate::error::{Error, in_range};
+use crate::geometry::BallScrew;
+use crate::math;
+use crate::model::FrictionModel;
+use crate::train::{IMPEDANCE_RANGE, LARGEST_TRAVEL, Track, Train};
+
+/// Impedance of a ball that no load presses into its grooves, N: it goes along with its neighbours.
+const UNLOADED: f32 = 1e-6;
+const _: () = assert!(UNLOADED >= IMPEDANCE_RANGE.0);
+
+/// A ball screw without cage, with `N` balls in one circuit: friction of the grooves and between balls.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct UncagedBallScrew<const N: usize>;
+
+/// What the engineer sets for a ball screw without cage; unchecked.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct UncagedBallScrewConfiguration {
+    /// The validated design.
+    pub design: BallScrew,
+    /// Coulomb friction coefficient of ball and groove, 1e-3 to 0.5.
+    pub friction: f32,
+    /// Coulomb friction coefficient of ball and ball, 0 to 1.
+    pub ball_friction: f32,
+    /// How balls fit between the grooves.
+    pub fit: GrooveFit,
+    /// Turns of the loaded track, 0.1 to 100.
+    pub turns: f32,
+    /// Length of the return, m, 0 to 10: there balls carry no load.
+    pub return_length: f32,
+    /// Deviation of the contact angles along the screw's groove.
+    pub screw_deviation: &'static DeviationMap,
+    /// Deviation of the contact angles along the nut's groove, from the start of the loaded track.
+    pub nut_deviation: &'static DeviationMap,
+    /// Load of a ball over the mean load, in equal parts of the loaded track from its start; 1 to 256.
+    pub load_shares: &'static [LoadShare],
+    /// Nut speed over which friction changes its direction, rad/s, 1e-6 to 1e3: at this speed it has
+    /// 71 % of its full value.
+    pub reversal_speed: f32,
+    /// Time between two ticks, s, 1e-6 to 1; at the largest nut speed the balls may move by 3 % of the
+    /// track in it.
+    pub tick: f32,
+    /// Bounds that are kept whatever comes in.
+    pub limits: Limits,
+}
+
+/// Constants of a ball screw without cage.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct UncagedConstants {
+    row: ScrewRow,
+    zone: LoadedZone,
+    track: Track,
+    ball_friction: f32,
+    /// Loaded balls, the other way round.
+    per_ball: f32,
+    /// Speed of the balls against the nut, m per unit of nut speed, and the other way round.
+    speed: f32,
+    per_speed: f32,
+    /// Travel of the balls along the nut's track in a tick, m s.
+    travel: f32,
+    /// Advance of the screw's phase in a tick, s.
+    phase: f32,
+    reduced_lead: f32,
+    reversal_speed: f32,
+    reversal_squared: f32,
+    limits: Limits,
+}
+
+/// State of a ball screw without cage.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct UncagedState<const N: usize> {
+    /// The balls.
+    pub train: Train<N>,
+    phase: Phase,
+    /// Consecutive ticks whose outputs were flagged, up to `u32::MAX`; 0 after a sound tick.
+    pub faulted_ticks: u32,
+}
+
+impl<const N: usize> Scene for UncagedBallScrew<N> {
+    type Configuration = UncagedBallScrewConfiguration;
+    type Constants = UncagedConstants;
+    type State = UncagedState<N>;
+    type Inputs = Inputs;
+    type Outputs = TrainOutputs;
+
+    fn constants(configuration: &UncagedBallScrewConfiguration) -> Result<UncagedConstants, Error> {
+        let design = &configuration.design;
+        let friction = in_range("friction", configuration.friction, 1e-3, 0.5)?;
+        let ball_friction = in_range("ball_friction", configuration.ball_friction, 0.0, 1.0)?;
+        let turns = in_range("turns", configuration.turns, 0.1, 100.0)?;
+        let return_length = in_range("return_length", configuration.return_length, 0.0, 10.0)?;
+        let reversal_speed = in_range("reversal_speed", configuration.reversal_speed, 1e-6, 1e3)?;
+        let tick = in_range("tick", configuration.tick, 1e-6, 1.0)?;
+        let limits = configuration.limits.checked()?;
+        let row = ScrewRow::new(design, friction, configuration.fit)?;
+
+        let path = design.pitch_radius() / design.cos_lead_angle();
+        let per_turn = TAU * path;
+        let loaded = turns * per_turn;
+        let length = loaded + return_length;
+        let pitch = 2.0 * path * arc_sine(design.ball_radius() / path);
+        let track = Track::new(length, pitch, N)?;
+        let zone = LoadedZone::new(
+            turns,
+            length / per_turn,
+            configuration.screw_deviation,
+            configuration.nut_deviation,
+            configuration.load_shares,
+        )?;
+
+        let speed = path - row.nominal_speed();
+        let fastest = LARGEST_TRAVEL * length / (speed * limits.nut_speed);
+        in_range("tick", tick, 0.0, fastest)?;
+        Ok(UncagedConstants {
+            row,
+            per_ball: length / (loaded * N as f32),
+            speed,
+            per_speed: 1.0 / speed,
+            travel: -speed * tick,
+            phase: zone.phase_per_turn() * tick / TAU,
+            zone,
+            track,
+            ball_friction,
+            reduced_lead: design.lead() / TAU,
+            reversal_speed,
+            reversal_squared: reversal_speed * reversal_speed,
+            limits,
+        })
+    }
+
+    fn initial_state(constants: &UncagedConstants) -> UncagedState<N> {
+        UncagedState {
+            train: Train::spread(constants.track),
+            phase: Phase::default(),
+            faulted_ticks: 0,
+        }
+    }
+
+    #[inline]
+    fn step(
+        constants: &UncagedConstants,
+        state: &mut UncagedState<N>,
+        inputs: Inputs,
+    ) -> TrainOutputs {
+        let (admitted, faults) = constants.limits.admit(inputs);
+        let outputs = match admitted {
+            Some(inputs) => constants.outputs(state, inputs, faults),
+            None => TrainOutputs::safe(faults),
+        };
+        state.faulted_ticks = if outputs.faults.any() {
+            state.faulted_ticks.saturating_add(1)
+        } else {
+            0
+        };
+        outputs
+    }
+}
+
+impl UncagedConstants {
+    #[inline(always)]
+    fn outputs<const N: usize>(
+        &self,
+        state: &mut UncagedState<N>,
+        inputs: Inputs,
+        faults: Faults,
+    ) -> TrainOutputs {
+        let Inputs {
+            nut_speed,
+            axial_load,
+        } = inputs;
+        let direction = nut_speed / math::sqrt(nut_speed * nut_speed + self.reversal_squared);
+        let tick = self.row.at(nut_speed, axial_load * self.per_ball);
+        // Speeds are along the track, over the size of the nominal speed against the nut.
+        let per_speed = if nut_speed < 0.0 {
+            -self.per_speed
+        } else {
+            self.per_speed
+        };
+
+        let phase = state.phase.units();
+        let mut groove_torque = 0.0;
+        for (position, speed, impedance) in state.train.balls() {
+            if let Some(place) = self.zone.at(position, phase) {
+                let ball = tick.ball(place.passing, place.own, place.share);
+                *speed = ball.speed_deviation * per_speed;
+                *impedance = self.speed / ball.compliance;
+                groove_torque += ball.groove_torque;
+            } else {
+                *speed = 0.0;
+                *impedance = UNLOADED;
+            }
+        }
+        let pressing = state.train.run(nut_speed * self.travel);
+        state.phase.advance(nut_speed * self.phase);
+
+        // Both balls of a pair turn alike; the sign of the speeds is that of the nut speed.
+        let way = if nut_speed < 0.0 {
+            -self.speed
+        } else {
+            self.speed
+        };
+        let rubbing = tick.rubbing() * pressing.force + tick.rubbing_slope() * way * pressing.power;
+        let ball_torque = 2.0 * self.ball_friction * rubbing;
+
+        let groove_friction = direction * groove_torque;
+        let ball_friction = direction * ball_torque;
+        let (friction, limited) = self.limits.limit_torque(groove_friction + ball_friction);
+        let load_torque = axial_load * self.reduced_lead;
+        let size = if friction < 0.0 { -friction } else { friction };
+        let opposing = if nut_speed < 0.0 {
+            -load_torque
+        } else {
+            load_torque
+        };
+        let regime = if nut_speed.abs() < self.reversal_speed {
+            Regime::Standing
+        } else if opposing >= 0.0 {
+            Regime::Driving
+        } else if size < -opposing {
+            Regime::BackDriving
+        } else {
+            Regime::Locked
+        };
+        TrainOutputs {
+            friction,
+            groove_friction,
+            ball_friction,
+            load_torque,
+            contacts: pressing.contacts,
+            largest_contact_force: pressing.largest,
+            regime,
+            faults: faults | limited,
+        }
+    }
+}
+
+impl<const N: usize> FrictionModel<UncagedBallScrew<N>> {
+    /// Sets the angle of the nut against the screw, rad, from which the screw's deviations are counted:
+    /// once after start-up, and again whenever an absolute sensor has it; between, the model integrates
+    /// the speed. An angle that is NaN, or beyond 1e7 periods of the map, counts as 0.
+    pub fn set_nut_angle(&mut self, angle: f32) {
+        let turns = f32::from(self.constants().zone.passing_turns());
+        self.state_mut().phase.set(angle / (TAU * turns));
+    }
+}
+
+/// `asin(x)` for `x` in 0 to 0.9, by Newton's method from `x`; at set-up only.
+fn arc_sine(x: f32) -> f32 {
+    let mut angle = x;
+    for _ in 0..6 {
+        let (sin, cos) = math::sin_cos(angle);
+        angle += (x - sin) / cos;
+    }
+    angle
+}

@@ -1,0 +1,132 @@
+//! Where on the track balls carry load, and what they find there.
+
+use super::deviation::DeviationMap;
+use crate::ball::LoadShare;
+use crate::error::{Error, in_range};
+
+/// Units of length on the track.
+const UNITS: f32 = 4_294_967_296.0;
+
+/// Fraction bits of a ratio of phases.
+const FRACTION_BITS: u32 = 16;
+
+/// Deviation maps of both grooves and the shares of the load, in integers along the track.
+///
+/// The track runs through the body in which balls recirculate (nut, carriage): first the loaded part,
+/// then the return. The other groove (screw, rail) passes by.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(super) struct LoadedZone {
+    /// Position before which balls are loaded, less one.
+    last: u32,
+    /// Entries of the load table along the whole track.
+    entries: u32,
+    passing_ratio: u32,
+    own_ratio: u32,
+    passing: &'static DeviationMap,
+    own: &'static DeviationMap,
+    shares: &'static [LoadShare],
+}
+
+/// What a loaded ball finds.
+pub(super) struct Place {
+    /// Deviation of the groove that passes by, rad.
+    pub(super) passing: f32,
+    /// Deviation of the groove of the body in which balls recirculate, rad.
+    pub(super) own: f32,
+    pub(super) share: &'static LoadShare,
+}
+
+impl LoadedZone {
+    /// A track of `length` with `loaded` of it under load, in turns or wavelengths of the maps.
+    pub(super) fn new(
+        loaded: f32,
+        length: f32,
+        passing: &'static DeviationMap,
+        own: &'static DeviationMap,
+        shares: &'static [LoadShare],
+    ) -> Result<Self, Error> {
+        in_range("load_shares", shares.len() as f32, 1.0, 256.0)?;
+        let ratio = |map: &DeviationMap| {
+            let ratio = length / f32::from(map.turns());
+            (ratio * (1_u32 << FRACTION_BITS) as f32) as u32
+        };
+        Ok(Self {
+            last: (loaded / length * UNITS) as u32,
+            entries: (shares.len() as f32 * length / loaded * (1_u32 << FRACTION_BITS) as f32)
+                as u32,
+            passing_ratio: ratio(passing),
+            own_ratio: ratio(own),
+            passing,
+            own,
+            shares,
+        })
+    }
+
+    /// What a ball at `position` finds, where it is loaded, when the passing groove is at `phase`.
+    #[inline(always)]
+    pub(super) fn at(&self, position: u32, phase: u32) -> Option<Place> {
+        if position > self.last {
+            return None;
+        }
+        let scaled = |ratio: u32| (u64::from(position) * u64::from(ratio)) >> FRACTION_BITS;
+        let entry = (scaled(self.entries) >> 32) as usize;
+        let share = match self.shares.get(entry) {
+            Some(share) => share,
+            None => self.shares.last()?,
+        };
+        let passing = (scaled(self.passing_ratio) as u32).wrapping_add(phase);
+        Some(Place {
+            passing: self.passing.at(passing),
+            own: self.own.at(scaled(self.own_ratio) as u32),
+            share,
+        })
+    }
+
+    /// Turns in a period of the passing groove.
+    pub(super) const fn passing_turns(&self) -> u16 {
+        self.passing.turns()
+    }
+
+    /// Phase of the passing groove, in units of 2^-32, per turn or wavelength.
+    pub(super) fn phase_per_turn(&self) -> f32 {
+        UNITS / f32::from(self.passing.turns())
+    }
+}
+
+/// A phase that advances by parts of a unit and wraps around.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(super) struct Phase {
+    units: u32,
+    rest: f32,
+}
+
+impl Phase {
+    #[inline(always)]
+    pub(super) const fn units(&self) -> u32 {
+        self.units
+    }
+
+    #[inline(always)]
+    pub(super) fn advance(&mut self, units: f32) {
+        let units = units + self.rest;
+        let whole = units as i32;
+        self.units = self.units.wrapping_add_signed(whole);
+        self.rest = units - whole as f32;
+    }
+
+    /// Sets the phase to a number of periods, of which only the fraction counts.
+    pub(super) fn set(&mut self, periods: f32) {
+        let periods = if periods.abs() < 8_388_608.0 {
+            periods
+        } else {
+            0.0
+        };
+        let fraction = periods - periods as i32 as f32;
+        // Twice a half, because a whole period does not fit into 31 bits.
+        let half = (fraction * (0.5 * UNITS)) as i32;
+        self.units = (half as u32).wrapping_mul(2);
+        self.rest = 0.0;
+    }
+}

@@ -1,0 +1,347 @@
+//! Where the balls of a train are, and how they get on.
+
+use super::press::Press;
+use crate::error::{Error, in_range};
+
+/// Units of length on the track: positions wrap around where it closes.
+const UNITS: f32 = 4_294_967_296.0;
+
+/// A position keeps sixteenths of a unit: slow balls move by less than a unit in a tick.
+const FRACTION_BITS: u32 = 4;
+const FRACTIONS: f32 = 16.0;
+
+/// Largest travel in a tick over the length of the track that counts.
+pub const LARGEST_TRAVEL: f32 = 0.03;
+
+/// Distances this far below zero, in units, are contact: what rounding of two positions leaves.
+const ROUNDING: u32 = 1 << 10;
+
+/// Balls on a closed track, which they fill in part: positions, distances, forces, from tick to tick.
+///
+/// Positions are integers, in units of the track's length over 2³² (a tenth of a nanometre on half a
+/// metre): they wrap around where the track closes, and distances that open and close for hours do not
+/// drift. Balls that press on each other are set in contact exactly, the others are within two units of
+/// where their speeds lead, so that no overlap grows.
+///
+/// What the balls would do on their own comes as deviations from a common nominal speed, in units of its
+/// size, and the forces follow from [`Press`]: nothing here depends on the size of the speed, only on the
+/// sense of motion and on the way travelled.
+///
+/// ```
+/// use epas_friction::Train;
+/// // Three balls of 10 mm in contact on a track of 1 m, the fastest at the rear.
+/// let mut train = Train::<3>::new(1.0, 0.01, &[0.0; 3])?;
+/// train.step(&[0.02, 0.01, 0.0], &[1e3; 3], 1e-4);
+/// assert!(train.forces().zip([10.0, 10.0, 0.0]).all(|(force, exact)| (force - exact).abs() < 1e-4));
+/// // They go on as one, at the mean speed.
+/// assert!(train.speeds().all(|speed| (speed - 0.01).abs() < 1e-7));
+/// # Ok::<(), epas_friction::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Train<const N: usize> {
+    /// Relative to the origin.
+    position: [u32; N],
+    fraction: [u8; N],
+    origin: u32,
+    origin_rest: f32,
+    press: Press<N>,
+    track: Track,
+}
+
+/// Two balls that press on each other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct BallContact {
+    /// Index of the ball behind; the one in front is the next, or ball 0.
+    pub ball: u8,
+    /// Position of the ball behind, as a part of the track's length in units of 2^-32.
+    pub position: u32,
+    /// Force between the two, in the unit of speed times impedance.
+    pub force: f32,
+}
+
+/// What the contacts between balls add up to in a tick.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Pressing {
+    /// Pairs that press on each other.
+    pub(crate) contacts: u8,
+    /// Largest force.
+    pub(crate) largest: f32,
+    /// Sum of the forces.
+    pub(crate) force: f32,
+    /// Sum of the forces times the speeds of the balls behind.
+    pub(crate) power: f32,
+}
+
+/// Length of a closed track and of what a ball takes of it, checked for a number of balls.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(crate) struct Track {
+    /// Distance of the centres of two balls in contact, in units.
+    pitch: u32,
+    /// Units in a metre.
+    units: f32,
+}
+
+impl Track {
+    pub(crate) fn new(length: f32, pitch: f32, balls: usize) -> Result<Self, Error> {
+        in_range("length", length, 1e-4, 1e4)?;
+        in_range("pitch", pitch, 1e-6 * length, length / balls as f32)?;
+        let units = UNITS / length;
+        let pitch = (pitch * units) as u32;
+        // f32 holds the pitch to 2^-24; balls that fill the track must not overfill it by that.
+        let fits = u32::try_from((1_u64 << 32) / balls as u64).unwrap_or(u32::MAX);
+        Ok(Self {
+            pitch: if pitch > fits { fits } else { pitch },
+            units,
+        })
+    }
+}
+
+impl<const N: usize> Train<N> {
+    /// Balls on a closed track of `length`, m, that stand `pitch`, m, from centre to centre in contact:
+    /// on a straight track the ball diameter, on a helix the arc over it. Ball 0 starts at 0; `gaps[j]`,
+    /// m, is left in front of ball `j`, in front of the last one whatever is left.
+    ///
+    /// # Errors
+    /// [`Error`] naming `length` (1e-4 to 1e4), `pitch` (1e-6 of the length to its `N`-th part) or
+    /// `gaps` (each zero or more, the last one not counted, all no more than the balls leave).
+    pub fn new(length: f32, pitch: f32, gaps: &[f32; N]) -> Result<Self, Error> {
+        let track = Track::new(length, pitch, N)?;
+        let mut room = (1_u64 << 32) - N as u64 * u64::from(track.pitch);
+        let mut position = [0; N];
+        let mut next = 0_u32;
+        for (place, &gap) in position.iter_mut().zip(gaps) {
+            *place = next;
+            let last = room as f32 / track.units;
+            let gap = (in_range("gaps", gap, 0.0, last)? * track.units) as u64;
+            let gap = if gap > room { room } else { gap };
+            room -= gap;
+            next = next.wrapping_add(track.pitch).wrapping_add(gap as u32);
+        }
+        Ok(Self::at(position, track))
+    }
+
+    /// Balls at equal distances.
+    ///
+    /// # Errors
+    /// As [`Train::new`].
+    pub fn evenly_spaced(length: f32, pitch: f32) -> Result<Self, Error> {
+        Ok(Self::spread(Track::new(length, pitch, N)?))
+    }
+
+    pub(crate) fn spread(track: Track) -> Self {
+        let step = (1_u64 << 32) / N as u64;
+        Self::at(
+            core::array::from_fn(|ball| (ball as u64 * step) as u32),
+            track,
+        )
+    }
+
+    const fn at(position: [u32; N], track: Track) -> Self {
+        Self {
+            position,
+            fraction: [0; N],
+            origin: 0,
+            origin_rest: 0.0,
+            press: Press::new(),
+            track,
+        }
+    }
+
+    /// Position of each ball, from the rear one to the front one, as a part of the track's length in
+    /// units of 2^-32.
+    #[inline]
+    pub fn positions(&self) -> impl Iterator<Item = u32> + '_ {
+        let origin = self.origin;
+        self.position
+            .iter()
+            .map(move |position| position.wrapping_add(origin))
+    }
+
+    /// Distance in front of each ball, m: zero in contact, up to a few units below by rounding.
+    pub fn gaps(&self) -> impl Iterator<Item = f32> + '_ {
+        let metre = 1.0 / self.track.units;
+        distances(&self.position, self.track.pitch).map(move |distance| {
+            if distance > u32::MAX - ROUNDING {
+                (distance as i32) as f32 * metre
+            } else {
+                distance as f32 * metre
+            }
+        })
+    }
+
+    /// Force between each ball and the one in front of it, in the unit of speed times impedance; the last
+    /// one acts between the last ball and the first.
+    #[inline]
+    pub fn forces(&self) -> impl DoubleEndedIterator<Item = f32> + ExactSizeIterator + '_ {
+        self.press.forces()
+    }
+
+    /// Actual speed of each ball in the last tick, as the free speeds are counted.
+    #[inline]
+    pub fn speeds(&self) -> impl DoubleEndedIterator<Item = f32> + ExactSizeIterator + '_ {
+        self.press.speeds()
+    }
+
+    /// Pairs of balls that press on each other, from the rear of the train on.
+    #[must_use]
+    pub fn contacts(&self) -> heapless::Vec<BallContact, N> {
+        self.positions()
+            .zip(self.forces())
+            .enumerate()
+            .filter(|(_, (_, force))| *force > 0.0)
+            .map(|(ball, (position, force))| BallContact {
+                ball: ball as u8,
+                position,
+                force,
+            })
+            .collect()
+    }
+
+    /// Joins of clusters that the last tick needed, at most `N - 1`.
+    #[inline]
+    #[must_use]
+    pub const fn joins(&self) -> usize {
+        self.press.joins()
+    }
+
+    /// Moves the train by one tick.
+    ///
+    /// `travel`, m, is the nominal way of a ball in this tick, signed along the track. `free[j]` is the
+    /// speed ball `j` would take on its own, less the nominal one, over the size of the nominal one;
+    /// `impedance[j]` the force that takes all of the nominal speed from it, N. Speeds are signed along
+    /// the track: of a train that runs backwards, a ball that is faster than the nominal one has a negative
+    /// speed.
+    ///
+    /// Without travel the forces are those with which motion sets in; what the free speeds' signs say
+    /// then is up to the caller. A travel that is NaN counts as zero, one beyond [`LARGEST_TRAVEL`] of
+    /// the track as that. Speeds and impedances as in [`Press::solve`], whose answer is returned: where it
+    /// is false, all balls move with the nominal speed and press on none.
+    pub fn step(&mut self, free: &[f32; N], impedance: &[f32; N], travel: f32) -> bool {
+        let sound = self.press.set(free, impedance);
+        self.run(travel);
+        sound
+    }
+
+    /// Position, free speed and impedance of each ball, to be set before [`Train::run`].
+    #[inline(always)]
+    pub(crate) fn balls(&mut self) -> impl Iterator<Item = (u32, &mut f32, &mut f32)> {
+        let origin = self.origin;
+        self.position
+            .iter()
+            .zip(&mut self.press.balls)
+            .map(move |(position, ball)| {
+                (
+                    position.wrapping_add(origin),
+                    &mut ball.speed,
+                    &mut ball.impedance,
+                )
+            })
+    }
+
+    /// [`Train::step`] with the speeds and impedances that stand in the train.
+    #[inline(always)]
+    pub(crate) fn run(&mut self, travel: f32) -> Pressing {
+        let travel = self.counted(travel);
+        let way = if travel < 0.0 { -travel } else { travel };
+        let per_unit = if way > 1e-20 { 1.0 / way } else { 1e20 };
+
+        for (ball, distance) in self
+            .press
+            .balls
+            .iter_mut()
+            .zip(distances(&self.position, self.track.pitch))
+        {
+            ball.room = if distance > u32::MAX - ROUNDING {
+                0.0
+            } else {
+                distance as f32 * per_unit
+            };
+        }
+        self.press.pool();
+        let pressing = self.advance(way);
+
+        let travel = travel + self.origin_rest;
+        let whole = travel as i32;
+        self.origin = self.origin.wrapping_add_signed(whole);
+        self.origin_rest = travel - whole as f32;
+        pressing
+    }
+
+    /// Travel in units.
+    #[inline]
+    fn counted(&self, travel: f32) -> f32 {
+        let travel = travel * self.track.units;
+        let largest = LARGEST_TRAVEL * UNITS;
+        if travel > largest {
+            largest
+        } else if travel < -largest {
+            -largest
+        } else if travel.is_nan() {
+            0.0
+        } else {
+            travel
+        }
+    }
+
+    /// Moves the balls by their speeds' deviations from the nominal one over a way of `way` units, each
+    /// after the one in front of it, from a ball that presses on none.
+    #[inline(always)]
+    fn advance(&mut self, way: f32) -> Pressing {
+        let mut pressing = Pressing::default();
+        let scale = way * FRACTIONS;
+        let mut index = self.press.foremost();
+        // Where the ball in front was, how far it moves, and what is left of a unit there.
+        let mut ahead: Option<(u32, i32, u8)> = None;
+        for _ in 0..N {
+            if let (Some(position), Some(fraction), Some(ball)) = (
+                self.position.get_mut(index),
+                self.fraction.get_mut(index),
+                self.press.balls.get_mut(index),
+            ) {
+                if ball.force > 0.0 {
+                    pressing.contacts += 1;
+                    pressing.force += ball.force;
+                    pressing.power += ball.force * ball.speed;
+                    if ball.force > pressing.largest {
+                        pressing.largest = ball.force;
+                    }
+                } else {
+                    // Rounding may leave a little less than nothing.
+                    ball.force = 0.0;
+                }
+                let moves = (ball.speed * scale) as i32;
+                let moves = moves.wrapping_add(i32::from(*fraction));
+                let mut whole = moves >> FRACTION_BITS;
+                let mut rest = (moves & 15) as u8;
+                if let Some((place, step, left)) = ahead {
+                    let distance = place.wrapping_sub(*position).wrapping_sub(self.track.pitch);
+                    let reach = step.wrapping_add_unsigned(distance);
+                    let near = distance.wrapping_add(ROUNDING) < 1 << 28;
+                    if ball.force > 0.0 || (near && whole > reach) {
+                        whole = reach;
+                        rest = left;
+                    }
+                }
+                ahead = Some((*position, whole, rest));
+                *position = position.wrapping_add_signed(whole);
+                *fraction = rest;
+            }
+            index = if index == 0 { N - 1 } else { index - 1 };
+        }
+        pressing
+    }
+}
+
+/// Distances in front of the balls, in units.
+#[inline]
+fn distances<const N: usize>(position: &[u32; N], pitch: u32) -> impl Iterator<Item = u32> + '_ {
+    let first = position.first().copied().unwrap_or(0);
+    let ahead = position.iter().skip(1).copied();
+    position
+        .iter()
+        .zip(ahead.chain(core::iter::once(first)))
+        .map(move |(&position, ahead)| ahead.wrapping_sub(position).wrapping_sub(pitch))
+}
