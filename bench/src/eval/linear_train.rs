@@ -6,7 +6,7 @@ use epas_friction::{
     AnalyticLinearBall, BallChain, FourPointBall, GrooveSize, HertzContact, LinearBallParameters,
     LinearBearing, LinearBearingParameters, Material, PUBLISHED_SLOPE,
 };
-use epas_reference::friction::chain::solve_chain;
+use epas_reference::friction::chain::{LinearChain, solve_chain};
 use epas_reference::friction::linear_ball::{EllipseLaw, LinearBall};
 use epas_reference::hertz::{Hertz, contact_modulus};
 use serde::Serialize;
