@@ -13,6 +13,7 @@ mod files;
 mod plot;
 mod report;
 mod simulate;
+mod target;
 mod timing;
 
 use std::process::ExitCode;

@@ -3,7 +3,11 @@
 //! One file, little endian: for each function its name's length and name, its numbers in and out and its
 //! cases as `u32`, then the cases, each its inputs and outputs as the bits of f32.
 
-use crate::subjects::Subject;
+use epas_friction::Error;
+
+use crate::contexts::Contexts;
+use crate::spread::Spread;
+use crate::subjects::{CASES, SUBJECTS, Subject, WIDEST};
 
 /// The stored file.
 pub static STORED: &[u8] = include_bytes!("../cases.bin");
@@ -52,6 +56,43 @@ impl<'a> Reader<'a> {
     pub const fn is_empty(&self) -> bool {
         self.rest.is_empty()
     }
+}
+
+/// A file's lengths and bits, as [`Reader`] reads them.
+pub trait Sink {
+    /// Takes some bytes.
+    fn bytes(&mut self, bytes: &[u8]);
+}
+
+/// Writes what [`CASES`] of every function give on the machine at hand.
+///
+/// # Errors
+/// None with the designs used here.
+pub fn write(sink: &mut impl Sink) -> Result<(), Error> {
+    let mut contexts = Contexts::new(|| 0)?;
+    let mut inputs = [0.0; WIDEST];
+    let mut outputs = [0.0; WIDEST];
+    for subject in SUBJECTS {
+        sink.bytes(&(subject.name.len() as u32).to_le_bytes());
+        sink.bytes(subject.name.as_bytes());
+        for number in [subject.inputs as u32, subject.outputs as u32, CASES] {
+            sink.bytes(&number.to_le_bytes());
+        }
+        for case in 0..CASES {
+            let (Some(inputs), Some(outputs)) = (
+                inputs.get_mut(..subject.inputs),
+                outputs.get_mut(..subject.outputs),
+            ) else {
+                continue;
+            };
+            (subject.fill)(&mut Spread::new(case), inputs);
+            (subject.run)(&mut contexts, inputs, outputs);
+            for number in inputs.iter().chain(&*outputs) {
+                sink.bytes(&number.to_bits().to_le_bytes());
+            }
+        }
+    }
+    Ok(())
 }
 
 /// Whether two results are the same: the same bits, or both not a number (of which there are many, and

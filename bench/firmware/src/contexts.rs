@@ -3,14 +3,17 @@
 use core::hint::black_box;
 
 use epas_friction::{
-    AnalyticLinearBall, BallChain, BallScrew, BallState, CATALOGUE, CircularGrooveCurvature,
-    ContactKinematics, EfficiencyGeometry, Error, FittedCurvature, FourPointBall, FrictionMap,
-    FrictionModel, GothicArch, Groove, HertzContact, KinematicsParameters, LinearBallParameters,
-    LiteratureCurvature, PUBLISHED_SLOPE, RotaryBall, RotaryBallParameters,
+    AnalyticLinearBall, BallChain, BallScrew, BallState, CATALOGUE, CagedBallScrew,
+    CircularGrooveCurvature, ContactKinematics, EfficiencyGeometry, Error, FittedCurvature,
+    FourPointBall, FrictionMap, FrictionModel, GothicArch, Groove, GrooveFit, HertzContact,
+    KinematicsParameters, LinearBallParameters, LinearBearingTrain, LiteratureCurvature,
+    PUBLISHED_SLOPE, Press, RotaryBall, RotaryBallParameters, ScrewRow, ScrewTick, Train,
+    UncagedBallScrew,
 };
 
 use crate::peers::{LuGre, Stribeck};
-use crate::scenes::{CagedBallScrew, caged_configuration};
+use crate::scenes::{ROW, caged_configuration, linear_configuration, uncaged_configuration};
+use crate::subjects::BALLS;
 
 /// Everything that is set up once.
 pub struct Contexts {
@@ -48,6 +51,18 @@ pub struct Contexts {
     pub rotary_ball: BallState,
     /// Caged ball screw.
     pub caged: FrictionModel<CagedBallScrew>,
+    /// Balls of a ball screw in closed form.
+    pub screw_row: ScrewRow,
+    /// The same at a tick.
+    pub screw_tick: ScrewTick,
+    /// Forces between balls.
+    pub press: Press<BALLS>,
+    /// Forces between balls and their positions.
+    pub train: Train<BALLS>,
+    /// Ball screw without cage.
+    pub uncaged: FrictionModel<UncagedBallScrew<BALLS>>,
+    /// Linear bearing.
+    pub carriage: FrictionModel<LinearBearingTrain<ROW>>,
     /// What others run.
     pub lugre: LuGre,
 }
@@ -104,6 +119,7 @@ impl Contexts {
         let nominal = [linear_parameters.contact_angle; 4];
         let rotary = RotaryBall::new(&rotary_parameters)?;
         let rotary_nominal = [rotary_parameters.contact_angle; 4];
+        let screw_row = ScrewRow::new(&design, 0.1, GrooveFit::Zero)?;
         Ok(Self {
             clock,
             elapsed: 0,
@@ -124,6 +140,12 @@ impl Contexts {
                 .solve(&rotary.four_point().contacts(&rotary_nominal, &[100.0; 4])),
             rotary,
             caged: FrictionModel::new(&black_box(caged_configuration()?))?,
+            screw_tick: screw_row.at(10.0, 100.0),
+            screw_row,
+            press: Press::new(),
+            train: Train::evenly_spaced(0.2248, 0.00594)?,
+            uncaged: FrictionModel::new(&black_box(uncaged_configuration()?))?,
+            carriage: FrictionModel::new(&black_box(linear_configuration()?))?,
             lugre: black_box(LuGre {
                 stribeck: Stribeck {
                     coulomb: 0.3,

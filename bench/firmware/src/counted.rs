@@ -7,15 +7,17 @@
 #![allow(improper_ctypes_definitions)]
 
 use epas_friction::{
-    AnalyticLinearBall, BallChain, BallKinematics, BallState, CircularGrooveCurvature,
-    ContactAngle, ContactEllipse, ContactKinematics, Dissipation, Drive, EfficiencyGeometry,
+    AnalyticLinearBall, BallChain, BallKinematics, BallState, CagedBallScrew, CircularGrooveCurvature,
+    ContactAngle, ContactEllipse, ContactKinematics, Dissipation, EfficiencyGeometry,
     EllipticContact, FittedCurvature, FourPointBall, FrictionMap, FrictionModel, GothicArch,
-    HertzContact, Inputs, LiteratureCurvature, NormalizedFriction, Outputs, PrincipalCurvatures,
-    SlipRatios, math,
+    HertzContact, Inputs, LinearBearingTrain, LinearInputs, LiteratureCurvature, LoadShare,
+    NormalizedFriction, Outputs, Press, PrincipalCurvatures, RotaryBall, ScrewBallLoop, ScrewRow, ScrewTick,
+    SlipRatios, Train, TrainOutputs, UncagedBallScrew, math,
 };
 
 use crate::peers::{LuGre, Stribeck};
-use crate::scenes::CagedBallScrew;
+use crate::scenes::{EfficiencyStep, ROW, efficiency_step};
+use crate::subjects::BALLS;
 
 /// Angles and forces of four contacts.
 #[derive(Clone, Copy, Debug)]
@@ -24,15 +26,6 @@ pub struct FourContacts {
     pub angles: [f32; 4],
     /// Contact forces, N.
     pub forces: [f32; 4],
-}
-
-/// Efficiency of the present direction, and the torque that friction takes.
-#[derive(Clone, Copy, Debug)]
-pub struct EfficiencyStep {
-    /// Efficiency of the present direction.
-    pub efficiency: f32,
-    /// Friction torque, N m.
-    pub friction_torque: f32,
 }
 
 macro_rules! counted {
@@ -45,11 +38,6 @@ macro_rules! counted {
 }
 
 counted! {
-    /// An empty call.
-    fn count_empty(x: f32) -> f32 {
-        x
-    }
-
     /// Literature formula of the first curvature.
     fn count_curvature_literature(form: &LiteratureCurvature, cos: f32, sin: f32) -> f32 {
         form.first(ContactAngle { cos, sin })
@@ -155,6 +143,14 @@ counted! {
         *state = ball.step(&ball.contacts(&contacts.angles, &contacts.forces), state, axial_force);
     }
 
+    /// One ball of a rotary bearing, one tick from the last tick's state.
+    fn count_rotary_ball_refined(
+        ball: &RotaryBall, contacts: &FourContacts, state: &mut BallState, axial_force: f32
+    ) -> () {
+        let ball = ball.four_point();
+        *state = ball.step(&ball.contacts(&contacts.angles, &contacts.forces), state, axial_force);
+    }
+
     /// Two balls that press on each other, one tick.
     fn count_linear_chain_2(
         ball: &FourPointBall, rear: &FourContacts, front: &FourContacts, chain: &mut BallChain<2>, direction: f32
@@ -180,6 +176,44 @@ counted! {
     /// One tick of a caged ball screw.
     fn count_step_caged(model: &mut FrictionModel<CagedBallScrew>, nut_speed: f32, axial_load: f32) -> Outputs {
         model.step(Inputs { nut_speed, axial_load })
+    }
+
+    /// A row of balls under one load.
+    fn count_ball_screw_row(row: &ScrewRow, nut_speed: f32, load: f32) -> ScrewTick {
+        row.at(nut_speed, load)
+    }
+
+    /// One ball of a row.
+    fn count_ball_screw_ball(row: &ScrewTick, screw: f32, nut: f32, share: &LoadShare) -> ScrewBallLoop {
+        row.ball(screw, nut, share)
+    }
+
+    /// Forces between balls that all touch, from given speeds and impedances.
+    fn count_press_37(
+        press: &mut Press<BALLS>, free: &[f32; BALLS], impedance: &[f32; BALLS], room: &[f32; BALLS]
+    ) -> bool {
+        press.solve(free, impedance, room)
+    }
+
+    /// Forces between the balls of a train from given speeds and impedances, and where the balls go.
+    fn count_train_37(
+        train: &mut Train<BALLS>, free: &[f32; BALLS], impedance: &[f32; BALLS], travel: f32
+    ) -> bool {
+        train.step(free, impedance, travel)
+    }
+
+    /// One tick of a ball screw with 37 balls without cage.
+    fn count_step_train_37(
+        model: &mut FrictionModel<UncagedBallScrew<BALLS>>, nut_speed: f32, axial_load: f32
+    ) -> TrainOutputs {
+        model.step(Inputs { nut_speed, axial_load })
+    }
+
+    /// One tick of a linear bearing.
+    fn count_step_linear(
+        model: &mut FrictionModel<LinearBearingTrain<ROW>>, speed: f32, normal_load: f32, side_load: f32
+    ) -> TrainOutputs {
+        model.step(LinearInputs { speed, normal_load, side_load })
     }
 
     /// `libm`'s square root.
@@ -230,34 +264,5 @@ counted! {
     /// A Stribeck curve.
     fn count_stribeck_curve(curve: &Stribeck, speed: f32) -> f32 {
         curve.torque(speed)
-    }
-}
-
-/// The direction of power flow, its rolling efficiency, and the torque about the nut that friction takes
-/// from a load torque.
-#[inline]
-#[must_use]
-pub fn efficiency_step(
-    screw: &EfficiencyGeometry,
-    nut_speed: f32,
-    load_torque: f32,
-    friction: f32,
-) -> EfficiencyStep {
-    let drive = if nut_speed * load_torque < 0.0 {
-        Drive::BackDriving
-    } else {
-        Drive::Driving
-    };
-    let efficiency = match drive {
-        Drive::Driving => screw.rolling_efficiency(friction, 0.0),
-        Drive::BackDriving => screw.rolling_backdrive_efficiency(friction, 0.0),
-    };
-    let lost = match drive {
-        Drive::Driving => (1.0 - efficiency) / efficiency,
-        Drive::BackDriving => efficiency - 1.0,
-    };
-    EfficiencyStep {
-        efficiency,
-        friction_torque: load_torque * lost,
     }
 }

@@ -15,3 +15,5 @@ pub mod subjects;
 
 #[cfg(target_arch = "arm")]
 pub mod board;
+#[cfg(target_arch = "arm")]
+mod panic;

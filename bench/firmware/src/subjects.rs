@@ -2,24 +2,29 @@
 
 use core::hint::black_box;
 
-use epas_friction::{BallKinematics, ContactSlip, EllipticContact, Outputs, Regime, math};
+use epas_friction::{
+    BallKinematics, ContactSlip, EllipticContact, Faults, LoadShare, Outputs, Regime, ScrewBallLoop,
+    TrainOutputs, math,
+};
 
 use crate::contexts::Contexts;
 use crate::counted::{
-    EfficiencyStep, FourContacts, count_cbrt, count_cbrt_and_squared,
+    FourContacts, count_ball_screw_ball, count_ball_screw_row, count_press_37,
+    count_step_linear, count_step_train_37, count_train_37, count_cbrt, count_cbrt_and_squared,
     count_curvature_circular_groove, count_curvature_exact, count_curvature_fitted,
     count_curvature_literature, count_efficiency_backdrive, count_efficiency_rolling,
-    count_efficiency_sliding, count_empty, count_friction_dissipation, count_friction_map,
+    count_efficiency_sliding, count_friction_dissipation, count_friction_map,
     count_hertz_ellipse, count_kinematics_ratios, count_kinematics_tick, count_kinematics_update,
     count_libm_cbrtf, count_libm_cosf, count_libm_powf, count_libm_sincosf, count_libm_sqrtf,
-    count_linear_ball_analytic, count_linear_ball_refined, count_linear_chain_2, count_lugre_step,
+    count_linear_ball_analytic, count_linear_ball_refined, count_linear_chain_2, count_lugre_step, count_rotary_ball_refined,
     count_micromath_cos, count_micromath_powf, count_micromath_sqrt, count_sin_cos, count_sqrt,
     count_step_caged, count_step_efficiency, count_stribeck_curve,
 };
+use crate::scenes::EfficiencyStep;
 use crate::spread::Spread;
 
 /// Cases of each function that are stored and compared.
-pub const CASES: u32 = 256;
+pub const CASES: u32 = 128;
 
 /// Cases of each function that are counted: the first ones, the specials from [`SPECIAL`] on included.
 pub const COUNTED: u32 = 64;
@@ -27,8 +32,15 @@ pub const COUNTED: u32 = 64;
 /// From this case on come inputs that a range does not reach.
 const SPECIAL: u32 = 48;
 
+/// From this case on come the inputs of a broken sensor. They are checked and not counted: the way that
+/// leads to the safe output is short, and would stand for the least cost of a step.
+const BROKEN: u32 = COUNTED;
+
+/// Balls of a train.
+pub const BALLS: usize = 37;
+
 /// Most inputs and most outputs that a function has.
-pub const WIDEST: usize = 24;
+pub const WIDEST: usize = 40;
 
 /// A function under test.
 pub struct Subject {
@@ -45,10 +57,10 @@ pub struct Subject {
 }
 
 macro_rules! subjects {
-    ($($name:ident: |$spread:ident| -> [$inputs:literal] $fill:expr,
+    ($(#[$meta:meta])* $list:ident; $($name:ident: |$spread:ident| -> [$inputs:literal] $fill:expr,
         |$contexts:ident, $pattern:pat_param| -> [$outputs:literal] $run:expr;)*) => {
-        /// Every function under test.
-        pub static SUBJECTS: &[Subject] = &[$(Subject {
+        $(#[$meta])*
+        pub static $list: &[Subject] = &[$(Subject {
             name: stringify!($name),
             inputs: $inputs,
             outputs: $outputs,
@@ -147,11 +159,46 @@ fn contacts([a, b, c, d, e, f, g, h]: [f32; 8]) -> FourContacts {
 fn tick(spread: &mut Spread) -> [f32; 2] {
     let speed = spread.between(-60.0, 60.0);
     let load = spread.between(-12_000.0, 12_000.0);
-    let broken = [0.0, f32::NAN, f32::INFINITY, 1e9, -0.0];
+    let extreme = [0.0, 1e9, -0.0, -1e9];
+    let broken = [f32::NAN, f32::INFINITY, -f32::INFINITY];
+    let pick = |extreme_from, broken_from, sound| {
+        spread
+            .special(&extreme, extreme_from)
+            .or(spread.special(&broken, broken_from))
+            .unwrap_or(sound)
+    };
     [
-        spread.special(&broken, SPECIAL).unwrap_or(speed),
-        spread.special(&broken, SPECIAL + 3).unwrap_or(load),
+        pick(SPECIAL, BROKEN, speed),
+        pick(SPECIAL + 2, BROKEN + 2, load),
     ]
+}
+
+/// Free speeds of a train as a triangular wave: its amplitude, the waves in the train and where it starts;
+/// every fourth case a ramp on which all balls run into each other or away from each other.
+fn train(spread: &mut Spread) -> [f32; 3] {
+    let amplitude = spread.between(-0.05, 0.05);
+    let waves = spread.between(0.5, 12.0);
+    let start = spread.between(0.0, 1.0);
+    if spread.index() % 4 == 3 {
+        [amplitude, 0.25, 0.0]
+    } else {
+        [amplitude, waves, start]
+    }
+}
+
+/// The free speeds of such a train.
+fn wave([amplitude, waves, start]: [f32; 3]) -> [f32; BALLS] {
+    core::array::from_fn(|ball| {
+        let phase = start + waves * (ball as f32 * (1.0 / BALLS as f32));
+        let fraction = phase - phase as i32 as f32;
+        let triangle = if fraction < 0.5 { fraction } else { 1.0 - fraction };
+        amplitude * (4.0 * triangle - 1.0)
+    })
+}
+
+/// Impedances of loaded balls, which differ with their loads.
+fn impedances() -> [f32; BALLS] {
+    core::array::from_fn(|ball| 1e3 + 20.0 * (ball % 7) as f32)
 }
 
 fn slip(slip: &ContactSlip) -> [f32; 4] {
@@ -169,21 +216,52 @@ fn motion(ball: &BallKinematics) -> [f32; 10] {
     [ball.orbital_speed, ball.spin_speed, a, b, c, d, e, f, g, h]
 }
 
-fn outputs(outputs: &Outputs) -> [f32; 4] {
-    let regime = match outputs.regime {
-        Regime::Standing => 0.0,
-        Regime::Driving => 1.0,
-        Regime::BackDriving => 2.0,
-        Regime::Locked => 3.0,
+/// Regime and flags as one number.
+fn condition(regime: Regime, faults: Faults) -> f32 {
+    let regime = match regime {
+        Regime::Standing => 0,
+        Regime::Driving => 1,
+        Regime::BackDriving => 2,
+        Regime::Locked => 3,
     };
-    // The flags as a number: only whether there are any.
-    let flagged = if outputs.faults.any() { 8.0 } else { 0.0 };
+    f32::from(regime + 4 * u16::from(faults.bits()))
+}
+
+/// What a caged ball screw puts out, as numbers.
+#[must_use]
+pub fn outputs(outputs: &Outputs) -> [f32; 4] {
     [
         outputs.friction_torque,
         outputs.load_torque,
         outputs.efficiency,
-        regime + flagged,
+        condition(outputs.regime, outputs.faults),
     ]
+}
+
+/// What a train puts out, as numbers.
+#[must_use]
+pub fn train_outputs(outputs: &TrainOutputs) -> [f32; 7] {
+    [
+        outputs.friction,
+        outputs.groove_friction,
+        outputs.ball_friction,
+        outputs.load_torque,
+        f32::from(outputs.contacts),
+        outputs.largest_contact_force,
+        condition(outputs.regime, outputs.faults),
+    ]
+}
+
+fn screw_ball(ball: &ScrewBallLoop, more: f32) -> [f32; 5] {
+    [ball.speed_deviation, ball.compliance, ball.groove_torque, ball.rubbing, more]
+}
+
+fn all(values: impl Iterator<Item = f32>) -> [f32; BALLS] {
+    let mut all = [0.0; BALLS];
+    for (place, value) in all.iter_mut().zip(values) {
+        *place = value;
+    }
+    all
 }
 
 fn two((first, second): (f32, f32)) -> [f32; 2] {
@@ -191,8 +269,8 @@ fn two((first, second): (f32, f32)) -> [f32; 2] {
 }
 
 subjects! {
-    empty: |spread| -> [1] [spread.between(0.0, 1.0)],
-        |c, [x]| -> [1] [timed!(c, count_empty(x))];
+    /// Every function of the crate that belongs into a control loop.
+    SUBJECTS;
     curvature_literature: |spread| -> [2] contact_angle(spread),
         |c, [cos, sin]| -> [1] [timed!(c, count_curvature_literature(black_box(&c.literature), cos, sin))];
     curvature_circular_groove: |spread| -> [2] contact_angle(spread),
@@ -296,8 +374,8 @@ subjects! {
     rotary_ball_refined: |spread| -> [8] four_contacts(spread),
         |c, input| -> [4] {
             let given = black_box(contacts(input));
-            timed!(c, count_linear_ball_refined(
-                black_box(c.rotary.four_point()), &given, black_box(&mut c.rotary_ball), 0.0
+            timed!(c, count_rotary_ball_refined(
+                black_box(&c.rotary), &given, black_box(&mut c.rotary_ball), 0.0
             ));
             let motion = c.rotary.motion(&c.rotary_ball, 10.0);
             [motion.orbital_speed, motion.roll, motion.yaw, c.rotary.friction_torque(&c.rotary_ball)]
@@ -326,6 +404,46 @@ subjects! {
         |c, [nut_speed, axial_load]| -> [4] outputs(
             &timed!(c, count_step_caged(black_box(&mut c.caged), nut_speed, axial_load))
         );
+    ball_screw_row: |spread| -> [2] [spread.between(-60.0, 60.0), spread.between(-400.0, 400.0)],
+        |c, [nut_speed, load]| -> [5] {
+            c.screw_tick = timed!(c, count_ball_screw_row(black_box(&c.screw_row), nut_speed, load));
+            screw_ball(&c.screw_tick.ball(0.03, -0.02, &LoadShare::MEAN), c.screw_tick.nominal_speed())
+        };
+    ball_screw_ball: |spread| -> [2] [spread.between(-0.21, 0.21), spread.between(-0.21, 0.21)],
+        |c, [screw, nut]| -> [5] {
+            let ball = timed!(c, count_ball_screw_ball(black_box(&c.screw_tick), screw, nut, &LoadShare::MEAN));
+            screw_ball(&ball, 0.0)
+        };
+    press_37: |spread| -> [3] train(spread),
+        |c, input| -> [37] {
+            let free = black_box(wave(input));
+            let (impedance, room) = (black_box(impedances()), black_box([0.0; BALLS]));
+            timed!(c, count_press_37(black_box(&mut c.press), &free, &impedance, &room));
+            all(c.press.forces())
+        };
+    train_37: |spread| -> [3] train(spread),
+        |c, input| -> [37] {
+            let free = black_box(wave(input));
+            let impedance = black_box(impedances());
+            timed!(c, count_train_37(black_box(&mut c.train), &free, &impedance, 2e-3));
+            all(c.train.forces())
+        };
+    step_train_37: |spread| -> [2] tick(spread),
+        |c, [nut_speed, axial_load]| -> [7] train_outputs(
+            &timed!(c, count_step_train_37(black_box(&mut c.uncaged), nut_speed, axial_load))
+        );
+    step_linear: |spread| -> [2] {
+            let [speed, load] = tick(spread);
+            [0.02 * speed, 0.1 * load]
+        },
+        |c, [speed, load]| -> [7] train_outputs(
+            &timed!(c, count_step_linear(black_box(&mut c.carriage), speed, load, 0.2 * load))
+        );
+}
+
+subjects! {
+    /// What others offer for the same, to be counted beside it.
+    PEERS;
     libm_sqrtf: |spread| -> [1] positive(spread),
         |c, [x]| -> [1] [timed!(c, count_libm_sqrtf(x))];
     libm_cbrtf: |spread| -> [1] positive(spread),
