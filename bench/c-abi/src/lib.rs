@@ -1,7 +1,7 @@
 //! `epas-friction` from C: a static library without allocator, panic or global state.
 //!
-//! [`types`], [`tables`] and [`status`] are what the header shows; [`caged`], [`screw`], [`linear`] and
-//! [`one_shot`] translate between them and the crate; [`boundary`] is the one file with pointers: every
+//! `types`, `tables` and `status` are what the header shows; `caged`, `screw`, `linear` and
+//! `one_shot` translate between them and the crate; `boundary` is the one file with pointers: every
 //! exported function.
 //!
 //! # A further scene
