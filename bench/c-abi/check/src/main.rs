@@ -10,6 +10,7 @@
 mod cases;
 mod header;
 mod host;
+mod places;
 mod target;
 mod tools;
 
@@ -43,12 +44,9 @@ fn main() -> ExitCode {
 }
 
 fn run(root: &Path, write: bool, host_only: bool) -> Outcome<()> {
-    up_to_date(
-        root,
-        "include/epas_friction.h",
-        &header::generated(root)?,
-        write,
-    )?;
+    let header = header::generated(root)?;
+    places::check(&header)?;
+    up_to_date(root, "include/epas_friction.h", &header, write)?;
     up_to_date(root, "test/stored.h", &cases::generated()?, write)?;
     host::check(root)?;
     if !host_only {
