@@ -12,6 +12,7 @@ pub mod friction;
 pub mod hertz;
 pub mod kinematics;
 pub mod published;
+pub mod statics;
 pub mod steady_state;
 
 pub use error::ReferenceError;

@@ -74,20 +74,12 @@ pub(crate) trait CScene {
     /// What a refused call puts out: no torque, flagged.
     const REFUSED: Self::Outputs;
 
-    /// The place is as large as it has to be and no larger where pointers have eight bytes, large enough
-    /// elsewhere.
-    const FITS: () = {
-        let needed = size_of::<Placed<Self::Scene>>();
-        let given = size_of::<Self::Place>();
-        assert!(
-            needed <= given && align_of::<Placed<Self::Scene>>() <= align_of::<Self::Place>(),
-            "the place is too small: its number of words in types.rs"
-        );
-        assert!(
-            size_of::<usize>() < 8 || needed + 8 > given,
-            "the place is larger than it has to be: its number of words in types.rs"
-        );
-    };
+    /// The place is large enough; that it is no larger than it has to be is checked from outside.
+    const FITS: () = assert!(
+        size_of::<Placed<Self::Scene>>() <= size_of::<Self::Place>()
+            && align_of::<Placed<Self::Scene>>() <= align_of::<Self::Place>(),
+        "the place is too small: its number of words in types.rs"
+    );
 
     fn tables(configuration: &Self::Configuration) -> TablePointers;
     fn configure(

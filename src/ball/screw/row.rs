@@ -368,7 +368,8 @@ impl ScrewRow {
     /// Angles deviate with the grooves, as in [`ScrewTick::ball`]: `SL = beta - screw_deviation`,
     /// `SR = beta + screw_deviation`, `NL = beta - nut_deviation`, `NR = beta + nut_deviation`.
     ///
-    /// Loads up to 1e7 N; those under 1e-3 N count as 1e-3 N. Deviations up to 0.2 rad; NaN is none.
+    /// Loads up to 1e7 N; those under 1e-3 N count as 1e-3 N. Deviations up to
+    /// [`ScrewRow::largest_deviation`]; NaN is none.
     #[must_use]
     pub fn contacts(
         &self,
@@ -397,7 +398,9 @@ impl ScrewRow {
             (false, true) => [main, third, fourth, main],
             (false, false) => [main, fourth, third, main],
         };
-        let (screw, nut) = (limited(screw_deviation), limited(nut_deviation));
+        let largest = self.largest_deviation;
+        let screw = limited(screw_deviation, largest);
+        let nut = limited(nut_deviation, largest);
         let angle = self.contact_angle;
         (
             [angle - screw, angle + screw, angle - nut, angle + nut],

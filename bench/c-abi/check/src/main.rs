@@ -4,7 +4,7 @@
 //! ```text
 //! cargo run -p epas-c-check               # check everything
 //! cargo run -p epas-c-check -- --host     # without cross compiler and QEMU
-//! cargo run -p epas-c-check -- --write    # write the header and the stored cases first
+//! cargo run -p epas-c-check -- --write    # write sizes, header and stored cases first
 //! ```
 
 mod cases;
@@ -44,8 +44,8 @@ fn main() -> ExitCode {
 }
 
 fn run(root: &Path, write: bool, host_only: bool) -> Outcome<()> {
+    places::check(root, write)?;
     let header = header::generated(root)?;
-    places::check(&header)?;
     up_to_date(root, "include/epas_friction.h", &header, write)?;
     up_to_date(root, "test/stored.h", &cases::generated()?, write)?;
     host::check(root)?;
