@@ -422,7 +422,7 @@ extern "C" {
 /**
  * Size of `epas_screw_t` in words of eight bytes.
  */
-#define EPAS_SCREW_WORDS 214
+#define EPAS_SCREW_WORDS 209
 
 /**
  * Balls in the circuit of `epas_linear_t`, return included. A bearing with another number needs the
@@ -433,7 +433,7 @@ extern "C" {
 /**
  * Size of `epas_linear_t` in words of eight bytes.
  */
-#define EPAS_LINEAR_WORDS 151
+#define EPAS_LINEAR_WORDS 131
 
 /**
  * Place for the deviation of a groove's contact angles, periodic along the track: where it is positive the

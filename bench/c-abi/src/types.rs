@@ -198,7 +198,7 @@ pub struct ScrewConfiguration {
 }
 
 /// Size of `epas_screw_t` in words of eight bytes.
-pub const EPAS_SCREW_WORDS: usize = 214;
+pub const EPAS_SCREW_WORDS: usize = 209;
 
 /// Place for the constants and the state of a ball screw whose balls press on each other; as
 /// `epas_caged_t`.
@@ -312,7 +312,7 @@ pub struct LinearInputs {
 }
 
 /// Size of `epas_linear_t` in words of eight bytes.
-pub const EPAS_LINEAR_WORDS: usize = 151;
+pub const EPAS_LINEAR_WORDS: usize = 131;
 
 /// Place for the constants and the state of a linear bearing; as `epas_caged_t`.
 #[derive(Clone, Copy, Debug)]
