@@ -567,11 +567,11 @@ fn narrow_integral(square: f32, root: f32) -> f32 {
 
 fn divided_differences(mut values: [f32; POINTS]) -> [f32; POINTS] {
     for order in 1..POINTS {
-        let mut before = values;
-        before.rotate_right(1);
+        let before = values;
         let pairs = CHEBYSHEV.iter().skip(order).zip(&CHEBYSHEV);
-        let entries = values.iter_mut().zip(before).skip(order);
-        for ((value, before), (here, there)) in entries.zip(pairs) {
+        let entries = values.iter_mut().skip(order);
+        let left = before.iter().skip(order - 1);
+        for ((value, before), (here, there)) in entries.zip(left).zip(pairs) {
             *value = (*value - before) / (here - there);
         }
     }
