@@ -12,5 +12,6 @@ pub use given::{
     ScrewContacts,
 };
 pub use refined::DEFAULT_IMPEDANCE_STEPS;
+pub(crate) use row::largest_deviation;
 pub use row::{GrooveFit, LoadShare, ScrewBallLoop, ScrewRow, ScrewTick};
 pub use slip_map::{SlipFriction, SlipMap};

@@ -3,6 +3,7 @@
 mod eval;
 mod report;
 mod simulate;
+mod simulate_trains;
 mod trains;
 
 use std::io::Write;
