@@ -9,6 +9,7 @@ mod kernels;
 mod kinematics;
 mod statistics;
 mod summary;
+mod trains;
 
 use std::path::PathBuf;
 
@@ -59,12 +60,13 @@ impl Context {
 type MakeSection = fn(&Context) -> Result<Section, Failure>;
 
 /// Every section, in the order of the report.
-const SECTIONS: [MakeSection; 6] = [
+const SECTIONS: [MakeSection; 7] = [
     summary::section,
     curvature::section,
     hertz::section,
     efficiency::section,
     kinematics::section,
+    trains::section,
     kernels::section,
 ];
 
