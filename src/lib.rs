@@ -23,6 +23,7 @@
 //! | [`ball`] | one ball in a linear or rotary four-point bearing: speed deviation, compliance, loss |
 //! | [`scene`] | what a mechanism needs and what it leaves out |
 //! | [`model`] | configured once, stepped in the interrupt |
+//! | `hal` | adapters for `embedded-hal`: nut speed from an encoder, friction torque to a duty cycle |
 //!
 //! Everything is set up once, with errors that name the field, its value and the allowed range; from
 //! then on nothing returns a `Result`, nothing panics, and every output is finite and flagged.
@@ -33,6 +34,8 @@ pub mod curvature;
 pub mod efficiency;
 pub mod error;
 pub mod geometry;
+#[cfg(feature = "embedded-hal")]
+pub mod hal;
 pub mod hertz;
 pub mod kinematics;
 pub mod material;
@@ -62,6 +65,11 @@ pub use geometry::{
     BallBearing, BallBearingParameters, BallScrew, BallScrewParameters, CATALOGUE, CatalogueSize,
     ContactAngle, DISSERTATION_DESIGNS, Groove, GrooveProfile, GrooveSize, HelixPath,
     LinearBearing, LinearBearingParameters, NamedDesign,
+};
+#[cfg(feature = "embedded-hal")]
+pub use hal::{
+    AppliedDuty, Diagnostics, EncoderConfiguration, EncoderError, FaultReaction,
+    FeedForwardConfiguration, FrictionFeedForward, MagneticEncoder, NutMotion, SensorErrors,
 };
 pub use hertz::{ContactEllipse, HertzContact};
 pub use kinematics::{

@@ -15,6 +15,7 @@ mod progress;
 mod report;
 mod simulate;
 mod study;
+mod target;
 mod timing;
 
 use std::process::ExitCode;

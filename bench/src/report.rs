@@ -8,6 +8,7 @@ mod efficiency;
 mod hertz;
 mod kernels;
 mod kinematics;
+mod published;
 mod statistics;
 mod summary;
 mod trains;
@@ -61,7 +62,7 @@ impl Context {
 type MakeSection = fn(&Context) -> Result<Section, Failure>;
 
 /// Every section, in the order of the report.
-const SECTIONS: [MakeSection; 8] = [
+const SECTIONS: [MakeSection; 9] = [
     summary::section,
     curvature::section,
     hertz::section,
@@ -69,6 +70,7 @@ const SECTIONS: [MakeSection; 8] = [
     kinematics::section,
     trains::section,
     applications::section,
+    published::section,
     kernels::section,
 ];
 
