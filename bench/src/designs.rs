@@ -1,5 +1,6 @@
 //! Designs by name or from a file.
 
+pub mod loads;
 pub mod train;
 
 use std::fs;
@@ -13,6 +14,7 @@ use epas_friction::{
 use serde::Deserialize;
 
 use crate::failure::Failure;
+use loads::{LoadCase, LoadsTable};
 use train::{UncagedDesign, UncagedTable};
 
 /// A design with what the in-loop model has to know beside it.
@@ -26,6 +28,8 @@ pub struct Design {
     pub loaded_balls: Option<u16>,
     /// Its balls where they press on each other, where they are known.
     pub uncaged: Option<UncagedDesign>,
+    /// Its screw between supports, where they are known.
+    pub loads: Option<LoadCase>,
 }
 
 /// Settings that a catalogue does not print.
@@ -52,6 +56,7 @@ impl Design {
             },
             loaded_balls,
             uncaged: loaded_balls.and_then(|balls| train::built_in(name, design, balls)),
+            loads: loaded_balls.and_then(|balls| loads::built_in(name, balls)),
         }
     }
 
@@ -165,6 +170,7 @@ struct DesignFile {
     loaded_balls: Option<u16>,
     limits: Option<LimitsTable>,
     uncaged: Option<UncagedTable>,
+    loads: Option<LoadsTable>,
 }
 
 #[derive(Deserialize)]
@@ -288,6 +294,14 @@ impl DesignFile {
                         configuration.limits,
                     )
                     .map_err(|message| format!("uncaged: {message}"))
+            })
+            .transpose()?;
+        design.loads = self
+            .loads
+            .map(|table| {
+                table
+                    .case(&screw, self.loaded_balls)
+                    .map_err(|message| format!("loads: {message}"))
             })
             .transpose()?;
         Ok(design)

@@ -1,6 +1,7 @@
 //! `report`: the error of every formula beside its run time, as tables on the screen and as Markdown,
 //! one HTML page, SVG, CSV and JSON in a folder.
 
+mod applications;
 mod curvature;
 mod document;
 mod efficiency;
@@ -61,13 +62,14 @@ impl Context {
 type MakeSection = fn(&Context) -> Result<Section, Failure>;
 
 /// Every section, in the order of the report.
-const SECTIONS: [MakeSection; 8] = [
+const SECTIONS: [MakeSection; 9] = [
     summary::section,
     curvature::section,
     hertz::section,
     efficiency::section,
     kinematics::section,
     trains::section,
+    applications::section,
     published::section,
     kernels::section,
 ];

@@ -1,6 +1,7 @@
 //! The program as its users start it.
 
 mod eval;
+mod loads;
 mod report;
 mod simulate;
 mod simulate_trains;

@@ -38,6 +38,8 @@ fn the_report_reproduces_the_printed_tables_and_writes_every_figure() {
         "linear_pair_errors",
         "screw_ball_error_against_time",
         "train_times_picture",
+        "lin_figure_4_3",
+        "lin_figure_4_5",
     ];
     for figure in figures {
         assert!(read(&format!("{figure}.svg")).starts_with("<svg"));
@@ -55,6 +57,8 @@ fn the_report_reproduces_the_printed_tables_and_writes_every_figure() {
         "screw_ball",
         "pair_times",
         "train_times",
+        "applications",
+        "static_cost",
     ] {
         let rows = json[table]["rows"].as_array().unwrap();
         assert!(!rows.is_empty());
