@@ -1,6 +1,7 @@
 //! `report`: the error of every formula beside its run time, as tables on the screen and as Markdown,
 //! one HTML page, SVG, CSV and JSON in a folder.
 
+mod bearings;
 mod curvature;
 mod document;
 mod efficiency;
@@ -60,12 +61,13 @@ impl Context {
 type MakeSection = fn(&Context) -> Result<Section, Failure>;
 
 /// Every section, in the order of the report.
-const SECTIONS: [MakeSection; 7] = [
+const SECTIONS: [MakeSection; 8] = [
     summary::section,
     curvature::section,
     hertz::section,
     efficiency::section,
     kinematics::section,
+    bearings::section,
     published::section,
     kernels::section,
 ];

@@ -33,6 +33,10 @@ fn the_report_reproduces_the_printed_tables_and_writes_every_figure() {
         "efficiency_figure_6",
         "efficiency_figure_7",
         "hertz",
+        "lin_figure_3_7",
+        "lin_figure_3_14",
+        "lin_figure_3_15",
+        "lin_figure_4_7",
     ];
     for figure in figures {
         assert!(read(&format!("{figure}.svg")).starts_with("<svg"));
@@ -45,6 +49,8 @@ fn the_report_reproduces_the_printed_tables_and_writes_every_figure() {
         "summary",
         "curvature_times",
         "kernels",
+        "published",
+        "published_open",
     ] {
         let rows = json[table]["rows"].as_array().unwrap();
         assert!(!rows.is_empty());
