@@ -44,7 +44,9 @@ pub mod train;
 pub use ball::{
     AnalyticLinearBall, BallChain, BallMotion, BallState, ContactMotion, FourPointBall,
     FourPointContacts, GrooveFit, LinearBallParameters, LoadShare, PUBLISHED_SLOPE, RotaryBall,
-    RotaryBallParameters, RotaryMotion, ScrewBallLoop, ScrewRow, ScrewTick, SpeedDeviation,
+    RotaryBallParameters, RotaryMotion, ScrewBall, ScrewBallLoop, ScrewBallMotion, ScrewBallState,
+    ScrewChain, ScrewContactMotion, ScrewContacts, ScrewRow, ScrewTick, SlipFriction, SlipMap,
+    SpeedDeviation,
 };
 pub use contact::{Dissipation, FrictionMap, NormalizedFriction};
 pub use curvature::{

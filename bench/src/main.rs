@@ -13,6 +13,7 @@ mod files;
 mod plot;
 mod report;
 mod simulate;
+mod study;
 mod timing;
 
 use std::process::ExitCode;

@@ -11,6 +11,7 @@ mod kinematics;
 mod published;
 mod statistics;
 mod summary;
+mod trains;
 
 use std::path::PathBuf;
 
@@ -61,13 +62,14 @@ impl Context {
 type MakeSection = fn(&Context) -> Result<Section, Failure>;
 
 /// Every section, in the order of the report.
-const SECTIONS: [MakeSection; 8] = [
+const SECTIONS: [MakeSection; 9] = [
     summary::section,
     curvature::section,
     hertz::section,
     efficiency::section,
     kinematics::section,
     bearings::section,
+    trains::section,
     published::section,
     kernels::section,
 ];

@@ -16,6 +16,7 @@ pub mod kinematics;
 pub mod published;
 pub mod record;
 pub mod rolling_ball;
+pub mod statics;
 pub mod steady_state;
 
 pub use error::ReferenceError;

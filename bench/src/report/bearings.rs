@@ -15,12 +15,6 @@ use super::statistics::evenly;
 use crate::failure::Failure;
 use crate::plot::{Axis, Chart, ColourMap, Mark, Note, Panel, Series};
 
-impl From<FrictionError> for Failure {
-    fn from(error: FrictionError) -> Self {
-        Self::Data(error.to_string())
-    }
-}
-
 /// The section.
 pub fn section(context: &Context) -> Result<Section, Failure> {
     let turning = turning_load(context.quick)?;

@@ -3,6 +3,8 @@
 mod eval;
 mod report;
 mod simulate;
+mod simulate_trains;
+mod trains;
 
 use std::io::Write;
 use std::path::Path;
