@@ -14,6 +14,7 @@ mod plot;
 mod report;
 mod simulate;
 mod study;
+mod target;
 mod timing;
 
 use std::process::ExitCode;
