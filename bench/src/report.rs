@@ -8,6 +8,7 @@ mod efficiency;
 mod hertz;
 mod kernels;
 mod kinematics;
+mod loads;
 mod published;
 mod statistics;
 mod summary;
@@ -62,12 +63,13 @@ impl Context {
 type MakeSection = fn(&Context) -> Result<Section, Failure>;
 
 /// Every section, in the order of the report.
-const SECTIONS: [MakeSection; 9] = [
+const SECTIONS: [MakeSection; 10] = [
     summary::section,
     curvature::section,
     hertz::section,
     efficiency::section,
     kinematics::section,
+    loads::section,
     bearings::section,
     trains::section,
     published::section,

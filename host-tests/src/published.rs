@@ -5,6 +5,7 @@ pub mod balls;
 pub mod bearings;
 mod curvature;
 pub mod efficiency;
+pub mod loads;
 
 use std::error::Error;
 
@@ -36,6 +37,7 @@ pub fn records() -> Result<Vec<Record>, Box<dyn Error>> {
             },
         );
     }
+    loads::append(&mut Page::new(&mut records, Paper::Lin2019))?;
     bearings::append(&mut Page::new(&mut records, Paper::Lin2019))?;
     balls::append(&mut Page::new(&mut records, Paper::Lin2019))?;
     Ok(records)

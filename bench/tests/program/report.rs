@@ -33,6 +33,10 @@ fn the_report_reproduces_the_printed_tables_and_writes_every_figure() {
         "efficiency_figure_6",
         "efficiency_figure_7",
         "hertz",
+        "lin_figures_2_9_2_10",
+        "lin_figures_2_11_2_12",
+        "lin_figure_2_14",
+        "lin_figure_4_10",
         "lin_figure_3_7",
         "lin_figure_3_14",
         "lin_figure_3_15",
@@ -49,6 +53,7 @@ fn the_report_reproduces_the_printed_tables_and_writes_every_figure() {
         "summary",
         "curvature_times",
         "kernels",
+        "hertzian_constants",
         "published",
         "published_open",
     ] {
