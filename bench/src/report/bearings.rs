@@ -13,7 +13,7 @@ use super::Context;
 use super::document::{Block, Figure, Section};
 use super::statistics::evenly;
 use crate::failure::Failure;
-use crate::plot::{Axis, Chart, ColourMap, Mark, Note, Panel, Series};
+use crate::plot::{Axis, Chart, ColourMap, Mark, Panel, Series};
 
 /// The section.
 pub fn section(context: &Context) -> Result<Section, Failure> {
@@ -161,7 +161,7 @@ fn figure_3_15(quick: bool) -> Result<Figure, Failure> {
     let slip = analytic_ball_slip(std::f64::consts::FRAC_PI_4, 0.01);
     Ok(Figure {
         name: "lin_figure_3_15",
-        caption: "Figure 3.15: force between the balls of Figure 3.14 and friction loss over that without their contact. In the \
+        caption: "Figure 3.15: force between the balls of Figure 3.14 and friction loss, of that without their contact. In the \
                   corner the loss is 185 %: the printed increase of \"185.2 %\" is the total."
             .into(),
         panels: vec![
@@ -171,12 +171,12 @@ fn figure_3_15(quick: bool) -> Result<Figure, Failure> {
             map("closed form", "force (N)", &forces, cells(quick), |theta, rho| {
                 Ok(analytic_force(&symmetric_pair(theta, rho)?))
             })?,
-            map("exact", "loss over baseline (%)", &losses, cells(quick), |theta, rho| {
+            map("exact", "loss (%)", &losses, cells(quick), |theta, rho| {
                 let pair = linear_pair(theta, rho)?;
                 let chain = solve_chain(&pair, 0.1, 0.01)?;
                 Ok(100.0 * (1.0 + chain.ball_loss / baseline(&pair)?))
             })?,
-            map("closed form", "loss over baseline (%)", &losses, cells(quick), |theta, rho| {
+            map("closed form", "loss (%)", &losses, cells(quick), |theta, rho| {
                 let pair = symmetric_pair(theta, rho)?;
                 let loss = 0.1 * analytic_force(&pair) * slip;
                 Ok(100.0 * (1.0 + loss / baseline(&pair)?))
@@ -190,7 +190,6 @@ fn figure_3_15(quick: bool) -> Result<Figure, Failure> {
 fn turning_load(quick: bool) -> Result<Figure, Failure> {
     let steps = if quick { 9 } else { 36 };
     let mut series = Vec::new();
-    let mut notes = Vec::new();
     for (colour, (name, undersize, tilt)) in [
         ("no play", 0.0, Tilt::Held),
         ("40 µm undersize", 40e-6, Tilt::Held),
@@ -213,22 +212,14 @@ fn turning_load(quick: bool) -> Result<Figure, Failure> {
                 .map(|point| (point.angle.to_degrees(), value(point)))
                 .collect::<Vec<_>>()
         };
-        let four_curve = curve(|point| point.four_point);
-        if let Some(last) = four_curve.last() {
-            notes.push(Note {
-                at: *last,
-                text: format!("{four:.1} times, double row {double:.1}"),
-                left: true,
-            });
-        }
         series.push(Series::new(
-            &format!("four-point, {name}"),
+            &format!("four-point, {name}: {four:.1} times"),
             colour,
             Mark::Line,
-            four_curve,
+            curve(|point| point.four_point),
         ));
         series.push(Series::new(
-            &format!("double row, {name}"),
+            &format!("double row: {double:.1}"),
             colour,
             Mark::Dashed,
             curve(|point| point.double_row),
@@ -237,7 +228,7 @@ fn turning_load(quick: bool) -> Result<Figure, Failure> {
     Ok(Figure {
         name: "lin_figure_4_7",
         caption: "Figure 4.7: friction torque of a four-point and of a double-row angular contact bearing under 3000 N that turn from \
-                  axial to radial (Table 4.2). Undersize, tilt and friction (here 0.1) are not printed; in kind the result is the \
+                  axial to radial (Table 4.2); in the legend the largest over the least. Undersize, tilt and friction (here 0.1) are not printed; in kind the result is the \
                   printed one: the four-point bearing varies several times over (printed: 5.69), the double-row one hardly."
             .into(),
         panels: vec![Panel::Chart(Chart {
@@ -245,7 +236,7 @@ fn turning_load(quick: bool) -> Result<Figure, Failure> {
             x: Axis::linear("angle of the load from the axis (deg)").between(0.0, 90.0),
             y: Axis::linear("friction torque (N m)"),
             series,
-            notes,
+            notes: Vec::new(),
         })],
         columns: 1,
         size: (1080, 460),
