@@ -2,12 +2,14 @@
 //! one HTML page, SVG, CSV and JSON in a folder.
 
 mod applications;
+mod bearings;
 mod curvature;
 mod document;
 mod efficiency;
 mod hertz;
 mod kernels;
 mod kinematics;
+mod loads;
 mod published;
 mod statistics;
 mod summary;
@@ -62,12 +64,14 @@ impl Context {
 type MakeSection = fn(&Context) -> Result<Section, Failure>;
 
 /// Every section, in the order of the report.
-const SECTIONS: [MakeSection; 9] = [
+const SECTIONS: [MakeSection; 11] = [
     summary::section,
     curvature::section,
     hertz::section,
     efficiency::section,
     kinematics::section,
+    loads::section,
+    bearings::section,
     trains::section,
     applications::section,
     published::section,
