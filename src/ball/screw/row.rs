@@ -681,6 +681,77 @@ impl ScrewTick {
     }
 }
 
+/// [`ScrewTick`] for a loop over balls whose deviations are within their limits: constants folded, speeds
+/// over a speed of reference.
+pub(crate) struct ScrewLoop {
+    turn: [f32; 5],
+    own: [f32; 3],
+    /// Weights of the deviations' units at screw and nut in what turns the ball and in what tilts it.
+    turn_weights: (f32, f32),
+    own_weights: (f32, f32),
+    scale: f32,
+    spin: f32,
+    compliance_rolling: f32,
+    compliance_sliding: f32,
+    torque_rolling: f32,
+    torque_sliding: f32,
+}
+
+/// One ball in that loop.
+pub(crate) struct LoopBall {
+    /// Speed along the track when no neighbour presses, less the nominal one, over the speed of reference.
+    pub(crate) speed: f32,
+    /// Force along the track, N, that takes the speed of reference from the ball.
+    pub(crate) impedance: f32,
+    /// Power loss in the grooves, N m.
+    pub(crate) groove_torque: f32,
+}
+
+impl ScrewTick {
+    /// For speeds over a speed of which the inverse is `per_speed`, 1/m per unit of nut speed, and
+    /// deviations at screw and nut in these `units`, rad.
+    #[inline(always)]
+    pub(crate) fn per_speed(&self, per_speed: f32, units: (f32, f32)) -> ScrewLoop {
+        let (screw, nut) = units;
+        let size = per_speed.abs();
+        ScrewLoop {
+            turn: self.turn,
+            own: self.own,
+            turn_weights: (self.turn_sign * screw, self.turn_sign * nut),
+            own_weights: (self.screw_weight * screw, self.nut_weight * nut),
+            scale: self.scale * per_speed,
+            spin: self.spin * self.scale,
+            compliance_rolling: self.compliance_rolling * size,
+            compliance_sliding: self.compliance_sliding * size,
+            torque_rolling: self.torque_rolling,
+            torque_sliding: self.torque_sliding,
+        }
+    }
+}
+
+impl ScrewLoop {
+    /// One ball: [`ScrewTick::ball`].
+    #[inline(always)]
+    pub(crate) fn ball(&self, screw: f32, nut: f32, share: &LoadShare) -> LoopBall {
+        let [t1, t2, t3, t4, t5] = self.turn;
+        let u = self.turn_weights.0 * screw + self.turn_weights.1 * nut;
+        let v = self.own_weights.0 * screw + self.own_weights.1 * nut;
+        let turn = u * (t1 + u * (t2 + u * (t3 + u * (t4 + u * t5))));
+        let [o1, o2, o3] = self.own;
+        let own = v * (o1 + v * (o2 + v * o3));
+        let deviation = turn + own * (1.0 + turn);
+        let spin = 1.0 + self.spin * deviation;
+        let compliance = self.compliance_sliding * share.inverse
+            + self.compliance_rolling * (share.inverse_two_thirds * spin);
+        LoopBall {
+            speed: self.scale * deviation,
+            impedance: 1.0 / compliance,
+            groove_torque: self.torque_sliding * share.share
+                + self.torque_rolling * (share.four_thirds * spin),
+        }
+    }
+}
+
 /// Series of `1/(1 + x) - 1` with `x = (tan b sin u - (1 - cos u))/2`, from the power of one on.
 fn turn_series(tangent: f32) -> [f32; 5] {
     let x1 = 0.5 * tangent;
