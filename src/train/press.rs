@@ -142,7 +142,7 @@ impl<const N: usize> Press<N> {
     /// Finds actual speeds and forces from free speeds, impedances `1/Y` and rooms.
     ///
     /// `room[j]` belongs to ball `j` and the one in front of it, the last one to the last ball and the
-    /// first: infinite on an open track. Zero is contact, NaN is none. A ring without any room
+    /// first: infinite on an open track. Zero or less is contact, NaN none. A ring without any room
     /// moves as one at the weighted mean speed; its forces are known but for a constant, and the least one
     /// is taken as zero. A ball that nothing drives has a small impedance: it goes along with its
     /// neighbours and presses on none.
@@ -156,7 +156,7 @@ impl<const N: usize> Press<N> {
     pub fn solve(&mut self, free: &[f32; N], impedance: &[f32; N], room: &[f32; N]) -> bool {
         let sound = self.set(free, impedance);
         for (ball, &room) in self.balls.iter_mut().zip(room) {
-            ball.room = room;
+            ball.room = if room < 0.0 { 0.0 } else { room };
         }
         self.pool();
         for ball in &mut self.balls {
