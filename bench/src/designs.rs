@@ -1,6 +1,7 @@
 //! Designs by name or from a file.
 
-use std::fs;
+use std::fs::File;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
@@ -11,6 +12,7 @@ use epas_friction::{
 use serde::Deserialize;
 
 use crate::failure::Failure;
+use crate::files::Bounded;
 
 /// A design with what the in-loop model has to know beside it.
 #[derive(Clone, Debug)]
@@ -186,17 +188,21 @@ const LARGEST_FILE: u64 = 1 << 18;
 
 fn from_file(path: &Path) -> Result<Design, Failure> {
     let failure = |message: String| Failure::Data(format!("{}: {message}", path.display()));
-    let metadata = fs::metadata(path).map_err(|error| Failure::file("open", path, &error))?;
-    if metadata.len() > LARGEST_FILE {
-        return Err(failure(format!(
-            "a design file has at most {LARGEST_FILE} bytes"
-        )));
-    }
-    let text = fs::read_to_string(path).map_err(|error| Failure::file("read", path, &error))?;
+    let file = File::open(path).map_err(|error| Failure::file("open", path, &error))?;
+    let mut text = String::new();
+    Bounded::new(file, LARGEST_FILE)
+        .read_to_string(&mut text)
+        .map_err(|error| Failure::file("read", path, &error))?;
     let file: DesignFile =
         toml::from_str(&text).map_err(|error| failure(error.to_string().trim_end().into()))?;
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     file.design(&stem).map_err(failure)
+}
+
+/// Reads a design file.
+pub fn accepts(text: &str) -> Result<(), String> {
+    let file: DesignFile = toml::from_str(text).map_err(|error| error.to_string())?;
+    file.design("design").map(drop)
 }
 
 impl DesignFile {
