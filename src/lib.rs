@@ -23,6 +23,7 @@
 //! | [`ball`] | one ball in a linear or rotary four-point bearing: speed deviation, compliance, loss |
 //! | [`scene`] | what a mechanism needs and what it leaves out |
 //! | [`model`] | configured once, stepped in the interrupt |
+//! | [`promises`] | domain, errors, behaviour outside and cost of every function, in one table |
 //!
 //! Everything is set up once, with errors that name the field, its value and the allowed range; from
 //! then on nothing returns a `Result`, nothing panics, and every output is finite and flagged.
@@ -38,6 +39,7 @@ pub mod kinematics;
 pub mod material;
 pub mod math;
 pub mod model;
+pub mod promises;
 pub mod scene;
 pub mod train;
 
