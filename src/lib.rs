@@ -23,6 +23,7 @@
 //! | [`ball`] | one ball in a linear or rotary four-point bearing: speed deviation, compliance, loss |
 //! | [`scene`] | what a mechanism needs and what it leaves out |
 //! | [`model`] | configured once, stepped in the interrupt |
+//! | [`promises`] | domain, errors, behaviour outside and cost of every function, in one table |
 //! | `hal` | adapters for `embedded-hal`: nut speed from an encoder, friction torque to a duty cycle |
 //!
 //! Everything is set up once, with errors that name the field, its value and the allowed range; from
@@ -41,6 +42,7 @@ pub mod kinematics;
 pub mod material;
 pub mod math;
 pub mod model;
+pub mod promises;
 pub mod scene;
 pub mod train;
 

@@ -3,7 +3,8 @@
 pub mod loads;
 pub mod train;
 
-use std::fs;
+use std::fs::File;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
@@ -14,6 +15,7 @@ use epas_friction::{
 use serde::Deserialize;
 
 use crate::failure::Failure;
+use crate::files::Bounded;
 use loads::{LoadCase, LoadsTable};
 use train::{UncagedDesign, UncagedTable};
 
@@ -216,14 +218,18 @@ fn from_file(path: &Path) -> Result<Design, Failure> {
 }
 
 fn read_text(path: &Path) -> Result<String, Failure> {
-    let metadata = fs::metadata(path).map_err(|error| Failure::file("open", path, &error))?;
-    if metadata.len() > LARGEST_FILE {
-        return Err(Failure::Data(format!(
-            "{}: a design file has at most {LARGEST_FILE} bytes",
-            path.display()
-        )));
-    }
-    fs::read_to_string(path).map_err(|error| Failure::file("read", path, &error))
+    let file = File::open(path).map_err(|error| Failure::file("open", path, &error))?;
+    let mut text = String::new();
+    Bounded::new(file, LARGEST_FILE)
+        .read_to_string(&mut text)
+        .map_err(|error| Failure::file("read", path, &error))?;
+    Ok(text)
+}
+
+/// Reads a design file.
+pub fn accepts(text: &str) -> Result<(), String> {
+    let file: DesignFile = toml::from_str(text).map_err(|error| error.to_string())?;
+    file.design("design").map(drop)
 }
 
 impl DesignFile {

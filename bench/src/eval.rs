@@ -204,6 +204,11 @@ fn answer(line: &str) -> Reply<'_> {
     }
 }
 
+/// Answers one line; whether it was a good request.
+pub fn accepts(line: &str) -> bool {
+    answer(line).error.is_none()
+}
+
 fn evaluate(mut fields: Fields) -> Result<Answer, BadField> {
     fields.refuse_duplicate()?;
     let model = fields.choice("model", &MODELS)?;

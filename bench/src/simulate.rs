@@ -203,6 +203,11 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     Ok(())
 }
 
+/// Reads a trace; its number of samples.
+pub fn accepts(text: &[u8]) -> Result<usize, String> {
+    trace::samples(std::io::Cursor::new(text), trace::SCREW).map(|samples| samples.len())
+}
+
 fn list() -> Result<(), Failure> {
     let mut stdout = io::stdout().lock();
     for (name, parameters, loaded_balls) in designs::built_in() {

@@ -7,12 +7,13 @@
 #![allow(improper_ctypes_definitions)]
 
 use epas_friction::{
-    AnalyticLinearBall, BallChain, BallKinematics, BallState, CagedBallScrew, CircularGrooveCurvature,
-    ContactAngle, ContactEllipse, ContactKinematics, Dissipation, EfficiencyGeometry,
-    EllipticContact, FittedCurvature, FourPointBall, FrictionMap, FrictionModel, GothicArch,
-    HertzContact, Inputs, LinearBearingTrain, LinearInputs, LiteratureCurvature, LoadShare,
-    NormalizedFriction, Outputs, Press, PrincipalCurvatures, RotaryBall, ScrewBallLoop, ScrewRow, ScrewTick,
-    SlipRatios, Train, TrainOutputs, UncagedBallScrew, math,
+    AnalyticLinearBall, BallChain, BallKinematics, BallState, CagedBallScrew,
+    CircularGrooveCurvature, ContactAngle, ContactEllipse, ContactKinematics, Dissipation,
+    EfficiencyGeometry, EllipticContact, FittedCurvature, FourPointBall, FrictionMap,
+    FrictionModel, GothicArch, HertzContact, Inputs, LinearBearingTrain, LinearInputs,
+    LiteratureCurvature, LoadShare, NormalizedFriction, Outputs, Press, PrincipalCurvatures,
+    RotaryBall, ScrewBallLoop, ScrewRow, ScrewTick, SlipRatios, Train, TrainOutputs,
+    UncagedBallScrew, math,
 };
 
 use crate::peers::{LuGre, Stribeck};

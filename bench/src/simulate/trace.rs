@@ -7,6 +7,7 @@ use std::path::Path;
 use csv::{ErrorKind, Position, Reader, ReaderBuilder, StringRecord, Trim};
 
 use crate::failure::Failure;
+use crate::files::Bounded;
 
 /// One moment of a trace.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,25 +40,16 @@ pub const LINEAR: &[&str] = &["time", "speed", "normal_load", "side_load"];
 /// Most samples of a trace: more than an hour at 1 kHz, and less than fills a memory.
 const MOST_SAMPLES: usize = 5_000_000;
 
-/// Largest trace file, bytes.
-const LARGEST_FILE: u64 = 1 << 30;
+/// Largest trace file, bytes: what five million samples need; a quoted field may span lines, and is held
+/// whole.
+const LARGEST_FILE: u64 = 1 << 29;
 
 /// Reads a trace.
 pub fn read(path: &Path, columns: &[&str]) -> Result<Trace, Failure> {
     let file = File::open(path).map_err(|error| Failure::file("open", path, &error))?;
-    let size = file
-        .metadata()
-        .map_err(|error| Failure::file("read", path, &error))?
-        .len();
-    if size > LARGEST_FILE {
-        return Err(Failure::Data(format!(
-            "{}: a trace has at most {LARGEST_FILE} bytes, this one {size}",
-            path.display()
-        )));
-    }
-    let samples = parse(file, columns).map_err(|Fault { line, message }| {
-        Failure::Data(format!("{}, line {line}: {message}", path.display()))
-    })?;
+    // What is no file, a pipe or a device, does not say its size and may never end.
+    let samples = samples(Bounded::new(file, LARGEST_FILE), columns)
+        .map_err(|message| Failure::Data(format!("{}, {message}", path.display())))?;
     Ok(Trace {
         name: path
             .file_stem()
@@ -66,6 +58,11 @@ pub fn read(path: &Path, columns: &[&str]) -> Result<Trace, Failure> {
             .into_owned(),
         samples,
     })
+}
+
+/// The samples of a trace, or what is wrong in which line.
+pub fn samples(input: impl Read + Seek, columns: &[&str]) -> Result<Vec<Sample>, String> {
+    parse(input, columns).map_err(|Fault { line, message }| format!("line {line}: {message}"))
 }
 
 /// What is wrong with a trace, and in which line.
