@@ -1,6 +1,7 @@
 //! `report`: the error of every formula beside its run time, as tables on the screen and as Markdown,
 //! one HTML page, SVG, CSV and JSON in a folder.
 
+mod cortex_m;
 mod curvature;
 mod document;
 mod efficiency;
@@ -13,6 +14,7 @@ mod summary;
 use std::path::PathBuf;
 
 use crate::failure::Failure;
+use crate::target::TargetFigures;
 use crate::timing::{Competition, compete};
 use document::{Document, Section};
 
@@ -43,6 +45,7 @@ impl Default for Arguments {
 struct Context {
     quick: bool,
     competition: Vec<Competition>,
+    target: TargetFigures,
 }
 
 impl Context {
@@ -59,13 +62,14 @@ impl Context {
 type MakeSection = fn(&Context) -> Result<Section, Failure>;
 
 /// Every section, in the order of the report.
-const SECTIONS: [MakeSection; 6] = [
+const SECTIONS: [MakeSection; 7] = [
     summary::section,
     curvature::section,
     hertz::section,
     efficiency::section,
     kinematics::section,
     kernels::section,
+    cortex_m::section,
 ];
 
 /// Makes the report.
@@ -74,6 +78,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let context = Context {
         quick: arguments.quick,
         competition: compete(rounds)?,
+        target: TargetFigures::new(arguments.quick)?,
     };
     let sections = SECTIONS
         .iter()

@@ -18,7 +18,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use crate::designs::{self, Design, DesignSource};
 use crate::failure::Failure;
 use crate::files::{self, Existing, Pending};
-use manoeuvre::Manoeuvre;
+pub use manoeuvre::Manoeuvre;
 use reference::ReferenceScene;
 use summary::Summary;
 use trace::{Sample, Trace};

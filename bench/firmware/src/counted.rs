@@ -7,12 +7,13 @@
 #![allow(improper_ctypes_definitions)]
 
 use epas_friction::{
-    AnalyticLinearBall, BallChain, BallKinematics, BallState, CagedBallScrew, CircularGrooveCurvature,
-    ContactAngle, ContactEllipse, ContactKinematics, Dissipation, EfficiencyGeometry,
-    EllipticContact, FittedCurvature, FourPointBall, FrictionMap, FrictionModel, GothicArch,
-    HertzContact, Inputs, LinearBearingTrain, LinearInputs, LiteratureCurvature, LoadShare,
-    NormalizedFriction, Outputs, Press, PrincipalCurvatures, RotaryBall, ScrewBallLoop, ScrewRow, ScrewTick,
-    SlipRatios, Train, TrainOutputs, UncagedBallScrew, math,
+    AnalyticLinearBall, BallChain, BallKinematics, BallState, CagedBallScrew,
+    CircularGrooveCurvature, ContactAngle, ContactEllipse, ContactKinematics, Dissipation,
+    EfficiencyGeometry, EllipticContact, FittedCurvature, FourPointBall, FrictionMap,
+    FrictionModel, GothicArch, HertzContact, Inputs, LinearBearingTrain, LinearInputs,
+    LiteratureCurvature, LoadShare, NormalizedFriction, Outputs, Press, PrincipalCurvatures,
+    RotaryBall, ScrewBallLoop, ScrewRow, ScrewTick, SlipRatios, Train, TrainOutputs,
+    UncagedBallScrew, math,
 };
 
 use crate::peers::{LuGre, Stribeck};
@@ -254,6 +255,15 @@ counted! {
     /// `micromath`'s power.
     fn count_micromath_powf(x: f32) -> f32 {
         micromath::F32Ext::powf(x, 2.0 / 3.0)
+    }
+
+    /// `idsp`'s sine and cosine of a table, with the angle to and the results from integers.
+    fn count_idsp_sin_cos(x: f32) -> (f32, f32) {
+        let turns = x * (0.5 / core::f32::consts::PI);
+        let fraction = turns - turns as i32 as f32;
+        let (cos, sin) = idsp::cossin(((fraction * 2_147_483_648.0) as i32).wrapping_mul(2));
+        const UNIT: f32 = 1.0 / 2_147_483_648.0;
+        (sin as f32 * UNIT, cos as f32 * UNIT)
     }
 
     /// One step of the LuGre model.

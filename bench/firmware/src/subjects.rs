@@ -3,22 +3,22 @@
 use core::hint::black_box;
 
 use epas_friction::{
-    BallKinematics, ContactSlip, EllipticContact, Faults, LoadShare, Outputs, Regime, ScrewBallLoop,
-    TrainOutputs, math,
+    BallKinematics, ContactSlip, EllipticContact, Faults, LoadShare, Outputs, Regime,
+    ScrewBallLoop, TrainOutputs, math,
 };
 
 use crate::contexts::Contexts;
 use crate::counted::{
-    FourContacts, count_ball_screw_ball, count_ball_screw_row, count_press_37,
-    count_step_linear, count_step_train_37, count_train_37, count_cbrt, count_cbrt_and_squared,
+    FourContacts, count_ball_screw_ball, count_ball_screw_row, count_cbrt, count_cbrt_and_squared,
     count_curvature_circular_groove, count_curvature_exact, count_curvature_fitted,
     count_curvature_literature, count_efficiency_backdrive, count_efficiency_rolling,
-    count_efficiency_sliding, count_friction_dissipation, count_friction_map,
-    count_hertz_ellipse, count_kinematics_ratios, count_kinematics_tick, count_kinematics_update,
+    count_efficiency_sliding, count_friction_dissipation, count_friction_map, count_hertz_ellipse,
+    count_idsp_sin_cos, count_kinematics_ratios, count_kinematics_tick, count_kinematics_update,
     count_libm_cbrtf, count_libm_cosf, count_libm_powf, count_libm_sincosf, count_libm_sqrtf,
-    count_linear_ball_analytic, count_linear_ball_refined, count_linear_chain_2, count_lugre_step, count_rotary_ball_refined,
-    count_micromath_cos, count_micromath_powf, count_micromath_sqrt, count_sin_cos, count_sqrt,
-    count_step_caged, count_step_efficiency, count_stribeck_curve,
+    count_linear_ball_analytic, count_linear_ball_refined, count_linear_chain_2, count_lugre_step,
+    count_micromath_cos, count_micromath_powf, count_micromath_sqrt, count_press_37,
+    count_rotary_ball_refined, count_sin_cos, count_sqrt, count_step_caged, count_step_efficiency,
+    count_step_linear, count_step_train_37, count_stribeck_curve, count_train_37,
 };
 use crate::scenes::EfficiencyStep;
 use crate::spread::Spread;
@@ -128,16 +128,7 @@ fn four_contacts(spread: &mut Spread) -> [f32; 8] {
     let load = spread.between(20.0, 200.0);
     let (strong, weak) = (load * (1.0 + side), load * (1.0 - side));
     let mut near = || core::f32::consts::FRAC_PI_4 + spread.between(-0.05, 0.05);
-    [
-        near(),
-        near(),
-        near(),
-        near(),
-        strong,
-        weak,
-        strong,
-        weak,
-    ]
+    [near(), near(), near(), near(), strong, weak, strong, weak]
 }
 
 fn pair(rear: [f32; 8], front: [f32; 8]) -> [f32; 16] {
@@ -191,7 +182,11 @@ fn wave([amplitude, waves, start]: [f32; 3]) -> [f32; BALLS] {
     core::array::from_fn(|ball| {
         let phase = start + waves * (ball as f32 * (1.0 / BALLS as f32));
         let fraction = phase - phase as i32 as f32;
-        let triangle = if fraction < 0.5 { fraction } else { 1.0 - fraction };
+        let triangle = if fraction < 0.5 {
+            fraction
+        } else {
+            1.0 - fraction
+        };
         amplitude * (4.0 * triangle - 1.0)
     })
 }
@@ -253,7 +248,13 @@ pub fn train_outputs(outputs: &TrainOutputs) -> [f32; 7] {
 }
 
 fn screw_ball(ball: &ScrewBallLoop, more: f32) -> [f32; 5] {
-    [ball.speed_deviation, ball.compliance, ball.groove_torque, ball.rubbing, more]
+    [
+        ball.speed_deviation,
+        ball.compliance,
+        ball.groove_torque,
+        ball.rubbing,
+        more,
+    ]
 }
 
 fn all(values: impl Iterator<Item = f32>) -> [f32; BALLS] {
@@ -460,6 +461,8 @@ subjects! {
         |c, [x]| -> [1] [timed!(c, count_micromath_cos(x))];
     micromath_powf: |spread| -> [1] positive(spread),
         |c, [x]| -> [1] [timed!(c, count_micromath_powf(x))];
+    idsp_sin_cos: |spread| -> [1] angle(spread),
+        |c, [x]| -> [2] two(timed!(c, count_idsp_sin_cos(x)));
     lugre_step: |spread| -> [1] [spread.between(-5.0, 5.0)],
         |c, [speed]| -> [1] [timed!(c, count_lugre_step(black_box(&mut c.lugre), speed))];
     stribeck_curve: |spread| -> [1] [spread.between(-5.0, 5.0)],

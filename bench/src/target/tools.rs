@@ -72,12 +72,7 @@ pub enum Built {
 }
 
 /// Builds images with some features into their own folder of `bench/firmware/target`.
-pub fn build(
-    images: &[&str],
-    core: Core,
-    profile: &str,
-    features: &str,
-) -> Result<Built, Failure> {
+pub fn build(images: &[&str], core: Core, profile: &str, features: &str) -> Result<Built, Failure> {
     let folder = firmware().join("target").join(core.name());
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let mut command = Command::new(cargo);
@@ -125,9 +120,16 @@ fn output(command: &mut Command, name: &str) -> Result<Output, Failure> {
 /// What a program printed, and whether it passed.
 pub struct Run {
     /// Its output.
-    pub text: String,
+    pub output: Vec<u8>,
     /// Whether it ended with success.
     pub passed: bool,
+}
+
+impl Run {
+    /// Its output as text.
+    pub fn text(&self) -> String {
+        String::from_utf8_lossy(&self.output).into_owned()
+    }
 }
 
 /// A core, as QEMU has it.
@@ -171,17 +173,14 @@ impl Core {
     pub fn run(self, image: &Path) -> Result<Run, Failure> {
         let mut command = self.emulator(image);
         command.stdout(Stdio::piped()).stderr(Stdio::inherit());
-        let (passed, text) = watched(command, |child| {
+        let (passed, output) = watched(command, |child| {
             let mut bytes = Vec::new();
             if let Some(mut stream) = child.stdout.take() {
                 stream.read_to_end(&mut bytes)?;
             }
             Ok(bytes)
         })?;
-        Ok(Run {
-            text: String::from_utf8_lossy(&text).into_owned(),
-            passed,
-        })
+        Ok(Run { output, passed })
     }
 
     /// Runs an image with every instruction logged, and counts calls of the functions at some addresses.

@@ -3,6 +3,7 @@
 mod eval;
 mod report;
 mod simulate;
+mod target;
 
 use std::io::Write;
 use std::path::Path;
@@ -52,7 +53,7 @@ fn run(arguments: &[&str], input: &str) -> Run {
 fn help_names_every_subcommand() {
     let help = run(&["--help"], "");
     assert_eq!(help.code, 0);
-    for subcommand in ["report", "simulate", "eval"] {
+    for subcommand in ["report", "simulate", "eval", "target"] {
         assert!(help.stdout.contains(subcommand));
         assert_eq!(run(&[subcommand, "--help"], "").code, 0);
     }
