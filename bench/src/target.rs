@@ -23,6 +23,8 @@ use crate::failure::Failure;
 /// no measurement in silicon. Flash, RAM and stack are those of one image for each scene. The same run
 /// compares the results of every function with the host's, bit for bit. Needs qemu-system-arm and the
 /// target thumbv7em-none-eabihf, and says which command adds them.
+// Each is a switch of the command line.
+#[allow(clippy::struct_excessive_bools)]
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// Print one JSON object instead of tables

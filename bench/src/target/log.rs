@@ -1,5 +1,6 @@
 //! The log of the debug firmware, decoded with the strings that stay in the ELF file.
 
+use std::fmt::Write as _;
 use std::fs;
 
 use defmt_decoder::{DecodeError, Table};
@@ -27,7 +28,7 @@ pub fn log() -> Result<String, Failure> {
         match decoder.decode() {
             Ok(frame) => {
                 let level = frame.level().map_or("", |level| level.as_str());
-                text.push_str(&format!("{level:5} {}\n", frame.display_message()));
+                let _ = writeln!(text, "{level:5} {}", frame.display_message());
             }
             Err(DecodeError::UnexpectedEof) => break,
             Err(DecodeError::Malformed) => {
