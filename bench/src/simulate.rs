@@ -24,7 +24,7 @@ use crate::designs::{self, DesignSource};
 use crate::failure::Failure;
 use crate::files::{self, Existing, Pending};
 use loads::Format;
-use manoeuvre::Manoeuvre;
+pub use manoeuvre::Manoeuvre;
 use reference::Reference;
 use subject::{Scene, Subject};
 use summary::Summary;
