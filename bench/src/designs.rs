@@ -1,5 +1,7 @@
 //! Designs by name or from a file.
 
+pub mod train;
+
 use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -13,6 +15,7 @@ use serde::Deserialize;
 
 use crate::failure::Failure;
 use crate::files::Bounded;
+use train::{UncagedDesign, UncagedTable};
 
 /// A design with what the in-loop model has to know beside it.
 #[derive(Clone, Debug)]
@@ -23,6 +26,8 @@ pub struct Design {
     pub configuration: CagedBallScrewConfiguration,
     /// Number of balls that share the load, where it is known.
     pub loaded_balls: Option<u16>,
+    /// Its balls where they press on each other, where they are known.
+    pub uncaged: Option<UncagedDesign>,
 }
 
 /// Settings that a catalogue does not print.
@@ -48,6 +53,7 @@ impl Design {
                 limits: LIMITS,
             },
             loaded_balls,
+            uncaged: loaded_balls.and_then(|balls| train::built_in(name, design, balls)),
         }
     }
 
@@ -80,6 +86,8 @@ pub enum DesignSource {
         /// Number of balls that share the load.
         loaded_balls: Option<u16>,
     },
+    /// The built-in linear bearing.
+    LinearBearing,
     /// A TOML file.
     File(PathBuf),
 }
@@ -90,6 +98,9 @@ impl FromStr for DesignSource {
     fn from_str(text: &str) -> Result<Self, String> {
         if Path::new(text).extension().is_some_and(|end| end == "toml") {
             return Ok(Self::File(text.into()));
+        }
+        if text == train::LINEAR {
+            return Ok(Self::LinearBearing);
         }
         built_in()
             .find(|(name, ..)| *name == text)
@@ -107,7 +118,7 @@ impl FromStr for DesignSource {
 }
 
 impl DesignSource {
-    /// The design, checked.
+    /// The ball screw, checked.
     pub fn load(&self) -> Result<Design, Failure> {
         match self {
             Self::BuiltIn {
@@ -119,6 +130,10 @@ impl DesignSource {
                     .map_err(|error| Failure::Data(format!("{name}: {error}")))?;
                 Ok(Design::built_in(name, design, *loaded_balls))
             }
+            Self::LinearBearing => Err(Failure::Data(format!(
+                "{} is a linear bearing: its scene is linear",
+                train::LINEAR
+            ))),
             Self::File(path) => from_file(path),
         }
     }
@@ -151,6 +166,7 @@ struct DesignFile {
     reversal_speed: Option<f32>,
     loaded_balls: Option<u16>,
     limits: Option<LimitsTable>,
+    uncaged: Option<UncagedTable>,
 }
 
 #[derive(Deserialize)]
@@ -160,7 +176,7 @@ struct GrooveTable {
     groove_radius: Option<f32>,
 }
 
-#[derive(Deserialize)]
+#[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct MaterialTable {
     youngs_modulus: Option<f32>,
@@ -188,11 +204,7 @@ const LARGEST_FILE: u64 = 1 << 18;
 
 fn from_file(path: &Path) -> Result<Design, Failure> {
     let failure = |message: String| Failure::Data(format!("{}: {message}", path.display()));
-    let file = File::open(path).map_err(|error| Failure::file("open", path, &error))?;
-    let mut text = String::new();
-    Bounded::new(file, LARGEST_FILE)
-        .read_to_string(&mut text)
-        .map_err(|error| Failure::file("read", path, &error))?;
+    let text = read_text(path)?;
     let file: DesignFile =
         toml::from_str(&text).map_err(|error| failure(error.to_string().trim_end().into()))?;
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
@@ -203,6 +215,15 @@ fn from_file(path: &Path) -> Result<Design, Failure> {
 pub fn accepts(text: &str) -> Result<(), String> {
     let file: DesignFile = toml::from_str(text).map_err(|error| error.to_string())?;
     file.design("design").map(drop)
+}
+
+fn read_text(path: &Path) -> Result<String, Failure> {
+    let file = File::open(path).map_err(|error| Failure::file("open", path, &error))?;
+    let mut text = String::new();
+    Bounded::new(file, LARGEST_FILE)
+        .read_to_string(&mut text)
+        .map_err(|error| Failure::file("read", path, &error))?;
+    Ok(text)
 }
 
 impl DesignFile {
@@ -261,6 +282,20 @@ impl DesignFile {
             );
         }
         FrictionModel::<CagedBallScrew>::new(configuration).map_err(|error| error.to_string())?;
+        let configuration = *configuration;
+        design.uncaged = self
+            .uncaged
+            .map(|table| {
+                table
+                    .design(
+                        screw,
+                        configuration.friction,
+                        configuration.reversal_speed,
+                        configuration.limits,
+                    )
+                    .map_err(|message| format!("uncaged: {message}"))
+            })
+            .transpose()?;
         Ok(design)
     }
 }
@@ -289,7 +324,16 @@ fn radius(
 /// A groove's own table, or what is given for both.
 fn groove(name: &str, own: Option<&GrooveTable>, both: &GrooveTable) -> Result<GrooveSize, String> {
     let table = own.unwrap_or(both);
-    match (table.conformity, table.groove_radius) {
+    groove_size(name, table.conformity, table.groove_radius)
+}
+
+/// A groove's size by the one or the other number.
+fn groove_size(
+    name: &str,
+    conformity: Option<f32>,
+    groove_radius: Option<f32>,
+) -> Result<GrooveSize, String> {
+    match (conformity, groove_radius) {
         (Some(conformity), None) => Ok(GrooveSize::Conformity(conformity)),
         (None, Some(radius)) => Ok(GrooveSize::Radius(radius)),
         (None, None) => Err(format!("{name}: conformity or groove_radius is missing")),

@@ -1,5 +1,6 @@
 //! `eval`: one JSON object a line in, one a line out, in order.
 
+mod ball_screw_train;
 mod contact_kinematics;
 mod efficiency;
 mod fields;
@@ -53,6 +54,13 @@ use lines::{Line, Lines};
 /// friction, [ball_friction], speed, balls: a list, rear to front, of 1 to 64 {"contact_angles": [BL, BR,
 /// TR, TL], "contact_forces": [BL, BR, TR, TL]}; a force of 0 is a lost contact. Answers with actual
 /// speeds, under the forces between the balls; at standstill the reference has none of them.
+///
+/// ball_screw_train: pitch_radius, lead, ball_radius, groove_radius, youngs_modulus, poisson_ratio, friction,
+/// nut_speed, balls: a list, rear to front in the direction of orbiting, of 1 to 64 {"contacts": {"SL":
+/// {"load", "contact_angle"}, ...}} with two to four of SL, SR, NL, NR (screw or nut, left or right); a load of
+/// 0 is a lost contact. Answers with the speeds of free balls, the forces between touching ones (none at
+/// standstill), and the power lost in grooves and between balls; nothing where a ball is not loaded on both
+/// screw and nut.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// File with the requests; stdin without it or for -
@@ -85,7 +93,7 @@ fn json(value: &impl Serialize) -> Result<Box<RawValue>, BadField> {
 type Model = fn(Fields) -> Result<Answer, BadField>;
 
 /// Every model by its name.
-const MODELS: [(&str, Model); 7] = [
+const MODELS: [(&str, Model); 8] = [
     ("groove_curvature", groove_curvature::evaluate),
     ("efficiency", efficiency::evaluate),
     ("steady_state", steady_state::evaluate),
@@ -93,6 +101,7 @@ const MODELS: [(&str, Model); 7] = [
     ("contact_kinematics", contact_kinematics::evaluate),
     ("friction_map", friction_map::evaluate),
     ("linear_train", linear_train::evaluate),
+    ("ball_screw_train", ball_screw_train::evaluate),
 ];
 
 /// A line of the output.

@@ -13,6 +13,8 @@ mod files;
 mod plot;
 mod report;
 mod simulate;
+mod study;
+mod target;
 mod timing;
 
 use std::process::ExitCode;

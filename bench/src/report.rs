@@ -7,8 +7,10 @@ mod efficiency;
 mod hertz;
 mod kernels;
 mod kinematics;
+mod published;
 mod statistics;
 mod summary;
+mod trains;
 
 use std::path::PathBuf;
 
@@ -59,12 +61,14 @@ impl Context {
 type MakeSection = fn(&Context) -> Result<Section, Failure>;
 
 /// Every section, in the order of the report.
-const SECTIONS: [MakeSection; 6] = [
+const SECTIONS: [MakeSection; 8] = [
     summary::section,
     curvature::section,
     hertz::section,
     efficiency::section,
     kinematics::section,
+    trains::section,
+    published::section,
     kernels::section,
 ];
 

@@ -4,6 +4,7 @@ mod exact_friction;
 mod golden;
 
 use epas_friction::FrictionMap;
+use epas_friction::promises::FRICTION_MAP;
 use exact_friction::quadrature;
 
 /// Largest, rms and mean error.
@@ -107,7 +108,11 @@ fn maps_equal_the_contact_integral() {
         power.rms()
     );
     // Documented errors of the maps.
-    assert!(force.max <= FRICTION_MAP.largest && force.rms() <= FRICTION_MAP.rms && force.mean().abs() <= 1e-6);
+    assert!(
+        force.max <= FRICTION_MAP.largest
+            && force.rms() <= FRICTION_MAP.rms
+            && force.mean().abs() <= 1e-6
+    );
     assert!(moment.max <= 6.5e-4 && moment.rms() <= 1.1e-4 && moment.mean().abs() <= 2e-5);
     assert!(power.max <= 4.2e-5 && power.rms() <= 5.4e-6 && power.mean().abs() <= 1e-6);
 }

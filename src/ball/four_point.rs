@@ -539,6 +539,15 @@ impl FourPointBall {
     }
 }
 
+impl FourPointContacts {
+    /// Semi-major axis of each contact over the ball radius, in the order BL, BR, TR, TL; 0 where a
+    /// contact is lost. Within 5.4e-5.
+    #[must_use]
+    pub fn semi_major(&self) -> [f32; 4] {
+        self.contact.map(|contact| contact.semi_major)
+    }
+}
+
 impl Contact {
     #[inline]
     fn at(&self, motion: BallMotion) -> ContactMotion {

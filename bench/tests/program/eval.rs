@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use super::run;
 
 /// Asks, and gives the answers in order.
-fn ask(requests: &[String]) -> (i32, Vec<Value>) {
+pub fn ask(requests: &[String]) -> (i32, Vec<Value>) {
     let run = run(&["eval"], &requests.join("\n"));
     assert!(run.stderr.is_empty(), "{}", run.stderr);
     let answers = run
@@ -18,13 +18,13 @@ fn ask(requests: &[String]) -> (i32, Vec<Value>) {
     (run.code, answers)
 }
 
-fn golden(name: &str) -> Value {
+pub fn golden(name: &str) -> Value {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../host-tests/golden/");
     serde_json::from_str(&fs::read_to_string(format!("{folder}{name}")).unwrap()).unwrap()
 }
 
 /// A number, which some golden files hold as text.
-fn number(value: &Value) -> f64 {
+pub fn number(value: &Value) -> f64 {
     match value {
         Value::String(text) => text.parse().unwrap(),
         other => other
@@ -33,7 +33,7 @@ fn number(value: &Value) -> f64 {
     }
 }
 
-fn relative(found: &Value, truth: f64) -> f64 {
+pub fn relative(found: &Value, truth: f64) -> f64 {
     (number(found) / truth - 1.0).abs()
 }
 

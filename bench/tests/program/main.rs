@@ -3,6 +3,9 @@
 mod eval;
 mod report;
 mod simulate;
+mod simulate_trains;
+mod trains;
+mod untrusted;
 
 use std::io::Write;
 use std::path::Path;

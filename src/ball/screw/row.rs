@@ -1,6 +1,6 @@
 //! Closed form for a row of balls in a ball screw, at the price of a control loop.
 
-use super::across::{Across, AcrossMap};
+use super::slip_map::{Across, SlipMap};
 use crate::ball::root::{inverse_cube_roots, loaded};
 use crate::error::{Error, in_range};
 use crate::geometry::{BallScrew, Groove};
@@ -96,6 +96,7 @@ impl LoadShare {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ScrewRow {
     friction: f32,
+    contact_angle: f32,
     /// Normal force of a contact over the axial load, `1/(sin beta cos alpha)`.
     normal: f32,
     preload: f32,
@@ -117,7 +118,7 @@ pub struct ScrewRow {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 struct Race {
-    map: AcrossMap,
+    map: SlipMap,
     /// Semi-major axis times spin at one newton, `m/N^(1/3)`.
     rim: f32,
 }
@@ -127,7 +128,7 @@ impl Race {
     /// the mean sliding speed is not below the speed of the mean, friction not beyond `mu F`.
     #[inline]
     fn at(&self, slip: f32, root: f32) -> Across {
-        let contact = self.map.at(slip, self.rim * root);
+        let contact = self.map.across(slip, self.rim * root);
         let drag = larger(contact.drag, slip);
         Across {
             drag,
@@ -153,6 +154,16 @@ struct Branch {
     rubbing_slope: f32,
     /// Relative change of the contacts' spin with the ball's speed, 1/m.
     spin: f32,
+}
+
+/// Loads of a ball's contacts, and friction of the loaded pair.
+#[derive(Clone, Copy)]
+struct Loads {
+    main: f32,
+    third: f32,
+    fourth: f32,
+    screw: Across,
+    nut: Across,
 }
 
 /// A ball under the mean load.
@@ -261,7 +272,7 @@ impl ScrewRow {
         let race = |groove: Groove, spin: f32| -> Result<Race, Error> {
             let contact = HertzContact::of(design, groove);
             Ok(Race {
-                map: AcrossMap::new(contact.axis_ratio())?,
+                map: SlipMap::new(contact.axis_ratio())?,
                 rim: contact.semi_major_coefficient() * spin,
             })
         };
@@ -309,6 +320,7 @@ impl ScrewRow {
         };
         Ok(Self {
             friction,
+            contact_angle: design.parameters().contact_angle,
             normal: 1.0 / (sin * cos_lead),
             preload,
             play,
@@ -344,6 +356,58 @@ impl ScrewRow {
         }
     }
 
+    /// Contact angles, rad, and contact forces, N, of one ball, in the order SL, SR, NL, NR: what
+    /// [`ScrewBall::contacts`](crate::ScrewBall::contacts) takes.
+    ///
+    /// A positive axial load of the screw on the ball, N, is carried by SL and NR, a negative one by SR and NL.
+    /// Friction across the track of that pair pushes the ball along the other diagonal and, in grooves
+    /// without play, closes a third contact of `N_3 = 2 phi mu N`, `phi` being the mean share of sliding friction: SL
+    /// under SR-NL and NL under SL-NR for a nut that turns forward, NR and SR for one that turns backward. With a
+    /// preload the third contact gains and the fourth one loses half of that each.
+    ///
+    /// Angles deviate with the grooves, as in [`ScrewTick::ball`]: `SL = beta - screw_deviation`,
+    /// `SR = beta + screw_deviation`, `NL = beta - nut_deviation`, `NR = beta + nut_deviation`.
+    ///
+    /// Loads up to 1e7 N; those under 1e-3 N count as 1e-3 N. Deviations up to
+    /// [`ScrewRow::largest_deviation`]; NaN is none.
+    #[must_use]
+    pub fn contacts(
+        &self,
+        nut_speed: f32,
+        axial_load: f32,
+        screw_deviation: f32,
+        nut_deviation: f32,
+    ) -> ([f32; 4], [f32; 4]) {
+        let size = loaded(axial_load.abs());
+        let size = if size > SMALLEST_LOAD {
+            size
+        } else {
+            SMALLEST_LOAD
+        };
+        let normal = self.normal * size;
+        let (main, third, fourth) = if self.play {
+            (normal, 0.0, 0.0)
+        } else {
+            let loads = self.loads(normal);
+            (loads.main, loads.third, loads.fourth)
+        };
+        let reversed = axial_load < 0.0;
+        let forces = match (reversed, reversed != (nut_speed < 0.0)) {
+            (true, true) => [third, main, main, fourth],
+            (true, false) => [fourth, main, main, third],
+            (false, true) => [main, third, fourth, main],
+            (false, false) => [main, fourth, third, main],
+        };
+        let largest = self.largest_deviation;
+        let screw = limited(screw_deviation, largest);
+        let nut = limited(nut_deviation, largest);
+        let angle = self.contact_angle;
+        (
+            [angle - screw, angle + screw, angle - nut, angle + nut],
+            forces,
+        )
+    }
+
     fn in_two_points(&self, normal: f32, side: f32) -> ScrewTick {
         let slides = if self.screw.rim > self.nut.rim {
             &self.nut
@@ -369,28 +433,13 @@ impl ScrewRow {
     }
 
     fn in_more_points(&self, normal: f32, side: f32, on_screw: bool) -> ScrewTick {
-        // Share of sliding friction across the track, to some per cent.
-        let sliding = self.screw.map.share_slope() * self.slip;
-        let rim = self.screw.map.axis_ratio() * self.screw.rim * cube_root(normal);
-        let share = sliding / math::sqrt(rim * rim + sliding * sliding + 1e-30);
-        let (main, _) = self.diagonals(normal / (1.0 - self.friction * share));
-        let root = cube_root(main);
-        let screw = self.screw.at(self.slip, root);
-        let nut = self.nut.at(self.slip, root);
-        let loss = 0.5 * self.friction * (screw.share + nut.share);
-        let (main, other) = self.diagonals(normal / (1.0 - loss));
-
-        // Friction across the track of the loaded diagonal pushes the ball along the other one.
-        let push = loss * main;
-        // Without lead there is no such friction, and a lost diagonal carries nothing at all: the floor
-        // keeps its ellipse from vanishing.
-        let least = LEAST_LOAD * main;
-        let third = larger(if other > push { other } else { push } + push, least);
-        let fourth = if other - push > least {
-            other - push
-        } else {
-            0.0
-        };
+        let Loads {
+            main,
+            third,
+            fourth,
+            screw,
+            nut,
+        } = self.loads(normal);
         let (third_race, fourth_race) = if on_screw {
             (&self.screw, &self.nut)
         } else {
@@ -441,6 +490,40 @@ impl ScrewRow {
                 third_load: third,
             },
         )
+    }
+
+    /// Loads of the contacts under a given difference of the two diagonals.
+    #[inline]
+    fn loads(&self, normal: f32) -> Loads {
+        // Share of sliding friction across the track, to some per cent.
+        let sliding = self.screw.map.share_slope() * self.slip;
+        let rim = self.screw.rim * cube_root(normal);
+        let share = sliding / math::sqrt(rim * rim + sliding * sliding + 1e-30);
+        let (main, _) = self.diagonals(normal / (1.0 - self.friction * share));
+        let root = cube_root(main);
+        let screw = self.screw.at(self.slip, root);
+        let nut = self.nut.at(self.slip, root);
+        let loss = 0.5 * self.friction * (screw.share + nut.share);
+        let (main, other) = self.diagonals(normal / (1.0 - loss));
+
+        // Friction across the track of the loaded diagonal pushes the ball along the other one.
+        let push = loss * main;
+        // Without lead there is no such friction, and a lost diagonal carries nothing at all: the floor
+        // keeps its ellipse from vanishing.
+        let least = LEAST_LOAD * main;
+        let third = larger(if other > push { other } else { push } + push, least);
+        let fourth = if other - push > least {
+            other - push
+        } else {
+            0.0
+        };
+        Loads {
+            main,
+            third,
+            fourth,
+            screw,
+            nut,
+        }
     }
 
     /// Normal forces of the loaded and the other diagonal with a given difference.

@@ -1,0 +1,473 @@
+//! One ball with given contacts: speed, impedance, spin and losses in closed form.
+
+use super::slip_map::SlipMap;
+use crate::ball::root::{inverse_cube_roots, loaded};
+use crate::error::{Error, in_range};
+use crate::geometry::{BallScrew, Groove};
+use crate::hertz::HertzContact;
+use crate::math;
+
+/// Contact angles are taken within these limits, rad.
+pub const CONTACT_ANGLE_RANGE: (f32, f32) = (0.05, 1.5);
+
+/// Spin below which a contact sticks, over the nut's speed.
+pub(super) const STICK_SPIN: f32 = 0.01;
+
+/// Parts of the way towards a corner that [`ScrewBall::start`] tries.
+const SEARCH: [f32; 3] = [0.5, 0.25, 0.1];
+
+/// Times that the closed form shares the slip across the track between the races.
+const SHARINGS: u8 = 2;
+
+/// Ratio of the other contacts' load to that of the loaded pair from which on they hold a ball for certain.
+const WEAK: f32 = 0.3;
+
+/// Signs of the radial and the axial component of the direction from the ball's centre to the contact:
+/// SL, SR, NL, NR.
+const QUADRANTS: [(f32, f32); 4] = [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)];
+
+/// A ball in the grooves of a ball screw with contacts that are given: angles and forces of two, three or
+/// four of SL, SR, NL, NR (screw or nut; left towards the screw's negative axis, or right).
+///
+/// Frame of the ball: x radially outward, y along the track, z nearly along the axis. The screw stands and
+/// the nut turns with `w_N`; all lengths are in ball radii and all velocities per unit of `w_N`. With the
+/// ball's total angular velocity `Omega` and `L_p = sqrt(R_P² + (p/2 pi)²)/R_B`, contact `k` at
+/// `n = (∓cos beta, 0, ∓sin beta)` on a groove that turns with `w_k` (0 screw, 1 nut) has
+///
+/// ```text
+/// along the track    V_2 = (w_B - w_k) L_p + n_x Omega_z - n_z Omega_x - w_k n_x cos alpha
+/// across the track   V_1 = Omega_y - w_k sin alpha
+/// spin               w   = n_x Omega_x + n_z (Omega_z - w_k cos alpha)
+/// ```
+///
+/// (Lin 2019, eqs. (3.65)-(3.68), (F.4)-(F.6), in one form). A ball moves so that the power it loses in its
+/// contacts is least, which is the balance (3.69) along the track and about all three axes.
+///
+/// | | what it is |
+/// |---|---|
+/// | [`ScrewBall::closed_form`] | contact impedances, then one linear system of three equations |
+/// | [`ScrewBall::refine`] | the impedances again at the motion found: a fixed number of times |
+/// | [`ScrewBall::refine_chain`] | the same for balls that press on each other |
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct ScrewBall {
+    friction: f32,
+    ball_radius: f32,
+    pub(super) path: f32,
+    pub(super) inverse_speed: f32,
+    pub(super) sin_lead: f32,
+    pub(super) cos_lead: f32,
+    nominal_speed: f32,
+    /// `Omega_z` in nominal rolling with three or four contacts.
+    roll: f32,
+    pub(super) cos_between: f32,
+    pub(super) sin_between: f32,
+    screw: Race,
+    nut: Race,
+}
+
+/// One groove.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(super) struct Race {
+    pub(super) map: SlipMap,
+    /// Semi-major axis over ball radius at one newton, `N^(-1/3)`.
+    semi_major: f32,
+    /// Angular velocity over the nut's.
+    speed: f32,
+}
+
+/// Angles and forces of a ball's contacts, as the equations take them: made by [`ScrewBall::contacts`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct ScrewContacts {
+    pub(super) contact: [Contact; 4],
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(super) struct Contact {
+    /// `(n_x, n_z)`.
+    pub(super) arm: (f32, f32),
+    /// Slip along and across the track and spin of a ball at its nominal speed that does not turn.
+    along: f32,
+    across: f32,
+    spin: f32,
+    /// Friction force `mu F` at full slip, N; 0 where the contact is lost.
+    pub(super) friction: f32,
+    /// Semi-major axis over ball radius.
+    pub(super) semi_major: f32,
+}
+
+/// Motion of a ball per unit of nut speed.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct ScrewBallMotion {
+    /// Speed along the track less the nominal one, ball radii.
+    pub speed: f32,
+    /// Total angular velocity about x (radial), y (along the track) and z.
+    pub turn: [f32; 3],
+}
+
+/// Slip and spin of one contact per unit of nut speed; ball minus groove.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct ScrewContactMotion {
+    /// Slip across the track, along the major axis of the contact, ball radii.
+    pub across: f32,
+    /// Slip along the track, ball radii.
+    pub along: f32,
+    /// Spin about the normal that points into the groove.
+    pub spin: f32,
+}
+
+/// What is known of a ball, and kept of it from tick to tick.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct ScrewBallState {
+    /// Motion of the ball: where the next step starts.
+    pub motion: ScrewBallMotion,
+    /// Relative deviation of the orbital speed from [`ScrewBall::nominal_orbital_speed`].
+    pub speed_deviation: f32,
+    /// Change of that with a force along the track, 1/N.
+    pub compliance: f32,
+    /// Power loss in the grooves over the nut's speed, N m.
+    pub groove_torque: f32,
+}
+
+impl ScrewBall {
+    /// Folds the constants of a design.
+    ///
+    /// # Errors
+    /// [`Error`] naming `friction` (1e-6 to 0.5), `contact_angle` (0.05 to 1.5) or `axis_ratio`.
+    pub fn new(design: &BallScrew, friction: f32) -> Result<Self, Error> {
+        let friction = in_range("friction", friction, 1e-6, 0.5)?;
+        let (least, most) = CONTACT_ANGLE_RANGE;
+        in_range(
+            "contact_angle",
+            design.parameters().contact_angle,
+            least,
+            most,
+        )?;
+        let radius = design.ball_radius();
+        let cos_lead = design.cos_lead_angle();
+        let path = design.pitch_radius() / (cos_lead * radius);
+        let cos = design.contact_angle().cos;
+        let nominal_speed = 0.5 * (path + cos_lead * cos);
+        let race = |groove: Groove, speed: f32| -> Result<Race, Error> {
+            let contact = HertzContact::of(design, groove);
+            Ok(Race {
+                map: SlipMap::new(contact.axis_ratio())?,
+                semi_major: contact.semi_major_coefficient() / radius,
+                speed,
+            })
+        };
+        let sin_between = 1.0 / path;
+        Ok(Self {
+            friction,
+            ball_radius: radius,
+            path,
+            inverse_speed: 1.0 / nominal_speed,
+            sin_lead: cos_lead * design.tan_lead_angle(),
+            cos_lead,
+            nominal_speed,
+            roll: nominal_speed / cos,
+            cos_between: math::sqrt((1.0 - sin_between) * (1.0 + sin_between)),
+            sin_between,
+            screw: race(Groove::Screw, 0.0)?,
+            nut: race(Groove::Nut, 1.0)?,
+        })
+    }
+
+    /// Orbital speed over the nut's speed in nominal rolling, `(1 + r cos beta)/2` with
+    /// `r = R_B R_P/(L/2 pi)²`.
+    #[must_use]
+    pub fn nominal_orbital_speed(&self) -> f32 {
+        self.nominal_speed * self.sin_between
+    }
+
+    /// Orbital speed over the nut's speed.
+    #[must_use]
+    pub fn orbital_speed(&self, motion: &ScrewBallMotion) -> f32 {
+        (self.nominal_speed + motion.speed) * self.sin_between
+    }
+
+    /// Contacts from their angles, rad, and forces, N, in the order SL, SR, NL, NR.
+    ///
+    /// Angles outside [`CONTACT_ANGLE_RANGE`] are taken at its ends, NaN at the lower one; a force up to
+    /// zero, above 1e7 N, or NaN is a lost contact. Ellipses are those of the nominal contact angle.
+    #[must_use]
+    pub fn contacts(&self, contact_angles: &[f32; 4], contact_forces: &[f32; 4]) -> ScrewContacts {
+        let (least, most) = CONTACT_ANGLE_RANGE;
+        let [a, b, c, d] = contact_forces.map(loaded);
+        let [left, right] = inverse_cube_roots([a, b]);
+        let [far_left, far_right] = inverse_cube_roots([c, d]);
+        let loads = [(a, left), (b, right), (c, far_left), (d, far_right)];
+        let mut contact = [Contact::default(); 4];
+        let given = contact_angles.iter().zip(loads);
+        for (((contact, given), quadrant), race) in contact
+            .iter_mut()
+            .zip(given)
+            .zip(&QUADRANTS)
+            .zip(self.races())
+        {
+            let (&angle, (force, root)) = given;
+            let angle = if angle > least { angle } else { least };
+            let angle = if angle < most { angle } else { most };
+            let (sin, cos) = math::sin_cos(angle);
+            let (outward, right) = *quadrant;
+            let (nx, nz) = (outward * cos, right * sin);
+            contact.arm = (nx, nz);
+            contact.along = self.nominal_speed - race.speed * (self.path + self.cos_lead * nx);
+            contact.across = -race.speed * self.sin_lead;
+            contact.spin = -race.speed * self.cos_lead * nz;
+            contact.friction = self.friction * force;
+            contact.semi_major = race.semi_major * (force * root * root);
+        }
+        ScrewContacts { contact }
+    }
+
+    /// Speed, compliance and loss of a ball on which no neighbour presses, in closed form.
+    ///
+    /// Near rolling every contact resists slip along the track with its impedance
+    /// `kappa = mu N k_y(D)/(a |w|)` and turns the ball with the moment of its spin, both under the slip
+    /// `V_1 = R_B w_N sin alpha/2` across the track. Force along the track and moments about x and z are
+    /// then three linear equations:
+    ///
+    /// ```text
+    /// (sum kappa j jᵀ) s = sum (kappa j c - M (0, n_x, n_z))      j = (1, -n_z, n_x)   s = (w_B L_p, Omega_x, Omega_z)
+    /// ```
+    ///
+    /// With three contacts and without the moments they say that no contact slips along the track, third
+    /// contact on the screw: `w_B/w_N = (1 + r cos b_N)/(1 + cos(b_N - (b_S - b_3)/2)/cos((b_S + b_3)/2))`, on
+    /// the nut likewise; with four, that the pairs' speeds are weighed with their impedances. With two the
+    /// ball sticks to the race with the longer ellipse and slides on the other with twice `V_1`; its speed is
+    /// `(1 + r cos((b_S + b_N)/2))/2`. The compliance `(1/kappa_S + 1/kappa_N)/4` of three contacts is the
+    /// last element of the inverse.
+    #[must_use]
+    pub fn closed_form(&self, contacts: &ScrewContacts) -> ScrewBallState {
+        let pinned = self.pinned(contacts);
+        match contacts.weakly_held() {
+            None => pinned,
+            Some((screw, nut)) => self.least(contacts, &pinned, self.rolling(screw, nut)),
+        }
+    }
+
+    /// Where the impedance iteration starts: the closed form, and where the third contact is light, motions in
+    /// between.
+    ///
+    /// Between a ball that is pinned and one that rolls on two contacts lie those whose third contact slides. They
+    /// fill a triangle between the three motions of the closed form, in which the loss is convex: three times the
+    /// best one found moves towards a corner by a half, a quarter, a tenth of the way, where that is less. Eleven
+    /// to fourteen evaluations of the loss.
+    #[must_use]
+    pub fn start(&self, contacts: &ScrewContacts) -> ScrewBallState {
+        let pinned = self.pinned(contacts);
+        let Some((screw, nut)) = contacts.weakly_held() else {
+            return pinned;
+        };
+        let [on_screw, on_nut] = self.rolling(screw, nut);
+        let mut best = self.least(contacts, &pinned, [on_screw, on_nut]);
+        if contacts.loaded() > 2 {
+            for part in SEARCH {
+                let towards = |corner| best.motion.towards(corner, part);
+                let candidates = [&pinned.motion, &on_screw, &on_nut].map(towards);
+                best = self.least(contacts, &best, candidates);
+            }
+        }
+        best
+    }
+
+    /// The closed form where every contact that is loaded holds the ball.
+    fn pinned(&self, contacts: &ScrewContacts) -> ScrewBallState {
+        let nominal = self.shared(contacts);
+        let state = self.linear(contacts, &nominal);
+        // Two contacts leave open how the ball turns about them.
+        let groove_torque = if contacts.loaded() > 2 {
+            self.groove_torque(contacts, &state.motion)
+        } else {
+            f32::MAX
+        };
+        ScrewBallState {
+            groove_torque,
+            ..state
+        }
+    }
+
+    /// Nominal rolling, with the slip across the track shared by screw and nut as their impedances against it
+    /// ask for.
+    fn shared(&self, contacts: &ScrewContacts) -> ScrewBallMotion {
+        let mut nominal = ScrewBallMotion {
+            speed: 0.0,
+            turn: [0.0, 0.5 * self.sin_lead, self.roll],
+        };
+        for _ in 0..SHARINGS {
+            let (mut all, mut nut) = (1e-9, 0.5e-9);
+            for (contact, race) in contacts.contact.iter().zip(self.races()) {
+                if contact.friction > 0.0 {
+                    let at = contact.at(&nominal);
+                    let slip = at.across.abs() + 1e-6;
+                    let rim = contact.semi_major * (at.spin.abs() + STICK_SPIN);
+                    let impedance = contact.friction * race.map.across(slip, rim).share / slip;
+                    all += impedance;
+                    nut += race.speed * impedance;
+                }
+            }
+            let [_, y, _] = &mut nominal.turn;
+            *y = self.sin_lead * (nut / all);
+        }
+        nominal
+    }
+
+    /// The state, or the motion with the least loss if that is less.
+    fn least<const N: usize>(
+        &self,
+        contacts: &ScrewContacts,
+        state: &ScrewBallState,
+        candidates: [ScrewBallMotion; N],
+    ) -> ScrewBallState {
+        let mut motion = state.motion;
+        let mut least = state.groove_torque;
+        for candidate in candidates {
+            let torque = self.groove_torque(contacts, &candidate);
+            if torque < least {
+                least = torque;
+                motion = candidate;
+            }
+        }
+        if least < state.groove_torque {
+            let compliance = self.compliance(contacts, &motion);
+            ScrewBallState {
+                groove_torque: least,
+                ..self.state(motion, compliance, 0.0)
+            }
+        } else {
+            *state
+        }
+    }
+
+    /// Slip and spin of the four contacts at a motion.
+    #[must_use]
+    pub fn contact_motion(
+        &self,
+        contacts: &ScrewContacts,
+        motion: &ScrewBallMotion,
+    ) -> [ScrewContactMotion; 4] {
+        contacts.contact.map(|contact| contact.at(motion))
+    }
+
+    /// Torque on the nut that the grooves take at a motion, N m: the sum of the contacts' power losses over
+    /// the nut's speed.
+    #[must_use]
+    pub fn groove_torque(&self, contacts: &ScrewContacts, motion: &ScrewBallMotion) -> f32 {
+        let mut torque = 0.0;
+        for (contact, race) in contacts.contact.iter().zip(self.races()) {
+            if contact.friction > 0.0 {
+                let at = contact.at(motion);
+                let friction = race.map.dissipation(
+                    at.across,
+                    at.along,
+                    at.spin,
+                    contact.semi_major,
+                    STICK_SPIN,
+                );
+                torque += contact.friction * friction.power;
+            }
+        }
+        torque * self.ball_radius
+    }
+
+    #[inline]
+    pub(super) const fn radius(&self) -> f32 {
+        self.ball_radius
+    }
+
+    #[inline]
+    pub(super) fn races(&self) -> [&Race; 4] {
+        [&self.screw, &self.screw, &self.nut, &self.nut]
+    }
+
+    /// State from a motion, the compliance of its speed, and its power loss over the ball radius.
+    #[inline]
+    pub(super) fn state(
+        &self,
+        motion: ScrewBallMotion,
+        compliance: f32,
+        torque: f32,
+    ) -> ScrewBallState {
+        ScrewBallState {
+            motion,
+            speed_deviation: motion.speed * self.inverse_speed,
+            compliance: compliance * self.inverse_speed,
+            groove_torque: torque * self.ball_radius,
+        }
+    }
+
+    /// Motions in which a ball in two contacts sticks to the screw, and to the nut, and does not slip along
+    /// the other's track.
+    fn rolling(&self, screw: &Contact, nut: &Contact) -> [ScrewBallMotion; 2] {
+        let ((screw_x, screw_z), (nut_x, nut_z)) = (screw.arm, nut.arm);
+        let opposed = screw_x * nut_x + screw_z * nut_z;
+        let inverse = 1.0 / (1.0 - opposed);
+        let on_screw = (self.path + self.cos_lead * nut_x) * inverse;
+        let on_nut = -(self.path * opposed + self.cos_lead * screw_x) * inverse;
+        let back = on_nut - self.path;
+        [
+            ScrewBallMotion {
+                speed: on_screw - self.nominal_speed,
+                turn: [on_screw * screw_z, 0.0, -on_screw * screw_x],
+            },
+            ScrewBallMotion {
+                speed: on_nut - self.nominal_speed,
+                turn: [back * nut_z, self.sin_lead, self.cos_lead - back * nut_x],
+            },
+        ]
+    }
+}
+
+impl ScrewBallMotion {
+    fn towards(&self, other: &Self, part: f32) -> Self {
+        let [x, y, z] = self.turn;
+        let [to_x, to_y, to_z] = other.turn;
+        Self {
+            speed: self.speed + part * (other.speed - self.speed),
+            turn: [
+                x + part * (to_x - x),
+                y + part * (to_y - y),
+                z + part * (to_z - z),
+            ],
+        }
+    }
+}
+
+impl ScrewContacts {
+    fn loaded(&self) -> usize {
+        self.contact.iter().filter(|c| c.friction > 0.0).count()
+    }
+
+    /// The loaded pair, where the other contacts are too light to hold the ball for certain.
+    fn weakly_held(&self) -> Option<(&Contact, &Contact)> {
+        let [screw_left, screw_right, nut_left, nut_right] = &self.contact;
+        let up = screw_left.friction + nut_right.friction;
+        let down = screw_right.friction + nut_left.friction;
+        let (weak, strong, pair) = if up > down {
+            (down, up, (screw_left, nut_right))
+        } else {
+            (up, down, (screw_right, nut_left))
+        };
+        (weak < WEAK * strong).then_some(pair)
+    }
+}
+
+impl Contact {
+    #[inline]
+    pub(super) fn at(&self, motion: &ScrewBallMotion) -> ScrewContactMotion {
+        let (nx, nz) = self.arm;
+        let [x, y, z] = motion.turn;
+        ScrewContactMotion {
+            across: self.across + y,
+            along: self.along + motion.speed + nx * z - nz * x,
+            spin: self.spin + nx * x + nz * z,
+        }
+    }
+}
