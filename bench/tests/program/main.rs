@@ -7,6 +7,7 @@ mod simulate;
 mod simulate_trains;
 mod target;
 mod trains;
+mod untrusted;
 
 use std::io::Write;
 use std::path::Path;
