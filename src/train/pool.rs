@@ -105,15 +105,16 @@ pub(super) fn pool<const N: usize>(
         ball.extent = 0;
         if front <= index + 1 {
             // A single ball keeps its own speed; on a ring nothing is ahead of the last one yet.
-            if !(slack < 0.0) || front == N {
+            if slack < 0.0 && front < N {
+                cluster = Cluster {
+                    sum: 0.0,
+                    weight: balls.get(front).map_or(1.0, |ball| ball.impedance),
+                    span: 0.0,
+                };
+            } else {
                 front = index;
                 continue;
             }
-            cluster = Cluster {
-                sum: 0.0,
-                weight: balls.get(front).map_or(1.0, |ball| ball.impedance),
-                span: 0.0,
-            };
         } else if !cluster.reached(slack) {
             // What the cluster runs into slows it down, and the ball may run into it after all.
             (cluster, front) = absorbed(balls, front, &cluster);
