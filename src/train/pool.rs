@@ -3,7 +3,7 @@
 use super::ball::Ball;
 
 /// What rounding may leave of a cluster's pushes over the largest force before it is taken out.
-const ROUNDING: f32 = 1e-6;
+const ROUNDING: f32 = 4e-7;
 
 /// Balls that move as one: they touch, or close their last distance within the tick.
 ///
@@ -105,15 +105,16 @@ pub(super) fn pool<const N: usize>(
         ball.extent = 0;
         if front <= index + 1 {
             // A single ball keeps its own speed; on a ring nothing is ahead of the last one yet.
-            if !(slack < 0.0) || front == N {
+            if slack < 0.0 && front < N {
+                cluster = Cluster {
+                    sum: 0.0,
+                    weight: balls.get(front).map_or(1.0, |ball| ball.impedance),
+                    span: 0.0,
+                };
+            } else {
                 front = index;
                 continue;
             }
-            cluster = Cluster {
-                sum: 0.0,
-                weight: balls.get(front).map_or(1.0, |ball| ball.impedance),
-                span: 0.0,
-            };
         } else if !cluster.reached(slack) {
             // What the cluster runs into slows it down, and the ball may run into it after all.
             (cluster, front) = absorbed(balls, front, &cluster);
@@ -294,9 +295,9 @@ pub(super) fn settle<const N: usize>(
     }
     pressing.largest = f32::from_bits(largest as u32);
     // What rounding leaves of the sum of a cluster's pushes is small, but a stiff ball turns it into a
-    // large force.
+    // large force. It hardly changes what the forces add up to.
     if unbalanced > ROUNDING * pressing.largest {
-        balance(balls, foremost, &mut pressing);
+        balance(balls, foremost);
     }
     pressing
 }
@@ -306,6 +307,8 @@ fn ball_in_front(ball: &mut Ball, left: &mut u8, change: &mut f32, force: &mut f
     if ball.extent > 0 {
         *left = ball.extent;
         *change = ball.sum / ball.force;
+        // Kept for [`balance`].
+        ball.sum = ball.force;
         *force = *change * ball.impedance;
         ball.speed += *change;
     }
@@ -322,49 +325,28 @@ fn force_bits(force: f32) -> i32 {
 /// Takes what is left of the pushes of each cluster out of its forces.
 #[cold]
 #[inline(never)]
-fn balance<const N: usize>(balls: &mut [Ball; N], foremost: usize, pressing: &mut Pressing) {
-    *pressing = Pressing::default();
-    let mut front = foremost;
-    let mut balls_left = N;
-    while balls_left > 0 {
-        let count = extent(balls, front) + 1;
-        balls_left = balls_left.saturating_sub(count);
-        let mut index = front;
-        let (mut weight, mut rest) = (0.0, 0.0);
-        for _ in 0..count {
-            if let Some(ball) = balls.get(index) {
-                weight += ball.impedance;
-                rest = ball.sum;
-            }
-            index = behind::<N>(index);
-        }
-        if count > 1 {
-            let rest = rest / weight;
-            let mut correction = 0.0;
-            index = front;
-            for ball in 0..count {
-                if let Some(ball_here) = balls.get_mut(index) {
-                    if ball > 0 {
-                        let force = f32::from_bits(force_bits(ball_here.force - correction) as u32);
-                        ball_here.force = force;
-                        pressing.force += force;
-                        pressing.power += force * ball_here.speed;
-                        pressing.contacts += u8::from(force > 0.0);
-                        if force > pressing.largest {
-                            pressing.largest = force;
-                        }
-                    }
-                    correction += rest * ball_here.impedance;
+fn balance<const N: usize>(balls: &mut [Ball; N], foremost: usize) {
+    let mut index = foremost;
+    let (mut left, mut rest, mut correction) = (0, 0.0, 0.0);
+    for _ in 0..N {
+        if left == 0 {
+            left = extent(balls, index);
+            if left > 0 {
+                let rear = index.wrapping_sub(left);
+                let rear = if rear < N { rear } else { rear.wrapping_add(N) };
+                rest = balls.get(rear).map_or(0.0, |ball| ball.sum);
+                if let Some(ball) = balls.get(index) {
+                    rest /= ball.sum;
+                    correction = rest * ball.impedance;
                 }
-                index = behind::<N>(index);
+            }
+        } else {
+            left -= 1;
+            if let Some(ball) = balls.get_mut(index) {
+                ball.force = f32::from_bits(force_bits(ball.force - correction) as u32);
+                correction += rest * ball.impedance;
             }
         }
-        front = index;
+        index = if index == 0 { N - 1 } else { index - 1 };
     }
-}
-
-/// The ball behind.
-#[inline(always)]
-const fn behind<const N: usize>(index: usize) -> usize {
-    if index == 0 { N - 1 } else { index - 1 }
 }
