@@ -53,7 +53,11 @@ impl Instruction {
             }
         } else if starts(&["vmov"]) {
             // Two core registers to or from two others: one each.
-            if operands.matches(',').count() >= 2 { 2 } else { 1 }
+            if operands.matches(',').count() >= 2 {
+                2
+            } else {
+                1
+            }
         } else if starts(&["push", "pop", "ldm", "stm"]) {
             1 + listed
         } else if starts(&["ldrd", "strd"]) {
@@ -199,9 +203,8 @@ mod tests {
     #[test]
     fn jumps_refill_the_pipeline() {
         let next = Instruction::new(2, "nop", "");
-        let taken = |mnemonic, operands| {
-            Instruction::new(2, mnemonic, operands).cycles(&next, true)
-        };
+        let taken =
+            |mnemonic, operands| Instruction::new(2, mnemonic, operands).cycles(&next, true);
         assert_eq!(taken("bne", "#0x100"), 3);
         assert_eq!(taken("bl", "#0x100"), 3);
         assert_eq!(taken("bx", "lr"), 3);

@@ -314,11 +314,7 @@ impl Figures {
                 scene.stack_set_up
             );
         }
-        let _ = writeln!(
-            text,
-            "\n{:44}{:>10}{:>10}",
-            "budget", "allowed", "found"
-        );
+        let _ = writeln!(text, "\n{:44}{:>10}{:>10}", "budget", "allowed", "found");
         for budget in &BUDGETS {
             if let Some(found) = figure(self, budget) {
                 let missed = if found > budget.most {

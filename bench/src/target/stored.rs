@@ -62,8 +62,7 @@ pub fn write_figures(figures: &Figures) -> Result<(), Failure> {
 /// The stored figures.
 pub fn figures() -> Result<Figures, Failure> {
     let path = figures_path();
-    let text =
-        fs::read_to_string(&path).map_err(|error| Failure::file("read", &path, &error))?;
+    let text = fs::read_to_string(&path).map_err(|error| Failure::file("read", &path, &error))?;
     serde_json::from_str(&text).map_err(|error| Failure::file("read", &path, &error))
 }
 

@@ -72,12 +72,7 @@ pub enum Built {
 }
 
 /// Builds images with some features into their own folder of `bench/firmware/target`.
-pub fn build(
-    images: &[&str],
-    core: Core,
-    profile: &str,
-    features: &str,
-) -> Result<Built, Failure> {
+pub fn build(images: &[&str], core: Core, profile: &str, features: &str) -> Result<Built, Failure> {
     let folder = firmware().join("target").join(core.name());
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let mut command = Command::new(cargo);
