@@ -23,7 +23,6 @@ use crate::designs::train::LinearDesign;
 use crate::designs::{self, DesignSource};
 use crate::failure::Failure;
 use crate::files::{self, Existing, Pending};
-use loads::Format;
 pub use manoeuvre::Manoeuvre;
 use reference::Reference;
 use subject::{Scene, Subject};
@@ -86,32 +85,8 @@ pub struct Arguments {
     /// Built-in trace of rack force and rack travel
     #[arg(long, value_enum)]
     manoeuvre: Option<Manoeuvre>,
-    /// Compute how the loaded balls share the axial load, as a table of load_shares
-    #[arg(
-        long,
-        requires = "design",
-        conflicts_with_all = ["input", "manoeuvre", "plot", "reference", "scene", "list"]
-    )]
-    loads: bool,
-    /// What the load table is written as
-    // What requires an argument is not heard where that argument conflicts with another: so each conflict is
-    // said again.
-    #[arg(
-        long,
-        value_enum,
-        default_value_t,
-        requires = "loads",
-        conflicts_with_all = ["input", "manoeuvre", "list"]
-    )]
-    format: Format,
-    /// Axial load in place of the design's, N
-    #[arg(
-        long,
-        value_name = "N",
-        requires = "loads",
-        allow_negative_numbers = true
-    )]
-    axial_load: Option<f64>,
+    #[command(flatten)]
+    loads: loads::LoadArguments,
     /// Where the outputs go [default, with the plot: target/simulate/TRACE-DESIGN.csv; with --loads: stdout]
     #[arg(long, value_name = "OUT.csv")]
     output: Option<PathBuf>,
@@ -145,14 +120,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     } else {
         Existing::Keep
     };
-    if let (true, Some(source)) = (arguments.loads, &arguments.design) {
-        return loads::run(
-            &source.load()?,
-            arguments.axial_load,
-            arguments.format,
-            arguments.output.as_deref(),
-            existing,
-        );
+    if let (true, Some(source)) = (arguments.loads.wanted(), &arguments.design) {
+        let output = arguments.output.as_deref();
+        return loads::run(&source.load()?, &arguments.loads, output, existing);
     }
     let subject = Subject::new(
         arguments.scene,

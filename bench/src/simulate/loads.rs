@@ -22,6 +22,44 @@ pub enum Format {
     Rust,
 }
 
+/// What is asked of a load table.
+#[derive(Debug, clap::Args)]
+pub struct LoadArguments {
+    /// Compute how the loaded balls share the axial load, as a table of load_shares
+    #[arg(
+        long,
+        requires = "design",
+        conflicts_with_all = ["input", "manoeuvre", "plot", "reference", "scene", "list"]
+    )]
+    loads: bool,
+    /// What the load table is written as
+    // What requires an argument is not heard where that argument conflicts with another: so each conflict is
+    // said again.
+    #[arg(
+        long,
+        value_enum,
+        default_value_t,
+        requires = "loads",
+        conflicts_with_all = ["input", "manoeuvre", "list"]
+    )]
+    format: Format,
+    /// Axial load in place of the design's, N
+    #[arg(
+        long,
+        value_name = "N",
+        requires = "loads",
+        allow_negative_numbers = true
+    )]
+    axial_load: Option<f64>,
+}
+
+impl LoadArguments {
+    /// Whether a load table is asked for.
+    pub const fn wanted(&self) -> bool {
+        self.loads
+    }
+}
+
 /// Most entries of a load table.
 const MOST_ENTRIES: usize = 256;
 /// What a ball without contact is given: the smallest share that a scene takes.
@@ -30,8 +68,7 @@ const LEAST_SHARE: f64 = 0.01;
 /// Computes the load table of a design and writes it to a file, or to stdout without one.
 pub fn run(
     design: &Design,
-    axial_load: Option<f64>,
-    format: Format,
+    arguments: &LoadArguments,
     output: Option<&Path>,
     existing: Existing,
 ) -> Result<(), Failure> {
@@ -43,7 +80,7 @@ pub fn run(
                 .into(),
         )
     })?;
-    if let Some(axial_load) = axial_load {
+    if let Some(axial_load) = arguments.axial_load {
         loads.case.axial_load = axial_load;
     }
     if let Some(path) = output {
@@ -55,7 +92,7 @@ pub fn run(
         .solve()
         .map_err(|error| failure(error.to_string()))?;
     let table = Table::new(&loads, &solution).map_err(failure)?;
-    let text = match format {
+    let text = match arguments.format {
         Format::Toml => table.toml(&design.name),
         Format::Rust => table.rust(&design.name),
     };

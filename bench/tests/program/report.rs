@@ -102,3 +102,22 @@ fn without_a_subcommand_the_report_goes_to_its_folder() {
     assert!(report.join("report.html").is_file());
     assert!(run.stdout.contains("report.html"));
 }
+
+/// Files are written when everything is computed, each beside its place first: a run that is cancelled leaves
+/// none.
+#[test]
+fn a_cancelled_report_leaves_no_file() {
+    use std::process::{Command, Stdio};
+    let folder = tempdir().unwrap();
+    let mut child = Command::new(env!("CARGO_BIN_EXE_epas-bench"))
+        .args(["report", "--output", "out"])
+        .current_dir(folder.path())
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    std::thread::sleep(std::time::Duration::from_millis(300));
+    child.kill().unwrap();
+    assert!(!child.wait().unwrap().success());
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+}
