@@ -196,14 +196,5 @@ pub(super) fn append(page: &mut Page<'_>) -> Result<(), FrictionError> {
              tried, against 1.1 to 1.6 of the double-row bearing",
         ),
     );
-    page.turn("section 4.2.2 and Figure 4.5").add(
-        "largest ball load of the bearing at a tie rod angle of 18 degrees over that at 0",
-        "",
-        "1.47",
-        f64::NAN,
-        Verdict::NotReproducible(
-            "positions of bearing, nut and pinion, length and diameter of the rack and the bearing's balls are not printed",
-        ),
-    );
     Ok(())
 }

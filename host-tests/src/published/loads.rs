@@ -6,6 +6,9 @@ use std::sync::Arc;
 use crate::record::{Page, Verdict};
 use crate::statics::cases::CaseStudy;
 use crate::statics::contact::GrooveContact;
+use crate::statics::studies::lash::{LashTest, Pattern, spread};
+use crate::statics::studies::quietly;
+use crate::statics::studies::tie_rod::TieRodLoad;
 use crate::statics::surface::HarmonicError;
 use crate::statics::{
     Contact, ContactConstants, Elastic, HertzConvention, StaticLoad, StaticSolution,
@@ -108,33 +111,57 @@ pub(super) fn append(page: &mut Page<'_>) -> Result<(), Box<dyn Error>> {
         ),
     );
     table_b_1(&mut page.turn("Table B.1"))?;
+    lash_and_sizing(page)
+}
+
+/// In kind: what the text leaves out is an input of the studies, with their stated defaults.
+fn lash_and_sizing(page: &mut Page<'_>) -> Result<(), Box<dyn Error>> {
     let assumed = Verdict::NotReproducible(
-        "oversize, lever and direction of the lateral force, outer diameter and the four ball patterns are not printed",
+        "in kind only: oversize (2 um here), lever and direction of the lateral force, outer diameter and the four ball \
+         patterns are not printed",
     );
+    let test = LashTest::table_4_1(2e-6);
+    let mut spreads = [[0.0; 4]; 2];
+    for (index, pattern) in Pattern::ALL.into_iter().enumerate() {
+        let range = test.axial(pattern, 200.0)? - test.axial(pattern, -200.0)?;
+        spreads[0][index] = 0.5 * range;
+        spreads[1][index] = test.conical(pattern, 10.0)?;
+    }
     let mut lash = page.turn("Figure 4.3 and section 4.2.1");
-    lash.add(
-        "spread of the axial lash curves",
-        "%",
-        "3.72",
-        f64::NAN,
-        assumed,
-    );
-    lash.add(
-        "spread of the conical lash curves",
-        "%",
-        "14.7",
-        f64::NAN,
-        assumed,
-    );
-    page.turn("section 4.2.2 and Figure 4.5").add(
-        "largest ball load of the screw at a tie rod angle of 18 degrees over that at 0",
-        "",
-        "3.32",
-        f64::NAN,
-        Verdict::NotReproducible(
-            "positions of bearing, nut and pinion, length and diameter of the rack are not printed",
+    for (quantity, printed, values) in [
+        ("spread of the axial lash curves", "3.72", &spreads[0]),
+        ("spread of the conical lash curves", "14.7", &spreads[1]),
+    ] {
+        lash.add(quantity, "%", printed, 100.0 * spread(values), assumed);
+    }
+    let points = TieRodLoad::default().over(&[0.0, 18_f64.to_radians()], &quietly)?;
+    let [straight, turned] = points.as_slice() else {
+        return Ok(());
+    };
+    let mut sizing = page.turn("section 4.2.2 and Figure 4.5");
+    for (body, quantity, printed) in [
+        (
+            0,
+            "largest ball load of the screw at a tie rod angle of 18 degrees over that at 0",
+            "3.32",
         ),
-    );
+        (
+            1,
+            "largest ball load of the bearing at a tie rod angle of 18 degrees over that at 0",
+            "1.47",
+        ),
+    ] {
+        sizing.add(
+            quantity,
+            "",
+            printed,
+            turned.largest()[body] / straight.largest()[body],
+            Verdict::NotReproducible(
+                "in kind only: positions of bearing, nut and pinion, length and diameter of the rack and the bearing's balls \
+                 are not printed",
+            ),
+        );
+    }
     Ok(())
 }
 
