@@ -8,6 +8,7 @@ mod hertz;
 mod kernels;
 mod kinematics;
 mod published;
+mod stability;
 mod statistics;
 mod summary;
 mod trains;
@@ -61,7 +62,7 @@ impl Context {
 type MakeSection = fn(&Context) -> Result<Section, Failure>;
 
 /// Every section, in the order of the report.
-const SECTIONS: [MakeSection; 8] = [
+const SECTIONS: [MakeSection; 9] = [
     summary::section,
     curvature::section,
     hertz::section,
@@ -70,6 +71,7 @@ const SECTIONS: [MakeSection; 8] = [
     trains::section,
     published::section,
     kernels::section,
+    stability::section,
 ];
 
 /// Makes the report.
