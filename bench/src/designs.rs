@@ -1,5 +1,6 @@
 //! Designs by name or from a file.
 
+pub mod loads;
 pub mod train;
 
 use std::fs::File;
@@ -15,6 +16,7 @@ use serde::Deserialize;
 
 use crate::failure::Failure;
 use crate::files::Bounded;
+use loads::{LoadCase, LoadsTable};
 use train::{UncagedDesign, UncagedTable};
 
 /// A design with what the in-loop model has to know beside it.
@@ -28,6 +30,8 @@ pub struct Design {
     pub loaded_balls: Option<u16>,
     /// Its balls where they press on each other, where they are known.
     pub uncaged: Option<UncagedDesign>,
+    /// Its screw between supports, where they are known.
+    pub loads: Option<LoadCase>,
 }
 
 /// Settings that a catalogue does not print.
@@ -54,6 +58,7 @@ impl Design {
             },
             loaded_balls,
             uncaged: loaded_balls.and_then(|balls| train::built_in(name, design, balls)),
+            loads: loaded_balls.and_then(|balls| loads::built_in(name, balls)),
         }
     }
 
@@ -167,6 +172,7 @@ struct DesignFile {
     loaded_balls: Option<u16>,
     limits: Option<LimitsTable>,
     uncaged: Option<UncagedTable>,
+    loads: Option<LoadsTable>,
 }
 
 #[derive(Deserialize)]
@@ -211,12 +217,6 @@ fn from_file(path: &Path) -> Result<Design, Failure> {
     file.design(&stem).map_err(failure)
 }
 
-/// Reads a design file.
-pub fn accepts(text: &str) -> Result<(), String> {
-    let file: DesignFile = toml::from_str(text).map_err(|error| error.to_string())?;
-    file.design("design").map(drop)
-}
-
 fn read_text(path: &Path) -> Result<String, Failure> {
     let file = File::open(path).map_err(|error| Failure::file("open", path, &error))?;
     let mut text = String::new();
@@ -224,6 +224,12 @@ fn read_text(path: &Path) -> Result<String, Failure> {
         .read_to_string(&mut text)
         .map_err(|error| Failure::file("read", path, &error))?;
     Ok(text)
+}
+
+/// Reads a design file.
+pub fn accepts(text: &str) -> Result<(), String> {
+    let file: DesignFile = toml::from_str(text).map_err(|error| error.to_string())?;
+    file.design("design").map(drop)
 }
 
 impl DesignFile {
@@ -294,6 +300,14 @@ impl DesignFile {
                         configuration.limits,
                     )
                     .map_err(|message| format!("uncaged: {message}"))
+            })
+            .transpose()?;
+        design.loads = self
+            .loads
+            .map(|table| {
+                table
+                    .case(&screw, self.loaded_balls)
+                    .map_err(|message| format!("loads: {message}"))
             })
             .transpose()?;
         Ok(design)

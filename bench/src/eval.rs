@@ -9,6 +9,7 @@ mod groove_curvature;
 mod hertz;
 mod linear_train;
 mod lines;
+mod static_load;
 mod steady_state;
 mod train;
 
@@ -55,6 +56,13 @@ use lines::{Line, Lines};
 /// TR, TL], "contact_forces": [BL, BR, TR, TL]}; a force of 0 is a lost contact. Answers with actual
 /// speeds, under the forces between the balls; at standstill the reference has none of them.
 ///
+/// static_load: pitch_radius, lead, ball_radius, groove_radius, contact_angle, youngs_modulus,
+/// poisson_ratio, screw_length, screw_diameter (outer), balls (their number), ball_spacing (angle),
+/// nut_position (axial centre of the balls), axial_load, [ball_oversize (of the radius; a number, or a list
+/// with one for each ball)], [end_offset (x displacement forced on the right end)]. The load acts on the
+/// left end, which moves only along the axis; the nut is rigid; the first ball stands at azimuth 0. No
+/// in_loop: it is null.
+///
 /// ball_screw_train: pitch_radius, lead, ball_radius, groove_radius, youngs_modulus, poisson_ratio, friction,
 /// nut_speed, balls: a list, rear to front in the direction of orbiting, of 1 to 64 {"contacts": {"SL":
 /// {"load", "contact_angle"}, ...}} with two to four of SL, SR, NL, NR (screw or nut, left or right); a load of
@@ -81,6 +89,14 @@ impl Answer {
             reference: Some(json(reference)?),
         })
     }
+
+    /// The answer of a model that only the reference has.
+    fn reference_only(reference: &impl Serialize) -> Result<Self, BadField> {
+        Ok(Self {
+            in_loop: Some(json(&())?),
+            reference: Some(json(reference)?),
+        })
+    }
 }
 
 /// Writes numbers with the fewest digits that read back as the same float64, and those that are not
@@ -93,7 +109,7 @@ fn json(value: &impl Serialize) -> Result<Box<RawValue>, BadField> {
 type Model = fn(Fields) -> Result<Answer, BadField>;
 
 /// Every model by its name.
-const MODELS: [(&str, Model); 8] = [
+const MODELS: [(&str, Model); 9] = [
     ("groove_curvature", groove_curvature::evaluate),
     ("efficiency", efficiency::evaluate),
     ("steady_state", steady_state::evaluate),
@@ -101,6 +117,7 @@ const MODELS: [(&str, Model); 8] = [
     ("contact_kinematics", contact_kinematics::evaluate),
     ("friction_map", friction_map::evaluate),
     ("linear_train", linear_train::evaluate),
+    ("static_load", static_load::evaluate),
     ("ball_screw_train", ball_screw_train::evaluate),
 ];
 

@@ -11,6 +11,7 @@ mod eval;
 mod failure;
 mod files;
 mod plot;
+mod progress;
 mod report;
 mod simulate;
 mod study;

@@ -1,12 +1,16 @@
 //! `report`: the error of every formula beside its run time, as tables on the screen and as Markdown,
 //! one HTML page, SVG, CSV and JSON in a folder.
 
+mod applications;
+mod bearings;
+mod cortex_m;
 mod curvature;
 mod document;
 mod efficiency;
 mod hertz;
 mod kernels;
 mod kinematics;
+mod loads;
 mod published;
 mod stability;
 mod statistics;
@@ -16,6 +20,7 @@ mod trains;
 use std::path::PathBuf;
 
 use crate::failure::Failure;
+use crate::target::TargetFigures;
 use crate::timing::{Competition, compete};
 use document::{Document, Section};
 
@@ -46,6 +51,7 @@ impl Default for Arguments {
 struct Context {
     quick: bool,
     competition: Vec<Competition>,
+    target: TargetFigures,
 }
 
 impl Context {
@@ -62,15 +68,19 @@ impl Context {
 type MakeSection = fn(&Context) -> Result<Section, Failure>;
 
 /// Every section, in the order of the report.
-const SECTIONS: [MakeSection; 9] = [
+const SECTIONS: [MakeSection; 13] = [
     summary::section,
     curvature::section,
     hertz::section,
     efficiency::section,
     kinematics::section,
+    loads::section,
+    bearings::section,
     trains::section,
+    applications::section,
     published::section,
     kernels::section,
+    cortex_m::section,
     stability::section,
 ];
 
@@ -80,6 +90,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let context = Context {
         quick: arguments.quick,
         competition: compete(rounds)?,
+        target: TargetFigures::new(arguments.quick)?,
     };
     let sections = SECTIONS
         .iter()

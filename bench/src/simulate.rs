@@ -1,5 +1,6 @@
 //! `simulate`: the in-loop model over a trace of speed and load.
 
+mod loads;
 mod manoeuvre;
 mod picture;
 mod reference;
@@ -22,7 +23,7 @@ use crate::designs::train::LinearDesign;
 use crate::designs::{self, DesignSource};
 use crate::failure::Failure;
 use crate::files::{self, Existing, Pending};
-use manoeuvre::Manoeuvre;
+pub use manoeuvre::Manoeuvre;
 use reference::Reference;
 use subject::{Scene, Subject};
 use summary::Summary;
@@ -51,6 +52,16 @@ use train::TrainRow;
 /// loaded_length, and if wanted return_length, wavelength, rail_deviation, carriage_deviation,
 /// load_shares, friction, ball_friction, materials as above, reversal_speed, and a table [limits] with
 /// speed, load, friction_force. Scenes with a train need a trace of equal steps of time.
+///
+/// With --loads no trace is run: the static model of the float64 reference finds the share of each ball in
+/// the axial load, for load_shares. A design file says in a table [loads] what it needs beside loaded_balls:
+/// screw_length, screw_diameter (outer), nut_position (axial centre of the balls), axial_load (on the left
+/// end, which moves only along the axis; the right end is free and the nut rigid), turns (of the loaded
+/// balls) or ball_spacing; and if wanted ball_oversize (of the radius; a number, or a list with one for each
+/// ball), end_offset (x displacement forced on the right end), pitch_error and roundness_error (amplitudes
+/// of the screw's groove, once and twice a turn).
+// Each is a flag of the command line.
+#[allow(clippy::struct_excessive_bools)]
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// Print the names of the built-in designs
@@ -67,14 +78,16 @@ pub struct Arguments {
     #[arg(
         long,
         value_name = "TRACE.csv",
-        required_unless_present_any = ["list", "manoeuvre"],
+        required_unless_present_any = ["list", "manoeuvre", "loads"],
         conflicts_with = "manoeuvre"
     )]
     input: Option<PathBuf>,
     /// Built-in trace of rack force and rack travel
     #[arg(long, value_enum)]
     manoeuvre: Option<Manoeuvre>,
-    /// Where the outputs go [default, with the plot: target/simulate/TRACE-DESIGN.csv]
+    #[command(flatten)]
+    loads: loads::LoadArguments,
+    /// Where the outputs go [default, with the plot: target/simulate/TRACE-DESIGN.csv; with --loads: stdout]
     #[arg(long, value_name = "OUT.csv")]
     output: Option<PathBuf>,
     /// Where the plot goes
@@ -102,6 +115,15 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.list {
         return list();
     }
+    let existing = if arguments.force {
+        Existing::Replace
+    } else {
+        Existing::Keep
+    };
+    if let (true, Some(source)) = (arguments.loads.wanted(), &arguments.design) {
+        let output = arguments.output.as_deref();
+        return loads::run(&source.load()?, &arguments.loads, output, existing);
+    }
     let subject = Subject::new(
         arguments.scene,
         arguments.design.as_ref(),
@@ -114,11 +136,6 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     };
 
     let (output, plot) = targets(arguments, &trace, subject.name());
-    let existing = if arguments.force {
-        Existing::Replace
-    } else {
-        Existing::Keep
-    };
     for path in output.iter().chain(&plot) {
         existing.check(path)?;
     }

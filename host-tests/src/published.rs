@@ -5,6 +5,7 @@ pub mod balls;
 pub mod bearings;
 mod curvature;
 pub mod efficiency;
+pub mod loads;
 
 use std::error::Error;
 
@@ -27,7 +28,7 @@ pub fn records() -> Result<Vec<Record>, Box<dyn Error>> {
         Page::new(&mut records, Paper::Alberdi).turn(place).roughly(
             row.quantity,
             row.unit,
-            (&row.printed.to_string(), row.tolerance),
+            (&shortest(row.printed), row.tolerance),
             row.computed,
             match row.verdict {
                 kinematics::Verdict::Reproduced => Verdict::Reproduces,
@@ -36,9 +37,20 @@ pub fn records() -> Result<Vec<Record>, Box<dyn Error>> {
             },
         );
     }
+    loads::append(&mut Page::new(&mut records, Paper::Lin2019))?;
     bearings::append(&mut Page::new(&mut records, Paper::Lin2019))?;
     balls::append(&mut Page::new(&mut records, Paper::Lin2019))?;
     Ok(records)
+}
+
+/// A number as printed; one that the paper leaves to its reader, from a printed formula, to two decimals.
+fn shortest(printed: f64) -> String {
+    let text = printed.to_string();
+    if text.len() > 8 {
+        format!("{printed:.2}")
+    } else {
+        text
+    }
 }
 
 /// One row of Table A1 or A2 as printed; lengths in mm, angles in degrees, errors in percent.

@@ -139,7 +139,7 @@ fn trains_recover_at_once_but_for_where_the_balls_are() {
         2,
         |outputs| outputs.faults,
         |outputs, expected, since| {
-            friction(outputs.groove_friction, expected.groove_friction, since)
+            friction(outputs.groove_friction, expected.groove_friction, since);
         },
     );
     suffer::<Rail>(
@@ -148,7 +148,7 @@ fn trains_recover_at_once_but_for_where_the_balls_are() {
         3,
         |outputs| outputs.faults,
         |outputs, expected, since| {
-            friction(outputs.groove_friction, expected.groove_friction, since)
+            friction(outputs.groove_friction, expected.groove_friction, since);
         },
     );
 }

@@ -373,3 +373,65 @@ fn bad_input_is_named() {
     };
     assert!(distribute(&[good], &nan, Tilt::Free).is_err());
 }
+
+/// The ball screw of zero lead on a rigid shaft is this bearing: another program (beam nodes, Schur complements, curvatures of
+/// the groove's surface) finds the same loads. Where the ring tilts, that one takes the displacement of the contact point, this
+/// one that of the arc's centre, which is right for a rigid ring; they differ by the tilt times their distance.
+#[test]
+fn ball_screw_of_zero_lead_carries_the_same_loads() {
+    use epas_reference::statics::cases::CaseStudy;
+    use epas_reference::statics::{Geometry, Load, Shaft, StaticLoad, Support};
+
+    let study = TurningLoad::default();
+    for (tilt, bound) in [(Tilt::Held, 1e-6), (Tilt::Free, 6e-2)] {
+        for oversize in [0.0, -5e-6, 4e-6] {
+            for degrees in [0.0_f64, 20.0, 50.0, 90.0] {
+                let rows = study.four_point().map(|row| BallRow { oversize, ..row });
+                let loaded = TurningLoad { tilt, ..study }
+                    .loaded(&rows, degrees.to_radians())
+                    .unwrap();
+
+                let mut setup = CaseStudy {
+                    geometry: Geometry {
+                        pitch_radius: 35e-3,
+                        lead: 0.0,
+                        ball_radius: 6.25e-3,
+                        groove_radius: 6.75e-3,
+                        contact_angle: FRAC_PI_4,
+                    },
+                    balls: 9,
+                    ball_spacing: TAU / 9.0,
+                    nut_position: 0.1,
+                    screw_length: 0.2,
+                    screw_diameter: 60e-3,
+                    ball_oversize: vec![oversize],
+                    ..CaseStudy::table_2_1()
+                }
+                .setup()
+                .unwrap();
+                setup.shaft = Shaft::rigid(0.1);
+                let held = (tilt == Tilt::Held).then_some(0.0);
+                setup.supports = vec![Support {
+                    position: 0.1,
+                    held: [None, None, None, held, held, Some(0.0)],
+                }];
+                let (sin, cos) = degrees.to_radians().sin_cos();
+                setup.loads = vec![Load {
+                    position: 0.1,
+                    force: [3000.0 * sin, 0.0, 3000.0 * cos],
+                    moment: [0.0; 3],
+                }];
+                let other = StaticLoad::new(setup).unwrap().solve().unwrap();
+                let largest = other.forces.iter().flatten().copied().fold(0.0, f64::max);
+                for (ball, [sl, sr, nl, nr]) in loaded.balls.iter().zip(other.forces) {
+                    for (one, two) in ball.contacts.contact_forces.iter().zip([sl, sr, nr, nl]) {
+                        assert!(
+                            (one - two).abs() < bound * largest,
+                            "{tilt:?} {oversize:e} {degrees}: {one} {two} of {largest}"
+                        );
+                    }
+                }
+            }
+        }
+    }
+}

@@ -2,10 +2,11 @@
 
 use epas_friction::{
     BallScrew, BallScrewParameters, ContactAngle, Groove, GrooveFit, GrooveSize, HertzContact,
-    LoadShare, Material, Press, ScrewBall, ScrewBallState, ScrewChain, ScrewContacts, ScrewRow,
+    LoadShare, Material, Press, ScrewBall, ScrewBallMotion, ScrewBallState, ScrewChain,
+    ScrewContacts, ScrewRow,
 };
 use epas_reference::friction::ball_screw_ball::{
-    Groove as Flank, ScrewContact, ScrewTrack, motion_with_contacts,
+    Groove as Flank, ScrewContact, ScrewMotion, ScrewTrack, motion_with_contacts,
 };
 use epas_reference::friction::ball_screw_closed::{
     ContactAngles, Support, ThreePointModel, speed_ratio,
@@ -50,8 +51,17 @@ fn law(design: &BallScrew, groove: epas_friction::Groove) -> HertzLaw {
 }
 
 #[test]
-fn row_is_the_closed_form() {
+fn row_is_the_closed_form_with_a_third_contact() {
     let design = design();
+    let mut speeds = Errors::within(4e-7, "row, orbital speed");
+    // A ball's share of the load enters through powers that fit the mean one.
+    let mut compliances = [("mean load", 1e-2), ("shares 0.1 to 3", 0.08)]
+        .map(|(name, bound)| Errors::within(bound, format!("row, compliance, {name}")));
+    let mut torques = [("mean load", 1e-2), ("shares 0.1 to 3", 0.15)]
+        .map(|(name, bound)| Errors::within(bound, format!("row, groove torque, {name}")));
+    let mut mains = Errors::within(5e-3, "row, main load");
+    let mut thirds = Errors::within(8e-2, "row, third load");
+    let mut rubbings = Errors::within(4e-7, "row, rubbing");
     for friction in [0.05, 0.12] {
         let row = ScrewRow::new(&design, friction as f32, GrooveFit::Zero).unwrap();
         let model = ThreePointModel {
@@ -97,20 +107,34 @@ fn row_is_the_closed_form() {
                                     * (exact.spin.abs()
                                         - exact.orbital_speed.abs() * TRACK.lead_angle().1))
                                 - 1.0;
-                            if (theta == 3.0 && eta == -3.0)
-                                || (theta == 0.0 && eta == 0.0)
-                                || (theta == 3.0 && eta == 3.0)
-                            {
-                                println!(
-                                    "mu {friction} load {load} speed {speed} share {share} theta {theta} eta {eta}: speed {dev:.1e} Y {y:.1e} P {p:.1e} N {n:.1e} N3 {n3:.1e} rub {rub:.1e}"
-                                );
+                            let case = format!(
+                                "friction {friction}, {load} N, nut speed {speed}, share {share}, {theta}, {eta} degrees"
+                            );
+                            speeds.add(dev, &case);
+                            compliances[usize::from(share != 1.0)].add(y, &case);
+                            torques[usize::from(share != 1.0)].add(p, &case);
+                            if share == 1.0 {
+                                mains.add(n, &case);
+                                thirds.add(n3, &case);
                             }
+                            rubbings.add(rub, &case);
                         }
                     }
                 }
             }
         }
     }
+    speeds.finish(1e-7, 1e-7);
+    for (errors, rms) in compliances
+        .into_iter()
+        .chain(torques)
+        .zip([3e-3, 3e-2, 3e-3, 5e-2])
+    {
+        errors.finish(rms, rms);
+    }
+    mains.finish(2e-3, 2e-4);
+    thirds.finish(3e-2, 3e-3);
+    rubbings.finish(2e-7, 1e-7);
 }
 
 /// Errors of a sweep: no case above `bound`; largest, rms and mean are printed for the documentation.
@@ -269,46 +293,86 @@ fn press<const N: usize>(free: &[f32; N], compliance: &[f32; N], forces: &mut [f
     }
 }
 
-/// One kind of contact: shares of the other diagonal's two contacts as ranges, and bounds of the orbital
-/// speed's error (largest, rms) and of the groove torque's after 0, 1, 2, ... impedance steps.
-struct Kind {
+/// Largest and rms error that are accepted after 0, 1, 2, ... impedance steps.
+struct Bounds {
     name: &'static str,
-    deviation: f64,
-    first: (f64, f64),
-    second: (f64, f64),
+    /// Orbital speed, of the nut's.
     speed: [(f64, f64); 6],
+    /// Groove torque, relative.
     torque: [(f64, f64); 6],
 }
 
-fn sweep(kind: &Kind, closed: bool) {
-    let mut random = Random(7);
-    let errors = |quantity: &str, bounds: &[(f64, f64); 6]| -> Vec<Errors> {
-        bounds
-            .iter()
-            .enumerate()
-            .map(|(steps, bound)| {
-                Errors::within(
-                    bound.0,
-                    format!("{}, {quantity} after {steps} steps", kind.name),
-                )
-            })
-            .collect()
-    };
-    let mut speed = errors("orbital speed", &kind.speed);
-    let mut torque = errors("groove torque", &kind.torque);
-    for _ in 0..60 {
-        let design = random.design();
-        let friction = random.between(0.03, 0.2) as f32;
-        let angles = random.angles(&design, kind.deviation);
-        let first = random.between(kind.first.0, kind.first.1);
-        let second = random.between(kind.second.0, kind.second.1);
+/// Errors of one kind of ball after every number of steps.
+struct Steps {
+    speed: Vec<(Errors, f64)>,
+    torque: Vec<(Errors, f64)>,
+}
+
+impl Steps {
+    fn new(bounds: &Bounds) -> Self {
+        let errors = |quantity: &str, bounds_of: &[(f64, f64); 6]| {
+            let step = |(steps, (max, rms)): (usize, &(f64, f64))| {
+                let name = format!("{}, {quantity} after {steps} steps", bounds.name);
+                (Errors::within(*max, name), *rms)
+            };
+            bounds_of.iter().enumerate().map(step).collect()
+        };
+        Self {
+            speed: errors("orbital speed", &bounds.speed),
+            torque: errors("groove torque", &bounds.torque),
+        }
+    }
+
+    fn add(
+        &mut self,
+        ball: &ScrewBall,
+        contacts: &ScrewContacts,
+        start: ScrewBallState,
+        exact: &ScrewMotion,
+        case: &str,
+    ) {
+        let mut state = start;
+        for ((speed, _), (torque, _)) in self.speed.iter_mut().zip(&mut self.torque) {
+            let found = f64::from(ball.orbital_speed(&state.motion));
+            speed.add(found - exact.orbital_speed, case);
+            torque.add(
+                f64::from(state.groove_torque) / exact.power_loss - 1.0,
+                case,
+            );
+            state = ball.step(contacts, &state, 0.0);
+        }
+    }
+
+    fn finish(self) {
+        for (errors, rms) in self.speed.into_iter().chain(self.torque) {
+            errors.finish(rms, 0.7 * rms);
+        }
+    }
+}
+
+/// A random ball: design, friction, contacts, their exact motion, and the case in words.
+struct Case {
+    ball: ScrewBall,
+    contacts: ScrewContacts,
+    exact: ScrewMotion,
+    name: String,
+}
+
+impl Random {
+    /// `others` are the shares of the other diagonal's contacts, `friction` times them for a third contact.
+    fn case(&mut self, deviation: f64, first: (f64, f64), second: (f64, f64)) -> Case {
+        let design = self.design();
+        let friction = self.between(0.03, 0.2) as f32;
+        let angles = self.angles(&design, deviation);
+        let first = self.between(first.0, first.1);
+        let second = self.between(second.0, second.1);
         let scale = if second > 0.0 {
             1.0
         } else {
             f64::from(friction)
         };
-        let forces = random.forces(scale * first, scale * second);
-        let case = format!(
+        let forces = self.forces(scale * first, scale * second);
+        let name = format!(
             "{:?}, friction {friction}, angles {angles:?}, forces {forces:?}",
             design.parameters()
         );
@@ -318,91 +382,180 @@ fn sweep(kind: &Kind, closed: bool) {
             f64::from(friction),
             1.0,
         )
-        .expect(&case);
-
+        .expect(&name);
         let ball = ScrewBall::new(&design, friction).unwrap();
-        let contacts = ball.contacts(&angles, &forces);
-        let mut state = if closed {
-            ball.closed_form(&contacts)
-        } else {
-            ball.start(&contacts)
-        };
-        for (speed, torque) in speed.iter_mut().zip(&mut torque) {
-            let found = f64::from(ball.orbital_speed(&state.motion));
-            speed.add(found - exact.orbital_speed, &case);
-            torque.add(
-                f64::from(state.groove_torque) / exact.power_loss - 1.0,
-                &case,
-            );
-            state = ball.step(&contacts, &state, 0.0);
+        Case {
+            contacts: ball.contacts(&angles, &forces),
+            ball,
+            exact,
+            name,
         }
-    }
-    for (errors, (max, rms)) in speed
-        .into_iter()
-        .zip(kind.speed)
-        .chain(torque.into_iter().zip(kind.torque))
-    {
-        errors.finish(rms, 0.5 * max);
     }
 }
 
-const ANY: [(f64, f64); 6] = [(9.0, 9.0); 6];
-
 #[test]
 fn four_given_contacts() {
-    for (degrees, name) in [
-        (1.0_f64, "four contacts, 1 degree"),
-        (3.0, "four contacts, 3 degrees"),
-    ] {
-        sweep(
-            &Kind {
-                name,
-                deviation: degrees.to_radians(),
-                first: (0.1, 1.0),
-                second: (0.1, 1.0),
-                speed: ANY,
-                torque: ANY,
+    for (degrees, bounds) in [
+        (
+            1.0_f64,
+            Bounds {
+                name: "four contacts, 1 degree",
+                speed: [
+                    (9e-4, 2e-4),
+                    (1e-4, 3e-5),
+                    (1e-4, 3e-5),
+                    (2e-5, 3e-6),
+                    (3e-6, 6e-7),
+                    (2e-6, 5e-7),
+                ],
+                torque: [
+                    (7e-2, 2e-2),
+                    (5e-2, 8e-3),
+                    (5e-2, 7e-3),
+                    (2e-3, 3e-4),
+                    (3e-4, 1e-4),
+                    (3e-4, 1e-4),
+                ],
             },
-            true,
-        );
+        ),
+        (
+            3.0,
+            Bounds {
+                name: "four contacts, 3 degrees",
+                speed: [
+                    (7e-3, 2e-3),
+                    (8e-4, 2e-4),
+                    (1e-4, 3e-5),
+                    (3e-5, 5e-6),
+                    (1e-5, 2e-6),
+                    (1e-5, 2e-6),
+                ],
+                torque: [
+                    (0.11, 3e-2),
+                    (5e-2, 1e-2),
+                    (5e-2, 8e-3),
+                    (2e-3, 5e-4),
+                    (6e-4, 2e-4),
+                    (6e-4, 2e-4),
+                ],
+            },
+        ),
+    ] {
+        let mut random = Random(7);
+        let mut steps = Steps::new(&bounds);
+        for _ in 0..40 {
+            let case = random.case(degrees.to_radians(), (0.1, 1.0), (0.1, 1.0));
+            let start = case.ball.closed_form(&case.contacts);
+            steps.add(&case.ball, &case.contacts, start, &case.exact, &case.name);
+        }
+        steps.finish();
     }
+}
+
+/// Whether the third contact holds the ball: its velocity centre lies inside the ellipse.
+fn is_pinned(exact: &ScrewMotion) -> bool {
+    let third = exact
+        .contacts
+        .iter()
+        .min_by(|a, b| a.contact.load.total_cmp(&b.contact.load))
+        .unwrap();
+    let ellipse = third.contact.ellipse;
+    let semi_major = ellipse.semi_major_constant * third.contact.load.cbrt();
+    third.velocity.slip_minor.abs() < semi_major * third.velocity.spin.abs()
 }
 
 #[test]
 fn three_given_contacts() {
-    for (first, name) in [
-        ((0.5, 1.4), "pinned third contact"),
-        ((0.02, 0.5), "light third contact"),
-    ] {
-        for closed in [true, false] {
-            sweep(
-                &Kind {
-                    name: if closed { name } else { "from the start" },
-                    deviation: 3_f64.to_radians(),
-                    first,
-                    second: (0.0, 0.0),
-                    speed: ANY,
-                    torque: ANY,
-                },
-                closed,
-            );
+    // Where it slides, one of the main contacts all but sticks, and steps out of that are short.
+    let sliding_torque = [
+        (2e-2, 4e-3),
+        (1e-2, 3e-3),
+        (1e-2, 2e-3),
+        (1e-2, 2e-3),
+        (1e-2, 1e-3),
+        (1e-2, 1e-3),
+    ];
+    let mut closed = [
+        Steps::new(&Bounds {
+            name: "third contact pinned",
+            speed: [
+                (7e-4, 1e-4),
+                (2e-4, 2e-5),
+                (1e-4, 2e-5),
+                (1e-4, 2e-5),
+                (3e-5, 5e-6),
+                (1e-5, 2e-6),
+            ],
+            torque: [
+                (5e-2, 1e-2),
+                (4e-2, 5e-3),
+                (4e-2, 6e-3),
+                (2e-2, 3e-3),
+                (4e-3, 6e-4),
+                (6e-4, 2e-4),
+            ],
+        }),
+        Steps::new(&Bounds {
+            name: "third contact slides, from the closed form",
+            speed: [(1.2e-2, 3e-3); 6],
+            torque: [(8e-2, 2e-2); 6],
+        }),
+    ];
+    let mut started = Steps::new(&Bounds {
+        name: "third contact slides, from the start",
+        speed: [
+            (2e-3, 7e-4),
+            (2e-3, 3e-4),
+            (2e-3, 3e-4),
+            (2e-3, 3e-4),
+            (2e-3, 2e-4),
+            (2e-3, 2e-4),
+        ],
+        torque: sliding_torque,
+    });
+    let mut random = Random(7);
+    for _ in 0..120 {
+        let case = random.case(3_f64.to_radians(), (0.05, 1.5), (0.0, 0.0));
+        let kind = usize::from(!is_pinned(&case.exact));
+        let Case {
+            ball,
+            contacts,
+            exact,
+            name,
+        } = &case;
+        closed[kind].add(ball, contacts, ball.closed_form(contacts), exact, name);
+        if kind == 1 {
+            started.add(ball, contacts, ball.start(contacts), exact, name);
         }
+    }
+    started.finish();
+    for steps in closed {
+        steps.finish();
     }
 }
 
+/// Steps only add here what the smooth treatment of the race that sticks takes from the closed form.
 #[test]
 fn two_given_contacts() {
-    sweep(
-        &Kind {
-            name: "two contacts",
-            deviation: 3_f64.to_radians(),
-            first: (0.0, 0.0),
-            second: (0.0, 0.0),
-            speed: ANY,
-            torque: ANY,
-        },
-        true,
-    );
+    let mut random = Random(7);
+    let mut steps = Steps::new(&Bounds {
+        name: "two contacts",
+        speed: [(4e-4, 3e-5); 6].map(|(max, _)| (max, 7e-5)),
+        torque: [
+            (6e-4, 1e-4),
+            (1e-2, 3e-3),
+            (1e-2, 3e-3),
+            (1e-2, 3e-3),
+            (1e-2, 3e-3),
+            (1e-2, 3e-3),
+        ],
+    });
+    for _ in 0..40 {
+        let case = random.case(3_f64.to_radians(), (0.0, 0.0), (0.0, 0.0));
+        let start = case.ball.closed_form(&case.contacts);
+        steps.add(&case.ball, &case.contacts, start, &case.exact, &case.name);
+    }
+    steps.finish();
 }
 
 fn stored() -> Value {
@@ -486,15 +639,15 @@ fn pairs_with_given_contacts() {
     let mut random = Random(11);
     // Of the largest force that friction lets a ball hold along the track.
     let mut forces = [
-        Errors::within(9.0, "contact force, closed form"),
-        Errors::within(9.0, "contact force after 1 step"),
-        Errors::within(9.0, "contact force after 2 steps"),
-        Errors::within(9.0, "contact force after 3 steps"),
-        Errors::within(9.0, "contact force after 4 steps"),
-        Errors::within(9.0, "contact force after 5 steps"),
+        Errors::within(6e-2, "contact force, closed form"),
+        Errors::within(3e-2, "contact force after 1 step"),
+        Errors::within(4e-3, "contact force after 2 steps"),
+        Errors::within(2e-4, "contact force after 3 steps"),
+        Errors::within(1e-4, "contact force after 4 steps"),
+        Errors::within(1e-4, "contact force after 5 steps"),
     ];
-    let mut loss = Errors::within(9.0, "power loss after 5 steps");
-    for _ in 0..60 {
+    let mut loss = Errors::within(3e-4, "power loss after 5 steps");
+    for _ in 0..40 {
         let design = random.design();
         let friction = random.between(0.05, 0.15) as f32;
         let other = random.between(0.2, 1.0);
@@ -523,18 +676,21 @@ fn pairs_with_given_contacts() {
                 .sum::<f32>();
         loss.add(f64::from(torque) / exact.power_loss() - 1.0, &case);
     }
-    for errors in forces {
-        errors.finish(9.0, 9.0);
+    for (errors, rms) in forces
+        .into_iter()
+        .zip([1.5e-2, 5e-3, 6e-4, 3e-5, 2e-5, 2e-5])
+    {
+        errors.finish(rms, 0.7 * rms);
     }
-    loss.finish(9.0, 9.0);
+    loss.finish(1e-4, 2e-5);
 }
 
 /// Where loads vanish so do contact ellipses, and with them what spin moments do to the speed.
 #[test]
 fn closed_forms_are_the_geometry_of_contacts_that_do_not_slip() {
     let mut random = Random(3);
-    let mut three = Errors::within(9.0, "third contact");
-    let mut two = Errors::within(9.0, "two contacts");
+    let mut three = Errors::within(1e-4, "third contact");
+    let mut two = Errors::within(1e-6, "two contacts");
     for _ in 0..300 {
         let design = random.design();
         let ball = ScrewBall::new(&design, 0.1).unwrap();
@@ -558,8 +714,16 @@ fn closed_forms_are_the_geometry_of_contacts_that_do_not_slip() {
                 [screw_left, nut_right, 0.0],
             ),
         ] {
+            let mut angles = angles;
+            let [screw, mut nut, third] = of;
+            if support == Support::TwoPoint {
+                // With different angles the speed depends on the race to which the ball sticks, which the
+                // formula does not know.
+                let [screw_left, _, _, nut_right] = &mut angles;
+                *nut_right = *screw_left;
+                nut = screw;
+            }
             let contacts = ball.contacts(&angles, &forces.map(|f: f32| 1e-6 * f));
-            let [screw, nut, third] = of;
             let expected = speed_ratio(
                 &track(&design),
                 support,
@@ -574,8 +738,8 @@ fn closed_forms_are_the_geometry_of_contacts_that_do_not_slip() {
             errors.add(found - expected, &case);
         }
     }
-    three.finish(9.0, 9.0);
-    two.finish(9.0, 9.0);
+    three.finish(3e-5, 3e-6);
+    two.finish(3e-7, 2e-7);
 }
 
 /// Hertz constants of the stored elastic models, m and N.
@@ -619,8 +783,8 @@ fn elastic(deviations: &[f64], nut_speed: f64) -> ElasticBalls {
 #[test]
 fn the_third_contact_follows_load_and_direction() {
     let row = ScrewRow::new(&design(), 0.1, GrooveFit::Zero).unwrap();
-    let mut main = Errors::within(9.0, "load of the main contacts");
-    let mut third = Errors::within(9.0, "load of the third contact");
+    let mut main = Errors::within(0.03, "load of the main contacts");
+    let mut third = Errors::within(0.3, "load of the third contact");
     for load in [-100.0_f64, -50.0, -10.0, 10.0, 50.0, 100.0] {
         for speed in [1.0_f64, -1.0] {
             let case = format!("{load} N, {speed} rad/s");
@@ -649,8 +813,9 @@ fn the_third_contact_follows_load_and_direction() {
             }
         }
     }
-    main.finish(9.0, 9.0);
-    third.finish(9.0, 9.0);
+    // The third contact takes part of its force from friction along its own track; friction also shifts all angles.
+    main.finish(0.02, 0.02);
+    third.finish(0.2, 0.2);
 }
 
 /// Force between two balls, loads and all, against the exact model of balls in elastic grooves.
@@ -670,8 +835,17 @@ fn force_between_two_balls_in_elastic_grooves() {
                     if sign < 0.0 { "SR-NL" } else { "SL-NR" },
                     if pinning { "pinning" } else { "opposite" }
                 );
-                let mut closed = Errors::within(9.0, format!("{name}: closed form"));
-                let mut refined = Errors::within(9.0, format!("{name}: refined"));
+                let (of_closed, of_refined) = match (per_ball, pinning) {
+                    (10.0 | 25.0, true) => (0.035, 0.03),
+                    (50.0, true) => (0.03, 0.04),
+                    (_, true) => (0.08, 0.09),
+                    (10.0, false) => (0.13, 0.06),
+                    (25.0, false) => (0.25, 0.18),
+                    (50.0, false) => (0.5, 0.45),
+                    (_, false) => (1.1, 1.0),
+                };
+                let mut closed = Errors::within(of_closed, format!("{name}: closed form"));
+                let mut refined = Errors::within(of_refined, format!("{name}: refined"));
                 for degrees in [0.5_f64, 1.0, 2.0, 3.0] {
                     let theta = degrees.to_radians() * if pinning { 1.0 } else { -1.0 };
                     let load = sign * per_ball;
@@ -698,8 +872,8 @@ fn force_between_two_balls_in_elastic_grooves() {
                     let (found, _) = forces_of_pair(&ball, &contacts, 0.1, 4);
                     refined.add(found[4] / exact - 1.0, &name);
                 }
-                closed.finish(9.0, 9.0);
-                refined.finish(9.0, 9.0);
+                closed.finish(0.8 * of_closed, 0.7 * of_closed);
+                refined.finish(0.9 * of_refined, 0.8 * of_refined);
             }
         }
     }
@@ -729,5 +903,132 @@ fn table_3_7() {
             refined[4],
             100.0 * (refined[4] / published - 1.0)
         );
+        // Speeds and compliances in closed form are a few per cent off, equilibrium of the given contacts one.
+        assert!((force / published - 1.0).abs() < 0.035);
+        assert!((refined[4] / published - 1.0).abs() < 0.015);
+    }
+}
+
+/// Rear and front exchange with the direction; the force stays but for friction between the balls.
+#[test]
+fn reversal_reverses_the_order_of_the_balls() {
+    let design = design();
+    let ball = ScrewBall::new(&design, 0.1).unwrap();
+    let loads = [9.0, 75.0, 75.0, 0.0];
+    let slow = ball.contacts(&[0.75, 0.82, 0.785, 0.785], &loads);
+    let fast = ball.contacts(&[0.785, 0.785, 0.785, 0.785], &loads);
+    let force = |contacts: [ScrewContacts; 2], direction: f32| {
+        let mut chain = ScrewChain::new(contacts.map(|contacts| ball.start(&contacts)));
+        for _ in 0..4 {
+            ball.refine_chain(&contacts, &mut chain, direction, 0.1, press);
+        }
+        (chain.forces[0], chain)
+    };
+    let (forward, chain) = force([fast, slow], 1.0);
+    assert!(forward > 1.0, "{forward}");
+    let [rear, front] = chain.balls;
+    assert!((rear.motion.speed - front.motion.speed).abs() < 1e-6);
+    let (backward, _) = force([slow, fast], -1.0);
+    assert!(
+        (backward / forward - 1.0).abs() < 1e-2,
+        "{backward} {forward}"
+    );
+    assert_eq!(force([slow, fast], 1.0).0, 0.0);
+    assert_eq!(force([fast, slow], -1.0).0, 0.0);
+    assert_eq!(force([fast, slow], f32::NAN).0, 0.0);
+}
+
+/// On a full ring the last force acts on the first ball.
+#[test]
+fn balls_on_a_ring() {
+    let design = design();
+    let ball = ScrewBall::new(&design, 0.1).unwrap();
+    let contacts = [0.77, 0.8, 0.785, 0.79]
+        .map(|angle| ball.contacts(&[0.785, angle, 0.785, 0.785], &[9.0, 75.0, 75.0, 0.0]));
+    let mut chain = ScrewChain::new(contacts.map(|contacts| ball.start(&contacts)));
+    let mut ring = Press::<4>::new();
+    for _ in 0..5 {
+        ball.refine_chain(
+            &contacts,
+            &mut chain,
+            1.0,
+            0.1,
+            |free, compliance, forces| {
+                assert!(ring.solve(free, &compliance.map(|y| 1.0 / y), &[0.0; 4]));
+                for (force, found) in forces.iter_mut().zip(ring.forces()) {
+                    *force = found;
+                }
+            },
+        );
+    }
+    let speeds = chain.balls.map(|state| state.motion.speed);
+    for speed in speeds {
+        assert!((speed - speeds[0]).abs() < 1e-6, "{speeds:?}");
+    }
+    // Friction in the grooves takes what the pushes of the neighbours leave.
+    let motions = contacts.iter().zip(&chain.balls);
+    for (contacts, state) in motions {
+        let moved = ball.groove_torque(contacts, &state.motion);
+        assert!((state.groove_torque / moved - 1.0).abs() < 1e-3);
+    }
+    assert!(chain.forces.iter().all(|force| *force >= 0.0));
+    assert!(chain.forces.contains(&0.0));
+}
+
+#[test]
+fn hostile_input_gives_finite_motions() {
+    let design = design();
+    assert_eq!(
+        ScrewBall::new(&design, f32::NAN).unwrap_err().field(),
+        "friction"
+    );
+    assert_eq!(
+        ScrewBall::new(&design, 0.6).unwrap_err().field(),
+        "friction"
+    );
+    let ball = ScrewBall::new(&design, 0.1).unwrap();
+    let odd = [
+        0.0,
+        -1.0,
+        1e-38,
+        1e-6,
+        75.0,
+        1e7,
+        1e30,
+        f32::INFINITY,
+        f32::NEG_INFINITY,
+        f32::NAN,
+    ];
+    let mut random = Random(5);
+    let row = ScrewRow::new(&design, 0.1, GrooveFit::Zero).unwrap();
+    for _ in 0..3000 {
+        let mut pick = || odd[random.between(0.0, odd.len() as f64) as usize % odd.len()];
+        let angles = [pick(), pick(), pick(), pick()];
+        let forces = [pick(), pick(), pick(), pick()];
+        let push = pick();
+        let contacts = ball.contacts(&angles, &forces);
+        let mut state = ball.start(&contacts);
+        for _ in 0..4 {
+            state = ball.step(&contacts, &state, push);
+        }
+        let solved = ball.solve(&contacts);
+        let lost = ScrewBallState {
+            motion: ScrewBallMotion {
+                speed: f32::NAN,
+                turn: [f32::INFINITY; 3],
+            },
+            ..solved
+        };
+        let recovered = ball.step(&contacts, &lost, 0.0);
+        for state in [state, solved, recovered, ball.closed_form(&contacts)] {
+            let finite = state.motion.turn.iter().all(|turn| turn.is_finite())
+                && state.motion.speed.is_finite()
+                && state.speed_deviation.is_finite()
+                && state.compliance.is_finite()
+                && state.groove_torque.is_finite();
+            assert!(finite, "{angles:?} {forces:?} {push}: {state:?}");
+        }
+        let (angles, forces) = row.contacts(pick(), pick(), pick(), pick());
+        assert!(angles.iter().chain(&forces).all(|x| x.is_finite()));
     }
 }

@@ -43,7 +43,7 @@ impl Case {
         self.free.len()
     }
 
-    /// Speeds under given link forces: v_j = u_j + Y_j (F_{j-1} - F_j).
+    /// Speeds under given link forces: `v_j = u_j + Y_j (F_{j-1} - F_j)`.
     fn speeds(&self, force: &[f64]) -> Vec<f64> {
         let n = self.balls();
         (0..n)
@@ -51,7 +51,7 @@ impl Case {
             .collect()
     }
 
-    /// How far the distance in front of ball j stays open: v_{j+1} - v_j + room_j.
+    /// How far the distance in front of ball j stays open: `v_{j+1} - v_j + room_j`.
     fn slack(&self, speed: &[f64], j: usize) -> f64 {
         speed[(j + 1) % self.balls()] - speed[j] + self.room[j]
     }

@@ -292,10 +292,12 @@ impl LinearConstants {
         let drag = self.drag * (up * up_root + down * down_root);
 
         let phase = state.phase.units();
+        let (passing, own) = self.zone.units();
+        let (passing, own) = (turn * passing, turn * own);
         let mut drags = 0.0;
         for (position, free, stiff) in state.train.balls() {
             if let Some(place) = self.zone.at(position, phase) {
-                *free = turn * (place.own + place.passing);
+                *free = own * place.own + passing * place.passing;
                 *stiff = impedance * place.share.two_thirds();
                 drags += place.share.four_thirds();
             } else {

@@ -226,13 +226,14 @@ impl UncagedConstants {
             self.per_speed
         };
 
+        let row = tick.per_speed(per_speed, self.zone.units());
         let phase = state.phase.units();
         let mut groove_torque = 0.0;
         for (position, speed, impedance) in state.train.balls() {
             if let Some(place) = self.zone.at(position, phase) {
-                let ball = tick.ball(place.passing, place.own, place.share);
-                *speed = ball.speed_deviation * per_speed;
-                *impedance = self.speed / ball.compliance;
+                let ball = row.ball(place.passing, place.own, place.share);
+                *speed = ball.speed;
+                *impedance = ball.impedance;
                 groove_torque += ball.groove_torque;
             } else {
                 *speed = 0.0;

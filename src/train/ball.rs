@@ -13,8 +13,8 @@ pub(super) struct Ball {
     /// Force between the ball and the one in front. Until it is known, the sum of the impedances of the
     /// cluster whose front ball this is, or the sum of the slacks of the cluster whose rear ball it is.
     pub(super) force: f32,
-    /// The sum of the cluster whose front ball this is, then what is left of the pushes of the cluster whose
-    /// rear ball it is.
+    /// The sum of the cluster whose front ball this is. Then the sum of its impedances; at its rear ball, what
+    /// is left of its pushes.
     pub(super) sum: f32,
     /// Place on the track, relative to the train's origin.
     pub(super) position: u32,

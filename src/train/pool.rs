@@ -3,7 +3,7 @@
 use super::ball::Ball;
 
 /// What rounding may leave of a cluster's pushes over the largest force before it is taken out.
-const ROUNDING: f32 = 1e-6;
+const ROUNDING: f32 = 4e-7;
 
 /// Balls that move as one: they touch, or close their last distance within the tick.
 ///
@@ -20,8 +20,19 @@ struct Cluster {
 }
 
 impl Cluster {
-    /// `self` and the cluster `ahead` as one, where `self` runs into it; strict, so that equal speeds
-    /// make no contact.
+    const NONE: Self = Self {
+        sum: 0.0,
+        weight: 1.0,
+        span: 0.0,
+    };
+
+    /// Whether a single ball behind runs into the cluster; strict, so that equal speeds make no contact.
+    #[inline(always)]
+    fn reached(&self, slack: f32) -> bool {
+        -(slack + self.span) * self.weight > self.sum
+    }
+
+    /// `self` and the cluster `ahead` as one, where `self` runs into it; as strict.
     #[inline(always)]
     fn joined(&self, slack: f32, ahead: &Self) -> Option<Self> {
         let reach = slack + ahead.span;
@@ -43,8 +54,6 @@ impl Cluster {
 pub(crate) struct Pressing {
     /// Pairs that press on each other.
     pub(crate) contacts: u8,
-    /// Pairs that move as one, also those that the others do not push.
-    pub(super) joins: u8,
     /// Largest force.
     pub(crate) largest: f32,
     /// Sum of the forces.
@@ -75,87 +84,76 @@ impl Place for () {
 
 /// Joins balls to clusters and leaves these in the places of their front and rear balls; gives the index of
 /// a ball that presses on none.
+///
+/// `slack` gives the slack in front of each ball, from the last one to the first. Joins may come in any order:
+/// none of them opens another one's contact.
 #[inline(always)]
-pub(super) fn pool<const N: usize>(balls: &mut [Ball; N]) -> usize {
-    // A ball that does not run into the next one on its own starts no cluster.
-    let mut index = 0;
-    while index < N - 1 {
-        match balls.get(index) {
-            Some(ball) if ball.slack < 0.0 => index = grow(balls, index) + 1,
-            Some(_) => index += 1,
-            None => break,
+pub(super) fn pool<const N: usize>(
+    balls: &mut [Ball; N],
+    mut slack: impl FnMut(usize, &mut Ball) -> f32,
+) -> usize {
+    // The front ball of what grows backwards: a single ball, or a cluster with these sums.
+    let mut front = N;
+    let mut cluster = Cluster::NONE;
+    for index in (0..N).rev() {
+        let Some(ball) = balls.get_mut(index) else {
+            break;
+        };
+        let slack = slack(index, ball);
+        let impedance = ball.impedance;
+        ball.slack = slack;
+        ball.extent = 0;
+        if front <= index + 1 {
+            // A single ball keeps its own speed; on a ring nothing is ahead of the last one yet.
+            if slack < 0.0 && front < N {
+                cluster = Cluster {
+                    sum: 0.0,
+                    weight: balls.get(front).map_or(1.0, |ball| ball.impedance),
+                    span: 0.0,
+                };
+            } else {
+                front = index;
+                continue;
+            }
+        } else if !cluster.reached(slack) {
+            // What the cluster runs into slows it down, and the ball may run into it after all.
+            (cluster, front) = absorbed(balls, front, &cluster);
+            if !cluster.reached(slack) {
+                store(balls, index + 1, front, front - (index + 1), &cluster);
+                front = index;
+                continue;
+            }
         }
+        let reach = slack + cluster.span;
+        cluster.sum -= reach * impedance;
+        cluster.weight += impedance;
+        cluster.span = reach;
+    }
+    if front > 0 {
+        (cluster, front) = absorbed(balls, front, &cluster);
+        store(balls, 0, front, front, &cluster);
     }
     close(balls)
 }
 
-/// Lets a ball that runs into the next one grow to a cluster; gives the index of its front ball.
-///
-/// Joins may come in any order: none of them opens another one's contact.
+/// A cluster with what stands in front of it as far as it runs into that, and its front ball.
 #[inline(always)]
-fn grow<const N: usize>(balls: &mut [Ball; N], first: usize) -> usize {
-    let Some(ball) = balls.get(first) else {
-        return N - 1;
-    };
-    let mut rear = first;
-    let mut front = first;
-    let mut slack = ball.slack;
-    let mut cluster = Cluster {
-        sum: 0.0,
-        weight: ball.impedance,
-        span: 0.0,
-    };
-    loop {
-        // Ahead all balls are still on their own.
-        let mut grown = false;
-        while front < N - 1 {
-            let reach = slack * cluster.weight;
-            if !(cluster.sum > reach) {
-                break;
-            }
-            let Some(ahead) = balls.get(front + 1) else {
-                break;
-            };
-            cluster.sum -= reach;
-            cluster.weight += ahead.impedance;
-            cluster.span += slack;
-            slack = ahead.slack;
-            front += 1;
-            grown = true;
-        }
-        if !grown {
+fn absorbed<const N: usize>(
+    balls: &[Ball; N],
+    mut front: usize,
+    cluster: &Cluster,
+) -> (Cluster, usize) {
+    let mut cluster = *cluster;
+    while front < N - 1 {
+        let slack = balls.get(front).map_or(0.0, |ball| ball.slack);
+        let next = front + 1 + extent(balls, front + 1);
+        let Some(longer) = cluster.joined(slack, &stored(balls, next)) else {
             break;
-        }
-        grown = false;
-        while rear > 0 {
-            let Some(behind) = balls.get(rear - 1) else {
-                break;
-            };
-            let (link, extent) = (behind.slack, behind.extent);
-            if extent == 0 {
-                let reach = link + cluster.span;
-                if !(-reach * cluster.weight > cluster.sum) {
-                    break;
-                }
-                cluster.sum -= reach * behind.impedance;
-                cluster.weight += behind.impedance;
-                cluster.span = reach;
-                rear -= 1;
-            } else {
-                let Some(joined) = stored(balls, rear - 1).joined(link, &cluster) else {
-                    break;
-                };
-                cluster = joined;
-                rear = rear.wrapping_sub(1 + usize::from(extent));
-            }
-            grown = true;
-        }
-        if !grown {
-            break;
-        }
+        };
+        cluster = longer;
+        front = next;
     }
-    store(balls, rear, front, front - rear, &cluster);
-    front
+    (cluster, front)
 }
 
 /// On a ring the last cluster has the first one in front. Gives the index of a ball that presses on none.
@@ -209,11 +207,7 @@ fn extent<const N: usize>(balls: &[Ball; N], end: usize) -> usize {
 #[inline(always)]
 fn stored<const N: usize>(balls: &[Ball; N], front: usize) -> Cluster {
     let Some(ball) = balls.get(front) else {
-        return Cluster {
-            sum: 0.0,
-            weight: 1.0,
-            span: 0.0,
-        };
+        return Cluster::NONE;
     };
     if ball.extent == 0 {
         return Cluster {
@@ -275,7 +269,6 @@ pub(super) fn settle<const N: usize>(
         for ball in segment.iter_mut().rev() {
             if left == 0 {
                 ball_in_front(ball, &mut left, &mut change, &mut force);
-                pressing.joins += left;
                 place.free(ball);
             } else {
                 left -= 1;
@@ -302,9 +295,9 @@ pub(super) fn settle<const N: usize>(
     }
     pressing.largest = f32::from_bits(largest as u32);
     // What rounding leaves of the sum of a cluster's pushes is small, but a stiff ball turns it into a
-    // large force.
+    // large force. It hardly changes what the forces add up to.
     if unbalanced > ROUNDING * pressing.largest {
-        balance(balls, foremost, &mut pressing);
+        balance(balls, foremost);
     }
     pressing
 }
@@ -314,6 +307,8 @@ fn ball_in_front(ball: &mut Ball, left: &mut u8, change: &mut f32, force: &mut f
     if ball.extent > 0 {
         *left = ball.extent;
         *change = ball.sum / ball.force;
+        // Kept for [`balance`].
+        ball.sum = ball.force;
         *force = *change * ball.impedance;
         ball.speed += *change;
     }
@@ -330,52 +325,28 @@ fn force_bits(force: f32) -> i32 {
 /// Takes what is left of the pushes of each cluster out of its forces.
 #[cold]
 #[inline(never)]
-fn balance<const N: usize>(balls: &mut [Ball; N], foremost: usize, pressing: &mut Pressing) {
-    *pressing = Pressing {
-        joins: pressing.joins,
-        ..Pressing::default()
-    };
-    let mut front = foremost;
-    let mut balls_left = N;
-    while balls_left > 0 {
-        let count = extent(balls, front) + 1;
-        balls_left = balls_left.saturating_sub(count);
-        let mut index = front;
-        let (mut weight, mut rest) = (0.0, 0.0);
-        for _ in 0..count {
-            if let Some(ball) = balls.get(index) {
-                weight += ball.impedance;
-                rest = ball.sum;
-            }
-            index = behind::<N>(index);
-        }
-        if count > 1 {
-            let rest = rest / weight;
-            let mut correction = 0.0;
-            index = front;
-            for ball in 0..count {
-                if let Some(ball_here) = balls.get_mut(index) {
-                    if ball > 0 {
-                        let force = f32::from_bits(force_bits(ball_here.force - correction) as u32);
-                        ball_here.force = force;
-                        pressing.force += force;
-                        pressing.power += force * ball_here.speed;
-                        pressing.contacts += u8::from(force > 0.0);
-                        if force > pressing.largest {
-                            pressing.largest = force;
-                        }
-                    }
-                    correction += rest * ball_here.impedance;
+fn balance<const N: usize>(balls: &mut [Ball; N], foremost: usize) {
+    let mut index = foremost;
+    let (mut left, mut rest, mut correction) = (0, 0.0, 0.0);
+    for _ in 0..N {
+        if left == 0 {
+            left = extent(balls, index);
+            if left > 0 {
+                let rear = index.wrapping_sub(left);
+                let rear = if rear < N { rear } else { rear.wrapping_add(N) };
+                rest = balls.get(rear).map_or(0.0, |ball| ball.sum);
+                if let Some(ball) = balls.get(index) {
+                    rest /= ball.sum;
+                    correction = rest * ball.impedance;
                 }
-                index = behind::<N>(index);
+            }
+        } else {
+            left -= 1;
+            if let Some(ball) = balls.get_mut(index) {
+                ball.force = f32::from_bits(force_bits(ball.force - correction) as u32);
+                correction += rest * ball.impedance;
             }
         }
-        front = index;
+        index = if index == 0 { N - 1 } else { index - 1 };
     }
-}
-
-/// The ball behind.
-#[inline(always)]
-const fn behind<const N: usize>(index: usize) -> usize {
-    if index == 0 { N - 1 } else { index - 1 }
 }

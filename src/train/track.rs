@@ -192,7 +192,7 @@ impl<const N: usize> Train<N> {
     /// Joins of clusters that the last tick needed, at most `N - 1`.
     #[inline]
     #[must_use]
-    pub const fn joins(&self) -> usize {
+    pub fn joins(&self) -> usize {
         self.press.joins()
     }
 
@@ -211,7 +211,7 @@ impl<const N: usize> Train<N> {
     pub fn step(&mut self, free: &[f32; N], impedance: &[f32; N], travel: f32) -> bool {
         let travel = self.counted(travel);
         let mut room = self.room(travel);
-        let sound = self.press.set(free, impedance, |ball| room.next(ball));
+        let sound = self.press.pool(free, impedance, |_, ball| room.next(ball));
         self.advance(travel);
         sound
     }
@@ -233,20 +233,9 @@ impl<const N: usize> Train<N> {
     #[inline(always)]
     pub(crate) fn run(&mut self, travel: f32) -> Pressing {
         let travel = self.counted(travel);
-        self.slacken(travel);
-        self.advance(travel)
-    }
-
-    /// Slacks from distances and free speeds.
-    #[inline(always)]
-    fn slacken(&mut self, travel: f32) {
         let mut room = self.room(travel);
-        let mut ahead = self.press.balls.first().map_or(0.0, |ball| ball.speed);
-        for ball in self.press.balls.iter_mut().rev() {
-            ball.slack = room.next(ball) + (ahead - ball.speed);
-            ball.extent = 0;
-            ahead = ball.speed;
-        }
+        self.press.pool_in_place(|ball| room.next(ball));
+        self.advance(travel)
     }
 
     #[inline(always)]
@@ -279,12 +268,10 @@ impl<const N: usize> Train<N> {
     #[inline(always)]
     fn advance(&mut self, travel: f32) -> Pressing {
         let way = if travel < 0.0 { -travel } else { travel };
-        let pressing = self.press.pool(&mut Mover {
+        let pressing = self.press.settle(&mut Mover {
             scale: way * FRACTIONS,
             pitch: self.track.pitch,
-            was: 0,
             limit: 0,
-            fraction: 0,
         });
         let travel = travel + self.origin_rest;
         let whole = travel as i32;
@@ -333,11 +320,8 @@ struct Mover {
     /// Sixteenths of a unit that the nominal speed moves a ball in this tick.
     scale: f32,
     pitch: u32,
-    /// Where the ball in front was.
-    was: u32,
-    /// Where the next ball touches the one in front, and what is left of a unit there.
+    /// Where the next ball touches the one in front.
     limit: u32,
-    fraction: u8,
 }
 
 impl Place for Mover {
@@ -345,7 +329,6 @@ impl Place for Mover {
     fn start(&mut self, ball: &Ball) {
         // Nothing is near in front of it.
         self.limit = ball.position.wrapping_add(1 << 30);
-        self.was = self.limit;
     }
 
     #[inline(always)]
@@ -353,30 +336,18 @@ impl Place for Mover {
         let moves = (ball.speed * self.scale) as i32;
         let moves = moves.wrapping_add(i32::from(ball.fraction));
         let mut place = ball.position.wrapping_add_signed(moves >> FRACTION_BITS);
-        let mut fraction = (moves & 15) as u8;
-        if (self.limit.wrapping_sub(place) as i32) < 0 {
-            // Beyond the ball in front, or more than half the track behind it.
-            let distance = self
-                .was
-                .wrapping_sub(ball.position)
-                .wrapping_sub(self.pitch);
-            if distance.wrapping_add(ROUNDING) < 1 << 28 {
-                place = self.limit;
-                fraction = self.fraction;
-            }
+        // Clusters do not run into each other, but rounding may leave that much.
+        if self.limit.wrapping_sub(place) > u32::MAX - ROUNDING {
+            place = self.limit;
         }
-        self.was = ball.position;
         ball.position = place;
-        ball.fraction = fraction;
+        ball.fraction = (moves & 15) as u8;
         self.limit = place.wrapping_sub(self.pitch);
-        self.fraction = fraction;
     }
 
     #[inline(always)]
     fn touching(&mut self, ball: &mut Ball) {
-        self.was = ball.position;
         ball.position = self.limit;
-        ball.fraction = self.fraction;
         self.limit = self.limit.wrapping_sub(self.pitch);
     }
 }

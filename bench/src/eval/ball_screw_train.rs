@@ -24,15 +24,15 @@ const FLANKS: [(&str, Groove); 4] = [
     ("NR", Groove::NutRight),
 ];
 
-/// Most impedance steps of the whole row. A ball alone has settled after
-/// [`DEFAULT_IMPEDANCE_STEPS`](epas_friction::ball::DEFAULT_IMPEDANCE_STEPS); friction between the balls lags
-/// one step behind.
-const STEPS: usize = 32;
+/// Most impedance steps of the whole row: friction between the balls lags one step behind.
+const STEPS: usize = 24;
 
-/// Change of a force in the last step over the largest force, below which the row has settled. Long rows
-/// under forces that make their third contacts slide do not: friction between their balls changes the forces
-/// by more than it was changed by them.
-const SETTLED: f32 = 1e-4;
+/// Change of a force in a step over the largest force, below which steps end, and below which the row
+/// counts as settled all the same. Forces are the means of two steps: where a third contact is about to
+/// slide, they swing by some per cent about what they should be. Where many contacts slide they do not
+/// settle: friction between the balls then changes the forces by more than it was changed by them.
+const UNCHANGED: f32 = 1e-5;
+const SETTLED: f32 = 2e-3;
 
 /// What cannot be found is none.
 #[derive(Default, Serialize)]
@@ -58,7 +58,7 @@ struct Request {
 struct Contact {
     groove: Groove,
     load: f64,
-    contact_angle: f64,
+    angle: f64,
 }
 
 /// Answers one request.
@@ -93,7 +93,7 @@ fn contacts(mut ball: Fields) -> Result<Vec<Contact>, BadField> {
             contacts.push(Contact {
                 groove,
                 load: contact.number("load")?,
-                contact_angle: contact.number("contact_angle")?,
+                angle: contact.number("contact_angle")?,
             });
             contact.finish()?;
         }
@@ -140,7 +140,7 @@ impl Request {
         for (index, ball) in self.balls.iter().enumerate() {
             for contact in ball {
                 in_range("load", contact.load, 0.0, 1e7)
-                    .and_then(|_| in_range("contact_angle", contact.contact_angle, 0.05, 1.5))
+                    .and_then(|_| in_range("contact_angle", contact.angle, 0.05, 1.5))
                     .map_err(|error| error.of_ball(index))?;
             }
         }
@@ -172,7 +172,7 @@ impl Request {
             let (mut angles, mut loads) = ([0.0; 4], [0.0; 4]);
             for contact in request {
                 let flank = contact.groove as usize;
-                (angles[flank], loads[flank]) = (contact.contact_angle as f32, contact.load as f32);
+                (angles[flank], loads[flank]) = (contact.angle as f32, contact.load as f32);
             }
             contacts[place] = ball.contacts(&angles, &loads);
             states[place] = ball.solve(&contacts[place]);
@@ -185,6 +185,7 @@ impl Request {
         let mut press = Press::new();
         let mut sound = true;
         let mut settled = false;
+        let mut means = chain.forces;
         for _ in 0..STEPS {
             let before = chain.forces;
             ball.refine_chain(
@@ -197,16 +198,15 @@ impl Request {
                     *forces = contact_forces(&press);
                 },
             );
-            let largest = chain
-                .forces
-                .iter()
-                .fold(0.0_f32, |most, force| most.max(*force));
-            settled = chain
-                .forces
-                .iter()
-                .zip(&before)
-                .all(|(force, before)| (force - before).abs() <= SETTLED * largest);
-            if settled {
+            let (mut largest, mut change) = (0.0_f32, 0.0_f32);
+            for ((force, before), mean) in chain.forces.iter().zip(&before).zip(&mut means) {
+                let next = 0.5 * (force + before);
+                change = change.max((next - *mean).abs());
+                largest = largest.max(next);
+                *mean = next;
+            }
+            settled = change <= SETTLED * largest;
+            if change <= UNCHANGED * largest {
                 break;
             }
         }
@@ -214,8 +214,9 @@ impl Request {
             .iter()
             .map(|state| f64::from(state.groove_torque))
             .sum();
+        chain.forces = means;
         let between = f64::from(ball.ball_torque(&chain, self.friction as f32));
-        let mut forces: Vec<_> = chain.forces[..count - 1]
+        let mut forces: Vec<_> = means[..count - 1]
             .iter()
             .map(|&force| force.into())
             .collect();
@@ -238,12 +239,7 @@ impl Request {
 
     /// The crate's ball, with the mean contact angle for its nominal one.
     fn ball(&self) -> Result<ScrewBall, BadField> {
-        let angles = || {
-            self.balls
-                .iter()
-                .flatten()
-                .map(|contact| contact.contact_angle)
-        };
+        let angles = || self.balls.iter().flatten().map(|contact| contact.angle);
         let mean = angles().sum::<f64>() / angles().count() as f64;
         let material = Material {
             youngs_modulus: self.youngs_modulus as f32,
@@ -293,7 +289,7 @@ impl Request {
                         Ok(ScrewContact {
                             groove: contact.groove,
                             load: contact.load,
-                            contact_angle: contact.contact_angle,
+                            contact_angle: contact.angle,
                             ellipse: self
                                 .ellipse(contact)
                                 .map_err(|error| error.of_ball(index))?,
@@ -321,7 +317,7 @@ impl Request {
     /// at the contact's own angle.
     fn ellipse(&self, contact: &Contact) -> Result<EllipseLaw, BadField> {
         let clearance = self.groove_radius - self.ball_radius;
-        let (sin, cos) = contact.contact_angle.sin_cos();
+        let (sin, cos) = contact.angle.sin_cos();
         let surface = Surface {
             groove: match contact.groove {
                 Groove::ScrewLeft | Groove::ScrewRight => curvature::Groove::Screw,
@@ -334,9 +330,9 @@ impl Request {
             offset_l: clearance * sin,
         };
         surface
-            .check(contact.contact_angle)
+            .check(contact.angle)
             .map_err(|error| BadField::from(error).renamed("offset_h", "groove_radius"))?;
-        let groove = surface.principal(contact.contact_angle);
+        let groove = surface.principal(contact.angle);
         let material = (self.youngs_modulus, self.poisson_ratio);
         let ball = 1.0 / self.ball_radius;
         let hertz = Hertz::new(

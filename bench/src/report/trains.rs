@@ -2,6 +2,7 @@
 
 mod cost;
 mod linear;
+mod screw;
 
 use super::Context;
 use super::document::{Block, Section};
@@ -16,6 +17,7 @@ pub fn section(context: &Context) -> Result<Section, Failure> {
             .into(),
     )];
     blocks.extend(linear::blocks(context)?);
+    blocks.extend(screw::blocks(context)?);
     blocks.extend(cost::blocks(context)?);
     Ok(Section {
         title: "Ball-to-ball friction",

@@ -33,6 +33,21 @@ fn the_report_reproduces_the_printed_tables_and_writes_every_figure() {
         "efficiency_figure_6",
         "efficiency_figure_7",
         "hertz",
+        "linear_ball_error_against_time",
+        "linear_ball_errors",
+        "linear_pair_errors",
+        "screw_ball_error_against_time",
+        "train_times_picture",
+        "lin_figure_4_3",
+        "lin_figure_4_5",
+        "lin_figures_2_9_2_10",
+        "lin_figures_2_11_2_12",
+        "lin_figure_2_14",
+        "lin_figure_4_10",
+        "lin_figure_3_7",
+        "lin_figure_3_14",
+        "lin_figure_3_15",
+        "lin_figure_4_7",
     ];
     for figure in figures {
         assert!(read(&format!("{figure}.svg")).starts_with("<svg"));
@@ -45,6 +60,16 @@ fn the_report_reproduces_the_printed_tables_and_writes_every_figure() {
         "summary",
         "curvature_times",
         "kernels",
+        "linear_ball",
+        "linear_ball_published",
+        "screw_ball",
+        "pair_times",
+        "train_times",
+        "applications",
+        "static_cost",
+        "hertzian_constants",
+        "published",
+        "published_open",
     ] {
         let rows = json[table]["rows"].as_array().unwrap();
         assert!(!rows.is_empty());
@@ -76,4 +101,23 @@ fn without_a_subcommand_the_report_goes_to_its_folder() {
     let report = folder.path().join("target").join("report");
     assert!(report.join("report.html").is_file());
     assert!(run.stdout.contains("report.html"));
+}
+
+/// Files are written when everything is computed, each beside its place first: a run that is cancelled leaves
+/// none.
+#[test]
+fn a_cancelled_report_leaves_no_file() {
+    use std::process::{Command, Stdio};
+    let folder = tempdir().unwrap();
+    let mut child = Command::new(env!("CARGO_BIN_EXE_epas-bench"))
+        .args(["report", "--output", "out"])
+        .current_dir(folder.path())
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    std::thread::sleep(std::time::Duration::from_millis(300));
+    child.kill().unwrap();
+    assert!(!child.wait().unwrap().success());
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
 }

@@ -1,5 +1,6 @@
 //! `simulate` of scenes whose balls press on each other.
 
+use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 
@@ -115,14 +116,12 @@ fn two_turns_of_an_uncaged_screw_follow_the_reference() {
 fn a_linear_bearing_runs_there_and_back() {
     let folder = tempdir().unwrap();
     fs::write(folder.path().join("bearing.toml"), BEARING).unwrap();
-    let trace: String = (0..=1000)
-        .map(|i| {
-            let time = f64::from(i) * 1e-3;
-            let speed = 0.3 * (6.0 * time).cos();
-            format!("{time},{speed},800,500\n")
-        })
-        .collect();
-    let trace = format!("time,speed,normal_load,side_load\n{trace}");
+    let mut trace = String::from("time,speed,normal_load,side_load\n");
+    for i in 0..=1000 {
+        let time = f64::from(i) * 1e-3;
+        let speed = 0.3 * (6.0 * time).cos();
+        writeln!(trace, "{time},{speed},800,500").unwrap();
+    }
     fs::write(folder.path().join("trace.csv"), trace).unwrap();
     let run = simulate(
         folder.path(),

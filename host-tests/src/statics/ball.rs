@@ -2,9 +2,10 @@
 
 use std::sync::Arc;
 
-use nalgebra::{Matrix2, SMatrix, Vector2};
+use nalgebra::{Matrix2, SMatrix, Vector2, Vector3};
 
 use super::geometry::{Contact, Geometry};
+use super::problem::{Ball, NutPose};
 use super::shaft::Shaft;
 use super::surface::{Deviation, SurfaceError};
 
@@ -20,7 +21,7 @@ pub struct Arm {
     centre: Vector2<f64>,
     /// `|centre|`, m.
     excess: f64,
-    /// Shift of the centre by errors, m.
+    /// Shift of the centre by errors and by the nut's pose, m.
     shift: Vector2<f64>,
     /// Radius of the arc, m.
     groove_radius: f64,
@@ -51,40 +52,48 @@ pub struct Touch {
     pub stiffness: Matrix2<f64>,
 }
 
-/// What an arm is made from.
+/// What the arms of all balls are made from.
 pub struct ArmInput<'a> {
     /// Nominal geometry.
     pub geometry: &'a Geometry,
     /// The shaft.
     pub shaft: &'a Shaft,
-    /// Errors of the surface.
-    pub errors: &'a Errors,
-    /// Azimuth of the ball, rad.
-    pub azimuth: f64,
-    /// Axial position of the ball, m.
-    pub position: f64,
-    /// Oversize of the ball's radius, m.
-    pub oversize: f64,
-    /// Hertzian constant, m/N^(2/3).
-    pub deflection: f64,
+    /// The nut.
+    pub nut: &'a NutPose,
+    /// Errors of the surfaces SL, SR, NL, NR.
+    pub errors: &'a [Errors; 4],
+    /// Hertzian constants of nominal contacts with screw and nut, m/N^(2/3).
+    pub deflection: [f64; 2],
 }
 
 impl Arm {
-    /// The contact of a ball with one arc.
-    pub fn new(contact: Contact, input: &ArmInput<'_>) -> Self {
+    /// The contact of a ball with one arc, which is the one of this index.
+    pub fn new(
+        contact: Contact,
+        index: usize,
+        input: &ArmInput<'_>,
+        ball: &Ball,
+        deflection: f64,
+    ) -> Self {
         let geometry = input.geometry;
-        let shift = input
-            .errors
+        let errors = &input.errors[index];
+        let mut shift = errors
             .iter()
-            .map(|error| error.deviation(input.azimuth, geometry.contact_angle).shift)
+            .map(|error| error.deviation(ball.azimuth, geometry.contact_angle).shift)
             .fold(Vector2::zeros(), |sum, [x, z]| sum + Vector2::new(x, z));
+        // Motion is sampled at the nominal contact point: taken at the arc's centre instead, the axial
+        // strain of the shaft changes the loads by percents.
+        let (radial, along) = geometry.contact_point(contact, ball.azimuth);
+        let place = ball.position + along;
+        let axes = geometry.section_axes(ball.azimuth);
         let (node, motion) = if contact.is_screw() {
-            // Sampled at the nominal contact point: taken at the arc's centre instead, the axial strain
-            // of the shaft changes the loads by percents.
-            let (radial, along) = geometry.contact_point(contact, input.azimuth);
-            let (node, point) = input.shaft.point(input.position + along, radial);
-            (Some(node), geometry.section_axes(input.azimuth) * point)
+            let (node, point) = input.shaft.point(place, radial);
+            (Some(node), axes * point)
         } else {
+            let arm = radial + Vector3::new(0.0, 0.0, place - input.nut.position);
+            let moved = Vector3::from(input.nut.displacement)
+                + Vector3::from(input.nut.rotation).cross(&arm);
+            shift += axes * moved;
             (None, SMatrix::zeros())
         };
         Self {
@@ -93,15 +102,14 @@ impl Arm {
             excess: geometry.excess(),
             shift,
             groove_radius: geometry.groove_radius,
-            oversize: input.oversize,
-            stiffness: input.deflection.powf(-1.5),
-            profile: input
-                .errors
+            oversize: ball.oversize,
+            stiffness: deflection.powf(-1.5),
+            profile: errors
                 .iter()
                 .filter(|error| !error.keeps_the_arc())
                 .cloned()
                 .collect(),
-            azimuth: input.azimuth,
+            azimuth: ball.azimuth,
             node,
             motion,
         }

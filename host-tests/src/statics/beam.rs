@@ -53,12 +53,12 @@ pub struct Section {
 
 /// Factor `k_r` on the outer diameter that takes the groove's volume off, eq. (C.4)-(C.8).
 ///
-/// Returns 1 where the arcs do not reach the cylinder. The printed (C.4) needs
-/// `D_2 = (r_G - r_B) cos(beta) + R_P - D_out/2 <= r_G`.
+/// The printed (C.4) needs `D_2 = (r_G - r_B) cos(beta) + R_P - D_out/2 <= r_G`, which holds where the
+/// nominal contact lies on the screw.
 ///
 /// # Errors
-/// [`ReferenceError`] naming `screw_diameter` where the groove would take half of the diameter or more,
-/// or the ball's centre lies inside the cylinder.
+/// [`ReferenceError`] naming `screw_diameter` where the nominal contact lies outside of the screw, the ball's
+/// path inside, or the groove would take half of the diameter or more.
 pub fn groove_reduction(geometry: &Geometry, outer_diameter: f64) -> Result<f64, ReferenceError> {
     let (sin, cos) = geometry.contact_angle.sin_cos();
     let radius = geometry.groove_radius;
@@ -67,11 +67,15 @@ pub fn groove_reduction(geometry: &Geometry, outer_diameter: f64) -> Result<f64,
     if depth < 0.0 {
         return Err(ReferenceError::new(
             "screw_diameter",
-            "the cylinder encloses the ball path",
+            "the screw encloses the ball path",
         ));
     }
-    if depth >= radius {
-        return Ok(1.0);
+    let contact = geometry.pitch_radius - geometry.ball_radius * cos;
+    if 0.5 * outer_diameter < contact || depth >= radius {
+        return Err(ReferenceError::new(
+            "screw_diameter",
+            format!("{outer_diameter}: the balls touch the screw at a radius of {contact}"),
+        ));
     }
     let first = (across / radius).asin();
     let second = FRAC_PI_2 - (depth / radius).asin();

@@ -3,7 +3,7 @@
 use super::beam::Elastic;
 use super::contact::{ContactConstants, HertzConvention};
 use super::geometry::Geometry;
-use super::problem::{Load, Setup, StaticLoad, Support, even_train};
+use super::problem::{Load, NutPose, Setup, StaticLoad, Support, even_train};
 use super::shaft::Shaft;
 use crate::error::{ReferenceError, within};
 
@@ -161,6 +161,7 @@ impl CaseStudy {
             balls,
             supports,
             loads: vec![Load::axial(0.0, self.axial_load)],
+            nut: NutPose::default(),
             errors: std::array::from_fn(|_| Vec::new()),
             local_curvature: None,
         })

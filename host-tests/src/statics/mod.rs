@@ -29,6 +29,7 @@ pub mod problem;
 pub mod shaft;
 pub mod solution;
 pub mod spline;
+pub mod studies;
 pub mod surface;
 mod system;
 
@@ -36,7 +37,7 @@ pub use beam::{Elastic, Section};
 pub use contact::{ContactConstants, HertzConvention};
 pub use fitted::FittedSurface;
 pub use geometry::{Contact, Geometry};
-pub use problem::{Ball, Load, State, StaticLoad, Support};
+pub use problem::{Ball, Load, NutPose, State, StaticLoad, Support};
 pub use shaft::{Shaft, ShaftModel};
 pub use solution::{Outcome, StaticError, StaticSolution};
 pub use surface::{Deviation, SurfaceError};

@@ -104,6 +104,17 @@ impl Load {
     }
 }
 
+/// Where the rigid nut stands: a small motion off its nominal place.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct NutPose {
+    /// Place on the axis that it turns about, m.
+    pub position: f64,
+    /// Displacement, m.
+    pub displacement: [f64; 3],
+    /// Rotation, rad.
+    pub rotation: [f64; 3],
+}
+
 /// Unknowns of the problem.
 #[derive(Clone, Debug, PartialEq)]
 pub struct State {
@@ -143,6 +154,8 @@ pub struct Setup {
     pub supports: Vec<Support>,
     /// Loads on the shaft.
     pub loads: Vec<Load>,
+    /// Where the nut is held.
+    pub nut: NutPose,
     /// Geometric errors of the surfaces SL, SR, NL, NR.
     pub errors: [Vec<Arc<dyn SurfaceError>>; 4],
     /// Materials of screw, nut and balls where each contact's Hertzian constant is to follow the local
@@ -166,6 +179,7 @@ impl StaticLoad {
             balls,
             supports,
             loads,
+            nut,
             errors,
             local_curvature,
         } = setup;
@@ -209,9 +223,20 @@ impl StaticLoad {
                 0.2 * geometry.ball_radius,
             )?;
         }
+        within("nut", nut.position, -100.0, 100.0)?;
+        for value in nut.displacement.iter().chain(&nut.rotation) {
+            within("nut", *value, -0.1, 0.1)?;
+        }
+        let of_all = ArmInput {
+            geometry: &geometry,
+            shaft: &shaft,
+            nut: &nut,
+            errors: &errors,
+            deflection: [contact.screw.deflection, contact.nut.deflection],
+        };
         let arms = balls
             .iter()
-            .map(|ball| arms(&geometry, &shaft, &contact, ball, &errors, local_curvature))
+            .map(|ball| arms(&of_all, ball, local_curvature))
             .collect::<Result<Vec<_>, _>>()?;
         let mut held = Vec::with_capacity(supports.len());
         for support in &supports {
@@ -280,11 +305,8 @@ impl StaticLoad {
 }
 
 fn arms(
-    geometry: &Geometry,
-    shaft: &Shaft,
-    contact: &ContactConstants,
+    of_all: &ArmInput<'_>,
     ball: &Ball,
-    errors: &[Errors; 4],
     local_curvature: Option<[Elastic; 3]>,
 ) -> Result<[Option<Arm>; 4], ReferenceError> {
     let mut arms = [const { None }; 4];
@@ -292,27 +314,15 @@ fn arms(
         if !ball.arcs[index] {
             continue;
         }
-        let nominal = if which.is_screw() {
-            contact.screw.deflection
-        } else {
-            contact.nut.deflection
-        };
+        let nominal = of_all.deflection[usize::from(!which.is_screw())];
         let deflection = match local_curvature {
-            Some(materials) => local_deflection(geometry, which, ball, &errors[index], materials)?,
+            Some(materials) => {
+                let errors = &of_all.errors[index];
+                local_deflection(of_all.geometry, which, ball, errors, materials)?
+            }
             None => nominal,
         };
-        arms[index] = Some(Arm::new(
-            which,
-            &ArmInput {
-                geometry,
-                shaft,
-                errors: &errors[index],
-                azimuth: ball.azimuth,
-                position: ball.position,
-                oversize: ball.oversize,
-                deflection,
-            },
-        ));
+        arms[index] = Some(Arm::new(which, index, of_all, ball, deflection));
     }
     Ok(arms)
 }

@@ -175,6 +175,20 @@ impl StaticSolution {
         self.displacements.first().map_or(0.0, |six| six[2])
     }
 
+    /// Force (N) of the balls on the nut and its moment (N m) about a place on the axis, m.
+    #[must_use]
+    pub fn on_nut_about(&self, position: f64) -> [f64; 6] {
+        let [x, y, z, about_x, about_y, about_z] = self.on_nut;
+        [
+            x,
+            y,
+            z,
+            about_x + position * y,
+            about_y - position * x,
+            about_z,
+        ]
+    }
+
     /// Share of each ball in the axial load: the axial part of its forces on the nut over their sum.
     /// None where nothing is carried along the axis.
     #[must_use]

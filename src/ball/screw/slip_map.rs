@@ -45,6 +45,9 @@ const GAUSS: [(f32, f32); 5] = [
     (0.906_179_85, 0.236_926_88),
 ];
 
+/// Smallest axis ratio, that of a conformity of about 0.5005.
+const SMALLEST_AXIS_RATIO: f32 = 0.02;
+
 /// Largest axis ratio; beyond it differences of the elliptic integrals lose too many digits.
 const LARGEST_AXIS_RATIO: f32 = 0.95;
 
@@ -73,9 +76,31 @@ const LARGEST_AXIS_RATIO: f32 = 0.95;
 /// to the second, so that force and Hessian are those of the polynomial as well. These are the integrals
 /// (3.16)-(3.18) and (3.68) of Lin 2019, which that dissertation evaluates by quadrature.
 ///
-/// `C1` and `C2` are combinations of Carlson's integrals, found at set-up and interpolated in
+/// `C1` and `C2` are combinations of Carlson's integrals; they and `C5` are found at set-up and interpolated in
 /// `sqrt(lambda)/(sqrt(lambda) + sqrt(k))`. Beyond two semi-major axes two terms of the multipole series
 /// serve.
+///
+/// Input: axis ratio 0.02 to 0.95 at set-up; slips and spins up to 1e15 in the loop.
+///
+/// Largest errors against quadrature of the contact integral, axis ratios 0.05 to 0.95, slips of any direction
+/// from 1e-4 to 1e4 semi-major axes times the spin (rms in brackets): forces 3.1e-4 (1.2e-5) of their limit,
+/// moment 3.1e-4 (1.5e-5) of `mu F a`, power 1.4e-4 (9e-6) of itself, second derivatives 3.7e-3 (1.8e-4) of the
+/// sum of those by the two slips. From an axis ratio of 0.2 on forces are within 6e-5; at 0.02 within 1e-3.
+/// The largest ones arise where the far field takes over.
+///
+/// Cost in the loop: three square roots and two divisions inside the contact, four and three outside, where
+/// three polynomials of ten terms are evaluated.
+///
+/// ```
+/// use epas_friction::SlipMap;
+/// let map = SlipMap::new(0.25)?;
+/// let (semi_major, spin) = (2e-4, 20.0);
+/// let spinning = map.dissipation(0.0, 0.0, spin, semi_major, 0.0);
+/// assert!((spinning.moment / semi_major - 0.4021).abs() < 1e-4); // 3/8 E
+/// let sliding = map.dissipation(3.0, 4.0, 0.0, semi_major, 0.0);
+/// assert!((sliding.across - 0.6).abs() < 1e-5 && (sliding.along - 0.8).abs() < 1e-5);
+/// # Ok::<(), epas_friction::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SlipMap {
@@ -164,13 +189,15 @@ pub(super) struct Across {
 }
 
 impl SlipMap {
+    /// Maps of a contact with the axis ratio `b/a`. For set-up: it evaluates elliptic integrals at eleven places.
+    ///
     /// # Errors
-    /// [`Error`] naming `axis_ratio` where it is not within 0.01 to 0.95.
+    /// [`Error`] naming `axis_ratio` where it is not within 0.02 to 0.95.
     pub fn new(axis_ratio: f32) -> Result<Self, Error> {
         let k = in_range(
             "axis_ratio",
             axis_ratio,
-            crate::contact::SMALLEST_AXIS_RATIO,
+            SMALLEST_AXIS_RATIO,
             LARGEST_AXIS_RATIO,
         )?;
         let square = k * k;
@@ -238,8 +265,14 @@ impl SlipMap {
         0.75 * self.inside.across
     }
 
-    /// Forces, moment and Hessian at a slip across and along the track and a spin, with stick treated as in
-    /// [`FrictionMap::dissipation`](crate::FrictionMap::dissipation).
+    /// Friction over `mu F` at a slip across and along the track, m/s, and a spin, rad/s, of a contact with the
+    /// semi-major axis `a`, m, with stick treated smoothly as in
+    /// [`FrictionMap::dissipation`](crate::FrictionMap::dissipation): `|w|` becomes
+    /// `W = sqrt(w² + stick_spin²)` in the potential.
+    ///
+    /// Slips are those at the contact's centre. The friction force on the ball is `-mu F across`,
+    /// `-mu F along`, the moment `-mu F moment`. `semi_major` must be positive. Of slips that are infinite or no
+    /// number the forces are those of sliding; potential and power then are none either.
     #[inline]
     #[must_use]
     pub fn dissipation(
@@ -458,12 +491,15 @@ impl SlipMap {
     }
 }
 
-/// A place far away or not a number, brought back to a distance of a million.
+/// A place far away, brought back to a distance of a million; what is not a number counts as zero, and two
+/// of them as far away across.
 #[cold]
 fn limited(along: f32, across: f32) -> (f32, f32, f32) {
+    let number = |x: f32| if x.is_nan() { 0.0 } else { x };
+    let (along, across) = (number(along), number(across));
     let (u, v) = (along.abs(), across.abs());
     let size = if u > v { u } else { v };
-    if size.is_finite() && size > 0.0 {
+    if size.is_finite() && size > 1e-30 {
         let scale = 1e6 / size;
         let (along, across) = (along * scale, across * scale);
         (along, across, along * along + across * across)
@@ -531,11 +567,11 @@ fn narrow_integral(square: f32, root: f32) -> f32 {
 
 fn divided_differences(mut values: [f32; POINTS]) -> [f32; POINTS] {
     for order in 1..POINTS {
-        let mut before = values;
-        before.rotate_right(1);
+        let before = values;
         let pairs = CHEBYSHEV.iter().skip(order).zip(&CHEBYSHEV);
-        let entries = values.iter_mut().zip(before).skip(order);
-        for ((value, before), (here, there)) in entries.zip(pairs) {
+        let entries = values.iter_mut().skip(order);
+        let left = before.iter().skip(order - 1);
+        for ((value, before), (here, there)) in entries.zip(left).zip(pairs) {
             *value = (*value - before) / (here - there);
         }
     }

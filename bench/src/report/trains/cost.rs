@@ -2,6 +2,7 @@
 
 use std::time::Instant;
 
+use epas_reference::friction::ball_screw_elastic::ScrewSupport;
 use epas_reference::friction::chain::solve_chain;
 
 use super::Context;
@@ -10,18 +11,21 @@ use crate::plot::{Axis, Chart, Mark, Panel, Series};
 use crate::report::document::{Block, Cell, Figure, Table};
 use crate::study::{self, turned_ball};
 
-/// Balls and key of each timed train.
-const TRAINS: [(u8, &str); 9] = [
-    (1, "press_1"),
-    (2, "press_2"),
-    (4, "press_4"),
-    (8, "press_8"),
-    (16, "press_16"),
-    (32, "press_32"),
-    (37, "press_37"),
-    (48, "press_48"),
-    (64, "press_64"),
+/// Balls of each timed train, and the keys of its forces, its tick and the tick of its scene.
+const TRAINS: [(u8, [&str; 3]); 9] = [
+    (1, ["press_1", "train_1", "step_train_1"]),
+    (2, ["press_2", "train_2", "step_train_2"]),
+    (4, ["press_4", "train_4", "step_train_4"]),
+    (8, ["press_8", "train_8", "step_train_8"]),
+    (16, ["press_16", "train_16", "step_train_16"]),
+    (32, ["press_32", "train_32", "step_train_32"]),
+    (37, ["press_37", "train_37", "step_train_37"]),
+    (48, ["press_48", "train_48", "step_train_48"]),
+    (64, ["press_64", "train_64", "step_train_64"]),
 ];
+
+/// What the keys time.
+const PARTS: [&str; 3] = ["forces", "forces and positions", "whole tick of the screw"];
 
 /// Tables and figures.
 pub fn blocks(context: &Context) -> Result<Vec<Block>, Failure> {
@@ -64,6 +68,11 @@ fn printed_times(context: &Context) -> Result<Table, Failure> {
             Cell::power(printed / time),
         ]);
     };
+    let screw = study::screw_pair([0.0, 2.0])?;
+    let exact_screw = median_time(if context.quick { 1 } else { 11 }, || {
+        screw.solve(ScrewSupport::Load(-100.0))?;
+        Ok(())
+    })?;
     let time = |key: &str| Ok::<f64, Failure>(1e-9 * context.times(key)?.latency.median);
     row(
         "linear bearing, closed form (3.43), (3.51), f32",
@@ -89,6 +98,38 @@ fn printed_times(context: &Context) -> Result<Table, Failure> {
         "numerical model, Table 3.5",
         0.74,
     );
+    const SCREW: &str = "numerical model, Table 3.7";
+    row(
+        "ball screw, closed form, f32",
+        time("screw_row_pair")?,
+        SCREW,
+        15.0,
+    );
+    row(
+        "ball screw, closed form of given contacts, f32",
+        time("screw_closed_pair")?,
+        SCREW,
+        15.0,
+    );
+    row(
+        "ball screw, 1 warm impedance step, f32",
+        time("screw_warm_pair")?,
+        SCREW,
+        15.0,
+    );
+    row(
+        "ball screw, start and 3 impedance steps, f32",
+        time("screw_cold_pair")?,
+        SCREW,
+        15.0,
+    );
+    row("ball screw, reference, f64", exact_screw, SCREW, 15.0);
+    row(
+        "ball screw without cage, tick of 37 balls, f32",
+        time("step_train_37")?,
+        "numerical model of two balls, Table 3.7",
+        15.0,
+    );
     Ok(Table {
         name: "pair_times",
         caption: "Two balls that press on each other: time on this machine (latency), and the times that Lin 2019 \
@@ -109,28 +150,33 @@ fn printed_times(context: &Context) -> Result<Table, Failure> {
 
 fn train_times(context: &Context) -> Result<Table, Failure> {
     let mut rows = Vec::new();
-    for (balls, key) in TRAINS {
-        let times = context.times(key)?;
-        let (low, high) = times.latency.quartiles;
-        rows.push(vec![
-            Cell::fixed(balls.into(), 0),
-            Cell::fixed(times.latency.median, 1),
-            Cell::from(format!("{low:.1}-{high:.1}")),
-            Cell::fixed(times.throughput.median, 1),
-            Cell::fixed(times.latency.median / f64::from(balls), 2),
-        ]);
+    for (balls, keys) in TRAINS {
+        let mut row = vec![Cell::fixed(balls.into(), 0)];
+        for key in keys {
+            let times = context.times(key)?;
+            let (low, high) = times.latency.quartiles;
+            row.push(Cell::fixed(times.latency.median, 1));
+            row.push(Cell::from(format!("{low:.1}-{high:.1}")));
+        }
+        let whole = context.times(keys[2])?.latency.median;
+        row.push(Cell::fixed(whole / f64::from(balls), 1));
+        rows.push(row);
     }
     Ok(Table {
         name: "train_times",
-        caption: "Forces of a train from free speeds and compliances (Press::solve): one exact pass, in proportion \
-                  to the number of balls"
+        caption: "Latency in ns of a train: its forces from free speeds and impedances (Press::solve, one exact pass), \
+                  with its positions (Train::step), and of a tick of the ball screw without cage that holds it; \
+                  quartiles, and the latency of the tick for each ball"
             .into(),
         columns: [
             "balls",
-            "latency (ns)",
+            "forces",
             "quartiles",
-            "throughput (ns)",
-            "latency a ball (ns)",
+            "forces and positions",
+            "quartiles",
+            "whole tick",
+            "quartiles",
+            "tick, a ball",
         ]
         .map(String::from)
         .to_vec(),
@@ -139,26 +185,26 @@ fn train_times(context: &Context) -> Result<Table, Failure> {
 }
 
 fn picture(context: &Context) -> Result<Figure, Failure> {
-    let mut latency = Vec::new();
-    let mut throughput = Vec::new();
-    for (balls, key) in TRAINS {
-        let times = context.times(key)?;
-        latency.push((f64::from(balls), times.latency.median));
-        throughput.push((f64::from(balls), times.throughput.median));
+    let mut series = Vec::new();
+    for (colour, part) in PARTS.into_iter().enumerate() {
+        let mut points = Vec::new();
+        for (balls, keys) in TRAINS {
+            points.push((
+                f64::from(balls),
+                context.times(keys[colour])?.latency.median,
+            ));
+        }
+        series.push(Series::new("", colour, Mark::Circles, points.clone()));
+        series.push(Series::new(part, colour, Mark::Line, points));
     }
     Ok(Figure {
         name: "train_times_picture",
-        caption: "Time of the forces of a train over its number of balls.".into(),
+        caption: "Latency of a train over its number of balls: in proportion to it, without an iteration.".into(),
         panels: vec![Panel::Chart(Chart {
             title: String::new(),
             x: Axis::linear("balls").between(0.0, 66.0),
-            y: Axis::linear("time of one pass (ns)"),
-            series: vec![
-                Series::new("", 0, Mark::Circles, latency.clone()),
-                Series::new("latency", 0, Mark::Line, latency),
-                Series::new("", 1, Mark::Circles, throughput.clone()),
-                Series::new("throughput", 1, Mark::Line, throughput),
-            ],
+            y: Axis::linear("latency (ns)"),
+            series,
             notes: Vec::new(),
         })],
         columns: 1,

@@ -178,7 +178,7 @@ pub fn blocks(context: &Context) -> Result<Vec<Block>, Failure> {
         Block::Table(summary(context, &grid, &swing)?),
         Block::Figure(picture(context, &grid, &swing)?),
         Block::Figure(maps(&grid)),
-        Block::Figure(forces(&models, if context.quick { 12 } else { 40 })?),
+        Block::Figure(forces(&models, if context.quick { 12 } else { 40 })),
     ])
 }
 
@@ -411,7 +411,7 @@ fn maps(grid: &Grid) -> Figure {
 }
 
 /// Force between two balls with opposite side forces.
-fn forces(models: &Models, cells: usize) -> Result<Figure, Failure> {
+fn forces(models: &Models, cells: usize) -> Figure {
     type Force<'a> = Box<dyn Fn(&[LinearBall; 2]) -> f64 + 'a>;
     let steps = |steps: usize| -> Force<'_> {
         Box::new(move |pair| models.pair_force(pair, study::FRICTION as f32, steps))
@@ -451,7 +451,7 @@ fn forces(models: &Models, cells: usize) -> Result<Figure, Failure> {
         .zip(values)
         .map(|((name, _), values)| map(name, "error (N)", &FORCE_BANDS, values))
         .collect();
-    Ok(Figure {
+    Figure {
         name: "linear_pair_errors",
         caption: "Error of the force between two balls (up to 10 N) whose side forces are opposite, with friction \
                   between the balls: rear ball at the ratio shown, front ball at its negative. Half of the field is \
@@ -461,5 +461,5 @@ fn forces(models: &Models, cells: usize) -> Result<Figure, Failure> {
         panels,
         columns: 3,
         size: (360, 330),
-    })
+    }
 }
