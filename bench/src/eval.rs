@@ -204,6 +204,13 @@ fn answer(line: &str) -> Reply<'_> {
     }
 }
 
+/// In-loop and reference answer to a line; none where it is refused.
+pub fn both(line: &str) -> Option<(serde_json::Value, serde_json::Value)> {
+    let reply = answer(line);
+    let value = |raw: Option<Box<RawValue>>| serde_json::from_str(raw?.get()).ok();
+    Some((value(reply.in_loop)?, value(reply.reference)?))
+}
+
 /// Answers one line; whether it was a good request.
 pub fn accepts(line: &str) -> bool {
     answer(line).error.is_none()

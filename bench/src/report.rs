@@ -12,6 +12,7 @@ mod kernels;
 mod kinematics;
 mod loads;
 mod published;
+mod stability;
 mod statistics;
 mod summary;
 mod trains;
@@ -67,7 +68,7 @@ impl Context {
 type MakeSection = fn(&Context) -> Result<Section, Failure>;
 
 /// Every section, in the order of the report.
-const SECTIONS: [MakeSection; 12] = [
+const SECTIONS: [MakeSection; 13] = [
     summary::section,
     curvature::section,
     hertz::section,
@@ -80,6 +81,7 @@ const SECTIONS: [MakeSection; 12] = [
     published::section,
     kernels::section,
     cortex_m::section,
+    stability::section,
 ];
 
 /// Makes the report.

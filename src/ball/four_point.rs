@@ -519,9 +519,9 @@ impl FourPointBall {
             yaw: motion.yaw + scale * yaw,
         };
 
-        // False for NaN too: what cannot be is not carried into the next tick.
+        // What cannot be is not carried into the next tick.
         let size = motion.speed.abs() + motion.roll.abs() + motion.yaw.abs();
-        if !(size <= LARGEST_MOTION) {
+        if size > LARGEST_MOTION || size.is_nan() {
             return BallState::NOMINAL;
         }
 
