@@ -5,6 +5,8 @@
 //! | [`Press`] | forces between balls from their free speeds, compliances and distances: one exact pass |
 //! | [`Train`] | the balls' positions on a closed track, and a tick that moves them |
 
+mod ball;
+mod pool;
 mod press;
 mod track;
 

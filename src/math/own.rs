@@ -1,151 +1,204 @@
 //! Our own kernels: single precision throughout, made for a core whose division takes 14 cycles, whose
-//! fused multiply-add takes 3 and whose double precision is software.
-
-/// Adding and subtracting it rounds to the nearest integer, and leaves that integer in the low bits.
-const ROUND: f32 = 12_582_912.0; // 1.5 x 2^23
+//! fused multiply-add takes 3, whose constants take 2 to load, and whose double precision is software.
 
 /// Largest angle, rad, that [`sin_cos`] reduces.
 pub const LARGEST_ANGLE: f32 = 8192.0;
 
-/// A cube root as `rough (1 + correction)` with `rough` of eight bits.
+/// A cube root as the sum of two numbers, the first of eight bits.
 struct Root {
-    rough: f32,
-    correction: f32,
+    short: f32,
+    rest: f32,
+}
+
+impl Root {
+    #[inline]
+    fn value(&self) -> f32 {
+        self.short + self.rest
+    }
+
+    /// `short²` is exact (16 bits) and the rest is small, so that only the last sum rounds to a half ulp.
+    #[inline]
+    fn squared(&self) -> f32 {
+        let Self { short, rest } = *self;
+        short * short + rest * ((short + short) + rest)
+    }
 }
 
 /// Cube root; see [`math::cbrt`](super::cbrt).
 #[inline]
 #[must_use]
 pub fn cbrt(x: f32) -> f32 {
-    if is_special(x) {
-        return special(x).0;
-    }
-    let Root { rough, correction } = root(x.abs());
-    (rough + rough * correction).copysign(x)
+    root(x).value()
 }
 
 /// Square of the cube root; see [`math::cbrt_squared`](super::cbrt_squared).
 #[inline]
 #[must_use]
 pub fn cbrt_squared(x: f32) -> f32 {
-    if is_special(x) {
-        return special(x).1;
-    }
-    squared(&root(x.abs()))
+    root(x).squared()
 }
 
 /// Cube root and its square; see [`math::cbrt_and_squared`](super::cbrt_and_squared).
 #[inline]
 #[must_use]
 pub fn cbrt_and_squared(x: f32) -> (f32, f32) {
-    if is_special(x) {
-        return special(x);
-    }
-    let root = root(x.abs());
-    (
-        (root.rough + root.rough * root.correction).copysign(x),
-        squared(&root),
-    )
+    let root = root(x);
+    (root.value(), root.squared())
 }
 
-/// `rough²` is exact (16 bits), so that only the last sum rounds to a half ulp.
-#[inline]
-fn squared(root: &Root) -> f32 {
-    let square = root.rough * root.rough;
-    square + square * (root.correction * (2.0 + root.correction))
-}
-
-/// True for zeros, subnormals, infinities and NaN, of either sign.
-#[inline]
-fn is_special(x: f32) -> bool {
-    const SMALLEST_NORMAL: u32 = 0x0080_0000;
-    const NORMAL_SPAN: u32 = 0x7f00_0000;
-    (x.to_bits() & 0x7fff_ffff).wrapping_sub(SMALLEST_NORMAL) >= NORMAL_SPAN
-}
-
-/// Cube root and its square where [`is_special`] holds.
-#[cold]
-fn special(x: f32) -> (f32, f32) {
-    const SCALE: f32 = 16_777_216.0; // 2^24
-    if x == 0.0 {
-        (x, 0.0)
-    } else if x.is_finite() {
-        // A subnormal, brought to the normal range by a cube of two.
-        let root = root(x.abs() * SCALE);
-        (
-            (root.rough + root.rough * root.correction).copysign(x) * (1.0 / 256.0),
-            squared(&root) * (1.0 / 65_536.0),
-        )
-    } else {
-        (x, x * x)
-    }
-}
-
-/// Cube root of a positive normal number.
-///
-/// 1. `y`, about `x^(-1/3)`: the exponent divided by -3 in integers (error 3.5 %), then one step of
-///    second order on `c = x y³` (error below 2^-12), without a division.
-/// 2. `rough`: `x y²` rounded to eight bits, so that its cube is exact in 24 bits, and exact too is
-///    `x - rough³`, the difference of two neighbours.
-/// 3. With `e = (x - rough³) / rough³`, at most 0.0124: `(1 + e)^(1/3) = 1 + e/3 - e²/9 + 5 e³/81`,
-///    cut off below 1e-9. The correction is small, its roundings smaller still; what is left is the
-///    rounding of the caller's last sum.
+/// Cube root of any number.
 #[inline]
 fn root(x: f32) -> Root {
-    const EXPONENT: u32 = 0x548c_2b4b;
-    let start = f32::from_bits(EXPONENT - x.to_bits() / 3);
-    let closeness = x * start * (start * start);
-    let inverse = start * (1.752_319_7 - closeness * (1.250_952_4 - 0.509_381_83 * closeness));
-    let rough = f32::from_bits(((x * inverse * inverse).to_bits() + 0x8000) & 0xffff_0000);
-
-    let cube = rough * rough * rough;
-    let excess = (x - cube) / cube;
-    Root {
-        rough,
-        correction: excess * (0.333_333_34 - excess * (0.111_111_11 - excess * 0.061_728_396)),
+    // Below 2^-120 a difference in `common_root` would be subnormal, from 2^126 on `3 x` could overflow.
+    const SMALLEST: u32 = 0x0380_0000;
+    const SPAN: u32 = 0x7e80_0000 - SMALLEST;
+    if x.abs().to_bits().wrapping_sub(SMALLEST) < SPAN {
+        common_root(x)
+    } else {
+        let (short, rest) = rare_root(x);
+        Root { short, rest }
     }
+}
+
+/// Cube root of a number of common magnitude, either sign, without a division. With `s` for it:
+///
+/// 1. `t`, about `1/s`: the exponent divided by -3 in integers. `h = |x| t³` then lies between 0.45 and
+///    0.56, the same for every power of eight.
+/// 2. A cubic in `h` makes it `1/(sqrt(3) s)` within 2e-6. Of all seeds `t`, this one's minimax cubic has
+///    the leading coefficient -1: it takes three constants, and the square of the result is the
+///    derivative of Newton's method, `1/(3 s²)`.
+/// 3. `near = 3 x / (3 s²)`, within 4e-6 and a rounding. Its first eight bits are `short`, so that `short³`
+///    is exact in 24 bits, and exact too is `short³ - x`, the difference of two neighbours.
+/// 4. Newton's step from `near` by `near³ - x = (near - short)(near² + near short + short²) + short³ - x`.
+///    It leaves 3e-11; the rest of the root, `near - short` less the step, is below 2^-7 of it and so are
+///    its roundings.
+#[inline(always)]
+fn common_root(x: f32) -> Root {
+    const SEED: u32 = 0x5477_9d9d;
+    const ZERO: f32 = 1.448_389_2;
+    const CENTRE: f32 = 0.351_304_5;
+    const OFFSET: f32 = 0.744_889_5;
+
+    let magnitude = x.abs();
+    let t = f32::from_bits(SEED - magnitude.to_bits() / 3);
+    let h = (magnitude * t) * (t * t);
+    let from_centre = h - CENTRE;
+    let inverse = t * ((ZERO - h) * (from_centre * from_centre + OFFSET));
+    let derivative = inverse * inverse;
+
+    let near = (3.0 * x) * derivative;
+    let short = f32::from_bits(near.to_bits() & 0xffff_0000);
+    let beyond = near - short;
+    let short_squared = short * short;
+    let excess = beyond * (near * (near + short) + short_squared) + (short_squared * short - x);
+    Root {
+        short,
+        rest: beyond - excess * derivative,
+    }
+}
+
+/// Subnormals and the two ends of the range by an exact cube of two; zeros, infinities and NaN are their
+/// own roots: twice themselves, squared or not.
+#[cold]
+#[inline(never)]
+fn rare_root(x: f32) -> (f32, f32) {
+    const TWO_TO_48: f32 = 281_474_976_710_656.0;
+    const TWO_TO_16: f32 = 65_536.0;
+    if x == 0.0 || !x.is_finite() {
+        return (x, x);
+    }
+    let (before, after) = if x.abs() < 1.0 {
+        (TWO_TO_48, 1.0 / TWO_TO_16)
+    } else {
+        (1.0 / TWO_TO_48, TWO_TO_16)
+    };
+    let Root { short, rest } = common_root(x * before);
+    (short * after, rest * after)
 }
 
 /// Sine and cosine; see [`math::sin_cos`](super::sin_cos).
 ///
-/// The nearest multiple of pi/2 is taken away in four parts, the first three of so few bits that their
-/// products and differences are exact: the rest keeps full relative precision, however small it is.
-/// Sine and cosine of the rest, at most pi/4, are the classic minimax polynomials of Cephes; the
-/// multiple's last two bits exchange them and set their signs without a branch.
+/// Polynomials for the rest, at most pi/4, that the nearest multiple of pi/2 leaves: that of Cephes for the
+/// cosine, a minimax one (4e-9 relative) for the sine. The multiple's last two bits exchange them and set
+/// their signs.
 #[inline]
 #[must_use]
 pub fn sin_cos(x: f32) -> (f32, f32) {
+    let (quadrant, rest) = reduced(x);
+    let square = rest * rest;
+    // Horner's scheme of both side by side: each operation then finds its operands ready, which saves a
+    // core without reordering a cycle at every second one.
+    let (cos, sin) = (2.443_066_8e-5 * square, -1.951_829_2e-4 * square);
+    let (cos, sin) = (cos - 1.388_730_1e-3, sin + 8.332_189e-3);
+    let (cos, sin) = (cos * square, sin * square);
+    let (cos, sin) = (cos + 4.166_664_6e-2, sin - 1.666_665_5e-1);
+    let (cos, cube) = (cos * square, rest * square);
+    let (cos, sin) = (cos - 0.5, sin * cube);
+    let (cos, sin) = (cos * square, rest + sin);
+    let cos = cos + 1.0;
+
+    // The quadrants count backwards.
+    let (sin, cos) = if quadrant & 1 == 0 {
+        (sin, cos)
+    } else {
+        (-cos, sin)
+    };
+    if quadrant & 2 == 0 {
+        (sin, cos)
+    } else {
+        (-sin, -cos)
+    }
+}
+
+/// The nearest multiple of pi/2 (the last two bits of its negative) and what it leaves of an angle.
+///
+/// pi/2 is taken away in three parts, the first two of so few bits (5 and 20) that their products and
+/// differences are exact up to the sixteenth multiple: the rest keeps full relative precision, however
+/// small it is.
+#[inline(always)]
+fn reduced(x: f32) -> (u32, f32) {
+    const LARGEST_MULTIPLE: u32 = 16;
+    // Adding it rounds to the nearest integer, and leaves that integer in the low bits, counted from
+    // -LARGEST_MULTIPLE.
+    const TWO_TO_23: f32 = 8_388_608.0;
+    const ROUND: f32 = TWO_TO_23 + LARGEST_MULTIPLE as f32;
+    const PART_1: f32 = 1.5625;
+    const PART_2: f32 = 8.296_325_8e-3;
+    const PART_3: f32 = 9.920_936e-10;
+
+    // Subtracted twice from the same constant, which is loaded once.
+    let shifted = ROUND - x * core::f32::consts::FRAC_2_PI;
+    let count = shifted.to_bits().wrapping_sub(TWO_TO_23.to_bits());
+    // False for NaN too.
+    if count <= 2 * LARGEST_MULTIPLE {
+        let multiple = ROUND - shifted;
+        let rest = ((x - multiple * PART_1) - multiple * PART_2) - multiple * PART_3;
+        (count, rest)
+    } else {
+        reduced_from_afar(x)
+    }
+}
+
+/// The same for angles of more than four turns: four parts, the first of eight bits, and no full relative
+/// precision next to the zeros.
+#[cold]
+#[inline(never)]
+fn reduced_from_afar(x: f32) -> (u32, f32) {
+    const ROUND: f32 = 12_582_912.0; // 1.5 x 2^23
     const PART_1: f32 = 1.570_312_5;
     const PART_2: f32 = 4.837_512_969_970_703e-4;
     const PART_3: f32 = 7.549533620476723e-08;
     const PART_4: f32 = 2.5633440682570896e-12;
 
-    if x.abs() > LARGEST_ANGLE || x.is_nan() {
-        return if x.is_finite() {
-            (0.0, 1.0)
-        } else {
-            (f32::NAN, f32::NAN)
-        };
+    if x.abs() <= LARGEST_ANGLE {
+        let shifted = ROUND - x * core::f32::consts::FRAC_2_PI;
+        let multiple = ROUND - shifted;
+        let rest =
+            ((x - multiple * PART_1) - multiple * PART_2) - multiple * PART_3 - multiple * PART_4;
+        (shifted.to_bits(), rest)
+    } else if x.is_finite() {
+        (0, 0.0)
+    } else {
+        (0, f32::NAN)
     }
-    let shifted = x * core::f32::consts::FRAC_2_PI + ROUND;
-    let multiple = shifted - ROUND;
-    let quadrant = shifted.to_bits();
-    let rest =
-        ((x - multiple * PART_1) - multiple * PART_2) - multiple * PART_3 - multiple * PART_4;
-
-    let square = rest * rest;
-    let sin = rest
-        + rest * (square * (-1.666_665_5e-1 + square * (8.332_161e-3 - square * 1.951_529_6e-4)));
-    let cos = (1.0 - 0.5 * square)
-        + (square * square)
-            * (4.166_664_6e-2 + square * (-1.388_731_6e-3 + square * 2.443_315_7e-5));
-
-    let exchange = quadrant & 1 != 0;
-    let (for_sin, for_cos) = if exchange { (cos, sin) } else { (sin, cos) };
-    let sin_sign = (quadrant & 2) << 30;
-    let cos_sign = (quadrant.wrapping_add(1) & 2) << 30;
-    (
-        f32::from_bits(for_sin.to_bits() ^ sin_sign),
-        f32::from_bits(for_cos.to_bits() ^ cos_sign),
-    )
 }

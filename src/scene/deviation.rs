@@ -2,10 +2,14 @@
 
 use crate::error::{Error, in_range};
 
-/// Samples of a period; the one after the last repeats the first.
+/// Samples of a period.
 const SAMPLES: usize = 64;
 
-/// Largest sample in units of the table: two of them and a fraction of 15 bits stay within 31 bits.
+/// Bits of a phase that count: 6 for the sample, 14 for the fraction of the way to the next one.
+pub(super) const PHASE_BITS: u32 = 20;
+const FRACTION_BITS: u32 = 14;
+
+/// Largest sample in units of the table: two of them stay within 16 bits.
 const LARGEST: f32 = 16383.0;
 
 /// Largest deviation of a contact angle, rad.
@@ -48,8 +52,9 @@ pub struct Harmonic {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct DeviationMap {
-    samples: [i16; SAMPLES + 1],
-    /// Angle of one unit and one fraction of 2^-15, rad.
+    /// A sample in the upper half, its difference to the next one in the lower half.
+    samples: [u32; SAMPLES],
+    /// Angle of one unit of the table and one of the fraction, rad.
     unit: f32,
     turns: u16,
 }
@@ -64,7 +69,7 @@ impl Default for DeviationMap {
 impl DeviationMap {
     /// No deviation.
     pub const NONE: Self = Self {
-        samples: [0; SAMPLES + 1],
+        samples: [0; SAMPLES],
         unit: 0.0,
         turns: 1,
     };
@@ -134,20 +139,28 @@ impl DeviationMap {
             sample += 1;
         }
         let scale = LARGEST / largest;
-        let mut samples = [0; SAMPLES + 1];
+        let mut rounded = [0_i16; SAMPLES];
         let mut sample = 0;
-        while sample <= SAMPLES {
-            let scaled = deviations[sample % SAMPLES] * scale;
-            samples[sample] = (if scaled < 0.0 {
+        while sample < SAMPLES {
+            let scaled = deviations[sample] * scale;
+            rounded[sample] = (if scaled < 0.0 {
                 scaled - 0.5
             } else {
                 scaled + 0.5
             }) as i16;
             sample += 1;
         }
+        let mut samples = [0; SAMPLES];
+        sample = 0;
+        while sample < SAMPLES {
+            let here = rounded[sample];
+            let rise = rounded[(sample + 1) % SAMPLES] - here;
+            samples[sample] = ((here as u16 as u32) << 16) | rise as u16 as u32;
+            sample += 1;
+        }
         Ok(Self {
             samples,
-            unit: largest / (LARGEST * 32768.0),
+            unit: largest / (LARGEST * (1_u32 << FRACTION_BITS) as f32),
             turns,
         })
     }
@@ -158,20 +171,42 @@ impl DeviationMap {
         self.turns
     }
 
+    /// Its largest sample, rad, where that is not beyond `largest`.
+    pub(super) fn checked(&self, field: &'static str, largest: f32) -> Result<f32, Error> {
+        // A map keeps its largest sample within a rounding.
+        let margin = 1.0 + 4.0 * f32::EPSILON;
+        in_range(
+            field,
+            self.unit * (LARGEST * 32768.0),
+            0.0,
+            largest * margin,
+        )
+    }
+
     /// Deviation at a phase of the period in units of 2^-32, rad: linear between samples, which is within
     /// `(pi order/64)²/2` of a wave's amplitude, 1.2e-3 for the first order.
     #[inline]
     #[must_use]
     pub fn at(&self, phase: u32) -> f32 {
-        let index = (phase >> 26) as usize;
-        let fraction = ((phase >> 11) & 0x7fff) as i32;
-        match (self.samples.get(index), self.samples.get(index + 1)) {
-            (Some(&low), Some(&high)) => {
-                let (low, high) = (i32::from(low), i32::from(high));
-                ((low << 15) + (high - low) * fraction) as f32 * self.unit
-            }
-            _ => 0.0,
-        }
+        self.units(phase >> (32 - PHASE_BITS)) as f32 * self.unit
+    }
+
+    /// The same at a phase in units of 2^-20 of the period, as a multiple of [`DeviationMap::unit`]; full
+    /// periods do not count.
+    #[inline(always)]
+    pub(super) fn units(&self, phase: u32) -> i32 {
+        let index = (phase >> FRACTION_BITS) as usize % SAMPLES;
+        let fraction = (phase & ((1 << FRACTION_BITS) - 1)) as i32;
+        self.samples.get(index).map_or(0, |&sample| {
+            let rise = i32::from(sample as u16 as i16);
+            ((sample & 0xffff_0000) as i32 >> (16 - FRACTION_BITS)) + rise * fraction
+        })
+    }
+
+    /// What multiples of a unit stand for, rad.
+    #[inline(always)]
+    pub(super) const fn unit(&self) -> f32 {
+        self.unit
     }
 }
 

@@ -1,14 +1,24 @@
 //! Where on the track balls carry load, and what they find there.
 
-use super::deviation::DeviationMap;
+use super::deviation::{DeviationMap, PHASE_BITS};
 use crate::ball::LoadShare;
 use crate::error::{Error, in_range};
 
 /// Units of length on the track.
 const UNITS: f32 = 4_294_967_296.0;
 
-/// Fraction bits of a ratio of phases.
+/// Fraction bits of the ratio of the load table's entries.
 const FRACTION_BITS: u32 = 16;
+
+/// Longest track, in turns or wavelengths of the maps: ratios of phases fit into 32 bits.
+pub(super) const LONGEST_TRACK: f32 = 1000.0;
+
+/// Longest return over the loaded part: positions in the load table fit into 32 bits.
+pub(super) const LONGEST_RETURN: f32 = 250.0;
+
+/// Largest part of a map's period by which the passing groove may advance in a tick: its sense would be
+/// lost beyond.
+pub(super) const LARGEST_ADVANCE: f32 = 0.499;
 
 /// Deviation maps of both grooves and the shares of the load, in integers along the track.
 ///
@@ -30,9 +40,9 @@ pub(super) struct LoadedZone {
 
 /// What a loaded ball finds.
 pub(super) struct Place {
-    /// Deviation of the groove that passes by, rad.
+    /// Deviation of the groove that passes by, as a multiple of the first of [`LoadedZone::units`].
     pub(super) passing: f32,
-    /// Deviation of the groove of the body in which balls recirculate, rad.
+    /// Deviation of the groove of the body in which balls recirculate, as a multiple of the second.
     pub(super) own: f32,
     pub(super) share: &'static LoadShare,
 }
@@ -49,12 +59,14 @@ impl LoadedZone {
         in_range("load_shares", shares.len() as f32, 1.0, 256.0)?;
         let ratio = |map: &DeviationMap| {
             let ratio = length / f32::from(map.turns());
-            (ratio * (1_u32 << FRACTION_BITS) as f32) as u32
+            (ratio * (1_u32 << PHASE_BITS) as f32) as u32
         };
+        let entries =
+            (shares.len() as f32 * length / loaded * (1_u32 << FRACTION_BITS) as f32) as u32;
         Ok(Self {
             last: (loaded / length * UNITS) as u32,
-            entries: (shares.len() as f32 * length / loaded * (1_u32 << FRACTION_BITS) as f32)
-                as u32,
+            // What rounding may add would lead beyond the last entry.
+            entries: entries - (entries >> 21) - 1,
             passing_ratio: ratio(passing),
             own_ratio: ratio(own),
             passing,
@@ -69,18 +81,22 @@ impl LoadedZone {
         if position > self.last {
             return None;
         }
-        let scaled = |ratio: u32| (u64::from(position) * u64::from(ratio)) >> FRACTION_BITS;
-        let entry = (scaled(self.entries) >> 32) as usize;
-        let share = match self.shares.get(entry) {
-            Some(share) => share,
-            None => self.shares.last()?,
-        };
-        let passing = (scaled(self.passing_ratio) as u32).wrapping_add(phase);
+        let scaled = |ratio: u32| ((u64::from(position) * u64::from(ratio)) >> 32) as u32;
+        let share = self
+            .shares
+            .get((scaled(self.entries) >> FRACTION_BITS) as usize)?;
+        let passing = scaled(self.passing_ratio).wrapping_add(phase >> (32 - PHASE_BITS));
         Some(Place {
-            passing: self.passing.at(passing),
-            own: self.own.at(scaled(self.own_ratio) as u32),
+            passing: self.passing.units(passing) as f32,
+            own: self.own.units(scaled(self.own_ratio)) as f32,
             share,
         })
+    }
+
+    /// Units of the deviations of the passing groove and of the own one, rad.
+    #[inline(always)]
+    pub(super) const fn units(&self) -> (f32, f32) {
+        (self.passing.unit(), self.own.unit())
     }
 
     /// Turns in a period of the passing groove.

@@ -1,5 +1,7 @@
 //! Where the balls of a train are, and how they get on.
 
+use super::ball::Ball;
+use super::pool::{Place, Pressing};
 use super::press::Press;
 use crate::error::{Error, in_range};
 
@@ -40,9 +42,6 @@ const ROUNDING: u32 = 1 << 10;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Train<const N: usize> {
-    /// Relative to the origin.
-    position: [u32; N],
-    fraction: [u8; N],
     origin: u32,
     origin_rest: f32,
     press: Press<N>,
@@ -59,19 +58,6 @@ pub struct BallContact {
     pub position: u32,
     /// Force between the two, in the unit of speed times impedance.
     pub force: f32,
-}
-
-/// What the contacts between balls add up to in a tick.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Pressing {
-    /// Pairs that press on each other.
-    pub(crate) contacts: u8,
-    /// Largest force.
-    pub(crate) largest: f32,
-    /// Sum of the forces.
-    pub(crate) force: f32,
-    /// Sum of the forces times the speeds of the balls behind.
-    pub(crate) power: f32,
 }
 
 /// Length of a closed track and of what a ball takes of it, checked for a number of balls.
@@ -139,13 +125,15 @@ impl<const N: usize> Train<N> {
         )
     }
 
-    const fn at(position: [u32; N], track: Track) -> Self {
+    fn at(position: [u32; N], track: Track) -> Self {
+        let mut press = Press::new();
+        for (ball, place) in press.balls.iter_mut().zip(position) {
+            ball.position = place;
+        }
         Self {
-            position,
-            fraction: [0; N],
             origin: 0,
             origin_rest: 0.0,
-            press: Press::new(),
+            press,
             track,
         }
     }
@@ -155,15 +143,16 @@ impl<const N: usize> Train<N> {
     #[inline]
     pub fn positions(&self) -> impl Iterator<Item = u32> + '_ {
         let origin = self.origin;
-        self.position
+        self.press
+            .balls
             .iter()
-            .map(move |position| position.wrapping_add(origin))
+            .map(move |ball| ball.position.wrapping_add(origin))
     }
 
     /// Distance in front of each ball, m: zero in contact, up to a few units below by rounding.
     pub fn gaps(&self) -> impl Iterator<Item = f32> + '_ {
         let metre = 1.0 / self.track.units;
-        distances(&self.position, self.track.pitch).map(move |distance| {
+        self.distances().map(move |distance| {
             if distance > u32::MAX - ROUNDING {
                 (distance as i32) as f32 * metre
             } else {
@@ -203,7 +192,7 @@ impl<const N: usize> Train<N> {
     /// Joins of clusters that the last tick needed, at most `N - 1`.
     #[inline]
     #[must_use]
-    pub const fn joins(&self) -> usize {
+    pub fn joins(&self) -> usize {
         self.press.joins()
     }
 
@@ -220,8 +209,10 @@ impl<const N: usize> Train<N> {
     /// the track as that. Speeds and impedances as in [`Press::solve`], whose answer is returned: where it
     /// is false, all balls move with the nominal speed and press on none.
     pub fn step(&mut self, free: &[f32; N], impedance: &[f32; N], travel: f32) -> bool {
-        let sound = self.press.set(free, impedance);
-        self.run(travel);
+        let travel = self.counted(travel);
+        let mut room = self.room(travel);
+        let sound = self.press.pool(free, impedance, |_, ball| room.next(ball));
+        self.advance(travel);
         sound
     }
 
@@ -229,45 +220,32 @@ impl<const N: usize> Train<N> {
     #[inline(always)]
     pub(crate) fn balls(&mut self) -> impl Iterator<Item = (u32, &mut f32, &mut f32)> {
         let origin = self.origin;
-        self.position
-            .iter()
-            .zip(&mut self.press.balls)
-            .map(move |(position, ball)| {
-                (
-                    position.wrapping_add(origin),
-                    &mut ball.speed,
-                    &mut ball.impedance,
-                )
-            })
+        self.press.balls.iter_mut().map(move |ball| {
+            (
+                ball.position.wrapping_add(origin),
+                &mut ball.speed,
+                &mut ball.impedance,
+            )
+        })
     }
 
     /// [`Train::step`] with the speeds and impedances that stand in the train.
     #[inline(always)]
     pub(crate) fn run(&mut self, travel: f32) -> Pressing {
         let travel = self.counted(travel);
-        let way = if travel < 0.0 { -travel } else { travel };
-        let per_unit = if way > 1e-20 { 1.0 / way } else { 1e20 };
+        let mut room = self.room(travel);
+        self.press.pool_in_place(|ball| room.next(ball));
+        self.advance(travel)
+    }
 
-        for (ball, distance) in self
-            .press
-            .balls
-            .iter_mut()
-            .zip(distances(&self.position, self.track.pitch))
-        {
-            ball.room = if distance > u32::MAX - ROUNDING {
-                0.0
-            } else {
-                distance as f32 * per_unit
-            };
+    #[inline(always)]
+    fn room(&self, travel: f32) -> Room {
+        let way = travel.abs();
+        Room {
+            ahead: self.press.balls.first().map_or(0, |ball| ball.position),
+            pitch: self.track.pitch,
+            per_unit: if way > 1e-20 { 1.0 / way } else { 1e20 },
         }
-        self.press.pool();
-        let pressing = self.advance(way);
-
-        let travel = travel + self.origin_rest;
-        let whole = travel as i32;
-        self.origin = self.origin.wrapping_add_signed(whole);
-        self.origin_rest = travel - whole as f32;
-        pressing
     }
 
     /// Travel in units.
@@ -286,62 +264,100 @@ impl<const N: usize> Train<N> {
         }
     }
 
-    /// Moves the balls by their speeds' deviations from the nominal one over a way of `way` units, each
-    /// after the one in front of it, from a ball that presses on none.
+    /// Finds speeds and forces and moves the balls.
     #[inline(always)]
-    fn advance(&mut self, way: f32) -> Pressing {
-        let mut pressing = Pressing::default();
-        let scale = way * FRACTIONS;
-        let mut index = self.press.foremost();
-        // Where the ball in front was, how far it moves, and what is left of a unit there.
-        let mut ahead: Option<(u32, i32, u8)> = None;
-        for _ in 0..N {
-            if let (Some(position), Some(fraction), Some(ball)) = (
-                self.position.get_mut(index),
-                self.fraction.get_mut(index),
-                self.press.balls.get_mut(index),
-            ) {
-                if ball.force > 0.0 {
-                    pressing.contacts += 1;
-                    pressing.force += ball.force;
-                    pressing.power += ball.force * ball.speed;
-                    if ball.force > pressing.largest {
-                        pressing.largest = ball.force;
-                    }
-                } else {
-                    // Rounding may leave a little less than nothing.
-                    ball.force = 0.0;
-                }
-                let moves = (ball.speed * scale) as i32;
-                let moves = moves.wrapping_add(i32::from(*fraction));
-                let mut whole = moves >> FRACTION_BITS;
-                let mut rest = (moves & 15) as u8;
-                if let Some((place, step, left)) = ahead {
-                    let distance = place.wrapping_sub(*position).wrapping_sub(self.track.pitch);
-                    let reach = step.wrapping_add_unsigned(distance);
-                    let near = distance.wrapping_add(ROUNDING) < 1 << 28;
-                    if ball.force > 0.0 || (near && whole > reach) {
-                        whole = reach;
-                        rest = left;
-                    }
-                }
-                ahead = Some((*position, whole, rest));
-                *position = position.wrapping_add_signed(whole);
-                *fraction = rest;
-            }
-            index = if index == 0 { N - 1 } else { index - 1 };
-        }
+    fn advance(&mut self, travel: f32) -> Pressing {
+        let way = if travel < 0.0 { -travel } else { travel };
+        let pressing = self.press.settle(&mut Mover {
+            scale: way * FRACTIONS,
+            pitch: self.track.pitch,
+            limit: 0,
+        });
+        let travel = travel + self.origin_rest;
+        let whole = travel as i32;
+        self.origin = self.origin.wrapping_add_signed(whole);
+        self.origin_rest = travel - whole as f32;
         pressing
+    }
+
+    /// Distances in front of the balls, in units.
+    #[inline]
+    fn distances(&self) -> impl Iterator<Item = u32> + '_ {
+        let pitch = self.track.pitch;
+        let first = self.press.balls.first().map_or(0, |ball| ball.position);
+        let ahead = self.press.balls.iter().skip(1).map(|ball| ball.position);
+        self.press
+            .balls
+            .iter()
+            .zip(ahead.chain(core::iter::once(first)))
+            .map(move |(ball, ahead)| ahead.wrapping_sub(ball.position).wrapping_sub(pitch))
     }
 }
 
-/// Distances in front of the balls, in units.
-#[inline]
-fn distances<const N: usize>(position: &[u32; N], pitch: u32) -> impl Iterator<Item = u32> + '_ {
-    let first = position.first().copied().unwrap_or(0);
-    let ahead = position.iter().skip(1).copied();
-    position
-        .iter()
-        .zip(ahead.chain(core::iter::once(first)))
-        .map(move |(&position, ahead)| ahead.wrapping_sub(position).wrapping_sub(pitch))
+/// Speeds at which balls may run up to the ones in front, from the last ball on.
+struct Room {
+    /// Where the ball in front is.
+    ahead: u32,
+    pitch: u32,
+    /// One over the way of the nominal speed in this tick, in units.
+    per_unit: f32,
+}
+
+impl Room {
+    #[inline(always)]
+    fn next(&mut self, ball: &Ball) -> f32 {
+        let distance = self
+            .ahead
+            .wrapping_sub(ball.position)
+            .wrapping_sub(self.pitch);
+        self.ahead = ball.position;
+        without_rounding(distance) as f32 * self.per_unit
+    }
+}
+
+/// Moves balls by their speeds' deviations from the nominal one, each after the one in front of it.
+struct Mover {
+    /// Sixteenths of a unit that the nominal speed moves a ball in this tick.
+    scale: f32,
+    pitch: u32,
+    /// Where the next ball touches the one in front.
+    limit: u32,
+}
+
+impl Place for Mover {
+    #[inline(always)]
+    fn start(&mut self, ball: &Ball) {
+        // Nothing is near in front of it.
+        self.limit = ball.position.wrapping_add(1 << 30);
+    }
+
+    #[inline(always)]
+    fn free(&mut self, ball: &mut Ball) {
+        let moves = (ball.speed * self.scale) as i32;
+        let moves = moves.wrapping_add(i32::from(ball.fraction));
+        let mut place = ball.position.wrapping_add_signed(moves >> FRACTION_BITS);
+        // Clusters do not run into each other, but rounding may leave that much.
+        if self.limit.wrapping_sub(place) > u32::MAX - ROUNDING {
+            place = self.limit;
+        }
+        ball.position = place;
+        ball.fraction = (moves & 15) as u8;
+        self.limit = place.wrapping_sub(self.pitch);
+    }
+
+    #[inline(always)]
+    fn touching(&mut self, ball: &mut Ball) {
+        ball.position = self.limit;
+        self.limit = self.limit.wrapping_sub(self.pitch);
+    }
+}
+
+/// A distance in units, none where it is below zero by rounding.
+#[inline(always)]
+const fn without_rounding(distance: u32) -> u32 {
+    if distance > u32::MAX - ROUNDING {
+        0
+    } else {
+        distance
+    }
 }

@@ -1,9 +1,12 @@
 //! The program as its users start it.
 
 mod eval;
+mod loads;
 mod report;
 mod simulate;
+mod simulate_trains;
 mod target;
+mod trains;
 
 use std::io::Write;
 use std::path::Path;

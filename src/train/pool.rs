@@ -1,0 +1,370 @@
+//! Pooling of adjacent violators: which balls of a row or a ring move as one.
+
+use super::ball::Ball;
+
+/// What rounding may leave of a cluster's pushes over the largest force before it is taken out.
+const ROUNDING: f32 = 1e-6;
+
+/// Balls that move as one: they touch, or close their last distance within the tick.
+///
+/// Speeds count from each ball's free speed, so that only what drives the balls together comes in, and
+/// not the size of the speeds.
+#[derive(Clone, Copy)]
+struct Cluster {
+    /// Sum of the impedances times how much slower than the front ball each ball has to grow.
+    sum: f32,
+    /// Sum of the impedances.
+    weight: f32,
+    /// Sum of the slacks between its balls.
+    span: f32,
+}
+
+impl Cluster {
+    const NONE: Self = Self {
+        sum: 0.0,
+        weight: 1.0,
+        span: 0.0,
+    };
+
+    /// Whether a single ball behind runs into the cluster; strict, so that equal speeds make no contact.
+    #[inline(always)]
+    fn reached(&self, slack: f32) -> bool {
+        -(slack + self.span) * self.weight > self.sum
+    }
+
+    /// `self` and the cluster `ahead` as one, where `self` runs into it; as strict.
+    #[inline(always)]
+    fn joined(&self, slack: f32, ahead: &Self) -> Option<Self> {
+        let reach = slack + ahead.span;
+        let sum = self.sum - reach * self.weight;
+        if sum * ahead.weight > ahead.sum * self.weight {
+            Some(Self {
+                sum: sum + ahead.sum,
+                weight: self.weight + ahead.weight,
+                span: self.span + reach,
+            })
+        } else {
+            None
+        }
+    }
+}
+
+/// What the contacts between balls add up to in a tick.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Pressing {
+    /// Pairs that press on each other.
+    pub(crate) contacts: u8,
+    /// Largest force.
+    pub(crate) largest: f32,
+    /// Sum of the forces.
+    pub(crate) force: f32,
+    /// Sum of the forces times the speeds of the balls behind.
+    pub(crate) power: f32,
+}
+
+/// What happens to a ball once its speed is known, from the foremost one backwards.
+pub(super) trait Place {
+    /// The foremost ball, before it moves.
+    fn start(&mut self, ball: &Ball);
+    /// A ball with nothing to press on.
+    fn free(&mut self, ball: &mut Ball);
+    /// A ball that presses on the last one.
+    fn touching(&mut self, ball: &mut Ball);
+}
+
+/// Nothing more.
+impl Place for () {
+    #[inline(always)]
+    fn start(&mut self, _: &Ball) {}
+    #[inline(always)]
+    fn free(&mut self, _: &mut Ball) {}
+    #[inline(always)]
+    fn touching(&mut self, _: &mut Ball) {}
+}
+
+/// Joins balls to clusters and leaves these in the places of their front and rear balls; gives the index of
+/// a ball that presses on none.
+///
+/// `slack` gives the slack in front of each ball, from the last one to the first. Joins may come in any order:
+/// none of them opens another one's contact.
+#[inline(always)]
+pub(super) fn pool<const N: usize>(
+    balls: &mut [Ball; N],
+    mut slack: impl FnMut(usize, &mut Ball) -> f32,
+) -> usize {
+    // The front ball of what grows backwards: a single ball, or a cluster with these sums.
+    let mut front = N;
+    let mut cluster = Cluster::NONE;
+    for index in (0..N).rev() {
+        let Some(ball) = balls.get_mut(index) else {
+            break;
+        };
+        let slack = slack(index, ball);
+        let impedance = ball.impedance;
+        ball.slack = slack;
+        ball.extent = 0;
+        if front <= index + 1 {
+            // A single ball keeps its own speed; on a ring nothing is ahead of the last one yet.
+            if !(slack < 0.0) || front == N {
+                front = index;
+                continue;
+            }
+            cluster = Cluster {
+                sum: 0.0,
+                weight: balls.get(front).map_or(1.0, |ball| ball.impedance),
+                span: 0.0,
+            };
+        } else if !cluster.reached(slack) {
+            // What the cluster runs into slows it down, and the ball may run into it after all.
+            (cluster, front) = absorbed(balls, front, &cluster);
+            if !cluster.reached(slack) {
+                store(balls, index + 1, front, front - (index + 1), &cluster);
+                front = index;
+                continue;
+            }
+        }
+        let reach = slack + cluster.span;
+        cluster.sum -= reach * impedance;
+        cluster.weight += impedance;
+        cluster.span = reach;
+    }
+    if front > 0 {
+        (cluster, front) = absorbed(balls, front, &cluster);
+        store(balls, 0, front, front, &cluster);
+    }
+    close(balls)
+}
+
+/// A cluster with what stands in front of it as far as it runs into that, and its front ball.
+#[inline(always)]
+fn absorbed<const N: usize>(
+    balls: &[Ball; N],
+    mut front: usize,
+    cluster: &Cluster,
+) -> (Cluster, usize) {
+    let mut cluster = *cluster;
+    while front < N - 1 {
+        let slack = balls.get(front).map_or(0.0, |ball| ball.slack);
+        let next = front + 1 + extent(balls, front + 1);
+        let Some(longer) = cluster.joined(slack, &stored(balls, next)) else {
+            break;
+        };
+        cluster = longer;
+        front = next;
+    }
+    (cluster, front)
+}
+
+/// On a ring the last cluster has the first one in front. Gives the index of a ball that presses on none.
+#[inline(always)]
+fn close<const N: usize>(balls: &mut [Ball; N]) -> usize {
+    let mut front = N - 1;
+    let mut ring = stored(balls, front);
+    let mut count = extent(balls, front);
+    let mut rear = front.wrapping_sub(count);
+    // At most one cluster more or less with each turn.
+    loop {
+        let slack = balls.get(front).map_or(0.0, |ball| ball.slack);
+        let next = if front == N - 1 { 0 } else { front + 1 };
+        if next == rear {
+            break;
+        }
+        let beyond = extent(balls, next);
+        if let Some(joined) = ring.joined(slack, &stored(balls, next + beyond)) {
+            ring = joined;
+            front = next + beyond;
+            count += 1 + beyond;
+            continue;
+        }
+        if front == N - 1 {
+            break;
+        }
+        let Some(behind) = balls.get(rear.wrapping_sub(1)) else {
+            break;
+        };
+        let Some(joined) = stored(balls, rear.wrapping_sub(1)).joined(behind.slack, &ring) else {
+            break;
+        };
+        let beyond = 1 + usize::from(behind.extent);
+        ring = joined;
+        rear = rear.wrapping_sub(beyond);
+        count += beyond;
+    }
+    if front != N - 1 {
+        store(balls, rear, front, count, &ring);
+    }
+    front
+}
+
+/// Balls of a cluster besides the one at its rear or front.
+#[inline(always)]
+fn extent<const N: usize>(balls: &[Ball; N], end: usize) -> usize {
+    balls.get(end).map_or(0, |ball| usize::from(ball.extent))
+}
+
+/// The cluster with this front ball.
+#[inline(always)]
+fn stored<const N: usize>(balls: &[Ball; N], front: usize) -> Cluster {
+    let Some(ball) = balls.get(front) else {
+        return Cluster::NONE;
+    };
+    if ball.extent == 0 {
+        return Cluster {
+            sum: 0.0,
+            weight: ball.impedance,
+            span: 0.0,
+        };
+    }
+    let rear = front.wrapping_sub(usize::from(ball.extent));
+    Cluster {
+        sum: ball.sum,
+        weight: ball.force,
+        span: balls.get(rear).map_or(0.0, |ball| ball.force),
+    }
+}
+
+/// Leaves a cluster in the places of its two ends, where forces will stand.
+#[inline(always)]
+fn store<const N: usize>(
+    balls: &mut [Ball; N],
+    rear: usize,
+    front: usize,
+    extent: usize,
+    cluster: &Cluster,
+) {
+    if let Some(ball) = balls.get_mut(rear) {
+        ball.force = cluster.span;
+        ball.extent = extent as u8;
+    }
+    if let Some(ball) = balls.get_mut(front) {
+        ball.force = cluster.weight;
+        ball.sum = cluster.sum;
+        ball.extent = extent as u8;
+    }
+}
+
+/// Speeds and forces of all balls, from the foremost one backwards.
+///
+/// From the front of a cluster, which presses on none, each ball is slower than its own free speed by a slack less
+/// than the one in front of it, and passes on what it is pushed by beyond what it takes.
+#[inline(always)]
+pub(super) fn settle<const N: usize>(
+    balls: &mut [Ball; N],
+    foremost: usize,
+    place: &mut impl Place,
+) -> Pressing {
+    if let Some(ball) = balls.get(foremost) {
+        place.start(ball);
+    }
+    let Some((low, high)) = balls.split_at_mut_checked(foremost + 1) else {
+        return Pressing::default();
+    };
+    let mut pressing = Pressing::default();
+    // Of forces that are not negative, the larger one has the larger bits.
+    let mut largest = 0_i32;
+    let mut unbalanced = 0.0;
+    let (mut left, mut change, mut force) = (0_u8, 0.0, 0.0);
+    for segment in [low, high] {
+        for ball in segment.iter_mut().rev() {
+            if left == 0 {
+                ball_in_front(ball, &mut left, &mut change, &mut force);
+                place.free(ball);
+            } else {
+                left -= 1;
+                change += ball.slack;
+                let speed = ball.speed + change;
+                // Rounding may leave a little less than nothing.
+                let bits = force_bits(force);
+                ball.speed = speed;
+                ball.force = f32::from_bits(bits as u32);
+                largest = if bits > largest { bits } else { largest };
+                pressing.contacts += (bits.wrapping_neg() as u32 >> 31) as u8;
+                pressing.force += force;
+                pressing.power += force * speed;
+                force += change * ball.impedance;
+                place.touching(ball);
+                if left == 0 {
+                    // Nothing pushes the last one.
+                    ball.sum = force;
+                    let rest = force.abs();
+                    unbalanced = if rest > unbalanced { rest } else { unbalanced };
+                }
+            }
+        }
+    }
+    pressing.largest = f32::from_bits(largest as u32);
+    // What rounding leaves of the sum of a cluster's pushes is small, but a stiff ball turns it into a
+    // large force.
+    if unbalanced > ROUNDING * pressing.largest {
+        balance(balls, foremost, &mut pressing);
+    }
+    pressing
+}
+
+#[inline(always)]
+fn ball_in_front(ball: &mut Ball, left: &mut u8, change: &mut f32, force: &mut f32) {
+    if ball.extent > 0 {
+        *left = ball.extent;
+        *change = ball.sum / ball.force;
+        *force = *change * ball.impedance;
+        ball.speed += *change;
+    }
+    ball.force = 0.0;
+}
+
+/// The bits of a force, or of zero where it is negative.
+#[inline(always)]
+fn force_bits(force: f32) -> i32 {
+    let bits = force.to_bits() as i32;
+    bits & !(bits >> 31)
+}
+
+/// Takes what is left of the pushes of each cluster out of its forces.
+#[cold]
+#[inline(never)]
+fn balance<const N: usize>(balls: &mut [Ball; N], foremost: usize, pressing: &mut Pressing) {
+    *pressing = Pressing::default();
+    let mut front = foremost;
+    let mut balls_left = N;
+    while balls_left > 0 {
+        let count = extent(balls, front) + 1;
+        balls_left = balls_left.saturating_sub(count);
+        let mut index = front;
+        let (mut weight, mut rest) = (0.0, 0.0);
+        for _ in 0..count {
+            if let Some(ball) = balls.get(index) {
+                weight += ball.impedance;
+                rest = ball.sum;
+            }
+            index = behind::<N>(index);
+        }
+        if count > 1 {
+            let rest = rest / weight;
+            let mut correction = 0.0;
+            index = front;
+            for ball in 0..count {
+                if let Some(ball_here) = balls.get_mut(index) {
+                    if ball > 0 {
+                        let force = f32::from_bits(force_bits(ball_here.force - correction) as u32);
+                        ball_here.force = force;
+                        pressing.force += force;
+                        pressing.power += force * ball_here.speed;
+                        pressing.contacts += u8::from(force > 0.0);
+                        if force > pressing.largest {
+                            pressing.largest = force;
+                        }
+                    }
+                    correction += rest * ball_here.impedance;
+                }
+                index = behind::<N>(index);
+            }
+        }
+        front = index;
+    }
+}
+
+/// The ball behind.
+#[inline(always)]
+const fn behind<const N: usize>(index: usize) -> usize {
+    if index == 0 { N - 1 } else { index - 1 }
+}
