@@ -83,9 +83,9 @@ pub fn finish(passed: bool) -> ! {
 const PAINT: u32 = 0xA5A5_5A5A;
 
 /// How much of it is painted, in words.
-const PAINTED: usize = 1024;
+const PAINTED: usize = 2048;
 
-/// Bytes of stack that some work takes below its caller, at most; 4096 where it takes all that is
+/// Bytes of stack that some work takes below its caller, at most; 8192 where it takes all that is
 /// painted.
 #[inline(never)]
 pub fn stack_used(work: impl FnOnce()) -> u32 {
