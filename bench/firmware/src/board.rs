@@ -83,9 +83,9 @@ pub fn finish(passed: bool) -> ! {
 const PAINT: u32 = 0xA5A5_5A5A;
 
 /// How much of it is painted, in words.
-const PAINTED: usize = 1024;
+const PAINTED: usize = 2048;
 
-/// Bytes of stack that some work takes below its caller, at most; 4096 where it takes all that is
+/// Bytes of stack that some work takes below its caller, at most; 8192 where it takes all that is
 /// painted.
 #[inline(never)]
 pub fn stack_used(work: impl FnOnce()) -> u32 {
@@ -150,36 +150,15 @@ macro_rules! image {
         fn main() -> ! {
             let mut console = $crate::board::Console::open();
             let passed = true;
-            $(let passed = passed & {
-                static MODEL: $crate::board::Place<<$scene as $crate::scenes::Run>::Model> =
-                    $crate::board::Place::new();
-                MODEL.take().is_some_and(|place| $crate::board::run::<$scene>(&mut console, place))
-            };)*
+            $(
+                let place = cortex_m::singleton!(
+                    : core::mem::MaybeUninit<<$scene as $crate::scenes::Run>::Model> =
+                        core::mem::MaybeUninit::uninit()
+                );
+                let passed = passed
+                    & place.is_some_and(|place| $crate::board::run::<$scene>(&mut console, place));
+            )*
             $crate::board::finish(passed)
         }
     };
-}
-
-/// Memory of a model, outside the stack and taken once.
-pub struct Place<T> {
-    memory: core::cell::UnsafeCell<MaybeUninit<T>>,
-}
-
-// SAFETY: one core, and only the main program takes it.
-unsafe impl<T> Sync for Place<T> {}
-
-impl<T> Place<T> {
-    /// Empty memory.
-    #[must_use]
-    pub const fn new() -> Self {
-        Self {
-            memory: core::cell::UnsafeCell::new(MaybeUninit::uninit()),
-        }
-    }
-
-    /// The memory.
-    pub fn take(&'static self) -> Option<&'static mut MaybeUninit<T>> {
-        // SAFETY: each place is named once, in a main program that runs once.
-        unsafe { self.memory.get().as_mut() }
-    }
 }

@@ -262,8 +262,8 @@ counted! {
         let turns = x * (0.5 / core::f32::consts::PI);
         let fraction = turns - turns as i32 as f32;
         let (cos, sin) = idsp::cossin(((fraction * 2_147_483_648.0) as i32).wrapping_mul(2));
-        const UNIT: f32 = 1.0 / 2_147_483_648.0;
-        (sin as f32 * UNIT, cos as f32 * UNIT)
+        let unit = 1.0 / 2_147_483_648.0;
+        (sin as f32 * unit, cos as f32 * unit)
     }
 
     /// One step of the LuGre model.

@@ -295,7 +295,7 @@ subjects! {
             let friction = spread.between(0.0, 0.3);
             // Every other case without rolling resistance, as most are.
             let tangent = spread.between(0.0, 0.01);
-            [friction, if spread.index() % 2 == 0 { 0.0 } else { tangent }]
+            [friction, if spread.index().is_multiple_of(2) { 0.0 } else { tangent }]
         },
         |c, [friction, tangent]| -> [1] [
             timed!(c, count_efficiency_rolling(black_box(&c.efficiency), friction, tangent))

@@ -383,7 +383,7 @@ pub fn section(context: &Context) -> Result<Section, Failure> {
                 "{} Instructions are counted call by call in QEMU. Cycles are those of Arm's table for the \
                  Cortex-M4F with a flash without wait states: a model, not silicon. A function is counted \
                  from its first instruction to its return, with the frame pointer that the target \
-                 thumbv7em-none-eabihf prescribes (9 cycles a call). Built at optimisation level 3 with \
+                 thumbv7em-none-eabihf prescribes (6 cycles a call). Built at optimisation level 3 with \
                  link-time optimisation. The inputs of a broken sensor are left out of the least cycles: \
                  the way to the safe output is short.",
                 context.target.source

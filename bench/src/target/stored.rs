@@ -3,8 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use epas_firmware::cases::{STORED, Sink, write};
-use epas_firmware::control_loop::{ControlLoop, RECORDED};
+use epas_firmware::cases::{Sink, write};
+use epas_firmware::control_loop::ControlLoop;
 use epas_firmware::scenes::design;
 
 use super::measure::Figures;
@@ -57,9 +57,14 @@ fn manoeuvre() -> Result<Vec<u8>, Failure> {
     Ok(record(control.digest()))
 }
 
+/// The files and what the host finds for them.
+fn results() -> Result<[(&'static str, Vec<u8>); 2], Failure> {
+    Ok([("cases.bin", cases()?), ("manoeuvre.bin", manoeuvre()?)])
+}
+
 /// Stores the host's results.
 pub fn write_cases() -> Result<(), Failure> {
-    for (name, bytes) in [("cases.bin", cases()?), ("manoeuvre.bin", manoeuvre()?)] {
+    for (name, bytes) in results()? {
         let path = firmware().join(name);
         fs::write(&path, bytes).map_err(|error| Failure::file("write", &path, &error))?;
     }
@@ -68,15 +73,18 @@ pub fn write_cases() -> Result<(), Failure> {
 
 /// Fails where the stored results are no longer the host's.
 pub fn check_cases() -> Result<(), Failure> {
-    if cases()? == STORED && manoeuvre()? == RECORDED {
-        Ok(())
-    } else {
-        Err(Failure::Data(
-            "the host's results are no longer those stored in bench/firmware; where that is meant:\n  \
-             cargo run --release -p epas-bench -- target --store-cases"
-                .into(),
-        ))
+    for (name, bytes) in results()? {
+        let path = firmware().join(name);
+        let stored = fs::read(&path).map_err(|error| Failure::file("read", &path, &error))?;
+        if stored != bytes {
+            return Err(Failure::Data(format!(
+                "the host's results are no longer those stored in {}; where that is meant:\n  \
+                 cargo run --release -p epas-bench -- target --store-cases",
+                path.display()
+            )));
+        }
     }
+    Ok(())
 }
 
 fn figures_path() -> PathBuf {

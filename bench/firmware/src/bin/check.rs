@@ -21,18 +21,14 @@ fn main() -> ! {
     let mut checked = 0;
     let mut passed = true;
     for subject in SUBJECTS {
-        match run(&mut console, &mut contexts, &mut reader, subject) {
-            Some((cases, sound)) => {
-                checked += cases;
-                passed &= sound;
-            }
-            None => {
-                console.text("the stored cases are not those of ");
-                console.text(subject.name);
-                console.text("\n");
-                finish(false);
-            }
-        }
+        let Some((cases, sound)) = run(&mut console, &mut contexts, &mut reader, subject) else {
+            console.text("the stored cases are not those of ");
+            console.text(subject.name);
+            console.text("\n");
+            finish(false)
+        };
+        checked += cases;
+        passed &= sound;
     }
     console.number(checked);
     console.text(" cases compared\n");

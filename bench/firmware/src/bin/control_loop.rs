@@ -1,4 +1,4 @@
-//! The control loop in the SysTick interrupt, at 1 kHz.
+//! The control loop in the `SysTick` interrupt, at 1 kHz.
 
 #![no_std]
 #![no_main]
