@@ -222,6 +222,8 @@ fn table_of_promises() -> Table {
 }
 
 /// The section.
+// As every section.
+#[allow(clippy::unnecessary_wraps)]
 pub fn section(context: &Context) -> Result<Section, Failure> {
     let cells = if context.quick { 24 } else { 60 };
     let (panels, rows) = MAPS.iter().map(|map| map.draw(cells)).unzip();
