@@ -403,7 +403,7 @@ fn ball_screw_of_zero_lead_carries_the_same_loads() {
                     ball_spacing: TAU / 9.0,
                     nut_position: 0.1,
                     screw_length: 0.2,
-                    screw_diameter: 60e-3,
+                    screw_diameter: 64e-3,
                     ball_oversize: vec![oversize],
                     ..CaseStudy::table_2_1()
                 }
