@@ -316,7 +316,7 @@ extern "C" {
 /**
  * Size of `epas_deviation_t` in words of four bytes.
  */
-#define EPAS_DEVIATION_WORDS 35
+#define EPAS_DEVIATION_WORDS 67
 
 /**
  * Version of the structures and functions of this header; `epas_abi_version` returns the library's.

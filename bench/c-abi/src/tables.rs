@@ -33,7 +33,7 @@ pub struct Harmonic {
 }
 
 /// Size of `epas_deviation_t` in words of four bytes.
-pub const EPAS_DEVIATION_WORDS: usize = 35;
+pub const EPAS_DEVIATION_WORDS: usize = 67;
 
 /// Place for the deviation of a groove's contact angles, periodic along the track: where it is positive the
 /// right flank's contact angle is larger by it and the left flank's smaller. The caller provides it, and
