@@ -9,6 +9,7 @@ pub mod cases;
 pub mod contexts;
 pub mod control_loop;
 pub mod counted;
+pub mod devices;
 pub mod peers;
 pub mod scenes;
 pub mod spread;
