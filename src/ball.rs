@@ -34,4 +34,9 @@ pub use four_point::{
 };
 pub use linear::LinearBallParameters;
 pub use rotary::{RotaryBall, RotaryBallParameters, RotaryMotion};
-pub use screw::{GrooveFit, LoadShare, ScrewBallLoop, ScrewRow, ScrewTick};
+pub(crate) use screw::largest_deviation;
+pub use screw::{
+    CONTACT_ANGLE_RANGE, DEFAULT_IMPEDANCE_STEPS, GrooveFit, LoadShare, ScrewBall, ScrewBallLoop,
+    ScrewBallMotion, ScrewBallState, ScrewChain, ScrewContactMotion, ScrewContacts, ScrewRow,
+    ScrewTick, SlipFriction, SlipMap,
+};

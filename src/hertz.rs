@@ -150,12 +150,13 @@ impl HertzContact {
     /// The ellipse under `load`, N. Cost: one cube root and 5 other operations.
     ///
     /// A load that is not positive, or is NaN, gives an ellipse without extent, deflection or
-    /// pressure: the contact is lost.
+    /// pressure: the contact is lost. An infinite load counts as the largest number.
     #[inline]
     #[must_use]
     pub fn at(&self, load: f32) -> ContactEllipse {
         // False for NaN too.
-        let root = math::cbrt(if load > 0.0 { load } else { 0.0 });
+        let load = if load > 0.0 { load } else { 0.0 };
+        let root = math::cbrt(if load < f32::MAX { load } else { f32::MAX });
         ContactEllipse {
             semi_major: self.semi_major * root,
             semi_minor: self.semi_minor * root,

@@ -23,6 +23,8 @@
 //! | [`ball`] | one ball in a linear or rotary four-point bearing: speed deviation, compliance, loss |
 //! | [`scene`] | what a mechanism needs and what it leaves out |
 //! | [`model`] | configured once, stepped in the interrupt |
+//! | [`promises`] | domain, errors, behaviour outside and cost of every function, in one table |
+//! | `hal` | adapters for `embedded-hal`: nut speed from an encoder, friction torque to a duty cycle |
 //!
 //! Everything is set up once, with errors that name the field, its value and the allowed range; from
 //! then on nothing returns a `Result`, nothing panics, and every output is finite and flagged.
@@ -33,18 +35,23 @@ pub mod curvature;
 pub mod efficiency;
 pub mod error;
 pub mod geometry;
+#[cfg(feature = "embedded-hal")]
+pub mod hal;
 pub mod hertz;
 pub mod kinematics;
 pub mod material;
 pub mod math;
 pub mod model;
+pub mod promises;
 pub mod scene;
 pub mod train;
 
 pub use ball::{
     AnalyticLinearBall, BallChain, BallMotion, BallState, ContactMotion, FourPointBall,
     FourPointContacts, GrooveFit, LinearBallParameters, LoadShare, PUBLISHED_SLOPE, RotaryBall,
-    RotaryBallParameters, RotaryMotion, ScrewBallLoop, ScrewRow, ScrewTick, SpeedDeviation,
+    RotaryBallParameters, RotaryMotion, ScrewBall, ScrewBallLoop, ScrewBallMotion, ScrewBallState,
+    ScrewChain, ScrewContactMotion, ScrewContacts, ScrewRow, ScrewTick, SlipFriction, SlipMap,
+    SpeedDeviation,
 };
 pub use contact::{Dissipation, FrictionMap, NormalizedFriction};
 pub use curvature::{
@@ -60,6 +67,11 @@ pub use geometry::{
     BallBearing, BallBearingParameters, BallScrew, BallScrewParameters, CATALOGUE, CatalogueSize,
     ContactAngle, DISSERTATION_DESIGNS, Groove, GrooveProfile, GrooveSize, HelixPath,
     LinearBearing, LinearBearingParameters, NamedDesign,
+};
+#[cfg(feature = "embedded-hal")]
+pub use hal::{
+    AppliedDuty, Diagnostics, EncoderConfiguration, EncoderError, FaultReaction,
+    FeedForwardConfiguration, FrictionFeedForward, MagneticEncoder, NutMotion, SensorErrors,
 };
 pub use hertz::{ContactEllipse, HertzContact};
 pub use kinematics::{

@@ -6,6 +6,7 @@ use crate::eval;
 use crate::failure::Failure;
 use crate::report;
 use crate::simulate;
+use crate::target;
 
 /// Friction of ball screws for electric power steering: error against run time of every formula,
 /// simulation of manoeuvres, single evaluations.
@@ -23,6 +24,7 @@ enum Command {
     Report(report::Arguments),
     Simulate(Box<simulate::Arguments>),
     Eval(eval::Arguments),
+    Target(target::Arguments),
 }
 
 /// Reads the arguments and runs what they ask for.
@@ -30,6 +32,7 @@ pub fn run() -> Result<(), Failure> {
     match Cli::parse().command {
         Some(Command::Simulate(arguments)) => simulate::run(&arguments),
         Some(Command::Eval(arguments)) => eval::run(&arguments),
+        Some(Command::Target(arguments)) => target::run(&arguments),
         Some(Command::Report(arguments)) => report::run(&arguments),
         None => report::run(&report::Arguments::default()),
     }

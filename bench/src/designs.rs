@@ -1,6 +1,10 @@
 //! Designs by name or from a file.
 
-use std::fs;
+pub mod loads;
+pub mod train;
+
+use std::fs::File;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
@@ -11,6 +15,9 @@ use epas_friction::{
 use serde::Deserialize;
 
 use crate::failure::Failure;
+use crate::files::Bounded;
+use loads::{LoadCase, LoadsTable};
+use train::{UncagedDesign, UncagedTable};
 
 /// A design with what the in-loop model has to know beside it.
 #[derive(Clone, Debug)]
@@ -21,6 +28,10 @@ pub struct Design {
     pub configuration: CagedBallScrewConfiguration,
     /// Number of balls that share the load, where it is known.
     pub loaded_balls: Option<u16>,
+    /// Its balls where they press on each other, where they are known.
+    pub uncaged: Option<UncagedDesign>,
+    /// Its screw between supports, where they are known.
+    pub loads: Option<LoadCase>,
 }
 
 /// Settings that a catalogue does not print.
@@ -46,6 +57,8 @@ impl Design {
                 limits: LIMITS,
             },
             loaded_balls,
+            uncaged: loaded_balls.and_then(|balls| train::built_in(name, design, balls)),
+            loads: loaded_balls.and_then(|balls| loads::built_in(name, balls)),
         }
     }
 
@@ -78,6 +91,8 @@ pub enum DesignSource {
         /// Number of balls that share the load.
         loaded_balls: Option<u16>,
     },
+    /// The built-in linear bearing.
+    LinearBearing,
     /// A TOML file.
     File(PathBuf),
 }
@@ -88,6 +103,9 @@ impl FromStr for DesignSource {
     fn from_str(text: &str) -> Result<Self, String> {
         if Path::new(text).extension().is_some_and(|end| end == "toml") {
             return Ok(Self::File(text.into()));
+        }
+        if text == train::LINEAR {
+            return Ok(Self::LinearBearing);
         }
         built_in()
             .find(|(name, ..)| *name == text)
@@ -105,7 +123,7 @@ impl FromStr for DesignSource {
 }
 
 impl DesignSource {
-    /// The design, checked.
+    /// The ball screw, checked.
     pub fn load(&self) -> Result<Design, Failure> {
         match self {
             Self::BuiltIn {
@@ -117,6 +135,10 @@ impl DesignSource {
                     .map_err(|error| Failure::Data(format!("{name}: {error}")))?;
                 Ok(Design::built_in(name, design, *loaded_balls))
             }
+            Self::LinearBearing => Err(Failure::Data(format!(
+                "{} is a linear bearing: its scene is linear",
+                train::LINEAR
+            ))),
             Self::File(path) => from_file(path),
         }
     }
@@ -149,6 +171,8 @@ struct DesignFile {
     reversal_speed: Option<f32>,
     loaded_balls: Option<u16>,
     limits: Option<LimitsTable>,
+    uncaged: Option<UncagedTable>,
+    loads: Option<LoadsTable>,
 }
 
 #[derive(Deserialize)]
@@ -158,7 +182,7 @@ struct GrooveTable {
     groove_radius: Option<f32>,
 }
 
-#[derive(Deserialize)]
+#[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct MaterialTable {
     youngs_modulus: Option<f32>,
@@ -186,17 +210,26 @@ const LARGEST_FILE: u64 = 1 << 18;
 
 fn from_file(path: &Path) -> Result<Design, Failure> {
     let failure = |message: String| Failure::Data(format!("{}: {message}", path.display()));
-    let metadata = fs::metadata(path).map_err(|error| Failure::file("open", path, &error))?;
-    if metadata.len() > LARGEST_FILE {
-        return Err(failure(format!(
-            "a design file has at most {LARGEST_FILE} bytes"
-        )));
-    }
-    let text = fs::read_to_string(path).map_err(|error| Failure::file("read", path, &error))?;
+    let text = read_text(path)?;
     let file: DesignFile =
         toml::from_str(&text).map_err(|error| failure(error.to_string().trim_end().into()))?;
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     file.design(&stem).map_err(failure)
+}
+
+fn read_text(path: &Path) -> Result<String, Failure> {
+    let file = File::open(path).map_err(|error| Failure::file("open", path, &error))?;
+    let mut text = String::new();
+    Bounded::new(file, LARGEST_FILE)
+        .read_to_string(&mut text)
+        .map_err(|error| Failure::file("read", path, &error))?;
+    Ok(text)
+}
+
+/// Reads a design file.
+pub fn accepts(text: &str) -> Result<(), String> {
+    let file: DesignFile = toml::from_str(text).map_err(|error| error.to_string())?;
+    file.design("design").map(drop)
 }
 
 impl DesignFile {
@@ -255,6 +288,28 @@ impl DesignFile {
             );
         }
         FrictionModel::<CagedBallScrew>::new(configuration).map_err(|error| error.to_string())?;
+        let configuration = *configuration;
+        design.uncaged = self
+            .uncaged
+            .map(|table| {
+                table
+                    .design(
+                        screw,
+                        configuration.friction,
+                        configuration.reversal_speed,
+                        configuration.limits,
+                    )
+                    .map_err(|message| format!("uncaged: {message}"))
+            })
+            .transpose()?;
+        design.loads = self
+            .loads
+            .map(|table| {
+                table
+                    .case(&screw, self.loaded_balls)
+                    .map_err(|message| format!("loads: {message}"))
+            })
+            .transpose()?;
         Ok(design)
     }
 }
@@ -283,7 +338,16 @@ fn radius(
 /// A groove's own table, or what is given for both.
 fn groove(name: &str, own: Option<&GrooveTable>, both: &GrooveTable) -> Result<GrooveSize, String> {
     let table = own.unwrap_or(both);
-    match (table.conformity, table.groove_radius) {
+    groove_size(name, table.conformity, table.groove_radius)
+}
+
+/// A groove's size by the one or the other number.
+fn groove_size(
+    name: &str,
+    conformity: Option<f32>,
+    groove_radius: Option<f32>,
+) -> Result<GrooveSize, String> {
+    match (conformity, groove_radius) {
         (Some(conformity), None) => Ok(GrooveSize::Conformity(conformity)),
         (None, Some(radius)) => Ok(GrooveSize::Radius(radius)),
         (None, None) => Err(format!("{name}: conformity or groove_radius is missing")),

@@ -1,5 +1,6 @@
 //! `eval`: one JSON object a line in, one a line out, in order.
 
+mod ball_screw_train;
 mod contact_kinematics;
 mod efficiency;
 mod fields;
@@ -8,6 +9,7 @@ mod groove_curvature;
 mod hertz;
 mod linear_train;
 mod lines;
+mod static_load;
 mod steady_state;
 mod train;
 
@@ -53,6 +55,20 @@ use lines::{Line, Lines};
 /// friction, [ball_friction], speed, balls: a list, rear to front, of 1 to 64 {"contact_angles": [BL, BR,
 /// TR, TL], "contact_forces": [BL, BR, TR, TL]}; a force of 0 is a lost contact. Answers with actual
 /// speeds, under the forces between the balls; at standstill the reference has none of them.
+///
+/// static_load: pitch_radius, lead, ball_radius, groove_radius, contact_angle, youngs_modulus,
+/// poisson_ratio, screw_length, screw_diameter (outer), balls (their number), ball_spacing (angle),
+/// nut_position (axial centre of the balls), axial_load, [ball_oversize (of the radius; a number, or a list
+/// with one for each ball)], [end_offset (x displacement forced on the right end)]. The load acts on the
+/// left end, which moves only along the axis; the nut is rigid; the first ball stands at azimuth 0. No
+/// in_loop: it is null.
+///
+/// ball_screw_train: pitch_radius, lead, ball_radius, groove_radius, youngs_modulus, poisson_ratio, friction,
+/// nut_speed, balls: a list, rear to front in the direction of orbiting, of 1 to 64 {"contacts": {"SL":
+/// {"load", "contact_angle"}, ...}} with two to four of SL, SR, NL, NR (screw or nut, left or right); a load of
+/// 0 is a lost contact. Answers with the speeds of free balls, the forces between touching ones (none at
+/// standstill), and the power lost in grooves and between balls; nothing where a ball is not loaded on both
+/// screw and nut.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// File with the requests; stdin without it or for -
@@ -73,6 +89,14 @@ impl Answer {
             reference: Some(json(reference)?),
         })
     }
+
+    /// The answer of a model that only the reference has.
+    fn reference_only(reference: &impl Serialize) -> Result<Self, BadField> {
+        Ok(Self {
+            in_loop: Some(json(&())?),
+            reference: Some(json(reference)?),
+        })
+    }
 }
 
 /// Writes numbers with the fewest digits that read back as the same float64, and those that are not
@@ -85,7 +109,7 @@ fn json(value: &impl Serialize) -> Result<Box<RawValue>, BadField> {
 type Model = fn(Fields) -> Result<Answer, BadField>;
 
 /// Every model by its name.
-const MODELS: [(&str, Model); 7] = [
+const MODELS: [(&str, Model); 9] = [
     ("groove_curvature", groove_curvature::evaluate),
     ("efficiency", efficiency::evaluate),
     ("steady_state", steady_state::evaluate),
@@ -93,6 +117,8 @@ const MODELS: [(&str, Model); 7] = [
     ("contact_kinematics", contact_kinematics::evaluate),
     ("friction_map", friction_map::evaluate),
     ("linear_train", linear_train::evaluate),
+    ("static_load", static_load::evaluate),
+    ("ball_screw_train", ball_screw_train::evaluate),
 ];
 
 /// A line of the output.
@@ -176,6 +202,11 @@ fn answer(line: &str) -> Reply<'_> {
             error: Some(error),
         },
     }
+}
+
+/// Answers one line; whether it was a good request.
+pub fn accepts(line: &str) -> bool {
+    answer(line).error.is_none()
 }
 
 fn evaluate(mut fields: Fields) -> Result<Answer, BadField> {

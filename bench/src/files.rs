@@ -1,7 +1,7 @@
 //! Files that are written whole or not at all.
 
 use std::fs;
-use std::io::{self, BufWriter, Write};
+use std::io::{self, BufWriter, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use tempfile::{Builder, NamedTempFile};
@@ -103,4 +103,44 @@ pub fn write(path: &Path, contents: &str, existing: Existing) -> Result<(), Fail
     let mut pending = Pending::new(path, existing)?;
     all(&mut pending, path, contents)?;
     pending.finish()
+}
+
+/// An input that ends with an error where it is longer than it may be.
+pub struct Bounded<R> {
+    input: R,
+    largest: u64,
+    left: u64,
+}
+
+impl<R> Bounded<R> {
+    /// At most `largest` bytes of `input`.
+    pub const fn new(input: R, largest: u64) -> Self {
+        Self {
+            input,
+            largest,
+            left: largest,
+        }
+    }
+}
+
+impl<R: Read> Read for Bounded<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let read = self.input.read(buffer)?;
+        self.left = self.left.checked_sub(read as u64).ok_or_else(|| {
+            let largest = self.largest;
+            io::Error::new(
+                io::ErrorKind::FileTooLarge,
+                format!("it has more than {largest} bytes"),
+            )
+        })?;
+        Ok(read)
+    }
+}
+
+impl<R: Seek> Seek for Bounded<R> {
+    /// What is read again counts again.
+    fn seek(&mut self, position: SeekFrom) -> io::Result<u64> {
+        self.left = self.largest;
+        self.input.seek(position)
+    }
 }

@@ -1,14 +1,19 @@
 //! `report`: the error of every formula beside its run time, as tables on the screen and as Markdown,
 //! one HTML page, SVG, CSV and JSON in a folder.
 
+mod applications;
+mod bearings;
 mod curvature;
 mod document;
 mod efficiency;
 mod hertz;
 mod kernels;
 mod kinematics;
+mod loads;
+mod published;
 mod statistics;
 mod summary;
+mod trains;
 
 use std::path::PathBuf;
 
@@ -59,12 +64,17 @@ impl Context {
 type MakeSection = fn(&Context) -> Result<Section, Failure>;
 
 /// Every section, in the order of the report.
-const SECTIONS: [MakeSection; 6] = [
+const SECTIONS: [MakeSection; 11] = [
     summary::section,
     curvature::section,
     hertz::section,
     efficiency::section,
     kinematics::section,
+    loads::section,
+    bearings::section,
+    trains::section,
+    applications::section,
+    published::section,
     kernels::section,
 ];
 

@@ -14,6 +14,7 @@
 
 mod competitors;
 pub mod kernels;
+mod trains;
 
 use std::hint::black_box;
 use std::time::Instant;

@@ -5,6 +5,8 @@
 //! the fast library that is measured against it. Each module names paper and equations; lengths are in
 //! m, forces in N, angles in rad unless a function is free of units.
 
+mod ball_motion;
+pub mod bearing_study;
 pub mod curvature;
 pub mod efficiency;
 pub mod error;
@@ -12,6 +14,9 @@ pub mod friction;
 pub mod hertz;
 pub mod kinematics;
 pub mod published;
+pub mod record;
+pub mod rolling_ball;
+pub mod statics;
 pub mod steady_state;
 
 pub use error::ReferenceError;

@@ -1,7 +1,57 @@
-//! The printed tables of Bertolino et al. 2023, as printed, and their values computed again.
+//! Printed numbers of the four papers, and their values computed again: [`records`]; with the tables of Bertolino et al. 2023 as
+//! printed.
+
+pub mod balls;
+pub mod bearings;
+mod curvature;
+pub mod efficiency;
+pub mod loads;
+
+use std::error::Error;
 
 use crate::curvature::{Groove, Surface, literature, profile};
 use crate::error::ReferenceError;
+use crate::kinematics::published as kinematics;
+use crate::record::{Page, Paper, Record, Verdict};
+
+/// Every printed number of the four papers that can be computed, in the order of the papers, and those whose computation would
+/// take what the text leaves out.
+///
+/// # Errors
+/// None for the printed cases; the types of the models' own errors.
+pub fn records() -> Result<Vec<Record>, Box<dyn Error>> {
+    let mut records = Vec::new();
+    curvature::append(&mut Page::new(&mut records, Paper::Bertolino2023))?;
+    efficiency::append(&mut Page::new(&mut records, Paper::LinVelinskyRavani1994));
+    for row in kinematics::table()? {
+        let place = row.place;
+        Page::new(&mut records, Paper::Alberdi).turn(place).roughly(
+            row.quantity,
+            row.unit,
+            (&shortest(row.printed), row.tolerance),
+            row.computed,
+            match row.verdict {
+                kinematics::Verdict::Reproduced => Verdict::Reproduces,
+                kinematics::Verdict::Misprint(why) => Verdict::Misprint(why),
+                kinematics::Verdict::NotReproduced(why) => Verdict::NotReproducible(why),
+            },
+        );
+    }
+    loads::append(&mut Page::new(&mut records, Paper::Lin2019))?;
+    bearings::append(&mut Page::new(&mut records, Paper::Lin2019))?;
+    balls::append(&mut Page::new(&mut records, Paper::Lin2019))?;
+    Ok(records)
+}
+
+/// A number as printed; one that the paper leaves to its reader, from a printed formula, to two decimals.
+fn shortest(printed: f64) -> String {
+    let text = printed.to_string();
+    if text.len() > 8 {
+        format!("{printed:.2}")
+    } else {
+        text
+    }
+}
 
 /// One row of Table A1 or A2 as printed; lengths in mm, angles in degrees, errors in percent.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -10,9 +10,12 @@
 //! rolling start the ball goes to rolling, eq. (3). It stands here because the closed form (14) is its
 //! limit, not because a gear runs in it.
 
+mod stability;
+
 use nalgebra::{SMatrix, SVector};
 
 use crate::error::{ReferenceError, within};
+pub use stability::Growth;
 
 /// Unknowns: `qA`, `D = (qA - qB)/eps`, `p = qA'/eps`, `psiB`, `X = (psiA - psiB - pi)/eps`,
 /// `|V_A| / (r_b Omega)`, `s = eps spin / Omega`; loads over `F0 = Fa / (Ca Sb)`.
@@ -268,7 +271,7 @@ impl BallScrewState {
             return Err(NoSteadyState::Locked);
         }
         let r_b = self.ball_radius;
-        let mass = self.ball_density * 4.0 / 3.0 * std::f64::consts::PI * r_b.powi(3);
+        let mass = self.ball_mass();
         let moment_of_inertia = 0.4 * mass * r_b * r_b;
         let unit_load = self.axial_load / (cos_a * sin_b);
         let scaled = Scaled {
@@ -319,14 +322,19 @@ impl BallScrewState {
         })
     }
 
+    /// Mass of the ball, kg.
+    #[must_use]
+    pub fn ball_mass(&self) -> f64 {
+        self.ball_density * 4.0 / 3.0 * std::f64::consts::PI * self.ball_radius.powi(3)
+    }
+
     /// Dynamic number `m r_m Omega² / Fa` of the first-order correction.
     #[must_use]
     pub fn dynamic_number(&self) -> f64 {
-        let mass = self.ball_density * 4.0 / 3.0 * std::f64::consts::PI * self.ball_radius.powi(3);
-        mass * self.pitch_radius * self.speed * self.speed / self.axial_load
+        self.ball_mass() * self.pitch_radius * self.speed * self.speed / self.axial_load
     }
 
-    fn check(&self) -> Result<(), ReferenceError> {
+    pub(crate) fn check(&self) -> Result<(), ReferenceError> {
         within("lead_angle", self.lead_angle, 1e-6, 1.5)?;
         within("contact_angle", self.contact_angle, 0.01, 1.56)?;
         within("friction", self.friction, 0.0, 1.0)?;

@@ -107,7 +107,11 @@ fn maps_equal_the_contact_integral() {
         power.rms()
     );
     // Documented errors of the maps.
-    assert!(force.max <= 2.6e-4 && force.rms() <= 4.5e-5 && force.mean().abs() <= 1e-6);
+    assert!(
+        force.max <= FRICTION_MAP.largest
+            && force.rms() <= FRICTION_MAP.rms
+            && force.mean().abs() <= 1e-6
+    );
     assert!(moment.max <= 6.5e-4 && moment.rms() <= 1.1e-4 && moment.mean().abs() <= 2e-5);
     assert!(power.max <= 4.2e-5 && power.rms() <= 5.4e-6 && power.mean().abs() <= 1e-6);
 }

@@ -218,3 +218,159 @@ fn bad_inputs_are_refused_by_name() {
         );
     }
 }
+
+/// The share of unstable states over lead angle, contact angle and friction, at the screw, load and speed of Lin, Velinsky,
+/// Ravani 1994; and the growth at their own case.
+#[test]
+fn full_sliding_is_unstable_nearly_everywhere() {
+    let case = BallScrewState {
+        lead_angle: 10f64.to_radians(),
+        contact_angle: 45f64.to_radians(),
+        friction: 0.075,
+        ball_radius: 4.37e-3,
+        pitch_radius: 24.3e-3,
+        speed: 2000.0 * std::f64::consts::TAU / 60.0,
+        axial_load: 2113.0,
+        ball_density: 7800.0,
+    };
+    let growth = case.growth(&case.solve().unwrap()).unwrap();
+    println!("{growth:?}");
+    assert!((growth.rate - 5.6).abs() < 0.05, "{growth:?}");
+    assert!((growth.frequency - 65.0).abs() < 0.5, "{growth:?}");
+
+    let (mut unstable, mut all) = (0, 0);
+    for lead in (1..=12).map(|step| 3.5 * f64::from(step)) {
+        for contact in [25.0_f64, 35.0, 45.0, 55.0, 65.0] {
+            for friction in [0.01, 0.03, 0.075, 0.15, 0.3] {
+                let state = BallScrewState {
+                    lead_angle: lead.to_radians(),
+                    contact_angle: contact.to_radians(),
+                    friction,
+                    ..case
+                };
+                if let Ok(steady) = state.solve() {
+                    all += 1;
+                    let growth = state.growth(&steady).unwrap();
+                    unstable += usize::from(growth.rate > 0.0);
+                }
+            }
+        }
+    }
+    println!("{unstable} of {all} states are unstable");
+    assert!(all > 150 && unstable * 10 > all * 8);
+}
+
+/// Eq. (14) and its correction for inertia against the exact steady state, where it exists, over friction 0.001 to 0.3, lead
+/// angles 1 to 45 and contact angles 20 to 70 degrees: the errors go with the dynamic number and with its square.
+#[test]
+fn inertia_corrects_the_closed_form() {
+    for (rpm, axial_load, closed_bound, corrected_bound) in [
+        (2000.0, 2113.0, 1.5e-5, 7e-9),
+        (10_000.0, 2113.0, 3.6e-4, 6.5e-6),
+        (2000.0, 21.13, 1.5e-3, 1.1e-4),
+        (10_000.0, 211.3, 3.5e-3, 6e-4),
+        (10_000.0, 21.13, 3.4e-2, 1.6e-2),
+    ] {
+        let (mut closed_worst, mut corrected_worst, mut cases) = (0.0_f64, 0.0_f64, 0);
+        for friction in [0.001, 0.01, 0.03, 0.075, 0.15, 0.3] {
+            for lead_degrees in 1..=45 {
+                for contact_degrees in (20..=70).step_by(5) {
+                    let state = BallScrewState {
+                        lead_angle: f64::from(lead_degrees).to_radians(),
+                        contact_angle: f64::from(contact_degrees).to_radians(),
+                        friction,
+                        ball_radius: 4.37e-3,
+                        pitch_radius: 24.3e-3,
+                        speed: rpm * std::f64::consts::TAU / 60.0,
+                        axial_load,
+                        ball_density: 7800.0,
+                    };
+                    let Ok(exact) = state.solve() else { continue };
+                    let screw = Screw {
+                        lead_angle: state.lead_angle,
+                        contact_angle: state.contact_angle,
+                        friction,
+                        ball_ratio: state.ball_radius / state.pitch_radius,
+                        rolling_tangent: 0.0,
+                    };
+                    let corrected = screw.sliding_drive_with_inertia(state.dynamic_number());
+                    closed_worst =
+                        closed_worst.max((screw.sliding_drive() - exact.efficiency).abs());
+                    corrected_worst = corrected_worst.max((corrected - exact.efficiency).abs());
+                    cases += 1;
+                }
+            }
+        }
+        println!(
+            "{rpm} rpm, {axial_load} N: {closed_worst:.1e}, {corrected_worst:.1e} in {cases} cases"
+        );
+        assert!(cases > 1000);
+        assert!(closed_worst < closed_bound && corrected_worst < corrected_bound);
+    }
+}
+
+/// From no load to 100 kN, without friction and with 0.3, at the published screw and below its existence limit.
+#[test]
+fn no_load_and_no_friction_are_named() {
+    let case = |friction, axial_load, lead_degrees: f64| BallScrewState {
+        lead_angle: lead_degrees.to_radians(),
+        contact_angle: 45f64.to_radians(),
+        friction,
+        ball_radius: 4.37e-3,
+        pitch_radius: 24.3e-3,
+        speed: 200.0,
+        axial_load,
+        ball_density: 7800.0,
+    };
+    match case(0.075, 0.0, 10.0).solve() {
+        Err(NoSteadyState::Input(error)) => assert_eq!(error.field, "axial_load"),
+        other => panic!("{other:?}"),
+    }
+    for axial_load in [1e-6, 1e-3, 1.0, 1e3, 1e5] {
+        assert_eq!(
+            case(0.0, axial_load, 10.0).solve(),
+            Err(NoSteadyState::Frictionless)
+        );
+        assert_eq!(
+            case(0.3, axial_load, 10.0).solve(),
+            Err(NoSteadyState::NoSlip)
+        );
+        for (friction, lead) in [(0.075, 10.0), (0.3, 25.0)] {
+            match case(friction, axial_load, lead).solve() {
+                Ok(found) => assert!(
+                    (0.0..1.0).contains(&found.efficiency),
+                    "{axial_load} N: {found:?}"
+                ),
+                // A light ball at 200 rad/s is thrown off its screw: the centrifugal force passes the load.
+                Err(error) => {
+                    println!("{axial_load} N, friction {friction}: {error:?}");
+                    assert!(axial_load < 1.5, "{axial_load} N: {error:?}");
+                }
+            }
+        }
+    }
+}
+
+/// The coefficient of inertia against stored ones.
+#[test]
+fn dynamic_coefficient_is_the_stored_one() {
+    let mut seen = 0;
+    for case in golden("exact") {
+        if case.get("k1").is_none_or(Value::is_null) {
+            continue;
+        }
+        let state = state(&case);
+        let screw = Screw {
+            lead_angle: state.lead_angle,
+            contact_angle: state.contact_angle,
+            friction: state.friction,
+            ball_ratio: state.ball_radius / state.pitch_radius,
+            rolling_tangent: 0.0,
+        };
+        // The bracket cancels to some hundredths of its terms.
+        let error = screw.dynamic_coefficient() / number(&case, "k1") - 1.0;
+        assert!(error.abs() < 1e-12, "{case}: {error:e}");
+        seen += 1;
+    }
+    assert!(seen > 0);
+}

@@ -2,6 +2,7 @@
 //! and stored chains; positions over many ticks.
 
 use epas_friction::{Press, Train};
+use epas_reference::friction::chain::isotonic_by_min_max;
 
 /// Deterministic numbers in 0..1 (splitmix64).
 struct Random(u64);
@@ -42,7 +43,7 @@ impl Case {
         self.free.len()
     }
 
-    /// Speeds under given link forces: v_j = u_j + Y_j (F_{j-1} - F_j).
+    /// Speeds under given link forces: `v_j = u_j + Y_j (F_{j-1} - F_j)`.
     fn speeds(&self, force: &[f64]) -> Vec<f64> {
         let n = self.balls();
         (0..n)
@@ -50,7 +51,7 @@ impl Case {
             .collect()
     }
 
-    /// How far the distance in front of ball j stays open: v_{j+1} - v_j + room_j.
+    /// How far the distance in front of ball j stays open: `v_{j+1} - v_j + room_j`.
     fn slack(&self, speed: &[f64], j: usize) -> f64 {
         speed[(j + 1) % self.balls()] - speed[j] + self.room[j]
     }
@@ -273,6 +274,47 @@ fn long_trains_agree_with_a_general_complementarity_solver() {
     let random = &mut Random(2);
     println!("N = 37: {:?}", compare_with_relaxation::<37>(random, 40));
     println!("N = 64: {:?}", compare_with_relaxation::<64>(random, 40));
+}
+
+fn compare_with_isotonic_regression<const N: usize>(random: &mut Random, trials: usize) -> f64 {
+    let mut worst = 0.0_f64;
+    for trial in 0..trials {
+        let (free, impedance, room) = random_train::<N>(random, 1.0, false, 2.0);
+        let mut found = Press::new();
+        assert!(found.solve(&free, &impedance, &room));
+        let case = Case::of(&free, &impedance, &room);
+        let (speeds, forces) = isotonic_by_min_max(&case.free, &case.compliance);
+        for (ball, (found, exact)) in found.speeds().zip(&speeds).enumerate() {
+            assert!(
+                (f64::from(found) - exact).abs() < 1e-8,
+                "N = {N}, trial {trial}, ball {ball}: {found}, exactly {exact}"
+            );
+        }
+        let largest = forces.iter().fold(0.0_f64, |most, &force| most.max(force));
+        for (link, (found, exact)) in found.forces().zip(&forces).enumerate() {
+            let error = (f64::from(found) - exact).abs() / largest.max(1e-6);
+            worst = worst.max(error);
+            assert!(
+                error <= 1e-5,
+                "N = {N}, trial {trial}, link {link}: {found}, exactly {exact}"
+            );
+        }
+    }
+    worst
+}
+
+/// Balls that all touch, in a row: the weighted isotonic regression, by the formula
+/// `v_j = max over i <= j of min over k >= j of the mean of i..k`.
+#[test]
+fn touching_rows_are_the_isotonic_regression() {
+    let random = &mut Random(5);
+    let worst = [
+        compare_with_isotonic_regression::<2>(random, 200),
+        compare_with_isotonic_regression::<16>(random, 100),
+        compare_with_isotonic_regression::<37>(random, 50),
+        compare_with_isotonic_regression::<64>(random, 50),
+    ];
+    println!("largest force error over largest force: {worst:?}");
 }
 
 /// Smallest distance of a train, and whether its balls still stand in their order: the distances and the

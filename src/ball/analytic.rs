@@ -14,6 +14,9 @@ pub const PUBLISHED_SLOPE: f32 = 1.38;
 /// Added to the sum of the two `F^(2/3)`, `N^(2/3)`: a ball without load is as good as free.
 const SMALLEST_SUM: f32 = 1e-9;
 
+/// Largest speed deviation that counts: a ball that stands still or runs with the track.
+const LARGEST_SPEED_DEVIATION: f32 = 1.0;
+
 /// Published closed form of the speed of a ball in a four-point contact linear bearing.
 ///
 /// With nominal contact angle `beta_0`, angle deviations `dBL`, `dBR`, `dTR`, `dTL`, mean loads `F_U` of
@@ -120,7 +123,8 @@ impl AnalyticLinearBall {
         let turn = (angle_tr - angle_bl) * up + (angle_tl - angle_br) * down;
         let speed_deviation = self.half_tangent * turn * inverse;
         SpeedDeviation {
-            speed_deviation: if speed_deviation.is_finite() {
+            // False for NaN too.
+            speed_deviation: if speed_deviation.abs() <= LARGEST_SPEED_DEVIATION {
                 speed_deviation
             } else {
                 0.0

@@ -81,6 +81,18 @@ impl System {
         self.yaw_yaw += weighted_yaw * yaw;
     }
 
+    /// Takes off the square of `(roll, yaw, speed)`, an unknown that was eliminated.
+    #[inline]
+    pub(super) fn subtract(&mut self, by: Vector, weight: f32) {
+        let (roll, yaw, speed) = (weight * by.roll, weight * by.yaw, weight * by.speed);
+        self.roll_roll -= roll * by.roll;
+        self.roll_yaw -= roll * by.yaw;
+        self.roll_speed -= roll * by.speed;
+        self.yaw_yaw -= yaw * by.yaw;
+        self.yaw_speed -= yaw * by.speed;
+        self.speed_speed -= speed * by.speed;
+    }
+
     /// The damped system in the form `L D Lᵀ`: speed comes last, so that its own compliance is the
     /// last reciprocal, and the matrix of rank two of two-point contact loses no digits before it.
     ///

@@ -79,6 +79,9 @@ pub struct GothicArch {
     twist_radius: f32,
 }
 
+/// Largest groove radius times curvature or torsion of the path.
+const LARGEST_RADIUS: f32 = 1e3;
+
 /// The shape operator in orthonormal directions, its elements times `D³`, with the scale factors that
 /// led to it.
 struct ShapeOperator {
@@ -126,8 +129,10 @@ impl GothicArch {
     /// angles near `contact_angle`.
     ///
     /// # Errors
-    /// [`Error`] naming `curvature`, `torsion`, `groove_radius`, `offset_h` or `offset_l`;
-    /// [`Error::FoldedGroove`] where the surface folds at this contact angle (`A <= 0`).
+    /// [`Error`] naming `curvature`, `torsion`, `groove_radius` (1e-9 to 1e9, and a thousand radii of the
+    /// path), `offset_h` or `offset_l`;
+    /// [`Error::FoldedGroove`] where the surface folds at this contact angle (`A <= 0`), or the centre of
+    /// the nut's profile would lie beyond the axis.
     pub fn checked(
         groove: Groove,
         path: &HelixPath,
@@ -136,14 +141,20 @@ impl GothicArch {
     ) -> Result<Self, Error> {
         in_range("curvature", path.curvature, 0.0, 1e9)?;
         in_range("torsion", path.torsion, -1e9, 1e9)?;
-        let radius = in_range("groove_radius", profile.groove_radius, 1e-9, 1e9)?;
+        // Cubes of radius times curvature have to stay within f32; a groove is smaller than its path.
+        let steepest = path.curvature.max(path.torsion.abs());
+        let largest = (LARGEST_RADIUS / steepest).min(1e9);
+        let radius = in_range("groove_radius", profile.groove_radius, 1e-9, largest)?;
         in_range("offset_h", profile.offset_h, 0.0, radius)?;
         in_range("offset_l", profile.offset_l, 0.0, radius)?;
         let arch = Self::new(groove, path, profile);
-        if arch.area(contact_angle) > 0.0 {
+        // A = 1 + zeta kappa (H - r_s c): the screw folds by its groove radius, the nut by its offset,
+        // and before it folds its two curvatures change places where the profile's centre lies beyond
+        // the axis.
+        let beyond = matches!(groove, Groove::Nut) && path.curvature * profile.offset_h >= 1.0;
+        if arch.area(contact_angle) > 0.0 && !beyond {
             return Ok(arch);
         }
-        // A = 1 + zeta kappa (H - r_s c): the screw folds by its groove radius, the nut by its offset.
         let path_radius = 1.0 / path.curvature;
         Err(match groove {
             Groove::Screw => Error::FoldedGroove {
@@ -154,7 +165,7 @@ impl GothicArch {
             Groove::Nut => Error::FoldedGroove {
                 field: "offset_h",
                 value: profile.offset_h,
-                allowed: Range::new(0.0, path_radius + radius * contact_angle.cos),
+                allowed: Range::new(0.0, path_radius * (1.0 - f32::EPSILON)),
             },
         })
     }

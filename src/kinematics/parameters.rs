@@ -253,13 +253,17 @@ impl Path {
             ),
         };
         if !direction.grips() {
-            // acos(0.25) = 1.318 either side of the pitch angle, exact for zero yaw.
+            // b = h cos(alpha) + sin(beta) sin(alpha): a cosine about the pitch angle, which yaw narrows;
+            // less what the angles' rounding may cost.
+            let (h, n) = (self.axis_binormal, self.axis_normal);
+            let middle = libm::atan2f(n, h);
+            let half = libm::acosf(LEAST_GRIP / math::sqrt(h * h + n * n)) - 1e-5;
             return Err(Error::OutOfRange {
                 field: angle_field,
                 value: angle,
                 allowed: Range::new(
-                    (parameters.pitch_angle - 1.318).max(-FRAC_PI_2),
-                    (parameters.pitch_angle + 1.318).min(FRAC_PI_2),
+                    (middle - half).max(-FRAC_PI_2),
+                    (middle + half).min(FRAC_PI_2),
                 ),
             });
         }

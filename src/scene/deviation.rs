@@ -171,6 +171,18 @@ impl DeviationMap {
         self.turns
     }
 
+    /// Its largest sample, rad, where that is not beyond `largest`.
+    pub(super) fn checked(&self, field: &'static str, largest: f32) -> Result<f32, Error> {
+        // A map keeps its largest sample within a rounding.
+        let margin = 1.0 + 4.0 * f32::EPSILON;
+        in_range(
+            field,
+            self.unit * (LARGEST * 32768.0),
+            0.0,
+            largest * margin,
+        )
+    }
+
     /// Deviation at a phase of the period in units of 2^-32, rad: linear between samples, which is within
     /// `(pi order/64)²/2` of a wave's amplitude, 1.2e-3 for the first order.
     #[inline]

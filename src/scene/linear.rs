@@ -3,9 +3,9 @@
 use super::deviation::DeviationMap;
 use super::faults::bounded;
 use super::uncaged::TrainOutputs;
-use super::zone::{LoadedZone, Phase};
+use super::zone::{LARGEST_ADVANCE, LONGEST_RETURN, LONGEST_TRACK, LoadedZone, Phase};
 use super::{Faults, Regime, Scene};
-use crate::ball::LoadShare;
+use crate::ball::{LoadShare, largest_deviation};
 use crate::contact::FrictionMap;
 use crate::error::{Error, in_range};
 use crate::geometry::LinearBearing;
@@ -66,13 +66,15 @@ pub struct LinearBearingConfiguration {
     pub ball_friction: f32,
     /// Length of the loaded track, m, 1e-4 to 100.
     pub loaded_length: f32,
-    /// Length of the return, m, 0 to 100: there balls carry no load.
+    /// Length of the return, m, 0 to 100, up to 250 times the loaded track: there balls carry no load.
     pub return_length: f32,
-    /// Length that counts as one turn of the deviation maps, m, 1e-4 to 100.
+    /// Length that counts as one turn of the deviation maps, m, 1e-4 to 100, at least a thousandth of the
+    /// track.
     pub wavelength: f32,
-    /// Deviation of the contact angles along the rail: added on BR, taken off on BL.
+    /// Deviation of the contact angles along the rail, added on BR, taken off on BL: at most 0.2 rad for
+    /// contact angles from 23 to 68 degrees, beyond half of the contact angle or its cotangent.
     pub rail_deviation: &'static DeviationMap,
-    /// Deviation of the contact angles along the carriage: added on TR, taken off on TL.
+    /// Deviation of the contact angles along the carriage, added on TR, taken off on TL; as large.
     pub carriage_deviation: &'static DeviationMap,
     /// Load of a ball over the mean load, in equal parts of the loaded track from its start; 1 to 256.
     pub load_shares: &'static [LoadShare],
@@ -80,7 +82,7 @@ pub struct LinearBearingConfiguration {
     /// its full value.
     pub reversal_speed: f32,
     /// Time between two ticks, s, 1e-6 to 1; at the largest speed the balls may move by 3 % of the track
-    /// in it.
+    /// in it, and the rail by half a period of its deviation map.
     pub tick: f32,
     /// Bounds that are kept whatever comes in.
     pub limits: LinearLimits,
@@ -177,14 +179,14 @@ impl<const N: usize> Scene for LinearBearingTrain<N> {
         let tick = in_range("tick", configuration.tick, 1e-6, 1.0)?;
         let limits = configuration.limits.checked()?;
 
+        in_range("return_length", return_length, 0.0, LONGEST_RETURN * loaded)?;
         let length = loaded + return_length;
         let radius = bearing.ball_radius();
         let track = Track::new(length, 2.0 * radius, N)?;
-        let turns = length / wavelength;
-        in_range("wavelength", turns, 0.0, 1000.0)?;
+        in_range("wavelength", wavelength, length / LONGEST_TRACK, 100.0)?;
         let zone = LoadedZone::new(
             loaded / wavelength,
-            turns,
+            length / wavelength,
             configuration.rail_deviation,
             configuration.carriage_deviation,
             configuration.load_shares,
@@ -195,10 +197,22 @@ impl<const N: usize> Scene for LinearBearingTrain<N> {
             0.0,
             2.0 * LARGEST_TRAVEL * length / limits.speed,
         )?;
+        let period = wavelength * f32::from(zone.passing_turns());
+        in_range("tick", tick, 0.0, LARGEST_ADVANCE * period / limits.speed)?;
+
+        // The deviations' sum times half the tangent is a ball's speed deviation: no more than a half.
+        let nominal = bearing.parameters().contact_angle;
+        let angle = bearing.contact_angle();
+        let largest = largest_deviation(nominal, angle.sin / angle.cos);
+        configuration
+            .rail_deviation
+            .checked("rail_deviation", largest)?;
+        configuration
+            .carriage_deviation
+            .checked("carriage_deviation", largest)?;
 
         let contact = HertzContact::of_linear(bearing);
         let map = FrictionMap::new(contact.axis_ratio())?;
-        let angle = bearing.contact_angle();
         let per_ball = length / (loaded * N as f32);
         let half_tangent = 0.5 * angle.sin / angle.cos;
         let semi_major = contact.semi_major_coefficient();

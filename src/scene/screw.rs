@@ -4,14 +4,14 @@ use core::f32::consts::TAU;
 
 use super::deviation::DeviationMap;
 use super::uncaged::TrainOutputs;
-use super::zone::{LoadedZone, Phase};
+use super::zone::{LARGEST_ADVANCE, LONGEST_RETURN, LONGEST_TRACK, LoadedZone, Phase};
 use super::{Faults, Inputs, Limits, Regime, Scene};
 use crate::ball::{GrooveFit, LoadShare, ScrewRow};
 use crate::error::{Error, in_range};
 use crate::geometry::BallScrew;
 use crate::math;
 use crate::model::FrictionModel;
-use crate::train::{IMPEDANCE_RANGE, LARGEST_TRAVEL, Track, Train};
+use crate::train::{IMPEDANCE_RANGE, LARGEST_FREE_SPEED, LARGEST_TRAVEL, Track, Train};
 
 /// Impedance of a ball that no load presses into its grooves, N: it goes along with its neighbours.
 const UNLOADED: f32 = 1e-6;
@@ -36,11 +36,14 @@ pub struct UncagedBallScrewConfiguration {
     pub fit: GrooveFit,
     /// Turns of the loaded track, 0.1 to 100.
     pub turns: f32,
-    /// Length of the return, m, 0 to 10: there balls carry no load.
+    /// Length of the return, m, 0 to 10, up to 250 times the loaded track, and 1000 turns with it: there
+    /// balls carry no load.
     pub return_length: f32,
-    /// Deviation of the contact angles along the screw's groove.
+    /// Deviation of the contact angles along the screw's groove, at most
+    /// [`ScrewRow::largest_deviation`].
     pub screw_deviation: &'static DeviationMap,
-    /// Deviation of the contact angles along the nut's groove, from the start of the loaded track.
+    /// Deviation of the contact angles along the nut's groove, from the start of the loaded track, at
+    /// most [`ScrewRow::largest_deviation`].
     pub nut_deviation: &'static DeviationMap,
     /// Load of a ball over the mean load, in equal parts of the loaded track from its start; 1 to 256.
     pub load_shares: &'static [LoadShare],
@@ -48,7 +51,7 @@ pub struct UncagedBallScrewConfiguration {
     /// 71 % of its full value.
     pub reversal_speed: f32,
     /// Time between two ticks, s, 1e-6 to 1; at the largest nut speed the balls may move by 3 % of the
-    /// track in it.
+    /// track in it, and the screw by half a period of its deviation map.
     pub tick: f32,
     /// Bounds that are kept whatever comes in.
     pub limits: Limits,
@@ -105,10 +108,20 @@ impl<const N: usize> Scene for UncagedBallScrew<N> {
         let tick = in_range("tick", configuration.tick, 1e-6, 1.0)?;
         let limits = configuration.limits.checked()?;
         let row = ScrewRow::new(design, friction, configuration.fit)?;
+        let largest = row.largest_deviation();
+        let on_screw = configuration
+            .screw_deviation
+            .checked("screw_deviation", largest)?;
+        let in_nut = configuration
+            .nut_deviation
+            .checked("nut_deviation", largest)?;
 
         let path = design.pitch_radius() / design.cos_lead_angle();
         let per_turn = TAU * path;
         let loaded = turns * per_turn;
+        let longest = LONGEST_TRACK * per_turn - loaded;
+        in_range("return_length", return_length, 0.0, longest)?;
+        in_range("return_length", return_length, 0.0, LONGEST_RETURN * loaded)?;
         let length = loaded + return_length;
         let pitch = 2.0 * path * arc_sine(design.ball_radius() / path);
         let track = Track::new(length, pitch, N)?;
@@ -121,8 +134,32 @@ impl<const N: usize> Scene for UncagedBallScrew<N> {
         )?;
 
         let speed = path - row.nominal_speed();
+        // Where balls hardly move against the nut, deviations that are small against the pitch radius
+        // are large against that.
+        let relative = fastest_deviation(&row, on_screw, in_nut) / speed;
+        if relative > LARGEST_FREE_SPEED {
+            in_range(
+                "screw_deviation",
+                on_screw,
+                0.0,
+                on_screw * LARGEST_FREE_SPEED / relative,
+            )?;
+            in_range(
+                "nut_deviation",
+                in_nut,
+                0.0,
+                in_nut * LARGEST_FREE_SPEED / relative,
+            )?;
+        }
         let fastest = LARGEST_TRAVEL * length / (speed * limits.nut_speed);
         in_range("tick", tick, 0.0, fastest)?;
+        let period = TAU * f32::from(zone.passing_turns());
+        in_range(
+            "tick",
+            tick,
+            0.0,
+            LARGEST_ADVANCE * period / limits.nut_speed,
+        )?;
         Ok(UncagedConstants {
             row,
             per_ball: length / (loaded * N as f32),
@@ -255,6 +292,21 @@ impl<const N: usize> FrictionModel<UncagedBallScrew<N>> {
         let turns = f32::from(self.constants().zone.passing_turns());
         self.state_mut().phase.set(angle / (TAU * turns));
     }
+}
+
+/// Largest deviation of a ball's speed, m per unit of nut speed: at the corners of the deviations, in
+/// both directions of load and motion, where it is largest, with a load that no preload evens out.
+fn fastest_deviation(row: &ScrewRow, on_screw: f32, in_nut: f32) -> f32 {
+    let mut fastest = 0.0;
+    for (nut_speed, load) in [(1.0, 1e7), (1.0, -1e7), (-1.0, 1e7), (-1.0, -1e7)] {
+        let tick = row.at(nut_speed, load);
+        for (screw, nut) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] {
+            let ball = tick.ball(screw * on_screw, nut * in_nut, &LoadShare::MEAN);
+            let size = ball.speed_deviation.abs();
+            fastest = if size > fastest { size } else { fastest };
+        }
+    }
+    fastest
 }
 
 /// `asin(x)` for `x` in 0 to 0.9, by Newton's method from `x`; at set-up only.

@@ -56,7 +56,8 @@ impl From<TrainOutputs> for Outputs {
         // Both have a sign: of the speed, and of the load.
         let efficiency = if load_torque == 0.0 || matches!(regime, Regime::Standing) {
             0.0
-        } else if load_torque * friction > 0.0 {
+        } else if (load_torque < 0.0) == (friction < 0.0) {
+            // Signs, because the product of two small torques would vanish.
             load_torque / (load_torque + friction)
         } else {
             let efficiency = 1.0 + friction / load_torque;

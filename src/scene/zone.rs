@@ -10,6 +10,16 @@ const UNITS: f32 = 4_294_967_296.0;
 /// Fraction bits of the ratio of the load table's entries.
 const FRACTION_BITS: u32 = 16;
 
+/// Longest track, in turns or wavelengths of the maps: ratios of phases fit into 32 bits.
+pub(super) const LONGEST_TRACK: f32 = 1000.0;
+
+/// Longest return over the loaded part: positions in the load table fit into 32 bits.
+pub(super) const LONGEST_RETURN: f32 = 250.0;
+
+/// Largest part of a map's period by which the passing groove may advance in a tick: its sense would be
+/// lost beyond.
+pub(super) const LARGEST_ADVANCE: f32 = 0.499;
+
 /// Deviation maps of both grooves and the shares of the load, in integers along the track.
 ///
 /// The track runs through the body in which balls recirculate (nut, carriage): first the loaded part,

@@ -76,6 +76,12 @@ pub fn in_range(field: &str, value: f64, minimum: f64, maximum: f64) -> Result<f
     }
 }
 
+/// A number for all, or one for each.
+pub enum OneOrMany {
+    One(f64),
+    Many(Vec<f64>),
+}
+
 /// The fields of one request that have not been taken yet.
 pub struct Fields<'a> {
     values: BTreeMap<Cow<'a, str>, &'a RawValue>,
@@ -176,6 +182,25 @@ impl<'a> Fields<'a> {
             .remove(field)
             .map(|raw| number(field, raw))
             .transpose()
+    }
+
+    /// Takes a number, or a list of any length, that may be left out.
+    pub fn optional_number_or_numbers(
+        &mut self,
+        field: &str,
+    ) -> Result<Option<OneOrMany>, BadField> {
+        let Some(raw) = self.values.remove(field) else {
+            return Ok(None);
+        };
+        match serde_json::from_str::<Vec<&RawValue>>(raw.get()) {
+            Ok(values) => values
+                .into_iter()
+                .map(|raw| number(field, raw))
+                .collect::<Result<_, _>>()
+                .map(OneOrMany::Many),
+            Err(_) => number(field, raw).map(OneOrMany::One),
+        }
+        .map(Some)
     }
 
     /// Takes a name and gives what stands beside it.

@@ -13,7 +13,7 @@ use serde::Serialize;
 
 use super::Answer;
 use super::fields::{BadField, Fields, in_range};
-use super::train::{LARGEST_TRAIN, room_of_a_row, solved};
+use super::train::{LARGEST_TRAIN, contact_forces, pressed, room_of_a_row, solved};
 
 /// Steps of the whole row from the four-force start. A ball alone has settled after
 /// [`DEFAULT_NEWTON_STEPS`]; friction between the balls lags one step behind, and settles with some per
@@ -28,8 +28,9 @@ struct InLoop {
 
 #[derive(Serialize)]
 struct Row {
-    speed_deviation: Vec<f64>,
-    contact_force: Vec<f64>,
+    /// None, as the next, where balls run further from nominal rolling than the crate counts.
+    speed_deviation: Option<Vec<f64>>,
+    contact_force: Option<Vec<f64>>,
 }
 
 #[derive(Serialize)]
@@ -178,11 +179,10 @@ impl Request {
             return Row::of(&free, &[0.0; LARGEST_TRAIN], count);
         }
         let mut press = Press::new();
-        press.solve(
-            &free.map(|deviation| direction * deviation),
-            &compliance,
-            &room_of_a_row(count),
-        );
+        let forward = free.map(|deviation| direction * deviation);
+        if !pressed(&mut press, &forward, &compliance, &room_of_a_row(count)) {
+            return Row::NONE;
+        }
         let actual: Vec<_> = press.speeds().map(|speed| direction * speed).collect();
         Row::of(&actual, &contact_forces(&press), count)
     }
@@ -201,6 +201,7 @@ impl Request {
         }
         let room = room_of_a_row(count);
         let mut press = Press::new();
+        let mut sound = true;
         for _ in 0..STEPS {
             ball.refine_chain(
                 &contacts,
@@ -208,10 +209,13 @@ impl Request {
                 self.direction(),
                 self.ball_friction as f32,
                 |free, compliance, forces| {
-                    press.solve(free, compliance, &room);
+                    sound &= pressed(&mut press, free, compliance, &room);
                     *forces = contact_forces(&press);
                 },
             );
+        }
+        if !sound {
+            return Row::NONE;
         }
         let deviations = chain.balls.map(|state| state.speed_deviation);
         Row::of(&deviations, &chain.forces, count)
@@ -273,19 +277,16 @@ impl Ball {
     }
 }
 
-/// Between every ball and the next, the last one and the first included.
-fn contact_forces(press: &Press<LARGEST_TRAIN>) -> [f32; LARGEST_TRAIN] {
-    let mut forces = [0.0; LARGEST_TRAIN];
-    for (place, force) in forces.iter_mut().zip(press.forces()) {
-        *place = force;
-    }
-    forces
-}
-
 impl Row {
+    const NONE: Self = Self {
+        speed_deviation: None,
+        contact_force: None,
+    };
+
     fn of(deviations: &[f32], forces: &[f32], count: usize) -> Self {
-        let numbers =
-            |values: &[f32], count: usize| values.iter().take(count).map(|&v| v.into()).collect();
+        let numbers = |values: &[f32], count: usize| {
+            Some(values.iter().take(count).map(|&v| v.into()).collect())
+        };
         Self {
             speed_deviation: numbers(deviations, count),
             contact_force: numbers(forces, count - 1),

@@ -1,5 +1,7 @@
 //! What requests about trains of balls have in common.
 
+use epas_friction::Press;
+use epas_friction::train::IMPEDANCE_RANGE;
 use epas_reference::friction::FrictionError;
 
 use super::fields::BadField;
@@ -25,4 +27,27 @@ pub fn solved<T>(result: Result<T, FrictionError>) -> Result<Option<T>, BadField
         }
         Err(_) => Ok(None),
     }
+}
+
+/// Lets balls press on each other by what each would do alone; false where one of them runs further from
+/// nominal rolling than the crate counts.
+pub fn pressed(
+    press: &mut Press<LARGEST_TRAIN>,
+    free: &[f32; LARGEST_TRAIN],
+    compliance: &[f32; LARGEST_TRAIN],
+    room: &[f32; LARGEST_TRAIN],
+) -> bool {
+    let (least, most) = IMPEDANCE_RANGE;
+    // Balls that hardly anything holds are as good as free.
+    let impedance = compliance.map(|compliance| compliance.recip().clamp(least, most));
+    press.solve(free, &impedance, room)
+}
+
+/// Between every ball and the next, the last one and the first included.
+pub fn contact_forces(press: &Press<LARGEST_TRAIN>) -> [f32; LARGEST_TRAIN] {
+    let mut forces = [0.0; LARGEST_TRAIN];
+    for (place, force) in forces.iter_mut().zip(press.forces()) {
+        *place = force;
+    }
+    forces
 }

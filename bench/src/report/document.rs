@@ -96,6 +96,8 @@ pub enum Block {
     Text(String),
     /// A table.
     Table(Table),
+    /// A table too long for the screen: in the files only.
+    Annex(Table),
     /// A figure.
     Figure(Figure),
 }
@@ -292,7 +294,7 @@ impl Document {
                 match block {
                     Block::Text(text) => writeln!(output, "\n{}", wrapped(text))?,
                     Block::Table(table) => write!(output, "\n{}", table.text())?,
-                    Block::Figure(_) => {}
+                    Block::Annex(_) | Block::Figure(_) => {}
                 }
             }
         }
@@ -331,7 +333,7 @@ impl Document {
                         let _ = write!(markdown, "\n{text}\n");
                         let _ = writeln!(html, "<p>{}</p>", escaped(text));
                     }
-                    Block::Table(table) => {
+                    Block::Table(table) | Block::Annex(table) => {
                         let _ = write!(markdown, "\n{}", table.markdown());
                         html += &table.html();
                         save(table.name, "csv", &table.csv()?)?;

@@ -19,12 +19,18 @@ pub enum Manoeuvre {
     Weave,
     /// A wheel strikes a kerb: the rack is pushed back with 20 kN within 15 ms
     Kerb,
+    /// Two turns of the nut, one a second, under -1500 N: Lin 2019, Figures 3.24 and 3.25
+    Turns,
+    /// A linear bearing's carriage, 0.2 m there and back under 1 kN, loaded to one side and the other
+    Stroke,
 }
 
 /// Rack speed, m/s, and the force that resists positive rack travel, N.
 struct Rack {
     speed: f64,
     force: f64,
+    /// Force across, N.
+    side: f64,
 }
 
 /// Force of tyre scrub: it builds up with travel, saturates, and turns over with hysteresis (Dahl).
@@ -61,6 +67,8 @@ impl Manoeuvre {
             Self::Parking => "parking",
             Self::Weave => "weave",
             Self::Kerb => "kerb",
+            Self::Turns => "turns",
+            Self::Stroke => "stroke",
         }
     }
 
@@ -70,35 +78,60 @@ impl Manoeuvre {
             Self::Parking => (12.0, 1e3),
             Self::Weave => (20.0, 1e3),
             Self::Kerb => (0.6, 10e3),
+            Self::Turns | Self::Stroke => (2.0, 1e3),
         }
+    }
+
+    /// The trace of a linear bearing.
+    pub fn linear_trace(self) -> Result<Trace, Failure> {
+        if self != Self::Stroke {
+            return Err(Failure::Data(format!(
+                "{} is a manoeuvre of a ball screw; the one of a linear bearing is stroke",
+                self.name()
+            )));
+        }
+        Ok(self.samples(1.0))
     }
 
     /// The trace for one design.
     pub fn trace(self, design: &BallScrew) -> Result<Trace, Failure> {
+        match self {
+            Self::Stroke => {
+                return Err(Failure::Data(
+                    "stroke is the manoeuvre of a linear bearing".into(),
+                ));
+            }
+            Self::Turns => return Ok(self.samples(1.0)),
+            _ => {}
+        }
         let lead = f64::from(design.lead());
         if lead <= 0.0 {
             return Err(Failure::Data(
                 "a manoeuvre is rack travel, and a design without lead makes none".into(),
             ));
         }
-        let speed_ratio = TAU / lead;
+        Ok(self.samples(TAU / lead))
+    }
+
+    fn samples(self, speed_ratio: f64) -> Trace {
         let (duration, rate) = self.duration();
         let mut rack = self.rack(1.0 / rate);
         let samples = (0..=(duration * rate).round() as u32)
             .map(|index| {
                 let time = f64::from(index) / rate;
-                let Rack { speed, force } = rack(time);
+                let Rack { speed, force, side } = rack(time);
                 Sample {
                     time,
                     nut_speed: speed * speed_ratio,
                     axial_load: force,
+                    side_load: side,
                 }
             })
             .collect();
-        Ok(Trace {
+        Trace {
             name: self.name().into(),
             samples,
-        })
+        }
     }
 
     /// Rack speed and force as functions of time, called once for every step.
@@ -116,6 +149,7 @@ impl Manoeuvre {
                     Rack {
                         speed,
                         force: scrub.step(speed * step) + lift,
+                        side: 0.0,
                     }
                 })
             }
@@ -130,6 +164,7 @@ impl Manoeuvre {
                         speed,
                         // Self-alignment holds the wheels straight.
                         force: scrub.step(speed * step) + 2.2e5 * travel,
+                        side: 0.0,
                     }
                 })
             }
@@ -141,6 +176,7 @@ impl Manoeuvre {
                     return Rack {
                         speed: 0.02,
                         force: 2e3,
+                        side: 0.0,
                     };
                 }
                 let pulse = if since < PULSE {
@@ -154,7 +190,18 @@ impl Manoeuvre {
                 Rack {
                     speed: 0.02 * ring - 0.35 * ring * swing,
                     force: 2e3 * ring + pulse - 3e3 * ring * (TAU * 18.0 * since + PI).sin() * 0.4,
+                    side: 0.0,
                 }
+            }),
+            Self::Turns => Box::new(|_| Rack {
+                speed: TAU,
+                force: -1500.0,
+                side: 0.0,
+            }),
+            Self::Stroke => Box::new(|time| Rack {
+                speed: 0.1 * PI * (PI * time).sin(),
+                force: 1e3,
+                side: 600.0 * (TAU * time).sin(),
             }),
         }
     }

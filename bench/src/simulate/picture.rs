@@ -2,7 +2,6 @@
 
 use super::Row;
 use super::trace::Trace;
-use crate::designs::Design;
 use crate::failure::Failure;
 use crate::plot::{Axis, Chart, Mark, Panel, Series, render};
 
@@ -10,8 +9,9 @@ use crate::plot::{Axis, Chart, Mark, Panel, Series, render};
 const BUCKETS: usize = 900;
 
 /// Draws the four panels.
-pub fn draw(trace: &Trace, design: &Design, rows: &[Row]) -> Result<String, Failure> {
-    let curve = |value: &dyn Fn(&Row) -> f64| thin(rows, value);
+pub fn draw(trace: &Trace, design: &str, rows: &[Row]) -> Result<String, Failure> {
+    let time = |row: &Row| row.sample.time;
+    let curve = |value: &dyn Fn(&Row) -> f64| thin(rows, &time, value);
     let single = |value: &dyn Fn(&Row) -> f64| vec![Series::new("", 0, Mark::Line, curve(value))];
     let with_reference = rows.first().is_some_and(|row| row.reference.is_some());
     let pair = |value: &dyn Fn(&Row) -> f64, reference: &dyn Fn(&Row) -> f64| {
@@ -28,7 +28,7 @@ pub fn draw(trace: &Trace, design: &Design, rows: &[Row]) -> Result<String, Fail
     };
     let panels = [
         (
-            format!("{} on {}", trace.name, design.name),
+            format!("{} on {design}", trace.name),
             Axis::linear("axial load (N)"),
             single(&|row| row.sample.axial_load),
         ),
@@ -68,16 +68,20 @@ pub fn draw(trace: &Trace, design: &Design, rows: &[Row]) -> Result<String, Fail
 
 /// At most four points for each bucket of time: first, lowest, highest and last, so that no peak is
 /// lost.
-fn thin(rows: &[Row], value: &dyn Fn(&Row) -> f64) -> Vec<(f64, f64)> {
+pub fn thin(
+    rows: &[Row],
+    place: &dyn Fn(&Row) -> f64,
+    value: &dyn Fn(&Row) -> f64,
+) -> Vec<(f64, f64)> {
     let size = rows.len().div_ceil(BUCKETS).max(1);
-    let point = |row: &Row| (row.sample.time, value(row));
+    let point = |row: &Row| (place(row), value(row));
     if size <= 4 {
         return rows.iter().map(point).collect();
     }
     let mut points = Vec::with_capacity(4 * BUCKETS);
     for bucket in rows.chunks(size) {
         let by_value = |one: &&Row, other: &&Row| value(one).total_cmp(&value(other));
-        let mut kept: Vec<_> = [
+        let mut kept: Vec<&Row> = [
             bucket.first(),
             bucket.iter().min_by(by_value),
             bucket.iter().max_by(by_value),
@@ -85,10 +89,9 @@ fn thin(rows: &[Row], value: &dyn Fn(&Row) -> f64) -> Vec<(f64, f64)> {
         ]
         .into_iter()
         .flatten()
-        .map(point)
         .collect();
-        kept.sort_by(|one, other| one.0.total_cmp(&other.0));
-        points.extend(kept);
+        kept.sort_by(|one, other| one.sample.time.total_cmp(&other.sample.time));
+        points.extend(kept.into_iter().map(point));
     }
     points
 }

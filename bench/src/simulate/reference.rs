@@ -1,12 +1,171 @@
-//! The same scene in float64, from the efficiencies of the reference.
+//! The same scene in float64: a caged ball screw from the efficiencies of the reference, an uncaged one
+//! by its whole screw.
 
 use std::f64::consts::{SQRT_2, TAU};
 
-use epas_friction::{CagedBallScrewConfiguration, FrictionBranch, Limits};
+use epas_friction::{CagedBallScrewConfiguration, FrictionBranch, GrooveFit, GrooveSize, Limits};
+use epas_reference::curvature::{Groove, Surface, profile};
 use epas_reference::efficiency::Screw;
+use epas_reference::friction::ball_screw_ball::ScrewTrack;
+use epas_reference::friction::ball_screw_closed::ThreePointModel;
+use epas_reference::friction::ball_screw_elastic::BallSlip;
+use epas_reference::friction::contact_law::{Eccentricity, HertzLaw};
+use epas_reference::friction::whole_screw::WholeScrew;
+use epas_reference::hertz::contact_modulus;
 
-use super::trace::Sample;
+use super::subject::Subject;
+use super::trace::{Sample, Trace};
+use crate::designs::train::{UncagedDesign, Wave};
 use crate::failure::Failure;
+
+/// The reference of a run.
+pub enum Reference {
+    /// Balls do not touch.
+    Caged(ReferenceScene),
+    /// Balls press on each other: friction at every sample.
+    Uncaged(Vec<Friction>),
+}
+
+impl Reference {
+    /// The reference of a subject that the in-loop model has accepted.
+    pub fn new(subject: &Subject, trace: &Trace) -> Result<Self, Failure> {
+        match subject {
+            Subject::Caged(design) => {
+                ReferenceScene::new(&design.configuration).map(Self::Caged)
+            }
+            Subject::Uncaged(_, design) => whole_screw(design, trace).map(Self::Uncaged),
+            Subject::Linear(_) => Err(Failure::Data(
+                "--reference follows ball screws; rows of balls in a linear bearing are compared by eval's \
+                 linear_train"
+                    .into(),
+            )),
+        }
+    }
+
+    /// Friction at a sample, the `index`-th.
+    pub fn friction(&self, index: usize, sample: &Sample) -> Option<Friction> {
+        match self {
+            Self::Caged(scene) => Some(scene.friction(sample)),
+            Self::Uncaged(all) => all.get(index).copied(),
+        }
+    }
+}
+
+/// The whole screw of Lin 2019, Section 3.4.4, which knows one speed, one load and one sine.
+fn whole_screw(design: &UncagedDesign, trace: &Trace) -> Result<Vec<Friction>, Failure> {
+    let configuration = &design.configuration;
+    let limited = |what: &str| {
+        Failure::Data(format!(
+            "--reference follows an uncaged ball screw at one speed and load, with one sine on the screw, no \
+             play, preload or return: {what}"
+        ))
+    };
+    let wave = match design.wave {
+        Some(wave) => wave,
+        None if std::ptr::eq(configuration.screw_deviation, configuration.nut_deviation) => Wave {
+            amplitude: 0.0,
+            order: 1,
+        },
+        None => return Err(limited("this deviation or these load shares are others")),
+    };
+    if configuration.fit != GrooveFit::Zero || configuration.return_length > 0.0 {
+        return Err(limited("this circuit is another"));
+    }
+    let [first, .., last] = trace.samples.as_slice() else {
+        return Err(limited("this trace is too short"));
+    };
+    let same = |sample: &Sample| {
+        sample.nut_speed == first.nut_speed && sample.axial_load == first.axial_load
+    };
+    if !trace.samples.iter().all(same) || first.nut_speed == 0.0 {
+        return Err(limited("this trace is another"));
+    }
+
+    let refused = |error: &dyn std::fmt::Display| Failure::Data(format!("--reference: {error}"));
+    let parameters = configuration.design.parameters();
+    let [pitch_radius, lead, ball_radius, contact_angle] = [
+        parameters.pitch_radius,
+        parameters.lead,
+        parameters.ball_radius,
+        parameters.contact_angle,
+    ]
+    .map(f64::from);
+    let elastic = |material: &epas_friction::Material| {
+        (
+            f64::from(material.youngs_modulus),
+            f64::from(material.poisson_ratio),
+        )
+    };
+    let modulus = contact_modulus(
+        elastic(&parameters.ball_material),
+        elastic(&parameters.groove_material),
+    );
+    let law = |groove: Groove, size: GrooveSize| -> Result<HertzLaw, Failure> {
+        let conformity = match size {
+            GrooveSize::Conformity(conformity) => f64::from(conformity),
+            GrooveSize::Radius(radius) => 0.5 * f64::from(radius) / ball_radius,
+        };
+        let (groove_radius, offset_h, offset_l) = profile(ball_radius, conformity, contact_angle);
+        let surface = Surface {
+            groove,
+            pitch_radius,
+            lead_angle: (lead / (TAU * pitch_radius)).atan(),
+            groove_radius,
+            offset_h,
+            offset_l,
+        };
+        surface
+            .check(contact_angle)
+            .map_err(|error| refused(&error))?;
+        let curvatures = surface.principal(contact_angle);
+        let along = 1.0 / (1.0 / ball_radius + curvatures.kappa1);
+        let across = 1.0 / (1.0 / ball_radius + curvatures.kappa2);
+        HertzLaw::new(along, across, modulus, Eccentricity::Exact).map_err(|error| refused(&error))
+    };
+    let screw = WholeScrew {
+        model: ThreePointModel {
+            track: ScrewTrack {
+                pitch_radius,
+                lead,
+                ball_radius,
+            },
+            screw: law(Groove::Screw, parameters.screw_groove)?,
+            nut: law(Groove::Nut, parameters.nut_groove)?,
+            friction: configuration.friction.into(),
+            contact_angle,
+        },
+        balls: design.balls.into(),
+        turns: configuration.turns.into(),
+        axial_load: first.axial_load,
+        nut_speed: first.nut_speed,
+        deviation: wave.amplitude.into(),
+        cycles: wave.order.into(),
+        ball_friction: configuration.ball_friction.into(),
+        ball_slip: BallSlip::Orbiting,
+    };
+    let angle = ((last.time - first.time) * first.nut_speed).abs();
+    let states = screw
+        .simulate(angle, trace.samples.len() - 1, 1)
+        .map_err(|error| refused(&error))?;
+    let load_torque = first.axial_load * lead / TAU;
+    Ok(states
+        .iter()
+        .map(|state| {
+            let size = state.groove_torque().abs() + state.ball_torque.abs();
+            let opposing = load_torque * first.nut_speed.signum();
+            Friction {
+                friction_torque: size * first.nut_speed.signum(),
+                efficiency: if opposing > 0.0 {
+                    opposing / (opposing + size)
+                } else if opposing < 0.0 {
+                    1.0 + size / opposing
+                } else {
+                    0.0
+                },
+            }
+        })
+        .collect())
+}
 
 /// Friction of one sample.
 #[derive(Clone, Copy, Debug, PartialEq)]

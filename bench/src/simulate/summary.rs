@@ -3,11 +3,11 @@
 use std::f64::consts::TAU;
 use std::io::{self, Write};
 
-use epas_friction::{
-    CagedBallScrewConfiguration, EfficiencyGeometry, Faults, Groove, HertzContact, Regime,
-};
+use epas_friction::{EfficiencyGeometry, Faults, Groove, HertzContact, Regime};
 
+use super::subject::Subject;
 use super::trace::{Sample, Trace};
+use super::train::TrainRow;
 use super::{Row, regime_name};
 use crate::designs::Design;
 
@@ -32,6 +32,17 @@ pub struct Summary {
     faulted: usize,
     faults: [usize; FAULTS.len()],
     reference: Option<Difference>,
+    train: Option<Pressing>,
+}
+
+/// Of balls that press on each other.
+#[derive(Clone, Copy, Debug, Default)]
+struct Pressing {
+    /// Energy that balls turn into heat on each other, J.
+    energy: f64,
+    peak: f64,
+    most_contacts: u8,
+    largest_force: f32,
 }
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -65,9 +76,12 @@ const REGIMES: [Regime; 4] = [
 
 impl Summary {
     /// Nothing yet.
-    pub fn new(configuration: &CagedBallScrewConfiguration) -> Self {
+    pub fn new(subject: &Subject) -> Self {
         Self {
-            reduced_lead: f64::from(configuration.design.lead()) / TAU,
+            // Of a linear bearing the way is the speed's own.
+            reduced_lead: subject
+                .screw()
+                .map_or(1.0, |design| f64::from(design.screw().lead()) / TAU),
             last: None,
             direction: 0.0,
             reversals: 0,
@@ -83,6 +97,7 @@ impl Summary {
             faulted: 0,
             faults: [0; FAULTS.len()],
             reference: None,
+            train: None,
         }
     }
 
@@ -92,6 +107,7 @@ impl Summary {
             sample,
             outputs,
             reference,
+            train,
         } = row;
         let Sample {
             time, nut_speed, ..
@@ -130,6 +146,16 @@ impl Summary {
         for (count, (fault, _)) in self.faults.iter_mut().zip(FAULTS) {
             *count += usize::from(outputs.faults.contains(fault));
         }
+        if let Some(TrainRow { outputs, .. }) = train {
+            let pressing = self.train.get_or_insert_default();
+            let friction = f64::from(outputs.ball_friction);
+            pressing.energy += friction * rotation;
+            pressing.peak = pressing.peak.max(friction.abs());
+            pressing.most_contacts = pressing.most_contacts.max(outputs.contacts);
+            if outputs.largest_contact_force > pressing.largest_force {
+                pressing.largest_force = outputs.largest_contact_force;
+            }
+        }
         if let Some(reference) = reference {
             let difference = self.reference.get_or_insert_default();
             difference.torque = difference
@@ -146,7 +172,13 @@ impl Summary {
     }
 
     /// Prints the table.
-    pub fn print(&self, out: &mut impl Write, trace: &Trace, design: &Design) -> io::Result<()> {
+    pub fn print(&self, out: &mut impl Write, trace: &Trace, subject: &Subject) -> io::Result<()> {
+        let screw = subject.screw();
+        let (load, speed, torque) = match screw {
+            Some(_) => ("axial load", "nut speed", ("torque", "N m")),
+            None => ("normal load", "speed", ("force", "N")),
+        };
+        let (torque, unit) = torque;
         let mut line = |name: &str, text: String| writeln!(out, "{name:30} {text}");
         let samples = trace.samples.len();
         let duration = match (trace.samples.first(), trace.samples.last()) {
@@ -154,23 +186,46 @@ impl Summary {
             _ => 0.0,
         };
         line("trace", trace.name.clone())?;
-        line("design", design.name.clone())?;
+        line("design", subject.name().into())?;
         line("duration", format!("{duration:.3} s, {samples} samples"))?;
         line("travel", format!("{:.1} mm", 1e3 * self.travel))?;
         line("reversals", self.reversals.to_string())?;
-        line("peak axial load", format!("{:.1} N", self.peak_load))?;
-        line("peak nut speed", format!("{:.2} rad/s", self.peak_speed))?;
+        line(&format!("peak {load}"), format!("{:.1} N", self.peak_load))?;
+        let speed_unit = if screw.is_some() { "rad/s" } else { "m/s" };
         line(
-            "peak friction torque",
-            format!("{:.4} N m", self.peak_friction),
+            &format!("peak {speed}"),
+            format!("{:.2} {speed_unit}", self.peak_speed),
         )?;
-        line("peak motor torque", format!("{:.4} N m", self.peak_motor))?;
+        line(
+            &format!("peak friction {torque}"),
+            format!("{:.4} {unit}", self.peak_friction),
+        )?;
+        if screw.is_some() {
+            line("peak motor torque", format!("{:.4} N m", self.peak_motor))?;
+        }
         line("friction energy", format!("{:.3} J", self.friction_energy))?;
-        if self.driving.motor > 0.0 {
+        if let Some(pressing) = self.train {
+            line(
+                "of it from ball to ball",
+                format!("{:.3} J", pressing.energy),
+            )?;
+            line(
+                &format!("peak ball-to-ball {torque}"),
+                format!("{:.4} {unit}", pressing.peak),
+            )?;
+            line(
+                "ball-to-ball contacts",
+                format!(
+                    "at most {}, largest force {:.2} N",
+                    pressing.most_contacts, pressing.largest_force
+                ),
+            )?;
+        }
+        if screw.is_some() && self.driving.motor > 0.0 {
             let efficiency = self.driving.load / self.driving.motor;
             line("mean efficiency, driving", format!("{efficiency:.4}"))?;
         }
-        if self.back_driving.load < 0.0 {
+        if screw.is_some() && self.back_driving.load < 0.0 {
             let efficiency = self.back_driving.motor / self.back_driving.load;
             line("mean efficiency, back-driving", format!("{efficiency:.4}"))?;
         }
@@ -184,7 +239,9 @@ impl Summary {
             })
             .collect();
         line("regimes", regimes.join(", "))?;
-        if let Some(balls) = design.loaded_balls {
+        if let Some((design, balls)) =
+            screw.and_then(|design| design.loaded_balls.map(|balls| (design, balls)))
+        {
             let pressure = self.peak_pressure(design, balls);
             line(
                 "peak contact pressure",

@@ -7,16 +7,19 @@ use std::path::Path;
 use csv::{ErrorKind, Position, Reader, ReaderBuilder, StringRecord, Trim};
 
 use crate::failure::Failure;
+use crate::files::Bounded;
 
 /// One moment of a trace.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
     /// Time, s.
     pub time: f64,
-    /// Speed of the nut, rad/s.
+    /// Speed of the nut, rad/s; of a linear bearing's carriage, m/s.
     pub nut_speed: f64,
-    /// Axial load, N.
+    /// Axial load, N; of a linear bearing the normal load.
     pub axial_load: f64,
+    /// Load across a linear bearing, N; 0 in a ball screw.
+    pub side_load: f64,
 }
 
 /// A trace, never empty, its times never going back.
@@ -28,31 +31,25 @@ pub struct Trace {
     pub samples: Vec<Sample>,
 }
 
-/// Columns that a trace must have.
-const COLUMNS: [&str; 3] = ["time", "nut_speed", "axial_load"];
+/// Columns that a trace of a ball screw must have, in the order of [`Sample`].
+pub const SCREW: &[&str] = &["time", "nut_speed", "axial_load"];
+
+/// Columns that a trace of a linear bearing must have.
+pub const LINEAR: &[&str] = &["time", "speed", "normal_load", "side_load"];
 
 /// Most samples of a trace: more than an hour at 1 kHz, and less than fills a memory.
 const MOST_SAMPLES: usize = 5_000_000;
 
-/// Largest trace file, bytes.
-const LARGEST_FILE: u64 = 1 << 30;
+/// Largest trace file, bytes: what five million samples need; a quoted field may span lines, and is held
+/// whole.
+const LARGEST_FILE: u64 = 1 << 29;
 
 /// Reads a trace.
-pub fn read(path: &Path) -> Result<Trace, Failure> {
+pub fn read(path: &Path, columns: &[&str]) -> Result<Trace, Failure> {
     let file = File::open(path).map_err(|error| Failure::file("open", path, &error))?;
-    let size = file
-        .metadata()
-        .map_err(|error| Failure::file("read", path, &error))?
-        .len();
-    if size > LARGEST_FILE {
-        return Err(Failure::Data(format!(
-            "{}: a trace has at most {LARGEST_FILE} bytes, this one {size}",
-            path.display()
-        )));
-    }
-    let samples = parse(file).map_err(|Fault { line, message }| {
-        Failure::Data(format!("{}, line {line}: {message}", path.display()))
-    })?;
+    // What is no file, a pipe or a device, does not say its size and may never end.
+    let samples = samples(Bounded::new(file, LARGEST_FILE), columns)
+        .map_err(|message| Failure::Data(format!("{}, {message}", path.display())))?;
     Ok(Trace {
         name: path
             .file_stem()
@@ -61,6 +58,11 @@ pub fn read(path: &Path) -> Result<Trace, Failure> {
             .into_owned(),
         samples,
     })
+}
+
+/// The samples of a trace, or what is wrong in which line.
+pub fn samples(input: impl Read + Seek, columns: &[&str]) -> Result<Vec<Sample>, String> {
+    parse(input, columns).map_err(|Fault { line, message }| format!("line {line}: {message}"))
 }
 
 /// What is wrong with a trace, and in which line.
@@ -112,14 +114,17 @@ fn line_of(reader: Reader<impl Read + Seek>, start: &Position) -> u64 {
     start.line() + blank_lines().unwrap_or(0)
 }
 
-fn parse(input: impl Read + Seek) -> Result<Vec<Sample>, Fault> {
+fn parse(input: impl Read + Seek, columns: &[&str]) -> Result<Vec<Sample>, Fault> {
     let mut reader = ReaderBuilder::new().trim(Trim::All).from_reader(input);
     let start = reader.position().clone();
     let header = match reader.headers() {
         Ok(header) => header.clone(),
         Err(error) => return Err(Fault::from_csv(&error, reader, &start)),
     };
-    let [time, nut_speed, axial_load] = places(&header)?;
+    let places = columns
+        .iter()
+        .map(|column| place(&header, column))
+        .collect::<Result<Vec<_>, _>>()?;
 
     let mut samples: Vec<Sample> = Vec::new();
     let mut record = StringRecord::new();
@@ -131,10 +136,16 @@ fn parse(input: impl Read + Seek) -> Result<Vec<Sample>, Fault> {
             Err(error) => return Err(Fault::from_csv(&error, reader, &start)),
         }
         let sample = || -> Result<Sample, String> {
+            let mut numbers = [0.0; 4];
+            for ((value, place), column) in numbers.iter_mut().zip(&places).zip(columns) {
+                *value = number(&record, *place, column)?;
+            }
+            let [time, nut_speed, axial_load, side_load] = numbers;
             Ok(Sample {
-                time: number(&record, time, "time")?,
-                nut_speed: number(&record, nut_speed, "nut_speed")?,
-                axial_load: number(&record, axial_load, "axial_load")?,
+                time,
+                nut_speed,
+                axial_load,
+                side_load,
             })
         };
         match sample().and_then(|sample| follows(&samples, sample)) {
@@ -160,15 +171,6 @@ fn follows(samples: &[Sample], sample: Sample) -> Result<Sample, String> {
         )),
         _ => Ok(sample),
     }
-}
-
-/// Places of the columns that a trace must have.
-fn places(header: &StringRecord) -> Result<[usize; 3], Fault> {
-    let mut places = [0; COLUMNS.len()];
-    for (found, column) in places.iter_mut().zip(COLUMNS) {
-        *found = place(header, column)?;
-    }
-    Ok(places)
 }
 
 /// Place of a column, which must be there once.
@@ -210,7 +212,7 @@ mod tests {
     use std::io::Cursor;
 
     fn parse(text: &[u8]) -> Result<Vec<Sample>, Fault> {
-        super::parse(Cursor::new(text))
+        super::parse(Cursor::new(text), SCREW)
     }
 
     #[test]
@@ -222,7 +224,8 @@ mod tests {
             [(0.0, -2.0), (0.5, 2.0)].map(|(time, nut_speed)| Sample {
                 time,
                 nut_speed,
-                axial_load: 1e3
+                axial_load: 1e3,
+                side_load: 0.0,
             })
         );
     }

@@ -11,6 +11,7 @@ use epas_reference::curvature as reference;
 use epas_reference::published::TABLE_A1;
 
 use super::kernels::{libm, micromath, own};
+use super::trains::trains;
 use super::{Feed, Measure, Mode, Place, Race, Taken};
 use crate::failure::Failure;
 
@@ -31,7 +32,7 @@ pub struct Competition {
 const INPUTS: usize = 256;
 
 /// Functions that are measured against one empty call.
-struct Group<'a, I> {
+pub(super) struct Group<'a, I> {
     race: &'a mut Race,
     list: &'a mut List,
     inputs: Vec<I>,
@@ -40,10 +41,10 @@ struct Group<'a, I> {
 }
 
 /// Key, place and unit of each competitor.
-type List = Vec<(&'static str, Place, Place)>;
+pub(super) type List = Vec<(&'static str, Place, Place)>;
 
 impl<'a, I: Feed + 'static> Group<'a, I> {
-    fn new<O: Taken + 'static>(
+    pub(super) fn new<O: Taken + 'static>(
         race: &'a mut Race,
         list: &'a mut List,
         input: impl Fn(f64) -> I,
@@ -61,7 +62,7 @@ impl<'a, I: Feed + 'static> Group<'a, I> {
     }
 
     /// Adds a function; the first is the unit of the others.
-    fn time<O: Taken + 'static>(
+    pub(super) fn time<O: Taken + 'static>(
         mut self,
         key: &'static str,
         function: impl FnMut(I) -> O + Clone + 'static,
@@ -75,7 +76,7 @@ impl<'a, I: Feed + 'static> Group<'a, I> {
 
 /// Numbers spread evenly over 0 to 1, in an order that no branch predictor learns: multiples of the
 /// golden ratio.
-fn shares() -> impl Iterator<Item = f64> {
+pub(super) fn shares() -> impl Iterator<Item = f64> {
     (0..INPUTS).map(|index| (index as f64 * 0.618_033_988_749_894_9).fract())
 }
 
@@ -197,6 +198,7 @@ pub fn compete(rounds: usize) -> Result<Vec<Competition>, Failure> {
     )
     .time("step_caged", move |inputs| model.step(inputs));
 
+    trains(&mut race, &mut list)?;
     kernels(&mut race, &mut list);
 
     race.run(rounds);

@@ -1,8 +1,11 @@
 //! The program as its users start it.
 
 mod eval;
+mod loads;
 mod report;
 mod simulate;
+mod simulate_trains;
+mod trains;
 
 use std::io::Write;
 use std::path::Path;

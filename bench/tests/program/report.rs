@@ -33,6 +33,21 @@ fn the_report_reproduces_the_printed_tables_and_writes_every_figure() {
         "efficiency_figure_6",
         "efficiency_figure_7",
         "hertz",
+        "linear_ball_error_against_time",
+        "linear_ball_errors",
+        "linear_pair_errors",
+        "screw_ball_error_against_time",
+        "train_times_picture",
+        "lin_figure_4_3",
+        "lin_figure_4_5",
+        "lin_figures_2_9_2_10",
+        "lin_figures_2_11_2_12",
+        "lin_figure_2_14",
+        "lin_figure_4_10",
+        "lin_figure_3_7",
+        "lin_figure_3_14",
+        "lin_figure_3_15",
+        "lin_figure_4_7",
     ];
     for figure in figures {
         assert!(read(&format!("{figure}.svg")).starts_with("<svg"));
@@ -45,6 +60,16 @@ fn the_report_reproduces_the_printed_tables_and_writes_every_figure() {
         "summary",
         "curvature_times",
         "kernels",
+        "linear_ball",
+        "linear_ball_published",
+        "screw_ball",
+        "pair_times",
+        "train_times",
+        "applications",
+        "static_cost",
+        "hertzian_constants",
+        "published",
+        "published_open",
     ] {
         let rows = json[table]["rows"].as_array().unwrap();
         assert!(!rows.is_empty());

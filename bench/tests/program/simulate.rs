@@ -47,8 +47,15 @@ fn files(folder: &Path) -> Vec<String> {
 #[test]
 fn the_list_holds_every_built_in_design() {
     let list = run(&["simulate", "--list"], "");
-    assert_eq!((list.code, list.stdout.lines().count()), (0, 34));
-    for name in ["32x20x6.35", "20x60x3.5", "lin-2.1", "lin-3.6", "lin-4.1"] {
+    assert_eq!((list.code, list.stdout.lines().count()), (0, 35));
+    for name in [
+        "32x20x6.35",
+        "20x60x3.5",
+        "lin-2.1",
+        "lin-3.3",
+        "lin-3.6",
+        "lin-4.1",
+    ] {
         assert!(list.stdout.lines().any(|line| line.starts_with(name)));
     }
 }

@@ -19,6 +19,7 @@
 //! | [`linear_ball`] | ball of a linear bearing, statics, the published analytical formulas |
 //! | [`chain`] | chains of touching balls in a linear bearing, with and without ball-to-ball friction |
 //! | [`rotary_ball`] | four-point rotary bearing, statics and friction (Tables 3.1 and 3.2) |
+//! | [`rotary_bearing`] | whole rotary bearing: load distribution and friction (section 4.3.1) |
 //! | [`ball_screw_ball`] | ball of a ball screw with given contacts, (3.65) to (3.69) |
 //! | [`ball_screw_grooves`] | the grooves as elastic arcs, (2.11) to (2.14) |
 //! | [`ball_screw_elastic`] | in-plane balance with elasticity, and two touching balls, (3.69) to (3.76) |
@@ -45,6 +46,7 @@ mod newton;
 pub mod patch;
 pub mod planar;
 pub mod rotary_ball;
+pub mod rotary_bearing;
 mod train_newton;
 pub mod whole_screw;
 
@@ -67,6 +69,8 @@ pub enum FrictionError {
     Standstill,
     /// The loaded contacts leave the speed of the ball open (a loaded contact is missing on one side).
     Undriven,
+    /// No contact takes up the load: it points out of the grooves, or play is larger than the model allows.
+    Unsupported,
     /// The iteration stopped before the residual came under its tolerance.
     NotConverged {
         /// Largest residual left, in N.
@@ -90,6 +94,7 @@ impl fmt::Display for FrictionError {
                 "speed is zero: Coulomb friction has no direction at rest"
             ),
             Self::Undriven => write!(out, "the loaded contacts leave the speed of the ball open"),
+            Self::Unsupported => write!(out, "no contact takes up the load"),
             Self::NotConverged { residual } => write!(out, "no convergence, {residual} N left"),
         }
     }

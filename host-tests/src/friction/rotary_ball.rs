@@ -11,7 +11,7 @@ use super::planar::{ContactFriction, PlanarContact, dissipation, least_dissipati
 use super::{FrictionError, within};
 
 /// Direction of each contact from the ball centre: signs of the axial (x) and radial (y) component.
-const SIGNS: [(f64, f64); 4] = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+pub(super) const SIGNS: [(f64, f64); 4] = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
 
 /// How the groove's curvature along the track and the eccentricity of the contact enter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

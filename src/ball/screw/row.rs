@@ -1,6 +1,6 @@
 //! Closed form for a row of balls in a ball screw, at the price of a control loop.
 
-use super::across::{Across, AcrossMap};
+use super::slip_map::{Across, SlipMap};
 use crate::ball::root::{inverse_cube_roots, loaded};
 use crate::error::{Error, in_range};
 use crate::geometry::{BallScrew, Groove};
@@ -12,6 +12,12 @@ const LARGEST_DEVIATION: f32 = 0.2;
 
 /// Smallest load per ball, N: below it a ball keeps the motion and the compliance that it has there.
 const SMALLEST_LOAD: f32 = 1e-3;
+
+/// Load of a light contact below which it does not count, over that of the main contacts.
+const LEAST_LOAD: f32 = 1e-6;
+
+/// Least `give` of a contact over its `drag`, far below any true one: it keeps divisions finite.
+const LEAST_GIVE: f32 = 1e-3;
 
 /// Ratio of load difference to preload at which the unloaded diagonal loses contact: `2^(3/2)`.
 const LOST: f32 = 2.828_427_1;
@@ -50,18 +56,29 @@ impl LoadShare {
         inverse_two_thirds: 1.0,
     };
 
-    /// Powers of a ball's load over the mean load of all balls, 0.01 to 100.
+    /// Powers of a ball's load over the mean load of all balls, 0.01 to 100; a table of them is a constant.
+    ///
+    /// Largest error of a power 2.1e-7, relative.
     ///
     /// # Errors
     /// [`Error`] naming `share`.
-    pub fn new(share: f32) -> Result<Self, Error> {
-        let share = in_range("share", share, 0.01, 100.0)?;
-        let (root, square) = math::cbrt_and_squared(share);
+    pub const fn new(share: f32) -> Result<Self, Error> {
+        let share = match in_range("share", share, 0.01, 100.0) {
+            Ok(share) => share,
+            Err(error) => return Err(error),
+        };
+        // Newton's method from 1, which a constant can take: 14 steps from either end of the range.
+        let mut root = 1.0;
+        let mut step = 0;
+        while step < 16 {
+            root -= (root - share / (root * root)) * (1.0 / 3.0);
+            step += 1;
+        }
         Ok(Self {
             share,
             four_thirds: share * root,
             inverse: 1.0 / share,
-            inverse_two_thirds: 1.0 / square,
+            inverse_two_thirds: 1.0 / (root * root),
         })
     }
 
@@ -86,15 +103,47 @@ impl LoadShare {
 }
 
 /// Balls of one ball screw: constants of the closed form.
+///
+/// The closed form of [`ScrewBall`](crate::ScrewBall) where all balls carry shares of one axial load and contact angles
+/// deviate with the grooves: what depends on the load is found once a tick ([`ScrewRow::at`]), and a ball costs two
+/// polynomials ([`ScrewTick::ball`]). Spin moments are left out:
+///
+/// ```text
+/// third contact on the screw   w_B/w_N = (1 + r cos b_N)/(1 + cos(b_N - (b_S - b_3)/2)/cos((b_S + b_3)/2))
+/// third contact on the nut     w_B/w_N = (C + r cos b_S)/(1 + C),  C = cos(b_S - (b_N - b_3)/2)/cos((b_N + b_3)/2)
+/// two contacts                 w_B/w_N = (1 + r cos((b_S + b_N)/2))/2
+/// loads                        N = F/(sin b cos alpha)/(1 - phi mu),  N_3 = 2 phi mu N
+/// compliance                   Y = (1/kappa_S + 1/kappa_N)/4;  1/(kappa_U + kappa_D) of two loaded diagonals
+/// force between two balls      F = (v_1 - v_2)/(Y_1 + Y_2)
+/// ```
+///
+/// with `r = R_B R_P/(L/2 pi)²`, the mean share `phi` of sliding friction across the track, and the contacts'
+/// impedances `kappa`. A third contact closes where friction across the track pushes the ball, see
+/// [`ScrewRow::contacts`].
+///
+/// Input: a validated design, friction 1e-6 to 0.5, axial loads per ball 1e-3 to 1e7 N, deviations up to 0.2 rad.
+///
+/// Errors against the formulas above with exact contact integrals: orbital speed 2e-7 of the nut's, compliance and
+/// torque 0.6 % at the mean load; 6 % and 12 % at shares of 0.1 to 3 of it. Against equilibrium of balls in elastic
+/// grooves (Lin 2019, Table 3.6, groove radius 3.254 mm, friction 0.1): contact loads 2.5 %, force between two balls
+/// whose screw grooves differ by 0.5 to 3 degrees so that the third contact gains load: 3.2 % up to 50 N per ball, 7 %
+/// at 100 N. Of the opposite sign the third contact slides, and the force is too large, by up to 11 % at 10 N,
+/// 21 % at 25 N, 44 % at 50 N and a factor two at 100 N. Table 3.7, read as 50 N on each ball: -1.3 % and -2.9 %.
+/// With two contacts and unequal contact angles the speed is that between a ball which sticks to the screw and one which
+/// sticks to the nut; [`ScrewBall::closed_form`](crate::ScrewBall::closed_form) tells them apart.
+///
+/// Source: not in Lin 2019; from its equations (3.65)-(3.76).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ScrewRow {
     friction: f32,
+    contact_angle: f32,
     /// Normal force of a contact over the axial load, `1/(sin beta cos alpha)`.
     normal: f32,
     preload: f32,
     play: bool,
     nominal_speed: f32,
+    largest_deviation: f32,
     /// Slip across the track in each of two rolling contacts, m.
     slip: f32,
     screw: Race,
@@ -110,15 +159,25 @@ pub struct ScrewRow {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 struct Race {
-    map: AcrossMap,
+    map: SlipMap,
     /// Semi-major axis times spin at one newton, `m/N^(1/3)`.
     rim: f32,
 }
 
 impl Race {
+    /// The contact within its physical bounds, whatever the interpolation does at the slenderest ellipses:
+    /// the mean sliding speed is not below the speed of the mean, friction not beyond `mu F`.
     #[inline]
     fn at(&self, slip: f32, root: f32) -> Across {
-        self.map.at(slip, self.rim * root)
+        let contact = self.map.across(slip, self.rim * root);
+        let drag = larger(contact.drag, slip);
+        Across {
+            drag,
+            give: larger(contact.give, LEAST_GIVE * drag),
+            share: part(contact.share),
+            drag_growth: part(contact.drag_growth),
+            give_growth: part(contact.give_growth),
+        }
     }
 }
 
@@ -136,6 +195,16 @@ struct Branch {
     rubbing_slope: f32,
     /// Relative change of the contacts' spin with the ball's speed, 1/m.
     spin: f32,
+}
+
+/// Loads of a ball's contacts, and friction of the loaded pair.
+#[derive(Clone, Copy)]
+struct Loads {
+    main: f32,
+    third: f32,
+    fourth: f32,
+    screw: Across,
+    nut: Across,
 }
 
 /// A ball under the mean load.
@@ -158,6 +227,7 @@ struct Mean {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ScrewTick {
+    largest_deviation: f32,
     turn: [f32; 5],
     own: [f32; 3],
     turn_sign: f32,
@@ -195,6 +265,13 @@ impl ScrewRow {
     #[must_use]
     pub const fn nominal_speed(&self) -> f32 {
         self.nominal_speed
+    }
+
+    /// Largest deviation of a contact angle that counts, rad; a larger one is taken at it: 0.2 for
+    /// contact angles from 23 to 68 degrees, less beyond.
+    #[must_use]
+    pub const fn largest_deviation(&self) -> f32 {
+        self.largest_deviation
     }
 
     /// Folds the constants of a design.
@@ -236,7 +313,7 @@ impl ScrewRow {
         let race = |groove: Groove, spin: f32| -> Result<Race, Error> {
             let contact = HertzContact::of(design, groove);
             Ok(Race {
-                map: AcrossMap::new(contact.axis_ratio())?,
+                map: SlipMap::new(contact.axis_ratio())?,
                 rim: contact.semi_major_coefficient() * spin,
             })
         };
@@ -284,10 +361,12 @@ impl ScrewRow {
         };
         Ok(Self {
             friction,
+            contact_angle: design.parameters().contact_angle,
             normal: 1.0 / (sin * cos_lead),
             preload,
             play,
             nominal_speed: speed,
+            largest_deviation: largest_deviation(design.parameters().contact_angle, sin / cos),
             slip: 0.5 * radius * sin_lead,
             screw,
             nut,
@@ -318,6 +397,58 @@ impl ScrewRow {
         }
     }
 
+    /// Contact angles, rad, and contact forces, N, of one ball, in the order SL, SR, NL, NR: what
+    /// [`ScrewBall::contacts`](crate::ScrewBall::contacts) takes.
+    ///
+    /// A positive axial load of the screw on the ball, N, is carried by SL and NR, a negative one by SR and NL.
+    /// Friction across the track of that pair pushes the ball along the other diagonal and, in grooves
+    /// without play, closes a third contact of `N_3 = 2 phi mu N`, `phi` being the mean share of sliding friction: SL
+    /// under SR-NL and NL under SL-NR for a nut that turns forward, NR and SR for one that turns backward. With a
+    /// preload the third contact gains and the fourth one loses half of that each.
+    ///
+    /// Angles deviate with the grooves, as in [`ScrewTick::ball`]: `SL = beta - screw_deviation`,
+    /// `SR = beta + screw_deviation`, `NL = beta - nut_deviation`, `NR = beta + nut_deviation`.
+    ///
+    /// Loads up to 1e7 N; those under 1e-3 N count as 1e-3 N. Deviations up to
+    /// [`ScrewRow::largest_deviation`]; NaN is none.
+    #[must_use]
+    pub fn contacts(
+        &self,
+        nut_speed: f32,
+        axial_load: f32,
+        screw_deviation: f32,
+        nut_deviation: f32,
+    ) -> ([f32; 4], [f32; 4]) {
+        let size = loaded(axial_load.abs());
+        let size = if size > SMALLEST_LOAD {
+            size
+        } else {
+            SMALLEST_LOAD
+        };
+        let normal = self.normal * size;
+        let (main, third, fourth) = if self.play {
+            (normal, 0.0, 0.0)
+        } else {
+            let loads = self.loads(normal);
+            (loads.main, loads.third, loads.fourth)
+        };
+        let reversed = axial_load < 0.0;
+        let forces = match (reversed, reversed != (nut_speed < 0.0)) {
+            (true, true) => [third, main, main, fourth],
+            (true, false) => [fourth, main, main, third],
+            (false, true) => [main, third, fourth, main],
+            (false, false) => [main, fourth, third, main],
+        };
+        let largest = self.largest_deviation;
+        let screw = limited(screw_deviation, largest);
+        let nut = limited(nut_deviation, largest);
+        let angle = self.contact_angle;
+        (
+            [angle - screw, angle + screw, angle - nut, angle + nut],
+            forces,
+        )
+    }
+
     fn in_two_points(&self, normal: f32, side: f32) -> ScrewTick {
         let slides = if self.screw.rim > self.nut.rim {
             &self.nut
@@ -343,25 +474,13 @@ impl ScrewRow {
     }
 
     fn in_more_points(&self, normal: f32, side: f32, on_screw: bool) -> ScrewTick {
-        // Share of sliding friction across the track, to some per cent.
-        let sliding = self.screw.map.share_slope() * self.slip;
-        let rim = self.screw.map.axis_ratio() * self.screw.rim * cube_root(normal);
-        let share = sliding / math::sqrt(rim * rim + sliding * sliding + 1e-30);
-        let (main, _) = self.diagonals(normal / (1.0 - self.friction * share));
-        let root = cube_root(main);
-        let screw = self.screw.at(self.slip, root);
-        let nut = self.nut.at(self.slip, root);
-        let loss = 0.5 * self.friction * (screw.share + nut.share);
-        let (main, other) = self.diagonals(normal / (1.0 - loss));
-
-        // Friction across the track of the loaded diagonal pushes the ball along the other one.
-        let push = loss * main;
-        let third = if other > push {
-            other + push
-        } else {
-            2.0 * push
-        };
-        let fourth = if other > push { other - push } else { 0.0 };
+        let Loads {
+            main,
+            third,
+            fourth,
+            screw,
+            nut,
+        } = self.loads(normal);
         let (third_race, fourth_race) = if on_screw {
             (&self.screw, &self.nut)
         } else {
@@ -414,6 +533,40 @@ impl ScrewRow {
         )
     }
 
+    /// Loads of the contacts under a given difference of the two diagonals.
+    #[inline]
+    fn loads(&self, normal: f32) -> Loads {
+        // Share of sliding friction across the track, to some per cent.
+        let sliding = self.screw.map.share_slope() * self.slip;
+        let rim = self.screw.rim * cube_root(normal);
+        let share = sliding / math::sqrt(rim * rim + sliding * sliding + 1e-30);
+        let (main, _) = self.diagonals(normal / (1.0 - self.friction * share));
+        let root = cube_root(main);
+        let screw = self.screw.at(self.slip, root);
+        let nut = self.nut.at(self.slip, root);
+        let loss = 0.5 * self.friction * (screw.share + nut.share);
+        let (main, other) = self.diagonals(normal / (1.0 - loss));
+
+        // Friction across the track of the loaded diagonal pushes the ball along the other one.
+        let push = loss * main;
+        // Without lead there is no such friction, and a lost diagonal carries nothing at all: the floor
+        // keeps its ellipse from vanishing.
+        let least = LEAST_LOAD * main;
+        let third = larger(if other > push { other } else { push } + push, least);
+        let fourth = if other - push > least {
+            other - push
+        } else {
+            0.0
+        };
+        Loads {
+            main,
+            third,
+            fourth,
+            screw,
+            nut,
+        }
+    }
+
     /// Normal forces of the loaded and the other diagonal with a given difference.
     ///
     /// Both follow from one displacement `x` over the preload's deflection, `F (1 ± x)^(3/2)`.
@@ -436,7 +589,13 @@ impl ScrewRow {
     #[inline]
     fn tick(&self, branch: &Branch, weights: [f32; 3], mean: &Mean) -> ScrewTick {
         let [turn_sign, screw_weight, nut_weight] = weights;
+        let Mean {
+            give_growth,
+            drag_growth,
+            ..
+        } = *mean;
         ScrewTick {
+            largest_deviation: self.largest_deviation,
             turn: self.turn,
             own: [
                 branch.sine,
@@ -450,10 +609,10 @@ impl ScrewRow {
             spin: branch.spin,
             rubbing: branch.rubbing,
             rubbing_slope: branch.rubbing_slope,
-            compliance_rolling: mean.compliance * mean.give_growth,
-            compliance_sliding: mean.compliance * (1.0 - mean.give_growth),
-            torque_rolling: mean.torque * mean.drag_growth,
-            torque_sliding: mean.torque * (1.0 - mean.drag_growth),
+            compliance_rolling: mean.compliance * give_growth,
+            compliance_sliding: mean.compliance * (1.0 - give_growth),
+            torque_rolling: mean.torque * drag_growth,
+            torque_sliding: mean.torque * (1.0 - drag_growth),
             nominal_speed: self.nominal_speed,
             main_load: mean.main_load,
             third_load: mean.third_load,
@@ -501,8 +660,8 @@ impl ScrewTick {
         nut_deviation: f32,
         share: &LoadShare,
     ) -> ScrewBallLoop {
-        let screw = limited(screw_deviation);
-        let nut = limited(nut_deviation);
+        let screw = limited(screw_deviation, self.largest_deviation);
+        let nut = limited(nut_deviation, self.largest_deviation);
         let [t1, t2, t3, t4, t5] = self.turn;
         let u = self.turn_sign * (screw + nut);
         let turn = u * (t1 + u * (t2 + u * (t3 + u * (t4 + u * t5))));
@@ -608,6 +767,12 @@ fn turn_series(tangent: f32) -> [f32; 5] {
     [c1, c2, c3, c4, c5]
 }
 
+/// `x` within 0 to 1.
+#[inline]
+fn part(x: f32) -> f32 {
+    if x < 1.0 { larger(x, 0.0) } else { 1.0 }
+}
+
 #[inline]
 fn larger(first: f32, second: f32) -> f32 {
     if first > second { first } else { second }
@@ -620,14 +785,60 @@ fn cube_root(x: f32) -> f32 {
     x * inverse * inverse
 }
 
+/// Largest deviation of a contact angle: 0.2 rad, less where the deviations of both grooves together
+/// would turn a contact through the plane across the axis, or where the series in them, which converges
+/// like the powers of `tan(b) u/2`, would need more terms.
+pub(crate) fn largest_deviation(contact_angle: f32, tangent: f32) -> f32 {
+    let both = if contact_angle * tangent < 1.0 {
+        contact_angle
+    } else {
+        1.0 / tangent
+    };
+    if 0.5 * both < LARGEST_DEVIATION {
+        0.5 * both
+    } else {
+        LARGEST_DEVIATION
+    }
+}
+
 /// A deviation within the limits of the series; NaN gives zero.
 #[inline]
-fn limited(deviation: f32) -> f32 {
-    if deviation.abs() <= LARGEST_DEVIATION {
+fn limited(deviation: f32, largest: f32) -> f32 {
+    if deviation.abs() <= largest {
         deviation
     } else if deviation.is_nan() {
         0.0
     } else {
-        LARGEST_DEVIATION.copysign(deviation)
+        largest.copysign(deviation)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A cube root to one rounding of Newton's last step (1.5 x 2^-24), squared and inverted (three times
+    /// that and two roundings).
+    #[test]
+    fn load_shares_have_their_powers() {
+        const TABLE: [Result<LoadShare, Error>; 2] = [LoadShare::new(0.97), LoadShare::new(0.0)];
+        assert!(TABLE[0].is_ok() && TABLE[1].is_err());
+        assert_eq!(LoadShare::new(1.0), Ok(LoadShare::MEAN));
+        let mut worst = 0.0_f64;
+        for step in 0..=40_000_u16 {
+            let share = (0.01 * libm::pow(1e4, f64::from(step) / 4e4)) as f32;
+            let Ok(powers) = LoadShare::new(share.clamp(0.01, 100.0)) else {
+                panic!("{share}")
+            };
+            let root = libm::cbrt(f64::from(powers.share));
+            for (found, truth) in [
+                (powers.four_thirds, root * root * root * root),
+                (powers.inverse, 1.0 / (root * root * root)),
+                (powers.inverse_two_thirds, 1.0 / (root * root)),
+            ] {
+                worst = worst.max((f64::from(found) / truth - 1.0).abs());
+            }
+        }
+        assert!(worst < 2.5e-7, "{worst}");
     }
 }

@@ -1,0 +1,75 @@
+//! Writes or checks what is generated, runs the C tests on the host and in QEMU, and proves of the images what
+//! the README promises.
+//!
+//! ```text
+//! cargo run -p epas-c-check               # check everything
+//! cargo run -p epas-c-check -- --host     # without cross compiler and QEMU
+//! cargo run -p epas-c-check -- --write    # write sizes, header and stored cases first
+//! ```
+
+mod cases;
+mod header;
+mod host;
+mod places;
+mod target;
+mod tools;
+
+use std::fs;
+use std::path::Path;
+use std::process::ExitCode;
+
+type Outcome<T> = Result<T, Box<dyn std::error::Error>>;
+
+fn main() -> ExitCode {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let mut write = false;
+    let mut host_only = false;
+    for argument in std::env::args().skip(1) {
+        match argument.as_str() {
+            "--write" => write = true,
+            "--host" => host_only = true,
+            _ => {
+                eprintln!("usage: epas-c-check [--write] [--host]");
+                return ExitCode::from(2);
+            }
+        }
+    }
+    match run(&root, write, host_only) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(root: &Path, write: bool, host_only: bool) -> Outcome<()> {
+    places::check(root, write)?;
+    let header = header::generated(root)?;
+    up_to_date(root, "include/epas_friction.h", &header, write)?;
+    up_to_date(root, "test/stored.h", &cases::generated()?, write)?;
+    host::check(root)?;
+    if !host_only {
+        target::check(root)?;
+    }
+    println!("everything holds");
+    Ok(())
+}
+
+/// A generated file is what it would be generated as.
+fn up_to_date(root: &Path, name: &str, text: &str, write: bool) -> Outcome<()> {
+    let file = root.join(name);
+    if fs::read_to_string(&file).is_ok_and(|stored| stored == text) {
+        println!("{name} is up to date");
+        Ok(())
+    } else if write {
+        fs::write(&file, text)?;
+        println!("wrote {name}");
+        Ok(())
+    } else {
+        Err(format!(
+            "{name} is not what the sources give: run `cargo run -p epas-c-check -- --write`"
+        )
+        .into())
+    }
+}

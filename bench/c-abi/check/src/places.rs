@@ -1,0 +1,92 @@
+//! The places that the header gives to the models are as large as they have to be.
+
+use std::fs;
+use std::path::Path;
+
+use epas_friction::scene::Scene;
+use epas_friction::{CagedBallScrew, FrictionModel, LinearBearingTrain, UncagedBallScrew};
+
+use crate::Outcome;
+
+/// As the library keeps a model.
+#[repr(C)]
+struct Placed<S: Scene> {
+    mark: u32,
+    model: FrictionModel<S>,
+}
+
+/// Words of eight bytes where pointers have eight bytes too.
+const fn words<S: Scene>() -> usize {
+    size_of::<Placed<S>>().div_ceil(8)
+}
+
+/// The constants of `types.rs` with what they have to be, and the README's line of each.
+fn needed() -> [(&'static str, &'static str, usize); 3] {
+    [
+        (
+            "EPAS_CAGED_WORDS",
+            "`epas_caged_t`",
+            words::<CagedBallScrew>(),
+        ),
+        (
+            "EPAS_SCREW_WORDS",
+            "`epas_screw_t` (37 balls)",
+            words::<UncagedBallScrew<37>>(),
+        ),
+        (
+            "EPAS_LINEAR_WORDS",
+            "`epas_linear_t` (32 balls)",
+            words::<LinearBearingTrain<32>>(),
+        ),
+    ]
+}
+
+/// Sees that the constants are what they have to be, or writes them.
+pub fn check(root: &Path, write: bool) -> Outcome<()> {
+    let file = root.join("src/types.rs");
+    let mut types = fs::read_to_string(&file)?;
+    if defined(&types, "EPAS_SCREW_BALLS") != Some(37)
+        || defined(&types, "EPAS_LINEAR_BALLS") != Some(32)
+    {
+        // Not the numbers of the stored cases: the library's build alone can tell.
+        return Ok(());
+    }
+    let readme = fs::read_to_string(root.join("README.md"))?;
+    for (name, object, words) in needed() {
+        let found = defined(&types, name).ok_or_else(|| format!("src/types.rs: no {name}"))?;
+        if found != words {
+            if !write {
+                return Err(format!("{name} in src/types.rs has to be {words}").into());
+            }
+            types = types.replace(
+                &format!("{name}: usize = {found};"),
+                &format!("{name}: usize = {words};"),
+            );
+            fs::write(&file, &types)?;
+            println!("wrote {name} in src/types.rs");
+        }
+        let line = format!("| {object} | {} |", with_comma(8 * words));
+        if !readme.contains(&line) {
+            return Err(format!("README.md has to say {line}").into());
+        }
+    }
+    Ok(())
+}
+
+/// A number that a constant has.
+fn defined(types: &str, name: &str) -> Option<usize> {
+    let start = format!("pub const {name}: usize = ");
+    types
+        .lines()
+        .find_map(|line| line.strip_prefix(&start)?.strip_suffix(';'))?
+        .parse()
+        .ok()
+}
+
+fn with_comma(number: usize) -> String {
+    if number < 1000 {
+        number.to_string()
+    } else {
+        format!("{},{:03}", number / 1000, number % 1000)
+    }
+}

@@ -1,0 +1,95 @@
+//! Designs: the crate's from the C structure's, with the failure at the C structure's field.
+
+use epas_friction::{
+    BallScrewParameters, Error, GrooveSize, LinearBearingParameters, Material as CrateMaterial,
+};
+
+use crate::status::{
+    EPAS_FIELD_BALL_DENSITY, EPAS_FIELD_BALL_POISSON_RATIO, EPAS_FIELD_BALL_YOUNGS_MODULUS,
+    EPAS_FIELD_GROOVE_DENSITY, EPAS_FIELD_GROOVE_POISSON_RATIO, EPAS_FIELD_GROOVE_YOUNGS_MODULUS,
+    EPAS_FIELD_NUT_CONFORMITY, EPAS_FIELD_SCREW_CONFORMITY, Failure,
+};
+use crate::types::{BallScrew, LinearBearing, Material};
+
+const fn material(material: &Material) -> CrateMaterial {
+    CrateMaterial {
+        youngs_modulus: material.youngs_modulus,
+        poisson_ratio: material.poisson_ratio,
+        density: material.density,
+    }
+}
+
+/// Which of the two materials the crate refused: it has the balls' first.
+fn material_field(error: &Error, ball: &Material) -> Option<u32> {
+    let is_ball = |value: f32| value.to_bits() == error.value().to_bits();
+    let pick = |ball: bool, fields: [u32; 2]| Some(if ball { fields[0] } else { fields[1] });
+    match error.field() {
+        "youngs_modulus" => pick(
+            is_ball(ball.youngs_modulus),
+            [
+                EPAS_FIELD_BALL_YOUNGS_MODULUS,
+                EPAS_FIELD_GROOVE_YOUNGS_MODULUS,
+            ],
+        ),
+        "poisson_ratio" => pick(
+            is_ball(ball.poisson_ratio),
+            [
+                EPAS_FIELD_BALL_POISSON_RATIO,
+                EPAS_FIELD_GROOVE_POISSON_RATIO,
+            ],
+        ),
+        "density" => pick(
+            is_ball(ball.density),
+            [EPAS_FIELD_BALL_DENSITY, EPAS_FIELD_GROOVE_DENSITY],
+        ),
+        _ => None,
+    }
+}
+
+pub(crate) fn ball_screw(design: &BallScrew) -> Result<epas_friction::BallScrew, Failure> {
+    epas_friction::BallScrew::new(BallScrewParameters {
+        pitch_radius: design.pitch_radius,
+        lead: design.lead,
+        ball_radius: design.ball_radius,
+        screw_groove: GrooveSize::Conformity(design.screw_conformity),
+        nut_groove: GrooveSize::Conformity(design.nut_conformity),
+        contact_angle: design.contact_angle,
+        ball_material: material(&design.ball_material),
+        groove_material: material(&design.groove_material),
+    })
+    .map_err(|error| match error.field() {
+        // The screw's is checked first.
+        "conformity" if error.value().to_bits() == design.screw_conformity.to_bits() => {
+            Failure::at(error, EPAS_FIELD_SCREW_CONFORMITY)
+        }
+        "conformity" => Failure::at(error, EPAS_FIELD_NUT_CONFORMITY),
+        // The groove is folded; what is allowed is a radius.
+        "groove_radius" => Failure {
+            value: design.screw_conformity,
+            maximum: error.allowed().maximum / (2.0 * design.ball_radius),
+            ..Failure::at(error, EPAS_FIELD_SCREW_CONFORMITY)
+        },
+        _ => match material_field(&error, &design.ball_material) {
+            Some(field) => Failure::at(error, field),
+            None => Failure::of(error),
+        },
+    })
+}
+
+pub(crate) fn linear_bearing(
+    design: &LinearBearing,
+) -> Result<epas_friction::LinearBearing, Failure> {
+    epas_friction::LinearBearing::new(LinearBearingParameters {
+        ball_radius: design.ball_radius,
+        groove: GrooveSize::Conformity(design.conformity),
+        contact_angle: design.contact_angle,
+        ball_material: material(&design.ball_material),
+        groove_material: material(&design.groove_material),
+    })
+    .map_err(
+        |error| match material_field(&error, &design.ball_material) {
+            Some(field) => Failure::at(error, field),
+            None => Failure::of(error),
+        },
+    )
+}

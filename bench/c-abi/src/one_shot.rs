@@ -1,0 +1,98 @@
+//! Functions without state: efficiency, curvature.
+
+use epas_friction::{
+    CircularGrooveCurvature, ContactAngle, Drive, EfficiencyGeometry, Error, GothicArch, Groove,
+    LiteratureCurvature, Range, efficiency::LARGEST_FRICTION,
+};
+
+use crate::design::ball_screw;
+use crate::status::{
+    EPAS_FIELD_CONTACT_ANGLE, EPAS_FIELD_FRICTION, EPAS_FIELD_GROOVE, EPAS_FIELD_ROLLING_TANGENT,
+    Failure,
+};
+use crate::types::{
+    Curvature, CurvatureRequest, EPAS_GROOVE_NUT, EPAS_GROOVE_SCREW, Efficiency, EfficiencyRequest,
+};
+
+/// A number that the crate takes unchecked.
+fn checked(
+    field: u32,
+    name: &'static str,
+    value: f32,
+    minimum: f32,
+    maximum: f32,
+) -> Result<f32, Failure> {
+    let allowed = Range::new(minimum, maximum);
+    if allowed.contains(value) {
+        Ok(value)
+    } else {
+        let error = if value.is_finite() {
+            Error::OutOfRange {
+                field: name,
+                value,
+                allowed,
+            }
+        } else {
+            Error::NotFinite {
+                field: name,
+                value,
+                allowed,
+            }
+        };
+        Err(Failure::at(error, field))
+    }
+}
+
+pub(crate) fn efficiency(request: &EfficiencyRequest) -> Result<Efficiency, Failure> {
+    let friction = checked(
+        EPAS_FIELD_FRICTION,
+        "friction",
+        request.friction,
+        0.0,
+        LARGEST_FRICTION,
+    )?;
+    let rolling = checked(
+        EPAS_FIELD_ROLLING_TANGENT,
+        "rolling_tangent",
+        request.rolling_tangent,
+        0.0,
+        0.1,
+    )?;
+    let geometry = EfficiencyGeometry::new(
+        request.lead_angle,
+        request.contact_angle,
+        request.ball_ratio,
+    )
+    .map_err(Failure::of)?;
+    Ok(Efficiency {
+        rolling_drive: geometry.rolling_efficiency(friction, rolling),
+        rolling_backdrive: geometry.rolling_backdrive_efficiency(friction, rolling),
+        sliding_drive: geometry.sliding_efficiency(friction),
+        sliding_backdrive: geometry.sliding_backdrive_efficiency(friction),
+        locked_drive: u32::from(geometry.locks(Drive::Driving, friction)),
+        locked_backdrive: u32::from(geometry.locks(Drive::BackDriving, friction)),
+    })
+}
+
+pub(crate) fn curvature(request: &CurvatureRequest) -> Result<Curvature, Failure> {
+    let design = ball_screw(&request.design)?;
+    let groove = match request.groove {
+        EPAS_GROOVE_SCREW => Groove::Screw,
+        EPAS_GROOVE_NUT => Groove::Nut,
+        other => return Err(Failure::count(EPAS_FIELD_GROOVE, other, 0, 1)),
+    };
+    let angle = ContactAngle::new(checked(
+        EPAS_FIELD_CONTACT_ANGLE,
+        "contact_angle",
+        request.contact_angle,
+        0.0,
+        core::f32::consts::FRAC_PI_2,
+    )?);
+    let exact = GothicArch::of(&design, groove).principal(angle);
+    Ok(Curvature {
+        first: exact.kappa1,
+        second: exact.kappa2,
+        circular_groove: CircularGrooveCurvature::of(&design, groove).first(angle),
+        literature: LiteratureCurvature::of(&design, groove).first(angle),
+    })
+}

@@ -1,0 +1,109 @@
+//! What a scene of the crate needs to be one in C.
+
+use epas_friction::scene::Scene;
+use epas_friction::{DeviationMap, FrictionModel, LoadShare as CrateLoadShare, Regime};
+
+use crate::status::Failure;
+use crate::tables::{Deviation, LoadShare};
+use crate::types::{
+    EPAS_REGIME_BACK_DRIVING, EPAS_REGIME_DRIVING, EPAS_REGIME_LOCKED, EPAS_REGIME_STANDING,
+};
+
+/// A model in its place, with the mark that says that there is one.
+#[repr(C)]
+pub(crate) struct Placed<S: Scene> {
+    pub(crate) mark: u32,
+    pub(crate) model: FrictionModel<S>,
+}
+
+/// Tables as a configuration points to them.
+pub(crate) struct TablePointers {
+    /// Deviation of the groove that passes by (screw, rail).
+    pub(crate) passing: *const Deviation,
+    /// Deviation of the groove of the body in which balls recirculate (nut, carriage).
+    pub(crate) own: *const Deviation,
+    pub(crate) load_shares: *const LoadShare,
+    pub(crate) load_share_count: u32,
+}
+
+impl TablePointers {
+    pub(crate) const NONE: Self = Self {
+        passing: core::ptr::null(),
+        own: core::ptr::null(),
+        load_shares: core::ptr::null(),
+        load_share_count: 0,
+    };
+
+    #[inline(always)]
+    pub(crate) const fn are_null(&self) -> bool {
+        self.passing.is_null() && self.own.is_null() && self.load_shares.is_null()
+    }
+}
+
+/// Tables that have been found initialised.
+pub(crate) struct Tables {
+    pub(crate) passing: &'static DeviationMap,
+    pub(crate) own: &'static DeviationMap,
+    pub(crate) load_shares: &'static [CrateLoadShare],
+}
+
+impl Tables {
+    /// What stands in for no table.
+    pub(crate) const NONE: Self = Self {
+        passing: &DeviationMap::NONE,
+        own: &DeviationMap::NONE,
+        load_shares: &[CrateLoadShare::MEAN],
+    };
+}
+
+/// A scene with the structures that stand for it in C.
+pub(crate) trait CScene {
+    /// The crate's scene.
+    type Scene: Scene;
+    /// Where the caller keeps it.
+    type Place;
+    /// What the engineer sets.
+    type Configuration;
+    /// What the control interrupt knows.
+    type Inputs: Copy;
+    /// What a tick returns.
+    type Outputs: Copy;
+
+    /// Says that a place holds this scene, as this version of the library has it.
+    const MARK: u32;
+    /// What a refused call puts out: no torque, flagged.
+    const REFUSED: Self::Outputs;
+
+    /// The place is large enough; that it is no larger than it has to be is checked from outside.
+    const FITS: () = assert!(
+        size_of::<Placed<Self::Scene>>() <= size_of::<Self::Place>()
+            && align_of::<Placed<Self::Scene>>() <= align_of::<Self::Place>(),
+        "the place is too small: its number of words in types.rs"
+    );
+
+    fn tables(configuration: &Self::Configuration) -> TablePointers;
+    fn configure(
+        configuration: &Self::Configuration,
+        tables: Tables,
+    ) -> Result<<Self::Scene as Scene>::Configuration, Failure>;
+    fn inputs(inputs: Self::Inputs) -> <Self::Scene as Scene>::Inputs;
+    fn outputs(outputs: <Self::Scene as Scene>::Outputs) -> Self::Outputs;
+}
+
+/// The checked and folded model.
+pub(crate) fn model<C: CScene>(
+    configuration: &C::Configuration,
+    tables: Tables,
+) -> Result<FrictionModel<C::Scene>, Failure> {
+    let configuration = C::configure(configuration, tables)?;
+    FrictionModel::new(&configuration).map_err(Failure::of)
+}
+
+pub(crate) const fn regime(regime: Regime) -> u32 {
+    match regime {
+        Regime::Standing => EPAS_REGIME_STANDING,
+        Regime::Driving => EPAS_REGIME_DRIVING,
+        Regime::BackDriving => EPAS_REGIME_BACK_DRIVING,
+        Regime::Locked => EPAS_REGIME_LOCKED,
+    }
+}

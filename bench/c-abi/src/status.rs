@@ -1,0 +1,323 @@
+//! Status codes, and which field of a configuration is wrong.
+
+use core::ffi::CStr;
+
+use epas_friction::Error;
+
+/// Everything went well.
+pub const EPAS_OK: u32 = 0u32;
+/// A pointer is NULL.
+pub const EPAS_NULL_POINTER: u32 = 1u32;
+/// A pointer is not aligned as its type asks.
+pub const EPAS_MISALIGNED: u32 = 2u32;
+/// The object has not been initialised, or by another scene or another version of the library.
+pub const EPAS_NOT_INITIALISED: u32 = 3u32;
+/// A field is NaN or infinite.
+pub const EPAS_NOT_FINITE: u32 = 4u32;
+/// A field is outside its range.
+pub const EPAS_OUT_OF_RANGE: u32 = 5u32;
+/// The screw's groove would reach past the axis of the screw.
+pub const EPAS_FOLDED_GROOVE: u32 = 6u32;
+
+/// No field is wrong.
+pub const EPAS_FIELD_NONE: u32 = 0u32;
+/// `pitch_radius`
+pub const EPAS_FIELD_PITCH_RADIUS: u32 = 1u32;
+/// `lead`
+pub const EPAS_FIELD_LEAD: u32 = 2u32;
+/// `ball_radius`
+pub const EPAS_FIELD_BALL_RADIUS: u32 = 3u32;
+/// `screw_conformity`
+pub const EPAS_FIELD_SCREW_CONFORMITY: u32 = 4u32;
+/// `nut_conformity`
+pub const EPAS_FIELD_NUT_CONFORMITY: u32 = 5u32;
+/// `conformity`
+pub const EPAS_FIELD_CONFORMITY: u32 = 6u32;
+/// `contact_angle`
+pub const EPAS_FIELD_CONTACT_ANGLE: u32 = 7u32;
+/// `ball_material.youngs_modulus`
+pub const EPAS_FIELD_BALL_YOUNGS_MODULUS: u32 = 8u32;
+/// `ball_material.poisson_ratio`
+pub const EPAS_FIELD_BALL_POISSON_RATIO: u32 = 9u32;
+/// `ball_material.density`
+pub const EPAS_FIELD_BALL_DENSITY: u32 = 10u32;
+/// `groove_material.youngs_modulus`
+pub const EPAS_FIELD_GROOVE_YOUNGS_MODULUS: u32 = 11u32;
+/// `groove_material.poisson_ratio`
+pub const EPAS_FIELD_GROOVE_POISSON_RATIO: u32 = 12u32;
+/// `groove_material.density`
+pub const EPAS_FIELD_GROOVE_DENSITY: u32 = 13u32;
+/// `friction`
+pub const EPAS_FIELD_FRICTION: u32 = 14u32;
+/// `ball_friction`
+pub const EPAS_FIELD_BALL_FRICTION: u32 = 15u32;
+/// `rolling_tangent`
+pub const EPAS_FIELD_ROLLING_TANGENT: u32 = 16u32;
+/// `branch`
+pub const EPAS_FIELD_BRANCH: u32 = 17u32;
+/// `preload`
+pub const EPAS_FIELD_PRELOAD: u32 = 18u32;
+/// `fit`
+pub const EPAS_FIELD_FIT: u32 = 19u32;
+/// `contact_preload`
+pub const EPAS_FIELD_CONTACT_PRELOAD: u32 = 20u32;
+/// `turns`
+pub const EPAS_FIELD_TURNS: u32 = 21u32;
+/// `loaded_length`
+pub const EPAS_FIELD_LOADED_LENGTH: u32 = 22u32;
+/// `return_length`
+pub const EPAS_FIELD_RETURN_LENGTH: u32 = 23u32;
+/// `wavelength`; its value may be the number of wavelengths on the track.
+pub const EPAS_FIELD_WAVELENGTH: u32 = 24u32;
+/// `load_share_count`
+pub const EPAS_FIELD_LOAD_SHARE_COUNT: u32 = 25u32;
+/// `load_shares`
+pub const EPAS_FIELD_LOAD_SHARES: u32 = 26u32;
+/// `screw_deviation`, in a linear bearing `rail_deviation`
+pub const EPAS_FIELD_PASSING_DEVIATION: u32 = 27u32;
+/// `nut_deviation`, in a linear bearing `carriage_deviation`
+pub const EPAS_FIELD_OWN_DEVIATION: u32 = 28u32;
+/// `reversal_speed`
+pub const EPAS_FIELD_REVERSAL_SPEED: u32 = 29u32;
+/// `tick`
+pub const EPAS_FIELD_TICK: u32 = 30u32;
+/// `limits.nut_speed`
+pub const EPAS_FIELD_LIMIT_NUT_SPEED: u32 = 31u32;
+/// `limits.axial_load`
+pub const EPAS_FIELD_LIMIT_AXIAL_LOAD: u32 = 32u32;
+/// `limits.friction_torque`
+pub const EPAS_FIELD_LIMIT_FRICTION_TORQUE: u32 = 33u32;
+/// `limits.speed`
+pub const EPAS_FIELD_LIMIT_SPEED: u32 = 34u32;
+/// `limits.load`
+pub const EPAS_FIELD_LIMIT_LOAD: u32 = 35u32;
+/// `limits.friction_force`
+pub const EPAS_FIELD_LIMIT_FRICTION_FORCE: u32 = 36u32;
+/// Length of the whole track, m: it follows from the loaded part and the return.
+pub const EPAS_FIELD_TRACK_LENGTH: u32 = 37u32;
+/// Distance of two balls in contact, m: where it is out of range, the balls do not fit on the track.
+pub const EPAS_FIELD_BALL_PITCH: u32 = 38u32;
+/// Ratio of the axes of the contact ellipse: it follows from the conformity.
+pub const EPAS_FIELD_AXIS_RATIO: u32 = 39u32;
+/// `order`
+pub const EPAS_FIELD_ORDER: u32 = 40u32;
+/// `cosine`
+pub const EPAS_FIELD_COSINE: u32 = 41u32;
+/// `sine`
+pub const EPAS_FIELD_SINE: u32 = 42u32;
+/// Number of harmonics.
+pub const EPAS_FIELD_HARMONIC_COUNT: u32 = 43u32;
+/// A sample of a deviation, or the largest of a sum of harmonics, rad.
+pub const EPAS_FIELD_DEVIATION: u32 = 44u32;
+/// A share of the load.
+pub const EPAS_FIELD_SHARE: u32 = 45u32;
+/// `lead_angle`
+pub const EPAS_FIELD_LEAD_ANGLE: u32 = 46u32;
+/// `ball_ratio`
+pub const EPAS_FIELD_BALL_RATIO: u32 = 47u32;
+/// `groove`
+pub const EPAS_FIELD_GROOVE: u32 = 48u32;
+/// A field that this header does not know; a newer library would.
+pub const EPAS_FIELD_OTHER: u32 = 49u32;
+
+/// Number, name in C, and the crate's name, empty where only this layer names the field.
+const FIELDS: [(u32, &CStr, &str); 49] = [
+    (EPAS_FIELD_PITCH_RADIUS, c"pitch_radius", "pitch_radius"),
+    (EPAS_FIELD_LEAD, c"lead", "lead"),
+    (EPAS_FIELD_BALL_RADIUS, c"ball_radius", "ball_radius"),
+    (EPAS_FIELD_SCREW_CONFORMITY, c"screw_conformity", ""),
+    (EPAS_FIELD_NUT_CONFORMITY, c"nut_conformity", ""),
+    (EPAS_FIELD_CONFORMITY, c"conformity", "conformity"),
+    (EPAS_FIELD_CONTACT_ANGLE, c"contact_angle", "contact_angle"),
+    (
+        EPAS_FIELD_BALL_YOUNGS_MODULUS,
+        c"ball_material.youngs_modulus",
+        "",
+    ),
+    (
+        EPAS_FIELD_BALL_POISSON_RATIO,
+        c"ball_material.poisson_ratio",
+        "",
+    ),
+    (EPAS_FIELD_BALL_DENSITY, c"ball_material.density", ""),
+    (
+        EPAS_FIELD_GROOVE_YOUNGS_MODULUS,
+        c"groove_material.youngs_modulus",
+        "",
+    ),
+    (
+        EPAS_FIELD_GROOVE_POISSON_RATIO,
+        c"groove_material.poisson_ratio",
+        "",
+    ),
+    (EPAS_FIELD_GROOVE_DENSITY, c"groove_material.density", ""),
+    (EPAS_FIELD_FRICTION, c"friction", "friction"),
+    (EPAS_FIELD_BALL_FRICTION, c"ball_friction", "ball_friction"),
+    (
+        EPAS_FIELD_ROLLING_TANGENT,
+        c"rolling_tangent",
+        "rolling_tangent",
+    ),
+    (EPAS_FIELD_BRANCH, c"branch", ""),
+    (EPAS_FIELD_PRELOAD, c"preload", "preload"),
+    (EPAS_FIELD_FIT, c"fit", ""),
+    (
+        EPAS_FIELD_CONTACT_PRELOAD,
+        c"contact_preload",
+        "contact_force",
+    ),
+    (EPAS_FIELD_TURNS, c"turns", "turns"),
+    (EPAS_FIELD_LOADED_LENGTH, c"loaded_length", "loaded_length"),
+    (EPAS_FIELD_RETURN_LENGTH, c"return_length", "return_length"),
+    (EPAS_FIELD_WAVELENGTH, c"wavelength", "wavelength"),
+    (
+        EPAS_FIELD_LOAD_SHARE_COUNT,
+        c"load_share_count",
+        "load_shares",
+    ),
+    (EPAS_FIELD_LOAD_SHARES, c"load_shares", ""),
+    (EPAS_FIELD_PASSING_DEVIATION, c"passing deviation", ""),
+    (EPAS_FIELD_OWN_DEVIATION, c"own deviation", ""),
+    (
+        EPAS_FIELD_REVERSAL_SPEED,
+        c"reversal_speed",
+        "reversal_speed",
+    ),
+    (EPAS_FIELD_TICK, c"tick", "tick"),
+    (EPAS_FIELD_LIMIT_NUT_SPEED, c"limits.nut_speed", "nut_speed"),
+    (
+        EPAS_FIELD_LIMIT_AXIAL_LOAD,
+        c"limits.axial_load",
+        "axial_load",
+    ),
+    (
+        EPAS_FIELD_LIMIT_FRICTION_TORQUE,
+        c"limits.friction_torque",
+        "friction_torque",
+    ),
+    (EPAS_FIELD_LIMIT_SPEED, c"limits.speed", "speed"),
+    (EPAS_FIELD_LIMIT_LOAD, c"limits.load", "load"),
+    (
+        EPAS_FIELD_LIMIT_FRICTION_FORCE,
+        c"limits.friction_force",
+        "friction_force",
+    ),
+    (EPAS_FIELD_TRACK_LENGTH, c"track length", "length"),
+    (EPAS_FIELD_BALL_PITCH, c"ball pitch", "pitch"),
+    (EPAS_FIELD_AXIS_RATIO, c"axis ratio", "axis_ratio"),
+    (EPAS_FIELD_ORDER, c"order", "order"),
+    (EPAS_FIELD_COSINE, c"cosine", "cosine"),
+    (EPAS_FIELD_SINE, c"sine", "sine"),
+    (EPAS_FIELD_HARMONIC_COUNT, c"harmonic count", ""),
+    (EPAS_FIELD_DEVIATION, c"deviation", "deviation"),
+    (EPAS_FIELD_SHARE, c"share", "share"),
+    (EPAS_FIELD_LEAD_ANGLE, c"lead_angle", "lead_angle"),
+    (EPAS_FIELD_BALL_RATIO, c"ball_ratio", "ball_ratio"),
+    (EPAS_FIELD_GROOVE, c"groove", ""),
+    (EPAS_FIELD_OTHER, c"other", ""),
+];
+
+const STATUS_NAMES: [(u32, &CStr); 7] = [
+    (EPAS_OK, c"ok"),
+    (EPAS_NULL_POINTER, c"null pointer"),
+    (EPAS_MISALIGNED, c"misaligned pointer"),
+    (EPAS_NOT_INITIALISED, c"not initialised"),
+    (EPAS_NOT_FINITE, c"not a finite number"),
+    (EPAS_OUT_OF_RANGE, c"out of range"),
+    (EPAS_FOLDED_GROOVE, c"groove folded past the axis"),
+];
+
+pub(crate) fn field_name(field: u32) -> &'static CStr {
+    FIELDS
+        .iter()
+        .find(|known| known.0 == field)
+        .map_or(c"", |known| known.1)
+}
+
+pub(crate) fn status_name(status: u32) -> &'static CStr {
+    STATUS_NAMES
+        .iter()
+        .find(|known| known.0 == status)
+        .map_or(c"unknown status", |known| known.1)
+}
+
+/// Number of a field that the crate names.
+fn field_number(name: &str) -> u32 {
+    FIELDS
+        .iter()
+        .find(|known| known.2 == name)
+        .map_or(EPAS_FIELD_OTHER, |known| known.0)
+}
+
+/// What was wrong with a configuration, a table or a request.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+pub struct Failure {
+    /// What was wrong, one of the status codes; the function returned it too.
+    pub status: u32,
+    /// Which field, one of `EPAS_FIELD_...`; `epas_field_name` gives its name.
+    pub field: u32,
+    /// Which element, where the field is in an array; 0 elsewhere.
+    pub index: u32,
+    /// The value found, in the field's own unit.
+    pub value: f32,
+    /// Smallest value allowed beside the other fields.
+    pub minimum: f32,
+    /// Largest value allowed beside the other fields.
+    pub maximum: f32,
+}
+
+impl Failure {
+    pub(crate) const NONE: Self = Self {
+        status: EPAS_OK,
+        field: EPAS_FIELD_NONE,
+        index: 0,
+        value: 0.0,
+        minimum: 0.0,
+        maximum: 0.0,
+    };
+
+    /// A pointer that cannot be used, or what it points to.
+    pub(crate) const fn pointer(status: u32, field: u32) -> Self {
+        Self {
+            status,
+            field,
+            ..Self::NONE
+        }
+    }
+
+    /// The crate's error where the C structure spells the field as [`field_number`] finds it.
+    pub(crate) fn of(error: Error) -> Self {
+        Self::at(error, field_number(error.field()))
+    }
+
+    /// The crate's error at a field of the C structure.
+    pub(crate) fn at(error: Error, field: u32) -> Self {
+        let status = match error {
+            Error::NotFinite { .. } => EPAS_NOT_FINITE,
+            Error::FoldedGroove { .. } => EPAS_FOLDED_GROOVE,
+            // `Error` may grow; what is wrong with a value is then still that it is not allowed.
+            _ => EPAS_OUT_OF_RANGE,
+        };
+        Self {
+            status,
+            field,
+            index: 0,
+            value: error.value(),
+            minimum: error.allowed().minimum,
+            maximum: error.allowed().maximum,
+        }
+    }
+
+    /// A whole number out of its range.
+    pub(crate) const fn count(field: u32, value: u32, minimum: u32, maximum: u32) -> Self {
+        Self {
+            status: EPAS_OUT_OF_RANGE,
+            field,
+            index: 0,
+            value: value as f32,
+            minimum: minimum as f32,
+            maximum: maximum as f32,
+        }
+    }
+}

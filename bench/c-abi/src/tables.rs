@@ -1,0 +1,176 @@
+//! Tables that several models may share: deviations along a groove, shares of the load.
+
+use epas_friction::scene::HIGHEST_ORDER;
+use epas_friction::{DeviationMap, Harmonic as CrateHarmonic};
+
+use crate::status::{
+    EPAS_FIELD_COSINE, EPAS_FIELD_DEVIATION, EPAS_FIELD_HARMONIC_COUNT, EPAS_FIELD_ORDER,
+    EPAS_FIELD_SHARE, EPAS_FIELD_SINE, EPAS_FIELD_TURNS, Failure,
+};
+
+/// Samples in a period of a deviation.
+pub const EPAS_DEVIATION_SAMPLES: usize = 64;
+
+/// Largest number of harmonics: one of each order, 0 to 8.
+pub const EPAS_LARGEST_HARMONIC_COUNT: u32 = 9u32;
+const HARMONICS: usize = EPAS_LARGEST_HARMONIC_COUNT as usize;
+const _: () = assert!(HARMONICS == HIGHEST_ORDER as usize + 1);
+
+/// Largest number of shares of the load.
+pub const EPAS_LARGEST_SHARE_COUNT: u32 = 256u32;
+
+/// One wave of a deviation along a groove: `cosine cos(order p) + sine sin(order p)` at the phase `p` of
+/// its period.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+pub struct Harmonic {
+    /// Waves in a period, 0 (a constant) to 8.
+    pub order: u32,
+    /// Amplitude of the cosine, rad, -0.2 to 0.2.
+    pub cosine: f32,
+    /// Amplitude of the sine, rad, -0.2 to 0.2.
+    pub sine: f32,
+}
+
+/// Size of `epas_deviation_t` in words of four bytes.
+pub const EPAS_DEVIATION_WORDS: usize = 35;
+
+/// Place for the deviation of a groove's contact angles, periodic along the track: where it is positive the
+/// right flank's contact angle is larger by it and the left flank's smaller. The caller provides it, and
+/// leaves it where and as it is for as long as a model is used that was given it. Models may share it.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct Deviation {
+    /// Not for the caller.
+    pub words: [u32; EPAS_DEVIATION_WORDS],
+}
+
+/// Place for the load of a ball over the mean load; provided, left alone and shared as `epas_deviation_t`.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct LoadShare {
+    /// Not for the caller.
+    pub words: [u32; 4],
+}
+
+/// A deviation in its place, with the mark that says that there is one.
+#[repr(C)]
+pub(crate) struct PlacedDeviation {
+    pub(crate) mark: u32,
+    pub(crate) map: DeviationMap,
+}
+
+impl PlacedDeviation {
+    pub(crate) const MARK: u32 = 0xE9A5_01D0;
+}
+
+const _: () = assert!(
+    size_of::<PlacedDeviation>() == size_of::<Deviation>()
+        && align_of::<PlacedDeviation>() <= align_of::<Deviation>(),
+    "EPAS_DEVIATION_WORDS"
+);
+const _: () = assert!(
+    size_of::<epas_friction::LoadShare>() == size_of::<LoadShare>()
+        && align_of::<epas_friction::LoadShare>() <= align_of::<LoadShare>(),
+    "LoadShare"
+);
+
+/// A number of turns as the crate takes it, and what was really asked for where that is refused.
+fn with_turns(
+    turns: u32,
+    map: impl FnOnce(u16) -> Result<DeviationMap, epas_friction::Error>,
+) -> Result<DeviationMap, Failure> {
+    map(u16::try_from(turns).unwrap_or(u16::MAX)).map_err(|error| {
+        let mut failure = Failure::of(error);
+        if failure.field == EPAS_FIELD_TURNS {
+            failure.value = turns as f32;
+        }
+        failure
+    })
+}
+
+/// A deviation of up to nine waves.
+pub(crate) fn deviation_of_harmonics(
+    turns: u32,
+    harmonics: &[Harmonic],
+) -> Result<DeviationMap, Failure> {
+    let mut waves = [CrateHarmonic::default(); HARMONICS];
+    let Some(waves) = waves.get_mut(..harmonics.len()) else {
+        return Err(harmonic_count(
+            u32::try_from(harmonics.len()).unwrap_or(u32::MAX),
+        ));
+    };
+    for ((index, harmonic), wave) in (0..).zip(harmonics).zip(waves.iter_mut()) {
+        let Harmonic {
+            order,
+            cosine,
+            sine,
+        } = *harmonic;
+        let Ok(order) = u8::try_from(order) else {
+            return Err(Failure {
+                index,
+                ..Failure::count(EPAS_FIELD_ORDER, order, 0, u32::from(HIGHEST_ORDER))
+            });
+        };
+        *wave = CrateHarmonic {
+            order,
+            cosine,
+            sine,
+        };
+    }
+    with_turns(turns, |turns| DeviationMap::from_harmonics(turns, waves)).map_err(|failure| {
+        // The first wave with the value that was refused.
+        let is_at = |harmonic: &Harmonic| match failure.field {
+            EPAS_FIELD_ORDER => harmonic.order as f32 == failure.value,
+            EPAS_FIELD_COSINE => harmonic.cosine.to_bits() == failure.value.to_bits(),
+            EPAS_FIELD_SINE => harmonic.sine.to_bits() == failure.value.to_bits(),
+            _ => false,
+        };
+        indexed(failure, harmonics.iter().position(is_at))
+    })
+}
+
+/// A deviation by its samples.
+pub(crate) fn deviation_of_samples(
+    turns: u32,
+    samples: &[f32; EPAS_DEVIATION_SAMPLES],
+) -> Result<DeviationMap, Failure> {
+    with_turns(turns, |turns| DeviationMap::from_samples(turns, samples)).map_err(|failure| {
+        let is_at = |sample: &f32| {
+            failure.field == EPAS_FIELD_DEVIATION && sample.to_bits() == failure.value.to_bits()
+        };
+        indexed(failure, samples.iter().position(is_at))
+    })
+}
+
+/// Too many harmonics.
+pub(crate) const fn harmonic_count(count: u32) -> Failure {
+    Failure::count(
+        EPAS_FIELD_HARMONIC_COUNT,
+        count,
+        0,
+        EPAS_LARGEST_HARMONIC_COUNT,
+    )
+}
+
+/// One share of the load.
+pub(crate) fn load_share(index: u32, share: f32) -> Result<epas_friction::LoadShare, Failure> {
+    epas_friction::LoadShare::new(share).map_err(|error| Failure {
+        index,
+        ..Failure::at(error, EPAS_FIELD_SHARE)
+    })
+}
+
+/// Whether a place holds what [`load_share`] makes.
+pub(crate) fn is_load_share(share: &epas_friction::LoadShare) -> bool {
+    epas_friction::LoadShare::new(share.share()).is_ok_and(|made| made == *share)
+}
+
+fn indexed(failure: Failure, position: Option<usize>) -> Failure {
+    Failure {
+        index: position
+            .and_then(|position| u32::try_from(position).ok())
+            .unwrap_or(0),
+        ..failure
+    }
+}

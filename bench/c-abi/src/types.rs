@@ -1,0 +1,384 @@
+//! The structures of the header. Every number is a `float` or a `uint32_t`, so that none has a field whose
+//! size depends on the compiler's options (`-fshort-enums`).
+
+use crate::tables::{Deviation, LoadShare};
+
+/// Version of the structures and functions of this header; `epas_abi_version` returns the library's.
+pub const EPAS_ABI_VERSION: u32 = 1u32;
+
+/// The ball rolls and slips across the groove at the screw: the expected value.
+pub const EPAS_BRANCH_ROLLING: u32 = 0u32;
+/// The ball slides along the path at both contacts: the pessimistic bound.
+pub const EPAS_BRANCH_SLIDING: u32 = 1u32;
+
+/// Groove of the screw shaft.
+pub const EPAS_GROOVE_SCREW: u32 = 0u32;
+/// Groove of the nut.
+pub const EPAS_GROOVE_NUT: u32 = 1u32;
+
+/// The nut is slower than the reversal speed: friction is between its two directions.
+pub const EPAS_REGIME_STANDING: u32 = 0u32;
+/// The motor moves the load.
+pub const EPAS_REGIME_DRIVING: u32 = 1u32;
+/// The load turns the nut.
+pub const EPAS_REGIME_BACK_DRIVING: u32 = 2u32;
+/// No torque moves the load, or the load alone does not sustain the motion.
+pub const EPAS_REGIME_LOCKED: u32 = 3u32;
+
+/// The nut speed is NaN or infinite: no torque is put out.
+pub const EPAS_FAULT_SPEED_NOT_FINITE: u32 = 1u32;
+/// The axial load is NaN or infinite: no torque is put out.
+pub const EPAS_FAULT_LOAD_NOT_FINITE: u32 = 2u32;
+/// The nut speed is beyond its limit: the limit stands in for it.
+pub const EPAS_FAULT_SPEED_RANGE: u32 = 4u32;
+/// The axial load is beyond its limit: the limit stands in for it.
+pub const EPAS_FAULT_LOAD_RANGE: u32 = 8u32;
+/// The friction torque was cut to its limit.
+pub const EPAS_FAULT_TORQUE_LIMIT: u32 = 16u32;
+/// The call itself was refused (its status says why): no torque is put out.
+pub const EPAS_FAULT_CALL: u32 = 0x80000000u32;
+
+/// An isotropic elastic material.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+pub struct Material {
+    /// Young's modulus, Pa, 1e6 to 1e13; steel 210e9.
+    pub youngs_modulus: f32,
+    /// Poisson's ratio, 0 to 0.5; steel 0.28.
+    pub poisson_ratio: f32,
+    /// Density, kg/m^3, 1 to 1e5; steel 7800.
+    pub density: f32,
+}
+
+/// A ball screw by its catalogue numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+pub struct BallScrew {
+    /// Radius of the cylinder on which the ball centres run, m, 1e-4 to 10; half the nominal diameter
+    /// where a catalogue prints no pitch circle.
+    pub pitch_radius: f32,
+    /// Axial travel of the nut in one turn, m, 0 to 100.
+    pub lead: f32,
+    /// Ball radius, m, 1e-5 up to 0.9 of the pitch radius.
+    pub ball_radius: f32,
+    /// Radius of the screw's groove over the ball's diameter, 0.5005 to 1.
+    pub screw_conformity: f32,
+    /// Radius of the nut's groove over the ball's diameter, 0.5005 to 1.
+    pub nut_conformity: f32,
+    /// Nominal contact angle, rad, 0.01 to 1.5533.
+    pub contact_angle: f32,
+    /// Material of the balls.
+    pub ball_material: Material,
+    /// Material of screw and nut.
+    pub groove_material: Material,
+}
+
+/// Bounds that a model keeps whatever comes in.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+pub struct Limits {
+    /// Largest nut speed that is believed, rad/s, 1e-3 to 1e6.
+    pub nut_speed: f32,
+    /// Largest axial load that is believed, N, 1e-3 to 1e7.
+    pub axial_load: f32,
+    /// Largest friction torque that is put out, N m, 1e-6 to 1e6.
+    pub friction_torque: f32,
+}
+
+/// What the control interrupt knows at a tick.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+pub struct Inputs {
+    /// Angular speed of the nut relative to the screw, rad/s.
+    pub nut_speed: f32,
+    /// Axial force of the load, N; positive where it opposes the travel that a positive nut speed
+    /// makes.
+    pub axial_load: f32,
+}
+
+/// What a ball screw returns at a tick; every number is finite.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+pub struct Outputs {
+    /// Torque about the nut's axis that the motor has to add to overcome friction, N m, with the sign
+    /// of the nut speed.
+    pub friction_torque: f32,
+    /// Torque about the nut's axis that holds the load without friction, N m.
+    pub load_torque: f32,
+    /// Efficiency of motion in the present direction, away from the reversal; 0 without load or in a
+    /// fault, negative where the direction is locked.
+    pub efficiency: f32,
+    /// What the mechanism does, one of `EPAS_REGIME_...`.
+    pub regime: u32,
+    /// What was wrong with this tick, a sum of `EPAS_FAULT_...`; 0 for nothing.
+    pub faults: u32,
+}
+
+/// What the engineer sets for a ball screw whose balls do not touch: caged, or with spacer balls.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+pub struct CagedConfiguration {
+    /// The design.
+    pub design: BallScrew,
+    /// Coulomb friction coefficient of ball and groove, 0 to 1.
+    pub friction: f32,
+    /// Lever arm of rolling friction over `ball_radius sin(contact_angle)`, 0 to 0.1.
+    pub rolling_tangent: f32,
+    /// Which state of the ball the torque is computed for, one of `EPAS_BRANCH_...`.
+    pub branch: u32,
+    /// Axial preload on each flank without load, N: 0, or 1e-3 to 1e6.
+    pub preload: f32,
+    /// Nut speed over which friction changes its direction, rad/s, 1e-6 to 1e3.
+    pub reversal_speed: f32,
+    /// Bounds that are kept whatever comes in.
+    pub limits: Limits,
+}
+
+/// Size of `epas_caged_t` in words of eight bytes.
+pub const EPAS_CAGED_WORDS: usize = 8;
+
+/// Place for the constants and the state of a caged ball screw. The caller provides it, in memory of
+/// static duration or any other; nothing in it is for the caller to read or write. Zero it, or leave it
+/// as a static object is; then give it to `epas_caged_init`.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct CagedPlace {
+    /// Not for the caller. Its type gives the place its alignment.
+    pub words: [u64; EPAS_CAGED_WORDS],
+}
+
+/// Balls in the circuit of `epas_screw_t`, return included. A screw with another number needs the library
+/// built with that number.
+pub const EPAS_SCREW_BALLS: usize = 37;
+
+/// Balls have neither play nor preload: friction across the track closes a light third contact.
+pub const EPAS_FIT_ZERO: u32 = 0u32;
+/// So much play that only two contacts carry a ball (from about 20 micrometres on).
+pub const EPAS_FIT_PLAY: u32 = 1u32;
+/// Oversized balls in four-point contact, with `contact_preload`.
+pub const EPAS_FIT_PRELOAD: u32 = 2u32;
+
+/// What the engineer sets for a ball screw whose balls press on each other.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct ScrewConfiguration {
+    /// The design; contact angle 0.05 to 1.5 rad.
+    pub design: BallScrew,
+    /// Coulomb friction coefficient of ball and groove, 1e-3 to 0.5.
+    pub friction: f32,
+    /// Coulomb friction coefficient of ball and ball, 0 to 1.
+    pub ball_friction: f32,
+    /// How balls fit between the grooves, one of `EPAS_FIT_...`.
+    pub fit: u32,
+    /// Force of each of the four contacts without an external load, N, 1e-3 to 1e6; read only where `fit`
+    /// is `EPAS_FIT_PRELOAD`.
+    pub contact_preload: f32,
+    /// Turns of the loaded track, 0.1 to 100.
+    pub turns: f32,
+    /// Length of the return, m, 0 to 10: there balls carry no load.
+    pub return_length: f32,
+    /// Deviation of the contact angles along the screw's groove, or NULL for none. It has to stay where and
+    /// as it is for as long as the model is used.
+    pub screw_deviation: *const Deviation,
+    /// Deviation of the contact angles along the nut's groove, from the start of the loaded track, or NULL
+    /// for none; it has to stay too.
+    pub nut_deviation: *const Deviation,
+    /// Load of a ball over the mean load, in equal parts of the loaded track from its start, or NULL for the
+    /// mean load everywhere; it has to stay too.
+    pub load_shares: *const LoadShare,
+    /// Elements of `load_shares`, 1 to 256; not read where that is NULL.
+    pub load_share_count: u32,
+    /// Nut speed over which friction changes its direction, rad/s, 1e-6 to 1e3.
+    pub reversal_speed: f32,
+    /// Time between two steps, s, 1e-6 to 1; at the largest nut speed the balls may move by 3 % of the track
+    /// in it.
+    pub tick: f32,
+    /// Bounds that are kept whatever comes in.
+    pub limits: Limits,
+}
+
+/// Size of `epas_screw_t` in words of eight bytes.
+pub const EPAS_SCREW_WORDS: usize = 209;
+
+/// Place for the constants and the state of a ball screw whose balls press on each other; as
+/// `epas_caged_t`.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct ScrewPlace {
+    /// Not for the caller. Its type gives the place its alignment.
+    pub words: [u64; EPAS_SCREW_WORDS],
+}
+
+/// What a mechanism whose balls press on each other returns at a tick; every number is finite.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+pub struct TrainOutputs {
+    /// Torque about the nut's axis that the motor has to add to overcome friction, N m (in a linear bearing
+    /// the force along the track, N), with the sign of the speed: the sum of the next two, within its limit.
+    pub friction: f32,
+    /// Its part from the grooves.
+    pub groove_friction: f32,
+    /// Its part from balls that rub against each other.
+    pub ball_friction: f32,
+    /// Torque about the nut's axis that holds the load without friction, N m; 0 in a linear bearing.
+    pub load_torque: f32,
+    /// Largest force between two balls, N.
+    pub largest_contact_force: f32,
+    /// Pairs of balls that press on each other.
+    pub contacts: u32,
+    /// What the mechanism does, one of `EPAS_REGIME_...`.
+    pub regime: u32,
+    /// What was wrong with this tick, a sum of `EPAS_FAULT_...`; 0 for nothing.
+    pub faults: u32,
+}
+
+/// Balls in the circuit of `epas_linear_t`, return included. A bearing with another number needs the
+/// library built with that number.
+pub const EPAS_LINEAR_BALLS: usize = 32;
+
+/// A linear ball bearing with gothic-arch grooves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+pub struct LinearBearing {
+    /// Ball radius, m, 1e-5 to 1.
+    pub ball_radius: f32,
+    /// Radius of the grooves over the ball's diameter, 0.5005 to 1.
+    pub conformity: f32,
+    /// Nominal contact angle, rad, 0.01 to 1.5533.
+    pub contact_angle: f32,
+    /// Material of the balls.
+    pub ball_material: Material,
+    /// Material of rail and carriage.
+    pub groove_material: Material,
+}
+
+/// Bounds that a linear bearing keeps whatever comes in.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+pub struct LinearLimits {
+    /// Largest speed that is believed, m/s, 1e-6 to 1e3.
+    pub speed: f32,
+    /// Largest normal and side load that is believed, N, 1e-3 to 1e7.
+    pub load: f32,
+    /// Largest friction force that is put out, N, 1e-6 to 1e6.
+    pub friction_force: f32,
+}
+
+/// What the engineer sets for a linear bearing.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct LinearConfiguration {
+    /// The design.
+    pub bearing: LinearBearing,
+    /// Coulomb friction coefficient of ball and groove, 1e-3 to 1.
+    pub friction: f32,
+    /// Coulomb friction coefficient of ball and ball, 0 to 1.
+    pub ball_friction: f32,
+    /// Length of the loaded track, m, 1e-4 to 100.
+    pub loaded_length: f32,
+    /// Length of the return, m, 0 to 100: there balls carry no load.
+    pub return_length: f32,
+    /// Length that counts as one turn of the deviations, m, 1e-4 to 100.
+    pub wavelength: f32,
+    /// Deviation of the contact angles along the rail, or NULL for none. It has to stay where and as it is
+    /// for as long as the model is used.
+    pub rail_deviation: *const Deviation,
+    /// Deviation of the contact angles along the carriage, or NULL for none; it has to stay too.
+    pub carriage_deviation: *const Deviation,
+    /// Load of a ball over the mean load, in equal parts of the loaded track from its start, or NULL for the
+    /// mean load everywhere; it has to stay too.
+    pub load_shares: *const LoadShare,
+    /// Elements of `load_shares`, 1 to 256; not read where that is NULL.
+    pub load_share_count: u32,
+    /// Speed over which friction changes its direction, m/s, 1e-9 to 10.
+    pub reversal_speed: f32,
+    /// Time between two steps, s, 1e-6 to 1; at the largest speed the balls may move by 3 % of the track in
+    /// it.
+    pub tick: f32,
+    /// Bounds that are kept whatever comes in.
+    pub limits: LinearLimits,
+}
+
+/// What the control interrupt knows of a linear bearing at a tick.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+pub struct LinearInputs {
+    /// Speed of the carriage on the rail, m/s.
+    pub speed: f32,
+    /// Force that presses the carriage on the row of balls, N, preload included; zero or less lifts it off.
+    pub normal_load: f32,
+    /// Force across, N: positive loads the diagonal from bottom left to top right.
+    pub side_load: f32,
+}
+
+/// Size of `epas_linear_t` in words of eight bytes.
+pub const EPAS_LINEAR_WORDS: usize = 131;
+
+/// Place for the constants and the state of a linear bearing; as `epas_caged_t`.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct LinearPlace {
+    /// Not for the caller. Its type gives the place its alignment.
+    pub words: [u64; EPAS_LINEAR_WORDS],
+}
+
+/// What the closed-form efficiency depends on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+pub struct EfficiencyRequest {
+    /// Lead angle, rad, 0 to 1.5.
+    pub lead_angle: f32,
+    /// Contact angle, rad, 0.001 to pi/2.
+    pub contact_angle: f32,
+    /// Ball radius over pitch radius, 0 to 1.
+    pub ball_ratio: f32,
+    /// Coulomb friction coefficient, 0 to 1.
+    pub friction: f32,
+    /// Lever arm of rolling friction over `ball_radius sin(contact_angle)`, 0 to 0.1.
+    pub rolling_tangent: f32,
+}
+
+/// Efficiencies in closed form; each is negative where the screw locks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+pub struct Efficiency {
+    /// Rolling, rotation moves the load: the expected value.
+    pub rolling_drive: f32,
+    /// Rolling, the load turns the screw; -infinity where there is no lead but rolling resistance.
+    pub rolling_backdrive: f32,
+    /// Full sliding, rotation moves the load: the pessimistic bound.
+    pub sliding_drive: f32,
+    /// Full sliding, the load turns the screw.
+    pub sliding_backdrive: f32,
+    /// 1 where full sliding locks the drive, else 0.
+    pub locked_drive: u32,
+    /// 1 where full sliding locks the back-drive, else 0.
+    pub locked_backdrive: u32,
+}
+
+/// Which curvature is asked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+pub struct CurvatureRequest {
+    /// The design.
+    pub design: BallScrew,
+    /// Which groove, one of `EPAS_GROOVE_...`.
+    pub groove: u32,
+    /// Contact angle, rad, 0 to pi/2.
+    pub contact_angle: f32,
+}
+
+/// Principal curvatures of a groove at a contact point, 1/m; the normal points into the metal: at the
+/// screw the first is positive, at the nut negative.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+pub struct Curvature {
+    /// First curvature (along the ball path), exact.
+    pub first: f32,
+    /// Second curvature (across the ball path), exact.
+    pub second: f32,
+    /// First curvature of a circular groove along the helix: within 1 % on catalogue sizes.
+    pub circular_groove: f32,
+    /// First curvature by the formula of the literature, which ignores the lead.
+    pub literature: f32,
+}

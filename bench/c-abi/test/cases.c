@@ -1,0 +1,208 @@
+/* Stored cases: what the crate makes of them on the host, called from Rust, and what the library makes of
+ * them here, bit for bit. */
+#include "epas_test.h"
+
+#include <stddef.h>
+
+#include "stored.h"
+
+#define ROWS(table) ((uint32_t)(sizeof(table) / sizeof((table)[0])))
+
+const uint32_t test_ticks = ROWS(stored_caged);
+
+/* A float by its bits. */
+static float number(uint32_t bits)
+{
+    union {
+        uint32_t bits;
+        float number;
+    } both;
+
+    both.bits = bits;
+    return both.number;
+}
+
+static uint32_t bits(float number)
+{
+    union {
+        uint32_t bits;
+        float number;
+    } both;
+
+    both.number = number;
+    return both.bits;
+}
+
+static uint32_t differ(const uint32_t *found, const uint32_t *stored, uint32_t count)
+{
+    uint32_t word;
+    uint32_t differs = 0u;
+
+    for (word = 0u; word < count; word++) {
+        if (found[word] != stored[word]) {
+            differs = 1u;
+        }
+    }
+    return differs;
+}
+
+static uint32_t train_differs(const epas_train_outputs_t *outputs, const uint32_t *stored)
+{
+    const uint32_t found[8] = {
+        bits(outputs->friction),     bits(outputs->groove_friction),
+        bits(outputs->ball_friction), bits(outputs->load_torque),
+        bits(outputs->largest_contact_force), outputs->contacts,
+        outputs->regime,             outputs->faults,
+    };
+
+    return differ(found, stored, 8u);
+}
+
+uint32_t test_caged_tick(epas_caged_t *place, uint32_t tick)
+{
+    const uint32_t *row = stored_caged[tick];
+    const epas_inputs_t inputs = {number(row[0]), number(row[1])};
+    epas_outputs_t outputs;
+    uint32_t found[5];
+
+    if (epas_caged_step(place, &inputs, &outputs) != EPAS_OK) {
+        return 1u;
+    }
+    found[0] = bits(outputs.friction_torque);
+    found[1] = bits(outputs.load_torque);
+    found[2] = bits(outputs.efficiency);
+    found[3] = outputs.regime;
+    found[4] = outputs.faults;
+    return differ(found, &row[2], 5u);
+}
+
+uint32_t test_screw_tick(epas_screw_t *place, uint32_t tick)
+{
+    const uint32_t *row = stored_screw[tick];
+    const epas_inputs_t inputs = {number(row[0]), number(row[1])};
+    epas_train_outputs_t outputs;
+
+    if (epas_screw_step(place, &inputs, &outputs) != EPAS_OK) {
+        return 1u;
+    }
+    return train_differs(&outputs, &row[2]);
+}
+
+uint32_t test_linear_tick(epas_linear_t *place, uint32_t tick)
+{
+    const uint32_t *row = stored_linear[tick];
+    const epas_linear_inputs_t inputs = {number(row[0]), number(row[1]), number(row[2])};
+    epas_train_outputs_t outputs;
+
+    if (epas_linear_step(place, &inputs, &outputs) != EPAS_OK) {
+        return 1u;
+    }
+    return train_differs(&outputs, &row[3]);
+}
+
+static uint32_t efficiency_differs(const uint32_t *row)
+{
+    const epas_efficiency_request_t request = {
+        .lead_angle = number(row[0]),
+        .contact_angle = number(row[1]),
+        .ball_ratio = number(row[2]),
+        .friction = number(row[3]),
+        .rolling_tangent = number(row[4]),
+    };
+    epas_efficiency_t answer;
+    uint32_t found[6];
+
+    if (epas_efficiency(&request, &answer, NULL) != EPAS_OK) {
+        return 1u;
+    }
+    found[0] = bits(answer.rolling_drive);
+    found[1] = bits(answer.rolling_backdrive);
+    found[2] = bits(answer.sliding_drive);
+    found[3] = bits(answer.sliding_backdrive);
+    found[4] = answer.locked_drive;
+    found[5] = answer.locked_backdrive;
+    return differ(found, &row[5], 6u);
+}
+
+static uint32_t curvature_differs(const uint32_t *row)
+{
+    epas_curvature_request_t request = {.design = test_caged_configuration.design};
+    epas_curvature_t answer;
+    uint32_t found[4];
+
+    request.design.pitch_radius = number(row[0]);
+    request.design.lead = number(row[1]);
+    request.design.ball_radius = number(row[2]);
+    request.design.screw_conformity = 0.528f;
+    request.design.nut_conformity = 0.528f;
+    request.groove = row[3];
+    request.contact_angle = number(row[4]);
+    if (epas_curvature(&request, &answer, NULL) != EPAS_OK) {
+        return 1u;
+    }
+    found[0] = bits(answer.first);
+    found[1] = bits(answer.second);
+    found[2] = bits(answer.circular_groove);
+    found[3] = bits(answer.literature);
+    return differ(found, &row[5], 4u);
+}
+
+static uint32_t reported(const char *name, uint32_t cases, uint32_t differing)
+{
+    test_put(name);
+    test_put(": ");
+    test_put_number(cases);
+    test_put(" cases, ");
+    test_put_number(differing);
+    test_put(" differ\n");
+    return differing;
+}
+
+uint32_t test_cases(void)
+{
+    static epas_caged_t caged;
+    static epas_screw_t screw;
+    static epas_linear_t linear;
+    uint32_t total = 0u;
+    uint32_t differing;
+    uint32_t row;
+
+    differing = (test_setup_caged(&caged) == EPAS_OK) ? 0u : 1u;
+    for (row = 0u; row < ROWS(stored_caged); row++) {
+        differing += test_caged_tick(&caged, row);
+    }
+    total += reported("caged ball screw", ROWS(stored_caged), differing);
+
+    differing = (test_setup_screw(&screw) == EPAS_OK) ? 0u : 1u;
+    for (row = 0u; row < ROWS(stored_screw); row++) {
+        differing += test_screw_tick(&screw, row);
+    }
+    total += reported("ball screw, balls press on each other", ROWS(stored_screw), differing);
+
+    /* After a reset everything comes again. */
+    differing = (epas_screw_reset(&screw) == EPAS_OK) ? 0u : 1u;
+    differing += (epas_screw_set_nut_angle(&screw, 1.25f) == EPAS_OK) ? 0u : 1u;
+    for (row = 0u; row < ROWS(stored_screw); row++) {
+        differing += test_screw_tick(&screw, row);
+    }
+    total += reported("the same after a reset", ROWS(stored_screw), differing);
+
+    differing = (test_setup_linear(&linear) == EPAS_OK) ? 0u : 1u;
+    for (row = 0u; row < ROWS(stored_linear); row++) {
+        differing += test_linear_tick(&linear, row);
+    }
+    total += reported("linear bearing", ROWS(stored_linear), differing);
+
+    differing = 0u;
+    for (row = 0u; row < ROWS(stored_efficiency); row++) {
+        differing += efficiency_differs(stored_efficiency[row]);
+    }
+    total += reported("efficiency", ROWS(stored_efficiency), differing);
+
+    differing = 0u;
+    for (row = 0u; row < ROWS(stored_curvature); row++) {
+        differing += curvature_differs(stored_curvature[row]);
+    }
+    total += reported("curvature", ROWS(stored_curvature), differing);
+    return total;
+}

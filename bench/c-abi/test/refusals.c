@@ -1,0 +1,289 @@
+/* What the library refuses, and what it says of it. */
+#include "epas_test.h"
+
+#include <stddef.h>
+
+static uint32_t failed;
+
+static void check(uint32_t holds, const char *what)
+{
+    if (holds == 0u) {
+        failed++;
+        test_put("failed: ");
+        test_put(what);
+        test_put("\n");
+    }
+}
+
+static uint32_t same_text(const char *one, const char *other)
+{
+    while ((*one != '\0') && (*one == *other)) {
+        one++;
+        other++;
+    }
+    return (*one == *other) ? 1u : 0u;
+}
+
+static float not_a_number(void)
+{
+    static volatile float zero = 0.0f;
+
+    return zero / zero;
+}
+
+static void check_failure(uint32_t status, const epas_failure_t *failure, uint32_t expected_status,
+                          uint32_t field, const char *name)
+{
+    check((status == expected_status) && (failure->status == expected_status), name);
+    check(failure->field == field, name);
+    check(same_text(epas_field_name(failure->field), name), name);
+}
+
+static void pointers(void)
+{
+    static epas_caged_t caged;
+    static epas_caged_t never;
+    static epas_screw_t screw;
+    const epas_inputs_t inputs = {10.0f, 1000.0f};
+    epas_outputs_t outputs = {0};
+    epas_train_outputs_t train = {0};
+    epas_failure_t failure;
+    uint32_t ticks;
+
+    check(epas_caged_init(NULL, &test_caged_configuration, &failure) == EPAS_NULL_POINTER, "no place");
+    check(failure.status == EPAS_NULL_POINTER, "no place, said");
+    check(epas_caged_init(&caged, NULL, NULL) == EPAS_NULL_POINTER, "no configuration");
+    check(epas_caged_init((epas_caged_t *)(void *)((uint8_t *)&caged + 4), &test_caged_configuration, NULL)
+              == EPAS_MISALIGNED,
+          "misaligned place");
+
+    check(epas_caged_step(&never, &inputs, &outputs) == EPAS_NOT_INITIALISED, "a place of zeros");
+    check((outputs.faults == EPAS_FAULT_CALL) && (outputs.friction_torque == 0.0f), "no torque");
+    check(epas_caged_reset(&never) == EPAS_NOT_INITIALISED, "reset of a place of zeros");
+
+    check(test_setup_caged(&caged) == EPAS_OK, "set-up");
+    check(epas_caged_step(&caged, &inputs, &outputs) == EPAS_OK, "a sound step");
+    check((outputs.faults == 0u) && (outputs.friction_torque > 0.0f), "a sound step's torque");
+    check(epas_caged_step(NULL, &inputs, &outputs) == EPAS_NULL_POINTER, "step without place");
+    check(outputs.faults == EPAS_FAULT_CALL, "step without place, flagged");
+    check(epas_caged_step(&caged, NULL, &outputs) == EPAS_NULL_POINTER, "step without inputs");
+    check(epas_caged_step(&caged, &inputs, NULL) == EPAS_NULL_POINTER, "step without outputs");
+
+    /* Another scene's place. */
+    check(epas_screw_step((epas_screw_t *)(void *)&caged, &inputs, &train) == EPAS_NOT_INITIALISED,
+          "another scene's place");
+    check(train.faults == EPAS_FAULT_CALL, "another scene's place, flagged");
+    check(epas_screw_step(&screw, &inputs, &train) == EPAS_NOT_INITIALISED, "a screw of zeros");
+
+    /* A model that is copied as a whole is one of its own. */
+    never = caged;
+    check(epas_caged_step(&never, &inputs, &outputs) == EPAS_OK, "a copy");
+    check(epas_caged_faulted_ticks(&caged, &ticks) == EPAS_OK, "counter");
+    check(ticks == 0u, "no faulted ticks");
+    check(epas_caged_faulted_ticks(&caged, NULL) == EPAS_NULL_POINTER, "counter without a place to go");
+}
+
+static void inputs(void)
+{
+    static epas_caged_t caged;
+    const epas_inputs_t bad = {not_a_number(), 1000.0f};
+    epas_outputs_t outputs;
+    uint32_t ticks = 0u;
+
+    (void)test_setup_caged(&caged);
+    check(epas_caged_step(&caged, &bad, &outputs) == EPAS_OK, "an input that is no number is no refusal");
+    check((outputs.faults == EPAS_FAULT_SPEED_NOT_FINITE) && (outputs.friction_torque == 0.0f),
+          "but a fault");
+    check((epas_caged_faulted_ticks(&caged, &ticks) == EPAS_OK) && (ticks == 1u), "one faulted tick");
+}
+
+static void caged_fields(void)
+{
+    static epas_caged_t place;
+    const epas_inputs_t sound = {10.0f, 1000.0f};
+    epas_caged_configuration_t wrong = test_caged_configuration;
+    epas_outputs_t outputs;
+    epas_failure_t failure;
+    uint32_t status;
+
+    (void)test_setup_caged(&place);
+    wrong.design.lead = -1.0f;
+    status = epas_caged_init(&place, &wrong, &failure);
+    check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_LEAD, "lead");
+    check((failure.value == -1.0f) && (failure.minimum == 0.0f) && (failure.maximum == 100.0f),
+          "value and range of the lead");
+    check(epas_caged_step(&place, &sound, &outputs) == EPAS_NOT_INITIALISED,
+          "a place whose configuration was refused holds no model");
+
+    wrong = test_caged_configuration;
+    wrong.friction = not_a_number();
+    status = epas_caged_init(&place, &wrong, &failure);
+    check_failure(status, &failure, EPAS_NOT_FINITE, EPAS_FIELD_FRICTION, "friction");
+
+    wrong = test_caged_configuration;
+    wrong.design.nut_conformity = 0.4f;
+    status = epas_caged_init(&place, &wrong, &failure);
+    check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_NUT_CONFORMITY, "nut_conformity");
+
+    wrong.design.screw_conformity = 0.4f;
+    status = epas_caged_init(&place, &wrong, &failure);
+    check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_SCREW_CONFORMITY, "screw_conformity");
+
+    wrong = test_caged_configuration;
+    wrong.design.ball_radius = 12e-3f;
+    wrong.design.screw_conformity = 1.0f;
+    wrong.design.nut_conformity = 1.0f;
+    wrong.design.contact_angle = 1.5f;
+    status = epas_caged_init(&place, &wrong, &failure);
+    check_failure(status, &failure, EPAS_FOLDED_GROOVE, EPAS_FIELD_SCREW_CONFORMITY, "screw_conformity");
+    check((failure.value == 1.0f) && (failure.maximum > 0.5f) && (failure.maximum < 1.0f),
+          "the conformity that would fit");
+
+    wrong = test_caged_configuration;
+    wrong.design.groove_material.youngs_modulus = 210.0f;
+    status = epas_caged_init(&place, &wrong, &failure);
+    check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_GROOVE_YOUNGS_MODULUS,
+                  "groove_material.youngs_modulus");
+
+    wrong.design.ball_material.youngs_modulus = 210.0f;
+    status = epas_caged_init(&place, &wrong, &failure);
+    check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_BALL_YOUNGS_MODULUS,
+                  "ball_material.youngs_modulus");
+
+    wrong = test_caged_configuration;
+    wrong.branch = 2u;
+    status = epas_caged_init(&place, &wrong, &failure);
+    check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_BRANCH, "branch");
+    check((failure.value == 2.0f) && (failure.maximum == 1.0f), "value and range of the branch");
+
+    wrong = test_caged_configuration;
+    wrong.limits.friction_torque = 0.0f;
+    status = epas_caged_init(&place, &wrong, &failure);
+    check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_LIMIT_FRICTION_TORQUE,
+                  "limits.friction_torque");
+
+    status = epas_caged_init(&place, &test_caged_configuration, &failure);
+    check_failure(status, &failure, EPAS_OK, EPAS_FIELD_NONE, "");
+}
+
+static void train_fields(void)
+{
+    static epas_screw_t screw;
+    static epas_linear_t linear;
+    static epas_deviation_t empty;
+    static epas_load_share_t shares[2];
+    static const float one_wrong[2] = {1.0f, 0.001f};
+    epas_screw_configuration_t wrong;
+    epas_linear_configuration_t wrong_linear;
+    epas_failure_t failure;
+    uint32_t status;
+
+    check(test_setup_screw(&screw) == EPAS_OK, "set-up of the screw");
+    wrong = test_screw_configuration;
+    wrong.nut_deviation = &empty;
+    status = epas_screw_init(&screw, &wrong, &failure);
+    check_failure(status, &failure, EPAS_NOT_INITIALISED, EPAS_FIELD_OWN_DEVIATION, "own deviation");
+
+    wrong = test_screw_configuration;
+    status = epas_load_shares_init(shares, one_wrong, 2u, &failure);
+    check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_SHARE, "share");
+    check(failure.index == 1u, "which share");
+    wrong.load_shares = shares;
+    wrong.load_share_count = 2u;
+    status = epas_screw_init(&screw, &wrong, &failure);
+    check_failure(status, &failure, EPAS_NOT_INITIALISED, EPAS_FIELD_LOAD_SHARES, "load_shares");
+    check(failure.index == 1u, "which share is not initialised");
+    wrong.load_share_count = 257u;
+    status = epas_screw_init(&screw, &wrong, &failure);
+    check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_LOAD_SHARE_COUNT, "load_share_count");
+
+    wrong = test_screw_configuration;
+    wrong.turns = 1.5f;
+    status = epas_screw_init(&screw, &wrong, &failure);
+    check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_BALL_PITCH, "ball pitch");
+
+    wrong = test_screw_configuration;
+    wrong.fit = EPAS_FIT_PRELOAD;
+    status = epas_screw_init(&screw, &wrong, &failure);
+    check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_CONTACT_PRELOAD, "contact_preload");
+    wrong.contact_preload = 20.0f;
+    wrong.screw_deviation = NULL;
+    wrong.nut_deviation = NULL;
+    wrong.load_shares = NULL;
+    check(epas_screw_init(&screw, &wrong, &failure) == EPAS_OK, "preload, and no tables");
+
+    check(test_setup_linear(&linear) == EPAS_OK, "set-up of the linear bearing");
+    wrong_linear = test_linear_configuration;
+    wrong_linear.bearing.conformity = 0.5f;
+    status = epas_linear_init(&linear, &wrong_linear, &failure);
+    check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_CONFORMITY, "conformity");
+    wrong_linear = test_linear_configuration;
+    wrong_linear.limits.speed = 0.0f;
+    status = epas_linear_init(&linear, &wrong_linear, &failure);
+    check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_LIMIT_SPEED, "limits.speed");
+}
+
+static void tables_and_requests(void)
+{
+    static epas_deviation_t deviation;
+    epas_harmonic_t waves[2] = {{1u, 0.01f, 0.0f}, {9u, 0.0f, 0.01f}};
+    float samples[EPAS_DEVIATION_SAMPLES] = {0.0f};
+    epas_efficiency_request_t request = {0.1f, 0.8f, 0.2f, 1.5f, 0.0f};
+    epas_efficiency_t efficiency;
+    epas_curvature_request_t curvature_request = {.design = test_caged_configuration.design};
+    epas_curvature_t curvature;
+    epas_failure_t failure;
+    uint32_t status;
+
+    status = epas_deviation_from_harmonics(&deviation, 1u, waves, 2u, &failure);
+    check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_ORDER, "order");
+    check((failure.index == 1u) && (failure.maximum == 8.0f), "which order");
+    waves[1].order = 3u;
+    waves[1].sine = 0.3f;
+    status = epas_deviation_from_harmonics(&deviation, 1u, waves, 2u, &failure);
+    check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_SINE, "sine");
+    check(failure.index == 1u, "which sine");
+    status = epas_deviation_from_harmonics(&deviation, 70000u, waves, 1u, &failure);
+    check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_TURNS, "turns");
+    check(failure.value == 70000.0f, "how many turns");
+    status = epas_deviation_from_harmonics(&deviation, 1u, waves, 10u, &failure);
+    check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_HARMONIC_COUNT, "harmonic count");
+    check(epas_deviation_from_harmonics(&deviation, 1u, NULL, 1u, NULL) == EPAS_NULL_POINTER, "no waves");
+    check(epas_deviation_from_harmonics(&deviation, 1u, NULL, 0u, NULL) == EPAS_OK, "none asked for");
+
+    samples[63] = not_a_number();
+    status = epas_deviation_from_samples(&deviation, 1u, samples, &failure);
+    check_failure(status, &failure, EPAS_NOT_FINITE, EPAS_FIELD_DEVIATION, "deviation");
+    check(failure.index == 63u, "which sample");
+
+    status = epas_efficiency(&request, &efficiency, &failure);
+    check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_FRICTION, "friction");
+    request.friction = 0.1f;
+    request.contact_angle = 0.0f;
+    status = epas_efficiency(&request, &efficiency, &failure);
+    check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_CONTACT_ANGLE, "contact_angle");
+
+    curvature_request.groove = 7u;
+    status = epas_curvature(&curvature_request, &curvature, &failure);
+    check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_GROOVE, "groove");
+    check(epas_curvature(&curvature_request, NULL, &failure) == EPAS_NULL_POINTER, "nowhere to answer");
+
+    check(epas_abi_version() == EPAS_ABI_VERSION, "header and library");
+    check(same_text(epas_status_name(EPAS_OUT_OF_RANGE), "out of range"), "name of a status");
+    check(same_text(epas_status_name(99u), "unknown status"), "name of no status");
+    check(same_text(epas_field_name(99u), ""), "name of no field");
+}
+
+uint32_t test_refusals(void)
+{
+    failed = 0u;
+    pointers();
+    inputs();
+    caged_fields();
+    train_fields();
+    tables_and_requests();
+    test_put("refusals: ");
+    test_put_number(failed);
+    test_put(" failed\n");
+    return failed;
+}

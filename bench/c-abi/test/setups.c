@@ -1,0 +1,126 @@
+/* The three scenes, set up as a user would: constant configurations, places of static duration. */
+#include "epas_test.h"
+
+#include <stddef.h>
+
+#define STEEL {210e9f, 0.28f, 7800.0f}
+
+/* The rack-assist gear of Lin 2019, chapter 4. */
+const epas_caged_configuration_t test_caged_configuration = {
+    .design = {
+        .pitch_radius = 14.5e-3f,
+        .lead = 7e-3f,
+        .ball_radius = 2e-3f,
+        .screw_conformity = 0.54f,
+        .nut_conformity = 0.54f,
+        .contact_angle = 0.785398163f,
+        .ball_material = STEEL,
+        .groove_material = STEEL,
+    },
+    .friction = 0.075f,
+    .rolling_tangent = 0.002f,
+    .branch = EPAS_BRANCH_ROLLING,
+    .preload = 100.0f,
+    .reversal_speed = 0.5f,
+    .limits = {.nut_speed = 500.0f, .axial_load = 20000.0f, .friction_torque = 2.0f},
+};
+
+/* Deviations and shares of the load stay for as long as a model uses them. */
+static epas_deviation_t screw_deviation;
+static epas_deviation_t nut_deviation;
+static epas_load_share_t load_shares[6];
+static epas_deviation_t rail_deviation;
+
+/* The ball screw of Lin 2019, Table 3.6. */
+epas_screw_configuration_t test_screw_configuration = {
+    .design = {
+        .pitch_radius = 16.5e-3f,
+        .lead = 20e-3f,
+        .ball_radius = 2.778e-3f,
+        .screw_conformity = 0.56f,
+        .nut_conformity = 0.56f,
+        .contact_angle = 0.785398163f,
+        .ball_material = STEEL,
+        .groove_material = STEEL,
+    },
+    .friction = 0.1f,
+    .ball_friction = 0.12f,
+    .fit = EPAS_FIT_ZERO,
+    .contact_preload = 0.0f,
+    .turns = 1.8f,
+    .return_length = 20e-3f,
+    .screw_deviation = &screw_deviation,
+    .nut_deviation = &nut_deviation,
+    .load_shares = load_shares,
+    .load_share_count = 6u,
+    .reversal_speed = 0.5f,
+    .tick = 0.5e-3f,
+    .limits = {.nut_speed = 500.0f, .axial_load = 20000.0f, .friction_torque = 5.0f},
+};
+
+/* A linear bearing with balls of 10 mm. */
+epas_linear_configuration_t test_linear_configuration = {
+    .bearing = {
+        .ball_radius = 5e-3f,
+        .conformity = 0.52f,
+        .contact_angle = 0.785398163f,
+        .ball_material = STEEL,
+        .groove_material = STEEL,
+    },
+    .friction = 0.1f,
+    .ball_friction = 0.12f,
+    .loaded_length = 0.2f,
+    .return_length = 0.13f,
+    .wavelength = 0.05f,
+    .rail_deviation = &rail_deviation,
+    .carriage_deviation = NULL,
+    .load_shares = NULL,
+    .load_share_count = 0u,
+    .reversal_speed = 1e-3f,
+    .tick = 1e-3f,
+    .limits = {.speed = 2.0f, .load = 5000.0f, .friction_force = 50.0f},
+};
+
+uint32_t test_setup_caged(epas_caged_t *place)
+{
+    return epas_caged_init(place, &test_caged_configuration, NULL);
+}
+
+uint32_t test_setup_screw(epas_screw_t *place)
+{
+    static const epas_harmonic_t waves[2] = {{1u, 0.005f, 0.0f}, {2u, 0.0f, 0.04014f}};
+    static const float shares[6] = {1.4f, 1.2f, 1.1f, 0.9f, 0.8f, 0.6f};
+    float triangle[EPAS_DEVIATION_SAMPLES];
+    uint32_t sample;
+    uint32_t status;
+
+    for (sample = 0u; sample < EPAS_DEVIATION_SAMPLES; sample++) {
+        const float rise = (sample < 32u) ? (float)sample : (64.0f - (float)sample);
+        triangle[sample] = (rise - 16.0f) * 0.00125f;
+    }
+    status = epas_deviation_from_harmonics(&screw_deviation, 1u, waves, 2u, NULL);
+    if (status == EPAS_OK) {
+        status = epas_deviation_from_samples(&nut_deviation, 2u, triangle, NULL);
+    }
+    if (status == EPAS_OK) {
+        status = epas_load_shares_init(load_shares, shares, 6u, NULL);
+    }
+    if (status == EPAS_OK) {
+        status = epas_screw_init(place, &test_screw_configuration, NULL);
+    }
+    if (status == EPAS_OK) {
+        status = epas_screw_set_nut_angle(place, 1.25f);
+    }
+    return status;
+}
+
+uint32_t test_setup_linear(epas_linear_t *place)
+{
+    static const epas_harmonic_t wave = {1u, 0.01f, 0.02f};
+    uint32_t status = epas_deviation_from_harmonics(&rail_deviation, 1u, &wave, 1u, NULL);
+
+    if (status == EPAS_OK) {
+        status = epas_linear_init(place, &test_linear_configuration, NULL);
+    }
+    return status;
+}

@@ -1,0 +1,185 @@
+//! What the programs need of the board: text to the host, the cycle counter, the height of the stack.
+
+// The stack pointer, its memory and the debugger's calls.
+#![allow(unsafe_code)]
+
+use core::hint::black_box;
+use core::mem::MaybeUninit;
+
+use cortex_m::peripheral::DWT;
+use cortex_m_semihosting::debug::{self, EXIT_FAILURE, EXIT_SUCCESS};
+use cortex_m_semihosting::hio::{HostStream, hstdout};
+
+use crate::scenes::{Digest, Run, TICKS, course};
+
+/// The host's screen, through the debugger.
+pub struct Console {
+    stream: Option<HostStream>,
+}
+
+impl Console {
+    /// Opens it.
+    #[must_use]
+    pub fn open() -> Self {
+        Self {
+            stream: hstdout().ok(),
+        }
+    }
+
+    /// Writes a text.
+    pub fn text(&mut self, text: &str) {
+        self.bytes(text.as_bytes());
+    }
+
+    /// Writes a number in decimals.
+    pub fn number(&mut self, number: u32) {
+        let mut left = number;
+        let mut digits = [0; 10];
+        let mut written = 0;
+        for digit in digits.iter_mut().rev() {
+            *digit = b'0' + (left % 10) as u8;
+            left /= 10;
+            written += 1;
+            if left == 0 {
+                break;
+            }
+        }
+        if let Some(digits) = digits.get(digits.len() - written..) {
+            self.bytes(digits);
+        }
+    }
+
+    fn bytes(&mut self, bytes: &[u8]) {
+        if let Some(stream) = &mut self.stream {
+            // Nobody may be listening, and nothing can be done about it here.
+            let _ = stream.write_all(bytes);
+        }
+    }
+}
+
+/// Starts the cycle counter where there is one.
+pub fn start_clock() {
+    if let Some(mut core) = cortex_m::Peripherals::take() {
+        core.DCB.enable_trace();
+        core.DWT.enable_cycle_counter();
+    }
+}
+
+/// The cycle counter; QEMU's stands still.
+#[must_use]
+pub fn clock() -> u32 {
+    DWT::cycle_count()
+}
+
+/// Ends the program with the exit code 0, or 1.
+pub fn finish(passed: bool) -> ! {
+    debug::exit(if passed { EXIT_SUCCESS } else { EXIT_FAILURE });
+    loop {
+        cortex_m::asm::wfi();
+    }
+}
+
+/// What the free stack is painted with.
+const PAINT: u32 = 0xA5A5_5A5A;
+
+/// How much of it is painted, in words.
+const PAINTED: usize = 1024;
+
+/// Bytes of stack that some work takes below its caller, at most; 4096 where it takes all that is
+/// painted.
+#[inline(never)]
+pub fn stack_used(work: impl FnOnce()) -> u32 {
+    let top = cortex_m::register::msp::read() as *mut u32;
+    for word in 1..=PAINTED {
+        // SAFETY: free stack, below everything that is in use and within the memory of the board.
+        unsafe { top.sub(word).write_volatile(PAINT) };
+    }
+    black_box(());
+    work();
+    black_box(());
+    let mut used = PAINTED;
+    while used > 0 {
+        // SAFETY: as above.
+        if unsafe { top.sub(used).read_volatile() } != PAINT {
+            break;
+        }
+        used -= 1;
+    }
+    4 * used as u32
+}
+
+#[inline(never)]
+fn set_up<S: Run>(place: &mut MaybeUninit<S::Model>) -> Option<&mut S::Model> {
+    S::set_up().ok().map(|model| place.write(model))
+}
+
+#[inline(never)]
+fn tick<S: Run>(model: &mut S::Model, number: u32, digest: &mut Digest) {
+    let (nut_speed, axial_load) = course(number);
+    S::tick(model, nut_speed, axial_load, digest);
+}
+
+/// Runs a scene in its own image: set-up, then [`TICKS`] ticks; writes the digest of all results and the
+/// stack that either takes.
+pub fn run<S: Run>(console: &mut Console, place: &mut MaybeUninit<S::Model>) -> bool {
+    let mut model = None;
+    let set_up_stack = stack_used(|| model = set_up::<S>(place));
+    let Some(model) = model else {
+        return false;
+    };
+    let mut digest = Digest::default();
+    let stack = stack_used(|| {
+        for number in 0..TICKS {
+            tick::<S>(model, number, &mut digest);
+        }
+    });
+    console.text(S::NAME);
+    for number in [digest.0, stack, set_up_stack] {
+        console.text(" ");
+        console.number(number);
+    }
+    console.text("\n");
+    true
+}
+
+/// Makes a program of some scenes.
+#[macro_export]
+macro_rules! image {
+    ($($scene:ty),*) => {
+        #[cortex_m_rt::entry]
+        fn main() -> ! {
+            let mut console = $crate::board::Console::open();
+            let passed = true;
+            $(let passed = passed & {
+                static MODEL: $crate::board::Place<<$scene as $crate::scenes::Run>::Model> =
+                    $crate::board::Place::new();
+                MODEL.take().is_some_and(|place| $crate::board::run::<$scene>(&mut console, place))
+            };)*
+            $crate::board::finish(passed)
+        }
+    };
+}
+
+/// Memory of a model, outside the stack and taken once.
+pub struct Place<T> {
+    memory: core::cell::UnsafeCell<MaybeUninit<T>>,
+}
+
+// SAFETY: one core, and only the main program takes it.
+unsafe impl<T> Sync for Place<T> {}
+
+impl<T> Place<T> {
+    /// Empty memory.
+    #[must_use]
+    pub const fn new() -> Self {
+        Self {
+            memory: core::cell::UnsafeCell::new(MaybeUninit::uninit()),
+        }
+    }
+
+    /// The memory.
+    pub fn take(&'static self) -> Option<&'static mut MaybeUninit<T>> {
+        // SAFETY: each place is named once, in a main program that runs once.
+        unsafe { self.memory.get().as_mut() }
+    }
+}

@@ -1,0 +1,163 @@
+//! The designs and states that the functions under test work with.
+
+use core::hint::black_box;
+
+use epas_friction::{
+    AnalyticLinearBall, BallChain, BallScrew, BallState, CATALOGUE, CagedBallScrew,
+    CircularGrooveCurvature, ContactKinematics, EfficiencyGeometry, Error, FittedCurvature,
+    FourPointBall, FrictionMap, FrictionModel, GothicArch, Groove, GrooveFit, HertzContact,
+    KinematicsParameters, LinearBallParameters, LinearBearingTrain, LiteratureCurvature,
+    PUBLISHED_SLOPE, Press, RotaryBall, RotaryBallParameters, ScrewRow, ScrewTick, Train,
+    UncagedBallScrew,
+};
+
+use crate::peers::{LuGre, Stribeck};
+use crate::scenes::{ROW, caged_configuration, linear_configuration, uncaged_configuration};
+use crate::subjects::BALLS;
+
+/// Everything that is set up once.
+pub struct Contexts {
+    /// Counter of processor cycles; stands still where there is none.
+    pub clock: fn() -> u32,
+    /// Cycles of the last function run, by that counter.
+    pub elapsed: u32,
+    /// Catalogue formula of the curvature.
+    pub literature: LiteratureCurvature,
+    /// Curvature of a circular groove.
+    pub circular: CircularGrooveCurvature,
+    /// Fitted curvature.
+    pub fitted: FittedCurvature,
+    /// Exact curvatures.
+    pub exact: GothicArch,
+    /// Contact ellipse.
+    pub hertz: HertzContact,
+    /// Efficiency in closed form.
+    pub efficiency: EfficiencyGeometry,
+    /// Contact kinematics.
+    pub kinematics: ContactKinematics,
+    /// Friction of a contact with spin.
+    pub map: FrictionMap,
+    /// Published closed form of a ball.
+    pub analytic: AnalyticLinearBall,
+    /// Ball in a linear bearing.
+    pub linear: FourPointBall,
+    /// Its state.
+    pub ball: BallState,
+    /// Two balls that press on each other.
+    pub chain: BallChain<2>,
+    /// Ball in a rotary bearing.
+    pub rotary: RotaryBall,
+    /// Its state.
+    pub rotary_ball: BallState,
+    /// Caged ball screw.
+    pub caged: FrictionModel<CagedBallScrew>,
+    /// Balls of a ball screw in closed form.
+    pub screw_row: ScrewRow,
+    /// The same at a tick.
+    pub screw_tick: ScrewTick,
+    /// Forces between balls.
+    pub press: Press<BALLS>,
+    /// Forces between balls and their positions.
+    pub train: Train<BALLS>,
+    /// Ball screw without cage.
+    pub uncaged: FrictionModel<UncagedBallScrew<BALLS>>,
+    /// Linear bearing.
+    pub carriage: FrictionModel<LinearBearingTrain<ROW>>,
+    /// What others run.
+    pub lugre: LuGre,
+}
+
+/// Ball radius, m, of the linear bearing of Lin 2019, Table 3.3.
+const BALL_RADIUS: f32 = 0.005;
+
+impl Contexts {
+    /// Sets everything up.
+    ///
+    /// # Errors
+    /// None with the designs used here.
+    pub fn new(clock: fn() -> u32) -> Result<Self, Error> {
+        // Through `black_box`, or the compiler would fold the constants into the functions.
+        let design: BallScrew = black_box(CATALOGUE[15].design()?);
+        let linear_parameters = black_box(LinearBallParameters {
+            ball_radius: BALL_RADIUS,
+            contact_angle: core::f32::consts::FRAC_PI_4,
+            axis_ratio: 0.2321,
+            semi_major_coefficient: 9.075e-5,
+            friction: 0.1,
+        });
+        let degree = core::f32::consts::PI / 180.0;
+        // The screw of Alberdi et al., Table 2, at 1500 N.
+        let kinematics_parameters = black_box(KinematicsParameters {
+            ball_diameter: 7.94e-3,
+            pitch_radius: 19.25e-3,
+            lead_angle: 10.0 * degree,
+            groove_radius_screw: 4.2e-3,
+            groove_radius_nut: 4.2e-3,
+            contact_angle_screw: 41.0 * degree,
+            contact_angle_nut: 41.0 * degree,
+            pitch_angle: 40.0 * degree,
+            yaw_angle: 0.0,
+            rolling_radius_screw: 3.97e-3,
+            rolling_radius_nut: 3.97e-3,
+            semi_major_screw: 0.601e-3,
+            semi_minor_screw: 0.083e-3,
+            semi_major_nut: 0.586e-3,
+            semi_minor_nut: 0.097e-3,
+        });
+        // Lin 2019, Table 3.2.
+        let rotary_parameters = black_box(RotaryBallParameters {
+            ball_radius: 0.00625,
+            pitch_radius: 0.035,
+            contact_angle: 0.785,
+            axis_ratio_inner: 0.157,
+            axis_ratio_outer: 0.216,
+            semi_major_coefficient_inner: 1.288e-4,
+            semi_major_coefficient_outer: 1.196e-4,
+            friction: 0.1,
+        });
+        let linear = FourPointBall::linear(&linear_parameters)?;
+        let nominal = [linear_parameters.contact_angle; 4];
+        let rotary = RotaryBall::new(&rotary_parameters)?;
+        let rotary_nominal = [rotary_parameters.contact_angle; 4];
+        let screw_row = ScrewRow::new(&design, 0.1, GrooveFit::Zero)?;
+        Ok(Self {
+            clock,
+            elapsed: 0,
+            literature: LiteratureCurvature::of(&design, Groove::Screw),
+            circular: CircularGrooveCurvature::of(&design, Groove::Screw),
+            fitted: FittedCurvature::of(&design, Groove::Screw),
+            exact: GothicArch::of(&design, Groove::Screw),
+            hertz: HertzContact::of(&design, Groove::Screw),
+            efficiency: EfficiencyGeometry::of(&design),
+            kinematics: ContactKinematics::new(&kinematics_parameters)?,
+            map: FrictionMap::new(black_box(0.2321))?,
+            analytic: AnalyticLinearBall::new(&linear_parameters, PUBLISHED_SLOPE)?,
+            ball: linear.solve(&linear.contacts(&nominal, &[100.0; 4])),
+            linear,
+            chain: BallChain::new(),
+            rotary_ball: rotary
+                .four_point()
+                .solve(&rotary.four_point().contacts(&rotary_nominal, &[100.0; 4])),
+            rotary,
+            caged: FrictionModel::new(&black_box(caged_configuration()?))?,
+            screw_tick: screw_row.at(10.0, 100.0),
+            screw_row,
+            press: Press::new(),
+            train: Train::evenly_spaced(0.2248, 0.00594)?,
+            uncaged: FrictionModel::new(&black_box(uncaged_configuration()?))?,
+            carriage: FrictionModel::new(&black_box(linear_configuration()?))?,
+            lugre: black_box(LuGre {
+                stribeck: Stribeck {
+                    coulomb: 0.3,
+                    excess: 0.1,
+                    inverse_speed: 2.0,
+                    viscous: 1e-3,
+                },
+                stiffness: 300.0,
+                damping: 0.5,
+                period: 5e-5,
+                deflection: 0.0,
+            }),
+        })
+    }
+}

@@ -1,0 +1,269 @@
+//! Each function once as a call of its own, with the arguments in registers as the compiler passes them:
+//! what a count finds between the call and the return is the function and nothing else.
+
+// Names that the linker keeps are what the count is found by.
+#![allow(unsafe_code)]
+// Rust calls Rust here: the C calling convention is what passes numbers in floating-point registers.
+#![allow(improper_ctypes_definitions)]
+
+use epas_friction::{
+    AnalyticLinearBall, BallChain, BallKinematics, BallState, CagedBallScrew,
+    CircularGrooveCurvature, ContactAngle, ContactEllipse, ContactKinematics, Dissipation,
+    EfficiencyGeometry, EllipticContact, FittedCurvature, FourPointBall, FrictionMap,
+    FrictionModel, GothicArch, HertzContact, Inputs, LinearBearingTrain, LinearInputs,
+    LiteratureCurvature, LoadShare, NormalizedFriction, Outputs, Press, PrincipalCurvatures,
+    RotaryBall, ScrewBallLoop, ScrewRow, ScrewTick, SlipRatios, Train, TrainOutputs,
+    UncagedBallScrew, math,
+};
+
+use crate::peers::{LuGre, Stribeck};
+use crate::scenes::{EfficiencyStep, ROW, efficiency_step};
+use crate::subjects::BALLS;
+
+/// Angles and forces of four contacts.
+#[derive(Clone, Copy, Debug)]
+pub struct FourContacts {
+    /// Contact angles, rad.
+    pub angles: [f32; 4],
+    /// Contact forces, N.
+    pub forces: [f32; 4],
+}
+
+macro_rules! counted {
+    ($($(#[$meta:meta])* fn $name:ident($($argument:ident: $type:ty),*) -> $result:ty $body:block)*) => {$(
+        $(#[$meta])*
+        #[inline(never)]
+        #[unsafe(no_mangle)]
+        pub extern "C" fn $name($($argument: $type),*) -> $result $body
+    )*};
+}
+
+counted! {
+    /// Literature formula of the first curvature.
+    fn count_curvature_literature(form: &LiteratureCurvature, cos: f32, sin: f32) -> f32 {
+        form.first(ContactAngle { cos, sin })
+    }
+
+    /// First curvature of a circular groove.
+    fn count_curvature_circular_groove(form: &CircularGrooveCurvature, cos: f32, sin: f32) -> f32 {
+        form.first(ContactAngle { cos, sin })
+    }
+
+    /// Fitted first curvature.
+    fn count_curvature_fitted(form: &FittedCurvature, cos: f32, sin: f32) -> f32 {
+        form.first(ContactAngle { cos, sin })
+    }
+
+    /// Both exact curvatures.
+    fn count_curvature_exact(form: &GothicArch, cos: f32, sin: f32) -> PrincipalCurvatures {
+        form.principal(ContactAngle { cos, sin })
+    }
+
+    /// Contact ellipse under a load.
+    fn count_hertz_ellipse(contact: &HertzContact, load: f32) -> ContactEllipse {
+        contact.at(load)
+    }
+
+    /// Rolling efficiency.
+    fn count_efficiency_rolling(screw: &EfficiencyGeometry, friction: f32, tangent: f32) -> f32 {
+        screw.rolling_efficiency(friction, tangent)
+    }
+
+    /// Full-sliding efficiency.
+    fn count_efficiency_sliding(screw: &EfficiencyGeometry, friction: f32) -> f32 {
+        screw.sliding_efficiency(friction)
+    }
+
+    /// Full-sliding efficiency of back-driving.
+    fn count_efficiency_backdrive(screw: &EfficiencyGeometry, friction: f32) -> f32 {
+        screw.sliding_backdrive_efficiency(friction)
+    }
+
+    /// New contact angles and ellipses.
+    fn count_kinematics_update(
+        kinematics: &mut ContactKinematics, screw: &EllipticContact, nut: &EllipticContact
+    ) -> bool {
+        kinematics.update(*screw, *nut)
+    }
+
+    /// Motion and slip at a speed.
+    fn count_kinematics_tick(kinematics: &ContactKinematics, speed: f32) -> BallKinematics {
+        kinematics.tick(speed)
+    }
+
+    /// Speed-free ratios of one contact.
+    fn count_kinematics_ratios(kinematics: &ContactKinematics) -> SlipRatios {
+        kinematics.screw().ratios()
+    }
+
+    /// Friction of one contact by its offset ratio.
+    fn count_friction_map(map: &FrictionMap, offset: f32) -> NormalizedFriction {
+        map.evaluate(offset)
+    }
+
+    /// Friction of one contact by slip and spin, with its derivatives.
+    fn count_friction_dissipation(
+        map: &FrictionMap, slip: f32, spin: f32, semi_major: f32, stick_spin: f32
+    ) -> Dissipation {
+        map.dissipation(slip, spin, semi_major, stick_spin)
+    }
+
+    /// Square root.
+    fn count_sqrt(x: f32) -> f32 {
+        math::sqrt(x)
+    }
+
+    /// Cube root.
+    fn count_cbrt(x: f32) -> f32 {
+        math::cbrt(x)
+    }
+
+    /// Cube root and its square.
+    fn count_cbrt_and_squared(x: f32) -> (f32, f32) {
+        math::cbrt_and_squared(x)
+    }
+
+    /// Sine and cosine.
+    fn count_sin_cos(x: f32) -> (f32, f32) {
+        math::sin_cos(x)
+    }
+
+    /// Two balls by the published closed form, and the force between them.
+    fn count_linear_ball_analytic(
+        ball: &AnalyticLinearBall, rear: &FourContacts, front: &FourContacts
+    ) -> f32 {
+        let rear = ball.speed_deviation(&rear.angles, &rear.forces);
+        let front = ball.speed_deviation(&front.angles, &front.forces);
+        rear.contact_force(&front)
+    }
+
+    /// One ball, one tick from the last tick's state.
+    fn count_linear_ball_refined(
+        ball: &FourPointBall, contacts: &FourContacts, state: &mut BallState, axial_force: f32
+    ) -> () {
+        *state = ball.step(&ball.contacts(&contacts.angles, &contacts.forces), state, axial_force);
+    }
+
+    /// One ball of a rotary bearing, one tick from the last tick's state.
+    fn count_rotary_ball_refined(
+        ball: &RotaryBall, contacts: &FourContacts, state: &mut BallState, axial_force: f32
+    ) -> () {
+        let ball = ball.four_point();
+        *state = ball.step(&ball.contacts(&contacts.angles, &contacts.forces), state, axial_force);
+    }
+
+    /// Two balls that press on each other, one tick.
+    fn count_linear_chain_2(
+        ball: &FourPointBall, rear: &FourContacts, front: &FourContacts, chain: &mut BallChain<2>, direction: f32
+    ) -> () {
+        let contacts = [rear, front].map(|ball_contacts| {
+            ball.contacts(&ball_contacts.angles, &ball_contacts.forces)
+        });
+        ball.refine_chain(&contacts, chain, direction, 0.1, |free, compliance, forces| {
+            let ([rear, front], [rear_compliance, front_compliance]) = (*free, *compliance);
+            let lead = rear - front;
+            let force = lead / (rear_compliance + front_compliance);
+            *forces = [if lead > 0.0 { force } else { 0.0 }, 0.0];
+        });
+    }
+
+    /// One tick of firmware that knows the efficiency alone.
+    fn count_step_efficiency(
+        screw: &EfficiencyGeometry, nut_speed: f32, load_torque: f32, friction: f32
+    ) -> EfficiencyStep {
+        efficiency_step(screw, nut_speed, load_torque, friction)
+    }
+
+    /// One tick of a caged ball screw.
+    fn count_step_caged(model: &mut FrictionModel<CagedBallScrew>, nut_speed: f32, axial_load: f32) -> Outputs {
+        model.step(Inputs { nut_speed, axial_load })
+    }
+
+    /// A row of balls under one load.
+    fn count_ball_screw_row(row: &ScrewRow, nut_speed: f32, load: f32) -> ScrewTick {
+        row.at(nut_speed, load)
+    }
+
+    /// One ball of a row.
+    fn count_ball_screw_ball(row: &ScrewTick, screw: f32, nut: f32, share: &LoadShare) -> ScrewBallLoop {
+        row.ball(screw, nut, share)
+    }
+
+    /// Forces between balls that all touch, from given speeds and impedances.
+    fn count_press_37(
+        press: &mut Press<BALLS>, free: &[f32; BALLS], impedance: &[f32; BALLS], room: &[f32; BALLS]
+    ) -> bool {
+        press.solve(free, impedance, room)
+    }
+
+    /// Forces between the balls of a train from given speeds and impedances, and where the balls go.
+    fn count_train_37(
+        train: &mut Train<BALLS>, free: &[f32; BALLS], impedance: &[f32; BALLS], travel: f32
+    ) -> bool {
+        train.step(free, impedance, travel)
+    }
+
+    /// One tick of a ball screw with 37 balls without cage.
+    fn count_step_train_37(
+        model: &mut FrictionModel<UncagedBallScrew<BALLS>>, nut_speed: f32, axial_load: f32
+    ) -> TrainOutputs {
+        model.step(Inputs { nut_speed, axial_load })
+    }
+
+    /// One tick of a linear bearing.
+    fn count_step_linear(
+        model: &mut FrictionModel<LinearBearingTrain<ROW>>, speed: f32, normal_load: f32, side_load: f32
+    ) -> TrainOutputs {
+        model.step(LinearInputs { speed, normal_load, side_load })
+    }
+
+    /// `libm`'s square root.
+    fn count_libm_sqrtf(x: f32) -> f32 {
+        libm::sqrtf(x)
+    }
+
+    /// `libm`'s cube root.
+    fn count_libm_cbrtf(x: f32) -> f32 {
+        libm::cbrtf(x)
+    }
+
+    /// `libm`'s cosine.
+    fn count_libm_cosf(x: f32) -> f32 {
+        libm::cosf(x)
+    }
+
+    /// `libm`'s sine and cosine.
+    fn count_libm_sincosf(x: f32) -> (f32, f32) {
+        libm::sincosf(x)
+    }
+
+    /// `libm`'s power, as it would serve for a deflection.
+    fn count_libm_powf(x: f32) -> f32 {
+        libm::powf(x, 2.0 / 3.0)
+    }
+
+    /// `micromath`'s square root.
+    fn count_micromath_sqrt(x: f32) -> f32 {
+        micromath::F32Ext::sqrt(x)
+    }
+
+    /// `micromath`'s cosine.
+    fn count_micromath_cos(x: f32) -> f32 {
+        micromath::F32Ext::cos(x)
+    }
+
+    /// `micromath`'s power.
+    fn count_micromath_powf(x: f32) -> f32 {
+        micromath::F32Ext::powf(x, 2.0 / 3.0)
+    }
+
+    /// One step of the LuGre model.
+    fn count_lugre_step(model: &mut LuGre, speed: f32) -> f32 {
+        model.step(speed)
+    }
+
+    /// A Stribeck curve.
+    fn count_stribeck_curve(curve: &Stribeck, speed: f32) -> f32 {
+        curve.torque(speed)
+    }
+}

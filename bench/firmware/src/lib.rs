@@ -1,0 +1,19 @@
+#![no_std]
+//! What the firmware runs: every function that belongs into a control loop, with inputs spread over its
+//! domain, and the results that a host found for them.
+//!
+//! The host's program (`epas-bench target`) uses the same library: it writes the stored cases, and knows
+//! by name what it counts.
+
+pub mod cases;
+pub mod contexts;
+pub mod counted;
+pub mod peers;
+pub mod scenes;
+pub mod spread;
+pub mod subjects;
+
+#[cfg(target_arch = "arm")]
+pub mod board;
+#[cfg(target_arch = "arm")]
+mod panic;

@@ -1,0 +1,324 @@
+//! The scenes that the firmware runs, each set up as its user would.
+
+use core::hint::black_box;
+
+use epas_friction::{
+    BallScrew, CagedBallScrew, CagedBallScrewConfiguration, ContactAngle, DISSERTATION_DESIGNS,
+    DeviationMap, Drive, EfficiencyGeometry, Error, FittedCurvature, FrictionBranch, FrictionModel,
+    Groove, GrooveFit, GrooveSize, Harmonic, Inputs, Limits, LinearBearing,
+    LinearBearingConfiguration, LinearBearingParameters, LinearBearingTrain, LinearInputs,
+    LinearLimits, LoadShare, Material, UncagedBallScrew, UncagedBallScrewConfiguration,
+};
+
+use crate::subjects::{BALLS, outputs, train_outputs};
+
+/// Balls in the linear bearing's circuit.
+pub const ROW: usize = 24;
+
+/// Time between two ticks, s.
+pub const TICK: f32 = 1e-3;
+
+/// Two waves a turn, Lin 2019, Fig. 3.23.
+static SCREW_DEVIATION: DeviationMap = map(&[Harmonic {
+    order: 2,
+    cosine: 0.0,
+    sine: 0.04,
+}]);
+
+/// Three waves a turn.
+static NUT_DEVIATION: DeviationMap = map(&[Harmonic {
+    order: 3,
+    cosine: 0.02,
+    sine: 0.01,
+}]);
+
+const fn map(harmonics: &[Harmonic]) -> DeviationMap {
+    match DeviationMap::from_harmonics(1, harmonics) {
+        Ok(map) => map,
+        Err(_) => DeviationMap::NONE,
+    }
+}
+
+const LIMITS: Limits = Limits {
+    nut_speed: 100.0,
+    axial_load: 20_000.0,
+    friction_torque: 20.0,
+};
+
+/// A mechanism with its own model, run by a tick.
+pub trait Run {
+    /// Its name.
+    const NAME: &'static str;
+    /// What stays in memory from tick to tick.
+    type Model;
+
+    /// Sets it up.
+    ///
+    /// # Errors
+    /// None with the designs used here.
+    fn set_up() -> Result<Self::Model, Error>;
+
+    /// One tick; what it gives goes into the digest.
+    fn tick(model: &mut Self::Model, nut_speed: f32, axial_load: f32, digest: &mut Digest);
+}
+
+/// A number that stands for many: FNV-1a over their bits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Digest(pub u32);
+
+impl Default for Digest {
+    fn default() -> Self {
+        Self(0x811C_9DC5)
+    }
+}
+
+impl Digest {
+    /// Takes in some numbers.
+    #[inline]
+    pub fn take(&mut self, values: &[f32]) {
+        for value in values {
+            self.0 = (self.0 ^ value.to_bits()).wrapping_mul(0x0100_0193);
+        }
+    }
+}
+
+/// Ticks of the run of a scene's image.
+pub const TICKS: u32 = 2000;
+
+/// Nut speed and load of a tick: lock to lock and back, the load with another period, so that all four
+/// quadrants are passed.
+#[must_use]
+pub fn course(tick: u32) -> (f32, f32) {
+    let triangle = |period: u32| {
+        let place = tick % period;
+        let half = period / 2;
+        let up = if place < half { place } else { period - place };
+        2.0 * (up as f32 / half as f32) - 1.0
+    };
+    (40.0 * triangle(700), 12_000.0 * triangle(1300))
+}
+
+/// Curvature alone, by the fitted formula.
+pub struct Curvature;
+
+impl Run for Curvature {
+    const NAME: &'static str = "curvature";
+    type Model = FittedCurvature;
+
+    fn set_up() -> Result<Self::Model, Error> {
+        Ok(FittedCurvature::of(&design()?, Groove::Screw))
+    }
+
+    fn tick(model: &mut Self::Model, nut_speed: f32, _: f32, digest: &mut Digest) {
+        let sin = 0.6 + 0.005 * nut_speed;
+        let cos = epas_friction::math::sqrt(1.0 - sin * sin);
+        digest.take(&[model.first(ContactAngle { cos, sin })]);
+    }
+}
+
+/// Efficiency of the present direction, and the torque that friction takes.
+pub struct Efficiency;
+
+impl Run for Efficiency {
+    const NAME: &'static str = "efficiency";
+    type Model = EfficiencyGeometry;
+
+    fn set_up() -> Result<Self::Model, Error> {
+        Ok(EfficiencyGeometry::of(&design()?))
+    }
+
+    fn tick(model: &mut Self::Model, nut_speed: f32, axial_load: f32, digest: &mut Digest) {
+        let step = efficiency_step(model, nut_speed, 1e-3 * axial_load, 0.08);
+        digest.take(&[step.efficiency, step.friction_torque]);
+    }
+}
+
+/// A ball screw with a cage.
+pub struct Caged;
+
+impl Run for Caged {
+    const NAME: &'static str = "caged_ball_screw";
+    type Model = FrictionModel<CagedBallScrew>;
+
+    fn set_up() -> Result<Self::Model, Error> {
+        FrictionModel::new(&black_box(caged_configuration()?))
+    }
+
+    fn tick(model: &mut Self::Model, nut_speed: f32, axial_load: f32, digest: &mut Digest) {
+        digest.take(&outputs(&model.step(Inputs {
+            nut_speed,
+            axial_load,
+        })));
+    }
+}
+
+/// A linear bearing without cage.
+pub struct Linear;
+
+impl Run for Linear {
+    const NAME: &'static str = "linear_bearing";
+    type Model = FrictionModel<LinearBearingTrain<ROW>>;
+
+    fn set_up() -> Result<Self::Model, Error> {
+        FrictionModel::new(&black_box(linear_configuration()?))
+    }
+
+    fn tick(model: &mut Self::Model, nut_speed: f32, axial_load: f32, digest: &mut Digest) {
+        digest.take(&train_outputs(&model.step(LinearInputs {
+            speed: 0.02 * nut_speed,
+            normal_load: 1500.0,
+            side_load: 0.1 * axial_load,
+        })));
+    }
+}
+
+/// A ball screw with 37 balls, without cage.
+pub struct Uncaged;
+
+impl Run for Uncaged {
+    const NAME: &'static str = "ball_screw_37";
+    type Model = FrictionModel<UncagedBallScrew<BALLS>>;
+
+    fn set_up() -> Result<Self::Model, Error> {
+        FrictionModel::new(&black_box(uncaged_configuration()?))
+    }
+
+    fn tick(model: &mut Self::Model, nut_speed: f32, axial_load: f32, digest: &mut Digest) {
+        digest.take(&train_outputs(&model.step(Inputs {
+            nut_speed,
+            axial_load,
+        })));
+    }
+}
+
+/// The gear whose geometry every scene of a ball screw has: Lin 2019, chapter 3.6, 33 mm pitch circle,
+/// lead 20 mm, 37 balls in two turns.
+///
+/// # Errors
+/// None.
+pub fn design() -> Result<BallScrew, Error> {
+    let [_, design, _] = black_box(&DISSERTATION_DESIGNS);
+    BallScrew::new(design.parameters)
+}
+
+/// Its caged form.
+///
+/// # Errors
+/// None.
+pub fn caged_configuration() -> Result<CagedBallScrewConfiguration, Error> {
+    Ok(CagedBallScrewConfiguration {
+        design: design()?,
+        friction: 0.075,
+        rolling_tangent: 0.0,
+        branch: FrictionBranch::Rolling,
+        preload: 100.0,
+        reversal_speed: 0.5,
+        limits: LIMITS,
+    })
+}
+
+/// Its form without a cage: all 37 balls under load, as in the dissertation, which is also the dearest.
+///
+/// # Errors
+/// None.
+pub fn uncaged_configuration() -> Result<UncagedBallScrewConfiguration, Error> {
+    Ok(UncagedBallScrewConfiguration {
+        design: design()?,
+        friction: 0.1,
+        ball_friction: 0.1,
+        fit: GrooveFit::Zero,
+        turns: 2.0,
+        return_length: 0.0,
+        screw_deviation: &SCREW_DEVIATION,
+        nut_deviation: &NUT_DEVIATION,
+        load_shares: &[LoadShare::MEAN],
+        reversal_speed: 0.5,
+        tick: TICK,
+        limits: LIMITS,
+    })
+}
+
+/// A carriage on a rail with the balls of Lin 2019, Table 3.3.
+///
+/// # Errors
+/// None.
+pub fn linear_configuration() -> Result<LinearBearingConfiguration, Error> {
+    Ok(LinearBearingConfiguration {
+        bearing: LinearBearing::new(black_box(LinearBearingParameters {
+            ball_radius: 0.005,
+            groove: GrooveSize::Conformity(0.54),
+            contact_angle: core::f32::consts::FRAC_PI_4,
+            ball_material: Material::STEEL,
+            groove_material: Material::STEEL,
+        }))?,
+        friction: 0.1,
+        ball_friction: 0.1,
+        loaded_length: 0.16,
+        return_length: 0.09,
+        wavelength: 0.1,
+        rail_deviation: &SCREW_DEVIATION,
+        carriage_deviation: &NUT_DEVIATION,
+        load_shares: &[LoadShare::MEAN],
+        reversal_speed: 0.01,
+        tick: TICK,
+        limits: LinearLimits {
+            speed: 3.0,
+            load: 5_000.0,
+            friction_force: 500.0,
+        },
+    })
+}
+
+/// Efficiency of the present direction, and the torque that friction takes.
+#[derive(Clone, Copy, Debug)]
+pub struct EfficiencyStep {
+    /// Efficiency of the present direction.
+    pub efficiency: f32,
+    /// Friction torque, N m.
+    pub friction_torque: f32,
+}
+
+/// The direction of power flow, its rolling efficiency, and the torque about the nut that friction takes
+/// from a load torque.
+#[inline]
+#[must_use]
+pub fn efficiency_step(
+    screw: &EfficiencyGeometry,
+    nut_speed: f32,
+    load_torque: f32,
+    friction: f32,
+) -> EfficiencyStep {
+    let drive = if nut_speed * load_torque < 0.0 {
+        Drive::BackDriving
+    } else {
+        Drive::Driving
+    };
+    let efficiency = match drive {
+        Drive::Driving => screw.rolling_efficiency(friction, 0.0),
+        Drive::BackDriving => screw.rolling_backdrive_efficiency(friction, 0.0),
+    };
+    let lost = match drive {
+        Drive::Driving => (1.0 - efficiency) / efficiency,
+        Drive::BackDriving => efficiency - 1.0,
+    };
+    EfficiencyStep {
+        efficiency,
+        friction_torque: load_torque * lost,
+    }
+}
+
+/// Nothing but what runs every scene.
+pub struct Empty;
+
+impl Run for Empty {
+    const NAME: &'static str = "empty";
+    type Model = ();
+
+    fn set_up() -> Result<(), Error> {
+        Ok(())
+    }
+
+    fn tick((): &mut (), nut_speed: f32, axial_load: f32, digest: &mut Digest) {
+        digest.take(&[nut_speed, axial_load]);
+    }
+}

@@ -1,0 +1,468 @@
+//! Every function under test: its inputs, how it is run, and what it gives.
+
+use core::hint::black_box;
+
+use epas_friction::{
+    BallKinematics, ContactSlip, EllipticContact, Faults, LoadShare, Outputs, Regime,
+    ScrewBallLoop, TrainOutputs, math,
+};
+
+use crate::contexts::Contexts;
+use crate::counted::{
+    FourContacts, count_ball_screw_ball, count_ball_screw_row, count_cbrt, count_cbrt_and_squared,
+    count_curvature_circular_groove, count_curvature_exact, count_curvature_fitted,
+    count_curvature_literature, count_efficiency_backdrive, count_efficiency_rolling,
+    count_efficiency_sliding, count_friction_dissipation, count_friction_map, count_hertz_ellipse,
+    count_kinematics_ratios, count_kinematics_tick, count_kinematics_update, count_libm_cbrtf,
+    count_libm_cosf, count_libm_powf, count_libm_sincosf, count_libm_sqrtf,
+    count_linear_ball_analytic, count_linear_ball_refined, count_linear_chain_2, count_lugre_step,
+    count_micromath_cos, count_micromath_powf, count_micromath_sqrt, count_press_37,
+    count_rotary_ball_refined, count_sin_cos, count_sqrt, count_step_caged, count_step_efficiency,
+    count_step_linear, count_step_train_37, count_stribeck_curve, count_train_37,
+};
+use crate::scenes::EfficiencyStep;
+use crate::spread::Spread;
+
+/// Cases of each function that are stored and compared.
+pub const CASES: u32 = 128;
+
+/// Cases of each function that are counted: the first ones, the specials from [`SPECIAL`] on included.
+pub const COUNTED: u32 = 64;
+
+/// From this case on come inputs that a range does not reach.
+const SPECIAL: u32 = 48;
+
+/// From this case on come the inputs of a broken sensor. They are checked and not counted: the way that
+/// leads to the safe output is short, and would stand for the least cost of a step.
+const BROKEN: u32 = COUNTED;
+
+/// Balls of a train.
+pub const BALLS: usize = 37;
+
+/// Most inputs and most outputs that a function has.
+pub const WIDEST: usize = 40;
+
+/// A function under test.
+pub struct Subject {
+    /// Its name; its call is the symbol `count_` with this name.
+    pub name: &'static str,
+    /// How many numbers go in.
+    pub inputs: usize,
+    /// How many numbers come out.
+    pub outputs: usize,
+    /// Writes the inputs of one case.
+    pub fill: fn(&mut Spread, &mut [f32]),
+    /// Runs it.
+    pub run: fn(&mut Contexts, &[f32], &mut [f32]),
+}
+
+macro_rules! subjects {
+    ($(#[$meta:meta])* $list:ident; $($name:ident: |$spread:ident| -> [$inputs:literal] $fill:expr,
+        |$contexts:ident, $pattern:pat_param| -> [$outputs:literal] $run:expr;)*) => {
+        $(#[$meta])*
+        pub static $list: &[Subject] = &[$(Subject {
+            name: stringify!($name),
+            inputs: $inputs,
+            outputs: $outputs,
+            fill: {
+                fn fill($spread: &mut Spread, inputs: &mut [f32]) {
+                    let values: [f32; $inputs] = $fill;
+                    for (input, value) in inputs.iter_mut().zip(values) {
+                        *input = value;
+                    }
+                }
+                fill
+            },
+            run: {
+                fn run($contexts: &mut Contexts, inputs: &[f32], outputs: &mut [f32]) {
+                    let Ok($pattern) = <[f32; $inputs]>::try_from(inputs) else {
+                        return;
+                    };
+                    let values: [f32; $outputs] = $run;
+                    for (output, value) in outputs.iter_mut().zip(values) {
+                        *output = value;
+                    }
+                }
+                run
+            },
+        }),*];
+    };
+}
+
+/// Runs a call between two looks at the cycle counter, behind the compiler's back.
+macro_rules! timed {
+    ($contexts:ident, $call:expr) => {{
+        let start = ($contexts.clock)();
+        let result = black_box($call);
+        $contexts.elapsed = ($contexts.clock)().wrapping_sub(start);
+        result
+    }};
+}
+
+/// Cosine and sine of a contact angle from 0 to 80 degrees.
+fn contact_angle(spread: &mut Spread) -> [f32; 2] {
+    let (sin, cos) = math::sin_cos(spread.between(0.0, 1.4));
+    [cos, sin]
+}
+
+/// Any positive number: every magnitude, zero, and the smallest.
+fn positive(spread: &mut Spread) -> [f32; 1] {
+    let number = spread.magnitude(1e-30, 1e30);
+    [spread
+        .special(&[0.0, 1e-40, f32::MIN_POSITIVE, f32::MAX, 1.0], SPECIAL)
+        .unwrap_or(number)]
+}
+
+/// Angles within two turns, and the multiples of a quarter turn.
+fn angle(spread: &mut Spread) -> [f32; 1] {
+    use core::f32::consts::{FRAC_PI_2, PI, TAU};
+    let angle = spread.between(-TAU, TAU);
+    [spread
+        .special(&[0.0, FRAC_PI_2, PI, -PI, 1e-20], SPECIAL)
+        .unwrap_or(angle)]
+}
+
+/// Angles and forces of a ball in four-point contact under a side force of up to 0.9 of the preload.
+fn four_contacts(spread: &mut Spread) -> [f32; 8] {
+    let side = spread.between(-0.9, 0.9);
+    let load = spread.between(20.0, 200.0);
+    let (strong, weak) = (load * (1.0 + side), load * (1.0 - side));
+    let mut near = || core::f32::consts::FRAC_PI_4 + spread.between(-0.05, 0.05);
+    [near(), near(), near(), near(), strong, weak, strong, weak]
+}
+
+fn pair(rear: [f32; 8], front: [f32; 8]) -> [f32; 16] {
+    let mut both = [0.0; 16];
+    for (place, value) in both.iter_mut().zip(rear.into_iter().chain(front)) {
+        *place = value;
+    }
+    both
+}
+
+fn contacts([a, b, c, d, e, f, g, h]: [f32; 8]) -> FourContacts {
+    FourContacts {
+        angles: [a, b, c, d],
+        forces: [e, f, g, h],
+    }
+}
+
+/// An axial load and a nut speed, with the inputs of a broken sensor.
+fn tick(spread: &mut Spread) -> [f32; 2] {
+    let speed = spread.between(-60.0, 60.0);
+    let load = spread.between(-12_000.0, 12_000.0);
+    let extreme = [0.0, 1e9, -0.0, -1e9];
+    let broken = [f32::NAN, f32::INFINITY, -f32::INFINITY];
+    let pick = |extreme_from, broken_from, sound| {
+        spread
+            .special(&extreme, extreme_from)
+            .or(spread.special(&broken, broken_from))
+            .unwrap_or(sound)
+    };
+    [
+        pick(SPECIAL, BROKEN, speed),
+        pick(SPECIAL + 2, BROKEN + 2, load),
+    ]
+}
+
+/// Free speeds of a train as a triangular wave: its amplitude, the waves in the train and where it starts;
+/// every fourth case a ramp on which all balls run into each other or away from each other.
+fn train(spread: &mut Spread) -> [f32; 3] {
+    let amplitude = spread.between(-0.05, 0.05);
+    let waves = spread.between(0.5, 12.0);
+    let start = spread.between(0.0, 1.0);
+    if spread.index() % 4 == 3 {
+        [amplitude, 0.25, 0.0]
+    } else {
+        [amplitude, waves, start]
+    }
+}
+
+/// The free speeds of such a train.
+fn wave([amplitude, waves, start]: [f32; 3]) -> [f32; BALLS] {
+    core::array::from_fn(|ball| {
+        let phase = start + waves * (ball as f32 * (1.0 / BALLS as f32));
+        let fraction = phase - phase as i32 as f32;
+        let triangle = if fraction < 0.5 {
+            fraction
+        } else {
+            1.0 - fraction
+        };
+        amplitude * (4.0 * triangle - 1.0)
+    })
+}
+
+/// Impedances of loaded balls, which differ with their loads.
+fn impedances() -> [f32; BALLS] {
+    core::array::from_fn(|ball| 1e3 + 20.0 * (ball % 7) as f32)
+}
+
+fn slip(slip: &ContactSlip) -> [f32; 4] {
+    [
+        slip.rolling_slip,
+        slip.side_slip,
+        slip.spin,
+        slip.entrainment_speed,
+    ]
+}
+
+fn motion(ball: &BallKinematics) -> [f32; 10] {
+    let [a, b, c, d] = slip(&ball.screw);
+    let [e, f, g, h] = slip(&ball.nut);
+    [ball.orbital_speed, ball.spin_speed, a, b, c, d, e, f, g, h]
+}
+
+/// Regime and flags as one number.
+fn condition(regime: Regime, faults: Faults) -> f32 {
+    let regime = match regime {
+        Regime::Standing => 0,
+        Regime::Driving => 1,
+        Regime::BackDriving => 2,
+        Regime::Locked => 3,
+    };
+    f32::from(regime + 4 * u16::from(faults.bits()))
+}
+
+/// What a caged ball screw puts out, as numbers.
+#[must_use]
+pub fn outputs(outputs: &Outputs) -> [f32; 4] {
+    [
+        outputs.friction_torque,
+        outputs.load_torque,
+        outputs.efficiency,
+        condition(outputs.regime, outputs.faults),
+    ]
+}
+
+/// What a train puts out, as numbers.
+#[must_use]
+pub fn train_outputs(outputs: &TrainOutputs) -> [f32; 7] {
+    [
+        outputs.friction,
+        outputs.groove_friction,
+        outputs.ball_friction,
+        outputs.load_torque,
+        f32::from(outputs.contacts),
+        outputs.largest_contact_force,
+        condition(outputs.regime, outputs.faults),
+    ]
+}
+
+fn screw_ball(ball: &ScrewBallLoop, more: f32) -> [f32; 5] {
+    [
+        ball.speed_deviation,
+        ball.compliance,
+        ball.groove_torque,
+        ball.rubbing,
+        more,
+    ]
+}
+
+fn all(values: impl Iterator<Item = f32>) -> [f32; BALLS] {
+    let mut all = [0.0; BALLS];
+    for (place, value) in all.iter_mut().zip(values) {
+        *place = value;
+    }
+    all
+}
+
+fn two((first, second): (f32, f32)) -> [f32; 2] {
+    [first, second]
+}
+
+subjects! {
+    /// Every function of the crate that belongs into a control loop.
+    SUBJECTS;
+    curvature_literature: |spread| -> [2] contact_angle(spread),
+        |c, [cos, sin]| -> [1] [timed!(c, count_curvature_literature(black_box(&c.literature), cos, sin))];
+    curvature_circular_groove: |spread| -> [2] contact_angle(spread),
+        |c, [cos, sin]| -> [1] [timed!(c, count_curvature_circular_groove(black_box(&c.circular), cos, sin))];
+    curvature_fitted: |spread| -> [2] contact_angle(spread),
+        |c, [cos, sin]| -> [1] [timed!(c, count_curvature_fitted(black_box(&c.fitted), cos, sin))];
+    curvature_exact: |spread| -> [2] contact_angle(spread),
+        |c, [cos, sin]| -> [2] {
+            let both = timed!(c, count_curvature_exact(black_box(&c.exact), cos, sin));
+            [both.kappa1, both.kappa2]
+        };
+    hertz_ellipse: |spread| -> [1] {
+            let load = spread.magnitude(1e-3, 1e5);
+            [spread.special(&[0.0, -1.0, f32::NAN, 1e9], SPECIAL).unwrap_or(load)]
+        },
+        |c, [load]| -> [4] {
+            let ellipse = timed!(c, count_hertz_ellipse(black_box(&c.hertz), load));
+            [ellipse.semi_major, ellipse.semi_minor, ellipse.deflection, ellipse.max_pressure]
+        };
+    efficiency_rolling: |spread| -> [2] {
+            let friction = spread.between(0.0, 0.3);
+            // Every other case without rolling resistance, as most are.
+            let tangent = spread.between(0.0, 0.01);
+            [friction, if spread.index() % 2 == 0 { 0.0 } else { tangent }]
+        },
+        |c, [friction, tangent]| -> [1] [
+            timed!(c, count_efficiency_rolling(black_box(&c.efficiency), friction, tangent))
+        ];
+    efficiency_sliding: |spread| -> [1] [spread.between(0.0, 0.3)],
+        |c, [friction]| -> [1] [timed!(c, count_efficiency_sliding(black_box(&c.efficiency), friction))];
+    efficiency_backdrive: |spread| -> [1] [spread.between(0.0, 0.3)],
+        |c, [friction]| -> [1] [timed!(c, count_efficiency_backdrive(black_box(&c.efficiency), friction))];
+    kinematics_update: |spread| -> [6] [
+            spread.between(0.55, 0.9),
+            spread.between(0.2e-3, 0.8e-3),
+            spread.between(0.03e-3, 0.15e-3),
+            spread.between(0.55, 0.9),
+            spread.between(0.2e-3, 0.8e-3),
+            spread.between(0.03e-3, 0.15e-3),
+        ],
+        |c, [screw_angle, screw_major, screw_minor, nut_angle, nut_major, nut_minor]| -> [11] {
+            let screw = black_box(EllipticContact {
+                contact_angle: screw_angle, semi_major: screw_major, semi_minor: screw_minor,
+            });
+            let nut = black_box(EllipticContact {
+                contact_angle: nut_angle, semi_major: nut_major, semi_minor: nut_minor,
+            });
+            let taken = timed!(c, count_kinematics_update(black_box(&mut c.kinematics), &screw, &nut));
+            let [a, b, d, e, f, g, h, i, j, k] = motion(&c.kinematics.per_speed());
+            [a, b, d, e, f, g, h, i, j, k, if taken { 1.0 } else { 0.0 }]
+        };
+    kinematics_tick: |spread| -> [1] {
+            let speed = spread.between(-300.0, 300.0);
+            [spread.special(&[0.0, f32::NAN, f32::INFINITY], SPECIAL).unwrap_or(speed)]
+        },
+        |c, [speed]| -> [10] motion(&timed!(c, count_kinematics_tick(black_box(&c.kinematics), speed)));
+    kinematics_ratios: |spread| -> [1] [spread.between(0.0, 1.0)],
+        |c, [_]| -> [4] {
+            let ratios = timed!(c, count_kinematics_ratios(black_box(&c.kinematics)));
+            [ratios.entrainment_angle, ratios.slide_to_roll, ratios.slide_angle, ratios.spin_to_roll]
+        };
+    friction_map: |spread| -> [1] {
+            let offset = spread.between(-3.0, 3.0);
+            [spread.special(&[0.0, 1.0, -1.0, 1e12, f32::INFINITY, f32::NAN], SPECIAL).unwrap_or(offset)]
+        },
+        |c, [offset]| -> [3] {
+            let friction = timed!(c, count_friction_map(black_box(&c.map), offset));
+            [friction.force, friction.moment, friction.power]
+        };
+    friction_dissipation: |spread| -> [4] [
+            spread.between(-0.02, 0.02), spread.between(-0.6, 0.6), spread.between(0.05, 0.12), 0.01,
+        ],
+        |c, [slip, spin, semi_major, stick]| -> [8] {
+            let at = timed!(c, count_friction_dissipation(black_box(&c.map), slip, spin, semi_major, stick));
+            [at.potential, at.power, at.force, at.moment, at.stiffness, at.tilt, at.stick, at.rim]
+        };
+    sqrt: |spread| -> [1] positive(spread),
+        |c, [x]| -> [1] [timed!(c, count_sqrt(x))];
+    cbrt: |spread| -> [1] positive(spread),
+        |c, [x]| -> [1] [timed!(c, count_cbrt(x))];
+    cbrt_and_squared: |spread| -> [1] positive(spread),
+        |c, [x]| -> [2] two(timed!(c, count_cbrt_and_squared(x)));
+    sin_cos: |spread| -> [1] angle(spread),
+        |c, [x]| -> [2] two(timed!(c, count_sin_cos(x)));
+    linear_ball_analytic: |spread| -> [16] pair(four_contacts(spread), four_contacts(spread)),
+        |c, [a, b, d, e, f, g, h, i, j, k, l, m, n, o, p, q]| -> [1] {
+            let rear = black_box(contacts([a, b, d, e, f, g, h, i]));
+            let front = black_box(contacts([j, k, l, m, n, o, p, q]));
+            [timed!(c, count_linear_ball_analytic(black_box(&c.analytic), &rear, &front))]
+        };
+    linear_ball_refined: |spread| -> [8] four_contacts(spread),
+        |c, input| -> [6] {
+            let given = black_box(contacts(input));
+            timed!(c, count_linear_ball_refined(black_box(&c.linear), &given, black_box(&mut c.ball), 0.0));
+            let ball = &c.ball;
+            [
+                ball.motion.speed, ball.motion.roll, ball.motion.yaw,
+                ball.speed_deviation, ball.compliance, ball.friction_force,
+            ]
+        };
+    rotary_ball_refined: |spread| -> [8] four_contacts(spread),
+        |c, input| -> [4] {
+            let given = black_box(contacts(input));
+            timed!(c, count_rotary_ball_refined(
+                black_box(&c.rotary), &given, black_box(&mut c.rotary_ball), 0.0
+            ));
+            let motion = c.rotary.motion(&c.rotary_ball, 10.0);
+            [motion.orbital_speed, motion.roll, motion.yaw, c.rotary.friction_torque(&c.rotary_ball)]
+        };
+    linear_chain_2: |spread| -> [16] pair(four_contacts(spread), four_contacts(spread)),
+        |c, [a, b, d, e, f, g, h, i, j, k, l, m, n, o, p, q]| -> [3] {
+            let rear = black_box(contacts([a, b, d, e, f, g, h, i]));
+            let front = black_box(contacts([j, k, l, m, n, o, p, q]));
+            timed!(c, count_linear_chain_2(
+                black_box(&c.linear), &rear, &front, black_box(&mut c.chain), 1.0
+            ));
+            let [rear, front] = c.chain.balls;
+            let [force, _] = c.chain.forces;
+            [rear.speed_deviation, front.speed_deviation, force]
+        };
+    step_efficiency: |spread| -> [3] [
+            spread.between(-60.0, 60.0), spread.between(-10.0, 10.0), spread.between(0.01, 0.2),
+        ],
+        |c, [nut_speed, load_torque, friction]| -> [2] {
+            let EfficiencyStep { efficiency, friction_torque } = timed!(
+                c, count_step_efficiency(black_box(&c.efficiency), nut_speed, load_torque, friction)
+            );
+            [efficiency, friction_torque]
+        };
+    step_caged: |spread| -> [2] tick(spread),
+        |c, [nut_speed, axial_load]| -> [4] outputs(
+            &timed!(c, count_step_caged(black_box(&mut c.caged), nut_speed, axial_load))
+        );
+    ball_screw_row: |spread| -> [2] [spread.between(-60.0, 60.0), spread.between(-400.0, 400.0)],
+        |c, [nut_speed, load]| -> [5] {
+            c.screw_tick = timed!(c, count_ball_screw_row(black_box(&c.screw_row), nut_speed, load));
+            screw_ball(&c.screw_tick.ball(0.03, -0.02, &LoadShare::MEAN), c.screw_tick.nominal_speed())
+        };
+    ball_screw_ball: |spread| -> [2] [spread.between(-0.21, 0.21), spread.between(-0.21, 0.21)],
+        |c, [screw, nut]| -> [5] {
+            let ball = timed!(c, count_ball_screw_ball(black_box(&c.screw_tick), screw, nut, &LoadShare::MEAN));
+            screw_ball(&ball, 0.0)
+        };
+    press_37: |spread| -> [3] train(spread),
+        |c, input| -> [37] {
+            let free = black_box(wave(input));
+            let (impedance, room) = (black_box(impedances()), black_box([0.0; BALLS]));
+            timed!(c, count_press_37(black_box(&mut c.press), &free, &impedance, &room));
+            all(c.press.forces())
+        };
+    train_37: |spread| -> [3] train(spread),
+        |c, input| -> [37] {
+            let free = black_box(wave(input));
+            let impedance = black_box(impedances());
+            timed!(c, count_train_37(black_box(&mut c.train), &free, &impedance, 2e-3));
+            all(c.train.forces())
+        };
+    step_train_37: |spread| -> [2] tick(spread),
+        |c, [nut_speed, axial_load]| -> [7] train_outputs(
+            &timed!(c, count_step_train_37(black_box(&mut c.uncaged), nut_speed, axial_load))
+        );
+    step_linear: |spread| -> [2] {
+            let [speed, load] = tick(spread);
+            [0.02 * speed, 0.1 * load]
+        },
+        |c, [speed, load]| -> [7] train_outputs(
+            &timed!(c, count_step_linear(black_box(&mut c.carriage), speed, load, 0.2 * load))
+        );
+}
+
+subjects! {
+    /// What others offer for the same, to be counted beside it.
+    PEERS;
+    libm_sqrtf: |spread| -> [1] positive(spread),
+        |c, [x]| -> [1] [timed!(c, count_libm_sqrtf(x))];
+    libm_cbrtf: |spread| -> [1] positive(spread),
+        |c, [x]| -> [1] [timed!(c, count_libm_cbrtf(x))];
+    libm_cosf: |spread| -> [1] angle(spread),
+        |c, [x]| -> [1] [timed!(c, count_libm_cosf(x))];
+    libm_sincosf: |spread| -> [1] angle(spread),
+        |c, [x]| -> [2] two(timed!(c, count_libm_sincosf(x)));
+    libm_powf: |spread| -> [1] positive(spread),
+        |c, [x]| -> [1] [timed!(c, count_libm_powf(x))];
+    micromath_sqrt: |spread| -> [1] positive(spread),
+        |c, [x]| -> [1] [timed!(c, count_micromath_sqrt(x))];
+    micromath_cos: |spread| -> [1] angle(spread),
+        |c, [x]| -> [1] [timed!(c, count_micromath_cos(x))];
+    micromath_powf: |spread| -> [1] positive(spread),
+        |c, [x]| -> [1] [timed!(c, count_micromath_powf(x))];
+    lugre_step: |spread| -> [1] [spread.between(-5.0, 5.0)],
+        |c, [speed]| -> [1] [timed!(c, count_lugre_step(black_box(&mut c.lugre), speed))];
+    stribeck_curve: |spread| -> [1] [spread.between(-5.0, 5.0)],
+        |c, [speed]| -> [1] [timed!(c, count_stribeck_curve(black_box(&c.lugre.stribeck), speed))];
+}

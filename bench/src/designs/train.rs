@@ -1,0 +1,331 @@
+//! Scenes whose balls press on each other, as a design file gives them.
+
+use std::path::Path;
+
+use epas_friction::{
+    BallScrew, DeviationMap, GrooveFit, GrooveSize, Harmonic, Limits, LinearBearing,
+    LinearBearingConfiguration, LinearBearingParameters, LinearLimits, LoadShare,
+    UncagedBallScrewConfiguration,
+};
+use serde::Deserialize;
+
+use super::{MaterialTable, groove_size, material, radius, replace};
+use crate::failure::Failure;
+
+/// A ball screw without cage: how many balls, and everything but the tick.
+#[derive(Clone, Copy, Debug)]
+pub struct UncagedDesign {
+    /// Number of balls in the circuit.
+    pub balls: u8,
+    /// Configuration; the tick is the trace's.
+    pub configuration: UncagedBallScrewConfiguration,
+    /// What its deviation is, where the float64 reference can follow it.
+    pub wave: Option<Wave>,
+}
+
+/// A deviation of the screw alone, `amplitude sin(order phi)`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wave {
+    /// Amplitude, rad.
+    pub amplitude: f32,
+    /// Periods in a turn.
+    pub order: u8,
+}
+
+/// A linear bearing: how many balls, and everything but the tick.
+#[derive(Clone, Debug)]
+pub struct LinearDesign {
+    /// Name, for headings and file names.
+    pub name: String,
+    /// Number of balls in the circuit.
+    pub balls: u8,
+    /// Configuration; the tick is the trace's.
+    pub configuration: LinearBearingConfiguration,
+}
+
+/// Name of the built-in linear bearing.
+pub const LINEAR: &str = "lin-3.3";
+
+/// Table `[uncaged]` of a design file.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct UncagedTable {
+    balls: u8,
+    turns: f32,
+    ball_friction: Option<f32>,
+    fit: Option<Fit>,
+    return_length: Option<f32>,
+    deviation_turns: Option<u16>,
+    screw_deviation: Option<Vec<Wavelet>>,
+    nut_deviation: Option<Vec<Wavelet>>,
+    load_shares: Option<Vec<f32>>,
+}
+
+/// How balls fit between the grooves: a word, or the preload of a contact.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum Fit {
+    Zero,
+    Play,
+    Preload(f32),
+}
+
+/// A wave of a deviation map.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Wavelet {
+    order: u8,
+    #[serde(default)]
+    cosine: f32,
+    #[serde(default)]
+    sine: f32,
+}
+
+/// Design file of a linear bearing.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct LinearFile {
+    name: Option<String>,
+    ball_radius: Option<f32>,
+    ball_diameter: Option<f32>,
+    conformity: Option<f32>,
+    groove_radius: Option<f32>,
+    contact_angle: f32,
+    youngs_modulus: Option<f32>,
+    poisson_ratio: Option<f32>,
+    density: Option<f32>,
+    ball_material: Option<MaterialTable>,
+    groove_material: Option<MaterialTable>,
+    friction: Option<f32>,
+    ball_friction: Option<f32>,
+    balls: u8,
+    loaded_length: f32,
+    return_length: Option<f32>,
+    wavelength: Option<f32>,
+    rail_deviation: Option<Vec<Wavelet>>,
+    carriage_deviation: Option<Vec<Wavelet>>,
+    load_shares: Option<Vec<f32>>,
+    reversal_speed: Option<f32>,
+    limits: Option<LinearLimitsTable>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct LinearLimitsTable {
+    speed: Option<f32>,
+    load: Option<f32>,
+    friction_force: Option<f32>,
+}
+
+/// Friction of balls on each other where a file gives none.
+const BALL_FRICTION: f32 = 0.1;
+
+/// The built-in train of a ball screw of Lin 2019: Section 3.4.4, with the amplitude of the deviation that
+/// gives the printed peak of Figure 3.25.
+pub fn built_in(name: &str, screw: BallScrew, balls: u16) -> Option<UncagedDesign> {
+    if name != "lin-3.6" {
+        return None;
+    }
+    let table = UncagedTable {
+        balls: balls as u8,
+        turns: 2.0,
+        ball_friction: None,
+        fit: None,
+        return_length: None,
+        deviation_turns: None,
+        screw_deviation: Some(vec![Wavelet {
+            order: 2,
+            cosine: 0.0,
+            sine: 0.040_143,
+        }]),
+        nut_deviation: None,
+        load_shares: None,
+    };
+    let limits = Limits {
+        nut_speed: 2e3,
+        axial_load: 1e5,
+        friction_torque: 100.0,
+    };
+    table.design(screw, 0.1, 1e-2, limits).ok()
+}
+
+impl UncagedTable {
+    /// The scene of a checked geometry.
+    pub fn design(
+        &self,
+        screw: BallScrew,
+        friction: f32,
+        reversal_speed: f32,
+        limits: Limits,
+    ) -> Result<UncagedDesign, String> {
+        let turns = self.deviation_turns.unwrap_or(1);
+        let waves = self.screw_deviation.as_deref().unwrap_or_default();
+        let on_nut = self.nut_deviation.as_deref().unwrap_or_default();
+        let wave = match (waves, turns) {
+            (
+                [
+                    Wavelet {
+                        order,
+                        cosine,
+                        sine,
+                    },
+                ],
+                1,
+            ) if *cosine == 0.0 && on_nut.is_empty() => Some(Wave {
+                amplitude: *sine,
+                order: *order,
+            }),
+            _ => None,
+        };
+        Ok(UncagedDesign {
+            balls: self.balls,
+            configuration: UncagedBallScrewConfiguration {
+                design: screw,
+                friction,
+                ball_friction: self.ball_friction.unwrap_or(BALL_FRICTION),
+                fit: match self.fit.unwrap_or(Fit::Zero) {
+                    Fit::Zero => GrooveFit::Zero,
+                    Fit::Play => GrooveFit::Play,
+                    Fit::Preload(contact_force) => GrooveFit::Preload { contact_force },
+                },
+                turns: self.turns,
+                return_length: self.return_length.unwrap_or(0.0),
+                screw_deviation: map("screw_deviation", turns, waves)?,
+                nut_deviation: map("nut_deviation", turns, on_nut)?,
+                load_shares: shares(self.load_shares.as_deref())?,
+                reversal_speed,
+                tick: 1e-3,
+                limits,
+            },
+            wave: wave.filter(|_| self.load_shares.is_none()),
+        })
+    }
+}
+
+impl LinearDesign {
+    /// The bearing of Lin 2019, Table 3.3; number of balls, length and deviation are this program's: the
+    /// text has two balls.
+    pub fn built_in() -> Result<Self, Failure> {
+        let file = LinearFile {
+            name: Some(LINEAR.into()),
+            ball_radius: Some(5e-3),
+            ball_diameter: None,
+            conformity: Some(0.56),
+            groove_radius: None,
+            contact_angle: std::f32::consts::FRAC_PI_4,
+            youngs_modulus: None,
+            poisson_ratio: None,
+            density: None,
+            ball_material: None,
+            groove_material: None,
+            friction: Some(0.1),
+            ball_friction: None,
+            balls: 12,
+            loaded_length: 0.1,
+            return_length: Some(0.0205),
+            wavelength: Some(0.04),
+            rail_deviation: Some(vec![Wavelet {
+                order: 1,
+                cosine: 0.0,
+                sine: 0.034_9,
+            }]),
+            carriage_deviation: None,
+            load_shares: None,
+            reversal_speed: None,
+            limits: None,
+        };
+        file.design(LINEAR)
+            .map_err(|message| Failure::Data(format!("{LINEAR}: {message}")))
+    }
+
+    /// Reads a design file.
+    pub fn read(path: &Path) -> Result<Self, Failure> {
+        let failure = |message: String| Failure::Data(format!("{}: {message}", path.display()));
+        let text = super::read_text(path)?;
+        let file: LinearFile =
+            toml::from_str(&text).map_err(|error| failure(error.to_string().trim_end().into()))?;
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+        file.design(&stem).map_err(failure)
+    }
+}
+
+impl LinearFile {
+    fn design(self, stem: &str) -> Result<LinearDesign, String> {
+        let common = MaterialTable {
+            youngs_modulus: self.youngs_modulus,
+            poisson_ratio: self.poisson_ratio,
+            density: self.density,
+        };
+        let groove: GrooveSize = groove_size("groove", self.conformity, self.groove_radius)?;
+        let bearing = LinearBearing::new(LinearBearingParameters {
+            ball_radius: radius(
+                ("ball_radius", self.ball_radius),
+                ("ball_diameter", self.ball_diameter),
+            )?,
+            groove,
+            contact_angle: self.contact_angle,
+            ball_material: material(self.ball_material.as_ref(), &common),
+            groove_material: material(self.groove_material.as_ref(), &common),
+        })
+        .map_err(|error| error.to_string())?;
+        let mut limits = LinearLimits {
+            speed: 2.0,
+            load: 1e5,
+            friction_force: 1e4,
+        };
+        if let Some(table) = self.limits {
+            replace(&mut limits.speed, table.speed);
+            replace(&mut limits.load, table.load);
+            replace(&mut limits.friction_force, table.friction_force);
+        }
+        let on = |field, waves: &Option<Vec<Wavelet>>| {
+            map(field, 1, waves.as_deref().unwrap_or_default())
+        };
+        Ok(LinearDesign {
+            name: self.name.clone().unwrap_or_else(|| stem.into()),
+            balls: self.balls,
+            configuration: LinearBearingConfiguration {
+                bearing,
+                friction: self.friction.unwrap_or(0.1),
+                ball_friction: self.ball_friction.unwrap_or(BALL_FRICTION),
+                loaded_length: self.loaded_length,
+                return_length: self.return_length.unwrap_or(0.0),
+                wavelength: self.wavelength.unwrap_or(self.loaded_length),
+                rail_deviation: on("rail_deviation", &self.rail_deviation)?,
+                carriage_deviation: on("carriage_deviation", &self.carriage_deviation)?,
+                load_shares: shares(self.load_shares.as_deref())?,
+                reversal_speed: self.reversal_speed.unwrap_or(1e-3),
+                tick: 1e-3,
+                limits,
+            },
+        })
+    }
+}
+
+/// A map that lives as long as the program, which reads one design and ends: in firmware it lies in flash.
+fn map(field: &str, turns: u16, waves: &[Wavelet]) -> Result<&'static DeviationMap, String> {
+    let harmonics: Vec<_> = waves
+        .iter()
+        .map(|wave| Harmonic {
+            order: wave.order,
+            cosine: wave.cosine,
+            sine: wave.sine,
+        })
+        .collect();
+    let map = DeviationMap::from_harmonics(turns, &harmonics)
+        .map_err(|error| format!("{field}: {error}"))?;
+    Ok(Box::leak(Box::new(map)))
+}
+
+/// Shares that live as long as the program.
+fn shares(given: Option<&[f32]>) -> Result<&'static [LoadShare], String> {
+    let Some(given) = given else {
+        return Ok(&[LoadShare::MEAN]);
+    };
+    let shares = given
+        .iter()
+        .map(|share| LoadShare::new(*share))
+        .collect::<Result<Vec<_>, _>>()
+        .map_err(|error| format!("load_shares: {error}"))?;
+    Ok(Vec::leak(shares))
+}

@@ -1,0 +1,354 @@
+//! `ball_screw_train`: a row of touching balls in a ball screw, each with given contacts.
+
+use epas_friction::geometry::{LARGEST_CONFORMITY, SMALLEST_CONFORMITY};
+use epas_friction::{
+    BallScrew, BallScrewParameters, GrooveSize, Material, Press, ScrewBall, ScrewBallState,
+    ScrewChain,
+};
+use epas_reference::curvature::{self, Surface};
+use epas_reference::friction::ball_screw_ball::{Groove, ScrewContact, ScrewTrack};
+use epas_reference::friction::ball_screw_train::solve_screw_train;
+use epas_reference::friction::linear_ball::EllipseLaw;
+use epas_reference::hertz::{Hertz, contact_modulus};
+use serde::Serialize;
+
+use super::Answer;
+use super::fields::{BadField, Fields, in_range};
+use super::train::{LARGEST_TRAIN, contact_forces, pressed, room_of_a_row, solved};
+
+/// Names of the grooves' flanks: screw or nut, left or right.
+const FLANKS: [(&str, Groove); 4] = [
+    ("SL", Groove::ScrewLeft),
+    ("SR", Groove::ScrewRight),
+    ("NL", Groove::NutLeft),
+    ("NR", Groove::NutRight),
+];
+
+/// Most impedance steps of the whole row: friction between the balls lags one step behind.
+const STEPS: usize = 24;
+
+/// Change of a force in a step over the largest force, below which steps end, and below which the row
+/// counts as settled all the same. Forces are the means of two steps: where a third contact is about to
+/// slide, they swing by some per cent about what they should be. Where many contacts slide they do not
+/// settle: friction between the balls then changes the forces by more than it was changed by them.
+const UNCHANGED: f32 = 1e-5;
+const SETTLED: f32 = 2e-3;
+
+/// What cannot be found is none.
+#[derive(Default, Serialize)]
+struct Row {
+    /// Free speeds.
+    orbital_speed: Option<Vec<f64>>,
+    contact_force: Option<Vec<f64>>,
+    power_loss: Option<f64>,
+}
+
+struct Request {
+    pitch_radius: f64,
+    lead: f64,
+    ball_radius: f64,
+    groove_radius: f64,
+    youngs_modulus: f64,
+    poisson_ratio: f64,
+    friction: f64,
+    nut_speed: f64,
+    balls: Vec<Vec<Contact>>,
+}
+
+struct Contact {
+    groove: Groove,
+    load: f64,
+    angle: f64,
+}
+
+/// Answers one request.
+pub fn evaluate(mut fields: Fields) -> Result<Answer, BadField> {
+    let request = Request {
+        pitch_radius: fields.number("pitch_radius")?,
+        lead: fields.number("lead")?,
+        ball_radius: fields.number("ball_radius")?,
+        groove_radius: fields.number("groove_radius")?,
+        youngs_modulus: fields.number("youngs_modulus")?,
+        poisson_ratio: fields.number("poisson_ratio")?,
+        friction: fields.number("friction")?,
+        nut_speed: fields.number("nut_speed")?,
+        balls: fields
+            .objects("balls", LARGEST_TRAIN)?
+            .into_iter()
+            .enumerate()
+            .map(|(index, ball)| contacts(ball).map_err(|error| error.of_ball(index)))
+            .collect::<Result<_, _>>()?,
+    };
+    fields.finish()?;
+    request.check()?;
+    Answer::both(&request.in_loop()?, &request.reference()?)
+}
+
+fn contacts(mut ball: Fields) -> Result<Vec<Contact>, BadField> {
+    let mut given = ball.object("contacts")?;
+    ball.finish()?;
+    let mut contacts = Vec::new();
+    for (name, groove) in FLANKS {
+        if let Some(mut contact) = given.optional_object(name)? {
+            contacts.push(Contact {
+                groove,
+                load: contact.number("load")?,
+                angle: contact.number("contact_angle")?,
+            });
+            contact.finish()?;
+        }
+    }
+    given.finish()?;
+    if contacts.len() < 2 {
+        return Err(BadField::new(
+            "contacts",
+            format!("{} of them; a ball has two to four", contacts.len()),
+        ));
+    }
+    Ok(contacts)
+}
+
+/// Whether screw and nut both carry the ball: one that either has lost does not move with the nut.
+fn is_driven(ball: &[Contact]) -> bool {
+    [false, true].into_iter().all(|on_nut| {
+        ball.iter()
+            .any(|contact| contact.groove.on_nut() == on_nut && contact.load > 0.0)
+    })
+}
+
+impl Request {
+    fn check(&self) -> Result<(), BadField> {
+        in_range("pitch_radius", self.pitch_radius, 1e-4, 10.0)?;
+        in_range("lead", self.lead, 0.0, 20.0 * self.pitch_radius)?;
+        in_range(
+            "ball_radius",
+            self.ball_radius,
+            1e-5,
+            0.8 * self.pitch_radius,
+        )?;
+        let diameter = 2.0 * self.ball_radius;
+        in_range(
+            "groove_radius",
+            self.groove_radius,
+            f64::from(SMALLEST_CONFORMITY) * diameter,
+            f64::from(LARGEST_CONFORMITY) * diameter,
+        )?;
+        in_range("youngs_modulus", self.youngs_modulus, 1e6, 1e13)?;
+        in_range("poisson_ratio", self.poisson_ratio, 0.0, 0.5)?;
+        in_range("friction", self.friction, 1e-6, 0.5)?;
+        in_range("nut_speed", self.nut_speed, -1e6, 1e6)?;
+        for (index, ball) in self.balls.iter().enumerate() {
+            for contact in ball {
+                in_range("load", contact.load, 0.0, 1e7)
+                    .and_then(|_| in_range("contact_angle", contact.angle, 0.05, 1.5))
+                    .map_err(|error| error.of_ball(index))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The impedance iteration, in f32.
+    fn in_loop(&self) -> Result<Row, BadField> {
+        let ball = self.ball()?;
+        if self.nut_speed == 0.0 {
+            return Ok(self.standstill());
+        }
+        if !self.balls.iter().all(|ball| is_driven(ball)) {
+            return Ok(Row::default());
+        }
+        // The chain of the crate runs from rear to front for a nut that turns forward.
+        let (direction, backward) = if self.nut_speed < 0.0 {
+            (-1.0, true)
+        } else {
+            (1.0, false)
+        };
+        let count = self.balls.len();
+        // Places without a ball have no contacts, and infinite room on both sides.
+        let mut contacts = [ball.contacts(&[0.0; 4], &[0.0; 4]); LARGEST_TRAIN];
+        let mut states = [ScrewBallState::default(); LARGEST_TRAIN];
+        let mut orbital_speed = Vec::with_capacity(count);
+        for (index, request) in self.balls.iter().enumerate() {
+            let place = if backward { count - 1 - index } else { index };
+            let (mut angles, mut loads) = ([0.0; 4], [0.0; 4]);
+            for contact in request {
+                let flank = contact.groove as usize;
+                (angles[flank], loads[flank]) = (contact.angle as f32, contact.load as f32);
+            }
+            contacts[place] = ball.contacts(&angles, &loads);
+            states[place] = ball.solve(&contacts[place]);
+            let speed = ball.orbital_speed(&states[place].motion);
+            orbital_speed.push(self.nut_speed * f64::from(speed));
+        }
+
+        let mut chain = ScrewChain::new(states);
+        let room = room_of_a_row(count);
+        let mut press = Press::new();
+        let mut sound = true;
+        let mut settled = false;
+        let mut means = chain.forces;
+        for _ in 0..STEPS {
+            let before = chain.forces;
+            ball.refine_chain(
+                &contacts,
+                &mut chain,
+                direction,
+                self.friction as f32,
+                |free, compliance, forces| {
+                    sound &= pressed(&mut press, free, compliance, &room);
+                    *forces = contact_forces(&press);
+                },
+            );
+            let (mut largest, mut change) = (0.0_f32, 0.0_f32);
+            for ((force, before), mean) in chain.forces.iter().zip(&before).zip(&mut means) {
+                let next = 0.5 * (force + before);
+                change = change.max((next - *mean).abs());
+                largest = largest.max(next);
+                *mean = next;
+            }
+            settled = change <= SETTLED * largest;
+            if change <= UNCHANGED * largest {
+                break;
+            }
+        }
+        let grooves: f64 = chain.balls[..count]
+            .iter()
+            .map(|state| f64::from(state.groove_torque))
+            .sum();
+        chain.forces = means;
+        let between = f64::from(ball.ball_torque(&chain, self.friction as f32));
+        let mut forces: Vec<_> = means[..count - 1]
+            .iter()
+            .map(|&force| force.into())
+            .collect();
+        if backward {
+            forces.reverse();
+        }
+        Ok(if sound && settled {
+            Row {
+                orbital_speed: Some(orbital_speed),
+                contact_force: Some(forces),
+                power_loss: Some(self.nut_speed.abs() * (grooves + between)),
+            }
+        } else {
+            Row {
+                orbital_speed: Some(orbital_speed),
+                ..Row::default()
+            }
+        })
+    }
+
+    /// The crate's ball, with the mean contact angle for its nominal one.
+    fn ball(&self) -> Result<ScrewBall, BadField> {
+        let angles = || self.balls.iter().flatten().map(|contact| contact.angle);
+        let mean = angles().sum::<f64>() / angles().count() as f64;
+        let material = Material {
+            youngs_modulus: self.youngs_modulus as f32,
+            poisson_ratio: self.poisson_ratio as f32,
+            ..Material::STEEL
+        };
+        let groove = GrooveSize::Radius(self.groove_radius as f32);
+        let design = BallScrew::new(BallScrewParameters {
+            pitch_radius: self.pitch_radius as f32,
+            lead: self.lead as f32,
+            ball_radius: self.ball_radius as f32,
+            screw_groove: groove,
+            nut_groove: groove,
+            contact_angle: mean as f32,
+            ball_material: material,
+            groove_material: material,
+        })?;
+        ScrewBall::new(&design, self.friction as f32)
+            .map_err(|error| BadField::from(error).renamed("axis_ratio", "groove_radius"))
+    }
+
+    /// Nothing moves; forces between balls are undefined.
+    fn standstill(&self) -> Row {
+        Row {
+            orbital_speed: Some(vec![0.0; self.balls.len()]),
+            contact_force: None,
+            power_loss: Some(0.0),
+        }
+    }
+
+    fn reference(&self) -> Result<Row, BadField> {
+        if self.nut_speed == 0.0 {
+            return Ok(self.standstill());
+        }
+        let track = ScrewTrack {
+            pitch_radius: self.pitch_radius,
+            lead: self.lead,
+            ball_radius: self.ball_radius,
+        };
+        let balls = self
+            .balls
+            .iter()
+            .enumerate()
+            .map(|(index, ball)| {
+                ball.iter()
+                    .map(|contact| {
+                        Ok(ScrewContact {
+                            groove: contact.groove,
+                            load: contact.load,
+                            contact_angle: contact.angle,
+                            ellipse: self
+                                .ellipse(contact)
+                                .map_err(|error| error.of_ball(index))?,
+                        })
+                    })
+                    .collect::<Result<Vec<_>, BadField>>()
+            })
+            .collect::<Result<Vec<_>, _>>()?;
+        // The request has one coefficient: balls rub on each other as they do in the grooves.
+        let train = solved(solve_screw_train(
+            &track,
+            &balls,
+            self.friction,
+            self.friction,
+            self.nut_speed,
+        ))?;
+        Ok(train.map_or_else(Row::default, |train| Row {
+            power_loss: Some(train.power_loss()),
+            orbital_speed: Some(train.free_speeds),
+            contact_force: Some(train.contact_forces),
+        }))
+    }
+
+    /// Ellipse of a contact, from the principal curvatures of the groove there: its arc meets the ball
+    /// at the contact's own angle.
+    fn ellipse(&self, contact: &Contact) -> Result<EllipseLaw, BadField> {
+        let clearance = self.groove_radius - self.ball_radius;
+        let (sin, cos) = contact.angle.sin_cos();
+        let surface = Surface {
+            groove: match contact.groove {
+                Groove::ScrewLeft | Groove::ScrewRight => curvature::Groove::Screw,
+                Groove::NutLeft | Groove::NutRight => curvature::Groove::Nut,
+            },
+            pitch_radius: self.pitch_radius,
+            lead_angle: (self.lead / std::f64::consts::TAU).atan2(self.pitch_radius),
+            groove_radius: self.groove_radius,
+            offset_h: clearance * cos,
+            offset_l: clearance * sin,
+        };
+        surface
+            .check(contact.angle)
+            .map_err(|error| BadField::from(error).renamed("offset_h", "groove_radius"))?;
+        let groove = surface.principal(contact.angle);
+        let material = (self.youngs_modulus, self.poisson_ratio);
+        let ball = 1.0 / self.ball_radius;
+        let hertz = Hertz::new(
+            1.0 / (ball + groove.kappa1),
+            1.0 / (ball + groove.kappa2),
+            contact_modulus(material, material),
+        )
+        .map_err(|error| {
+            BadField::from(error)
+                .renamed("relative_radius_1", "pitch_radius")
+                .renamed("relative_radius_2", "groove_radius")
+                .renamed("contact_modulus", "youngs_modulus")
+        })?;
+        Ok(EllipseLaw {
+            semi_major_constant: hertz.semi_major,
+            axis_ratio: hertz.axis_ratio,
+        })
+    }
+}

@@ -1,0 +1,54 @@
+//! The command-line program of `epas-friction`: the error of every formula beside its run time,
+//! simulation of manoeuvres, and the `eval` interface for other people's reference data.
+
+// The documentation of arguments is the program's help text, where back-quotes would be noise and
+// square brackets are no links.
+#![allow(clippy::doc_markdown, rustdoc::broken_intra_doc_links)]
+
+mod cli;
+mod designs;
+mod eval;
+mod failure;
+mod files;
+mod plot;
+mod progress;
+mod report;
+mod simulate;
+mod study;
+mod target;
+mod timing;
+
+use std::process::ExitCode;
+
+/// Runs the program with the arguments of the process.
+pub fn run() -> ExitCode {
+    match cli::run() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => failure.report(),
+    }
+}
+
+/// What reads untrusted text, without files: for the fuzz targets.
+#[doc(hidden)]
+pub mod untrusted {
+    /// Answers one line as `eval` does; whether it was a good request.
+    pub fn request(line: &str) -> bool {
+        crate::eval::accepts(line)
+    }
+
+    /// Reads a trace as `simulate --input` does; its number of samples.
+    ///
+    /// # Errors
+    /// What is wrong, with the line.
+    pub fn trace(text: &[u8]) -> Result<usize, String> {
+        crate::simulate::accepts(text)
+    }
+
+    /// Reads a design file as `simulate --design` does.
+    ///
+    /// # Errors
+    /// What is wrong.
+    pub fn design(text: &str) -> Result<(), String> {
+        crate::designs::accepts(text)
+    }
+}

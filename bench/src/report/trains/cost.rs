@@ -1,0 +1,213 @@
+//! Run time of balls and trains, beside the times that Lin 2019 prints.
+
+use std::time::Instant;
+
+use epas_reference::friction::ball_screw_elastic::ScrewSupport;
+use epas_reference::friction::chain::solve_chain;
+
+use super::Context;
+use crate::failure::Failure;
+use crate::plot::{Axis, Chart, Mark, Panel, Series};
+use crate::report::document::{Block, Cell, Figure, Table};
+use crate::study::{self, turned_ball};
+
+/// Balls of each timed train, and the keys of its forces, its tick and the tick of its scene.
+const TRAINS: [(u8, [&str; 3]); 9] = [
+    (1, ["press_1", "train_1", "step_train_1"]),
+    (2, ["press_2", "train_2", "step_train_2"]),
+    (4, ["press_4", "train_4", "step_train_4"]),
+    (8, ["press_8", "train_8", "step_train_8"]),
+    (16, ["press_16", "train_16", "step_train_16"]),
+    (32, ["press_32", "train_32", "step_train_32"]),
+    (37, ["press_37", "train_37", "step_train_37"]),
+    (48, ["press_48", "train_48", "step_train_48"]),
+    (64, ["press_64", "train_64", "step_train_64"]),
+];
+
+/// What the keys time.
+const PARTS: [&str; 3] = ["forces", "forces and positions", "whole tick of the screw"];
+
+/// Tables and figures.
+pub fn blocks(context: &Context) -> Result<Vec<Block>, Failure> {
+    Ok(vec![
+        Block::Table(printed_times(context)?),
+        Block::Table(train_times(context)?),
+        Block::Figure(picture(context)?),
+    ])
+}
+
+/// Median time of a call, s.
+fn median_time(
+    calls: usize,
+    mut call: impl FnMut() -> Result<(), Failure>,
+) -> Result<f64, Failure> {
+    let mut times = Vec::with_capacity(calls);
+    for _ in 0..calls {
+        let start = Instant::now();
+        call()?;
+        times.push(start.elapsed().as_secs_f64());
+    }
+    times.sort_by(f64::total_cmp);
+    Ok(times.get(calls / 2).copied().unwrap_or(f64::NAN))
+}
+
+/// Two balls, beside Tables 3.5 and 3.7.
+fn printed_times(context: &Context) -> Result<Table, Failure> {
+    let pair = [turned_ball(2.0, -0.6), turned_ball(2.0, 0.6)];
+    let exact = median_time(if context.quick { 5 } else { 51 }, || {
+        solve_chain(&pair, study::FRICTION, 1.0)?;
+        Ok(())
+    })?;
+    let mut rows = Vec::new();
+    let mut row = |name: &str, time: f64, against: &str, printed: f64| {
+        rows.push(vec![
+            Cell::from(name),
+            Cell::fixed(1e9 * time, 0),
+            against.into(),
+            Cell::Number(printed, printed.to_string()),
+            Cell::power(printed / time),
+        ]);
+    };
+    let screw = study::screw_pair([0.0, 2.0])?;
+    let exact_screw = median_time(if context.quick { 1 } else { 11 }, || {
+        screw.solve(ScrewSupport::Load(-100.0))?;
+        Ok(())
+    })?;
+    let time = |key: &str| Ok::<f64, Failure>(1e-9 * context.times(key)?.latency.median);
+    row(
+        "linear bearing, closed form (3.43), (3.51), f32",
+        time("pair_analytic")?,
+        "analytical formula, Table 3.5",
+        5.54e-3,
+    );
+    row(
+        "linear bearing, 1 warm step with friction between balls, f32",
+        time("pair_warm_step")?,
+        "numerical model, Table 3.5",
+        0.74,
+    );
+    row(
+        "linear bearing, start and 3 steps, f32",
+        time("pair_cold_3")?,
+        "numerical model, Table 3.5",
+        0.74,
+    );
+    row(
+        "linear bearing, reference, f64",
+        exact,
+        "numerical model, Table 3.5",
+        0.74,
+    );
+    const SCREW: &str = "numerical model, Table 3.7";
+    row(
+        "ball screw, closed form, f32",
+        time("screw_row_pair")?,
+        SCREW,
+        15.0,
+    );
+    row(
+        "ball screw, closed form of given contacts, f32",
+        time("screw_closed_pair")?,
+        SCREW,
+        15.0,
+    );
+    row(
+        "ball screw, 1 warm impedance step, f32",
+        time("screw_warm_pair")?,
+        SCREW,
+        15.0,
+    );
+    row(
+        "ball screw, start and 3 impedance steps, f32",
+        time("screw_cold_pair")?,
+        SCREW,
+        15.0,
+    );
+    row("ball screw, reference, f64", exact_screw, SCREW, 15.0);
+    row(
+        "ball screw without cage, tick of 37 balls, f32",
+        time("step_train_37")?,
+        "numerical model of two balls, Table 3.7",
+        15.0,
+    );
+    Ok(Table {
+        name: "pair_times",
+        caption: "Two balls that press on each other: time on this machine (latency), and the times that Lin 2019 \
+                  prints for an Intel i7-3770"
+            .into(),
+        columns: [
+            "model",
+            "time (ns)",
+            "printed model",
+            "printed time (s)",
+            "ratio",
+        ]
+        .map(String::from)
+        .to_vec(),
+        rows,
+    })
+}
+
+fn train_times(context: &Context) -> Result<Table, Failure> {
+    let mut rows = Vec::new();
+    for (balls, keys) in TRAINS {
+        let mut row = vec![Cell::fixed(balls.into(), 0)];
+        for key in keys {
+            let times = context.times(key)?;
+            let (low, high) = times.latency.quartiles;
+            row.push(Cell::fixed(times.latency.median, 1));
+            row.push(Cell::from(format!("{low:.1}-{high:.1}")));
+        }
+        let whole = context.times(keys[2])?.latency.median;
+        row.push(Cell::fixed(whole / f64::from(balls), 1));
+        rows.push(row);
+    }
+    Ok(Table {
+        name: "train_times",
+        caption: "Latency in ns of a train: its forces from free speeds and impedances (Press::solve, one exact pass), \
+                  with its positions (Train::step), and of a tick of the ball screw without cage that holds it; \
+                  quartiles, and the latency of the tick for each ball"
+            .into(),
+        columns: [
+            "balls",
+            "forces",
+            "quartiles",
+            "forces and positions",
+            "quartiles",
+            "whole tick",
+            "quartiles",
+            "tick, a ball",
+        ]
+        .map(String::from)
+        .to_vec(),
+        rows,
+    })
+}
+
+fn picture(context: &Context) -> Result<Figure, Failure> {
+    let mut series = Vec::new();
+    for (colour, part) in PARTS.into_iter().enumerate() {
+        let mut points = Vec::new();
+        for (balls, keys) in TRAINS {
+            points.push((
+                f64::from(balls),
+                context.times(keys[colour])?.latency.median,
+            ));
+        }
+        series.push(Series::new("", colour, Mark::Circles, points.clone()));
+        series.push(Series::new(part, colour, Mark::Line, points));
+    }
+    Ok(Figure {
+        name: "train_times_picture",
+        caption: "Latency of a train over its number of balls: in proportion to it, without an iteration.".into(),
+        panels: vec![Panel::Chart(Chart {
+            title: String::new(),
+            x: Axis::linear("balls").between(0.0, 66.0),
+            y: Axis::linear("latency (ns)"),
+            series,
+            notes: Vec::new(),
+        })],
+        columns: 1,
+        size: (1080, 380),
+    })
+}

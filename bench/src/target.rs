@@ -1,0 +1,63 @@
+//! `target`: builds the firmware, runs it in QEMU, and prints what every function and scene costs there.
+
+mod budgets;
+mod cycles;
+mod image;
+mod measure;
+mod stored;
+mod tools;
+mod trace;
+
+use std::io::{self, Write as _};
+
+pub use budgets::{BUDGETS, Budget};
+pub use measure::{Figures, FunctionFigures, measure};
+pub use tools::check as check_tools;
+
+use crate::failure::Failure;
+
+/// Cost of every function and scene on a Cortex-M4F: builds the firmware and runs it in QEMU.
+///
+/// Instructions are counted call by call; cycles are those of Arm's table for the Cortex-M4F, a model and
+/// no measurement in silicon. Flash, RAM and stack are those of one image for each scene. The same run
+/// compares the results of every function with the host's, bit for bit. Needs qemu-system-arm and the
+/// target thumbv7em-none-eabihf, and says which command adds them.
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    /// Print one JSON object instead of tables
+    #[arg(long)]
+    json: bool,
+    /// Fail where a function has more than 5 % more instructions than the stored figures say
+    #[arg(long)]
+    gate: bool,
+    /// Store the figures of this run as those to compare with
+    #[arg(long, conflicts_with = "gate")]
+    store: bool,
+    /// Store the host's results that the firmware compares its own with, and do nothing else
+    #[arg(long, conflicts_with_all = ["gate", "store", "json"])]
+    store_cases: bool,
+}
+
+/// Runs the subcommand.
+pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    if arguments.store_cases {
+        return stored::write_cases();
+    }
+    let figures = measure()?;
+    if arguments.store {
+        stored::write_figures(&figures)?;
+    }
+    let mut out = io::stdout().lock();
+    if arguments.json {
+        let json = serde_json::to_string_pretty(&figures)
+            .map_err(|error| Failure::Data(format!("cannot write JSON: {error}")))?;
+        writeln!(out, "{json}")?;
+    } else {
+        out.write_all(figures.text().as_bytes())?;
+    }
+    figures.require()?;
+    if arguments.gate {
+        stored::gate(&figures)?;
+    }
+    Ok(())
+}

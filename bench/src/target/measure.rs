@@ -1,0 +1,385 @@
+//! All figures of a run: functions, scenes, proofs.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use epas_firmware::subjects::{COUNTED, PEERS, SUBJECTS};
+use serde::{Deserialize, Serialize};
+
+use super::budgets::{BUDGETS, figure};
+use super::image::Image;
+use super::stored;
+use super::tools::{Built, Core, build, check};
+use super::trace::Calls;
+use crate::failure::Failure;
+
+/// Scenes, each with an image of its own.
+const SCENES: [&str; 6] = [
+    "curvature",
+    "efficiency",
+    "caged_ball_screw",
+    "linear_bearing",
+    "ball_screw_37",
+    "everything",
+];
+
+/// What a run found.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Figures {
+    /// Functions of the crate, then what others offer.
+    pub functions: Vec<FunctionFigures>,
+    /// Scenes.
+    pub scenes: Vec<SceneFigures>,
+    /// The program that computes nothing.
+    pub empty: SceneFigures,
+    /// Whether every image links without any way to the panic handler.
+    pub panic_free: bool,
+    /// Whether any image of the crate's own holds arithmetic in double precision by software.
+    pub soft_double: bool,
+    /// Whether every result on the target has the bits of the host's.
+    pub equal_to_host: bool,
+    /// Whether each scene alone gives what it gives among all the others.
+    pub scenes_equal: bool,
+    /// Names that no image may hold and one does: an allocator, formatting.
+    pub unwanted: Vec<String>,
+    /// Functions that can call themselves, directly or through others.
+    pub recursive: Vec<String>,
+}
+
+/// What a function takes, from its first instruction to its return.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FunctionFigures {
+    /// Its name.
+    pub name: String,
+    /// Least and most instructions over the inputs, on a Cortex-M4F.
+    pub instructions_min: u32,
+    /// See above.
+    pub instructions_max: u32,
+    /// Least and most cycles over the inputs, by Arm's table for the Cortex-M4F.
+    pub cycles_min: u32,
+    /// See above.
+    pub cycles_max: u32,
+    /// Most instructions of the same function built for a Cortex-M7.
+    pub instructions_max_cortex_m7: u32,
+    /// How many inputs.
+    pub inputs: u32,
+}
+
+/// What a scene takes.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SceneFigures {
+    /// Its name.
+    pub name: String,
+    /// Bytes of flash of its whole image.
+    pub flash: u64,
+    /// Bytes of flash more than the program that computes nothing.
+    pub flash_beyond_empty: u64,
+    /// Bytes of memory, the stack not counted.
+    pub ram: u64,
+    /// Bytes of stack of a tick, at most.
+    pub stack: u64,
+    /// Bytes of stack of the set-up.
+    pub stack_set_up: u64,
+}
+
+/// What an image of a scene prints: for each of its scenes the digest of its results and the stack.
+struct Line {
+    name: String,
+    digest: u32,
+    stack: u64,
+    set_up: u64,
+}
+
+/// Builds, runs and counts everything.
+pub fn measure() -> Result<Figures, Failure> {
+    check()?;
+    stored::check_cases()?;
+    let names: Vec<String> = SCENES
+        .iter()
+        .chain(&["empty"])
+        .map(|scene| format!("scene_{scene}"))
+        .collect();
+    let images: Vec<&str> = names
+        .iter()
+        .map(String::as_str)
+        .chain(["check", "count"])
+        .collect();
+    let (folder, panic_free) = match build(&images, Core::M4, "release", "")? {
+        Built::In(folder) => (folder, true),
+        Built::Panics(said) => {
+            eprintln!("{said}");
+            match build(&images, Core::M4, "release", "halt")? {
+                Built::In(folder) => (folder, false),
+                Built::Panics(said) => return Err(Failure::Data(said)),
+            }
+        }
+    };
+
+    let checked = Core::M4.run(&folder.join("check"))?;
+    if !checked.passed {
+        eprint!("{}", checked.text);
+    }
+
+    let mut figures = Figures {
+        functions: functions(&folder)?,
+        scenes: Vec::new(),
+        empty: scene(&folder, "empty", 0)?.0,
+        panic_free,
+        soft_double: false,
+        equal_to_host: checked.passed,
+        scenes_equal: true,
+        unwanted: Vec::new(),
+        recursive: Vec::new(),
+    };
+    let mut alone = Vec::new();
+    let mut together = Vec::new();
+    for name in SCENES {
+        let (scene, lines) = scene(&folder, name, figures.empty.flash)?;
+        figures.scenes.push(scene);
+        let digests = lines.into_iter().map(|line| (line.name, line.digest));
+        if name == "everything" {
+            together.extend(digests);
+        } else {
+            alone.extend(digests);
+        }
+    }
+    figures.scenes_equal = alone == together;
+    for name in names.iter().map(String::as_str).chain(["check"]) {
+        let image = Image::read(&folder.join(name))?;
+        figures.soft_double |= image.names().any(|name| name.starts_with("__aeabi_d"));
+        for (list, found) in [
+            (&mut figures.unwanted, image.unwanted()),
+            (&mut figures.recursive, image.recursive()),
+        ] {
+            for function in found {
+                if !list.contains(&function) {
+                    list.push(function);
+                }
+            }
+        }
+    }
+    Ok(figures)
+}
+
+/// Counts every function on both cores.
+fn functions(folder: &Path) -> Result<Vec<FunctionFigures>, Failure> {
+    let on_m4 = count(Core::M4, &folder.join("count"))?;
+    let on_m7 = match build(&["count"], Core::M7, "release", "halt")? {
+        Built::In(folder) => count(Core::M7, &folder.join("count"))?,
+        Built::Panics(said) => return Err(Failure::Data(said)),
+    };
+    on_m4
+        .iter()
+        .zip(&on_m7)
+        .map(|((name, calls), (_, other))| {
+            let missing = || Failure::Data(format!("{name} was never called"));
+            let [instructions, cycles] = calls.ranges().ok_or_else(missing)?;
+            let [other, _] = other.ranges().ok_or_else(missing)?;
+            Ok(FunctionFigures {
+                name: (*name).into(),
+                instructions_min: instructions.0,
+                instructions_max: instructions.1,
+                cycles_min: cycles.0,
+                cycles_max: cycles.1,
+                instructions_max_cortex_m7: other.1,
+                inputs: calls.calls.len() as u32,
+            })
+        })
+        .collect()
+}
+
+/// Counts every function of an image.
+fn count(core: Core, path: &Path) -> Result<Vec<(&'static str, Calls)>, Failure> {
+    let image = Image::read(path)?;
+    let mut addresses = Vec::new();
+    // For each function the place of its address, and how many with the same address come before it:
+    // functions with the same instructions share one.
+    let mut places = Vec::new();
+    for subject in SUBJECTS.iter().chain(PEERS) {
+        let address = image
+            .address(&format!("count_{}", subject.name))
+            .ok_or_else(|| Failure::Data(format!("no function count_{}", subject.name)))?;
+        let known = addresses.iter().position(|&known| known == address);
+        let place = known.unwrap_or(addresses.len());
+        if known.is_none() {
+            addresses.push(address);
+        }
+        let before = places
+            .iter()
+            .filter(|(_, other, _)| *other == place)
+            .count();
+        places.push((subject.name, place, before));
+    }
+    let calls = core.count(path, &addresses)?;
+    let inputs = COUNTED as usize;
+    places
+        .into_iter()
+        .map(|(name, place, before)| {
+            let calls = calls
+                .get(place)
+                .and_then(|function| function.calls.get(before * inputs..(before + 1) * inputs))
+                .ok_or_else(|| Failure::Data(format!("{name}: calls are missing")))?;
+            Ok((
+                name,
+                Calls {
+                    calls: calls.to_vec(),
+                },
+            ))
+        })
+        .collect()
+}
+
+/// Runs the image of a scene.
+fn scene(folder: &Path, name: &str, empty: u64) -> Result<(SceneFigures, Vec<Line>), Failure> {
+    let path = folder.join(format!("scene_{name}"));
+    let image = Image::read(&path)?;
+    let run = Core::M4.run(&path)?;
+    let lines: Option<Vec<Line>> = run
+        .text
+        .lines()
+        .map(|line| {
+            let mut words = line.split_whitespace();
+            Some(Line {
+                name: words.next()?.to_owned(),
+                digest: words.next()?.parse().ok()?,
+                stack: words.next()?.parse().ok()?,
+                set_up: words.next()?.parse().ok()?,
+            })
+        })
+        .collect();
+    let lines = lines.filter(|lines| run.passed && !lines.is_empty());
+    let Some(lines) = lines else {
+        return Err(Failure::Data(format!("scene {name} failed:\n{}", run.text)));
+    };
+    let most = |value: fn(&Line) -> u64| lines.iter().map(value).max().unwrap_or(0);
+    let figures = SceneFigures {
+        name: name.into(),
+        flash: image.flash,
+        flash_beyond_empty: image.flash.saturating_sub(empty),
+        ram: image.ram,
+        stack: most(|line| line.stack),
+        stack_set_up: most(|line| line.set_up),
+    };
+    Ok((figures, lines))
+}
+
+impl Figures {
+    /// A function by its name.
+    pub fn function(&self, name: &str) -> Option<&FunctionFigures> {
+        self.functions.iter().find(|entry| entry.name == name)
+    }
+
+    /// A scene by its name.
+    pub fn scene(&self, name: &str) -> Option<&SceneFigures> {
+        self.scenes.iter().find(|entry| entry.name == name)
+    }
+
+    /// Everything as text.
+    pub fn text(&self) -> String {
+        let mut text = String::from(
+            "Cortex-M4F, cycles by Arm's table (a model, no wait states), each call from its first instruction\n\
+             to its return\n\n",
+        );
+        let _ = writeln!(
+            text,
+            "{:26}{:>8}{:>8}{:>10}{:>8}{:>12}",
+            "function", "instr.", "most", "cycles", "most", "M7 instr."
+        );
+        for entry in &self.functions {
+            let _ = writeln!(
+                text,
+                "{:26}{:>8}{:>8}{:>10}{:>8}{:>12}",
+                entry.name,
+                entry.instructions_min,
+                entry.instructions_max,
+                entry.cycles_min,
+                entry.cycles_max,
+                entry.instructions_max_cortex_m7
+            );
+        }
+        let _ = writeln!(
+            text,
+            "\n{:26}{:>8}{:>14}{:>8}{:>8}{:>16}",
+            "scene, bytes", "flash", "beyond empty", "RAM", "stack", "set-up's stack"
+        );
+        for scene in self.scenes.iter().chain([&self.empty]) {
+            let _ = writeln!(
+                text,
+                "{:26}{:>8}{:>14}{:>8}{:>8}{:>16}",
+                scene.name,
+                scene.flash,
+                scene.flash_beyond_empty,
+                scene.ram,
+                scene.stack,
+                scene.stack_set_up
+            );
+        }
+        let _ = writeln!(text, "\n{:44}{:>10}{:>10}", "budget", "allowed", "found");
+        for budget in &BUDGETS {
+            if let Some(found) = figure(self, budget) {
+                let missed = if found > budget.most {
+                    format!("  missed by {:.0} %", 100.0 * (found / budget.most - 1.0))
+                } else {
+                    String::new()
+                };
+                let decimals = usize::from(budget.most < 10.0);
+                let _ = writeln!(
+                    text,
+                    "{:44}{:>10.decimals$}{found:>10.decimals$}{missed}",
+                    budget.what(),
+                    budget.most
+                );
+            }
+        }
+        let yes = |yes: bool| if yes { "yes" } else { "NO" };
+        let _ = writeln!(
+            text,
+            "\nresults equal to the host's bit for bit: {}\nno way to a panic: {}\n\
+             no double precision by software: {}\nscenes alone equal to all in one: {}\n\
+             no allocator, no formatting: {}\nno recursion: {}",
+            yes(self.equal_to_host),
+            yes(self.panic_free),
+            yes(!self.soft_double),
+            yes(self.scenes_equal),
+            yes(self.unwanted.is_empty()),
+            yes(self.recursive.is_empty())
+        );
+        text
+    }
+
+    /// Fails where something does not hold that must hold whatever it costs.
+    pub fn require(&self) -> Result<(), Failure> {
+        let mut broken = Vec::new();
+        let mut require = |holds: bool, what: String| {
+            if !holds {
+                broken.push(what);
+            }
+        };
+        require(
+            self.equal_to_host,
+            "results on the target differ from the host's".into(),
+        );
+        require(self.panic_free, "a way to the panic handler is left".into());
+        require(
+            !self.soft_double,
+            "double precision by software is linked".into(),
+        );
+        require(
+            self.scenes_equal,
+            "a scene gives other numbers alone than among the others".into(),
+        );
+        require(
+            self.unwanted.is_empty(),
+            format!("unwanted in an image: {}", self.unwanted.join(", ")),
+        );
+        require(
+            self.recursive.is_empty(),
+            format!("recursive: {}", self.recursive.join(", ")),
+        );
+        if broken.is_empty() {
+            Ok(())
+        } else {
+            Err(Failure::Data(broken.join("\n")))
+        }
+    }
+}

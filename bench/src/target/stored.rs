@@ -1,0 +1,96 @@
+//! What is stored beside the firmware: the host's results, and the figures to compare with.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use epas_firmware::cases::{STORED, Sink, write};
+
+use super::measure::Figures;
+use super::tools::firmware;
+use crate::failure::Failure;
+use crate::files::{self, Existing};
+
+/// Growth of a function's instructions that is let pass.
+const GROWTH: f64 = 1.05;
+
+#[derive(Default)]
+struct Bytes(Vec<u8>);
+
+impl Sink for Bytes {
+    fn bytes(&mut self, bytes: &[u8]) {
+        self.0.extend_from_slice(bytes);
+    }
+}
+
+fn cases() -> Result<Vec<u8>, Failure> {
+    let mut bytes = Bytes::default();
+    write(&mut bytes)
+        .map_err(|error| Failure::Data(format!("the firmware's designs are refused: {error}")))?;
+    Ok(bytes.0)
+}
+
+/// Stores the host's results.
+pub fn write_cases() -> Result<(), Failure> {
+    let path = firmware().join("cases.bin");
+    fs::write(&path, cases()?).map_err(|error| Failure::file("write", &path, &error))
+}
+
+/// Fails where the stored results are no longer the host's.
+pub fn check_cases() -> Result<(), Failure> {
+    if cases()? == STORED {
+        Ok(())
+    } else {
+        Err(Failure::Data(
+            "the host's results are no longer those stored in bench/firmware/cases.bin; where that is meant:\n  \
+             cargo run --release -p epas-bench -- target --store-cases"
+                .into(),
+        ))
+    }
+}
+
+fn figures_path() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("target.json")
+}
+
+/// Stores figures.
+pub fn write_figures(figures: &Figures) -> Result<(), Failure> {
+    let json = serde_json::to_string_pretty(figures)
+        .map_err(|error| Failure::Data(format!("cannot write JSON: {error}")))?;
+    files::write(&figures_path(), &(json + "\n"), Existing::Replace)
+}
+
+/// The stored figures.
+pub fn figures() -> Result<Figures, Failure> {
+    let path = figures_path();
+    let text = fs::read_to_string(&path).map_err(|error| Failure::file("read", &path, &error))?;
+    serde_json::from_str(&text).map_err(|error| Failure::file("read", &path, &error))
+}
+
+/// Fails where a function has grown.
+pub fn gate(now: &Figures) -> Result<(), Failure> {
+    let grown = grown(&figures()?, now);
+    if grown.is_empty() {
+        return Ok(());
+    }
+    Err(Failure::Data(format!(
+        "more than 5 % more instructions than stored in bench/target.json:\n{}\nwhere that is meant:\n  \
+         cargo run --release -p epas-bench -- target --store",
+        grown.join("\n")
+    )))
+}
+
+/// What has grown, or is missing where it was counted before.
+fn grown(stored: &Figures, now: &Figures) -> Vec<String> {
+    stored
+        .functions
+        .iter()
+        .filter_map(|stored| match now.function(&stored.name) {
+            None => Some(format!("  {} is no longer counted", stored.name)),
+            Some(now) => {
+                let (before, after) = (stored.instructions_max, now.instructions_max);
+                (f64::from(after) > GROWTH * f64::from(before))
+                    .then(|| format!("  {}: {before} -> {after}", stored.name))
+            }
+        })
+        .collect()
+}

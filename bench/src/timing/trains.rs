@@ -1,0 +1,296 @@
+//! Times of one ball, of two balls, and of the forces in a train.
+
+use std::array;
+use std::f64::consts::TAU;
+use std::hint::black_box;
+
+use epas_friction::train::Press;
+use epas_friction::{
+    AnalyticLinearBall, BallChain, BallState, FourPointBall, GrooveFit, Inputs, LoadShare,
+    PUBLISHED_SLOPE, ScrewBall, ScrewChain, ScrewRow, SpeedDeviation, Train, TrainOutputs,
+};
+
+use super::competitors::{Group, List};
+use super::{Feed, Race, Taken};
+use crate::failure::Failure;
+use crate::study;
+
+/// Contact angles and forces of a ball, in the order BL, BR, TR, TL.
+#[derive(Clone, Copy)]
+struct Loads {
+    angles: [f32; 4],
+    forces: [f32; 4],
+}
+
+impl Loads {
+    /// A ball of the case study of Lin 2019, Section 3.3.4: 100 N, groove turned by two degrees.
+    fn new(side_force_ratio: f64) -> Self {
+        let ball = study::turned_ball(2.0, side_force_ratio);
+        Self {
+            angles: ball.contact_angles.map(|angle| angle as f32),
+            forces: ball.contact_forces.map(|force| force as f32),
+        }
+    }
+}
+
+impl Feed for Loads {
+    fn shifted(mut self, by: f32) -> Self {
+        self.angles[0] += by;
+        self.forces[0] += by;
+        self
+    }
+}
+
+impl<T: Feed, const N: usize> Feed for [T; N] {
+    fn shifted(mut self, by: f32) -> Self {
+        if let Some(first) = self.first_mut() {
+            *first = first.shifted(by);
+        }
+        self
+    }
+}
+
+impl Taken for BallState {
+    fn value(&self) -> f32 {
+        self.speed_deviation
+    }
+}
+
+impl Taken for SpeedDeviation {
+    fn value(&self) -> f32 {
+        self.speed_deviation
+    }
+}
+
+impl Taken for TrainOutputs {
+    fn value(&self) -> f32 {
+        self.friction
+    }
+}
+
+/// Adds all of them.
+pub(super) fn trains(race: &mut Race, list: &mut List) -> Result<(), Failure> {
+    let failure = |error: epas_friction::Error| Failure::Data(error.to_string());
+    let parameters = black_box(study::linear_ball());
+    let analytic = AnalyticLinearBall::new(&parameters, PUBLISHED_SLOPE).map_err(failure)?;
+    let ball = FourPointBall::linear(&parameters).map_err(failure)?;
+    one_ball(race, list, analytic, ball);
+    two_balls(race, list, analytic, ball);
+    press::<1>(race, list, "press_1");
+    press::<2>(race, list, "press_2");
+    press::<4>(race, list, "press_4");
+    press::<8>(race, list, "press_8");
+    press::<16>(race, list, "press_16");
+    press::<32>(race, list, "press_32");
+    press::<37>(race, list, "press_37");
+    press::<48>(race, list, "press_48");
+    press::<64>(race, list, "press_64");
+    screw_pair(race, list)?;
+    step::<1>(race, list, ["train_1", "step_train_1"])?;
+    step::<2>(race, list, ["train_2", "step_train_2"])?;
+    step::<4>(race, list, ["train_4", "step_train_4"])?;
+    step::<8>(race, list, ["train_8", "step_train_8"])?;
+    step::<16>(race, list, ["train_16", "step_train_16"])?;
+    step::<32>(race, list, ["train_32", "step_train_32"])?;
+    step::<37>(race, list, ["train_37", "step_train_37"])?;
+    step::<48>(race, list, ["train_48", "step_train_48"])?;
+    step::<64>(race, list, ["train_64", "step_train_64"])
+}
+
+/// Two balls of a ball screw under 50 N each, the one in front turned by up to three degrees.
+fn screw_pair(race: &mut Race, list: &mut List) -> Result<(), Failure> {
+    const OPEN: [f32; 2] = [0.0, f32::INFINITY];
+    let failure = |error: epas_friction::Error| Failure::Data(error.to_string());
+    let design = black_box(study::ball_screw()?);
+    let friction = black_box(study::FRICTION as f32);
+    let ball = ScrewBall::new(&design, friction).map_err(failure)?;
+    let row = ScrewRow::new(&design, friction, GrooveFit::Zero).map_err(failure)?;
+    let contacts =
+        move |pair: [Loads; 2]| pair.map(|loads| ball.contacts(&loads.angles, &loads.forces));
+    let mut press = Press::<2>::new();
+    let pool = move |free: &[f32; 2], compliance: &[f32; 2], forces: &mut [f32; 2]| {
+        press.solve(free, &compliance.map(f32::recip), &OPEN);
+        for (place, force) in forces.iter_mut().zip(press.forces()) {
+            *place = force;
+        }
+    };
+    let mut warm = ScrewChain::<2>::new([ball.solve(&contacts([screw_loads(0.0); 2])[0]); 2]);
+    Group::new(
+        race,
+        list,
+        |share| [screw_loads(0.0), screw_loads(0.05 * share as f32)],
+        |pair: [Loads; 2]| pair[0].angles[0] + pair[0].forces[0],
+    )
+    .time("screw_row_pair", move |[rear, front]| {
+        let tick = row.at(1.0, -rear.forces[1]);
+        let ball = |loads: Loads| tick.ball(loads.angles[1] - 0.785, 0.0, &LoadShare::MEAN);
+        let (rear, front) = (ball(rear), ball(front));
+        (rear.speed_deviation - front.speed_deviation) / (rear.compliance + front.compliance)
+    })
+    .time("screw_closed_pair", move |pair| {
+        let contacts = contacts(pair);
+        let mut chain = ScrewChain::new(contacts.map(|contacts| ball.closed_form(&contacts)));
+        ball.press_chain(&mut chain, 1.0, pool);
+        chain.forces[0]
+    })
+    .time("screw_warm_pair", move |pair| {
+        ball.refine_chain(&contacts(pair), &mut warm, 1.0, friction, pool);
+        warm.forces[0]
+    })
+    .time("screw_cold_pair", move |pair| {
+        let contacts = contacts(pair);
+        let mut chain = ScrewChain::new(contacts.map(|contacts| ball.start(&contacts)));
+        for _ in 0..3 {
+            ball.refine_chain(&contacts, &mut chain, 1.0, friction, pool);
+        }
+        chain.forces[0]
+    });
+    Ok(())
+}
+
+/// Contacts SL, SR, NL, NR of a ball under 50 N along the axis, as the elastic model finds them, with the
+/// screw's groove turned.
+fn screw_loads(turn: f32) -> Loads {
+    Loads {
+        angles: [0.7788 - turn, 0.7839 + turn, 0.7998, 0.78],
+        forces: [
+            8.8 + 75.0 * turn,
+            75.6 - 20.0 * turn,
+            76.2 - 5.0 * turn,
+            0.0,
+        ],
+    }
+}
+
+/// A tick of the train alone, and of the whole scene that moves it.
+fn step<const N: usize>(
+    race: &mut Race,
+    list: &mut List,
+    [of_train, of_scene]: [&'static str; 2],
+) -> Result<(), Failure> {
+    let failure = |error: epas_friction::Error| Failure::Data(error.to_string());
+    // As full as the screw of Lin 2019, Section 3.4.4.
+    let (length, pitch) = (5.68e-3 * N as f32, 5.555e-3);
+    let mut train = black_box(Train::<N>::evenly_spaced(length, pitch).map_err(failure)?);
+    Group::new(race, list, |share| share as f32, |share: f32| share).time(of_train, move |share| {
+        let mut free = [0.0; N];
+        for (free, position) in free.iter_mut().zip(train.positions()) {
+            // A triangle wave in four parts of the track.
+            let phase = (position << 2) as i32;
+            *free = 1e-11 * (phase.saturating_abs() as f32) + 1e-3 * share;
+        }
+        train.step(&free, &[500.0; N], 1e-5);
+        black_box(&train);
+        free[0]
+    });
+    let mut model = black_box(study::whole_screw::<N>()?);
+    let per_ball = black_box(-1500.0 / 37.0) * N as f32;
+    Group::new(
+        race,
+        list,
+        |share| Inputs {
+            nut_speed: (6.0 + share) as f32,
+            axial_load: per_ball * (1.0 + 0.01 * share) as f32,
+        },
+        |inputs: Inputs| inputs.nut_speed,
+    )
+    .time(of_scene, move |inputs| model.step(inputs));
+    Ok(())
+}
+
+fn one_ball(race: &mut Race, list: &mut List, analytic: AnalyticLinearBall, ball: FourPointBall) {
+    let cold = move |loads: Loads, steps: u8| {
+        let contacts = ball.contacts(&loads.angles, &loads.forces);
+        ball.refine(&contacts, &ball.start(&contacts), 0.0, steps)
+    };
+    let mut state = BallState::NOMINAL;
+    Group::new(
+        race,
+        list,
+        |share| Loads::new(1.6 * share - 0.8),
+        |loads: Loads| loads.angles[0] + loads.forces[0],
+    )
+    .time("ball_analytic", move |loads| {
+        analytic.speed_deviation(&loads.angles, &loads.forces)
+    })
+    .time("ball_start", move |loads| cold(loads, 0))
+    .time("ball_step_1", move |loads| cold(loads, 1))
+    .time("ball_step_2", move |loads| cold(loads, 2))
+    .time("ball_step_3", move |loads| cold(loads, 3))
+    .time("ball_warm_step", move |loads| {
+        let contacts = ball.contacts(&loads.angles, &loads.forces);
+        state = ball.step(&contacts, &state, 0.0);
+        state
+    });
+}
+
+fn two_balls(race: &mut Race, list: &mut List, analytic: AnalyticLinearBall, ball: FourPointBall) {
+    const OPEN: [f32; 2] = [0.0, f32::INFINITY];
+    let mut chain = BallChain::<2>::new();
+    let mut press = Press::<2>::new();
+    let mut row = move |pair: [Loads; 2], cold: bool, steps: usize| {
+        let contacts = pair.map(|loads| ball.contacts(&loads.angles, &loads.forces));
+        if cold {
+            chain.balls = contacts.map(|contacts| ball.start(&contacts));
+        }
+        for _ in 0..steps {
+            ball.refine_chain(
+                &contacts,
+                &mut chain,
+                1.0,
+                0.1,
+                |free, compliance, forces| {
+                    press.solve(free, &compliance.map(f32::recip), &OPEN);
+                    for (place, force) in forces.iter_mut().zip(press.forces()) {
+                        *place = force;
+                    }
+                },
+            );
+        }
+        chain.forces[0]
+    };
+    let mut cold = row;
+    Group::new(
+        race,
+        list,
+        |share| {
+            let ratio = 1.6 * share - 0.8;
+            [Loads::new(-ratio), Loads::new(ratio)]
+        },
+        |pair: [Loads; 2]| pair[0].angles[0] + pair[0].forces[0],
+    )
+    .time("pair_analytic", move |[rear, front]| {
+        let rear = analytic.speed_deviation(&rear.angles, &rear.forces);
+        let front = analytic.speed_deviation(&front.angles, &front.forces);
+        rear.contact_force(&front)
+    })
+    .time("pair_warm_step", move |pair| row(pair, false, 1))
+    .time("pair_cold_3", move |pair| cold(pair, true, 3));
+}
+
+/// Deviations that vary along the track, and from ball to ball: some clusters, some balls alone.
+fn press<const N: usize>(race: &mut Race, list: &mut List, key: &'static str) {
+    let impedance: [f32; N] = array::from_fn(|ball| 500.0 - 2.5 * (ball % 7) as f32);
+    let mut room = [0.0; N];
+    if let Some(last) = room.last_mut() {
+        *last = f32::INFINITY;
+    }
+    let mut press = Press::<N>::new();
+    Group::new(
+        race,
+        list,
+        |share| {
+            array::from_fn(|ball| {
+                let place = ball as f64 / 37.0;
+                (0.008 * (TAU * (4.0 * place + share)).sin()
+                    + 0.002 * (TAU * 17.3 * (place + share)).sin()) as f32
+            })
+        },
+        |free: [f32; N]| free[0],
+    )
+    .time(key, move |free| {
+        press.solve(&free, &impedance, &room);
+        black_box(&press);
+        press.forces().next().unwrap_or(0.0)
+    });
+}

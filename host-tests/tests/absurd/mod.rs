@@ -1,0 +1,705 @@
+//! Random mechanisms, random inputs, and what every tick has to keep.
+#![allow(dead_code)]
+
+use std::fmt::Debug;
+use std::sync::LazyLock;
+
+use epas_friction::{
+    BallScrew, BallScrewParameters, CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration,
+    DeviationMap, Faults, FrictionBranch, FrictionModel, GrooveFit, GrooveSize, Inputs, Limits,
+    LinearBearing, LinearBearingConfiguration, LinearBearingParameters, LinearBearingTrain,
+    LinearInputs, LinearLimits, LoadShare, Material, Outputs, Scene, Train, TrainOutputs,
+    UncagedBallScrew, UncagedBallScrewConfiguration,
+};
+
+/// Deterministic numbers (splitmix64).
+#[derive(Clone, Debug)]
+pub struct Random(pub u64);
+
+/// Numbers at which formulas break.
+pub const EDGES: [f32; 24] = [
+    0.0,
+    -0.0,
+    1e-45,
+    -1e-45,
+    f32::MIN_POSITIVE,
+    -f32::MIN_POSITIVE,
+    1e-38,
+    1e-30,
+    1e-20,
+    -1e-20,
+    1.0,
+    -1.0,
+    0.99999994,
+    1.0000001,
+    1e6,
+    -1e6,
+    1e7,
+    1e20,
+    f32::MAX,
+    f32::MIN,
+    f32::INFINITY,
+    f32::NEG_INFINITY,
+    f32::NAN,
+    -f32::NAN,
+];
+
+impl Random {
+    pub fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// 0 to 1.
+    pub fn unit(&mut self) -> f32 {
+        (self.bits() >> 40) as f32 * (1.0 / 16_777_216.0)
+    }
+
+    pub fn below(&mut self, count: usize) -> usize {
+        ((u128::from(self.bits()) * count as u128) >> 64) as usize
+    }
+
+    pub fn one_in(&mut self, count: usize) -> bool {
+        self.below(count) == 0
+    }
+
+    pub fn sign(&mut self) -> f32 {
+        if self.one_in(2) { -1.0 } else { 1.0 }
+    }
+
+    pub fn of<T: Copy>(&mut self, values: &[T]) -> T {
+        values[self.below(values.len())]
+    }
+
+    /// Uniform; the ends more often than by chance.
+    pub fn within(&mut self, low: f32, high: f32) -> f32 {
+        match self.below(32) {
+            0 => low,
+            1 => high,
+            _ => low + (high - low) * self.unit(),
+        }
+    }
+
+    /// Uniform in the logarithm; the ends more often than by chance.
+    pub fn size(&mut self, low: f32, high: f32) -> f32 {
+        match self.below(32) {
+            0 => low,
+            1 => high,
+            _ => (low * (high / low).powf(self.unit())).clamp(low, high),
+        }
+    }
+
+    /// Every f32 alike, NaN and subnormals with the rest.
+    pub fn anything(&mut self) -> f32 {
+        f32::from_bits(self.bits() as u32)
+    }
+
+    /// A signal that a sensor with full scale `limit` may deliver, sound or not.
+    pub fn signal(&mut self, limit: f32, last: f32) -> f32 {
+        match self.below(16) {
+            0..=5 => limit * (2.0 * self.unit() - 1.0),
+            6..=8 => self.sign() * limit * 1e-9_f32.powf(self.unit()),
+            9 => last,
+            10 => -last,
+            11 => self.anything(),
+            12 => self.of(&EDGES),
+            13 => self.sign() * limit,
+            14 => self.sign() * limit * 1.0000001,
+            _ => self.sign() * 1e-30 * 1e30_f32.powf(self.unit()) * limit,
+        }
+    }
+}
+
+/// Maps of contact angle deviations: none, gentle, the largest allowed, a saw tooth, a long period.
+static MAPS: LazyLock<Vec<DeviationMap>> = LazyLock::new(|| {
+    let mut random = Random(7);
+    let mut maps = vec![DeviationMap::NONE];
+    for (turns, size) in [(1, 0.04), (1, 0.2), (3, 0.2), (100, 0.1), (2, 1e-9)] {
+        let samples = std::array::from_fn(|_| size * (2.0 * random.unit() - 1.0));
+        maps.push(DeviationMap::from_samples(turns, &samples).unwrap());
+    }
+    let steps = std::array::from_fn(|sample| if sample % 2 == 0 { 0.2 } else { -0.2 });
+    maps.push(DeviationMap::from_samples(1, &steps).unwrap());
+    maps
+});
+
+/// Load shares: even, one ball alone with nearly all, 64 random ones, the longest table.
+static SHARES: LazyLock<Vec<Vec<LoadShare>>> = LazyLock::new(|| {
+    let mut random = Random(8);
+    let mut table = |entries: usize, low: f32, high: f32| -> Vec<LoadShare> {
+        (0..entries)
+            .map(|_| LoadShare::new(random.size(low, high)).unwrap())
+            .collect()
+    };
+    vec![
+        vec![LoadShare::MEAN],
+        table(2, 0.01, 100.0),
+        table(64, 0.3, 2.0),
+        table(256, 0.01, 100.0),
+    ]
+});
+
+pub fn map(random: &mut Random) -> &'static DeviationMap {
+    let count = MAPS.len();
+    &MAPS[random.below(count)]
+}
+
+pub fn shares(random: &mut Random) -> &'static [LoadShare] {
+    let count = SHARES.len();
+    &SHARES[random.below(count)]
+}
+
+fn material(random: &mut Random) -> Material {
+    match random.below(8) {
+        0 => Material {
+            youngs_modulus: random.size(1e6, 1e13),
+            poisson_ratio: random.within(0.0, 0.5),
+            density: random.size(1.0, 1e5),
+        },
+        1..=2 => Material::SILICON_NITRIDE,
+        _ => Material::STEEL,
+    }
+}
+
+fn groove(random: &mut Random) -> GrooveSize {
+    GrooveSize::Conformity(if random.one_in(3) {
+        random.within(0.5005, 1.0)
+    } else {
+        random.within(0.51, 0.56)
+    })
+}
+
+/// What a drawing may say, from the likely to the absurd.
+pub fn screw_parameters(random: &mut Random) -> BallScrewParameters {
+    if random.one_in(2) {
+        return random.of(&CATALOGUE).parameters();
+    }
+    let pitch_radius = random.size(1e-4, 10.0);
+    BallScrewParameters {
+        pitch_radius,
+        lead: match random.below(4) {
+            0 => 0.0,
+            1 => random.size(1e-8, 100.0),
+            _ => pitch_radius * random.size(0.01, 10.0),
+        },
+        ball_radius: pitch_radius * random.size(0.01, 0.9),
+        screw_groove: groove(random),
+        nut_groove: groove(random),
+        contact_angle: random.within(0.01, 1.5533),
+        ball_material: material(random),
+        groove_material: material(random),
+    }
+}
+
+pub fn design(random: &mut Random) -> BallScrew {
+    loop {
+        if let Ok(design) = BallScrew::new(screw_parameters(random)) {
+            return design;
+        }
+    }
+}
+
+fn limits(random: &mut Random) -> Limits {
+    Limits {
+        nut_speed: if random.one_in(2) {
+            random.size(50.0, 1000.0)
+        } else {
+            random.size(1e-3, 1e6)
+        },
+        axial_load: if random.one_in(2) {
+            random.size(1e3, 3e4)
+        } else {
+            random.size(1e-3, 1e7)
+        },
+        friction_torque: random.size(1e-6, 1e6),
+    }
+}
+
+/// A scene that can be drawn by lot and checked tick by tick.
+pub trait Trial: Scene<Configuration: Debug> + Sized {
+    fn name() -> String;
+    fn configuration(random: &mut Random) -> Self::Configuration;
+    fn sensors(
+        random: &mut Random,
+        configuration: &Self::Configuration,
+        last: [f32; 3],
+    ) -> [f32; 3];
+    fn inputs(sensors: [f32; 3]) -> Self::Inputs;
+    /// The tick by its outputs alone.
+    fn check(
+        configuration: &Self::Configuration,
+        sensors: [f32; 3],
+        outputs: &Self::Outputs,
+    ) -> Result<(), String>;
+    /// The state, now and then.
+    fn check_state(model: &FrictionModel<Self>) -> Result<(), String>;
+    /// All bits of the outputs, for comparisons.
+    fn numbers(outputs: &Self::Outputs) -> Vec<u32>;
+}
+
+/// Whether flags say what the sensors deliver: nothing silent, nothing invented.
+fn flags(
+    faults: Faults,
+    speed: (f32, f32),
+    loads: &[f32],
+    largest_load: f32,
+) -> Result<bool, String> {
+    let (speed, largest_speed) = speed;
+    let mut expected = Faults::NONE;
+    let load_lost = loads.iter().any(|load| !load.is_finite());
+    if !speed.is_finite() {
+        expected |= Faults::SPEED_NOT_FINITE;
+    }
+    if load_lost {
+        expected |= Faults::LOAD_NOT_FINITE;
+    }
+    let lost = expected.any();
+    if !lost {
+        if speed.abs() > largest_speed {
+            expected |= Faults::SPEED_RANGE;
+        }
+        if loads.iter().any(|load| load.abs() > largest_load) {
+            expected |= Faults::LOAD_RANGE;
+        }
+    }
+    let beside_torque = faults.bits() & !Faults::TORQUE_LIMIT.bits();
+    if beside_torque == expected.bits() {
+        Ok(lost)
+    } else {
+        Err(format!("flags {faults:?}, expected {expected:?}"))
+    }
+}
+
+/// Friction: finite, within its limit, never a source of power, none in a fault.
+fn friction(value: f32, limit: f32, speed: f32, lost: bool) -> Result<(), String> {
+    if !value.is_finite() {
+        Err(format!("friction {value}"))
+    } else if value.abs() > limit {
+        Err(format!("friction {value} beyond its limit {limit}"))
+    } else if lost && value != 0.0 {
+        Err(format!("friction {value} although a sensor is lost"))
+    } else if !lost && value * speed.signum() < 0.0 {
+        Err(format!("friction {value} drives at speed {speed}"))
+    } else {
+        Ok(())
+    }
+}
+
+fn finite(name: &str, value: f32) -> Result<(), String> {
+    if value.is_finite() {
+        Ok(())
+    } else {
+        Err(format!("{name} = {value}"))
+    }
+}
+
+impl Trial for CagedBallScrew {
+    fn name() -> String {
+        "caged ball screw".into()
+    }
+
+    fn configuration(random: &mut Random) -> CagedBallScrewConfiguration {
+        CagedBallScrewConfiguration {
+            design: design(random),
+            friction: random.within(0.0, 1.0),
+            rolling_tangent: random.of(&[0.0, 0.001, 0.1]),
+            branch: random.of(&[FrictionBranch::Rolling, FrictionBranch::Sliding]),
+            preload: if random.one_in(2) {
+                0.0
+            } else {
+                random.size(1e-3, 1e6)
+            },
+            reversal_speed: random.size(1e-6, 1e3),
+            limits: limits(random),
+        }
+    }
+
+    fn sensors(
+        random: &mut Random,
+        configuration: &CagedBallScrewConfiguration,
+        last: [f32; 3],
+    ) -> [f32; 3] {
+        [
+            random.signal(configuration.limits.nut_speed, last[0]),
+            random.signal(configuration.limits.axial_load, last[1]),
+            0.0,
+        ]
+    }
+
+    fn inputs([nut_speed, axial_load, _]: [f32; 3]) -> Inputs {
+        Inputs {
+            nut_speed,
+            axial_load,
+        }
+    }
+
+    fn check(
+        configuration: &CagedBallScrewConfiguration,
+        [speed, load, _]: [f32; 3],
+        outputs: &Outputs,
+    ) -> Result<(), String> {
+        let limits = &configuration.limits;
+        let lost = flags(
+            outputs.faults,
+            (speed, limits.nut_speed),
+            &[load],
+            limits.axial_load,
+        )?;
+        friction(outputs.friction_torque, limits.friction_torque, speed, lost)?;
+        finite("load_torque", outputs.load_torque)?;
+        finite("efficiency", outputs.efficiency)?;
+        if (-1e6..=1.0).contains(&outputs.efficiency) {
+            Ok(())
+        } else {
+            Err(format!("efficiency {}", outputs.efficiency))
+        }
+    }
+
+    fn check_state(_: &FrictionModel<Self>) -> Result<(), String> {
+        Ok(())
+    }
+
+    fn numbers(outputs: &Outputs) -> Vec<u32> {
+        vec![
+            outputs.friction_torque.to_bits(),
+            outputs.load_torque.to_bits(),
+            outputs.efficiency.to_bits(),
+            outputs.regime as u32,
+            u32::from(outputs.faults.bits()),
+        ]
+    }
+}
+
+fn check_train_outputs(
+    balls: usize,
+    outputs: &TrainOutputs,
+    speed: f32,
+    limit: f32,
+    lost: bool,
+) -> Result<(), String> {
+    friction(outputs.friction, limit, speed, lost)?;
+    for (name, value) in [
+        ("groove_friction", outputs.groove_friction),
+        ("ball_friction", outputs.ball_friction),
+        ("load_torque", outputs.load_torque),
+        ("largest_contact_force", outputs.largest_contact_force),
+    ] {
+        finite(name, value)?;
+    }
+    if !lost {
+        friction(outputs.groove_friction, f32::MAX, speed, false)
+            .map_err(|error| format!("grooves: {error}"))?;
+        friction(outputs.ball_friction, f32::MAX, speed, false)
+            .map_err(|error| format!("balls: {error}"))?;
+    }
+    if usize::from(outputs.contacts) > balls || outputs.largest_contact_force < 0.0 {
+        return Err(format!(
+            "{} contacts, largest force {}",
+            outputs.contacts, outputs.largest_contact_force
+        ));
+    }
+    if (outputs.contacts == 0) != (outputs.largest_contact_force == 0.0) {
+        return Err(format!(
+            "{} contacts with a largest force of {}",
+            outputs.contacts, outputs.largest_contact_force
+        ));
+    }
+    Ok(())
+}
+
+fn numbers(outputs: &TrainOutputs) -> Vec<u32> {
+    vec![
+        outputs.friction.to_bits(),
+        outputs.groove_friction.to_bits(),
+        outputs.ball_friction.to_bits(),
+        outputs.load_torque.to_bits(),
+        u32::from(outputs.contacts),
+        outputs.largest_contact_force.to_bits(),
+        outputs.regime as u32,
+        u32::from(outputs.faults.bits()),
+    ]
+}
+
+/// No ball lost, none through another: from ball to ball once around the track and no more, gaps not
+/// below what rounding of positions leaves, numbers finite.
+pub fn sound_train<const N: usize>(train: &Train<N>) -> Result<(), String> {
+    let positions: Vec<u32> = train.positions().collect();
+    let around: u64 = (0..N)
+        .map(|ball| {
+            let ahead = positions[(ball + 1) % N];
+            u64::from(ahead.wrapping_sub(positions[ball]))
+        })
+        .sum();
+    if N > 1 && around != 1 << 32 {
+        return Err(format!(
+            "balls out of order: {around} units around the track, {positions:?}"
+        ));
+    }
+    if let Some((ball, gap)) = train
+        .gaps()
+        .enumerate()
+        .find(|(_, gap)| !(gap.is_finite() && *gap >= -1e-6))
+    {
+        return Err(format!("gap {gap} in front of ball {ball}"));
+    }
+    for (force, speed) in train.forces().zip(train.speeds()) {
+        if !(force.is_finite() && force >= 0.0 && speed.is_finite()) {
+            return Err(format!("force {force}, speed {speed}"));
+        }
+    }
+    Ok(())
+}
+
+impl<const N: usize> Trial for UncagedBallScrew<N> {
+    fn name() -> String {
+        format!("ball screw without cage, {N} balls")
+    }
+
+    fn configuration(random: &mut Random) -> UncagedBallScrewConfiguration {
+        let design = design(random);
+        let limits = limits(random);
+        // Turns that hold the balls, from a nearly full track to a nearly empty one.
+        let full = N as f32 * design.ball_ratio() / std::f32::consts::PI;
+        let turns = (full * random.of(&[0.3, 0.999, 1.001, 1.05, 1.5, 5.0])).clamp(0.1, 100.0);
+        UncagedBallScrewConfiguration {
+            friction: random.size(1e-3, 0.5),
+            ball_friction: random.within(0.0, 1.0),
+            fit: match random.below(3) {
+                0 => GrooveFit::Zero,
+                1 => GrooveFit::Play,
+                _ => GrooveFit::Preload {
+                    contact_force: random.size(1e-3, 1e6),
+                },
+            },
+            turns: if random.one_in(4) {
+                random.size(0.1, 100.0)
+            } else {
+                turns
+            },
+            return_length: match random.below(4) {
+                0 => 0.0,
+                1 => random.size(1e-4, 10.0),
+                _ => (design.pitch_radius() * random.size(0.01, 10.0)).min(10.0),
+            },
+            screw_deviation: map(random),
+            nut_deviation: map(random),
+            load_shares: shares(random),
+            reversal_speed: random.size(1e-6, 1e3),
+            tick: if random.one_in(2) {
+                random.size(1e-6, 1e-2)
+            } else {
+                (0.03 / limits.nut_speed).clamp(1e-6, 1.0)
+            },
+            design,
+            limits,
+        }
+    }
+
+    fn sensors(
+        random: &mut Random,
+        configuration: &UncagedBallScrewConfiguration,
+        last: [f32; 3],
+    ) -> [f32; 3] {
+        [
+            random.signal(configuration.limits.nut_speed, last[0]),
+            random.signal(configuration.limits.axial_load, last[1]),
+            0.0,
+        ]
+    }
+
+    fn inputs([nut_speed, axial_load, _]: [f32; 3]) -> Inputs {
+        Inputs {
+            nut_speed,
+            axial_load,
+        }
+    }
+
+    fn check(
+        configuration: &UncagedBallScrewConfiguration,
+        [speed, load, _]: [f32; 3],
+        outputs: &TrainOutputs,
+    ) -> Result<(), String> {
+        let limits = &configuration.limits;
+        let lost = flags(
+            outputs.faults,
+            (speed, limits.nut_speed),
+            &[load],
+            limits.axial_load,
+        )?;
+        check_train_outputs(N, outputs, speed, limits.friction_torque, lost)?;
+        let outputs = Outputs::from(*outputs);
+        if (-1e6..=1.0).contains(&outputs.efficiency) {
+            Ok(())
+        } else {
+            Err(format!("efficiency {}", outputs.efficiency))
+        }
+    }
+
+    fn check_state(model: &FrictionModel<Self>) -> Result<(), String> {
+        sound_train(&model.state().train)
+    }
+
+    fn numbers(outputs: &TrainOutputs) -> Vec<u32> {
+        numbers(outputs)
+    }
+}
+
+impl<const N: usize> Trial for LinearBearingTrain<N> {
+    fn name() -> String {
+        format!("linear bearing, {N} balls")
+    }
+
+    fn configuration(random: &mut Random) -> LinearBearingConfiguration {
+        let bearing = loop {
+            let parameters = LinearBearingParameters {
+                ball_radius: if random.one_in(2) {
+                    random.size(1e-3, 1e-2)
+                } else {
+                    random.size(1e-5, 1.0)
+                },
+                groove: groove(random),
+                contact_angle: random.within(0.01, 1.5533),
+                ball_material: material(random),
+                groove_material: material(random),
+            };
+            if let Ok(bearing) = LinearBearing::new(parameters) {
+                break bearing;
+            }
+        };
+        let full = 2.0 * bearing.ball_radius() * N as f32;
+        let loaded = if random.one_in(4) {
+            random.size(1e-4, 100.0)
+        } else {
+            full * random.of(&[0.3, 0.999, 1.000001, 1.05, 3.0])
+        };
+        let speed = random.size(1e-6, 1e3);
+        LinearBearingConfiguration {
+            friction: random.size(1e-3, 1.0),
+            ball_friction: random.within(0.0, 1.0),
+            loaded_length: loaded,
+            return_length: match random.below(4) {
+                0 => 0.0,
+                1 => random.size(1e-4, 100.0),
+                _ => loaded * random.unit(),
+            },
+            wavelength: loaded * random.size(0.01, 10.0),
+            rail_deviation: map(random),
+            carriage_deviation: map(random),
+            load_shares: shares(random),
+            reversal_speed: random.size(1e-9, 10.0),
+            tick: if random.one_in(2) {
+                random.size(1e-6, 1e-2)
+            } else {
+                (0.06 * loaded / speed).clamp(1e-6, 1.0)
+            },
+            bearing,
+            limits: LinearLimits {
+                speed,
+                load: random.size(1e-3, 1e7),
+                friction_force: random.size(1e-6, 1e6),
+            },
+        }
+    }
+
+    fn sensors(
+        random: &mut Random,
+        configuration: &LinearBearingConfiguration,
+        last: [f32; 3],
+    ) -> [f32; 3] {
+        let LinearLimits { speed, load, .. } = configuration.limits;
+        [
+            random.signal(speed, last[0]),
+            random.signal(load, last[1]),
+            random.signal(load, last[2]),
+        ]
+    }
+
+    fn inputs([speed, normal_load, side_load]: [f32; 3]) -> LinearInputs {
+        LinearInputs {
+            speed,
+            normal_load,
+            side_load,
+        }
+    }
+
+    fn check(
+        configuration: &LinearBearingConfiguration,
+        [speed, normal, side]: [f32; 3],
+        outputs: &TrainOutputs,
+    ) -> Result<(), String> {
+        let limits = &configuration.limits;
+        let lost = flags(
+            outputs.faults,
+            (speed, limits.speed),
+            &[normal, side],
+            limits.load,
+        )?;
+        check_train_outputs(N, outputs, speed, limits.friction_force, lost)
+    }
+
+    fn check_state(model: &FrictionModel<Self>) -> Result<(), String> {
+        sound_train(&model.state().train)
+    }
+
+    fn numbers(outputs: &TrainOutputs) -> Vec<u32> {
+        numbers(outputs)
+    }
+}
+
+/// A model of a random configuration that the constructor takes; how many it refused.
+pub fn accepted<S: Trial>(random: &mut Random) -> (S::Configuration, FrictionModel<S>, u32) {
+    let mut refused = 0;
+    loop {
+        let configuration = S::configuration(random);
+        match FrictionModel::<S>::new(&configuration) {
+            Ok(model) => return (configuration, model, refused),
+            Err(error) => {
+                assert!(
+                    !error.allowed().contains(error.value()),
+                    "{}: {error} refuses an allowed value: {configuration:?}",
+                    S::name(),
+                );
+                refused += 1;
+                assert!(refused < 100_000, "{}: {error}", S::name());
+            }
+        }
+    }
+}
+
+/// Random models, each run through random inputs; panics with a line that reproduces the case.
+pub fn soak<S: Trial>(seed: u64, models: u64, ticks: u64) -> u64
+where
+    S::State: Debug,
+{
+    let mut refused = 0;
+    for model in 0..models {
+        let start = seed.wrapping_add(model.wrapping_mul(0x1000_0000_01b3));
+        let mut random = Random(start);
+        let (configuration, mut friction, no) = accepted::<S>(&mut random);
+        refused += u64::from(no);
+        let mut sensors = [0.0; 3];
+        for tick in 0..ticks {
+            sensors = S::sensors(&mut random, &configuration, sensors);
+            let outputs = friction.step(S::inputs(sensors));
+            let mut checked = S::check(&configuration, sensors, &outputs);
+            if checked.is_ok() && (tick & 63 == 63 || tick + 1 == ticks) {
+                checked = S::check_state(&friction);
+            }
+            if let Err(error) = checked {
+                panic!(
+                    "{}, seed {start:#x}, tick {tick}, sensors {sensors:?}: {error}\n{configuration:?}",
+                    S::name(),
+                );
+            }
+        }
+    }
+    println!(
+        "{}: {} random ticks in {models} models, {refused} configurations refused",
+        S::name(),
+        models * ticks,
+    );
+    models * ticks
+}

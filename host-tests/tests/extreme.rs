@@ -1,0 +1,76 @@
+//! Random and extreme inputs through `step` of every scene.
+
+mod absurd;
+#[path = "absurd/objects.rs"]
+mod objects;
+
+use absurd::{Random, soak};
+use epas_friction::{CagedBallScrew, LinearBearingTrain, UncagedBallScrew};
+
+/// Every scene, from one ball to 64.
+fn all_scenes(seed: u64, models: u64, ticks: u64) -> u64 {
+    soak::<CagedBallScrew>(seed, 4 * models, ticks)
+        + soak::<UncagedBallScrew<1>>(seed, models, ticks)
+        + soak::<UncagedBallScrew<2>>(seed, models, ticks)
+        + soak::<UncagedBallScrew<3>>(seed, models, ticks)
+        + soak::<UncagedBallScrew<16>>(seed, models, ticks)
+        + soak::<UncagedBallScrew<37>>(seed, models / 4, ticks)
+        + soak::<UncagedBallScrew<64>>(seed, models / 4, ticks)
+        + soak::<LinearBearingTrain<1>>(seed, models, ticks)
+        + soak::<LinearBearingTrain<2>>(seed, models, ticks)
+        + soak::<LinearBearingTrain<5>>(seed, models, ticks)
+        + soak::<LinearBearingTrain<16>>(seed, models, ticks)
+        + soak::<LinearBearingTrain<64>>(seed, models / 4, ticks)
+}
+
+#[test]
+fn random_inputs_give_finite_flagged_bounded_outputs() {
+    let ticks = all_scenes(1, 200, 1000);
+    println!("{ticks} random ticks in all scenes");
+}
+
+/// Objects made of random numbers, most of them likely to be accepted, the rest anything.
+fn random_objects(seed: u64, count: u64) {
+    for object in 0..count {
+        let seed = seed.wrapping_add(object);
+        let mut random = Random(seed);
+        let numbers = (0..48)
+            .map(|_| {
+                if random.one_in(64) {
+                    random.of(&absurd::EDGES)
+                } else {
+                    random.anything()
+                }
+            })
+            .collect();
+        if let Err(error) = objects::check(&mut objects::Numbers(numbers)) {
+            panic!("seed {seed:#x}: {error}");
+        }
+    }
+    println!("{count} random objects");
+}
+
+#[test]
+fn random_numbers_are_refused_or_give_finite_objects() {
+    random_objects(1, 100_000);
+}
+
+/// The recorded full run.
+#[test]
+#[ignore = "minutes: cargo test --release -p epas-reference --test extreme -- --ignored --nocapture"]
+fn a_hundred_million_random_objects() {
+    random_objects(1 << 32, 100_000_000);
+}
+
+/// The recorded full run.
+#[test]
+#[ignore = "half an hour: cargo test --release -p epas-reference --test extreme -- --ignored --nocapture"]
+fn a_thousand_million_random_inputs() {
+    let mut ticks = 0;
+    let mut round = 2;
+    while ticks < 1_000_000_000 {
+        ticks += all_scenes(round, 4000, 1000);
+        round += 1;
+    }
+    println!("{ticks} random ticks in all scenes");
+}

@@ -1,0 +1,199 @@
+//! Laws that hold for every mechanism, on random ones.
+
+mod absurd;
+
+use absurd::{Random, Trial, accepted};
+use epas_friction::{
+    CagedBallScrew, CagedBallScrewConfiguration, ContactAngle, DeviationMap, FrictionModel,
+    GothicArch, Groove, GrooveFit, GrooveProfile, HelixPath, HertzContact, Inputs,
+    LinearBearingTrain, Press, Regime, UncagedBallScrew, UncagedBallScrewConfiguration,
+};
+use proptest::prelude::*;
+
+/// A caged screw without preload whose torque limit does not bind below its lock.
+fn caged(seed: u64) -> FrictionModel<CagedBallScrew> {
+    let mut random = Random(seed);
+    loop {
+        let (configuration, ..) = accepted::<CagedBallScrew>(&mut random);
+        let mut configuration = CagedBallScrewConfiguration {
+            preload: 0.0,
+            ..configuration
+        };
+        configuration.limits.nut_speed = 1e3;
+        configuration.limits.axial_load = 1e6;
+        configuration.limits.friction_torque = 1e6;
+        // From 500 rad/s on the blend is one.
+        configuration.reversal_speed = configuration.reversal_speed.min(1e-2);
+        if let Ok(model) = FrictionModel::new(&configuration) {
+            return model;
+        }
+    }
+}
+
+/// A screw without cage, deviations or preload.
+fn uncaged(seed: u64, ball_friction: f32) -> FrictionModel<UncagedBallScrew<7>> {
+    static NONE: DeviationMap = DeviationMap::NONE;
+    let mut random = Random(seed);
+    loop {
+        let (configuration, ..) = accepted::<UncagedBallScrew<7>>(&mut random);
+        let mut configuration = UncagedBallScrewConfiguration {
+            ball_friction,
+            fit: if random.one_in(2) {
+                GrooveFit::Zero
+            } else {
+                GrooveFit::Play
+            },
+            screw_deviation: &NONE,
+            nut_deviation: &NONE,
+            ..configuration
+        };
+        configuration.limits.friction_torque = 1e6;
+        if let Ok(model) = FrictionModel::new(&configuration) {
+            return model;
+        }
+    }
+}
+
+fn inputs(nut_speed: f32, axial_load: f32) -> Inputs {
+    Inputs {
+        nut_speed,
+        axial_load,
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn friction_reverses_with_speed_and_load(seed: u64, speed in -1e3_f32..1e3, load in -1e6_f32..1e6) {
+        let mut model = caged(seed);
+        let (there, back) = (model.step(inputs(speed, load)), model.step(inputs(-speed, -load)));
+        prop_assert_eq!(there.friction_torque, -back.friction_torque);
+        prop_assert_eq!(there.load_torque, -back.load_torque);
+
+        let mut model = uncaged(seed, 0.1);
+        let there = model.step(inputs(0.01 * speed, 0.01 * load));
+        model.reset();
+        let back = model.step(inputs(-0.01 * speed, -0.01 * load));
+        prop_assert_eq!(there.friction, -back.friction);
+    }
+
+    #[test]
+    fn friction_grows_with_load(seed: u64, speed in -1e3_f32..1e3, load in 0.0_f32..9e5, more in 1.0_f32..2.0) {
+        let mut model = caged(seed);
+        for sign in [1.0, -1.0] {
+            let light = model.step(inputs(speed, sign * load));
+            let heavy = model.step(inputs(speed, sign * load * more));
+            prop_assert!(heavy.friction_torque.abs() >= light.friction_torque.abs());
+        }
+        let mut model = uncaged(seed, 0.1);
+        for sign in [1.0, -1.0] {
+            let light = model.step(inputs(0.01 * speed, 1e-3 * sign * load));
+            model.reset();
+            let heavy = model.step(inputs(0.01 * speed, 1e-3 * sign * load * more));
+            model.reset();
+            // Powers of the load are within 3e-5, its shares within some 1e-4 of their bounds.
+            prop_assert!(heavy.friction.abs() >= light.friction.abs() * (1.0 - 1e-3));
+        }
+    }
+
+    #[test]
+    fn work_in_is_work_out_and_loss(seed: u64, speed in 5e2_f32..1e3, load in 1.0_f32..1e6) {
+        let mut model = caged(seed);
+        let driving = model.step(inputs(speed, load));
+        if driving.regime == Regime::Driving && !driving.faults.any() && driving.load_torque > 0.0 {
+            let (load, loss) = (f64::from(driving.load_torque), f64::from(driving.friction_torque));
+            prop_assert!((f64::from(driving.efficiency) * (load + loss) - load).abs() <= 1e-5 * (load + loss));
+        }
+        let back = model.step(inputs(speed, -load));
+        if back.regime == Regime::BackDriving && !back.faults.any() {
+            let (load, loss) = (-f64::from(back.load_torque), f64::from(back.friction_torque));
+            prop_assert!((f64::from(back.efficiency) * load - (load - loss)).abs() <= 1e-5 * load);
+        }
+    }
+
+    #[test]
+    fn no_unit_of_length_is_special(seed: u64, angle in 0.0_f32..1.5, power in -20_i32..20) {
+        // A power of two scales without rounding: every digit must stay.
+        let scale = 2.0_f32.powi(power);
+        let mut random = Random(seed);
+        let radius = random.size(5e-3, 0.1);
+        let lead = radius * random.size(1e-3, 10.0);
+        let groove = radius * random.within(0.02, 0.3);
+        let (h, l) = (0.1 * groove * random.unit(), 0.1 * groove * random.unit());
+        let side = random.of(&[Groove::Screw, Groove::Nut]);
+        let angle = ContactAngle::new(angle);
+        let principal = |scale: f32| {
+            let path = HelixPath::from_lead(scale * radius, scale * lead);
+            let profile = GrooveProfile {
+                groove_radius: scale * groove,
+                offset_h: scale * h,
+                offset_l: scale * l,
+            };
+            GothicArch::checked(side, &path, &profile, angle).map(|arch| arch.principal(angle))
+        };
+        if let (Ok(one), Ok(other)) = (principal(1.0), principal(scale)) {
+            prop_assert_eq!(one.kappa1, other.kappa1 * scale);
+            prop_assert_eq!(one.kappa2, other.kappa2 * scale);
+        }
+        // Of the ellipse: lengths by 8, loads by 64, pressures as they were.
+        let (first, second) = (radius, radius * random.size(1.0, 50.0));
+        let load = random.size(1.0, 1e4);
+        let small = HertzContact::checked(first, second, 2e11).unwrap().at(load);
+        let large = HertzContact::checked(8.0 * first, 8.0 * second, 2e11).unwrap().at(64.0 * load);
+        prop_assert!((small.max_pressure / large.max_pressure - 1.0).abs() < 1e-6);
+        prop_assert!((8.0 * small.semi_major / large.semi_major - 1.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn scenes_reduce_to_simpler_ones(seed: u64, speed in -10.0_f32..10.0, load in -1e4_f32..1e4) {
+        // Without friction between balls nothing is lost there.
+        let outputs = uncaged(seed, 0.0).step(inputs(speed, load));
+        prop_assert_eq!(outputs.ball_friction, 0.0);
+        // Balls that are alike do not press on each other.
+        let outputs = uncaged(seed, 0.5).step(inputs(speed, load));
+        prop_assert_eq!(outputs.contacts, 0);
+        prop_assert!(outputs.faults.any() || outputs.friction == outputs.groove_friction);
+        // One ball has no neighbour, whatever the grooves do.
+        let mut random = Random(seed);
+        let (configuration, mut model, _) = accepted::<UncagedBallScrew<1>>(&mut random);
+        let sensors = [
+            speed.clamp(-configuration.limits.nut_speed, configuration.limits.nut_speed),
+            load.clamp(-configuration.limits.axial_load, configuration.limits.axial_load),
+            0.0,
+        ];
+        let outputs = model.step(UncagedBallScrew::<1>::inputs(sensors));
+        prop_assert_eq!((outputs.contacts, outputs.ball_friction), (0, 0.0));
+        let (_, mut model, _) = accepted::<LinearBearingTrain<1>>(&mut random);
+        let outputs = model.step(LinearBearingTrain::<1>::inputs([1e-7, 1.0, 0.0]));
+        prop_assert_eq!((outputs.contacts, outputs.ball_friction), (0, 0.0));
+    }
+
+    #[test]
+    fn pushes_scale_and_only_dissipate(
+        free in prop::array::uniform9(-0.05_f32..0.05),
+        impedance in prop::array::uniform9(1.0_f32..1e6),
+        room in prop::array::uniform9(0.0_f32..0.02),
+    ) {
+        let mut press = Press::<9>::new();
+        prop_assert!(press.solve(&free, &impedance, &room));
+        let forces: Vec<f32> = press.forces().collect();
+        // Twice the impedance is twice the force, to the bit.
+        let mut stiff = Press::<9>::new();
+        prop_assert!(stiff.solve(&free, &impedance.map(|y| 2.0 * y), &room));
+        prop_assert!(stiff.forces().zip(&forces).all(|(twice, once)| twice == 2.0 * once));
+        // No ball ends faster than the fastest or slower than the slowest would run.
+        let fastest = free.iter().copied().fold(f32::MIN, f32::max);
+        let slowest = free.iter().copied().fold(f32::MAX, f32::min);
+        for speed in press.speeds() {
+            prop_assert!(speed <= fastest + 1e-6 && speed >= slowest - 1e-6);
+        }
+        // Forces push ahead and back alike, and are there only where the room is used up.
+        let speeds: Vec<f32> = press.speeds().collect();
+        for j in 0..9 {
+            let closing = speeds[j] - speeds[(j + 1) % 9];
+            prop_assert!(closing <= room[j] + 1e-6);
+            prop_assert!(forces[j] == 0.0 || closing >= room[j] - 1e-6);
+        }
+    }
+}

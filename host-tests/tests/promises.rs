@@ -1,0 +1,257 @@
+//! The table of promises: measured, and printed where it says.
+
+mod absurd;
+
+use std::fmt::Write;
+
+use absurd::Random;
+use epas_friction::promises::{self, Promise};
+use epas_friction::{
+    CATALOGUE, ContactAngle, EfficiencyGeometry, FittedCurvature, FrictionMap, GothicArch, Groove,
+    HertzContact, math,
+};
+use epas_reference::curvature::{self, Surface};
+use epas_reference::efficiency::Screw;
+use epas_reference::friction::maps;
+use epas_reference::hertz::Hertz;
+
+/// Measured errors of one function.
+#[derive(Default)]
+struct Errors {
+    largest: f64,
+    squares: f64,
+    sum: f64,
+    count: u32,
+    worst: String,
+}
+
+impl Errors {
+    fn add(&mut self, error: f64, line: impl FnOnce() -> String) {
+        if error.is_nan() || error.abs() > self.largest {
+            self.largest = error.abs();
+            self.worst = line();
+        }
+        self.squares += error * error;
+        self.sum += error;
+        self.count += 1;
+    }
+
+    fn hold(&self, promise: &Promise) {
+        let rms = (self.squares / f64::from(self.count)).sqrt();
+        let mean = self.sum / f64::from(self.count);
+        let line = format!(
+            "{}: {} inputs, largest {:.2e} ({:.2e} promised), rms {rms:.1e} ({:.1e}), mean {mean:+.1e} ({:.1e}); worst {}",
+            promise.function,
+            self.count,
+            self.largest,
+            promise.largest,
+            promise.rms,
+            promise.mean,
+            self.worst,
+        );
+        println!("{line}");
+        assert!(
+            self.largest <= promise.largest && rms <= promise.rms && mean.abs() <= promise.mean,
+            "{line}"
+        );
+    }
+}
+
+/// Error of `found` in units of the last place of the exact value.
+fn ulps(found: f32, exact: f64) -> f64 {
+    let rounded = (exact as f32).abs();
+    let ulp = f64::from(f32::from_bits(rounded.to_bits() + 1)) - f64::from(rounded);
+    (f64::from(found) - exact) / ulp
+}
+
+const INPUTS: u32 = 400_000;
+
+#[test]
+fn scalar_kernels() {
+    let mut random = Random(21);
+    let (mut sqrt, mut cbrt, mut squared, mut angles) = (
+        Errors::default(),
+        Errors::default(),
+        Errors::default(),
+        Errors::default(),
+    );
+    for _ in 0..INPUTS {
+        let x = f32::from_bits(random.below(0x7f80_0000) as u32);
+        let exact = f64::from(x);
+        let line = || format!("{x:e}");
+        sqrt.add(ulps(math::sqrt(x), exact.sqrt()), line);
+        cbrt.add(ulps(math::cbrt(x), exact.cbrt()), line);
+        // Twice the cube root's rounding in f64 is far below an f32's.
+        squared.add(ulps(math::cbrt_squared(x), exact.cbrt().powi(2)), line);
+        let angle = std::f32::consts::TAU * (2.0 * random.unit() - 1.0);
+        let (sin, cos) = math::sin_cos(angle);
+        let line = || format!("{angle:e}");
+        angles.add(f64::from(sin) - f64::from(angle).sin(), line);
+        angles.add(f64::from(cos) - f64::from(angle).cos(), line);
+    }
+    sqrt.hold(&promises::SQRT);
+    cbrt.hold(&promises::CBRT);
+    squared.hold(&promises::CBRT_SQUARED);
+    angles.hold(&promises::SIN_COS);
+}
+
+#[test]
+fn curvatures() {
+    let mut random = Random(22);
+    let (mut exact, mut fitted) = (Errors::default(), Errors::default());
+    for _ in 0..INPUTS / 4 {
+        let size = random.of(&CATALOGUE);
+        let design = size.design().unwrap();
+        let (groove, side) = random.of(&[
+            (Groove::Screw, curvature::Groove::Screw),
+            (Groove::Nut, curvature::Groove::Nut),
+        ]);
+        let angle = random.within(0.0, 80_f32.to_radians());
+        // The reference from exactly the numbers that the crate has.
+        let profile = design.profile(groove);
+        let path = design.path();
+        let (kappa, tau) = (f64::from(path.curvature), f64::from(path.torsion));
+        let lead_angle = (tau / kappa).atan();
+        let surface = Surface {
+            groove: side,
+            pitch_radius: lead_angle.cos().powi(2) / kappa,
+            lead_angle,
+            groove_radius: f64::from(profile.groove_radius),
+            offset_h: f64::from(profile.offset_h),
+            offset_l: f64::from(profile.offset_l),
+        };
+        let truth = surface.principal(f64::from(angle)).kappa1;
+        let given = ContactAngle::new(angle);
+        let line = || format!("{} {groove:?} {angle}", size.name);
+        let found = GothicArch::of(&design, groove).principal(given).kappa1;
+        exact.add(f64::from(found) / truth - 1.0, line);
+        if angle <= 1.256 {
+            let found = FittedCurvature::of(&design, groove).first(given);
+            fitted.add(f64::from(found) / truth - 1.0, line);
+        }
+    }
+    exact.hold(&promises::GOTHIC_ARCH);
+    fitted.hold(&promises::FITTED_CURVATURE);
+}
+
+#[test]
+fn contact_ellipses() {
+    let mut random = Random(23);
+    let mut errors = Errors::default();
+    for _ in 0..INPUTS / 10 {
+        let first = random.size(1e-4, 1e-2);
+        let second = first * random.size(1.0, 9.9e4);
+        let (modulus, load) = (random.size(1e10, 1e12), random.size(1e-3, 1e6));
+        let found = HertzContact::checked(first, second, modulus)
+            .unwrap()
+            .at(load);
+        let exact = Hertz::new(first.into(), second.into(), modulus.into())
+            .unwrap()
+            .at(load.into());
+        for (found, exact) in [
+            (found.semi_major, exact.semi_major),
+            (found.semi_minor, exact.semi_minor),
+            (found.deflection, exact.deflection),
+            (found.max_pressure, exact.max_pressure),
+        ] {
+            let error = f64::from(found) / exact - 1.0;
+            errors.add(error, || format!("{first} {second} {modulus} {load}"));
+        }
+    }
+    errors.hold(&promises::HERTZ);
+}
+
+#[test]
+fn efficiencies() {
+    let mut random = Random(24);
+    let mut errors = Errors::default();
+    for _ in 0..INPUTS {
+        let lead_angle = random.within(0.5_f32.to_radians(), 60_f32.to_radians());
+        let contact_angle = random.within(5_f32.to_radians(), 85_f32.to_radians());
+        let friction = random.size(1e-3, 0.3);
+        let found = EfficiencyGeometry::new(lead_angle, contact_angle, 0.2)
+            .unwrap()
+            .sliding_efficiency(friction);
+        let exact = Screw {
+            lead_angle: lead_angle.into(),
+            contact_angle: contact_angle.into(),
+            friction: friction.into(),
+            ball_ratio: 0.2,
+            rolling_tangent: 0.0,
+        };
+        if exact.locked_drive() {
+            continue;
+        }
+        errors.add(f64::from(found) - exact.sliding_drive(), || {
+            format!("{lead_angle} {contact_angle} {friction}")
+        });
+    }
+    errors.hold(&promises::EFFICIENCY);
+}
+
+#[test]
+fn friction_maps() {
+    let mut random = Random(25);
+    let mut errors = Errors::default();
+    for _ in 0..300 {
+        let axis_ratio = random.within(0.05, 1.0);
+        let fast = FrictionMap::new(axis_ratio).unwrap();
+        let exact = maps::FrictionMap::new(axis_ratio.into()).unwrap();
+        for _ in 0..20 {
+            let offset = random.sign() * random.size(1e-2, 1e3);
+            let error = f64::from(fast.force(offset)) - exact.at(offset.into()).force;
+            errors.add(error, || format!("{axis_ratio} {offset}"));
+        }
+    }
+    errors.hold(&promises::FRICTION_MAP);
+}
+
+/// A number with an exponent where it is small.
+fn shown(number: f64) -> String {
+    if number < 0.1 {
+        format!("{number:e}")
+    } else {
+        number.to_string()
+    }
+}
+
+/// The table as Markdown, as it stands in `src/promises.md`.
+fn table() -> String {
+    let mut text = String::from(
+        "\n| function | domain | error | largest | rms | mean | outside | NaN, infinities | zeros, subnormals | cycles |\n\
+         |---|---|---|---|---|---|---|---|---|---|\n",
+    );
+    for Promise {
+        function,
+        domain,
+        error,
+        largest,
+        rms,
+        mean,
+        outside,
+        not_finite,
+        tiny,
+        cycles,
+    } in promises::ALL
+    {
+        let _ = writeln!(
+            text,
+            "| `{function}` | {domain} | {error} | {} | {} | {} | {outside} | {not_finite} | {tiny} | {cycles} |",
+            shown(largest),
+            shown(rms),
+            shown(mean),
+        );
+    }
+    text
+}
+
+#[test]
+fn the_page_shows_the_table() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../src/promises.md");
+    let page = std::fs::read_to_string(path).unwrap();
+    assert!(
+        page == table(),
+        "src/promises.md has to hold exactly:\n{}",
+        table()
+    );
+}

@@ -1,0 +1,187 @@
+//! Friction of a contact that slips in any direction and spins, against quadrature.
+
+use epas_friction::SlipMap;
+use epas_reference::friction::patch::{Patch, PatchFriction, PatchVelocity};
+use std::f64::consts::TAU;
+
+/// Errors of a sweep: no case above `bound`; largest, rms and mean are printed for the documentation.
+struct Errors {
+    name: String,
+    bound: f64,
+    max: f64,
+    squares: f64,
+    sum: f64,
+    count: f64,
+}
+
+impl Errors {
+    fn within(bound: f64, name: &str) -> Self {
+        Self {
+            name: name.to_owned(),
+            bound,
+            max: 0.0,
+            squares: 0.0,
+            sum: 0.0,
+            count: 0.0,
+        }
+    }
+
+    fn add(&mut self, error: f64, case: &str) {
+        assert!(
+            error.abs() <= self.bound,
+            "{}: {error:.2e} above {:.1e} at {case}",
+            self.name,
+            self.bound
+        );
+        self.max = self.max.max(error.abs());
+        self.squares += error * error;
+        self.sum += error;
+        self.count += 1.0;
+    }
+
+    fn finish(&self, rms: f64, bias: f64) {
+        let (found, mean) = ((self.squares / self.count).sqrt(), self.sum / self.count);
+        println!(
+            "{}: max {:.1e} rms {found:.1e} mean {mean:+.1e} of {}",
+            self.name, self.max, self.count
+        );
+        assert!(
+            found <= rms && mean.abs() <= bias,
+            "{}: {found:e} {mean:e}",
+            self.name
+        );
+    }
+}
+
+/// Patches with semi-major axis and friction one; slips over the spin from 1e-4 to 1e4 semi-major axes.
+fn sweep(axis_ratio: f32, mut check: impl FnMut([f32; 3], &PatchFriction, &str)) {
+    let patch = Patch {
+        semi_major: 1.0,
+        semi_minor: f64::from(axis_ratio),
+        friction_limit: 1.0,
+    };
+    for distance in (0..=80).map(|i| 10_f64.powf(-4.0 + 0.1 * f64::from(i))) {
+        for angle in (0..12).map(|j| TAU * f64::from(j) / 44.0) {
+            for (spin, turn) in [(1.0_f32, 1.0), (-2.0, -1.0)] {
+                let across = (turn * distance * angle.sin()) as f32;
+                let along = (distance * angle.cos()) as f32;
+                let exact = patch.friction(PatchVelocity {
+                    slip_major: f64::from(across),
+                    slip_minor: f64::from(along),
+                    spin: f64::from(spin),
+                });
+                let case = format!(
+                    "axis ratio {axis_ratio}, slip {across:e} across {along:e} along, spin {spin}"
+                );
+                check([across, along, spin], &exact, &case);
+            }
+        }
+    }
+}
+
+#[test]
+fn forces_moment_power_and_stiffness_are_those_of_the_contact_integral() {
+    let mut power = Errors::within(3e-4, "power, relative");
+    let mut force = Errors::within(5e-4, "force over its limit");
+    let mut moment = Errors::within(5e-4, "moment over that of sliding at the semi-major axis");
+    // Two terms of the far field are off by this much where it takes over.
+    let mut stiffness = Errors::within(6e-3, "stiffness over the sum of both");
+    for axis_ratio in [0.05_f32, 0.1, 0.2321, 0.35, 0.5, 0.8, 0.95] {
+        let map = SlipMap::new(axis_ratio).unwrap();
+        sweep(axis_ratio, |[across, along, spin], exact, case| {
+            let fast = map.dissipation(across, along, spin, 1.0, 0.0);
+            power.add(f64::from(fast.power) / exact.power - 1.0, case);
+            power.add(f64::from(fast.potential) / exact.power - 1.0, case);
+            let [by_across, by_along, by_spin] = exact.gradient;
+            force.add(f64::from(fast.across) - by_across, case);
+            force.add(f64::from(fast.along) - by_along, case);
+            moment.add(f64::from(fast.moment) - by_spin, case);
+
+            let exact = &exact.hessian;
+            let size = exact[0][0] + exact[1][1];
+            for (fast, exact) in [
+                (fast.stiffness_across, exact[0][0]),
+                (fast.stiffness_mixed, exact[0][1]),
+                (fast.stiffness_along, exact[1][1]),
+            ] {
+                stiffness.add((f64::from(fast) - exact) / size, case);
+            }
+            // The column of the spin follows from the tilts.
+            let distance = 1.0 + f64::from(across.hypot(along) / spin.abs());
+            let (first, second) = (f64::from(fast.tilt_across), f64::from(fast.tilt_along));
+            let by_spin = -f64::from(fast.stiffness_across) * first
+                - f64::from(fast.stiffness_mixed) * second;
+            stiffness.add((by_spin - exact[0][2]) / (size * distance), case);
+        });
+    }
+    power.finish(3e-5, 1e-6);
+    force.finish(3e-5, 1e-6);
+    moment.finish(3e-5, 1e-6);
+    stiffness.finish(3e-4, 1e-5);
+}
+
+/// Forces are the slopes of the potential, with the stick treatment too: one convex function.
+#[test]
+fn forces_are_slopes_of_the_potential() {
+    let map = SlipMap::new(0.25).unwrap();
+    let stick = 0.3;
+    for spin in [0.0_f32, 0.1, 1.0] {
+        for distance in [0.05_f32, 0.2, 0.7, 1.4, 3.0] {
+            for angle in [0.1_f32, 0.6, 1.2] {
+                let (across, along) = (distance * angle.sin(), distance * angle.cos());
+                let at = |x: f32, z: f32, w: f32| {
+                    f64::from(map.dissipation(z, x, w, 1.0, stick).potential)
+                };
+                let here = map.dissipation(across, along, spin, 1.0, stick);
+                // Rounding of the potential (3e-7) over the step, and a sixth of its square.
+                let step = 0.005_f32;
+                let width = 2.0 * f64::from(step);
+                let slopes = [
+                    (
+                        here.across,
+                        at(along, across + step, spin) - at(along, across - step, spin),
+                    ),
+                    (
+                        here.along,
+                        at(along + step, across, spin) - at(along - step, across, spin),
+                    ),
+                    (
+                        here.moment,
+                        at(along, across, spin + step) - at(along, across, spin - step),
+                    ),
+                ];
+                for (given, difference) in slopes {
+                    assert!(
+                        (f64::from(given) - difference / width).abs() < 3e-3,
+                        "{across} {along} {spin}: {given} {}",
+                        difference / width
+                    );
+                }
+            }
+        }
+    }
+}
+
+/// Every slip and spin, rest and infinity among them, gives finite friction within its limit.
+#[test]
+fn hostile_slips_and_spins() {
+    let odd = [0.0, -0.0, 1e-30, 1.0, -1e6, 1e15, f32::INFINITY, f32::NAN];
+    for axis_ratio in [0.02, 0.2, 0.95] {
+        let map = SlipMap::new(axis_ratio).unwrap();
+        for across in odd {
+            for along in odd {
+                for spin in [0.0, -1e-20, 1.0, 1e10] {
+                    let at = map.dissipation(across, along, spin, 1e-3, 0.01);
+                    assert!(
+                        at.across.abs() < 1.01 && at.along.abs() < 1.01 && at.moment.is_finite(),
+                        "{across} {along} {spin}: {at:?}"
+                    );
+                }
+            }
+        }
+    }
+    for axis_ratio in [0.0, 0.019, 0.96, f32::NAN] {
+        let error = SlipMap::new(axis_ratio).unwrap_err();
+        assert_eq!(error.field(), "axis_ratio");
+    }
+}

@@ -1,0 +1,39 @@
+//! Adapters for `embedded-hal` 1.0, behind the feature `embedded-hal`: nut speed in, motor duty out.
+//!
+//! [`MagneticEncoder`] makes the nut's speed from a magnetic angle sensor on the rotor of the motor;
+//! [`FrictionFeedForward`] makes a duty cycle from the friction torque. Between the two stands
+//! [`FrictionModel`](crate::FrictionModel), which knows nothing of either.
+//!
+//! One tick of a control loop. A speed that is not known enters the model as NaN, comes out flagged,
+//! and leaves the bridge at its neutral duty:
+//!
+//! ```
+//! use embedded_hal::{pwm::SetDutyCycle, spi::SpiDevice};
+//! use epas_friction::{
+//!     CagedBallScrew, FrictionFeedForward, FrictionModel, Inputs, MagneticEncoder,
+//! };
+//!
+//! fn tick<SPI: SpiDevice, PWM: SetDutyCycle>(
+//!     encoder: &mut MagneticEncoder<SPI>,
+//!     model: &mut FrictionModel<CagedBallScrew>,
+//!     stage: &mut FrictionFeedForward<PWM>,
+//!     axial_load: f32,
+//!     turning: bool,
+//! ) -> Result<(), PWM::Error> {
+//!     let nut_speed = match encoder.tick(turning) {
+//!         Ok(motion) => motion.nut_speed,
+//!         Err(_fault) => f32::NAN, // and a diagnostic message
+//!     };
+//!     let outputs = model.step(Inputs { nut_speed, axial_load });
+//!     stage.apply(&outputs).map(|_| ())
+//! }
+//! ```
+
+mod encoder;
+mod feed_forward;
+mod frame;
+mod nut_speed;
+
+pub use encoder::{EncoderConfiguration, EncoderError, MagneticEncoder, NutMotion};
+pub use feed_forward::{AppliedDuty, FaultReaction, FeedForwardConfiguration, FrictionFeedForward};
+pub use frame::{Diagnostics, SensorErrors};

@@ -1,0 +1,198 @@
+//! Nut speed from a magnetic angle sensor on the rotor.
+
+use embedded_hal::spi::SpiDevice;
+
+use super::frame::{
+    DATA, Diagnostics, ERROR_FLAG, READ_ANGLE, READ_DIAGNOSTICS, READ_ERRORS, SensorErrors, even,
+};
+use super::nut_speed::{NoSpeed, NutSpeed};
+use crate::error::Error;
+
+/// How a rotor's angle becomes the nut's speed; unchecked.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct EncoderConfiguration {
+    /// Time between two calls of [`MagneticEncoder::tick`], s, 1e-6 to 1.
+    pub tick: f32,
+    /// Turns of the rotor in one turn of the nut, of magnitude 0.01 to 100: 1 on the nut itself, the
+    /// ratio of the pulleys with a belt between. Negative where the sensor counts down while the nut
+    /// turns forward.
+    pub gear_ratio: f32,
+    /// Largest nut speed that is believed, rad/s: 1e-3 up to a quarter of a turn of the rotor in one
+    /// tick, `pi / (2 gear_ratio tick)`.
+    pub largest_nut_speed: f32,
+    /// Time constant of the first-order smoothing of the speed, s, 0 (none) to 10.
+    pub smoothing_time: f32,
+    /// Number of ticks without a change of the angle, while the rotor is known to turn, after which
+    /// the sensor counts as stuck; 0 counts as 1 would.
+    pub stuck_ticks: u32,
+}
+
+/// Why a tick has no speed.
+#[non_exhaustive]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum EncoderError<E> {
+    /// The bus failed.
+    Bus(E),
+    /// An answer has odd parity.
+    Parity {
+        /// The frame as received.
+        frame: u16,
+    },
+    /// The sensor flagged an error of the interface; by reading it, it is cleared.
+    Interface(SensorErrors),
+    /// The sensor says that it has no valid angle (or the bus is stuck low).
+    NoAngle(Diagnostics),
+    /// The first angle, or the first after so many failed ticks that the rotor may have gone further
+    /// than a difference of angles tells.
+    NoEarlierReading,
+    /// The difference of the angles is more than the largest nut speed makes.
+    TooFast,
+    /// The angle does not change though the rotor turns.
+    Stuck {
+        /// Ticks without a change.
+        ticks: u32,
+    },
+}
+
+/// What a tick has measured.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct NutMotion {
+    /// Angle of the rotor, rad, 0 up to 2 pi.
+    pub rotor_angle: f32,
+    /// Angular speed of the nut, rad/s, smoothed.
+    pub nut_speed: f32,
+    /// What the sensor said of itself one tick before.
+    pub diagnostics: Diagnostics,
+}
+
+/// The nut's speed from an AS5047P-class magnetic encoder (14 bits a turn, 16-bit frames, SPI mode 1)
+/// on the rotor: `nut_speed = (angle - last_angle) / (gear_ratio tick)`, the shorter way round.
+///
+/// A tick exchanges two frames, each its own transaction: one asks for the angle and receives the
+/// sensor's diagnostics that the tick before asked for, the other receives the angle and asks for the
+/// diagnostics. So every tick sees the sensor's health, and a bus stuck low, which would read as angle
+/// 0 with sound parity, is found at the next tick at the latest. Start and recovery take one frame
+/// more, an error flag two.
+///
+/// **Resolution.** The speed from one difference comes in steps of [`MagneticEncoder::resolution`],
+/// `2 pi / 2^14 / tick / gear_ratio`: 0.38 rad/s at 1 ms, 7.7 rad/s at 50 us, both with gear ratio 1.
+/// Smoothing with a time constant of `n` ticks makes the ripple about `n` times finer and the speed
+/// `n` ticks late. Let the reversal speed of the model be more than this ripple.
+///
+/// **Wrap-around.** A difference tells up to half a turn. The largest speed believed is at most a
+/// quarter of a turn in a tick; beyond it, up to three times as fast at least, a tick is
+/// [`EncoderError::TooFast`] and never a wrong speed. After failed ticks the difference spans them, as
+/// long as the rotor cannot have gone more than a quarter of a turn; then one tick is
+/// [`EncoderError::NoEarlierReading`].
+///
+/// A failed tick changes nothing but the count of ticks since the last angle; after
+/// [`EncoderError::TooFast`] the new angle is taken as the base, so that one bad angle costs two ticks.
+#[derive(Debug)]
+pub struct MagneticEncoder<SPI> {
+    spi: SPI,
+    speed: NutSpeed,
+    /// The sensor's next answer is its diagnostics.
+    asked: bool,
+}
+
+impl<SPI: SpiDevice> MagneticEncoder<SPI> {
+    /// Checks the configuration. Nothing is sent.
+    ///
+    /// # Errors
+    /// [`Error`] naming `tick`, `gear_ratio`, `largest_nut_speed` or `smoothing_time`.
+    pub fn new(spi: SPI, configuration: &EncoderConfiguration) -> Result<Self, Error> {
+        Ok(Self {
+            spi,
+            speed: NutSpeed::new(configuration)?,
+            asked: false,
+        })
+    }
+
+    /// Reads the angle and makes the speed; call it every [`EncoderConfiguration::tick`].
+    ///
+    /// `turning` says that something else knows that the rotor turns by more than a count in
+    /// [`EncoderConfiguration::stuck_ticks`] (the phase currents, a voltage model, the column's angle);
+    /// `false` where nothing does: at standstill an unchanged angle is no fault.
+    ///
+    /// # Errors
+    /// [`EncoderError`]; the next sound tick is as if nothing had been.
+    pub fn tick(&mut self, turning: bool) -> Result<NutMotion, EncoderError<SPI::Error>> {
+        let (angle, diagnostics) = match self.sample() {
+            Ok(sample) => sample,
+            Err(error) => {
+                self.asked = false;
+                self.speed.miss();
+                return Err(error);
+            }
+        };
+        match self.speed.take(angle, turning) {
+            Ok(nut_speed) => Ok(NutMotion {
+                rotor_angle: NutSpeed::rotor_angle(angle),
+                nut_speed,
+                diagnostics,
+            }),
+            Err(NoSpeed::NoEarlierReading) => Err(EncoderError::NoEarlierReading),
+            Err(NoSpeed::TooFast) => Err(EncoderError::TooFast),
+            Err(NoSpeed::Stuck(ticks)) => Err(EncoderError::Stuck { ticks }),
+        }
+    }
+
+    /// Nut speed of one count in one tick, rad/s: the step of an unsmoothed speed.
+    pub fn resolution(&self) -> f32 {
+        self.speed.resolution()
+    }
+
+    /// The bus device back.
+    pub fn release(self) -> SPI {
+        self.spi
+    }
+
+    /// The angle in counts, and the diagnostics asked for before it.
+    fn sample(&mut self) -> Result<(u16, Diagnostics), EncoderError<SPI::Error>> {
+        if !self.asked {
+            // The answer belongs to a command that nobody remembers.
+            self.exchange(READ_DIAGNOSTICS)?;
+            self.asked = true;
+        }
+        let diagnostics = Diagnostics(self.answer(READ_ANGLE)?);
+        let angle = self.answer(READ_DIAGNOSTICS)?;
+        if diagnostics.angle_is_valid() {
+            Ok((angle, diagnostics))
+        } else {
+            Err(EncoderError::NoAngle(diagnostics))
+        }
+    }
+
+    /// Sends a command; the data of the answer to the command before it.
+    fn answer(&mut self, command: u16) -> Result<u16, EncoderError<SPI::Error>> {
+        let frame = checked(self.exchange(command)?)?;
+        if frame & ERROR_FLAG == 0 {
+            return Ok(frame & DATA);
+        }
+        self.exchange(READ_ERRORS)?;
+        let errors = checked(self.exchange(READ_DIAGNOSTICS)?)?;
+        Err(EncoderError::Interface(SensorErrors(errors & DATA)))
+    }
+
+    /// One frame each way, in a transaction of its own: the sensor takes a command when it is
+    /// deselected.
+    fn exchange(&mut self, command: u16) -> Result<u16, EncoderError<SPI::Error>> {
+        let mut bytes = command.to_be_bytes();
+        self.spi
+            .transfer_in_place(&mut bytes)
+            .map_err(EncoderError::Bus)?;
+        Ok(u16::from_be_bytes(bytes))
+    }
+}
+
+/// The frame, if its parity is even.
+fn checked<E>(frame: u16) -> Result<u16, EncoderError<E>> {
+    if even(frame) {
+        Ok(frame)
+    } else {
+        Err(EncoderError::Parity { frame })
+    }
+}

@@ -1,0 +1,151 @@
+//! Friction torque to duty cycle.
+
+use embedded_hal::pwm::SetDutyCycle;
+
+use crate::error::{Error, in_range};
+use crate::scene::{Faults, Outputs};
+
+/// Which flagged outputs take the torque away.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum FaultReaction {
+    /// Any flag: neutral.
+    #[default]
+    NeutralOnAnyFault,
+    /// A value at its limit ([`Faults::SPEED_RANGE`], [`Faults::LOAD_RANGE`],
+    /// [`Faults::TORQUE_LIMIT`]) is still put out, so that the torque does not drop where it is largest;
+    /// any other flag: neutral.
+    LimitedValuesPass,
+}
+
+/// How a torque becomes a duty cycle; unchecked.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct FeedForwardConfiguration {
+    /// Torque about the nut's axis that full duty stands for, N m, 1e-6 to 1e6. With a belt: the
+    /// motor's torque times the gear ratio.
+    pub full_torque: f32,
+    /// Largest torque that is put out, N m, 0 up to `full_torque`: the authority of the compensation.
+    pub largest_torque: f32,
+    /// Share of the friction torque that is put out, 0 to 1. Less than 1 leaves some friction to the
+    /// driver and keeps an estimate that is too large from turning the wheel by itself.
+    pub share: f32,
+    /// Which flagged outputs take the torque away.
+    pub reaction: FaultReaction,
+}
+
+/// What was put out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct AppliedDuty {
+    /// The duty cycle, counts of the channel's own scale.
+    pub duty: u16,
+    /// The torque was cut to [`FeedForwardConfiguration::largest_torque`].
+    pub saturated: bool,
+    /// The outputs were flagged or no numbers: neutral duty in their place.
+    pub neutral: bool,
+}
+
+/// Puts a share of the friction torque out as an offset-binary duty cycle: half the scale is no
+/// torque, none is `-full_torque`, all is `+full_torque`:
+/// `duty = round((1 + share torque / full_torque) max_duty / 2)`.
+///
+/// One channel without a direction pin: the reference input of a motor driver, or an H bridge in
+/// locked antiphase. The torque saturates at `largest_torque`; flagged outputs and a torque that is no
+/// number give the neutral duty, which is also what [`FrictionFeedForward::neutral`] gives for a
+/// controller that stops. Cost: three multiplications, no division.
+#[derive(Debug)]
+pub struct FrictionFeedForward<PWM> {
+    pwm: PWM,
+    /// `share / (2 full_torque)`.
+    scale: f32,
+    /// `largest_torque / (2 full_torque)`.
+    largest: f32,
+    reaction: FaultReaction,
+}
+
+impl<PWM: SetDutyCycle> FrictionFeedForward<PWM> {
+    /// Checks the configuration. The duty cycle is left as it is; call
+    /// [`FrictionFeedForward::neutral`] before the bridge is enabled.
+    ///
+    /// # Errors
+    /// [`Error`] naming `full_torque`, `largest_torque` or `share`.
+    pub fn new(pwm: PWM, configuration: &FeedForwardConfiguration) -> Result<Self, Error> {
+        let FeedForwardConfiguration {
+            full_torque,
+            largest_torque,
+            share,
+            reaction,
+        } = *configuration;
+        in_range("full_torque", full_torque, 1e-6, 1e6)?;
+        in_range("largest_torque", largest_torque, 0.0, full_torque)?;
+        in_range("share", share, 0.0, 1.0)?;
+        Ok(Self {
+            pwm,
+            scale: 0.5 * share / full_torque,
+            largest: 0.5 * largest_torque / full_torque,
+            reaction,
+        })
+    }
+
+    /// Puts out the friction torque of a tick.
+    ///
+    /// # Errors
+    /// The channel's own error.
+    pub fn apply(&mut self, outputs: &Outputs) -> Result<AppliedDuty, PWM::Error> {
+        let value = outputs.friction_torque * self.scale;
+        if !value.is_finite() || self.refuses(outputs.faults) {
+            let duty = self.put(0.0)?;
+            return Ok(AppliedDuty {
+                duty,
+                saturated: false,
+                neutral: true,
+            });
+        }
+        let (value, saturated) = if value > self.largest {
+            (self.largest, true)
+        } else if value < -self.largest {
+            (-self.largest, true)
+        } else {
+            (value, false)
+        };
+        Ok(AppliedDuty {
+            duty: self.put(value)?,
+            saturated,
+            neutral: false,
+        })
+    }
+
+    /// Puts out no torque.
+    ///
+    /// # Errors
+    /// The channel's own error.
+    pub fn neutral(&mut self) -> Result<(), PWM::Error> {
+        self.put(0.0).map(|_| ())
+    }
+
+    /// The channel back, at the duty that it has.
+    pub fn release(self) -> PWM {
+        self.pwm
+    }
+
+    fn refuses(&self, faults: Faults) -> bool {
+        const LIMITED: u8 =
+            Faults::SPEED_RANGE.bits() | Faults::LOAD_RANGE.bits() | Faults::TORQUE_LIMIT.bits();
+        match self.reaction {
+            FaultReaction::NeutralOnAnyFault => faults.any(),
+            FaultReaction::LimitedValuesPass => faults.bits() & !LIMITED != 0,
+        }
+    }
+
+    /// Puts out a torque, -1/2 to 1/2 of the scale.
+    fn put(&mut self, value: f32) -> Result<u16, PWM::Error> {
+        let scale = self.pwm.max_duty_cycle();
+        // The cast rounds down and saturates, so that the half rounds to nearest and an uneven scale
+        // has its neutral half a count above the middle.
+        let duty = (f32::from(scale) * (0.5 + value) + 0.5) as u16;
+        let duty = if duty > scale { scale } else { duty };
+        self.pwm.set_duty_cycle(duty)?;
+        Ok(duty)
+    }
+}
