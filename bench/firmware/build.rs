@@ -19,4 +19,7 @@ fn main() {
         .unwrap_or_else(|error| panic!("cannot copy {}: {error}", memory.display()));
     println!("cargo:rustc-link-search={}", folder.display());
     println!("cargo:rustc-link-arg-bins=-Tlink.x");
+    if env::var_os("CARGO_FEATURE_LOG").is_some() {
+        println!("cargo:rustc-link-arg-bins=-Tdefmt.x");
+    }
 }

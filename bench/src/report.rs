@@ -3,6 +3,7 @@
 
 mod applications;
 mod bearings;
+mod cortex_m;
 mod curvature;
 mod document;
 mod efficiency;
@@ -18,6 +19,7 @@ mod trains;
 use std::path::PathBuf;
 
 use crate::failure::Failure;
+use crate::target::TargetFigures;
 use crate::timing::{Competition, compete};
 use document::{Document, Section};
 
@@ -48,6 +50,7 @@ impl Default for Arguments {
 struct Context {
     quick: bool,
     competition: Vec<Competition>,
+    target: TargetFigures,
 }
 
 impl Context {
@@ -64,7 +67,7 @@ impl Context {
 type MakeSection = fn(&Context) -> Result<Section, Failure>;
 
 /// Every section, in the order of the report.
-const SECTIONS: [MakeSection; 11] = [
+const SECTIONS: [MakeSection; 12] = [
     summary::section,
     curvature::section,
     hertz::section,
@@ -76,6 +79,7 @@ const SECTIONS: [MakeSection; 11] = [
     applications::section,
     published::section,
     kernels::section,
+    cortex_m::section,
 ];
 
 /// Makes the report.
@@ -84,6 +88,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let context = Context {
         quick: arguments.quick,
         competition: compete(rounds)?,
+        target: TargetFigures::new(arguments.quick)?,
     };
     let sections = SECTIONS
         .iter()

@@ -24,7 +24,7 @@ use crate::designs::{self, DesignSource};
 use crate::failure::Failure;
 use crate::files::{self, Existing, Pending};
 use loads::Format;
-use manoeuvre::Manoeuvre;
+pub use manoeuvre::Manoeuvre;
 use reference::Reference;
 use subject::{Scene, Subject};
 use summary::Summary;
@@ -61,6 +61,8 @@ use train::TrainRow;
 /// balls) or ball_spacing; and if wanted ball_oversize (of the radius; a number, or a list with one for each
 /// ball), end_offset (x displacement forced on the right end), pitch_error and roundness_error (amplitudes
 /// of the screw's groove, once and twice a turn).
+// Each is a flag of the command line.
+#[allow(clippy::struct_excessive_bools)]
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// Print the names of the built-in designs

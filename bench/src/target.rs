@@ -3,6 +3,7 @@
 mod budgets;
 mod cycles;
 mod image;
+mod log;
 mod measure;
 mod stored;
 mod tools;
@@ -10,9 +11,9 @@ mod trace;
 
 use std::io::{self, Write as _};
 
-pub use budgets::{BUDGETS, Budget};
-pub use measure::{Figures, FunctionFigures, measure};
-pub use tools::check as check_tools;
+pub use budgets::{BUDGETS, figure};
+pub use measure::Figures;
+use measure::measure;
 
 use crate::failure::Failure;
 
@@ -22,6 +23,8 @@ use crate::failure::Failure;
 /// no measurement in silicon. Flash, RAM and stack are those of one image for each scene. The same run
 /// compares the results of every function with the host's, bit for bit. Needs qemu-system-arm and the
 /// target thumbv7em-none-eabihf, and says which command adds them.
+// Each is a switch of the command line.
+#[allow(clippy::struct_excessive_bools)]
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// Print one JSON object instead of tables
@@ -36,12 +39,52 @@ pub struct Arguments {
     /// Store the host's results that the firmware compares its own with, and do nothing else
     #[arg(long, conflicts_with_all = ["gate", "store", "json"])]
     store_cases: bool,
+    /// Print the log of the debug firmware, sent through defmt and decoded, and do nothing else
+    #[arg(long, conflicts_with_all = ["gate", "store", "json", "store_cases"])]
+    log: bool,
+}
+
+/// Figures for a report, measured where that is possible.
+pub struct TargetFigures {
+    /// The figures.
+    pub figures: Figures,
+    /// Where they come from, in a sentence.
+    pub source: String,
+}
+
+impl TargetFigures {
+    /// Measures, or takes the stored figures: where a look is enough, or tools are missing.
+    pub fn new(quick: bool) -> Result<Self, Failure> {
+        let stored = |why: String| {
+            Ok(Self {
+                figures: stored::figures()?,
+                source: format!("Figures stored in bench/target.json{why}."),
+            })
+        };
+        if quick {
+            return stored(String::new());
+        }
+        match tools::check() {
+            Ok(()) => Ok(Self {
+                figures: measure()?,
+                source: "Counted in this run.".into(),
+            }),
+            Err(Failure::Data(missing)) => stored(format!(
+                ", because nothing can be counted on this machine: {missing}"
+            )),
+            Err(other) => Err(other),
+        }
+    }
 }
 
 /// Runs the subcommand.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.store_cases {
         return stored::write_cases();
+    }
+    if arguments.log {
+        io::stdout().lock().write_all(log::log()?.as_bytes())?;
+        return Ok(());
     }
     let figures = measure()?;
     if arguments.store {

@@ -257,6 +257,15 @@ counted! {
         micromath::F32Ext::powf(x, 2.0 / 3.0)
     }
 
+    /// `idsp`'s sine and cosine of a table, with the angle to and the results from integers.
+    fn count_idsp_sin_cos(x: f32) -> (f32, f32) {
+        let turns = x * (0.5 / core::f32::consts::PI);
+        let fraction = turns - turns as i32 as f32;
+        let (cos, sin) = idsp::cossin(((fraction * 2_147_483_648.0) as i32).wrapping_mul(2));
+        const UNIT: f32 = 1.0 / 2_147_483_648.0;
+        (sin as f32 * UNIT, cos as f32 * UNIT)
+    }
+
     /// One step of the LuGre model.
     fn count_lugre_step(model: &mut LuGre, speed: f32) -> f32 {
         model.step(speed)

@@ -7,6 +7,7 @@
 
 pub mod cases;
 pub mod contexts;
+pub mod control_loop;
 pub mod counted;
 pub mod peers;
 pub mod scenes;

@@ -13,8 +13,8 @@ use crate::counted::{
     count_curvature_circular_groove, count_curvature_exact, count_curvature_fitted,
     count_curvature_literature, count_efficiency_backdrive, count_efficiency_rolling,
     count_efficiency_sliding, count_friction_dissipation, count_friction_map, count_hertz_ellipse,
-    count_kinematics_ratios, count_kinematics_tick, count_kinematics_update, count_libm_cbrtf,
-    count_libm_cosf, count_libm_powf, count_libm_sincosf, count_libm_sqrtf,
+    count_idsp_sin_cos, count_kinematics_ratios, count_kinematics_tick, count_kinematics_update,
+    count_libm_cbrtf, count_libm_cosf, count_libm_powf, count_libm_sincosf, count_libm_sqrtf,
     count_linear_ball_analytic, count_linear_ball_refined, count_linear_chain_2, count_lugre_step,
     count_micromath_cos, count_micromath_powf, count_micromath_sqrt, count_press_37,
     count_rotary_ball_refined, count_sin_cos, count_sqrt, count_step_caged, count_step_efficiency,
@@ -461,6 +461,8 @@ subjects! {
         |c, [x]| -> [1] [timed!(c, count_micromath_cos(x))];
     micromath_powf: |spread| -> [1] positive(spread),
         |c, [x]| -> [1] [timed!(c, count_micromath_powf(x))];
+    idsp_sin_cos: |spread| -> [1] angle(spread),
+        |c, [x]| -> [2] two(timed!(c, count_idsp_sin_cos(x)));
     lugre_step: |spread| -> [1] [spread.between(-5.0, 5.0)],
         |c, [speed]| -> [1] [timed!(c, count_lugre_step(black_box(&mut c.lugre), speed))];
     stribeck_curve: |spread| -> [1] [spread.between(-5.0, 5.0)],

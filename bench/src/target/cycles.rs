@@ -32,7 +32,9 @@ impl Instruction {
     /// From its length and disassembly.
     pub fn new(size: u32, mnemonic: &str, operands: &str) -> Self {
         let name = mnemonic.split('.').next().unwrap_or(mnemonic);
-        let double = mnemonic.ends_with(".64") || mnemonic.ends_with(".f64");
+        let double = mnemonic
+            .rsplit_once('.')
+            .is_some_and(|(_, kind)| kind == "64" || kind == "f64");
         let listed = listed_registers(operands);
         let starts = |prefixes: &[&str]| prefixes.iter().any(|prefix| name.starts_with(prefix));
 

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 
+use addr2line::gimli;
 use object::read::elf::ElfFile32;
 use object::{
     Endianness, Object, ObjectSection, ObjectSymbol, RelocationTarget, SectionFlags, SectionKind,
@@ -170,4 +171,41 @@ fn reaches_itself(graph: &BTreeMap<u64, BTreeSet<u64>>, start: u64) -> bool {
         }
     }
     false
+}
+
+/// Every function that has code in an image, inlined ones included, by its debug information.
+pub fn code(path: &Path) -> Result<BTreeSet<String>, Failure> {
+    let failure = |error: &dyn std::fmt::Display| Failure::file("read", path, &error);
+    let bytes = fs::read(path).map_err(|error| failure(&error))?;
+    let file = ElfFile32::<Endianness>::parse(&*bytes).map_err(|error| failure(&error))?;
+    let dwarf = gimli::Dwarf::load(|id| -> Result<_, gimli::Error> {
+        let data = file
+            .section_by_name(id.name())
+            .and_then(|section| section.data().ok())
+            .unwrap_or_default();
+        Ok(gimli::EndianSlice::new(data, gimli::LittleEndian))
+    })
+    .map_err(|error| failure(&error))?;
+    let context = addr2line::Context::from_dwarf(dwarf).map_err(|error| failure(&error))?;
+    let mut names = BTreeSet::new();
+    for section in file.sections() {
+        if section.kind() != SectionKind::Text {
+            continue;
+        }
+        // Instructions are at least two bytes long.
+        for address in (section.address()..section.address() + section.size()).step_by(2) {
+            let mut frames = context
+                .find_frames(address)
+                .skip_all_loads()
+                .map_err(|error| failure(&error))?;
+            while let Some(frame) = frames.next().map_err(|error| failure(&error))? {
+                if let Some(function) = frame.function
+                    && let Ok(name) = function.raw_name()
+                {
+                    names.insert(format!("{:#}", rustc_demangle::demangle(&name)));
+                }
+            }
+        }
+    }
+    Ok(names)
 }

@@ -7,23 +7,89 @@ use epas_firmware::subjects::{COUNTED, PEERS, SUBJECTS};
 use serde::{Deserialize, Serialize};
 
 use super::budgets::{BUDGETS, figure};
-use super::image::Image;
+use super::image::{Image, code};
 use super::stored;
 use super::tools::{Built, Core, build, check};
 use super::trace::Calls;
 use crate::failure::Failure;
 
-/// Scenes, each with an image of its own.
-const SCENES: [&str; 6] = [
-    "curvature",
-    "efficiency",
-    "caged_ball_screw",
-    "linear_bearing",
-    "ball_screw_37",
-    "everything",
+/// Scenes, each with an image of its own, a module of the crate that it has, and those that it leaves out.
+const SCENES: [(&str, &str, &[&str]); 6] = [
+    (
+        "curvature",
+        "curvature",
+        &[
+            "efficiency",
+            "kinematics",
+            "contact",
+            "ball",
+            "train",
+            "scene",
+            "model",
+        ],
+    ),
+    (
+        "efficiency",
+        "efficiency",
+        &[
+            "curvature",
+            "hertz",
+            "kinematics",
+            "contact",
+            "ball",
+            "train",
+            "scene",
+            "model",
+        ],
+    ),
+    (
+        "caged_ball_screw",
+        "scene::caged",
+        &[
+            "curvature",
+            "hertz",
+            "kinematics",
+            "contact",
+            "ball",
+            "train",
+            "scene::linear",
+            "scene::screw",
+            "scene::uncaged",
+            "scene::zone",
+        ],
+    ),
+    (
+        "linear_bearing",
+        "train",
+        &[
+            "curvature",
+            "efficiency",
+            "kinematics",
+            "geometry::ball_screw",
+            "ball::screw::across",
+            "ball::four_point",
+            "scene::caged",
+            "scene::screw",
+        ],
+    ),
+    (
+        "ball_screw_37",
+        "ball::screw::row",
+        &[
+            "efficiency",
+            "kinematics",
+            "geometry::linear_bearing",
+            "ball::four_point",
+            "scene::caged",
+            "scene::linear",
+        ],
+    ),
+    ("everything", "train", &[]),
 ];
 
 /// What a run found.
+// Each says by itself whether something holds.
+#[allow(clippy::struct_excessive_bools)]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Figures {
     /// Functions of the crate, then what others offer.
@@ -44,6 +110,8 @@ pub struct Figures {
     pub unwanted: Vec<String>,
     /// Functions that can call themselves, directly or through others.
     pub recursive: Vec<String>,
+    /// Code of the crate in the image of a scene that leaves it out, inlined code included.
+    pub out_of_place: Vec<String>,
 }
 
 /// What a function takes, from its first instruction to its return.
@@ -96,13 +164,14 @@ pub fn measure() -> Result<Figures, Failure> {
     stored::check_cases()?;
     let names: Vec<String> = SCENES
         .iter()
-        .chain(&["empty"])
+        .map(|(name, _, _)| *name)
+        .chain(["empty"])
         .map(|scene| format!("scene_{scene}"))
         .collect();
     let images: Vec<&str> = names
         .iter()
         .map(String::as_str)
-        .chain(["check", "count"])
+        .chain(["check", "control_loop", "count"])
         .collect();
     let (folder, panic_free) = match build(&images, Core::M4, "release", "")? {
         Built::In(folder) => (folder, true),
@@ -116,8 +185,11 @@ pub fn measure() -> Result<Figures, Failure> {
     };
 
     let checked = Core::M4.run(&folder.join("check"))?;
-    if !checked.passed {
-        eprint!("{}", checked.text);
+    let looped = Core::M4.run(&folder.join("control_loop"))?;
+    for run in [&checked, &looped] {
+        if !run.passed {
+            eprint!("{}", run.text());
+        }
     }
 
     let mut figures = Figures {
@@ -126,15 +198,19 @@ pub fn measure() -> Result<Figures, Failure> {
         empty: scene(&folder, "empty", 0)?.0,
         panic_free,
         soft_double: false,
-        equal_to_host: checked.passed,
+        equal_to_host: checked.passed && looped.passed,
         scenes_equal: true,
         unwanted: Vec::new(),
         recursive: Vec::new(),
+        out_of_place: Vec::new(),
     };
     let mut alone = Vec::new();
     let mut together = Vec::new();
-    for name in SCENES {
+    for (name, has, left_out) in SCENES {
         let (scene, lines) = scene(&folder, name, figures.empty.flash)?;
+        figures
+            .out_of_place
+            .extend(out_of_place(&folder, name, has, left_out)?);
         figures.scenes.push(scene);
         let digests = lines.into_iter().map(|line| (line.name, line.digest));
         if name == "everything" {
@@ -229,13 +305,36 @@ fn count(core: Core, path: &Path) -> Result<Vec<(&'static str, Calls)>, Failure>
         .collect()
 }
 
+/// Functions in the image of a scene that belong to modules that it leaves out; one module that it has is
+/// looked for as well, or else nothing found would prove nothing.
+fn out_of_place(
+    folder: &Path,
+    name: &str,
+    has: &str,
+    left_out: &[&str],
+) -> Result<Vec<String>, Failure> {
+    let code = code(&folder.join(format!("scene_{name}")))?;
+    let belongs =
+        |function: &str, module: &str| function.contains(&format!("epas_friction::{module}::"));
+    if !code.iter().any(|function| belongs(function, has)) {
+        return Err(Failure::Data(format!(
+            "the debug information of scene {name} knows nothing of {has}"
+        )));
+    }
+    Ok(code
+        .into_iter()
+        .filter(|function| left_out.iter().any(|module| belongs(function, module)))
+        .map(|function| format!("{function} in {name}"))
+        .collect())
+}
+
 /// Runs the image of a scene.
 fn scene(folder: &Path, name: &str, empty: u64) -> Result<(SceneFigures, Vec<Line>), Failure> {
     let path = folder.join(format!("scene_{name}"));
     let image = Image::read(&path)?;
     let run = Core::M4.run(&path)?;
-    let lines: Option<Vec<Line>> = run
-        .text
+    let text = run.text();
+    let lines: Option<Vec<Line>> = text
         .lines()
         .map(|line| {
             let mut words = line.split_whitespace();
@@ -249,7 +348,7 @@ fn scene(folder: &Path, name: &str, empty: u64) -> Result<(SceneFigures, Vec<Lin
         .collect();
     let lines = lines.filter(|lines| run.passed && !lines.is_empty());
     let Some(lines) = lines else {
-        return Err(Failure::Data(format!("scene {name} failed:\n{}", run.text)));
+        return Err(Failure::Data(format!("scene {name} failed:\n{text}")));
     };
     let most = |value: fn(&Line) -> u64| lines.iter().map(value).max().unwrap_or(0);
     let figures = SceneFigures {
@@ -331,20 +430,30 @@ impl Figures {
                 );
             }
         }
-        let yes = |yes: bool| if yes { "yes" } else { "NO" };
-        let _ = writeln!(
-            text,
-            "\nresults equal to the host's bit for bit: {}\nno way to a panic: {}\n\
-             no double precision by software: {}\nscenes alone equal to all in one: {}\n\
-             no allocator, no formatting: {}\nno recursion: {}",
-            yes(self.equal_to_host),
-            yes(self.panic_free),
-            yes(!self.soft_double),
-            yes(self.scenes_equal),
-            yes(self.unwanted.is_empty()),
-            yes(self.recursive.is_empty())
-        );
+        let _ = writeln!(text, "\n{}", self.proofs());
         text
+    }
+
+    /// What holds of the images, a line each.
+    pub fn proofs(&self) -> String {
+        let yes = |yes: bool| if yes { "yes" } else { "NO" };
+        [
+            (
+                "results equal to the host's bit for bit",
+                self.equal_to_host,
+            ),
+            ("no way to a panic", self.panic_free),
+            ("no double precision by software", !self.soft_double),
+            ("scenes alone equal to all in one", self.scenes_equal),
+            ("no allocator, no formatting", self.unwanted.is_empty()),
+            ("no recursion", self.recursive.is_empty()),
+            (
+                "every scene without what it leaves out",
+                self.out_of_place.is_empty(),
+            ),
+        ]
+        .map(|(what, holds)| format!("{what}: {}", yes(holds)))
+        .join("\n")
     }
 
     /// Fails where something does not hold that must hold whatever it costs.
@@ -375,6 +484,10 @@ impl Figures {
         require(
             self.recursive.is_empty(),
             format!("recursive: {}", self.recursive.join(", ")),
+        );
+        require(
+            self.out_of_place.is_empty(),
+            format!("not left out: {}", self.out_of_place.join(", ")),
         );
         if broken.is_empty() {
             Ok(())

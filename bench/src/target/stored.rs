@@ -4,11 +4,14 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use epas_firmware::cases::{STORED, Sink, write};
+use epas_firmware::control_loop::{ControlLoop, RECORDED};
+use epas_firmware::scenes::design;
 
 use super::measure::Figures;
 use super::tools::firmware;
 use crate::failure::Failure;
 use crate::files::{self, Existing};
+use crate::simulate::Manoeuvre;
 
 /// Growth of a function's instructions that is let pass.
 const GROWTH: f64 = 1.05;
@@ -29,19 +32,47 @@ fn cases() -> Result<Vec<u8>, Failure> {
     Ok(bytes.0)
 }
 
+/// Ticks of the recorded manoeuvre, one for each millisecond.
+const TICKS: usize = 600;
+
+/// The manoeuvre that the firmware's control loop runs through, with what the host finds: a wheel strikes
+/// a kerb.
+fn manoeuvre() -> Result<Vec<u8>, Failure> {
+    let refused = |error| Failure::Data(format!("the firmware's designs are refused: {error}"));
+    let trace = Manoeuvre::Kerb.trace(&design().map_err(refused)?)?;
+    let record = |digest: u32| -> Vec<u8> {
+        let samples = trace.samples.iter().step_by(10).take(TICKS);
+        [TICKS as u32, digest]
+            .into_iter()
+            .chain(samples.flat_map(|sample| {
+                [sample.nut_speed, sample.axial_load].map(|value| (value as f32).to_bits())
+            }))
+            .flat_map(u32::to_le_bytes)
+            .collect()
+    };
+    // The loop reads what stands in flash for good.
+    let recorded = record(0).leak();
+    let mut control = ControlLoop::new(recorded).map_err(refused)?;
+    while control.tick() {}
+    Ok(record(control.digest()))
+}
+
 /// Stores the host's results.
 pub fn write_cases() -> Result<(), Failure> {
-    let path = firmware().join("cases.bin");
-    fs::write(&path, cases()?).map_err(|error| Failure::file("write", &path, &error))
+    for (name, bytes) in [("cases.bin", cases()?), ("manoeuvre.bin", manoeuvre()?)] {
+        let path = firmware().join(name);
+        fs::write(&path, bytes).map_err(|error| Failure::file("write", &path, &error))?;
+    }
+    Ok(())
 }
 
 /// Fails where the stored results are no longer the host's.
 pub fn check_cases() -> Result<(), Failure> {
-    if cases()? == STORED {
+    if cases()? == STORED && manoeuvre()? == RECORDED {
         Ok(())
     } else {
         Err(Failure::Data(
-            "the host's results are no longer those stored in bench/firmware/cases.bin; where that is meant:\n  \
+            "the host's results are no longer those stored in bench/firmware; where that is meant:\n  \
              cargo run --release -p epas-bench -- target --store-cases"
                 .into(),
         ))

@@ -120,9 +120,16 @@ fn output(command: &mut Command, name: &str) -> Result<Output, Failure> {
 /// What a program printed, and whether it passed.
 pub struct Run {
     /// Its output.
-    pub text: String,
+    pub output: Vec<u8>,
     /// Whether it ended with success.
     pub passed: bool,
+}
+
+impl Run {
+    /// Its output as text.
+    pub fn text(&self) -> String {
+        String::from_utf8_lossy(&self.output).into_owned()
+    }
 }
 
 /// A core, as QEMU has it.
@@ -166,17 +173,14 @@ impl Core {
     pub fn run(self, image: &Path) -> Result<Run, Failure> {
         let mut command = self.emulator(image);
         command.stdout(Stdio::piped()).stderr(Stdio::inherit());
-        let (passed, text) = watched(command, |child| {
+        let (passed, output) = watched(command, |child| {
             let mut bytes = Vec::new();
             if let Some(mut stream) = child.stdout.take() {
                 stream.read_to_end(&mut bytes)?;
             }
             Ok(bytes)
         })?;
-        Ok(Run {
-            text: String::from_utf8_lossy(&text).into_owned(),
-            passed,
-        })
+        Ok(Run { output, passed })
     }
 
     /// Runs an image with every instruction logged, and counts calls of the functions at some addresses.

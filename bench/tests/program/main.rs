@@ -5,7 +5,9 @@ mod loads;
 mod report;
 mod simulate;
 mod simulate_trains;
+mod target;
 mod trains;
+mod untrusted;
 
 use std::io::Write;
 use std::path::Path;
@@ -55,7 +57,7 @@ fn run(arguments: &[&str], input: &str) -> Run {
 fn help_names_every_subcommand() {
     let help = run(&["--help"], "");
     assert_eq!(help.code, 0);
-    for subcommand in ["report", "simulate", "eval"] {
+    for subcommand in ["report", "simulate", "eval", "target"] {
         assert!(help.stdout.contains(subcommand));
         assert_eq!(run(&[subcommand, "--help"], "").code, 0);
     }

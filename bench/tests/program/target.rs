@@ -1,0 +1,112 @@
+//! `target` where QEMU and the target are there; both are skipped by default and run by `.ci/run`.
+
+use super::run;
+
+use epas_firmware::scenes::{caged_configuration, course};
+use epas_firmware::spread::Spread;
+use epas_firmware::subjects::{CASES, PEERS, SUBJECTS, WIDEST};
+use epas_friction::{CagedBallScrew, FrictionModel, Inputs};
+
+/// What the debug firmware sends through defmt is what the same ticks give here, number by number.
+#[test]
+#[ignore = "needs QEMU and the target"]
+fn the_log_of_the_firmware_decodes() {
+    let log = run(&["target", "--log"], "");
+    assert_eq!(log.code, 0, "{}", log.stderr);
+    let mut caged = FrictionModel::<CagedBallScrew>::new(&caged_configuration().unwrap()).unwrap();
+    let mut lines = log.stdout.lines();
+    for tick in [100, 300, 500] {
+        let (nut_speed, axial_load) = course(tick);
+        let inputs = Inputs {
+            nut_speed,
+            axial_load,
+        };
+        let outputs = caged.step(inputs);
+        let line = lines
+            .by_ref()
+            .find(|line| line.contains("caged "))
+            .unwrap_or_else(|| panic!("tick {tick} is missing in\n{}", log.stdout));
+        assert!(
+            line.contains(&format!("friction_torque: {}", outputs.friction_torque)),
+            "{line}\n{outputs:?}"
+        );
+        assert!(
+            line.contains(&format!("regime: {:?}", outputs.regime)),
+            "{line}\n{outputs:?}"
+        );
+    }
+    // An error names the field and the value.
+    assert!(log.stdout.contains("lead"), "{}", log.stdout);
+}
+
+/// One object with every function and scene, and no budget of the proofs broken.
+#[test]
+#[ignore = "needs QEMU and the target"]
+fn figures_are_one_object() {
+    let target = run(&["target", "--json", "--gate"], "");
+    assert_eq!(target.code, 0, "{}", target.stderr);
+    let figures: serde_json::Value = serde_json::from_str(&target.stdout).unwrap();
+    let names = |list: &str| -> Vec<String> {
+        figures[list]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|entry| entry["name"].as_str().unwrap().to_owned())
+            .collect()
+    };
+    for name in [
+        "curvature_literature",
+        "hertz_ellipse",
+        "kinematics_tick",
+        "ball_screw_ball",
+        "train_37",
+        "step_efficiency",
+        "step_caged",
+        "step_train_37",
+        "libm_cosf",
+        "micromath_powf",
+    ] {
+        assert!(
+            names("functions").iter().any(|known| known == name),
+            "{name}"
+        );
+    }
+    assert_eq!(
+        names("scenes"),
+        [
+            "curvature",
+            "efficiency",
+            "caged_ball_screw",
+            "linear_bearing",
+            "ball_screw_37",
+            "everything"
+        ]
+    );
+    assert_eq!(figures["panic_free"], true);
+    assert_eq!(figures["soft_double"], false);
+}
+
+/// Inputs differ from case to case, and fit into the firmware's buffers.
+#[test]
+fn the_firmware_has_inputs_for_every_function() {
+    for subject in SUBJECTS.iter().chain(PEERS) {
+        assert!(subject.inputs <= WIDEST && subject.outputs <= WIDEST);
+        let inputs: Vec<Vec<u32>> = (0..CASES)
+            .map(|case| {
+                let mut inputs = vec![0.0; subject.inputs];
+                (subject.fill)(&mut Spread::new(case), &mut inputs);
+                inputs.iter().map(|input: &f32| input.to_bits()).collect()
+            })
+            .collect();
+        let mut distinct = inputs.clone();
+        distinct.sort();
+        distinct.dedup();
+        assert!(
+            distinct.len() > inputs.len() * 9 / 10,
+            "{}: {} of {}",
+            subject.name,
+            distinct.len(),
+            inputs.len()
+        );
+    }
+}

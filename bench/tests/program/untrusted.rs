@@ -1,0 +1,181 @@
+//! Files that someone made to do harm: refused in bounded time and memory, nothing overwritten.
+
+use std::fs;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use super::{run, run_in};
+
+/// Runs `simulate` on a trace and says how it ended; outputs go to `out.csv`.
+fn trace(folder: &Path, path: &str) -> super::Run {
+    run_in(
+        folder,
+        &[
+            "simulate", "--design", "lin-4.1", "--input", path, "--output", "out.csv",
+        ],
+        "",
+    )
+}
+
+#[test]
+fn deep_and_long_json_is_refused() {
+    let deep = "[".repeat(500_000);
+    let nested = format!(
+        r#"{{"id": 1, "model": "hertz", "load": {}1{}}}"#,
+        "[".repeat(100_000),
+        "]".repeat(100_000)
+    );
+    let many_fields: String = (0..50_000)
+        .map(|field| format!(r#","f{field}":0"#))
+        .collect();
+    let many_fields = format!(r#"{{"id":2,"model":"hertz"{many_fields}}}"#);
+    let ball = r#"{"contact_angles":[0.7,0.7,0.7,0.7],"contact_forces":[1,1,1,1]}"#;
+    let many_balls = format!(
+        r#"{{"id":3,"model":"linear_train","ball_radius":0.005,"conformity":0.56,"nominal_contact_angle":0.7854,"youngs_modulus":2.1e11,"poisson_ratio":0.3,"friction":0.1,"speed":0.5,"balls":[{}]}}"#,
+        vec![ball; 10_000].join(",")
+    );
+    let long_number = format!(
+        r#"{{"id":4,"model":"friction_map","axis_ratio":0.{},"offset":1}}"#,
+        "3".repeat(500_000)
+    );
+    let long_id = format!(
+        r#"{{"id":"{}","model":"friction_map","axis_ratio":0.3,"offset":1}}"#,
+        "x".repeat(900_000)
+    );
+    let good = r#"{"id":5,"model":"friction_map","axis_ratio":0.3,"offset":1}"#;
+    let input = [
+        &deep,
+        &nested,
+        &many_fields,
+        &many_balls,
+        &long_number,
+        &long_id,
+        good,
+    ]
+    .join("\n");
+    let start = Instant::now();
+    let run = run(&["eval"], &input);
+    assert_eq!(run.code, 1);
+    let lines: Vec<_> = run.stdout.lines().collect();
+    assert_eq!(lines.len(), 7);
+    for line in &lines[..4] {
+        assert!(line.contains("\"error\"") && line.len() < 2000, "{line}");
+    }
+    assert!(lines[6].contains("\"in_loop\""));
+    assert!(start.elapsed() < Duration::from_secs(60));
+}
+
+#[test]
+fn a_line_that_never_ends_is_not_kept() {
+    // 64 MiB without an end of line, then a good one.
+    let mut input = "7".repeat(64 << 20);
+    input.push_str("\n{\"id\":5,\"model\":\"friction_map\",\"axis_ratio\":0.3,\"offset\":1}\n");
+    let run = run(&["eval"], &input);
+    assert_eq!(run.code, 1);
+    assert!(run.stdout.lines().next().unwrap().contains("longer than"));
+    assert!(run.stdout.lines().nth(1).unwrap().contains("in_loop"));
+}
+
+#[test]
+fn hostile_traces_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let header = "time,nut_speed,axial_load\n";
+    for (name, text) in [
+        (
+            "quote.csv",
+            format!("{header}0,1,\"{}", "2\n".repeat(1 << 20)),
+        ),
+        ("columns.csv", format!("{header}{}\n", "1,".repeat(1 << 20))),
+        (
+            "header.csv",
+            format!("time,nut_speed,axial_load{}\n", ",x".repeat(1 << 20)),
+        ),
+        (
+            "number.csv",
+            format!("{header}0,1,{}x\n", "9".repeat(1 << 20)),
+        ),
+        ("nul.csv", format!("{header}0,1,\0\n")),
+    ] {
+        fs::write(folder.path().join(name), text).unwrap();
+        let run = trace(folder.path(), name);
+        assert_eq!(run.code, 1, "{name}");
+        assert!(
+            run.stderr.contains(name) && run.stderr.len() < 2000,
+            "{name}: {}",
+            run.stderr.len()
+        );
+        assert!(!folder.path().join("out.csv").exists(), "{name}");
+    }
+    let run = trace(folder.path(), ".");
+    assert_eq!(run.code, 1);
+}
+
+/// A device says that it is empty, and never ends.
+#[cfg(unix)]
+#[test]
+fn a_device_is_read_no_further_than_a_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let endless = folder.path().join("endless.toml");
+    std::os::unix::fs::symlink("/dev/zero", &endless).unwrap();
+    let run = run_in(
+        folder.path(),
+        &[
+            "simulate",
+            "--design",
+            "endless.toml",
+            "--manoeuvre",
+            "kerb",
+        ],
+        "",
+    );
+    assert_eq!(run.code, 1);
+    assert!(run.stderr.contains("more than"), "{}", run.stderr);
+}
+
+#[test]
+fn a_deep_design_file_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    for text in [
+        format!("lead = {}", "[".repeat(100_000)),
+        format!("{}lead = 1{}", "a.".repeat(50_000), "\n"),
+        format!("name = \"{}\"", "x".repeat(1 << 20)),
+    ] {
+        fs::write(folder.path().join("design.toml"), text).unwrap();
+        let run = run_in(
+            folder.path(),
+            &["simulate", "--design", "design.toml", "--manoeuvre", "kerb"],
+            "",
+        );
+        assert_eq!(run.code, 1);
+        assert!(run.stderr.contains("design.toml"));
+    }
+}
+
+/// A design's name comes from its file and becomes part of a path only after what could lead elsewhere is
+/// gone.
+#[test]
+fn a_name_leads_nowhere_else() {
+    let folder = tempfile::tempdir().unwrap();
+    let work = folder.path().join("work");
+    fs::create_dir(&work).unwrap();
+    fs::write(
+        work.join("design.toml"),
+        "name = \"../../../escape\"\npitch_radius = 0.016\nlead = 0.02\nball_radius = 0.003175\n\
+         conformity = 0.528\ncontact_angle = 0.785\n",
+    )
+    .unwrap();
+    let run = run_in(
+        &work,
+        &["simulate", "--design", "design.toml", "--manoeuvre", "kerb"],
+        "",
+    );
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    let outside: Vec<_> = fs::read_dir(folder.path()).unwrap().collect();
+    assert_eq!(outside.len(), 1);
+    assert_eq!(
+        fs::read_dir(work.join("target").join("simulate"))
+            .unwrap()
+            .count(),
+        2
+    );
+}
