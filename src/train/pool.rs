@@ -85,55 +85,51 @@ impl Place for () {
 /// Joins balls to clusters and leaves these in the places of their front and rear balls; gives the index of
 /// a ball that presses on none.
 ///
-/// `slack` gives the slack in front of each ball, from the last one to the first. Joins may come in any order:
-/// none of them opens another one's contact.
+/// Balls are single, with their slacks. Joins may come in any order: none of them opens another one's contact.
 #[inline(always)]
-pub(super) fn pool<const N: usize>(
-    balls: &mut [Ball; N],
-    mut slack: impl FnMut(usize, &mut Ball) -> f32,
-) -> usize {
-    // The front ball of what grows backwards: a single ball, or a cluster with these sums.
-    let mut front = N;
-    let mut cluster = Cluster::NONE;
-    for index in (0..N).rev() {
-        let Some(ball) = balls.get_mut(index) else {
-            break;
-        };
-        let slack = slack(index, ball);
-        let impedance = ball.impedance;
-        ball.slack = slack;
-        ball.extent = 0;
-        if front <= index + 1 {
-            // A single ball keeps its own speed; on a ring nothing is ahead of the last one yet.
-            if slack < 0.0 && front < N {
-                cluster = Cluster {
-                    sum: 0.0,
-                    weight: balls.get(front).map_or(1.0, |ball| ball.impedance),
-                    span: 0.0,
-                };
-            } else {
-                front = index;
-                continue;
-            }
-        } else if !cluster.reached(slack) {
+pub(super) fn pool<const N: usize>(balls: &mut [Ball; N]) -> usize {
+    // On a ring nothing is ahead of the last ball yet: it stands alone.
+    let mut front = N - 1;
+    // A single ball keeps its own speed, and so does what is behind it up to one that runs into the next.
+    while let Some(rear) = balls
+        .get(..front)
+        .and_then(|behind| behind.iter().rposition(|ball| ball.slack < 0.0))
+    {
+        front = grown(balls, rear);
+    }
+    close(balls)
+}
+
+/// Stores the cluster that grows backwards from the ball `rear` and the single one in front of it. Gives the
+/// ball where it ends, which stands alone, or 0.
+#[inline(always)]
+fn grown<const N: usize>(balls: &mut [Ball; N], rear: usize) -> usize {
+    let mut front = rear + 1;
+    let mut cluster = Cluster {
+        sum: 0.0,
+        weight: balls.get(front).map_or(1.0, |ball| ball.impedance),
+        span: 0.0,
+    };
+    let mut index = rear;
+    while let Some(ball) = balls.get(index) {
+        let (slack, impedance) = (ball.slack, ball.impedance);
+        if index != rear && !cluster.reached(slack) {
             // What the cluster runs into slows it down, and the ball may run into it after all.
             (cluster, front) = absorbed(balls, front, &cluster);
             if !cluster.reached(slack) {
                 store(balls, index + 1, front, front - (index + 1), &cluster);
-                front = index;
-                continue;
+                return index;
             }
         }
         let reach = slack + cluster.span;
         cluster.sum -= reach * impedance;
         cluster.weight += impedance;
         cluster.span = reach;
+        index = index.wrapping_sub(1);
     }
-    if front > 0 {
-        (cluster, front) = absorbed(balls, front, &cluster);
-        store(balls, 0, front, front, &cluster);
-    }
-    close(balls)
+    (cluster, front) = absorbed(balls, front, &cluster);
+    store(balls, 0, front, front, &cluster);
+    0
 }
 
 /// A cluster with what stands in front of it as far as it runs into that, and its front ball.

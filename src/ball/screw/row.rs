@@ -37,23 +37,19 @@ pub enum GrooveFit {
     },
 }
 
-/// Powers of a ball's share of the load, folded at set-up.
+/// A ball's share of the load and its cube root, folded at set-up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LoadShare {
     share: f32,
-    four_thirds: f32,
-    inverse: f32,
-    inverse_two_thirds: f32,
+    root: f32,
 }
 
 impl LoadShare {
     /// The mean load.
     pub const MEAN: Self = Self {
         share: 1.0,
-        four_thirds: 1.0,
-        inverse: 1.0,
-        inverse_two_thirds: 1.0,
+        root: 1.0,
     };
 
     /// Powers of a ball's load over the mean load of all balls, 0.01 to 100; a table of them is a constant.
@@ -74,25 +70,19 @@ impl LoadShare {
             root -= (root - share / (root * root)) * (1.0 / 3.0);
             step += 1;
         }
-        Ok(Self {
-            share,
-            four_thirds: share * root,
-            inverse: 1.0 / share,
-            inverse_two_thirds: 1.0 / (root * root),
-        })
+        Ok(Self { share, root })
     }
 
     /// Its power of 2/3.
     #[inline]
     pub(crate) const fn two_thirds(&self) -> f32 {
-        let root = self.four_thirds * self.inverse;
-        root * root
+        self.root * self.root
     }
 
     /// Its power of 4/3.
     #[inline]
     pub(crate) const fn four_thirds(&self) -> f32 {
-        self.four_thirds
+        self.share * self.root
     }
 
     /// Load over the mean load.
@@ -672,10 +662,10 @@ impl ScrewTick {
         let spin = 1.0 + self.spin * speed_deviation;
         ScrewBallLoop {
             speed_deviation,
-            compliance: self.compliance_sliding * share.inverse
-                + self.compliance_rolling * (share.inverse_two_thirds * spin),
+            compliance: (self.compliance_sliding + self.compliance_rolling * (share.root * spin))
+                / share.share,
             groove_torque: self.torque_sliding * share.share
-                + self.torque_rolling * (share.four_thirds * spin),
+                + self.torque_rolling * (share.four_thirds() * spin),
             rubbing: self.rubbing + self.rubbing_slope * speed_deviation,
         }
     }
@@ -690,11 +680,13 @@ pub(crate) struct ScrewLoop {
     turn_weights: (f32, f32),
     own_weights: (f32, f32),
     scale: f32,
-    spin: f32,
     compliance_rolling: f32,
     compliance_sliding: f32,
+    /// Change of the rolling part with the speed.
+    compliance_spin: f32,
     torque_rolling: f32,
     torque_sliding: f32,
+    torque_spin: f32,
 }
 
 /// One ball in that loop.
@@ -703,52 +695,91 @@ pub(crate) struct LoopBall {
     pub(crate) speed: f32,
     /// Force along the track, N, that takes the speed of reference from the ball.
     pub(crate) impedance: f32,
-    /// Power loss in the grooves, N m.
-    pub(crate) groove_torque: f32,
+}
+
+/// Sums over the balls of that loop, from which the power loss in the grooves follows.
+#[derive(Default)]
+pub(crate) struct LoopSums {
+    share: f32,
+    four_thirds: f32,
+    four_thirds_speed: f32,
 }
 
 impl ScrewTick {
-    /// For speeds over a speed of which the inverse is `per_speed`, 1/m per unit of nut speed, and
+    /// For speeds over a speed of reference, m per unit of nut speed, given with its inverse, and
     /// deviations at screw and nut in these `units`, rad.
     #[inline(always)]
-    pub(crate) fn per_speed(&self, per_speed: f32, units: (f32, f32)) -> ScrewLoop {
+    pub(crate) fn per_speed(&self, speed: f32, per_speed: f32, units: (f32, f32)) -> ScrewLoop {
         let (screw, nut) = units;
         let size = per_speed.abs();
+        let scale = self.scale * per_speed;
+        let spin = self.spin * speed;
+        let compliance_rolling = self.compliance_rolling * size;
         ScrewLoop {
-            turn: self.turn,
+            turn: self.turn.map(|coefficient| coefficient * scale),
             own: self.own,
             turn_weights: (self.turn_sign * screw, self.turn_sign * nut),
             own_weights: (self.screw_weight * screw, self.nut_weight * nut),
-            scale: self.scale * per_speed,
-            spin: self.spin * self.scale,
-            compliance_rolling: self.compliance_rolling * size,
+            scale,
+            compliance_rolling,
             compliance_sliding: self.compliance_sliding * size,
+            compliance_spin: compliance_rolling * spin,
             torque_rolling: self.torque_rolling,
             torque_sliding: self.torque_sliding,
+            torque_spin: self.torque_rolling * spin,
         }
     }
 }
 
 impl ScrewLoop {
     /// One ball: [`ScrewTick::ball`].
+    ///
+    /// Independent lines stand side by side: a core that keeps their order waits a cycle for an operand
+    /// that the line before has made.
     #[inline(always)]
-    pub(crate) fn ball(&self, screw: f32, nut: f32, share: &LoadShare) -> LoopBall {
+    pub(crate) fn ball(
+        &self,
+        screw: f32,
+        nut: f32,
+        share: &LoadShare,
+        sums: &mut LoopSums,
+    ) -> LoopBall {
+        let LoadShare { share, root } = *share;
         let [t1, t2, t3, t4, t5] = self.turn;
-        let u = self.turn_weights.0 * screw + self.turn_weights.1 * nut;
-        let v = self.own_weights.0 * screw + self.own_weights.1 * nut;
-        let turn = u * (t1 + u * (t2 + u * (t3 + u * (t4 + u * t5))));
         let [o1, o2, o3] = self.own;
-        let own = v * (o1 + v * (o2 + v * o3));
-        let deviation = turn + own * (1.0 + turn);
-        let spin = 1.0 + self.spin * deviation;
-        let compliance = self.compliance_sliding * share.inverse
-            + self.compliance_rolling * (share.inverse_two_thirds * spin);
+        let (u, v) = (self.turn_weights.0 * screw, self.own_weights.0 * screw);
+        let (x, y) = (self.turn_weights.1 * nut, self.own_weights.1 * nut);
+        let (u, v) = (u + x, v + y);
+        let (turn, own) = (t5 * u, o3 * v);
+        let (turn, own) = (t4 + turn, o2 + own);
+        let (turn, own) = (turn * u, own * v);
+        let (turn, own) = (t3 + turn, o1 + own);
+        let (turn, own) = (turn * u, own * v);
+        let (turn, compliance) = (t2 + turn, self.compliance_rolling * root);
+        let (turn, spin) = (turn * u, self.compliance_spin * root);
+        let (turn, compliance) = (t1 + turn, compliance + self.compliance_sliding);
+        let (turn, power) = (turn * u, share * root);
+        // Of what turns the ball the coefficients have the scale in them.
+        let (all, shares) = (self.scale + turn, sums.share + share);
+        let (tilt, powers) = (own * all, sums.four_thirds + power);
+        let speed = turn + tilt;
+        *sums = LoopSums {
+            share: shares,
+            four_thirds: powers,
+            four_thirds_speed: sums.four_thirds_speed + power * speed,
+        };
         LoopBall {
-            speed: self.scale * deviation,
-            impedance: 1.0 / compliance,
-            groove_torque: self.torque_sliding * share.share
-                + self.torque_rolling * (share.four_thirds * spin),
+            speed,
+            impedance: share / (compliance + spin * speed),
         }
+    }
+
+    /// Power loss of these balls in the grooves, N m.
+    #[inline(always)]
+    pub(crate) fn groove_torque(&self, sums: &LoopSums) -> f32 {
+        self.torque_sliding * sums.share
+            + self.torque_rolling * sums.four_thirds
+            + self.torque_spin * sums.four_thirds_speed
     }
 }
 
@@ -817,8 +848,7 @@ fn limited(deviation: f32, largest: f32) -> f32 {
 mod tests {
     use super::*;
 
-    /// A cube root to one rounding of Newton's last step (1.5 x 2^-24), squared and inverted (three times
-    /// that and two roundings).
+    /// A cube root to one rounding of Newton's last step (1.5 x 2^-24), squared (twice that and a rounding).
     #[test]
     fn load_shares_have_their_powers() {
         const TABLE: [Result<LoadShare, Error>; 2] = [LoadShare::new(0.97), LoadShare::new(0.0)];
@@ -832,9 +862,9 @@ mod tests {
             };
             let root = libm::cbrt(f64::from(powers.share));
             for (found, truth) in [
-                (powers.four_thirds, root * root * root * root),
-                (powers.inverse, 1.0 / (root * root * root)),
-                (powers.inverse_two_thirds, 1.0 / (root * root)),
+                (powers.root, root),
+                (powers.four_thirds(), root * root * root * root),
+                (powers.two_thirds(), root * root),
             ] {
                 worst = worst.max((f64::from(found) / truth - 1.0).abs());
             }
