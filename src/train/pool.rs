@@ -292,8 +292,9 @@ pub(super) fn settle<const N: usize>(
     pressing.largest = f32::from_bits(largest as u32);
     // What rounding leaves of the sum of a cluster's pushes is small, but a stiff ball turns it into a
     // large force. It hardly changes what the forces add up to.
-    if unbalanced > ROUNDING * pressing.largest {
-        balance(balls, foremost);
+    let least = ROUNDING * pressing.largest;
+    if unbalanced > least {
+        balance(balls, foremost, least);
     }
     pressing
 }
@@ -318,31 +319,60 @@ fn force_bits(force: f32) -> i32 {
     bits & !(bits >> 31)
 }
 
-/// Takes what is left of the pushes of each cluster out of its forces.
+/// Takes what is left of the pushes of a cluster out of its forces, where it is more than `least`.
 #[cold]
 #[inline(never)]
-fn balance<const N: usize>(balls: &mut [Ball; N], foremost: usize) {
-    let mut index = foremost;
-    let (mut left, mut rest, mut correction) = (0, 0.0, 0.0);
-    for _ in 0..N {
-        if left == 0 {
-            left = extent(balls, index);
-            if left > 0 {
-                let rear = index.wrapping_sub(left);
-                let rear = if rear < N { rear } else { rear.wrapping_add(N) };
-                rest = balls.get(rear).map_or(0.0, |ball| ball.sum);
-                if let Some(ball) = balls.get(index) {
-                    rest /= ball.sum;
-                    correction = rest * ball.impedance;
-                }
-            }
-        } else {
-            left -= 1;
-            if let Some(ball) = balls.get_mut(index) {
-                ball.force = f32::from_bits(force_bits(ball.force - correction) as u32);
-                correction += rest * ball.impedance;
+fn balance<const N: usize>(balls: &mut [Ball; N], foremost: usize, least: f32) {
+    let mut front = foremost;
+    let mut left = N;
+    while left > 0 {
+        let extent = extent(balls, front);
+        let rear = front.wrapping_sub(extent);
+        let rear = if rear < N { rear } else { rear.wrapping_add(N) };
+        let rest = balls.get(rear).map_or(0.0, |ball| ball.sum);
+        if extent > 0 && rest.abs() > least {
+            let mut relief = Relief::new(balls.get(front), rest);
+            if rear < front {
+                relief.apply(balls.get_mut(rear..front));
+            } else {
+                relief.apply(balls.get_mut(..front));
+                relief.apply(balls.get_mut(rear..));
             }
         }
-        index = if index == 0 { N - 1 } else { index - 1 };
+        front = if rear == 0 { N - 1 } else { rear - 1 };
+        left = left.saturating_sub(extent + 1);
+    }
+}
+
+/// What is taken out of the forces of a cluster, each ball's part by its impedance.
+struct Relief {
+    rate: f32,
+    correction: f32,
+}
+
+impl Relief {
+    #[inline(always)]
+    fn new(front: Option<&Ball>, rest: f32) -> Self {
+        front.map_or(
+            Self {
+                rate: 0.0,
+                correction: 0.0,
+            },
+            |ball| {
+                let rate = rest / ball.sum;
+                Self {
+                    rate,
+                    correction: rate * ball.impedance,
+                }
+            },
+        )
+    }
+
+    #[inline(always)]
+    fn apply(&mut self, balls: Option<&mut [Ball]>) {
+        for ball in balls.unwrap_or_default().iter_mut().rev() {
+            ball.force = f32::from_bits(force_bits(ball.force - self.correction) as u32);
+            self.correction += self.rate * ball.impedance;
+        }
     }
 }

@@ -127,10 +127,13 @@ impl LoadShare {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ScrewRow {
     friction: f32,
+    quarter_per_friction: f32,
     contact_angle: f32,
     /// Normal force of a contact over the axial load, `1/(sin beta cos alpha)`.
     normal: f32,
     preload: f32,
+    /// One over three times the preload; 0 without.
+    per_preload: f32,
     play: bool,
     nominal_speed: f32,
     largest_deviation: f32,
@@ -161,12 +164,13 @@ impl Race {
     fn at(&self, slip: f32, root: f32) -> Across {
         let contact = self.map.across(slip, self.rim * root);
         let drag = larger(contact.drag, slip);
+        let give = larger(contact.give, LEAST_GIVE * drag);
         Across {
             drag,
-            give: larger(contact.give, LEAST_GIVE * drag),
-            share: part(contact.share),
-            drag_growth: part(contact.drag_growth),
-            give_growth: part(contact.give_growth),
+            give,
+            share: part(contact.share, 1.0),
+            drag_growth: part(contact.drag_growth, drag),
+            give_growth: part(contact.give_growth, give),
         }
     }
 }
@@ -202,9 +206,10 @@ struct Loads {
 struct Mean {
     gain: f32,
     compliance: f32,
-    give_growth: f32,
+    /// Its part that follows the size of the ellipses.
+    compliance_rolling: f32,
     torque: f32,
-    drag_growth: f32,
+    torque_rolling: f32,
     main_load: f32,
     third_load: f32,
 }
@@ -351,9 +356,15 @@ impl ScrewRow {
         };
         Ok(Self {
             friction,
+            quarter_per_friction: 0.25 / friction,
             contact_angle: design.parameters().contact_angle,
             normal: 1.0 / (sin * cos_lead),
             preload,
+            per_preload: if preload > 0.0 {
+                1.0 / (3.0 * preload)
+            } else {
+                0.0
+            },
             play,
             nominal_speed: speed,
             largest_deviation: largest_deviation(design.parameters().contact_angle, sin / cos),
@@ -448,15 +459,16 @@ impl ScrewRow {
         let root = cube_root(normal);
         let contact = slides.at(2.0 * self.slip, root);
         let limit = self.friction * normal;
+        let per_limit = 1.0 / (4.0 * limit);
         self.tick(
             &self.two_point,
             [0.0, -0.5 * side, 0.5 * side],
             &Mean {
                 gain: 1.0,
-                compliance: contact.give / (4.0 * limit),
-                give_growth: contact.give_growth,
+                compliance: contact.give * per_limit,
+                compliance_rolling: contact.give_growth * per_limit,
                 torque: limit * contact.drag,
-                drag_growth: contact.drag_growth,
+                torque_rolling: limit * contact.drag_growth,
                 main_load: normal,
                 third_load: 0.0,
             },
@@ -478,31 +490,27 @@ impl ScrewRow {
         };
         let third_contact = third_race.at(self.slip, cube_root(third));
 
-        let friction = self.friction;
-        let mut torque = friction * main * (screw.drag + nut.drag);
+        let mut torque = main * (screw.drag + nut.drag) + third * third_contact.drag;
         let mut growth =
-            friction * main * (screw.drag * screw.drag_growth + nut.drag * nut.drag_growth);
-        let of_third = friction * third * third_contact.drag;
-        torque += of_third;
-        growth += of_third * third_contact.drag_growth;
+            main * (screw.drag_growth + nut.drag_growth) + third * third_contact.drag_growth;
 
-        // Force along the track per speed: of the loaded diagonal, and of the other where both of its
-        // contacts carry load.
+        // Force along the track per speed: 4 mu main/give of the loaded diagonal, and 4 mu both/other of the
+        // other one where both of its contacts carry load.
         let give = screw.give + nut.give;
-        let loaded_impedance = 4.0 * friction * main / give;
-        let give_growth = (screw.give * screw.give_growth + nut.give * nut.give_growth) / give;
-        let mut impedance = loaded_impedance;
         let mut gain = 1.0;
-        if fourth > 0.0 {
+        let compliance = if fourth > 0.0 {
             let contact = fourth_race.at(self.slip, cube_root(fourth));
-            let other_impedance = 4.0 * friction * third * fourth
-                / (third_contact.give * fourth + contact.give * third);
-            impedance += other_impedance;
-            gain = (loaded_impedance - other_impedance) / impedance;
-            let of_fourth = friction * fourth * contact.drag;
-            torque += of_fourth;
-            growth += of_fourth * contact.drag_growth;
-        }
+            torque += fourth * contact.drag;
+            growth += fourth * contact.drag_growth;
+            let other = third_contact.give * fourth + contact.give * third;
+            let (loaded, unloaded) = (main * other, third * fourth * give);
+            let inverse = 1.0 / (loaded + unloaded);
+            gain = (loaded - unloaded) * inverse;
+            other * inverse
+        } else {
+            1.0 / main
+        };
+        let compliance = self.quarter_per_friction * compliance;
         let (branch, weights) = if on_screw {
             (&self.on_screw, [side, 0.0, side])
         } else {
@@ -513,10 +521,10 @@ impl ScrewRow {
             weights,
             &Mean {
                 gain,
-                compliance: 1.0 / impedance,
-                give_growth,
-                torque,
-                drag_growth: growth / torque,
+                compliance: give * compliance,
+                compliance_rolling: (screw.give_growth + nut.give_growth) * compliance,
+                torque: self.friction * torque,
+                torque_rolling: self.friction * growth,
                 main_load: main,
                 third_load: third,
             },
@@ -529,8 +537,8 @@ impl ScrewRow {
         // Share of sliding friction across the track, to some per cent.
         let sliding = self.screw.map.share_slope() * self.slip;
         let rim = self.screw.rim * cube_root(normal);
-        let share = sliding / math::sqrt(rim * rim + sliding * sliding + 1e-30);
-        let (main, _) = self.diagonals(normal / (1.0 - self.friction * share));
+        let size = math::sqrt(rim * rim + sliding * sliding + 1e-30);
+        let main = self.loaded_diagonal(normal * size / (size - self.friction * sliding));
         let root = cube_root(main);
         let screw = self.screw.at(self.slip, root);
         let nut = self.nut.at(self.slip, root);
@@ -557,20 +565,33 @@ impl ScrewRow {
         }
     }
 
+    /// Normal force of the loaded diagonal with a given difference to the other one, within 9e-4 of the preload.
+    #[inline]
+    fn loaded_diagonal(&self, difference: f32) -> f32 {
+        if difference < LOST * self.preload {
+            let plus = 1.0 + closing(difference * self.per_preload);
+            self.preload * (plus * math::sqrt(plus))
+        } else {
+            difference
+        }
+    }
+
     /// Normal forces of the loaded and the other diagonal with a given difference.
     ///
     /// Both follow from one displacement `x` over the preload's deflection, `F (1 ± x)^(3/2)`.
     #[inline]
     fn diagonals(&self, difference: f32) -> (f32, f32) {
         if difference < LOST * self.preload {
-            let third = difference / (3.0 * self.preload);
-            let x = third * (1.0 + third * third * (1.0 / 24.0));
-            let (up, down) = (math::sqrt(1.0 + x), math::sqrt(larger(1.0 - x, 0.0)));
-            let excess = (1.0 + x) * up - (1.0 - x) * down - 3.0 * third;
-            let x = x - excess / (1.5 * (up + down));
+            let third = difference * self.per_preload;
+            let x = closing(third);
             let (plus, minus) = (1.0 + x, larger(1.0 - x, 0.0));
-            let main = self.preload * (plus * math::sqrt(plus));
-            (main, self.preload * (minus * math::sqrt(minus)))
+            let (up, down) = (math::sqrt(plus), math::sqrt(minus));
+            // A step of Newton's method, with the slopes of both powers for their change: within 4e-6.
+            let excess = plus * up - minus * down - 3.0 * third;
+            let step = excess / (up + down);
+            let main = self.preload * (up * (plus - step));
+            let other = self.preload * (down * (minus + step));
+            (main, larger(other, 0.0))
         } else {
             (difference, 0.0)
         }
@@ -579,11 +600,6 @@ impl ScrewRow {
     #[inline]
     fn tick(&self, branch: &Branch, weights: [f32; 3], mean: &Mean) -> ScrewTick {
         let [turn_sign, screw_weight, nut_weight] = weights;
-        let Mean {
-            give_growth,
-            drag_growth,
-            ..
-        } = *mean;
         ScrewTick {
             largest_deviation: self.largest_deviation,
             turn: self.turn,
@@ -599,10 +615,10 @@ impl ScrewRow {
             spin: branch.spin,
             rubbing: branch.rubbing,
             rubbing_slope: branch.rubbing_slope,
-            compliance_rolling: mean.compliance * give_growth,
-            compliance_sliding: mean.compliance * (1.0 - give_growth),
-            torque_rolling: mean.torque * drag_growth,
-            torque_sliding: mean.torque * (1.0 - drag_growth),
+            compliance_rolling: mean.compliance_rolling,
+            compliance_sliding: mean.compliance - mean.compliance_rolling,
+            torque_rolling: mean.torque_rolling,
+            torque_sliding: mean.torque - mean.torque_rolling,
             nominal_speed: self.nominal_speed,
             main_load: mean.main_load,
             third_load: mean.third_load,
@@ -798,10 +814,17 @@ fn turn_series(tangent: f32) -> [f32; 5] {
     [c1, c2, c3, c4, c5]
 }
 
-/// `x` within 0 to 1.
+/// `x` where `((1 + x)^(3/2) - (1 - x)^(3/2))/3` is `third`, for `x` in 0 to 1, within 4.3e-4.
 #[inline]
-fn part(x: f32) -> f32 {
-    if x < 1.0 { larger(x, 0.0) } else { 1.0 }
+fn closing(third: f32) -> f32 {
+    let square = third * third;
+    third * (1.0 + square * (0.055_61 + square * (-0.044_86 + square * 0.065_821)))
+}
+
+/// `x` within 0 and `whole`.
+#[inline]
+fn part(x: f32, whole: f32) -> f32 {
+    if x < whole { larger(x, 0.0) } else { whole }
 }
 
 #[inline]
