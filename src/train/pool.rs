@@ -323,24 +323,35 @@ fn force_bits(force: f32) -> i32 {
 #[cold]
 #[inline(never)]
 fn balance<const N: usize>(balls: &mut [Ball; N], foremost: usize, least: f32) {
-    let mut front = foremost;
-    let mut left = N;
-    while left > 0 {
-        let extent = extent(balls, front);
-        let rear = front.wrapping_sub(extent);
-        let rear = if rear < N { rear } else { rear.wrapping_add(N) };
-        let rest = balls.get(rear).map_or(0.0, |ball| ball.sum);
-        if extent > 0 && rest.abs() > least {
-            let mut relief = Relief::new(balls.get(front), rest);
-            if rear < front {
-                relief.apply(balls.get_mut(rear..front));
-            } else {
-                relief.apply(balls.get_mut(..front));
-                relief.apply(balls.get_mut(rear..));
+    // Balls up to the foremost one, then those beyond it, less what a cluster across the ring's end has of them.
+    let (mut low, mut high) = (0, foremost + 1);
+    for _ in 0..2 {
+        let mut next = N;
+        while let Some(front) = balls
+            .get(low..high)
+            .and_then(|part| part.iter().rposition(|ball| ball.extent > 0))
+        {
+            let front = front + low;
+            let rear = front.wrapping_sub(extent(balls, front));
+            let closes = rear >= N;
+            let rear = if closes { rear.wrapping_add(N) } else { rear };
+            let rest = balls.get(rear).map_or(0.0, |ball| ball.sum);
+            if rest.abs() > least {
+                let mut relief = Relief::new(balls.get(front), rest);
+                if closes {
+                    relief.apply(balls.get_mut(..front));
+                    relief.apply(balls.get_mut(rear..));
+                } else {
+                    relief.apply(balls.get_mut(rear..front));
+                }
             }
+            if closes {
+                next = rear;
+                break;
+            }
+            high = rear;
         }
-        front = if rear == 0 { N - 1 } else { rear - 1 };
-        left = left.saturating_sub(extent + 1);
+        (low, high) = (foremost + 1, next);
     }
 }
 
