@@ -34,9 +34,9 @@ pub use four_point::{
 };
 pub use linear::LinearBallParameters;
 pub use rotary::{RotaryBall, RotaryBallParameters, RotaryMotion};
-pub(crate) use screw::largest_deviation;
 pub use screw::{
     CONTACT_ANGLE_RANGE, DEFAULT_IMPEDANCE_STEPS, GrooveFit, LoadShare, ScrewBall, ScrewBallLoop,
     ScrewBallMotion, ScrewBallState, ScrewChain, ScrewContactMotion, ScrewContacts, ScrewRow,
     ScrewTick, SlipFriction, SlipMap,
 };
+pub(crate) use screw::{LoopSums, largest_deviation};

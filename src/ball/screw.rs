@@ -12,6 +12,7 @@ pub use given::{
     ScrewContacts,
 };
 pub use refined::DEFAULT_IMPEDANCE_STEPS;
+pub(crate) use row::LoopSums;
 pub(crate) use row::largest_deviation;
 pub use row::{GrooveFit, LoadShare, ScrewBallLoop, ScrewRow, ScrewTick};
 pub use slip_map::{SlipFriction, SlipMap};

@@ -295,17 +295,16 @@ impl LinearConstants {
         let (passing, own) = self.zone.units();
         let (passing, own) = (turn * passing, turn * own);
         let mut drags = 0.0;
-        for (position, free, stiff) in state.train.balls() {
-            if let Some(place) = self.zone.at(position, phase) {
-                *free = own * place.own + passing * place.passing;
-                *stiff = impedance * place.share.two_thirds();
-                drags += place.share.four_thirds();
-            } else {
-                *free = 0.0;
-                *stiff = UNLOADED;
+        let pressing = state.train.run(speed * self.travel, |position| {
+            match self.zone.at(position, phase) {
+                Some(place) => {
+                    drags += place.share.four_thirds();
+                    let free = own * place.own + passing * place.passing;
+                    (free, impedance * place.share.two_thirds())
+                }
+                None => (0.0, UNLOADED),
             }
-        }
-        let pressing = state.train.run(speed * self.travel);
+        });
         state.phase.advance(speed * self.phase);
 
         let groove_friction = direction * (drag * drags);

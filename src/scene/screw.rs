@@ -6,7 +6,7 @@ use super::deviation::DeviationMap;
 use super::uncaged::TrainOutputs;
 use super::zone::{LARGEST_ADVANCE, LONGEST_RETURN, LONGEST_TRACK, LoadedZone, Phase};
 use super::{Faults, Inputs, Limits, Regime, Scene};
-use crate::ball::{GrooveFit, LoadShare, ScrewRow};
+use crate::ball::{GrooveFit, LoadShare, LoopSums, ScrewRow};
 use crate::error::{Error, in_range};
 use crate::geometry::BallScrew;
 use crate::math;
@@ -220,35 +220,28 @@ impl UncagedConstants {
         let direction = nut_speed / math::sqrt(nut_speed * nut_speed + self.reversal_squared);
         let tick = self.row.at(nut_speed, axial_load * self.per_ball);
         // Speeds are along the track, over the size of the nominal speed against the nut.
-        let per_speed = if nut_speed < 0.0 {
-            -self.per_speed
+        let (way, per_speed) = if nut_speed < 0.0 {
+            (-self.speed, -self.per_speed)
         } else {
-            self.per_speed
+            (self.speed, self.per_speed)
         };
 
-        let row = tick.per_speed(per_speed, self.zone.units());
+        let row = tick.per_speed(way, per_speed, self.zone.units());
         let phase = state.phase.units();
-        let mut groove_torque = 0.0;
-        for (position, speed, impedance) in state.train.balls() {
-            if let Some(place) = self.zone.at(position, phase) {
-                let ball = row.ball(place.passing, place.own, place.share);
-                *speed = ball.speed;
-                *impedance = ball.impedance;
-                groove_torque += ball.groove_torque;
-            } else {
-                *speed = 0.0;
-                *impedance = UNLOADED;
+        let mut sums = LoopSums::default();
+        let pressing = state.train.run(nut_speed * self.travel, |position| {
+            match self.zone.at(position, phase) {
+                Some(place) => {
+                    let ball = row.ball(place.passing, place.own, place.share, &mut sums);
+                    (ball.speed, ball.impedance)
+                }
+                None => (0.0, UNLOADED),
             }
-        }
-        let pressing = state.train.run(nut_speed * self.travel);
+        });
+        let groove_torque = row.groove_torque(&sums);
         state.phase.advance(nut_speed * self.phase);
 
         // Both balls of a pair turn alike; the sign of the speeds is that of the nut speed.
-        let way = if nut_speed < 0.0 {
-            -self.speed
-        } else {
-            self.speed
-        };
         let rubbing = tick.rubbing() * pressing.force + tick.rubbing_slope() * way * pressing.power;
         let ball_torque = 2.0 * self.ball_friction * rubbing;
 

@@ -35,4 +35,13 @@ impl Ball {
         fraction: 0,
         extent: 0,
     };
+
+    /// A single ball.
+    #[inline(always)]
+    pub(super) fn set(&mut self, speed: f32, impedance: f32, slack: f32) {
+        self.speed = speed;
+        self.impedance = impedance;
+        self.slack = slack;
+        self.extent = 0;
+    }
 }

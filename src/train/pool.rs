@@ -85,55 +85,51 @@ impl Place for () {
 /// Joins balls to clusters and leaves these in the places of their front and rear balls; gives the index of
 /// a ball that presses on none.
 ///
-/// `slack` gives the slack in front of each ball, from the last one to the first. Joins may come in any order:
-/// none of them opens another one's contact.
+/// Balls are single, with their slacks. Joins may come in any order: none of them opens another one's contact.
 #[inline(always)]
-pub(super) fn pool<const N: usize>(
-    balls: &mut [Ball; N],
-    mut slack: impl FnMut(usize, &mut Ball) -> f32,
-) -> usize {
-    // The front ball of what grows backwards: a single ball, or a cluster with these sums.
-    let mut front = N;
-    let mut cluster = Cluster::NONE;
-    for index in (0..N).rev() {
-        let Some(ball) = balls.get_mut(index) else {
-            break;
-        };
-        let slack = slack(index, ball);
-        let impedance = ball.impedance;
-        ball.slack = slack;
-        ball.extent = 0;
-        if front <= index + 1 {
-            // A single ball keeps its own speed; on a ring nothing is ahead of the last one yet.
-            if slack < 0.0 && front < N {
-                cluster = Cluster {
-                    sum: 0.0,
-                    weight: balls.get(front).map_or(1.0, |ball| ball.impedance),
-                    span: 0.0,
-                };
-            } else {
-                front = index;
-                continue;
-            }
-        } else if !cluster.reached(slack) {
+pub(super) fn pool<const N: usize>(balls: &mut [Ball; N]) -> usize {
+    // On a ring nothing is ahead of the last ball yet: it stands alone.
+    let mut front = N - 1;
+    // A single ball keeps its own speed, and so does what is behind it up to one that runs into the next.
+    while let Some(rear) = balls
+        .get(..front)
+        .and_then(|behind| behind.iter().rposition(|ball| ball.slack < 0.0))
+    {
+        front = grown(balls, rear);
+    }
+    close(balls)
+}
+
+/// Stores the cluster that grows backwards from the ball `rear` and the single one in front of it. Gives the
+/// ball where it ends, which stands alone, or 0.
+#[inline(always)]
+fn grown<const N: usize>(balls: &mut [Ball; N], rear: usize) -> usize {
+    let mut front = rear + 1;
+    let mut cluster = Cluster {
+        sum: 0.0,
+        weight: balls.get(front).map_or(1.0, |ball| ball.impedance),
+        span: 0.0,
+    };
+    let mut index = rear;
+    while let Some(ball) = balls.get(index) {
+        let (slack, impedance) = (ball.slack, ball.impedance);
+        if index != rear && !cluster.reached(slack) {
             // What the cluster runs into slows it down, and the ball may run into it after all.
             (cluster, front) = absorbed(balls, front, &cluster);
             if !cluster.reached(slack) {
                 store(balls, index + 1, front, front - (index + 1), &cluster);
-                front = index;
-                continue;
+                return index;
             }
         }
         let reach = slack + cluster.span;
         cluster.sum -= reach * impedance;
         cluster.weight += impedance;
         cluster.span = reach;
+        index = index.wrapping_sub(1);
     }
-    if front > 0 {
-        (cluster, front) = absorbed(balls, front, &cluster);
-        store(balls, 0, front, front, &cluster);
-    }
-    close(balls)
+    (cluster, front) = absorbed(balls, front, &cluster);
+    store(balls, 0, front, front, &cluster);
+    0
 }
 
 /// A cluster with what stands in front of it as far as it runs into that, and its front ball.
@@ -296,8 +292,9 @@ pub(super) fn settle<const N: usize>(
     pressing.largest = f32::from_bits(largest as u32);
     // What rounding leaves of the sum of a cluster's pushes is small, but a stiff ball turns it into a
     // large force. It hardly changes what the forces add up to.
-    if unbalanced > ROUNDING * pressing.largest {
-        balance(balls, foremost);
+    let least = ROUNDING * pressing.largest;
+    if unbalanced > least {
+        balance(balls, foremost, least);
     }
     pressing
 }
@@ -322,31 +319,71 @@ fn force_bits(force: f32) -> i32 {
     bits & !(bits >> 31)
 }
 
-/// Takes what is left of the pushes of each cluster out of its forces.
+/// Takes what is left of the pushes of a cluster out of its forces, where it is more than `least`.
 #[cold]
 #[inline(never)]
-fn balance<const N: usize>(balls: &mut [Ball; N], foremost: usize) {
-    let mut index = foremost;
-    let (mut left, mut rest, mut correction) = (0, 0.0, 0.0);
-    for _ in 0..N {
-        if left == 0 {
-            left = extent(balls, index);
-            if left > 0 {
-                let rear = index.wrapping_sub(left);
-                let rear = if rear < N { rear } else { rear.wrapping_add(N) };
-                rest = balls.get(rear).map_or(0.0, |ball| ball.sum);
-                if let Some(ball) = balls.get(index) {
-                    rest /= ball.sum;
-                    correction = rest * ball.impedance;
+fn balance<const N: usize>(balls: &mut [Ball; N], foremost: usize, least: f32) {
+    // Balls up to the foremost one, then those beyond it, less what a cluster across the ring's end has of them.
+    let (mut low, mut high) = (0, foremost + 1);
+    for _ in 0..2 {
+        let mut next = N;
+        while let Some(front) = balls
+            .get(low..high)
+            .and_then(|part| part.iter().rposition(|ball| ball.extent > 0))
+        {
+            let front = front + low;
+            let rear = front.wrapping_sub(extent(balls, front));
+            let closes = rear >= N;
+            let rear = if closes { rear.wrapping_add(N) } else { rear };
+            let rest = balls.get(rear).map_or(0.0, |ball| ball.sum);
+            if rest.abs() > least {
+                let mut relief = Relief::new(balls.get(front), rest);
+                if closes {
+                    relief.apply(balls.get_mut(..front));
+                    relief.apply(balls.get_mut(rear..));
+                } else {
+                    relief.apply(balls.get_mut(rear..front));
                 }
             }
-        } else {
-            left -= 1;
-            if let Some(ball) = balls.get_mut(index) {
-                ball.force = f32::from_bits(force_bits(ball.force - correction) as u32);
-                correction += rest * ball.impedance;
+            if closes {
+                next = rear;
+                break;
             }
+            high = rear;
         }
-        index = if index == 0 { N - 1 } else { index - 1 };
+        (low, high) = (foremost + 1, next);
+    }
+}
+
+/// What is taken out of the forces of a cluster, each ball's part by its impedance.
+struct Relief {
+    rate: f32,
+    correction: f32,
+}
+
+impl Relief {
+    #[inline(always)]
+    fn new(front: Option<&Ball>, rest: f32) -> Self {
+        front.map_or(
+            Self {
+                rate: 0.0,
+                correction: 0.0,
+            },
+            |ball| {
+                let rate = rest / ball.sum;
+                Self {
+                    rate,
+                    correction: rate * ball.impedance,
+                }
+            },
+        )
+    }
+
+    #[inline(always)]
+    fn apply(&mut self, balls: Option<&mut [Ball]>) {
+        for ball in balls.unwrap_or_default().iter_mut().rev() {
+            ball.force = f32::from_bits(force_bits(ball.force - self.correction) as u32);
+            self.correction += self.rate * ball.impedance;
+        }
     }
 }

@@ -110,7 +110,7 @@ impl<const N: usize> Press<N> {
     /// against a complementarity solver in f64, 37 and 64 balls; 2.5e-6 for a factor 1e6, against an
     /// exhaustive search with up to 9 balls (over a hundredth of what drives the fastest ball where that is
     /// more). Exact otherwise: no iteration, at most `N - 1` joins, one division for each cluster of two or
-    /// more balls. Cost for 37 balls: 3100 to 6700 modelled cycles on a Cortex-M4F.
+    /// more balls. Cost for 37 balls: 2500 to 6400 modelled cycles on a Cortex-M4F.
     pub fn solve(&mut self, free: &[f32; N], impedance: &[f32; N], room: &[f32; N]) -> bool {
         let sound = self.pool(free, impedance, |index, _| match room.get(index) {
             Some(&room) if room < 0.0 => 0.0,
@@ -132,33 +132,36 @@ impl<const N: usize> Press<N> {
     ) -> bool {
         let mut sound = true;
         let mut ahead = free.first().copied().unwrap_or(0.0);
-        let foremost = pool(&mut self.balls, |index, ball| {
-            if let (Some(&speed), Some(&impedance)) = (free.get(index), impedance.get(index)) {
-                sound &= counts(speed, impedance);
-                ball.speed = speed;
-                ball.impedance = impedance;
-            }
-            let slack = room(index, ball) + (ahead - ball.speed);
-            ahead = ball.speed;
-            slack
-        });
-        self.foremost = foremost as u8;
+        let inputs = free.iter().zip(impedance).enumerate();
+        for (ball, (index, (&speed, &impedance))) in self.balls.iter_mut().zip(inputs).rev() {
+            sound &= counts(speed, impedance);
+            ball.set(speed, impedance, room(index, ball) + (ahead - speed));
+            ahead = speed;
+        }
+        self.foremost = pool(&mut self.balls) as u8;
         if !sound {
             self.rest();
         }
         sound
     }
 
-    /// The same with the speeds and impedances that stand in the balls, which all count.
+    /// The same with a speed, an impedance and a room that `next` finds for each ball, from the last one on;
+    /// all of them count.
     #[inline(always)]
-    pub(super) fn pool_in_place(&mut self, mut room: impl FnMut(&Ball) -> f32) {
-        let mut ahead = self.balls.first().map_or(0.0, |ball| ball.speed);
-        let foremost = pool(&mut self.balls, |_, ball| {
-            let slack = room(ball) + (ahead - ball.speed);
-            ahead = ball.speed;
-            slack
-        });
-        self.foremost = foremost as u8;
+    pub(super) fn pool_with(&mut self, mut next: impl FnMut(&Ball) -> (f32, f32, f32)) {
+        // The first ball, which is in front of the last one, comes at the end.
+        let mut ahead = 0.0;
+        let mut last_room = None;
+        for ball in self.balls.iter_mut().rev() {
+            let (speed, impedance, room) = next(ball);
+            ball.set(speed, impedance, room + (ahead - speed));
+            ahead = speed;
+            last_room.get_or_insert(room);
+        }
+        if let (Some(ball), Some(room)) = (self.balls.last_mut(), last_room) {
+            ball.slack = room + (ahead - ball.speed);
+        }
+        self.foremost = pool(&mut self.balls) as u8;
     }
 
     /// Balls at rest that press on none.

@@ -216,25 +216,17 @@ impl<const N: usize> Train<N> {
         sound
     }
 
-    /// Position, free speed and impedance of each ball, to be set before [`Train::run`].
+    /// [`Train::step`] with the free speed and the impedance that `free` makes of each ball's position,
+    /// which all count.
     #[inline(always)]
-    pub(crate) fn balls(&mut self) -> impl Iterator<Item = (u32, &mut f32, &mut f32)> {
-        let origin = self.origin;
-        self.press.balls.iter_mut().map(move |ball| {
-            (
-                ball.position.wrapping_add(origin),
-                &mut ball.speed,
-                &mut ball.impedance,
-            )
-        })
-    }
-
-    /// [`Train::step`] with the speeds and impedances that stand in the train.
-    #[inline(always)]
-    pub(crate) fn run(&mut self, travel: f32) -> Pressing {
+    pub(crate) fn run(&mut self, travel: f32, mut free: impl FnMut(u32) -> (f32, f32)) -> Pressing {
         let travel = self.counted(travel);
         let mut room = self.room(travel);
-        self.press.pool_in_place(|ball| room.next(ball));
+        let origin = self.origin;
+        self.press.pool_with(|ball| {
+            let (speed, impedance) = free(ball.position.wrapping_add(origin));
+            (speed, impedance, room.next(ball))
+        });
         self.advance(travel)
     }
 

@@ -37,23 +37,19 @@ pub enum GrooveFit {
     },
 }
 
-/// Powers of a ball's share of the load, folded at set-up.
+/// A ball's share of the load and its cube root, folded at set-up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LoadShare {
     share: f32,
-    four_thirds: f32,
-    inverse: f32,
-    inverse_two_thirds: f32,
+    root: f32,
 }
 
 impl LoadShare {
     /// The mean load.
     pub const MEAN: Self = Self {
         share: 1.0,
-        four_thirds: 1.0,
-        inverse: 1.0,
-        inverse_two_thirds: 1.0,
+        root: 1.0,
     };
 
     /// Powers of a ball's load over the mean load of all balls, 0.01 to 100; a table of them is a constant.
@@ -74,25 +70,19 @@ impl LoadShare {
             root -= (root - share / (root * root)) * (1.0 / 3.0);
             step += 1;
         }
-        Ok(Self {
-            share,
-            four_thirds: share * root,
-            inverse: 1.0 / share,
-            inverse_two_thirds: 1.0 / (root * root),
-        })
+        Ok(Self { share, root })
     }
 
     /// Its power of 2/3.
     #[inline]
     pub(crate) const fn two_thirds(&self) -> f32 {
-        let root = self.four_thirds * self.inverse;
-        root * root
+        self.root * self.root
     }
 
     /// Its power of 4/3.
     #[inline]
     pub(crate) const fn four_thirds(&self) -> f32 {
-        self.four_thirds
+        self.share * self.root
     }
 
     /// Load over the mean load.
@@ -137,10 +127,13 @@ impl LoadShare {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ScrewRow {
     friction: f32,
+    quarter_per_friction: f32,
     contact_angle: f32,
     /// Normal force of a contact over the axial load, `1/(sin beta cos alpha)`.
     normal: f32,
     preload: f32,
+    /// One over three times the preload; 0 without.
+    per_preload: f32,
     play: bool,
     nominal_speed: f32,
     largest_deviation: f32,
@@ -171,12 +164,13 @@ impl Race {
     fn at(&self, slip: f32, root: f32) -> Across {
         let contact = self.map.across(slip, self.rim * root);
         let drag = larger(contact.drag, slip);
+        let give = larger(contact.give, LEAST_GIVE * drag);
         Across {
             drag,
-            give: larger(contact.give, LEAST_GIVE * drag),
-            share: part(contact.share),
-            drag_growth: part(contact.drag_growth),
-            give_growth: part(contact.give_growth),
+            give,
+            share: part(contact.share, 1.0),
+            drag_growth: part(contact.drag_growth, drag),
+            give_growth: part(contact.give_growth, give),
         }
     }
 }
@@ -212,9 +206,10 @@ struct Loads {
 struct Mean {
     gain: f32,
     compliance: f32,
-    give_growth: f32,
+    /// Its part that follows the size of the ellipses.
+    compliance_rolling: f32,
     torque: f32,
-    drag_growth: f32,
+    torque_rolling: f32,
     main_load: f32,
     third_load: f32,
 }
@@ -361,9 +356,15 @@ impl ScrewRow {
         };
         Ok(Self {
             friction,
+            quarter_per_friction: 0.25 / friction,
             contact_angle: design.parameters().contact_angle,
             normal: 1.0 / (sin * cos_lead),
             preload,
+            per_preload: if preload > 0.0 {
+                1.0 / (3.0 * preload)
+            } else {
+                0.0
+            },
             play,
             nominal_speed: speed,
             largest_deviation: largest_deviation(design.parameters().contact_angle, sin / cos),
@@ -458,15 +459,16 @@ impl ScrewRow {
         let root = cube_root(normal);
         let contact = slides.at(2.0 * self.slip, root);
         let limit = self.friction * normal;
+        let per_limit = 1.0 / (4.0 * limit);
         self.tick(
             &self.two_point,
             [0.0, -0.5 * side, 0.5 * side],
             &Mean {
                 gain: 1.0,
-                compliance: contact.give / (4.0 * limit),
-                give_growth: contact.give_growth,
+                compliance: contact.give * per_limit,
+                compliance_rolling: contact.give_growth * per_limit,
                 torque: limit * contact.drag,
-                drag_growth: contact.drag_growth,
+                torque_rolling: limit * contact.drag_growth,
                 main_load: normal,
                 third_load: 0.0,
             },
@@ -488,31 +490,27 @@ impl ScrewRow {
         };
         let third_contact = third_race.at(self.slip, cube_root(third));
 
-        let friction = self.friction;
-        let mut torque = friction * main * (screw.drag + nut.drag);
+        let mut torque = main * (screw.drag + nut.drag) + third * third_contact.drag;
         let mut growth =
-            friction * main * (screw.drag * screw.drag_growth + nut.drag * nut.drag_growth);
-        let of_third = friction * third * third_contact.drag;
-        torque += of_third;
-        growth += of_third * third_contact.drag_growth;
+            main * (screw.drag_growth + nut.drag_growth) + third * third_contact.drag_growth;
 
-        // Force along the track per speed: of the loaded diagonal, and of the other where both of its
-        // contacts carry load.
+        // Force along the track per speed: 4 mu main/give of the loaded diagonal, and 4 mu both/other of the
+        // other one where both of its contacts carry load.
         let give = screw.give + nut.give;
-        let loaded_impedance = 4.0 * friction * main / give;
-        let give_growth = (screw.give * screw.give_growth + nut.give * nut.give_growth) / give;
-        let mut impedance = loaded_impedance;
         let mut gain = 1.0;
-        if fourth > 0.0 {
+        let compliance = if fourth > 0.0 {
             let contact = fourth_race.at(self.slip, cube_root(fourth));
-            let other_impedance = 4.0 * friction * third * fourth
-                / (third_contact.give * fourth + contact.give * third);
-            impedance += other_impedance;
-            gain = (loaded_impedance - other_impedance) / impedance;
-            let of_fourth = friction * fourth * contact.drag;
-            torque += of_fourth;
-            growth += of_fourth * contact.drag_growth;
-        }
+            torque += fourth * contact.drag;
+            growth += fourth * contact.drag_growth;
+            let other = third_contact.give * fourth + contact.give * third;
+            let (loaded, unloaded) = (main * other, third * fourth * give);
+            let inverse = 1.0 / (loaded + unloaded);
+            gain = (loaded - unloaded) * inverse;
+            other * inverse
+        } else {
+            1.0 / main
+        };
+        let compliance = self.quarter_per_friction * compliance;
         let (branch, weights) = if on_screw {
             (&self.on_screw, [side, 0.0, side])
         } else {
@@ -523,10 +521,10 @@ impl ScrewRow {
             weights,
             &Mean {
                 gain,
-                compliance: 1.0 / impedance,
-                give_growth,
-                torque,
-                drag_growth: growth / torque,
+                compliance: give * compliance,
+                compliance_rolling: (screw.give_growth + nut.give_growth) * compliance,
+                torque: self.friction * torque,
+                torque_rolling: self.friction * growth,
                 main_load: main,
                 third_load: third,
             },
@@ -539,8 +537,8 @@ impl ScrewRow {
         // Share of sliding friction across the track, to some per cent.
         let sliding = self.screw.map.share_slope() * self.slip;
         let rim = self.screw.rim * cube_root(normal);
-        let share = sliding / math::sqrt(rim * rim + sliding * sliding + 1e-30);
-        let (main, _) = self.diagonals(normal / (1.0 - self.friction * share));
+        let size = math::sqrt(rim * rim + sliding * sliding + 1e-30);
+        let main = self.loaded_diagonal(normal * size / (size - self.friction * sliding));
         let root = cube_root(main);
         let screw = self.screw.at(self.slip, root);
         let nut = self.nut.at(self.slip, root);
@@ -567,20 +565,33 @@ impl ScrewRow {
         }
     }
 
+    /// Normal force of the loaded diagonal with a given difference to the other one, within 9e-4 of the preload.
+    #[inline]
+    fn loaded_diagonal(&self, difference: f32) -> f32 {
+        if difference < LOST * self.preload {
+            let plus = 1.0 + closing(difference * self.per_preload);
+            self.preload * (plus * math::sqrt(plus))
+        } else {
+            difference
+        }
+    }
+
     /// Normal forces of the loaded and the other diagonal with a given difference.
     ///
     /// Both follow from one displacement `x` over the preload's deflection, `F (1 ± x)^(3/2)`.
     #[inline]
     fn diagonals(&self, difference: f32) -> (f32, f32) {
         if difference < LOST * self.preload {
-            let third = difference / (3.0 * self.preload);
-            let x = third * (1.0 + third * third * (1.0 / 24.0));
-            let (up, down) = (math::sqrt(1.0 + x), math::sqrt(larger(1.0 - x, 0.0)));
-            let excess = (1.0 + x) * up - (1.0 - x) * down - 3.0 * third;
-            let x = x - excess / (1.5 * (up + down));
+            let third = difference * self.per_preload;
+            let x = closing(third);
             let (plus, minus) = (1.0 + x, larger(1.0 - x, 0.0));
-            let main = self.preload * (plus * math::sqrt(plus));
-            (main, self.preload * (minus * math::sqrt(minus)))
+            let (up, down) = (math::sqrt(plus), math::sqrt(minus));
+            // A step of Newton's method, with the slopes of both powers for their change: within 4e-6.
+            let excess = plus * up - minus * down - 3.0 * third;
+            let step = excess / (up + down);
+            let main = self.preload * (up * (plus - step));
+            let other = self.preload * (down * (minus + step));
+            (main, larger(other, 0.0))
         } else {
             (difference, 0.0)
         }
@@ -589,11 +600,6 @@ impl ScrewRow {
     #[inline]
     fn tick(&self, branch: &Branch, weights: [f32; 3], mean: &Mean) -> ScrewTick {
         let [turn_sign, screw_weight, nut_weight] = weights;
-        let Mean {
-            give_growth,
-            drag_growth,
-            ..
-        } = *mean;
         ScrewTick {
             largest_deviation: self.largest_deviation,
             turn: self.turn,
@@ -609,10 +615,10 @@ impl ScrewRow {
             spin: branch.spin,
             rubbing: branch.rubbing,
             rubbing_slope: branch.rubbing_slope,
-            compliance_rolling: mean.compliance * give_growth,
-            compliance_sliding: mean.compliance * (1.0 - give_growth),
-            torque_rolling: mean.torque * drag_growth,
-            torque_sliding: mean.torque * (1.0 - drag_growth),
+            compliance_rolling: mean.compliance_rolling,
+            compliance_sliding: mean.compliance - mean.compliance_rolling,
+            torque_rolling: mean.torque_rolling,
+            torque_sliding: mean.torque - mean.torque_rolling,
             nominal_speed: self.nominal_speed,
             main_load: mean.main_load,
             third_load: mean.third_load,
@@ -672,10 +678,10 @@ impl ScrewTick {
         let spin = 1.0 + self.spin * speed_deviation;
         ScrewBallLoop {
             speed_deviation,
-            compliance: self.compliance_sliding * share.inverse
-                + self.compliance_rolling * (share.inverse_two_thirds * spin),
+            compliance: (self.compliance_sliding + self.compliance_rolling * (share.root * spin))
+                / share.share,
             groove_torque: self.torque_sliding * share.share
-                + self.torque_rolling * (share.four_thirds * spin),
+                + self.torque_rolling * (share.four_thirds() * spin),
             rubbing: self.rubbing + self.rubbing_slope * speed_deviation,
         }
     }
@@ -690,11 +696,13 @@ pub(crate) struct ScrewLoop {
     turn_weights: (f32, f32),
     own_weights: (f32, f32),
     scale: f32,
-    spin: f32,
     compliance_rolling: f32,
     compliance_sliding: f32,
+    /// Change of the rolling part with the speed.
+    compliance_spin: f32,
     torque_rolling: f32,
     torque_sliding: f32,
+    torque_spin: f32,
 }
 
 /// One ball in that loop.
@@ -703,52 +711,91 @@ pub(crate) struct LoopBall {
     pub(crate) speed: f32,
     /// Force along the track, N, that takes the speed of reference from the ball.
     pub(crate) impedance: f32,
-    /// Power loss in the grooves, N m.
-    pub(crate) groove_torque: f32,
+}
+
+/// Sums over the balls of that loop, from which the power loss in the grooves follows.
+#[derive(Default)]
+pub(crate) struct LoopSums {
+    share: f32,
+    four_thirds: f32,
+    four_thirds_speed: f32,
 }
 
 impl ScrewTick {
-    /// For speeds over a speed of which the inverse is `per_speed`, 1/m per unit of nut speed, and
+    /// For speeds over a speed of reference, m per unit of nut speed, given with its inverse, and
     /// deviations at screw and nut in these `units`, rad.
     #[inline(always)]
-    pub(crate) fn per_speed(&self, per_speed: f32, units: (f32, f32)) -> ScrewLoop {
+    pub(crate) fn per_speed(&self, speed: f32, per_speed: f32, units: (f32, f32)) -> ScrewLoop {
         let (screw, nut) = units;
         let size = per_speed.abs();
+        let scale = self.scale * per_speed;
+        let spin = self.spin * speed;
+        let compliance_rolling = self.compliance_rolling * size;
         ScrewLoop {
-            turn: self.turn,
+            turn: self.turn.map(|coefficient| coefficient * scale),
             own: self.own,
             turn_weights: (self.turn_sign * screw, self.turn_sign * nut),
             own_weights: (self.screw_weight * screw, self.nut_weight * nut),
-            scale: self.scale * per_speed,
-            spin: self.spin * self.scale,
-            compliance_rolling: self.compliance_rolling * size,
+            scale,
+            compliance_rolling,
             compliance_sliding: self.compliance_sliding * size,
+            compliance_spin: compliance_rolling * spin,
             torque_rolling: self.torque_rolling,
             torque_sliding: self.torque_sliding,
+            torque_spin: self.torque_rolling * spin,
         }
     }
 }
 
 impl ScrewLoop {
     /// One ball: [`ScrewTick::ball`].
+    ///
+    /// Independent lines stand side by side: a core that keeps their order waits a cycle for an operand
+    /// that the line before has made.
     #[inline(always)]
-    pub(crate) fn ball(&self, screw: f32, nut: f32, share: &LoadShare) -> LoopBall {
+    pub(crate) fn ball(
+        &self,
+        screw: f32,
+        nut: f32,
+        share: &LoadShare,
+        sums: &mut LoopSums,
+    ) -> LoopBall {
+        let LoadShare { share, root } = *share;
         let [t1, t2, t3, t4, t5] = self.turn;
-        let u = self.turn_weights.0 * screw + self.turn_weights.1 * nut;
-        let v = self.own_weights.0 * screw + self.own_weights.1 * nut;
-        let turn = u * (t1 + u * (t2 + u * (t3 + u * (t4 + u * t5))));
         let [o1, o2, o3] = self.own;
-        let own = v * (o1 + v * (o2 + v * o3));
-        let deviation = turn + own * (1.0 + turn);
-        let spin = 1.0 + self.spin * deviation;
-        let compliance = self.compliance_sliding * share.inverse
-            + self.compliance_rolling * (share.inverse_two_thirds * spin);
+        let (u, v) = (self.turn_weights.0 * screw, self.own_weights.0 * screw);
+        let (x, y) = (self.turn_weights.1 * nut, self.own_weights.1 * nut);
+        let (u, v) = (u + x, v + y);
+        let (turn, own) = (t5 * u, o3 * v);
+        let (turn, own) = (t4 + turn, o2 + own);
+        let (turn, own) = (turn * u, own * v);
+        let (turn, own) = (t3 + turn, o1 + own);
+        let (turn, own) = (turn * u, own * v);
+        let (turn, compliance) = (t2 + turn, self.compliance_rolling * root);
+        let (turn, spin) = (turn * u, self.compliance_spin * root);
+        let (turn, compliance) = (t1 + turn, compliance + self.compliance_sliding);
+        let (turn, power) = (turn * u, share * root);
+        // Of what turns the ball the coefficients have the scale in them.
+        let (all, shares) = (self.scale + turn, sums.share + share);
+        let (tilt, powers) = (own * all, sums.four_thirds + power);
+        let speed = turn + tilt;
+        *sums = LoopSums {
+            share: shares,
+            four_thirds: powers,
+            four_thirds_speed: sums.four_thirds_speed + power * speed,
+        };
         LoopBall {
-            speed: self.scale * deviation,
-            impedance: 1.0 / compliance,
-            groove_torque: self.torque_sliding * share.share
-                + self.torque_rolling * (share.four_thirds * spin),
+            speed,
+            impedance: share / (compliance + spin * speed),
         }
+    }
+
+    /// Power loss of these balls in the grooves, N m.
+    #[inline(always)]
+    pub(crate) fn groove_torque(&self, sums: &LoopSums) -> f32 {
+        self.torque_sliding * sums.share
+            + self.torque_rolling * sums.four_thirds
+            + self.torque_spin * sums.four_thirds_speed
     }
 }
 
@@ -767,10 +814,17 @@ fn turn_series(tangent: f32) -> [f32; 5] {
     [c1, c2, c3, c4, c5]
 }
 
-/// `x` within 0 to 1.
+/// `x` where `((1 + x)^(3/2) - (1 - x)^(3/2))/3` is `third`, for `x` in 0 to 1, within 4.3e-4.
 #[inline]
-fn part(x: f32) -> f32 {
-    if x < 1.0 { larger(x, 0.0) } else { 1.0 }
+fn closing(third: f32) -> f32 {
+    let square = third * third;
+    third * (1.0 + square * (0.055_61 + square * (-0.044_86 + square * 0.065_821)))
+}
+
+/// `x` within 0 and `whole`.
+#[inline]
+fn part(x: f32, whole: f32) -> f32 {
+    if x < whole { larger(x, 0.0) } else { whole }
 }
 
 #[inline]
@@ -817,8 +871,7 @@ fn limited(deviation: f32, largest: f32) -> f32 {
 mod tests {
     use super::*;
 
-    /// A cube root to one rounding of Newton's last step (1.5 x 2^-24), squared and inverted (three times
-    /// that and two roundings).
+    /// A cube root to one rounding of Newton's last step (1.5 x 2^-24), squared (twice that and a rounding).
     #[test]
     fn load_shares_have_their_powers() {
         const TABLE: [Result<LoadShare, Error>; 2] = [LoadShare::new(0.97), LoadShare::new(0.0)];
@@ -832,9 +885,9 @@ mod tests {
             };
             let root = libm::cbrt(f64::from(powers.share));
             for (found, truth) in [
-                (powers.four_thirds, root * root * root * root),
-                (powers.inverse, 1.0 / (root * root * root)),
-                (powers.inverse_two_thirds, 1.0 / (root * root)),
+                (powers.root, root),
+                (powers.four_thirds(), root * root * root * root),
+                (powers.two_thirds(), root * root),
             ] {
                 worst = worst.max((f64::from(found) / truth - 1.0).abs());
             }

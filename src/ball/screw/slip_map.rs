@@ -182,9 +182,9 @@ pub(super) struct Across {
     pub(super) give: f32,
     /// Friction force across the track over `mu F`.
     pub(super) share: f32,
-    /// Change of `ln drag` with the logarithm of the ellipse's size or of the spin.
+    /// Change of the drag with the logarithm of the ellipse's size or of the spin.
     pub(super) drag_growth: f32,
-    /// Change of `ln give` with it.
+    /// Change of the give with it.
     pub(super) give_growth: f32,
 }
 
@@ -328,13 +328,14 @@ impl SlipMap {
             let power = moment + place * share;
             let bend = coefficients.both * square;
             let along = coefficients.along - bend;
-            let inverse = 1.0 / (power * along);
+            let inverse = 1.0 / along;
+            let give = (4.0 / 3.0) * rim * inverse;
             Across {
                 drag: rim * power,
-                give: (4.0 / 3.0) * rim * power * inverse,
+                give,
                 share,
-                drag_growth: moment * along * inverse,
-                give_growth: 1.0 - 2.0 * bend * power * inverse,
+                drag_growth: rim * moment,
+                give_growth: give - 2.0 * give * (bend * inverse),
             }
         } else {
             let Potential {
@@ -344,15 +345,14 @@ impl SlipMap {
                 ..
             } = self.far(0.0, place, square);
             let power = moment + place * across;
-            let inverse = 1.0 / (power * along_along);
-            let give = power * inverse;
+            let give = rim / along_along;
             Across {
                 drag: rim * power,
-                give: rim * give,
+                give,
                 share: across,
-                drag_growth: moment * along_along * inverse,
-                // give is place/(1 - c/place²).
-                give_growth: 2.0 * (give / place - 1.0),
+                drag_growth: rim * moment,
+                // give is slip/(1 - c/place²).
+                give_growth: 2.0 * give * (give / slip - 1.0),
             }
         }
     }
@@ -444,7 +444,11 @@ impl SlipMap {
     #[inline]
     fn outside(&self, lambda: f32) -> Coefficients {
         let root = math::sqrt(lambda);
-        let scaled = 1.0 / (root + self.scale);
+        let (long, short) = (1.0 + lambda, self.square + lambda);
+        // One division for both reciprocals.
+        let (product, sum) = (long * short, root + self.scale);
+        let both = 1.0 / (product * sum);
+        let (inverse, scaled) = (both * sum, both * product);
         let place = self.stretch * (root * scaled) - 1.0;
         let (mut along, mut across, mut narrow) = (0.0, 0.0, 0.0);
         let differences = self.first.iter().zip(&self.second).zip(&self.fifth);
@@ -454,8 +458,6 @@ impl SlipMap {
             across = across * distance + second;
             narrow = narrow * distance + fifth;
         }
-        let (long, short) = (1.0 + lambda, self.square + lambda);
-        let inverse = 1.0 / (long * short);
         let weight = 2.0 * lambda * root * math::sqrt(inverse);
         self.complete(
             along * scaled,
