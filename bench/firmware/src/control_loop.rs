@@ -30,7 +30,7 @@ pub struct ControlLoop {
     driven: FrictionModel<CagedBallScrew>,
     encoder: MagneticEncoder<Sensor>,
     stage: FrictionFeedForward<Bridge>,
-    /// Ticks without a speed, and whether the bridge was neutral in all of them and in no other.
+    /// Ticks without a speed, and whether the bridge was neutral in all flagged ticks and in no other.
     blind: u32,
     safe: bool,
     ticks: u32,
@@ -117,7 +117,8 @@ impl ControlLoop {
         let Ok(applied) = self.stage.apply(&friction);
         self.ticks += 1;
         self.blind += u32::from(nut_speed.is_nan());
-        self.safe &= applied.neutral == nut_speed.is_nan();
+        self.safe &= applied.neutral == friction.faults.any();
+        self.safe &= applied.neutral || !nut_speed.is_nan();
         self.digest.take(&[
             friction.friction_torque,
             f32::from(applied.duty),
