@@ -62,7 +62,7 @@ pub const CBRT: Promise = Promise {
 /// [`math::cbrt_squared`](crate::math::cbrt_squared).
 pub const CBRT_SQUARED: Promise = Promise {
     function: "math::cbrt_squared",
-    largest: 0.535,
+    largest: 0.54,
     not_finite: "NaN; infinity",
     tiny: "zeros give 0, subnormals are numbers",
     ..CBRT

@@ -422,7 +422,7 @@ extern "C" {
 /**
  * Size of `epas_screw_t` in words of eight bytes.
  */
-#define EPAS_SCREW_WORDS 209
+#define EPAS_SCREW_WORDS 210
 
 /**
  * Balls in the circuit of `epas_linear_t`, return included. A bearing with another number needs the
@@ -503,7 +503,7 @@ typedef struct epas_load_share_t {
     /**
      * Not for the caller.
      */
-    uint32_t words[4];
+    uint32_t words[2];
 } epas_load_share_t;
 
 /**

@@ -50,7 +50,7 @@ pub struct Deviation {
 #[repr(C)]
 pub struct LoadShare {
     /// Not for the caller.
-    pub words: [u32; 4],
+    pub words: [u32; 2],
 }
 
 /// A deviation in its place, with the mark that says that there is one.
