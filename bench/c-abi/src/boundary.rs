@@ -119,7 +119,7 @@ unsafe fn load_shares(
     usable(pointer).map_err(|status| Failure::pointer(status, EPAS_FIELD_LOAD_SHARES))?;
     let length = share_count(count)?;
     let shares = unsafe { slice::from_raw_parts(pointer.cast::<CrateLoadShare>(), length) };
-    match (0..).zip(shares).find(|(_, share)| !is_load_share(share)) {
+    match (0..).zip(shares).find(|(_, share)| !is_load_share(**share)) {
         None => Ok(shares),
         Some((index, _)) => Err(Failure {
             index,

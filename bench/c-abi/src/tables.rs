@@ -162,8 +162,8 @@ pub(crate) fn load_share(index: u32, share: f32) -> Result<epas_friction::LoadSh
 }
 
 /// Whether a place holds what [`load_share`] makes.
-pub(crate) fn is_load_share(share: &epas_friction::LoadShare) -> bool {
-    epas_friction::LoadShare::new(share.share()).is_ok_and(|made| made == *share)
+pub(crate) fn is_load_share(share: epas_friction::LoadShare) -> bool {
+    epas_friction::LoadShare::new(share.share()).is_ok_and(|made| made == share)
 }
 
 fn indexed(failure: Failure, position: Option<usize>) -> Failure {
