@@ -34,8 +34,13 @@ fn run<S: Trial>(seed: u64, signals: &[u8]) {
     while let (Some(speed), Some(load)) = (numbers.next(), numbers.next()) {
         let sensors = [speed, load, numbers.next().unwrap_or(load)];
         let outputs = model.step(S::inputs(sensors));
-        if let Err(error) = S::check(&configuration, sensors, &outputs).and_then(|()| S::check_state(&model)) {
-            panic!("{}, seed {seed:#x}, sensors {sensors:?}: {error}\n{configuration:?}", S::name());
+        if let Err(error) =
+            S::check(&configuration, sensors, &outputs).and_then(|()| S::check_state(&model))
+        {
+            panic!(
+                "{}, seed {seed:#x}, sensors {sensors:?}: {error}\n{configuration:?}",
+                S::name()
+            );
         }
     }
 }
