@@ -140,6 +140,17 @@ pub(crate) const fn in_range(
     }
 }
 
+/// The value of a `Result`, or back with its error: the operator `?`, which a constant function cannot use.
+macro_rules! attempt {
+    ($result:expr) => {
+        match $result {
+            Ok(value) => value,
+            Err(error) => return Err(error),
+        }
+    };
+}
+pub(crate) use attempt;
+
 #[cfg(test)]
 mod tests {
     extern crate std;

@@ -14,8 +14,10 @@
 //!
 //! The feature `libm` puts `libm`'s cube root, sine and cosine in the place of our own; the feature
 //! `micromath` puts `micromath`'s there, and its square root where the target has no instruction for
-//! one. The rest of the crate calls the functions of this module and never asks which they are.
+//! one. What runs in the loop calls the functions of this module and never asks which they are; set-up
+//! calls those of [`constant`], so that all of it can be done by the compiler.
 
+pub mod constant;
 pub mod own;
 
 #[cfg(feature = "libm")]

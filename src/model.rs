@@ -1,5 +1,7 @@
 //! The model that runs in the interrupt: constants folded at set-up, a small state, one `step`.
 
+use core::borrow::Borrow;
+
 use crate::error::Error;
 use crate::scene::Scene;
 
@@ -27,9 +29,43 @@ use crate::scene::Scene;
 /// assert!(outputs.friction_torque > 0.0 && outputs.efficiency > 0.9);
 /// # Ok::<(), epas_friction::Error>(())
 /// ```
+///
+/// A design that is known when the firmware is compiled can be folded then. Its constants stay in flash, the model keeps a
+/// reference to them beside its state, nothing of the set-up is linked, and a field out of range is an error
+/// of the compiler:
+///
+/// ```
+/// use epas_friction::{
+///     CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, Error, FrictionBranch,
+///     FrictionModel, Limits,
+/// };
+///
+/// static GEAR: CagedConstants = match gear() {
+///     Ok(constants) => constants,
+///     Err(_) => panic!("a field is out of range"),
+/// };
+///
+/// const fn gear() -> Result<CagedConstants, Error> {
+///     CagedConstants::new(&CagedBallScrewConfiguration {
+///         design: match CATALOGUE[15].design() {
+///             Ok(design) => design,
+///             Err(error) => return Err(error),
+///         },
+///         friction: 0.075,
+///         rolling_tangent: 0.0,
+///         branch: FrictionBranch::Rolling,
+///         preload: 0.0,
+///         reversal_speed: 0.5,
+///         limits: Limits { nut_speed: 500.0, axial_load: 20_000.0, friction_torque: 5.0 },
+///     })
+/// }
+///
+/// let model = FrictionModel::<CagedBallScrew, _>::of(&GEAR);
+/// assert_eq!(model.state().faulted_ticks, 0);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FrictionModel<S: Scene> {
-    constants: S::Constants,
+pub struct FrictionModel<S: Scene, C = <S as Scene>::Constants> {
+    constants: C,
     state: S::State,
 }
 
@@ -39,25 +75,31 @@ impl<S: Scene> FrictionModel<S> {
     /// # Errors
     /// [`Error`] naming the field out of range.
     pub fn new(configuration: &S::Configuration) -> Result<Self, Error> {
-        let constants = S::constants(configuration)?;
-        let state = S::initial_state(&constants);
-        Ok(Self { constants, state })
+        S::constants(configuration).map(Self::of)
+    }
+}
+
+impl<S: Scene, C: Borrow<S::Constants>> FrictionModel<S, C> {
+    /// A model of constants that are folded already, or of a reference to them.
+    pub fn of(constants: C) -> Self {
+        let state = S::initial_state(constants.borrow());
+        Self { constants, state }
     }
 
     /// One tick: bounded time, no panic, finite outputs whatever the inputs are.
     #[inline]
     pub fn step(&mut self, inputs: S::Inputs) -> S::Outputs {
-        S::step(&self.constants, &mut self.state, inputs)
+        S::step(self.constants.borrow(), &mut self.state, inputs)
     }
 
     /// Back to the state before the first tick.
     pub fn reset(&mut self) {
-        self.state = S::initial_state(&self.constants);
+        self.state = S::initial_state(self.constants.borrow());
     }
 
     /// The folded constants.
-    pub const fn constants(&self) -> &S::Constants {
-        &self.constants
+    pub fn constants(&self) -> &S::Constants {
+        self.constants.borrow()
     }
 
     pub(crate) const fn state_mut(&mut self) -> &mut S::State {

@@ -127,10 +127,13 @@ const LARGEST: u32 = 0x7f7f_ffff;
 const STRIDE: usize = 1009;
 
 fn check_roots(stride: usize) {
-    let kernels: [(&str, f64, ErrorAt); 3] = [
+    let kernels: [(&str, f64, ErrorAt); 4] = [
         // Correctly rounded: half an ulp, and a rounding of the float64 square root.
         ("sqrt", 0.500_000_1, |x| {
             ulps(math::sqrt(x), f64::from(x).sqrt())
+        }),
+        ("sqrt of set-up", 0.500_000_1, |x| {
+            ulps(math::constant::sqrt(x), f64::from(x).sqrt())
         }),
         // Half an ulp of the last sum, 2^-7 of it from the product before, 1e-9 of the series.
         ("cbrt", 0.52, |x| ulps(math::cbrt(x), f64::from(x).cbrt())),
@@ -232,8 +235,11 @@ fn special_values_are_as_documented() {
         assert_eq!(math::cbrt_squared(-x), x);
         assert_eq!(math::sqrt(x), x);
     }
-    assert!(math::sqrt(-0.0) == 0.0 && math::sqrt(-0.0).is_sign_negative());
-    assert!(math::sqrt(-1.0).is_nan() && math::sqrt(f32::NEG_INFINITY).is_nan());
+    for sqrt in [math::sqrt, math::constant::sqrt] {
+        assert!(sqrt(-0.0) == 0.0 && sqrt(-0.0).is_sign_negative());
+        assert!(sqrt(-1.0).is_nan() && sqrt(f32::NEG_INFINITY).is_nan() && sqrt(f32::NAN).is_nan());
+        assert!(sqrt(f32::INFINITY) == f32::INFINITY && sqrt(0.0).to_bits() == 0);
+    }
     for x in [f32::NAN, -f32::NAN] {
         assert!(math::sqrt(x).is_nan());
         assert!(math::cbrt(x).is_nan() && math::cbrt_squared(x).is_nan());

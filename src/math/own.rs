@@ -12,13 +12,13 @@ struct Root {
 
 impl Root {
     #[inline]
-    fn value(&self) -> f32 {
+    const fn value(&self) -> f32 {
         self.short + self.rest
     }
 
     /// `short²` is exact (16 bits) and the rest is small, so that only the last sum rounds to a half ulp.
     #[inline]
-    fn squared(&self) -> f32 {
+    const fn squared(&self) -> f32 {
         let Self { short, rest } = *self;
         short * short + rest * ((short + short) + rest)
     }
@@ -27,28 +27,28 @@ impl Root {
 /// Cube root; see [`math::cbrt`](super::cbrt).
 #[inline]
 #[must_use]
-pub fn cbrt(x: f32) -> f32 {
+pub const fn cbrt(x: f32) -> f32 {
     root(x).value()
 }
 
 /// Square of the cube root; see [`math::cbrt_squared`](super::cbrt_squared).
 #[inline]
 #[must_use]
-pub fn cbrt_squared(x: f32) -> f32 {
+pub const fn cbrt_squared(x: f32) -> f32 {
     root(x).squared()
 }
 
 /// Cube root and its square; see [`math::cbrt_and_squared`](super::cbrt_and_squared).
 #[inline]
 #[must_use]
-pub fn cbrt_and_squared(x: f32) -> (f32, f32) {
+pub const fn cbrt_and_squared(x: f32) -> (f32, f32) {
     let root = root(x);
     (root.value(), root.squared())
 }
 
 /// Cube root of any number.
 #[inline]
-fn root(x: f32) -> Root {
+const fn root(x: f32) -> Root {
     // Below 2^-120 a difference in `common_root` would be subnormal, from 2^126 on `3 x` could overflow.
     const SMALLEST: u32 = 0x0380_0000;
     const SPAN: u32 = 0x7e80_0000 - SMALLEST;
@@ -73,7 +73,7 @@ fn root(x: f32) -> Root {
 ///    It leaves 3e-11; the rest of the root, `near - short` less the step, is below 2^-7 of it and so are
 ///    its roundings.
 #[inline(always)]
-fn common_root(x: f32) -> Root {
+const fn common_root(x: f32) -> Root {
     const SEED: u32 = 0x5477_9d9d;
     const ZERO: f32 = 1.448_389_2;
     const CENTRE: f32 = 0.351_304_5;
@@ -101,7 +101,7 @@ fn common_root(x: f32) -> Root {
 /// own roots: twice themselves, squared or not.
 #[cold]
 #[inline(never)]
-fn rare_root(x: f32) -> (f32, f32) {
+const fn rare_root(x: f32) -> (f32, f32) {
     const TWO_TO_48: f32 = 281_474_976_710_656.0;
     const TWO_TO_16: f32 = 65_536.0;
     if x == 0.0 || !x.is_finite() {
@@ -123,7 +123,7 @@ fn rare_root(x: f32) -> (f32, f32) {
 /// their signs.
 #[inline]
 #[must_use]
-pub fn sin_cos(x: f32) -> (f32, f32) {
+pub const fn sin_cos(x: f32) -> (f32, f32) {
     let (quadrant, rest) = reduced(x);
     let square = rest * rest;
     // Horner's scheme of both side by side: each operation then finds its operands ready, which saves a
@@ -156,7 +156,7 @@ pub fn sin_cos(x: f32) -> (f32, f32) {
 /// differences are exact up to the sixteenth multiple: the rest keeps full relative precision, however
 /// small it is.
 #[inline(always)]
-fn reduced(x: f32) -> (u32, f32) {
+const fn reduced(x: f32) -> (u32, f32) {
     const LARGEST_MULTIPLE: u32 = 16;
     // Adding it rounds to the nearest integer, and leaves that integer in the low bits, counted from
     // -LARGEST_MULTIPLE.
@@ -183,7 +183,7 @@ fn reduced(x: f32) -> (u32, f32) {
 /// precision next to the zeros.
 #[cold]
 #[inline(never)]
-fn reduced_from_afar(x: f32) -> (u32, f32) {
+const fn reduced_from_afar(x: f32) -> (u32, f32) {
     const ROUND: f32 = 12_582_912.0; // 1.5 x 2^23
     const PART_1: f32 = 1.570_312_5;
     const PART_2: f32 = 4.837_512_969_970_703e-4;

@@ -2,7 +2,7 @@
 
 use super::slip_map::{Across, SlipMap};
 use crate::ball::root::{inverse_cube_roots, loaded};
-use crate::error::{Error, in_range};
+use crate::error::{Error, attempt, in_range};
 use crate::geometry::{BallScrew, Groove};
 use crate::hertz::HertzContact;
 use crate::math;
@@ -59,10 +59,7 @@ impl LoadShare {
     /// # Errors
     /// [`Error`] naming `share`.
     pub const fn new(share: f32) -> Result<Self, Error> {
-        let share = match in_range("share", share, 0.01, 100.0) {
-            Ok(share) => share,
-            Err(error) => return Err(error),
-        };
+        let share = attempt!(in_range("share", share, 0.01, 100.0));
         // Newton's method from 1, which a constant can take: 14 steps from either end of the range.
         let mut root = 1.0;
         let mut step = 0;
