@@ -923,6 +923,33 @@ const fn limited(deviation: f32, largest: f32) -> f32 {
 mod tests {
     use super::*;
 
+    /// Set-up looks at deviations alone, without the loads that a tick finds them from.
+    #[test]
+    fn the_fastest_ball_is_that_of_the_heaviest_loads() {
+        let fits = [
+            GrooveFit::Zero,
+            GrooveFit::Play,
+            GrooveFit::Preload {
+                contact_force: 1e-3,
+            },
+            GrooveFit::Preload { contact_force: 1e6 },
+        ];
+        for size in &crate::CATALOGUE {
+            for fit in fits {
+                let row = ScrewRow::new(&size.design().unwrap(), 0.1, fit).unwrap();
+                let mut fastest = 0.0_f32;
+                for (nut_speed, load) in [(1.0, 1e7), (1.0, -1e7), (-1.0, 1e7), (-1.0, -1e7)] {
+                    let tick = row.at(nut_speed, load);
+                    for (screw, nut) in [(0.1, 0.07), (0.1, -0.07), (-0.1, 0.07), (-0.1, -0.07)] {
+                        let ball = tick.ball(screw, nut, &LoadShare::MEAN);
+                        fastest = fastest.max(ball.speed_deviation.abs());
+                    }
+                }
+                assert_eq!(row.fastest_deviation(0.1, 0.07), fastest, "{fit:?}");
+            }
+        }
+    }
+
     /// A cube root to one rounding of Newton's last step (1.5 x 2^-24), squared (twice that and a rounding).
     #[test]
     fn load_shares_have_their_powers() {
