@@ -9,9 +9,10 @@ use std::hint::black_box;
 
 use epas_friction::{
     BallBearing, BallBearingParameters, BallScrew, CATALOGUE, CircularGrooveCurvature,
-    ContactAngle, DISSERTATION_DESIGNS, Drive, DynamicCorrection, EfficiencyGeometry,
-    FittedCurvature, GothicArch, Groove, GrooveSize, HelixPath, HertzContact, LinearBearing,
-    LinearBearingParameters, LiteratureCurvature, Material, contact_modulus, math,
+    ContactAngle, ContactKinematics, DISSERTATION_DESIGNS, Drive, DynamicCorrection,
+    EfficiencyGeometry, EllipticContact, FittedCurvature, GothicArch, Groove, GrooveSize,
+    HelixPath, HertzContact, KinematicsParameters, LinearBearing, LinearBearingParameters,
+    LiteratureCurvature, Material, contact_modulus, math,
 };
 
 /// Everything that follows from one ball screw.
@@ -250,6 +251,55 @@ fn folded_bearings_have_the_bits_of_those_made_at_run_time() {
     const FOLDED: Result<Bearings, epas_friction::Error> = bearings(LINEAR, ROTARY, 0.17);
     let computed = bearings(black_box(LINEAR), black_box(ROTARY), black_box(0.17));
     assert!(FOLDED.is_ok());
+    same_bits(&FOLDED, &computed);
+}
+
+/// The screw of Alberdi et al., Table 2, at 1500 N.
+const BALL: KinematicsParameters = KinematicsParameters {
+    ball_diameter: 7.94e-3,
+    pitch_radius: 19.25e-3,
+    lead_angle: 0.1745,
+    groove_radius_screw: 4.2e-3,
+    groove_radius_nut: 4.2e-3,
+    contact_angle_screw: 0.7156,
+    contact_angle_nut: 0.7156,
+    pitch_angle: 0.6981,
+    yaw_angle: 0.02,
+    rolling_radius_screw: 3.97e-3,
+    rolling_radius_nut: 3.96e-3,
+    semi_major_screw: 0.601e-3,
+    semi_minor_screw: 0.083e-3,
+    semi_major_nut: 0.586e-3,
+    semi_minor_nut: 0.097e-3,
+};
+
+/// The kinematics' set-up takes other kernels than its update in the loop: the same contact given again
+/// must change nothing.
+#[test]
+fn folded_kinematics_have_the_bits_of_those_made_at_run_time() {
+    const FOLDED: ContactKinematics = match ContactKinematics::new(&BALL) {
+        Ok(kinematics) => kinematics,
+        Err(_) => panic!("the ball does not roll"),
+    };
+    let mut computed = ContactKinematics::new(&black_box(BALL)).unwrap();
+    same_bits(&FOLDED, &computed);
+    let screw = EllipticContact {
+        contact_angle: BALL.contact_angle_screw,
+        semi_major: BALL.semi_major_screw,
+        semi_minor: BALL.semi_minor_screw,
+    };
+    let nut = EllipticContact {
+        contact_angle: BALL.contact_angle_nut,
+        semi_major: BALL.semi_major_nut,
+        semi_minor: BALL.semi_minor_nut,
+    };
+    let other = EllipticContact {
+        contact_angle: 0.5,
+        ..screw
+    };
+    assert!(computed.update(other, other));
+    assert!(format!("{FOLDED:?}") != format!("{computed:?}"));
+    assert!(computed.update(black_box(screw), black_box(nut)));
     same_bits(&FOLDED, &computed);
 }
 

@@ -128,11 +128,18 @@ const fn solve(mut rows: [[f32; NODES + 1]; NODES]) -> [f32; NODES] {
     let mut pivot = 0;
     while pivot < NODES {
         // Bubbling the largest element up takes the place of an indexed swap, so that every index is
-        // a loop counter and no bounds check can remain.
+        // a loop counter and no bounds check can remain; element by element, which needs no copy of
+        // memory. What lies left of the pivot is never read again.
         let mut below = pivot + 1;
         while below < NODES {
             if rows[below][pivot].abs() > rows[pivot][pivot].abs() {
-                (rows[pivot], rows[below]) = (rows[below], rows[pivot]);
+                let mut column = pivot;
+                while column <= NODES {
+                    let above = rows[pivot][column];
+                    rows[pivot][column] = rows[below][column];
+                    rows[below][column] = above;
+                    column += 1;
+                }
             }
             below += 1;
         }
@@ -142,7 +149,7 @@ const fn solve(mut rows: [[f32; NODES + 1]; NODES]) -> [f32; NODES] {
             let mut below = pivot + 1;
             while below < NODES {
                 let factor = rows[below][pivot] / diagonal;
-                let mut column = 0;
+                let mut column = pivot + 1;
                 while column <= NODES {
                     rows[below][column] -= factor * upper[column];
                     column += 1;
