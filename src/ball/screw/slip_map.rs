@@ -2,8 +2,8 @@
 
 use core::f32::consts::FRAC_1_SQRT_2;
 
-use crate::error::{Error, in_range};
-use crate::math;
+use crate::error::{Error, attempt, in_range};
+use crate::math::{self, constant};
 
 /// Points of interpolation of the two elliptic integrals.
 const POINTS: usize = 10;
@@ -173,59 +173,38 @@ pub struct SlipFriction {
     pub rim: f32,
 }
 
-/// One contact that slips across the track only.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Across {
-    /// Power loss over `mu F`.
-    pub(super) drag: f32,
-    /// Slip along the track over the friction force that resists it, times `mu F`.
-    pub(super) give: f32,
-    /// Friction force across the track over `mu F`.
-    pub(super) share: f32,
-    /// Change of the drag with the logarithm of the ellipse's size or of the spin.
-    pub(super) drag_growth: f32,
-    /// Change of the give with it.
-    pub(super) give_growth: f32,
-}
-
 impl SlipMap {
     /// Maps of a contact with the axis ratio `b/a`. For set-up: it evaluates elliptic integrals at eleven places.
     ///
     /// # Errors
     /// [`Error`] naming `axis_ratio` where it is not within 0.02 to 0.95.
-    pub fn new(axis_ratio: f32) -> Result<Self, Error> {
-        let k = in_range(
-            "axis_ratio",
-            axis_ratio,
-            SMALLEST_AXIS_RATIO,
-            LARGEST_AXIS_RATIO,
-        )?;
+    pub const fn new(axis_ratio: f32) -> Result<Self, Error> {
+        let k = attempt!(checked_axis_ratio(axis_ratio));
         let square = k * k;
-        let scale = math::sqrt(k);
+        let scale = constant::sqrt(k);
         let largest = LARGEST_ROOT / (LARGEST_ROOT + scale);
         let mut first = [0.0; POINTS];
         let mut second = [0.0; POINTS];
         let mut fifth = [0.0; POINTS];
-        for (point, ((first, second), fifth)) in CHEBYSHEV
-            .iter()
-            .zip(first.iter_mut().zip(&mut second).zip(&mut fifth))
-        {
-            let part = 0.5 * (1.0 + point) * largest;
+        let mut point = 0;
+        while point < POINTS {
+            let part = 0.5 * (1.0 + CHEBYSHEV[point]) * largest;
             let root = scale * part / (1.0 - part);
             let lambda = root * root;
             let (along, across) = integrals(square, lambda);
             let stretch = root + scale;
-            *first = along * stretch;
-            *second = across * stretch;
+            first[point] = along * stretch;
+            second[point] = across * stretch;
             let narrow = if lambda < square {
                 let (long, short) = (1.0 + lambda, square + lambda);
-                let weight = 2.0 * lambda * root / math::sqrt(long * short);
+                let weight = 2.0 * lambda * root / constant::sqrt(long * short);
                 let both = (across - along) / ((1.0 - k) * (1.0 + k));
                 (across - both - weight / short) / (3.0 * square)
             } else {
                 narrow_integral(square, root)
             };
-            *fifth = narrow * (square + lambda) * stretch;
+            fifth[point] = narrow * (square + lambda) * stretch;
+            point += 1;
         }
         let (along, across) = integrals(square, 0.0);
         let mut map = Self {
@@ -257,12 +236,6 @@ impl SlipMap {
     #[must_use]
     pub const fn axis_ratio(&self) -> f32 {
         self.axis_ratio
-    }
-
-    /// Slope of the share of sliding friction across the track by `z`, at the centre.
-    #[inline]
-    pub(super) fn share_slope(&self) -> f32 {
-        0.75 * self.inside.across
     }
 
     /// Friction over `mu F` at a slip across and along the track, m/s, and a spin, rad/s, of a contact with the
@@ -310,9 +283,9 @@ impl SlipMap {
         }
     }
 
-    /// Drag, give and share under a slip across the track, where the spin moves the rim with `rim = a |w|`.
+    /// Friction force over `mu F` under a slip across the track, where the spin moves the rim with `rim = a |w|`.
     #[inline]
-    pub(super) fn across(&self, slip: f32, rim: f32) -> Across {
+    pub(super) fn share_across(&self, slip: f32, rim: f32) -> f32 {
         let place = slip / rim;
         let square = place * place;
         if square <= FAR {
@@ -321,39 +294,9 @@ impl SlipMap {
             } else {
                 self.outside(square - self.square)
             };
-            let cubic = coefficients.across_across * square;
-            let share = 0.75 * place * (coefficients.across - cubic);
-            let moment =
-                0.1875 * (coefficients.whole + square * (3.0 * cubic - 2.0 * coefficients.across));
-            let power = moment + place * share;
-            let bend = coefficients.both * square;
-            let along = coefficients.along - bend;
-            let inverse = 1.0 / along;
-            let give = (4.0 / 3.0) * rim * inverse;
-            Across {
-                drag: rim * power,
-                give,
-                share,
-                drag_growth: rim * moment,
-                give_growth: give - 2.0 * give * (bend * inverse),
-            }
+            0.75 * place * (coefficients.across - coefficients.across_across * square)
         } else {
-            let Potential {
-                moment,
-                across,
-                along_along,
-                ..
-            } = self.far(0.0, place, square);
-            let power = moment + place * across;
-            let give = rim / along_along;
-            Across {
-                drag: rim * power,
-                give,
-                share: across,
-                drag_growth: rim * moment,
-                // give is slip/(1 - c/place²).
-                give_growth: 2.0 * give * (give / slip - 1.0),
-            }
+            self.far(0.0, place, square).across
         }
     }
 
@@ -473,7 +416,7 @@ impl SlipMap {
     /// `C5` by parts would be a difference divided by `k²`, which leaves nothing of it far from a slender
     /// ellipse.
     #[inline]
-    fn complete(
+    const fn complete(
         &self,
         along: f32,
         across: f32,
@@ -491,6 +434,16 @@ impl SlipMap {
             across_across,
         }
     }
+}
+
+/// An axis ratio that the integrals are good for.
+pub(super) const fn checked_axis_ratio(axis_ratio: f32) -> Result<f32, Error> {
+    in_range(
+        "axis_ratio",
+        axis_ratio,
+        SMALLEST_AXIS_RATIO,
+        LARGEST_AXIS_RATIO,
+    )
 }
 
 /// A place far away, brought back to a distance of a million; what is not a number counts as zero, and two
@@ -514,7 +467,7 @@ fn limited(along: f32, across: f32) -> (f32, f32, f32) {
 
 /// Mean of `p² (4 l² - p²)/8` with `l` along and `p` across the direction of the velocity centre: the
 /// coefficients of `x⁴`, `x² z²`, `z⁴`. Fourth moments of a Hertzian pressure are 3/35, k²/35 and 3 k⁴/35.
-fn far_quartic(square: f32) -> [f32; 3] {
+const fn far_quartic(square: f32) -> [f32; 3] {
     let (long, mixed, short) = (3.0 / 35.0, square / 35.0, 3.0 * square * square / 35.0);
     [
         0.125 * (4.0 * mixed - short),
@@ -525,12 +478,13 @@ fn far_quartic(square: f32) -> [f32; 3] {
 
 /// `C1` and `C2` at `lambda`: `2 R_F - 2/3 R_D` and `2 R_F - 2/3 k² R_D` of the arguments `lambda`, `k² + lambda`,
 /// `1 + lambda`, the last of `R_D` being `1 + lambda` and `k² + lambda`, by Carlson's duplication.
-fn integrals(square: f32, lambda: f32) -> (f32, f32) {
+pub(super) const fn integrals(square: f32, lambda: f32) -> (f32, f32) {
     let (mut x, mut y, mut z) = (lambda, square + lambda, 1.0 + lambda);
     let mut weight = 1.0;
     let (mut long, mut short) = (0.0, 0.0);
-    for _ in 0..DUPLICATIONS {
-        let (a, b, c) = (math::sqrt(x), math::sqrt(y), math::sqrt(z));
+    let mut duplication = 0;
+    while duplication < DUPLICATIONS {
+        let (a, b, c) = (constant::sqrt(x), constant::sqrt(y), constant::sqrt(z));
         let step = a * b + b * c + c * a;
         long += weight / (c * (z + step));
         short += weight / (b * (y + step));
@@ -538,11 +492,12 @@ fn integrals(square: f32, lambda: f32) -> (f32, f32) {
         x = 0.25 * (x + step);
         y = 0.25 * (y + step);
         z = 0.25 * (z + step);
+        duplication += 1;
     }
-    let of = |mean: f32| weight / (mean * math::sqrt(mean));
-    let first = 2.0 / math::sqrt((x + y + z) * (1.0 / 3.0));
-    let long = 3.0 * long + of(0.2 * (x + y + 3.0 * z));
-    let short = 3.0 * short + of(0.2 * (x + z + 3.0 * y));
+    let (mean_long, mean_short) = (0.2 * (x + y + 3.0 * z), 0.2 * (x + z + 3.0 * y));
+    let first = 2.0 / constant::sqrt((x + y + z) * (1.0 / 3.0));
+    let long = 3.0 * long + weight / (mean_long * constant::sqrt(mean_long));
+    let short = 3.0 * short + weight / (mean_short * constant::sqrt(mean_short));
     (
         first - (2.0 / 3.0) * long,
         first - (2.0 / 3.0) * square * short,
@@ -550,32 +505,39 @@ fn integrals(square: f32, lambda: f32) -> (f32, f32) {
 }
 
 /// `C5` from `lambda = root²` on, by Gauss-Legendre quadrature in `sqrt(s)`, panel by panel.
-fn narrow_integral(square: f32, root: f32) -> f32 {
+pub(super) const fn narrow_integral(square: f32, root: f32) -> f32 {
     let mut sum = 0.0;
     let mut end = root;
-    for _ in 0..PANELS {
-        for (node, weight) in GAUSS {
+    let mut panel = 0;
+    while panel < PANELS {
+        let mut point = 0;
+        while point < GAUSS.len() {
+            let (node, weight) = GAUSS[point];
             let part = 0.5 * (1.0 + node);
             let r = end * (1.0 + 0.5 * part);
             let r2 = r * r;
             let short = 1.0 / (square + r2);
-            let value = 2.0 * r2 * short * short * math::sqrt(short / (1.0 + r2));
+            let value = 2.0 * r2 * short * short * constant::sqrt(short / (1.0 + r2));
             sum += 0.25 * weight * end * value;
+            point += 1;
         }
         end *= 1.5;
+        panel += 1;
     }
     sum
 }
 
-fn divided_differences(mut values: [f32; POINTS]) -> [f32; POINTS] {
-    for order in 1..POINTS {
-        let before = values;
-        let pairs = CHEBYSHEV.iter().skip(order).zip(&CHEBYSHEV);
-        let entries = values.iter_mut().skip(order);
-        let left = before.iter().skip(order - 1);
-        for ((value, before), (here, there)) in entries.zip(left).zip(pairs) {
-            *value = (*value - before) / (here - there);
+const fn divided_differences(mut values: [f32; POINTS]) -> [f32; POINTS] {
+    let mut order = 1;
+    while order < POINTS {
+        // Backwards, so that what stands before a value is still of the order below.
+        let mut place = POINTS - 1;
+        while place >= order {
+            values[place] =
+                (values[place] - values[place - 1]) / (CHEBYSHEV[place] - CHEBYSHEV[place - order]);
+            place -= 1;
         }
+        order += 1;
     }
     values
 }
