@@ -1,5 +1,6 @@
 //! The ball of a ball screw: a third contact, slip across the track, and what follows from them.
 
+mod across;
 mod chain;
 mod given;
 mod refined;

@@ -20,12 +20,6 @@ struct Cluster {
 }
 
 impl Cluster {
-    const NONE: Self = Self {
-        sum: 0.0,
-        weight: 1.0,
-        span: 0.0,
-    };
-
     /// Whether a single ball behind runs into the cluster; strict, so that equal speeds make no contact.
     #[inline(always)]
     fn reached(&self, slack: f32) -> bool {
@@ -62,85 +56,75 @@ pub(crate) struct Pressing {
     pub(crate) power: f32,
 }
 
-/// What happens to a ball once its speed is known, from the foremost one backwards.
-pub(super) trait Place {
-    /// The foremost ball, before it moves.
-    fn start(&mut self, ball: &Ball);
-    /// A ball with nothing to press on.
-    fn free(&mut self, ball: &mut Ball);
-    /// A ball that presses on the last one.
-    fn touching(&mut self, ball: &mut Ball);
+/// How far balls get in a tick.
+#[derive(Clone, Copy)]
+pub(super) struct Moves {
+    /// Sixteenths of a unit that the nominal speed moves a ball.
+    pub(super) scale: f32,
+    /// Distance of two balls in contact, in units.
+    pub(super) pitch: u32,
 }
 
-/// Nothing more.
-impl Place for () {
-    #[inline(always)]
-    fn start(&mut self, _: &Ball) {}
-    #[inline(always)]
-    fn free(&mut self, _: &mut Ball) {}
-    #[inline(always)]
-    fn touching(&mut self, _: &mut Ball) {}
+impl Moves {
+    pub(super) const NONE: Self = Self {
+        scale: 0.0,
+        pitch: 0,
+    };
 }
+
+/// A position keeps sixteenths of a unit: slow balls move by less than a unit in a tick.
+pub(super) const FRACTIONS: f32 = 16.0;
+const FRACTION_BITS: u32 = 4;
+
+/// Distances this far below zero, in units, are contact: what rounding of two positions leaves.
+pub(super) const OVERLAP: u32 = 1 << 10;
 
 /// Joins balls to clusters and leaves these in the places of their front and rear balls; gives the index of
 /// a ball that presses on none.
 ///
 /// Balls are single, with their slacks. Joins may come in any order: none of them opens another one's contact.
-#[inline(always)]
-pub(super) fn pool<const N: usize>(balls: &mut [Ball; N]) -> usize {
+#[inline(never)]
+pub(super) fn pool(balls: &mut [Ball]) -> usize {
     // On a ring nothing is ahead of the last ball yet: it stands alone.
-    let mut front = N - 1;
-    // A single ball keeps its own speed, and so does what is behind it up to one that runs into the next.
-    while let Some(rear) = balls
-        .get(..front)
-        .and_then(|behind| behind.iter().rposition(|ball| ball.slack < 0.0))
-    {
-        front = grown(balls, rear);
+    let mut alone = balls.get(..balls.len().wrapping_sub(1)).unwrap_or_default();
+    loop {
+        // A single ball keeps its own speed, and so does what is behind it up to one that runs into the next.
+        while let [rest @ .., ball] = alone {
+            if ball.slack < 0.0 {
+                break;
+            }
+            alone = rest;
+        }
+        if alone.is_empty() {
+            return close(balls);
+        }
+        let front = alone.len();
+        let behind = grown(balls, front);
+        alone = balls.get(..behind).unwrap_or_default();
     }
-    close(balls)
 }
 
-/// Stores the cluster that grows backwards from the ball `rear` and the single one in front of it. Gives the
+/// Stores the cluster that grows backwards from the ball `front`, into which the one behind it runs. Gives the
 /// ball where it ends, which stands alone, or 0.
 #[inline(always)]
-fn grown<const N: usize>(balls: &mut [Ball; N], rear: usize) -> usize {
-    let mut front = rear + 1;
-    let mut cluster = Cluster {
-        sum: 0.0,
-        weight: balls.get(front).map_or(1.0, |ball| ball.impedance),
-        span: 0.0,
-    };
-    let mut index = rear;
-    while let Some(ball) = balls.get(index) {
-        let (slack, impedance) = (ball.slack, ball.impedance);
-        if index != rear && !cluster.reached(slack) {
-            // What the cluster runs into slows it down, and the ball may run into it after all.
-            (cluster, front) = absorbed(balls, front, &cluster);
-            if !cluster.reached(slack) {
-                store(balls, index + 1, front, front - (index + 1), &cluster);
-                return index;
+fn grown(balls: &mut [Ball], mut front: usize) -> usize {
+    let mut behind = balls.get(..front).unwrap_or_default();
+    let mut cluster = single(balls.get(front));
+    loop {
+        while let [rest @ .., ball] = behind {
+            if !cluster.reached(ball.slack) {
+                break;
             }
+            let reach = ball.slack + cluster.span;
+            cluster.sum -= reach * ball.impedance;
+            cluster.weight += ball.impedance;
+            cluster.span = reach;
+            behind = rest;
         }
-        let reach = slack + cluster.span;
-        cluster.sum -= reach * impedance;
-        cluster.weight += impedance;
-        cluster.span = reach;
-        index = index.wrapping_sub(1);
-    }
-    (cluster, front) = absorbed(balls, front, &cluster);
-    store(balls, 0, front, front, &cluster);
-    0
-}
-
-/// A cluster with what stands in front of it as far as it runs into that, and its front ball.
-#[inline(always)]
-fn absorbed<const N: usize>(
-    balls: &[Ball; N],
-    mut front: usize,
-    cluster: &Cluster,
-) -> (Cluster, usize) {
-    let mut cluster = *cluster;
-    while front < N - 1 {
+        // What the cluster runs into slows it down, and the ball behind may run into it after all.
+        if front + 1 >= balls.len() {
+            break;
+        }
         let slack = balls.get(front).map_or(0.0, |ball| ball.slack);
         let next = front + 1 + extent(balls, front + 1);
         let Some(longer) = cluster.joined(slack, &stored(balls, next)) else {
@@ -149,20 +133,23 @@ fn absorbed<const N: usize>(
         cluster = longer;
         front = next;
     }
-    (cluster, front)
+    let rear = behind.len();
+    store(balls, rear, front, front - rear, &cluster);
+    rear.saturating_sub(1)
 }
 
 /// On a ring the last cluster has the first one in front. Gives the index of a ball that presses on none.
 #[inline(always)]
-fn close<const N: usize>(balls: &mut [Ball; N]) -> usize {
-    let mut front = N - 1;
+fn close(balls: &mut [Ball]) -> usize {
+    let last = balls.len().wrapping_sub(1);
+    let mut front = last;
     let mut ring = stored(balls, front);
     let mut count = extent(balls, front);
     let mut rear = front.wrapping_sub(count);
     // At most one cluster more or less with each turn.
     loop {
         let slack = balls.get(front).map_or(0.0, |ball| ball.slack);
-        let next = if front == N - 1 { 0 } else { front + 1 };
+        let next = if front == last { 0 } else { front + 1 };
         if next == rear {
             break;
         }
@@ -173,7 +160,7 @@ fn close<const N: usize>(balls: &mut [Ball; N]) -> usize {
             count += 1 + beyond;
             continue;
         }
-        if front == N - 1 {
+        if front == last {
             break;
         }
         let Some(behind) = balls.get(rear.wrapping_sub(1)) else {
@@ -187,7 +174,7 @@ fn close<const N: usize>(balls: &mut [Ball; N]) -> usize {
         rear = rear.wrapping_sub(beyond);
         count += beyond;
     }
-    if front != N - 1 {
+    if front != last {
         store(balls, rear, front, count, &ring);
     }
     front
@@ -195,40 +182,39 @@ fn close<const N: usize>(balls: &mut [Ball; N]) -> usize {
 
 /// Balls of a cluster besides the one at its rear or front.
 #[inline(always)]
-fn extent<const N: usize>(balls: &[Ball; N], end: usize) -> usize {
+fn extent(balls: &[Ball], end: usize) -> usize {
     balls.get(end).map_or(0, |ball| usize::from(ball.extent))
 }
 
 /// The cluster with this front ball.
 #[inline(always)]
-fn stored<const N: usize>(balls: &[Ball; N], front: usize) -> Cluster {
-    let Some(ball) = balls.get(front) else {
-        return Cluster::NONE;
-    };
-    if ball.extent == 0 {
-        return Cluster {
-            sum: 0.0,
-            weight: ball.impedance,
-            span: 0.0,
-        };
+fn stored(balls: &[Ball], front: usize) -> Cluster {
+    let front_ball = balls.get(front);
+    let behind = front_ball.map_or(0, |ball| usize::from(ball.extent));
+    let rear = balls.get(front.wrapping_sub(behind));
+    match (front_ball, rear) {
+        (Some(front), Some(rear)) if behind > 0 => Cluster {
+            sum: front.sum,
+            weight: front.force,
+            span: rear.force,
+        },
+        _ => single(front_ball),
     }
-    let rear = front.wrapping_sub(usize::from(ball.extent));
+}
+
+/// A ball alone.
+#[inline(always)]
+fn single(ball: Option<&Ball>) -> Cluster {
     Cluster {
-        sum: ball.sum,
-        weight: ball.force,
-        span: balls.get(rear).map_or(0.0, |ball| ball.force),
+        sum: 0.0,
+        weight: ball.map_or(1.0, |ball| ball.impedance),
+        span: 0.0,
     }
 }
 
 /// Leaves a cluster in the places of its two ends, where forces will stand.
 #[inline(always)]
-fn store<const N: usize>(
-    balls: &mut [Ball; N],
-    rear: usize,
-    front: usize,
-    extent: usize,
-    cluster: &Cluster,
-) {
+fn store(balls: &mut [Ball], rear: usize, front: usize, extent: usize, cluster: &Cluster) {
     if let Some(ball) = balls.get_mut(rear) {
         ball.force = cluster.span;
         ball.extent = extent as u8;
@@ -240,46 +226,44 @@ fn store<const N: usize>(
     }
 }
 
-/// Speeds and forces of all balls, from the foremost one backwards.
+/// Speeds and forces of all balls, and where they go, from the foremost one backwards.
 ///
 /// From the front of a cluster, which presses on none, each ball is slower than its own free speed by a slack less
 /// than the one in front of it, and passes on what it is pushed by beyond what it takes.
-#[inline(always)]
-pub(super) fn settle<const N: usize>(
-    balls: &mut [Ball; N],
-    foremost: usize,
-    place: &mut impl Place,
-) -> Pressing {
-    if let Some(ball) = balls.get(foremost) {
-        place.start(ball);
-    }
-    let Some((low, high)) = balls.split_at_mut_checked(foremost + 1) else {
-        return Pressing::default();
-    };
-    let mut pressing = Pressing::default();
+#[inline(never)]
+pub(super) fn settle(balls: &mut [Ball], foremost: usize, moves: Moves) -> Pressing {
+    // Balls of the present cluster that are still to come, the change of the last one's speed, and the force with
+    // which the cluster so far asks to be pushed.
+    let (mut left, mut change, mut force) = (0_u32, 0.0, 0.0);
+    // Where the next ball touches the one in front; nothing is near in front of the foremost one.
+    let mut limit = balls
+        .get(foremost)
+        .map_or(0, |ball| ball.position.wrapping_add(1 << 30));
     // Of forces that are not negative, the larger one has the larger bits.
-    let mut largest = 0_i32;
-    let mut unbalanced = 0.0;
-    let (mut left, mut change, mut force) = (0_u8, 0.0, 0.0);
-    for segment in [low, high] {
-        for ball in segment.iter_mut().rev() {
-            if left == 0 {
-                ball_in_front(ball, &mut left, &mut change, &mut force);
-                place.free(ball);
-            } else {
-                left -= 1;
+    let (mut contacts, mut largest) = (0_u32, 0_i32);
+    let (mut total, mut power, mut unbalanced) = (0.0, 0.0, 0.0);
+    let (low, mut high) = balls.split_at_mut_checked(foremost + 1).unwrap_or_default();
+    let mut part = low.iter_mut();
+    loop {
+        'part: loop {
+            while left > 0 {
+                let Some(ball) = part.next_back() else {
+                    break 'part;
+                };
                 change += ball.slack;
                 let speed = ball.speed + change;
                 // Rounding may leave a little less than nothing.
                 let bits = force_bits(force);
+                ball.position = limit;
+                limit = limit.wrapping_sub(moves.pitch);
+                total += force;
                 ball.speed = speed;
+                power += force * speed;
                 ball.force = f32::from_bits(bits as u32);
                 largest = if bits > largest { bits } else { largest };
-                pressing.contacts += (bits.wrapping_neg() as u32 >> 31) as u8;
-                pressing.force += force;
-                pressing.power += force * speed;
+                contacts += bits.wrapping_neg() as u32 >> 31;
                 force += change * ball.impedance;
-                place.touching(ball);
+                left -= 1;
                 if left == 0 {
                     // Nothing pushes the last one.
                     ball.sum = force;
@@ -287,29 +271,63 @@ pub(super) fn settle<const N: usize>(
                     unbalanced = if rest > unbalanced { rest } else { unbalanced };
                 }
             }
+            let front = loop {
+                let Some(ball) = part.next_back() else {
+                    break 'part;
+                };
+                if ball.extent > 0 {
+                    break ball;
+                }
+                limit = ball.moved(limit, moves);
+            };
+            left = u32::from(front.extent);
+            change = front.sum / front.force;
+            // Kept for [`balance`].
+            front.sum = front.force;
+            force = change * front.impedance;
+            front.speed += change;
+            limit = front.moved(limit, moves);
         }
+        if high.is_empty() {
+            break;
+        }
+        part = core::mem::take(&mut high).iter_mut();
     }
-    pressing.largest = f32::from_bits(largest as u32);
+    let largest = f32::from_bits(largest as u32);
     // What rounding leaves of the sum of a cluster's pushes is small, but a stiff ball turns it into a
     // large force. It hardly changes what the forces add up to.
-    let least = ROUNDING * pressing.largest;
+    let least = ROUNDING * largest;
     if unbalanced > least {
         balance(balls, foremost, least);
     }
-    pressing
+    Pressing {
+        contacts: contacts as u8,
+        largest,
+        force: total,
+        power,
+    }
 }
 
-#[inline(always)]
-fn ball_in_front(ball: &mut Ball, left: &mut u8, change: &mut f32, force: &mut f32) {
-    if ball.extent > 0 {
-        *left = ball.extent;
-        *change = ball.sum / ball.force;
-        // Kept for [`balance`].
-        ball.sum = ball.force;
-        *force = *change * ball.impedance;
-        ball.speed += *change;
+impl Ball {
+    /// Moves a ball that presses on none, at most to `limit`; gives the limit of the one behind.
+    #[inline(always)]
+    fn moved(&mut self, limit: u32, moves: Moves) -> u32 {
+        self.force = 0.0;
+        let fractions = (self.speed * moves.scale) as i32;
+        let fractions = fractions.wrapping_add(i32::from(self.fraction));
+        let place = self
+            .position
+            .wrapping_add_signed(fractions >> FRACTION_BITS);
+        // Clusters do not run into each other, but rounding may leave that much.
+        let place = if limit.wrapping_sub(place) > u32::MAX - OVERLAP {
+            limit
+        } else {
+            place
+        };
+        self.position = place;
+        self.fraction = (fractions & 15) as u8;
+        place.wrapping_sub(moves.pitch)
     }
-    ball.force = 0.0;
 }
 
 /// The bits of a force, or of zero where it is negative.
@@ -322,68 +340,47 @@ fn force_bits(force: f32) -> i32 {
 /// Takes what is left of the pushes of a cluster out of its forces, where it is more than `least`.
 #[cold]
 #[inline(never)]
-fn balance<const N: usize>(balls: &mut [Ball; N], foremost: usize, least: f32) {
-    // Balls up to the foremost one, then those beyond it, less what a cluster across the ring's end has of them.
-    let (mut low, mut high) = (0, foremost + 1);
-    for _ in 0..2 {
-        let mut next = N;
-        while let Some(front) = balls
-            .get(low..high)
-            .and_then(|part| part.iter().rposition(|ball| ball.extent > 0))
-        {
-            let front = front + low;
-            let rear = front.wrapping_sub(extent(balls, front));
-            let closes = rear >= N;
-            let rear = if closes { rear.wrapping_add(N) } else { rear };
-            let rest = balls.get(rear).map_or(0.0, |ball| ball.sum);
-            if rest.abs() > least {
-                let mut relief = Relief::new(balls.get(front), rest);
-                if closes {
-                    relief.apply(balls.get_mut(..front));
-                    relief.apply(balls.get_mut(rear..));
-                } else {
-                    relief.apply(balls.get_mut(rear..front));
-                }
-            }
-            if closes {
-                next = rear;
-                break;
-            }
-            high = rear;
+fn balance(balls: &mut [Ball], foremost: usize, least: f32) {
+    let count = balls.len();
+    let mut left = count;
+    let mut front = foremost;
+    // Cluster by cluster around the ring, the balls that stand alone as well.
+    while left > 0 {
+        let behind = extent(balls, front);
+        let wraps = behind > front;
+        let rear = if wraps {
+            (front + count).wrapping_sub(behind)
+        } else {
+            front - behind
+        };
+        let rest = balls.get(rear).map_or(0.0, |ball| ball.sum);
+        if behind > 0 && rest.abs() > least {
+            relieve(balls, front, behind, rest);
         }
-        (low, high) = (foremost + 1, next);
+        left = left.saturating_sub(behind + 1);
+        front = if rear == 0 {
+            count.wrapping_sub(1)
+        } else {
+            rear - 1
+        };
     }
 }
 
-/// What is taken out of the forces of a cluster, each ball's part by its impedance.
-struct Relief {
-    rate: f32,
-    correction: f32,
-}
-
-impl Relief {
-    #[inline(always)]
-    fn new(front: Option<&Ball>, rest: f32) -> Self {
-        front.map_or(
-            Self {
-                rate: 0.0,
-                correction: 0.0,
-            },
-            |ball| {
-                let rate = rest / ball.sum;
-                Self {
-                    rate,
-                    correction: rate * ball.impedance,
-                }
-            },
-        )
-    }
-
-    #[inline(always)]
-    fn apply(&mut self, balls: Option<&mut [Ball]>) {
-        for ball in balls.unwrap_or_default().iter_mut().rev() {
-            ball.force = f32::from_bits(force_bits(ball.force - self.correction) as u32);
-            self.correction += self.rate * ball.impedance;
+/// Takes `rest` out of the forces of a cluster, each ball's part by its impedance.
+#[inline(always)]
+fn relieve(balls: &mut [Ball], front: usize, behind: usize, rest: f32) {
+    let Some(ball) = balls.get(front) else {
+        return;
+    };
+    let rate = rest / ball.sum;
+    let mut correction = rate * ball.impedance;
+    let last = balls.len().wrapping_sub(1);
+    let mut place = front;
+    for _ in 0..behind {
+        place = if place == 0 { last } else { place - 1 };
+        if let Some(ball) = balls.get_mut(place) {
+            ball.force = f32::from_bits(force_bits(ball.force - correction) as u32);
+            correction += rate * ball.impedance;
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Which balls of a train press on each other, and how hard: one exact pass, without iteration.
 
 use super::ball::Ball;
-use super::pool::{Place, Pressing, pool, settle};
+use super::pool::{Moves, Pressing, pool, settle};
 
 /// Largest free speed that counts, a relative deviation.
 pub const LARGEST_FREE_SPEED: f32 = 1.0;
@@ -117,7 +117,7 @@ impl<const N: usize> Press<N> {
             Some(&room) => room,
             None => 0.0,
         });
-        self.settle(&mut ());
+        self.settle(Moves::NONE);
         sound
     }
 
@@ -176,11 +176,11 @@ impl<const N: usize> Press<N> {
         self.foremost = (N - 1) as u8;
     }
 
-    /// Speeds and forces of the clusters.
+    /// Speeds and forces of the clusters, and where the balls go.
     #[inline(always)]
-    pub(super) fn settle(&mut self, place: &mut impl Place) -> Pressing {
+    pub(super) fn settle(&mut self, moves: Moves) -> Pressing {
         let foremost = self.foremost();
-        settle(&mut self.balls, foremost, place)
+        settle(&mut self.balls, foremost, moves)
     }
 }
 

@@ -1,22 +1,15 @@
 //! Where the balls of a train are, and how they get on.
 
 use super::ball::Ball;
-use super::pool::{Place, Pressing};
+use super::pool::{FRACTIONS, Moves, OVERLAP, Pressing};
 use super::press::Press;
 use crate::error::{Error, attempt, in_range};
 
 /// Units of length on the track: positions wrap around where it closes.
 const UNITS: f32 = 4_294_967_296.0;
 
-/// A position keeps sixteenths of a unit: slow balls move by less than a unit in a tick.
-const FRACTION_BITS: u32 = 4;
-const FRACTIONS: f32 = 16.0;
-
 /// Largest travel in a tick over the length of the track that counts.
 pub const LARGEST_TRAVEL: f32 = 0.03;
-
-/// Distances this far below zero, in units, are contact: what rounding of two positions leaves.
-const ROUNDING: u32 = 1 << 10;
 
 /// Balls on a closed track, which they fill in part: positions, distances, forces, from tick to tick.
 ///
@@ -158,7 +151,7 @@ impl<const N: usize> Train<N> {
     pub fn gaps(&self) -> impl Iterator<Item = f32> + '_ {
         let metre = 1.0 / self.track.units;
         self.distances().map(move |distance| {
-            if distance > u32::MAX - ROUNDING {
+            if distance > u32::MAX - OVERLAP {
                 (distance as i32) as f32 * metre
             } else {
                 distance as f32 * metre
@@ -265,10 +258,9 @@ impl<const N: usize> Train<N> {
     #[inline(always)]
     fn advance(&mut self, travel: f32) -> Pressing {
         let way = if travel < 0.0 { -travel } else { travel };
-        let pressing = self.press.settle(&mut Mover {
+        let pressing = self.press.settle(Moves {
             scale: way * FRACTIONS,
             pitch: self.track.pitch,
-            limit: 0,
         });
         let travel = travel + self.origin_rest;
         let whole = travel as i32;
@@ -312,47 +304,10 @@ impl Room {
     }
 }
 
-/// Moves balls by their speeds' deviations from the nominal one, each after the one in front of it.
-struct Mover {
-    /// Sixteenths of a unit that the nominal speed moves a ball in this tick.
-    scale: f32,
-    pitch: u32,
-    /// Where the next ball touches the one in front.
-    limit: u32,
-}
-
-impl Place for Mover {
-    #[inline(always)]
-    fn start(&mut self, ball: &Ball) {
-        // Nothing is near in front of it.
-        self.limit = ball.position.wrapping_add(1 << 30);
-    }
-
-    #[inline(always)]
-    fn free(&mut self, ball: &mut Ball) {
-        let moves = (ball.speed * self.scale) as i32;
-        let moves = moves.wrapping_add(i32::from(ball.fraction));
-        let mut place = ball.position.wrapping_add_signed(moves >> FRACTION_BITS);
-        // Clusters do not run into each other, but rounding may leave that much.
-        if self.limit.wrapping_sub(place) > u32::MAX - ROUNDING {
-            place = self.limit;
-        }
-        ball.position = place;
-        ball.fraction = (moves & 15) as u8;
-        self.limit = place.wrapping_sub(self.pitch);
-    }
-
-    #[inline(always)]
-    fn touching(&mut self, ball: &mut Ball) {
-        ball.position = self.limit;
-        self.limit = self.limit.wrapping_sub(self.pitch);
-    }
-}
-
 /// A distance in units, none where it is below zero by rounding.
 #[inline(always)]
 const fn without_rounding(distance: u32) -> u32 {
-    if distance > u32::MAX - ROUNDING {
+    if distance > u32::MAX - OVERLAP {
         0
     } else {
         distance

@@ -374,7 +374,7 @@ impl ScrewBall {
                     let at = contact.at(&nominal);
                     let slip = at.across.abs() + 1e-6;
                     let rim = contact.semi_major * (at.spin.abs() + STICK_SPIN);
-                    let impedance = contact.friction * race.map.across(slip, rim).share / slip;
+                    let impedance = contact.friction * race.map.share_across(slip, rim) / slip;
                     all += impedance;
                     nut += race.speed * impedance;
                 }

@@ -1,6 +1,6 @@
 //! Closed form for a row of balls in a ball screw, at the price of a control loop.
 
-use super::slip_map::{Across, SlipMap};
+use super::across::{Across, AcrossTable};
 use crate::ball::root::{inverse_cube_roots, loaded};
 use crate::error::{Error, attempt, in_range};
 use crate::geometry::{BallScrew, Groove};
@@ -15,9 +15,6 @@ const SMALLEST_LOAD: f32 = 1e-3;
 
 /// Load of a light contact below which it does not count, over that of the main contacts.
 const LEAST_LOAD: f32 = 1e-6;
-
-/// Least `give` of a contact over its `drag`, far below any true one: it keeps divisions finite.
-const LEAST_GIVE: f32 = 1e-3;
 
 /// Ratio of load difference to preload at which the unloaded diagonal loses contact: `2^(3/2)`.
 const LOST: f32 = 2.828_427_1;
@@ -134,8 +131,8 @@ pub struct ScrewRow {
     play: bool,
     nominal_speed: f32,
     largest_deviation: f32,
-    /// Slip across the track in each of two rolling contacts, m.
-    slip: f32,
+    /// Slip across the track in the contact with the screw, times the slope of its share of sliding friction, m.
+    sliding: f32,
     screw: Race,
     nut: Race,
     /// Coefficients of `2 cos b/(cos b + cos(b - u)) - 1` from `u` on.
@@ -149,34 +146,24 @@ pub struct ScrewRow {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 struct Race {
-    map: SlipMap,
+    table: AcrossTable,
     /// Semi-major axis times spin at one newton, `m/N^(1/3)`.
     rim: f32,
 }
 
 impl Race {
-    const fn new(design: &BallScrew, groove: Groove, spin: f32) -> Result<Self, Error> {
+    const fn new(design: &BallScrew, groove: Groove, spin: f32, slip: f32) -> Result<Self, Error> {
         let contact = HertzContact::of(design, groove);
         Ok(Self {
-            map: attempt!(SlipMap::new(contact.axis_ratio())),
+            table: attempt!(AcrossTable::new(contact.axis_ratio(), slip)),
             rim: contact.semi_major_coefficient() * spin,
         })
     }
 
-    /// The contact within its physical bounds, whatever the interpolation does at the slenderest ellipses:
-    /// the mean sliding speed is not below the speed of the mean, friction not beyond `mu F`.
+    /// The contact under a load of which this is the cube root.
     #[inline]
-    fn at(&self, slip: f32, root: f32) -> Across {
-        let contact = self.map.across(slip, self.rim * root);
-        let drag = larger(contact.drag, slip);
-        let give = larger(contact.give, LEAST_GIVE * drag);
-        Across {
-            drag,
-            give,
-            share: part(contact.share, 1.0),
-            drag_growth: part(contact.drag_growth, drag),
-            give_growth: part(contact.give_growth, give),
-        }
+    fn at(&self, root: f32) -> Across {
+        self.table.at(self.rim * root)
     }
 }
 
@@ -311,8 +298,10 @@ impl ScrewRow {
             [half * (rolling + cos_lead), half * (rolling - cos_lead)]
         };
         let [screw_spin, nut_spin] = spins;
-        let screw = attempt!(Race::new(design, Groove::Screw, screw_spin));
-        let nut = attempt!(Race::new(design, Groove::Nut, nut_spin));
+        // Of two contacts one race sticks, and the ball slips on the other one alone.
+        let slip = if play { 1.0 } else { 0.5 } * radius * sin_lead;
+        let screw = attempt!(Race::new(design, Groove::Screw, screw_spin, slip));
+        let nut = attempt!(Race::new(design, Groove::Nut, nut_spin, slip));
 
         let (plus, minus) = (1.0 + ratio * cos, 1.0 - ratio * cos);
         let speed = 0.5 * path * plus;
@@ -367,7 +356,7 @@ impl ScrewRow {
             play,
             nominal_speed: speed,
             largest_deviation: largest_deviation(design.parameters().contact_angle, sin / cos),
-            slip: 0.5 * radius * sin_lead,
+            sliding: screw.table.share_slope() * slip,
             screw,
             nut,
             turn: turn_series(sin / cos),
@@ -456,7 +445,7 @@ impl ScrewRow {
             &self.screw
         };
         let root = cube_root(normal);
-        let contact = slides.at(2.0 * self.slip, root);
+        let contact = slides.at(root);
         let limit = self.friction * normal;
         let per_limit = 1.0 / (4.0 * limit);
         let (branch, weights) = self.turned_in_two_points(side);
@@ -488,7 +477,7 @@ impl ScrewRow {
         } else {
             (&self.nut, &self.screw)
         };
-        let third_contact = third_race.at(self.slip, cube_root(third));
+        let third_contact = third_race.at(cube_root(third));
 
         let mut torque = main * (screw.drag + nut.drag) + third * third_contact.drag;
         let mut growth =
@@ -499,7 +488,7 @@ impl ScrewRow {
         let give = screw.give + nut.give;
         let mut gain = 1.0;
         let compliance = if fourth > 0.0 {
-            let contact = fourth_race.at(self.slip, cube_root(fourth));
+            let contact = fourth_race.at(cube_root(fourth));
             torque += fourth * contact.drag;
             growth += fourth * contact.drag_growth;
             let other = third_contact.give * fourth + contact.give * third;
@@ -582,13 +571,13 @@ impl ScrewRow {
     #[inline]
     fn loads(&self, normal: f32) -> Loads {
         // Share of sliding friction across the track, to some per cent.
-        let sliding = self.screw.map.share_slope() * self.slip;
+        let sliding = self.sliding;
         let rim = self.screw.rim * cube_root(normal);
         let size = math::sqrt(rim * rim + sliding * sliding + 1e-30);
         let main = self.loaded_diagonal(normal * size / (size - self.friction * sliding));
         let root = cube_root(main);
-        let screw = self.screw.at(self.slip, root);
-        let nut = self.nut.at(self.slip, root);
+        let screw = self.screw.at(root);
+        let nut = self.nut.at(root);
         let loss = 0.5 * self.friction * (screw.share + nut.share);
         let (main, other) = self.diagonals(normal / (1.0 - loss));
 
@@ -866,12 +855,6 @@ const fn turn_series(tangent: f32) -> [f32; 5] {
 fn closing(third: f32) -> f32 {
     let square = third * third;
     third * (1.0 + square * (0.055_61 + square * (-0.044_86 + square * 0.065_821)))
-}
-
-/// `x` within 0 and `whole`.
-#[inline]
-fn part(x: f32, whole: f32) -> f32 {
-    if x < whole { larger(x, 0.0) } else { whole }
 }
 
 #[inline]

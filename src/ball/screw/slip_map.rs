@@ -173,33 +173,13 @@ pub struct SlipFriction {
     pub rim: f32,
 }
 
-/// One contact that slips across the track only.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Across {
-    /// Power loss over `mu F`.
-    pub(super) drag: f32,
-    /// Slip along the track over the friction force that resists it, times `mu F`.
-    pub(super) give: f32,
-    /// Friction force across the track over `mu F`.
-    pub(super) share: f32,
-    /// Change of the drag with the logarithm of the ellipse's size or of the spin.
-    pub(super) drag_growth: f32,
-    /// Change of the give with it.
-    pub(super) give_growth: f32,
-}
-
 impl SlipMap {
     /// Maps of a contact with the axis ratio `b/a`. For set-up: it evaluates elliptic integrals at eleven places.
     ///
     /// # Errors
     /// [`Error`] naming `axis_ratio` where it is not within 0.02 to 0.95.
     pub const fn new(axis_ratio: f32) -> Result<Self, Error> {
-        let k = attempt!(in_range(
-            "axis_ratio",
-            axis_ratio,
-            SMALLEST_AXIS_RATIO,
-            LARGEST_AXIS_RATIO,
-        ));
+        let k = attempt!(checked_axis_ratio(axis_ratio));
         let square = k * k;
         let scale = constant::sqrt(k);
         let largest = LARGEST_ROOT / (LARGEST_ROOT + scale);
@@ -258,12 +238,6 @@ impl SlipMap {
         self.axis_ratio
     }
 
-    /// Slope of the share of sliding friction across the track by `z`, at the centre.
-    #[inline]
-    pub(super) fn share_slope(&self) -> f32 {
-        0.75 * self.inside.across
-    }
-
     /// Friction over `mu F` at a slip across and along the track, m/s, and a spin, rad/s, of a contact with the
     /// semi-major axis `a`, m, with stick treated smoothly as in
     /// [`FrictionMap::dissipation`](crate::FrictionMap::dissipation): `|w|` becomes
@@ -309,9 +283,9 @@ impl SlipMap {
         }
     }
 
-    /// Drag, give and share under a slip across the track, where the spin moves the rim with `rim = a |w|`.
+    /// Friction force over `mu F` under a slip across the track, where the spin moves the rim with `rim = a |w|`.
     #[inline]
-    pub(super) fn across(&self, slip: f32, rim: f32) -> Across {
+    pub(super) fn share_across(&self, slip: f32, rim: f32) -> f32 {
         let place = slip / rim;
         let square = place * place;
         if square <= FAR {
@@ -320,39 +294,9 @@ impl SlipMap {
             } else {
                 self.outside(square - self.square)
             };
-            let cubic = coefficients.across_across * square;
-            let share = 0.75 * place * (coefficients.across - cubic);
-            let moment =
-                0.1875 * (coefficients.whole + square * (3.0 * cubic - 2.0 * coefficients.across));
-            let power = moment + place * share;
-            let bend = coefficients.both * square;
-            let along = coefficients.along - bend;
-            let inverse = 1.0 / along;
-            let give = (4.0 / 3.0) * rim * inverse;
-            Across {
-                drag: rim * power,
-                give,
-                share,
-                drag_growth: rim * moment,
-                give_growth: give - 2.0 * give * (bend * inverse),
-            }
+            0.75 * place * (coefficients.across - coefficients.across_across * square)
         } else {
-            let Potential {
-                moment,
-                across,
-                along_along,
-                ..
-            } = self.far(0.0, place, square);
-            let power = moment + place * across;
-            let give = rim / along_along;
-            Across {
-                drag: rim * power,
-                give,
-                share: across,
-                drag_growth: rim * moment,
-                // give is slip/(1 - c/place²).
-                give_growth: 2.0 * give * (give / slip - 1.0),
-            }
+            self.far(0.0, place, square).across
         }
     }
 
@@ -492,6 +436,16 @@ impl SlipMap {
     }
 }
 
+/// An axis ratio that the integrals are good for.
+pub(super) const fn checked_axis_ratio(axis_ratio: f32) -> Result<f32, Error> {
+    in_range(
+        "axis_ratio",
+        axis_ratio,
+        SMALLEST_AXIS_RATIO,
+        LARGEST_AXIS_RATIO,
+    )
+}
+
 /// A place far away, brought back to a distance of a million; what is not a number counts as zero, and two
 /// of them as far away across.
 #[cold]
@@ -524,7 +478,7 @@ const fn far_quartic(square: f32) -> [f32; 3] {
 
 /// `C1` and `C2` at `lambda`: `2 R_F - 2/3 R_D` and `2 R_F - 2/3 k² R_D` of the arguments `lambda`, `k² + lambda`,
 /// `1 + lambda`, the last of `R_D` being `1 + lambda` and `k² + lambda`, by Carlson's duplication.
-const fn integrals(square: f32, lambda: f32) -> (f32, f32) {
+pub(super) const fn integrals(square: f32, lambda: f32) -> (f32, f32) {
     let (mut x, mut y, mut z) = (lambda, square + lambda, 1.0 + lambda);
     let mut weight = 1.0;
     let (mut long, mut short) = (0.0, 0.0);
@@ -551,7 +505,7 @@ const fn integrals(square: f32, lambda: f32) -> (f32, f32) {
 }
 
 /// `C5` from `lambda = root²` on, by Gauss-Legendre quadrature in `sqrt(s)`, panel by panel.
-const fn narrow_integral(square: f32, root: f32) -> f32 {
+pub(super) const fn narrow_integral(square: f32, root: f32) -> f32 {
     let mut sum = 0.0;
     let mut end = root;
     let mut panel = 0;
