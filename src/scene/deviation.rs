@@ -52,8 +52,8 @@ pub struct Harmonic {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct DeviationMap {
-    /// A sample in the upper half, its difference to the next one in the lower half.
-    samples: [u32; SAMPLES],
+    /// A sample in the upper half, plus its difference to the next one, which is the lower half.
+    samples: [i32; SAMPLES],
     /// Angle of one unit of the table and one of the fraction, rad.
     unit: f32,
     turns: u16,
@@ -153,9 +153,9 @@ impl DeviationMap {
         let mut samples = [0; SAMPLES];
         sample = 0;
         while sample < SAMPLES {
-            let here = rounded[sample];
-            let rise = rounded[(sample + 1) % SAMPLES] - here;
-            samples[sample] = ((here as u16 as u32) << 16) | rise as u16 as u32;
+            let here = rounded[sample] as i32;
+            let rise = rounded[(sample + 1) % SAMPLES] as i32 - here;
+            samples[sample] = (here << 16) + rise;
             sample += 1;
         }
         Ok(Self {
@@ -198,8 +198,8 @@ impl DeviationMap {
         let index = (phase >> FRACTION_BITS) as usize % SAMPLES;
         let fraction = (phase & ((1 << FRACTION_BITS) - 1)) as i32;
         self.samples.get(index).map_or(0, |&sample| {
-            let rise = i32::from(sample as u16 as i16);
-            ((sample & 0xffff_0000) as i32 >> (16 - FRACTION_BITS)) + rise * fraction
+            // What the difference leaves in the first term is a quarter of a fraction's unit.
+            (sample >> (16 - FRACTION_BITS)) + i32::from(sample as i16) * fraction
         })
     }
 

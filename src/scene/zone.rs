@@ -27,9 +27,7 @@ pub(super) const LARGEST_ADVANCE: f32 = 0.499;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct LoadedZone {
-    /// Position before which balls are loaded, less one.
-    last: u32,
-    /// Entries of the load table along the whole track.
+    /// Entries of the load table along the whole track: balls are loaded as long as the table lasts.
     entries: u32,
     passing_ratio: u32,
     own_ratio: u32,
@@ -57,12 +55,12 @@ impl LoadedZone {
         shares: &'static [LoadShare],
     ) -> Result<Self, Error> {
         attempt!(in_range("load_shares", shares.len() as f32, 1.0, 256.0));
-        let entries =
-            (shares.len() as f32 * length / loaded * (1_u32 << FRACTION_BITS) as f32) as u32;
+        // A whole number ends the table at most 2e-5 of the track too early; that of a track without return is exact
+        // when the quotient's rounding is taken off.
+        let entries = shares.len() as f32 * length / loaded * (1_u32 << FRACTION_BITS) as f32;
+        let entries = (entries * (1.0 - 4.0 * f32::EPSILON)) as u32 + 1;
         Ok(Self {
-            last: (loaded / length * UNITS) as u32,
-            // What rounding may add would lead beyond the last entry.
-            entries: entries - (entries >> 21) - 1,
+            entries,
             passing_ratio: phase_ratio(passing, length),
             own_ratio: phase_ratio(own, length),
             passing,
@@ -74,9 +72,6 @@ impl LoadedZone {
     /// What a ball at `position` finds, where it is loaded, when the passing groove is at `phase`.
     #[inline(always)]
     pub(super) fn at(&self, position: u32, phase: u32) -> Option<Place> {
-        if position > self.last {
-            return None;
-        }
         let scaled = |ratio: u32| ((u64::from(position) * u64::from(ratio)) >> 32) as u32;
         let share = self
             .shares

@@ -16,7 +16,7 @@ pub(super) struct Ball {
     /// The sum of the cluster whose front ball this is. Then the sum of its impedances; at its rear ball, what
     /// is left of its pushes.
     pub(super) sum: f32,
-    /// Place on the track, relative to the train's origin.
+    /// Place on the track.
     pub(super) position: u32,
     /// Sixteenths of a unit.
     pub(super) fraction: u8,
@@ -36,12 +36,11 @@ impl Ball {
         extent: 0,
     };
 
-    /// A single ball.
+    /// What the ball would do on its own.
     #[inline(always)]
     pub(super) fn set(&mut self, speed: f32, impedance: f32, slack: f32) {
         self.speed = speed;
         self.impedance = impedance;
         self.slack = slack;
-        self.extent = 0;
     }
 }

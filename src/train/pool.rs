@@ -59,7 +59,9 @@ pub(crate) struct Pressing {
 /// How far balls get in a tick.
 #[derive(Clone, Copy)]
 pub(super) struct Moves {
-    /// Sixteenths of a unit that the nominal speed moves a ball.
+    /// Units that the nominal speed moves every ball.
+    pub(super) whole: u32,
+    /// Sixteenths of a unit by which a ball beyond that moves, over its speed.
     pub(super) scale: f32,
     /// Distance of two balls in contact, in units.
     pub(super) pitch: u32,
@@ -67,6 +69,7 @@ pub(super) struct Moves {
 
 impl Moves {
     pub(super) const NONE: Self = Self {
+        whole: 0,
         scale: 0.0,
         pitch: 0,
     };
@@ -86,26 +89,28 @@ pub(super) const OVERLAP: u32 = 1 << 10;
 #[inline(never)]
 pub(super) fn pool(balls: &mut [Ball]) -> usize {
     // On a ring nothing is ahead of the last ball yet: it stands alone.
-    let mut alone = balls.get(..balls.len().wrapping_sub(1)).unwrap_or_default();
-    loop {
+    let mut count = balls.len();
+    while let Some((alone, behind)) = balls.get_mut(..count).and_then(<[Ball]>::split_last_mut) {
+        alone.extent = 0;
         // A single ball keeps its own speed, and so does what is behind it up to one that runs into the next.
-        while let [rest @ .., ball] = alone {
+        let mut front = behind.len();
+        for ball in behind.iter_mut().rev() {
             if ball.slack < 0.0 {
                 break;
             }
-            alone = rest;
+            ball.extent = 0;
+            front -= 1;
         }
-        if alone.is_empty() {
-            return close(balls);
+        if front == 0 {
+            break;
         }
-        let front = alone.len();
-        let behind = grown(balls, front);
-        alone = balls.get(..behind).unwrap_or_default();
+        count = grown(balls, front);
     }
+    close(balls)
 }
 
 /// Stores the cluster that grows backwards from the ball `front`, into which the one behind it runs. Gives the
-/// ball where it ends, which stands alone, or 0.
+/// number of balls behind it.
 #[inline(always)]
 fn grown(balls: &mut [Ball], mut front: usize) -> usize {
     let mut behind = balls.get(..front).unwrap_or_default();
@@ -135,7 +140,7 @@ fn grown(balls: &mut [Ball], mut front: usize) -> usize {
     }
     let rear = behind.len();
     store(balls, rear, front, front - rear, &cluster);
-    rear.saturating_sub(1)
+    rear
 }
 
 /// On a ring the last cluster has the first one in front. Gives the index of a ball that presses on none.
@@ -236,9 +241,10 @@ pub(super) fn settle(balls: &mut [Ball], foremost: usize, moves: Moves) -> Press
     // which the cluster so far asks to be pushed.
     let (mut left, mut change, mut force) = (0_u32, 0.0, 0.0);
     // Where the next ball touches the one in front; nothing is near in front of the foremost one.
-    let mut limit = balls
-        .get(foremost)
-        .map_or(0, |ball| ball.position.wrapping_add(1 << 30));
+    let mut limit = balls.get(foremost).map_or(0, |ball| {
+        ball.position
+            .wrapping_add(moves.whole.wrapping_add(1 << 30))
+    });
     // Of forces that are not negative, the larger one has the larger bits.
     let (mut contacts, mut largest) = (0_u32, 0_i32);
     let (mut total, mut power, mut unbalanced) = (0.0, 0.0, 0.0);
@@ -315,9 +321,8 @@ impl Ball {
         self.force = 0.0;
         let fractions = (self.speed * moves.scale) as i32;
         let fractions = fractions.wrapping_add(i32::from(self.fraction));
-        let place = self
-            .position
-            .wrapping_add_signed(fractions >> FRACTION_BITS);
+        let place = self.position.wrapping_add(moves.whole);
+        let place = place.wrapping_add_signed(fractions >> FRACTION_BITS);
         // Clusters do not run into each other, but rounding may leave that much.
         let place = if limit.wrapping_sub(place) > u32::MAX - OVERLAP {
             limit

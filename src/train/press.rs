@@ -9,13 +9,17 @@ pub const LARGEST_FREE_SPEED: f32 = 1.0;
 /// Least and largest impedance that count.
 pub const IMPEDANCE_RANGE: (f32, f32) = (1e-9, 1e9);
 
-/// Whether a free speed and an impedance count. Positive numbers are in the order of their bits.
+/// The sign bit is set where a free speed or an impedance does not count. Numbers without a sign are in the order
+/// of their bits, and no impedance passes both of its differences.
 #[inline(always)]
-const fn counts(speed: f32, impedance: f32) -> bool {
+const fn beyond(speed: f32, impedance: f32) -> u32 {
+    const FASTEST: u32 = LARGEST_FREE_SPEED.to_bits();
     const LEAST: u32 = IMPEDANCE_RANGE.0.to_bits();
-    const SPAN: u32 = IMPEDANCE_RANGE.1.to_bits() - LEAST;
-    speed.abs().to_bits() <= LARGEST_FREE_SPEED.to_bits()
-        && impedance.to_bits().wrapping_sub(LEAST) <= SPAN
+    const MOST: u32 = IMPEDANCE_RANGE.1.to_bits();
+    let impedance = impedance.to_bits();
+    FASTEST.wrapping_sub(speed.abs().to_bits())
+        | impedance.wrapping_sub(LEAST)
+        | MOST.wrapping_sub(impedance)
 }
 
 /// Speeds and forces of a train of `N` balls, 1 to 255, which touch or may touch.
@@ -112,56 +116,42 @@ impl<const N: usize> Press<N> {
     /// more). Exact otherwise: no iteration, at most `N - 1` joins, one division for each cluster of two or
     /// more balls. Cost for 37 balls: 2500 to 6400 modelled cycles on a Cortex-M4F.
     pub fn solve(&mut self, free: &[f32; N], impedance: &[f32; N], room: &[f32; N]) -> bool {
-        let sound = self.pool(free, impedance, |index, _| match room.get(index) {
+        let sound = self.take(free, impedance, |index, _| match room.get(index) {
             Some(&room) if room < 0.0 => 0.0,
             Some(&room) => room,
             None => 0.0,
         });
+        self.join(sound);
         self.settle(Moves::NONE);
         sound
     }
 
-    /// Joins balls to clusters by free speeds, impedances and rooms, these from the last ball on, where all
-    /// of them count, and says so; else balls at rest.
+    /// Takes in free speeds, impedances and rooms, these from the last ball on; whether all of them count.
     #[inline(always)]
-    pub(super) fn pool(
+    pub(super) fn take(
         &mut self,
         free: &[f32; N],
         impedance: &[f32; N],
         mut room: impl FnMut(usize, &Ball) -> f32,
     ) -> bool {
-        let mut sound = true;
+        let mut beyond_any = 0;
         let mut ahead = free.first().copied().unwrap_or(0.0);
         let inputs = free.iter().zip(impedance).enumerate();
         for (ball, (index, (&speed, &impedance))) in self.balls.iter_mut().zip(inputs).rev() {
-            sound &= counts(speed, impedance);
+            beyond_any |= beyond(speed, impedance);
             ball.set(speed, impedance, room(index, ball) + (ahead - speed));
             ahead = speed;
         }
+        beyond_any as i32 >= 0
+    }
+
+    /// Joins balls to clusters, or leaves them at rest where not all that was taken in counts.
+    #[inline(always)]
+    pub(super) fn join(&mut self, sound: bool) {
         self.foremost = pool(&mut self.balls) as u8;
         if !sound {
             self.rest();
         }
-        sound
-    }
-
-    /// The same with a speed, an impedance and a room that `next` finds for each ball, from the last one on;
-    /// all of them count.
-    #[inline(always)]
-    pub(super) fn pool_with(&mut self, mut next: impl FnMut(&Ball) -> (f32, f32, f32)) {
-        // The first ball, which is in front of the last one, comes at the end.
-        let mut ahead = 0.0;
-        let mut last_room = None;
-        for ball in self.balls.iter_mut().rev() {
-            let (speed, impedance, room) = next(ball);
-            ball.set(speed, impedance, room + (ahead - speed));
-            ahead = speed;
-            last_room.get_or_insert(room);
-        }
-        if let (Some(ball), Some(room)) = (self.balls.last_mut(), last_room) {
-            ball.slack = room + (ahead - ball.speed);
-        }
-        self.foremost = pool(&mut self.balls) as u8;
     }
 
     /// Balls at rest that press on none.

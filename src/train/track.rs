@@ -35,8 +35,8 @@ pub const LARGEST_TRAVEL: f32 = 0.03;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Train<const N: usize> {
-    origin: u32,
-    origin_rest: f32,
+    /// What of the nominal travel is not yet a whole unit.
+    rest: f32,
     press: Press<N>,
     track: Track,
 }
@@ -129,8 +129,7 @@ impl<const N: usize> Train<N> {
             ball.position = place;
         }
         Self {
-            origin: 0,
-            origin_rest: 0.0,
+            rest: 0.0,
             press,
             track,
         }
@@ -140,11 +139,7 @@ impl<const N: usize> Train<N> {
     /// units of 2^-32.
     #[inline]
     pub fn positions(&self) -> impl Iterator<Item = u32> + '_ {
-        let origin = self.origin;
-        self.press
-            .balls
-            .iter()
-            .map(move |ball| ball.position.wrapping_add(origin))
+        self.press.balls.iter().map(|ball| ball.position)
     }
 
     /// Distance in front of each ball, m: zero in contact, up to a few units below by rounding.
@@ -209,7 +204,11 @@ impl<const N: usize> Train<N> {
     pub fn step(&mut self, free: &[f32; N], impedance: &[f32; N], travel: f32) -> bool {
         let travel = self.counted(travel);
         let mut room = self.room(travel);
-        let sound = self.press.pool(free, impedance, |_, ball| room.next(ball));
+        let sound = self
+            .press
+            .take(free, impedance, |_, ball| room.next(ball.position));
+        self.without_overlap(room);
+        self.press.join(sound);
         self.advance(travel);
         sound
     }
@@ -220,20 +219,52 @@ impl<const N: usize> Train<N> {
     pub(crate) fn run(&mut self, travel: f32, mut free: impl FnMut(u32) -> (f32, f32)) -> Pressing {
         let travel = self.counted(travel);
         let mut room = self.room(travel);
-        let origin = self.origin;
-        self.press.pool_with(|ball| {
-            let (speed, impedance) = free(ball.position.wrapping_add(origin));
-            (speed, impedance, room.next(ball))
-        });
+        let mut ahead = 0.0;
+        let mut behind = self.press.balls.as_mut_slice();
+        while let [rest @ .., ball] = behind {
+            let place = ball.position;
+            let (speed, impedance) = free(place);
+            ball.set(speed, impedance, room.next(place) + (ahead - speed));
+            ahead = speed;
+            behind = rest;
+        }
+        self.without_overlap(room);
+        self.press.join(true);
         self.advance(travel)
+    }
+
+    /// Slacks of the two balls that the pass over all balls leaves: the last one, whose front ball comes at the
+    /// pass's end, and the one that was foremost, which alone may have come too far by rounding.
+    #[inline(always)]
+    fn without_overlap(&mut self, room: Room) {
+        let last = N - 1;
+        let foremost = self.press.foremost();
+        for index in [last, foremost] {
+            let ahead = if index == last { 0 } else { index + 1 };
+            let Some(&Ball {
+                position, speed, ..
+            }) = self.press.balls.get(ahead)
+            else {
+                continue;
+            };
+            if let Some(ball) = self.press.balls.get_mut(index) {
+                let distance = position
+                    .wrapping_sub(room.pitch)
+                    .wrapping_sub(ball.position);
+                let way = without_rounding(distance) as f32 * room.per_unit;
+                ball.slack = way + (speed - ball.speed);
+            }
+        }
     }
 
     #[inline(always)]
     fn room(&self, travel: f32) -> Room {
         let way = travel.abs();
+        let pitch = self.track.pitch;
+        let first = self.press.balls.first().map_or(0, |ball| ball.position);
         Room {
-            ahead: self.press.balls.first().map_or(0, |ball| ball.position),
-            pitch: self.track.pitch,
+            touching: first.wrapping_sub(pitch),
+            pitch,
             per_unit: if way > 1e-20 { 1.0 / way } else { 1e20 },
         }
     }
@@ -258,15 +289,14 @@ impl<const N: usize> Train<N> {
     #[inline(always)]
     fn advance(&mut self, travel: f32) -> Pressing {
         let way = if travel < 0.0 { -travel } else { travel };
-        let pressing = self.press.settle(Moves {
+        let travel = travel + self.rest;
+        let whole = travel as i32;
+        self.rest = travel - whole as f32;
+        self.press.settle(Moves {
+            whole: whole as u32,
             scale: way * FRACTIONS,
             pitch: self.track.pitch,
-        });
-        let travel = travel + self.origin_rest;
-        let whole = travel as i32;
-        self.origin = self.origin.wrapping_add_signed(whole);
-        self.origin_rest = travel - whole as f32;
-        pressing
+        })
     }
 
     /// Distances in front of the balls, in units.
@@ -284,9 +314,10 @@ impl<const N: usize> Train<N> {
 }
 
 /// Speeds at which balls may run up to the ones in front, from the last ball on.
+#[derive(Clone, Copy)]
 struct Room {
-    /// Where the ball in front is.
-    ahead: u32,
+    /// Where the next ball touches the one in front.
+    touching: u32,
     pitch: u32,
     /// One over the way of the nominal speed in this tick, in units.
     per_unit: f32,
@@ -294,13 +325,10 @@ struct Room {
 
 impl Room {
     #[inline(always)]
-    fn next(&mut self, ball: &Ball) -> f32 {
-        let distance = self
-            .ahead
-            .wrapping_sub(ball.position)
-            .wrapping_sub(self.pitch);
-        self.ahead = ball.position;
-        without_rounding(distance) as f32 * self.per_unit
+    fn next(&mut self, place: u32) -> f32 {
+        let distance = self.touching.wrapping_sub(place);
+        self.touching = place.wrapping_sub(self.pitch);
+        distance as f32 * self.per_unit
     }
 }
 
