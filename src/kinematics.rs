@@ -8,7 +8,7 @@
 //!
 //! | call | when | what it costs |
 //! |---|---|---|
-//! | [`ContactKinematics::new`] | once | checks every number, forms all constants: 1600 cycles |
+//! | [`ContactKinematics::new`] | once | checks every number, forms all constants: 2100 cycles; none as a constant |
 //! | [`ContactKinematics::update`] | contact angles or loads changed | one division, two square roots, two sines and cosines: 530 cycles |
 //! | [`ContactKinematics::tick`] | every interrupt | ten multiplications: 70 cycles |
 //! | [`ContactCoefficients::ratios`] | after an update, if wanted | the speed-free ratios, with arc tangents: 430 cycles a contact |
@@ -46,7 +46,8 @@ pub use parameters::{EllipticContact, KinematicsParameters};
 pub use pitch_angle::PitchMethod;
 pub use traditional::TraditionalKinematics;
 
-use crate::error::Error;
+use crate::error::{Error, attempt};
+use crate::math::{self, constant};
 use coefficients::{Direction, Groove};
 use parameters::Path;
 
@@ -201,7 +202,7 @@ pub struct ContactKinematics {
 }
 
 impl ContactKinematics {
-    /// Checks the parameters and forms all constants.
+    /// Checks the parameters and forms all constants. Set-up only; a constant can take them.
     ///
     /// # Errors
     /// Names the first field of [`KinematicsParameters`] that is not a number or out of range, and
@@ -209,9 +210,9 @@ impl ContactKinematics {
     /// hardly moves at the contact (`b_k < 0.25`, about 75°), a contact ellipse larger than 0.3 of the
     /// ball's radius (outside Hertz' theory), a rolling radius that folds the ball's path past the
     /// screw's axis.
-    pub fn new(parameters: &KinematicsParameters) -> Result<Self, Error> {
-        let path = Path::new(parameters)?;
-        let (screw, nut) = path.checked_directions(parameters)?;
+    pub const fn new(parameters: &KinematicsParameters) -> Result<Self, Error> {
+        let path = attempt!(Path::new(parameters));
+        let (screw, nut) = attempt!(path.checked_directions(parameters));
         let mut kinematics = Self {
             orbital_speed: 0.0,
             spin_speed: 0.0,
@@ -219,7 +220,9 @@ impl ContactKinematics {
             nut: ContactCoefficients::new(&path.nut),
             path,
         };
-        kinematics.fold(&screw, &nut);
+        let (screw, nut) = kinematics.fold(&screw, &nut);
+        kinematics.screw.slip.entrainment_speed = constant::sqrt(screw);
+        kinematics.nut.slip.entrainment_speed = constant::sqrt(nut);
         Ok(kinematics)
     }
 
@@ -240,7 +243,9 @@ impl ContactKinematics {
         if !(screw.rolls(&self.path.screw) && nut.rolls(&self.path.nut)) {
             return false;
         }
-        self.fold(&screw, &nut);
+        let (screw, nut) = self.fold(&screw, &nut);
+        self.screw.slip.entrainment_speed = math::sqrt(screw);
+        self.nut.slip.entrainment_speed = math::sqrt(nut);
         true
     }
 
@@ -304,9 +309,11 @@ impl ContactKinematics {
 }
 
 impl ContactKinematics {
-    /// Forms what contact angles and ellipses decide, in place.
+    /// Forms what contact angles and ellipses decide, in place, but for the entrainment speeds at screw and
+    /// nut: it returns their squares.
     #[inline(always)]
-    fn fold(&mut self, screw: &Direction, nut: &Direction) {
+    #[must_use]
+    const fn fold(&mut self, screw: &Direction, nut: &Direction) -> (f32, f32) {
         // w and omega_R with one division: G_i / (G_i + G_o) = A_i b_o / (A_i b_o + A_o b_i).
         let screw_share = screw.reach * nut.grip;
         let nut_share = nut.reach * screw.grip;
@@ -314,7 +321,7 @@ impl ContactKinematics {
         let orbital_speed = screw_share * inverse;
         let spin_speed = screw.reach * nut.reach * inverse;
         let (path, inner, outer) = (&self.path, Groove::Screw, Groove::Nut);
-        self.screw.fold(
+        let screw = self.screw.fold(
             path,
             &path.screw,
             screw,
@@ -322,9 +329,11 @@ impl ContactKinematics {
             inner,
             spin_speed,
         );
-        self.nut
+        let nut = self
+            .nut
             .fold(path, &path.nut, nut, -orbital_speed, outer, spin_speed);
         self.orbital_speed = orbital_speed;
         self.spin_speed = spin_speed;
+        (screw, nut)
     }
 }

@@ -797,6 +797,16 @@ fn what_cannot_roll_is_refused() {
     });
     assert_eq!(error.field(), "contact_angle_screw");
     assert!(!error.allowed().contains(-0.8));
+    // The grip ends where the range says, but for the last of 24 halvings of less than half a turn (2e-7 rad)
+    // and the rounding of the angle (6e-8 rad).
+    let end = error.allowed().minimum;
+    for (angle, taken) in [(end, true), (end - 4e-7, false)] {
+        let given = KinematicsParameters {
+            contact_angle_screw: angle,
+            ..good
+        };
+        assert_eq!(ContactKinematics::new(&given).is_ok(), taken, "{angle}");
+    }
     let error = refused(KinematicsParameters {
         contact_angle_nut: -0.8,
         ..good

@@ -1,8 +1,8 @@
 //! The exact principal curvatures of a gothic-arch groove.
 
-use crate::error::{Error, Range, in_range};
+use crate::error::{Error, Range, attempt, in_range};
 use crate::geometry::{BallScrew, ContactAngle, Groove, GrooveProfile, HelixPath};
-use crate::math;
+use crate::math::{self, constant};
 
 /// Both principal curvatures at a contact point, 1/m; normal into the metal, `kappa1 > kappa2`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -82,28 +82,56 @@ pub struct GothicArch {
 /// Largest groove radius times curvature or torsion of the path.
 const LARGEST_RADIUS: f32 = 1e3;
 
-/// The shape operator in orthonormal directions, its elements times `D³`, with the scale factors that
-/// led to it.
+/// The shape operator in orthonormal directions, its elements times `D³`, before the two roots that its
+/// eigenvalues need: the loop takes them by an instruction, set-up by integers, and all else is written
+/// once.
 struct ShapeOperator {
     /// `A`.
     area: f32,
     /// `(tau p)²`.
     twist_squared: f32,
-    /// `D`.
-    scale: f32,
-    /// `1 / D³`.
-    inverse_cube: f32,
+    /// `D²`.
+    scale_squared: f32,
     h11: f32,
     h22: f32,
-    /// `q = h12² / (h + sqrt(h² + h12²))`.
+    h12_squared: f32,
+    /// `h`.
+    half_difference: f32,
+    /// `h² + h12²`.
+    radicand: f32,
+}
+
+/// What both roots add to the shape operator.
+struct Eigenvalues {
+    principal: PrincipalCurvatures,
+    /// `1 / D³`.
+    inverse_cube: f32,
+    /// `q = h12² / (h + sqrt(h² + h12²))`, times `D³`.
     shift: f32,
+}
+
+impl ShapeOperator {
+    /// The eigenvalues, from `root = sqrt(radicand)` and `scale = sqrt(scale_squared)`.
+    #[inline]
+    const fn eigenvalues(&self, root: f32, scale: f32) -> Eigenvalues {
+        let inverse_cube = 1.0 / (self.scale_squared * scale);
+        let shift = self.h12_squared / (self.half_difference + root);
+        Eigenvalues {
+            principal: PrincipalCurvatures {
+                kappa1: (self.h22 + shift) * inverse_cube,
+                kappa2: (self.h11 - shift) * inverse_cube,
+            },
+            inverse_cube,
+            shift,
+        }
+    }
 }
 
 impl GothicArch {
     /// Constants of one groove from its path and section, unchecked: for a design that
     /// [`BallScrew::new`] has checked.
     #[must_use]
-    pub fn new(groove: Groove, path: &HelixPath, profile: &GrooveProfile) -> Self {
+    pub const fn new(groove: Groove, path: &HelixPath, profile: &GrooveProfile) -> Self {
         let signed_curvature = groove.sign() * path.curvature;
         Self {
             groove,
@@ -119,9 +147,9 @@ impl GothicArch {
         }
     }
 
-    /// Constants of one groove of a validated design.
+    /// Constants of one groove of a validated design; a constant can take them.
     #[must_use]
-    pub fn of(design: &BallScrew, groove: Groove) -> Self {
+    pub const fn of(design: &BallScrew, groove: Groove) -> Self {
         Self::new(groove, design.path(), design.profile(groove))
     }
 
@@ -133,20 +161,25 @@ impl GothicArch {
     /// path), `offset_h` or `offset_l`;
     /// [`Error::FoldedGroove`] where the surface folds at this contact angle (`A <= 0`), or the centre of
     /// the nut's profile would lie beyond the axis.
-    pub fn checked(
+    pub const fn checked(
         groove: Groove,
         path: &HelixPath,
         profile: &GrooveProfile,
         contact_angle: ContactAngle,
     ) -> Result<Self, Error> {
-        in_range("curvature", path.curvature, 0.0, 1e9)?;
-        in_range("torsion", path.torsion, -1e9, 1e9)?;
+        attempt!(in_range("curvature", path.curvature, 0.0, 1e9));
+        attempt!(in_range("torsion", path.torsion, -1e9, 1e9));
         // Cubes of radius times curvature have to stay within f32; a groove is smaller than its path.
         let steepest = path.curvature.max(path.torsion.abs());
         let largest = (LARGEST_RADIUS / steepest).min(1e9);
-        let radius = in_range("groove_radius", profile.groove_radius, 1e-9, largest)?;
-        in_range("offset_h", profile.offset_h, 0.0, radius)?;
-        in_range("offset_l", profile.offset_l, 0.0, radius)?;
+        let radius = attempt!(in_range(
+            "groove_radius",
+            profile.groove_radius,
+            1e-9,
+            largest
+        ));
+        attempt!(in_range("offset_h", profile.offset_h, 0.0, radius));
+        attempt!(in_range("offset_l", profile.offset_l, 0.0, radius));
         let arch = Self::new(groove, path, profile);
         // A = 1 + zeta kappa (H - r_s c): the screw folds by its groove radius, the nut by its offset,
         // and before it folds its two curvatures change places where the profile's centre lies beyond
@@ -178,10 +211,21 @@ impl GothicArch {
     #[must_use]
     pub fn principal(&self, contact_angle: ContactAngle) -> PrincipalCurvatures {
         let shape = self.shape_operator(contact_angle);
-        PrincipalCurvatures {
-            kappa1: (shape.h22 + shape.shift) * shape.inverse_cube,
-            kappa2: (shape.h11 - shape.shift) * shape.inverse_cube,
-        }
+        shape
+            .eigenvalues(math::sqrt(shape.radicand), math::sqrt(shape.scale_squared))
+            .principal
+    }
+
+    /// The same bits for set-up, by the root that a constant can take.
+    pub(super) const fn constant_principal(
+        &self,
+        contact_angle: ContactAngle,
+    ) -> PrincipalCurvatures {
+        let shape = self.shape_operator(contact_angle);
+        let root = constant::sqrt(shape.radicand);
+        shape
+            .eigenvalues(root, constant::sqrt(shape.scale_squared))
+            .principal
     }
 
     /// Sums of the curvatures of groove and ball, 1/m, for a ball whose radius is smaller than the
@@ -189,15 +233,23 @@ impl GothicArch {
     ///
     /// The second sum cancels to a twentieth; it is formed from the clearance and from
     /// `kappa2 + 1/r_s = (tau p)² / (r_s D (D + A)) - q`, so that no digit is lost.
+    ///
+    /// For set-up; a constant can take it. Cost: 2 square roots by integers (some 250 cycles each on a
+    /// Cortex-M4F), 4 divisions, 46 other operations.
     #[must_use]
-    pub fn relative(&self, contact_angle: ContactAngle, clearance: f32) -> RelativeCurvatures {
+    pub const fn relative(
+        &self,
+        contact_angle: ContactAngle,
+        clearance: f32,
+    ) -> RelativeCurvatures {
         let shape = self.shape_operator(contact_angle);
+        let scale = constant::sqrt(shape.scale_squared);
+        let values = shape.eigenvalues(constant::sqrt(shape.radicand), scale);
         let ball_curvature = 1.0 / (self.groove_radius - clearance);
-        let excess = shape.twist_squared * self.profile_curvature
-            / (shape.scale * (shape.scale + shape.area))
-            - shape.shift * shape.inverse_cube;
+        let excess = shape.twist_squared * self.profile_curvature / (scale * (scale + shape.area))
+            - values.shift * values.inverse_cube;
         RelativeCurvatures {
-            along: ball_curvature + (shape.h22 + shape.shift) * shape.inverse_cube,
+            along: ball_curvature + values.principal.kappa1,
             across: clearance * ball_curvature * self.profile_curvature + excess,
         }
     }
@@ -225,12 +277,12 @@ impl GothicArch {
 
     /// `A = 1 + zeta kappa (H - r_s c)`; the surface is regular while it is positive.
     #[inline]
-    fn area(&self, contact_angle: ContactAngle) -> f32 {
+    const fn area(&self, contact_angle: ContactAngle) -> f32 {
         self.area_offset - self.area_slope * contact_angle.cos
     }
 
     #[inline]
-    fn shape_operator(&self, contact_angle: ContactAngle) -> ShapeOperator {
+    const fn shape_operator(&self, contact_angle: ContactAngle) -> ShapeOperator {
         let ContactAngle { cos, sin } = contact_angle;
         let area = self.area(contact_angle);
         // tau p, tau w, tau rho, A / r_s
@@ -252,17 +304,15 @@ impl GothicArch {
         let mixed = area_over_radius * turn - self.signed_curvature * (twist * sin);
         let h12_squared = mixed * mixed * scale_squared;
         let half_difference = 0.5 * (h22 - h11);
-        let root = math::sqrt(half_difference * half_difference + h12_squared);
-
-        let scale = math::sqrt(scale_squared);
         ShapeOperator {
             area,
             twist_squared,
-            scale,
-            inverse_cube: 1.0 / (scale_squared * scale),
+            scale_squared,
             h11,
             h22,
-            shift: h12_squared / (half_difference + root),
+            h12_squared,
+            half_difference,
+            radicand: half_difference * half_difference + h12_squared,
         }
     }
 }

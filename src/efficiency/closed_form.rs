@@ -2,9 +2,9 @@
 
 use core::f32::consts::FRAC_PI_2;
 
-use crate::error::{Error, in_range};
+use crate::error::{Error, attempt, in_range};
 use crate::geometry::{BallScrew, ContactAngle};
-use crate::math;
+use crate::math::constant;
 
 /// Which way power flows through the ball screw.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -58,15 +58,15 @@ pub struct EfficiencyGeometry {
 
 impl EfficiencyGeometry {
     /// Constants from the lead angle `alpha` (rad, 0 to 1.5), the contact angle `beta` (rad, 0.001 to
-    /// pi/2) and the ball ratio `a` (0 to 1). Set-up only.
+    /// pi/2) and the ball ratio `a` (0 to 1). Set-up only; a constant can take them.
     ///
     /// # Errors
     /// [`Error`] naming `lead_angle`, `contact_angle` or `ball_ratio`.
-    pub fn new(lead_angle: f32, contact_angle: f32, ball_ratio: f32) -> Result<Self, Error> {
-        in_range("lead_angle", lead_angle, 0.0, 1.5)?;
-        in_range("contact_angle", contact_angle, 0.001, FRAC_PI_2)?;
-        in_range("ball_ratio", ball_ratio, 0.0, 1.0)?;
-        let (sin, cos) = math::sin_cos(lead_angle);
+    pub const fn new(lead_angle: f32, contact_angle: f32, ball_ratio: f32) -> Result<Self, Error> {
+        attempt!(in_range("lead_angle", lead_angle, 0.0, 1.5));
+        attempt!(in_range("contact_angle", contact_angle, 0.001, FRAC_PI_2));
+        attempt!(in_range("ball_ratio", ball_ratio, 0.0, 1.0));
+        let (sin, cos) = constant::sin_cos(lead_angle);
         Ok(Self::from_parts(
             sin / cos,
             ContactAngle::new(contact_angle),
@@ -74,9 +74,9 @@ impl EfficiencyGeometry {
         ))
     }
 
-    /// Constants of a validated design at its nominal contact angle.
+    /// Constants of a validated design at its nominal contact angle; a constant can take them.
     #[must_use]
-    pub fn of(design: &BallScrew) -> Self {
+    pub const fn of(design: &BallScrew) -> Self {
         Self::from_parts(
             design.tan_lead_angle(),
             design.contact_angle(),
@@ -84,11 +84,11 @@ impl EfficiencyGeometry {
         )
     }
 
-    fn from_parts(tan_lead: f32, contact_angle: ContactAngle, ball_ratio: f32) -> Self {
+    const fn from_parts(tan_lead: f32, contact_angle: ContactAngle, ball_ratio: f32) -> Self {
         let ContactAngle { cos, sin } = contact_angle;
         let secant_squared = 1.0 + tan_lead * tan_lead;
         // Never from 1/Ca² - Sb²: that cancels where R is small.
-        let root = math::sqrt(cos * cos + tan_lead * tan_lead);
+        let root = constant::sqrt(cos * cos + tan_lead * tan_lead);
         Self {
             sin_contact: sin,
             cos_contact: cos,
@@ -109,14 +109,14 @@ impl EfficiencyGeometry {
     /// operations.
     #[inline]
     #[must_use]
-    pub fn rolling_efficiency(&self, friction: f32, rolling_tangent: f32) -> f32 {
+    pub const fn rolling_efficiency(&self, friction: f32, rolling_tangent: f32) -> f32 {
         1.0 - self.rolling_loss(friction, rolling_tangent)
     }
 
     /// One less [`EfficiencyGeometry::rolling_efficiency`], by its own formula.
     #[inline]
     #[must_use]
-    pub fn rolling_loss(&self, friction: f32, rolling_tangent: f32) -> f32 {
+    pub const fn rolling_loss(&self, friction: f32, rolling_tangent: f32) -> f32 {
         let slide = friction * self.ball_ratio;
         let grip = self.sin_contact + friction * (self.ball_ratio - self.cos_contact);
         if rolling_tangent > 0.0 {
@@ -135,7 +135,7 @@ impl EfficiencyGeometry {
     /// Negative infinity where there is no lead but rolling resistance: no load moves it.
     #[inline]
     #[must_use]
-    pub fn rolling_backdrive_efficiency(&self, friction: f32, rolling_tangent: f32) -> f32 {
+    pub const fn rolling_backdrive_efficiency(&self, friction: f32, rolling_tangent: f32) -> f32 {
         let slide = friction * self.ball_ratio;
         let grip = self.sin_contact + friction * self.cos_contact + rolling_tangent * self.tan_lead;
         let loss = if rolling_tangent > 0.0 {
@@ -149,7 +149,7 @@ impl EfficiencyGeometry {
     /// Rolling efficiency of a driven nut as printed in eq. (4): `a + 2 Cb` and `a + Cb` in the places
     /// of `a` and `a - Cb`. For comparison with the paper only.
     #[must_use]
-    pub fn rolling_nut_as_printed(&self, friction: f32, rolling_tangent: f32) -> f32 {
+    pub const fn rolling_nut_as_printed(&self, friction: f32, rolling_tangent: f32) -> f32 {
         let slide = friction * (self.ball_ratio + 2.0 * self.cos_contact);
         let grip = self.sin_contact + friction * (self.ball_ratio + self.cos_contact);
         let loss = if rolling_tangent > 0.0 {
@@ -167,28 +167,28 @@ impl EfficiencyGeometry {
     /// one division, 4 other operations.
     #[inline]
     #[must_use]
-    pub fn sliding_efficiency(&self, friction: f32) -> f32 {
+    pub const fn sliding_efficiency(&self, friction: f32) -> f32 {
         1.0 - self.sliding_loss(friction)
     }
 
     /// One less [`EfficiencyGeometry::sliding_efficiency`], by its own formula.
     #[inline]
     #[must_use]
-    pub fn sliding_loss(&self, friction: f32) -> f32 {
+    pub const fn sliding_loss(&self, friction: f32) -> f32 {
         friction * self.drive_scale / (self.root + friction * self.sin_contact)
     }
 
     /// Full-sliding efficiency of back-driving, eq. (17): `1 - eta = f / (Ca² R (Sb + f R))`.
     #[inline]
     #[must_use]
-    pub fn sliding_backdrive_efficiency(&self, friction: f32) -> f32 {
+    pub const fn sliding_backdrive_efficiency(&self, friction: f32) -> f32 {
         1.0 - self.sliding_backdrive_loss(friction)
     }
 
     /// One less [`EfficiencyGeometry::sliding_backdrive_efficiency`], by its own formula.
     #[inline]
     #[must_use]
-    pub fn sliding_backdrive_loss(&self, friction: f32) -> f32 {
+    pub const fn sliding_backdrive_loss(&self, friction: f32) -> f32 {
         friction * self.backdrive_scale / (self.sin_contact + friction * self.root)
     }
 
@@ -196,7 +196,7 @@ impl EfficiencyGeometry {
     /// `f Sb >= R` for back-driving. Exactly where the efficiency of that direction is not positive.
     #[inline]
     #[must_use]
-    pub fn locks(&self, drive: Drive, friction: f32) -> bool {
+    pub const fn locks(&self, drive: Drive, friction: f32) -> bool {
         match drive {
             Drive::Driving => friction * self.root >= self.sin_contact,
             Drive::BackDriving => friction * self.sin_contact >= self.root,
@@ -204,17 +204,17 @@ impl EfficiencyGeometry {
     }
 
     /// Normal load of a contact per axial load on one ball, friction neglected: `Q / Fa = 1 / (Ca
-    /// Sb)`, eq. (20) (printed with `C_ci` for `C_alpha`).
+    /// Sb)`, eq. (20) (printed with `C_ci` for `C_alpha`). Set-up only.
     #[must_use]
-    pub fn normal_per_axial_load(&self) -> f32 {
-        math::sqrt(self.secant_squared) / self.sin_contact
+    pub const fn normal_per_axial_load(&self) -> f32 {
+        constant::sqrt(self.secant_squared) / self.sin_contact
     }
 
     /// Normal load of a contact per torque on one ball, friction neglected, times the pitch radius:
-    /// `Q r_m / M = 1 / (Sa Sb)`, eq. (21). Infinite without lead.
+    /// `Q r_m / M = 1 / (Sa Sb)`, eq. (21). Infinite without lead. Set-up only.
     #[must_use]
-    pub fn normal_per_torque(&self) -> f32 {
-        math::sqrt(self.secant_squared) / (self.tan_lead * self.sin_contact)
+    pub const fn normal_per_torque(&self) -> f32 {
+        constant::sqrt(self.secant_squared) / (self.tan_lead * self.sin_contact)
     }
 
     /// Friction torque per axial load, m, of a rolling screw: `r_m [f a ta + t (1 + ta²)] / (Sb -+ f
@@ -223,7 +223,7 @@ impl EfficiencyGeometry {
     /// It is eq. (3) as a torque, `r_m ta (1/eta - 1)` driving and `r_m ta (1 - eta)` back-driving,
     /// without the division by a vanishing lead. Infinite or negative where driving locks.
     #[must_use]
-    pub fn rolling_torque_per_load(
+    pub const fn rolling_torque_per_load(
         &self,
         drive: Drive,
         pitch_radius: f32,
@@ -243,7 +243,12 @@ impl EfficiencyGeometry {
     /// Friction torque per axial load, m, in full sliding: `r_m ta f / (Ca² Sb R -+ f (Ca R)²)`, upper
     /// sign driving; eq. (14) and (17) as torques. Infinite or negative where driving locks.
     #[must_use]
-    pub fn sliding_torque_per_load(&self, drive: Drive, pitch_radius: f32, friction: f32) -> f32 {
+    pub const fn sliding_torque_per_load(
+        &self,
+        drive: Drive,
+        pitch_radius: f32,
+        friction: f32,
+    ) -> f32 {
         let hold = friction * self.root;
         let grip = match drive {
             Drive::Driving => self.sin_contact - hold,

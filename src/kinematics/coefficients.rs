@@ -2,7 +2,7 @@
 
 use super::parameters::{EllipticContact, GroovePath, Path};
 use super::{ContactSlip, abs, sane_speed};
-use crate::math;
+use crate::math::{self, constant};
 
 /// Which raceway; carries the sign that (3) to (40) print as upper and lower.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -95,7 +95,29 @@ impl Path {
         contact: EllipticContact,
         groove: Groove,
     ) -> Direction {
-        let (sine, cosine) = math::sin_cos(contact.contact_angle);
+        let sin_cos = math::sin_cos(contact.contact_angle);
+        self.resolved(sin_cos, groove_path, contact, groove)
+    }
+
+    /// The same for set-up, by the kernel that a constant can take.
+    pub const fn constant_direction(
+        &self,
+        groove_path: &GroovePath,
+        contact: EllipticContact,
+        groove: Groove,
+    ) -> Direction {
+        let sin_cos = constant::sin_cos(contact.contact_angle);
+        self.resolved(sin_cos, groove_path, contact, groove)
+    }
+
+    #[inline(always)]
+    const fn resolved(
+        &self,
+        (sine, cosine): (f32, f32),
+        groove_path: &GroovePath,
+        contact: EllipticContact,
+        groove: Groove,
+    ) -> Direction {
         Direction {
             sine,
             cosine,
@@ -131,8 +153,12 @@ impl ContactCoefficients {
 
     /// Forms everything from one contact's direction: `relative_speed` is `omega_k / omega` (frame of
     /// the orbiting ball against the raceway), `spin_speed` is `omega_R / omega`.
+    ///
+    /// All but the entrainment speed: it returns that one's square, because loop and set-up differ in the
+    /// square root.
     #[inline(always)]
-    pub(super) fn fold(
+    #[must_use]
+    pub(super) const fn fold(
         &mut self,
         path: &Path,
         groove_path: &GroovePath,
@@ -140,7 +166,7 @@ impl ContactCoefficients {
         relative_speed: f32,
         groove: Groove,
         spin_speed: f32,
-    ) {
+    ) -> f32 {
         // Symbols of Alberdi et al.: w = omega_k / omega, z = (a / (D/2))^2.
         let w = relative_speed;
         let turning = groove.sign() * spin_speed;
@@ -161,14 +187,9 @@ impl ContactCoefficients {
         let across = groove.sign() * path.cos_lead * direction.cosine;
         let entrainment_rolling = 0.5 * w * (path.radius + distance * (direction.reach - across));
         let entrainment_side = 0.5 * distance * (climb - swerve);
-        self.slip = ContactSlip {
-            rolling_slip: rolling_gradient * inside,
-            side_slip: side_gradient * distance,
-            spin,
-            entrainment_speed: math::sqrt(
-                entrainment_rolling * entrainment_rolling + entrainment_side * entrainment_side,
-            ),
-        };
+        self.slip.rolling_slip = rolling_gradient * inside;
+        self.slip.side_slip = side_gradient * distance;
+        self.slip.spin = spin;
         self.entrainment_rolling = entrainment_rolling;
         self.entrainment_side = entrainment_side;
         self.rolling_gradient = rolling_gradient;
@@ -176,6 +197,7 @@ impl ContactCoefficients {
         self.distance = distance;
         self.semi_major = direction.semi_major;
         self.semi_minor = direction.semi_minor;
+        entrainment_rolling * entrainment_rolling + entrainment_side * entrainment_side
     }
 }
 
