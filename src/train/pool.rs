@@ -90,20 +90,20 @@ pub(super) const OVERLAP: u32 = 1 << 10;
 pub(super) fn pool(balls: &mut [Ball]) -> usize {
     // On a ring nothing is ahead of the last ball yet: it stands alone.
     let mut count = balls.len();
-    while let Some((alone, behind)) = balls.get_mut(..count).and_then(<[Ball]>::split_last_mut) {
+    'clusters: while let Some((alone, behind)) = balls.get_mut(..count).and_then(<[Ball]>::split_last_mut) {
         alone.extent = 0;
-        // A single ball keeps its own speed, and so does what is behind it up to one that runs into the next.
-        let mut front = behind.len();
-        for ball in behind.iter_mut().rev() {
-            if ball.slack < 0.0 {
-                break;
+        // A single ball keeps its own speed, and so does what is behind it up to one that runs into the next, which
+        // only a negative slack can.
+        let mut behind = behind.iter_mut();
+        let front = loop {
+            let Some(ball) = behind.next_back() else {
+                break 'clusters;
+            };
+            if (ball.slack.to_bits() as i32) < 0 {
+                break behind.len() + 1;
             }
             ball.extent = 0;
-            front -= 1;
-        }
-        if front == 0 {
-            break;
-        }
+        };
         count = grown(balls, front);
     }
     close(balls)
