@@ -8,13 +8,13 @@ pub(super) struct Ball {
     pub(super) speed: f32,
     pub(super) impedance: f32,
     /// How fast the distance in front may close beyond what the free speeds make of it: negative where the
-    /// ball would run into the one in front.
+    /// ball would run into the one in front. Then, at the rear ball of a cluster, the sum of its impedances.
     pub(super) slack: f32,
     /// Force between the ball and the one in front. Until it is known, the sum of the impedances of the
     /// cluster whose front ball this is, or the sum of the slacks of the cluster whose rear ball it is.
     pub(super) force: f32,
-    /// The sum of the cluster whose front ball this is. Then the sum of its impedances; at its rear ball, what
-    /// is left of its pushes.
+    /// The sum of the cluster whose front ball this is, or the sum of the impedances of the cluster whose rear ball
+    /// it is. Then, at the rear ball, what is left of the cluster's pushes.
     pub(super) sum: f32,
     /// Place on the track.
     pub(super) position: u32,

@@ -90,20 +90,22 @@ pub(super) const OVERLAP: u32 = 1 << 10;
 pub(super) fn pool(balls: &mut [Ball]) -> usize {
     // On a ring nothing is ahead of the last ball yet: it stands alone.
     let mut count = balls.len();
-    while let Some((alone, behind)) = balls.get_mut(..count).and_then(<[Ball]>::split_last_mut) {
+    'clusters: while let Some((alone, behind)) =
+        balls.get_mut(..count).and_then(<[Ball]>::split_last_mut)
+    {
         alone.extent = 0;
-        // A single ball keeps its own speed, and so does what is behind it up to one that runs into the next.
-        let mut front = behind.len();
-        for ball in behind.iter_mut().rev() {
-            if ball.slack < 0.0 {
-                break;
+        // A single ball keeps its own speed, and so does what is behind it up to one that runs into the next, which
+        // only a negative slack can.
+        let mut behind = behind.iter_mut();
+        let front = loop {
+            let Some(ball) = behind.next_back() else {
+                break 'clusters;
+            };
+            if (ball.slack.to_bits() as i32) < 0 {
+                break behind.len() + 1;
             }
             ball.extent = 0;
-            front -= 1;
-        }
-        if front == 0 {
-            break;
-        }
+        };
         count = grown(balls, front);
     }
     close(balls)
@@ -222,6 +224,7 @@ fn single(ball: Option<&Ball>) -> Cluster {
 fn store(balls: &mut [Ball], rear: usize, front: usize, extent: usize, cluster: &Cluster) {
     if let Some(ball) = balls.get_mut(rear) {
         ball.force = cluster.span;
+        ball.sum = cluster.weight;
         ball.extent = extent as u8;
     }
     if let Some(ball) = balls.get_mut(front) {
@@ -271,7 +274,8 @@ pub(super) fn settle(balls: &mut [Ball], foremost: usize, moves: Moves) -> Press
                 force += change * ball.impedance;
                 left -= 1;
                 if left == 0 {
-                    // Nothing pushes the last one.
+                    // Nothing pushes the last one. Kept for [`balance`].
+                    ball.slack = ball.sum;
                     ball.sum = force;
                     let rest = force.abs();
                     unbalanced = if rest > unbalanced { rest } else { unbalanced };
@@ -288,8 +292,6 @@ pub(super) fn settle(balls: &mut [Ball], foremost: usize, moves: Moves) -> Press
             };
             left = u32::from(front.extent);
             change = front.sum / front.force;
-            // Kept for [`balance`].
-            front.sum = front.force;
             force = change * front.impedance;
             front.speed += change;
             limit = front.moved(limit, moves);
@@ -342,50 +344,60 @@ fn force_bits(force: f32) -> i32 {
     bits & !(bits >> 31)
 }
 
-/// Takes what is left of the pushes of a cluster out of its forces, where it is more than `least`.
+/// Takes what is left of the pushes of a cluster out of its forces, each ball's part by its impedance, where it is more
+/// than `least`: from the ball in front of the foremost one on around the ring, so that a cluster begins with its rear
+/// ball, which has what is left.
 #[cold]
 #[inline(never)]
 fn balance(balls: &mut [Ball], foremost: usize, least: f32) {
-    let count = balls.len();
-    let mut left = count;
-    let mut front = foremost;
-    // Cluster by cluster around the ring, the balls that stand alone as well.
-    while left > 0 {
-        let behind = extent(balls, front);
-        let wraps = behind > front;
-        let rear = if wraps {
-            (front + count).wrapping_sub(behind)
-        } else {
-            front - behind
-        };
-        let rest = balls.get(rear).map_or(0.0, |ball| ball.sum);
-        if behind > 0 && rest.abs() > least {
-            relieve(balls, front, behind, rest);
+    let (mut low, high) = balls.split_at_mut_checked(foremost + 1).unwrap_or_default();
+    let mut part = high.iter_mut();
+    // Balls of the present cluster that are still to come, and what of its rest they have to take.
+    let (mut left, mut rate, mut correction) = (0_u32, 0.0, 0.0);
+    loop {
+        'part: loop {
+            while left > 1 {
+                let Some(ball) = part.next() else {
+                    break 'part;
+                };
+                correction = ball.relieved(rate, correction);
+                left -= 1;
+            }
+            // The front ball presses on none.
+            if left == 1 && part.next().is_none() {
+                break 'part;
+            }
+            left = 0;
+            let rear = loop {
+                let Some(ball) = part.next() else {
+                    break 'part;
+                };
+                if ball.extent > 0 {
+                    break ball;
+                }
+            };
+            left = u32::from(rear.extent);
+            correction = if rear.sum.abs() > least {
+                rear.sum
+            } else {
+                0.0
+            };
+            rate = correction / rear.slack;
+            correction = rear.relieved(rate, correction);
         }
-        left = left.saturating_sub(behind + 1);
-        front = if rear == 0 {
-            count.wrapping_sub(1)
-        } else {
-            rear - 1
-        };
+        if low.is_empty() {
+            break;
+        }
+        part = core::mem::take(&mut low).iter_mut();
     }
 }
 
-/// Takes `rest` out of the forces of a cluster, each ball's part by its impedance.
-#[inline(always)]
-fn relieve(balls: &mut [Ball], front: usize, behind: usize, rest: f32) {
-    let Some(ball) = balls.get(front) else {
-        return;
-    };
-    let rate = rest / ball.sum;
-    let mut correction = rate * ball.impedance;
-    let last = balls.len().wrapping_sub(1);
-    let mut place = front;
-    for _ in 0..behind {
-        place = if place == 0 { last } else { place - 1 };
-        if let Some(ball) = balls.get_mut(place) {
-            ball.force = f32::from_bits(force_bits(ball.force - correction) as u32);
-            correction += rate * ball.impedance;
-        }
+impl Ball {
+    /// Takes a ball's part off a correction, and the rest of this off its force.
+    #[inline(always)]
+    fn relieved(&mut self, rate: f32, correction: f32) -> f32 {
+        let correction = correction - rate * self.impedance;
+        self.force = f32::from_bits(force_bits(self.force - correction) as u32);
+        correction
     }
 }

@@ -103,7 +103,7 @@ impl AcrossTable {
     }
 
     /// The contact where the spin moves the rim with `rim = a |w|`, m.
-    #[inline]
+    #[inline(never)]
     pub(super) fn at(&self, rim: f32) -> Across {
         let whole = rim + self.slip;
         let place = rim / whole * CELLS as f32;

@@ -802,15 +802,17 @@ impl ScrewLoop {
         let (u, v) = (self.turn_weights.0 * screw, self.own_weights.0 * screw);
         let (x, y) = (self.turn_weights.1 * nut, self.own_weights.1 * nut);
         let (u, v) = (u + x, v + y);
-        let (turn, own) = (t5 * u, o3 * v);
-        let (turn, own) = (t4 + turn, o2 + own);
-        let (turn, own) = (turn * u, own * v);
-        let (turn, own) = (t3 + turn, o1 + own);
-        let (turn, own) = (turn * u, own * v);
-        let (turn, compliance) = (t2 + turn, self.compliance_rolling * root);
-        let (turn, spin) = (turn * u, self.compliance_spin * root);
-        let (turn, compliance) = (t1 + turn, compliance + self.compliance_sliding);
-        let (turn, power) = (turn * u, share * root);
+        let (square, other) = (u * u, v * v);
+        let (low, own) = (t2 * u, o2 * v);
+        let (high, compliance) = (t4 * u, self.compliance_rolling * root);
+        let (low, own) = (t1 + low, o1 + own);
+        let (high, top) = (t3 + high, t5 * square);
+        let (rest, spin) = (o3 * other, self.compliance_spin * root);
+        let (high, power) = (high + top, share * root);
+        let (own, compliance) = (own + rest, compliance + self.compliance_sliding);
+        let high = high * square;
+        let own = own * v;
+        let turn = (low + high) * u;
         // Of what turns the ball the coefficients have the scale in them.
         let (all, shares) = (self.scale + turn, sums.share + share);
         let (tilt, powers) = (own * all, sums.four_thirds + power);
