@@ -205,7 +205,7 @@ fn a_folded_linear_bearing_is_the_one_set_up_at_run_time() {
     });
 }
 
-/// Outputs of every scene of a ball screw can be compared: that of the train has its two parts besides.
+/// The angle moves the screw's deviations under the balls, whoever owns the constants.
 #[test]
 fn a_model_of_a_reference_takes_the_nut_angle() {
     let mut referring = FrictionModel::<UncagedBallScrew<37>, _>::of(&ZERO);
