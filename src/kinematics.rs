@@ -69,12 +69,12 @@ pub struct ContactSlip {
 
 impl ContactSlip {
     #[inline]
-    fn times(&self, speed: f32) -> Self {
+    fn times(&self, speed: f32, magnitude: f32) -> Self {
         Self {
             rolling_slip: self.rolling_slip * speed,
             side_slip: self.side_slip * speed,
             spin: self.spin * speed,
-            entrainment_speed: self.entrainment_speed * abs(speed),
+            entrainment_speed: self.entrainment_speed * magnitude,
         }
     }
 }
@@ -97,13 +97,42 @@ pub struct BallKinematics {
 }
 
 impl BallKinematics {
+    /// From the motion per speed to that at a speed; a wrong one counts as 0.
     #[inline]
-    fn times(&self, speed: f32) -> Self {
+    fn at(&self, speed: f32) -> Self {
+        let magnitude = abs(speed);
+        // False for NaN, too. Only the way of wrong speeds holds a call: the other one needs no stack frame.
+        if magnitude <= SPEED_LIMIT {
+            self.times(speed, magnitude)
+        } else {
+            Self::still()
+        }
+    }
+
+    #[inline]
+    fn times(&self, speed: f32, magnitude: f32) -> Self {
         Self {
             orbital_speed: self.orbital_speed * speed,
             spin_speed: self.spin_speed * speed,
-            screw: self.screw.times(speed),
-            nut: self.nut.times(speed),
+            screw: self.screw.times(speed, magnitude),
+            nut: self.nut.times(speed, magnitude),
+        }
+    }
+
+    #[cold]
+    #[inline(never)]
+    const fn still() -> Self {
+        let slip = ContactSlip {
+            rolling_slip: 0.0,
+            side_slip: 0.0,
+            spin: 0.0,
+            entrainment_speed: 0.0,
+        };
+        Self {
+            orbital_speed: 0.0,
+            spin_speed: 0.0,
+            screw: slip,
+            nut: slip,
         }
     }
 }
@@ -258,7 +287,7 @@ impl ContactKinematics {
     #[inline]
     #[must_use]
     pub fn tick(&self, speed: f32) -> BallKinematics {
-        self.per_speed().times(sane_speed(speed))
+        self.per_speed().at(speed)
     }
 
     /// Motion and slip per rad/s of the screw: the constants that [`tick`](Self::tick) multiplies.

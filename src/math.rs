@@ -37,6 +37,7 @@ use self::micromath as backend;
 use own as backend;
 
 pub use sqrt::sqrt;
+pub(crate) use sqrt::sqrt_pair;
 
 /// Cube root of any number, odd.
 ///
