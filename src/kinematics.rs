@@ -105,7 +105,7 @@ impl BallKinematics {
         if magnitude <= SPEED_LIMIT {
             self.times(speed, magnitude)
         } else {
-            Self::still()
+            Self::still(magnitude)
         }
     }
 
@@ -119,18 +119,22 @@ impl BallKinematics {
         }
     }
 
+    /// Every result zero, of the sign of a speed that is none: a zero which is not a constant is stored from a
+    /// register; for a constant the compiler calls the function that clears memory, which takes longer than
+    /// the products.
     #[cold]
     #[inline(never)]
-    const fn still() -> Self {
+    fn still(speed: f32) -> Self {
+        let zero = 0.0_f32.copysign(speed);
         let slip = ContactSlip {
-            rolling_slip: 0.0,
-            side_slip: 0.0,
-            spin: 0.0,
-            entrainment_speed: 0.0,
+            rolling_slip: zero,
+            side_slip: zero,
+            spin: zero,
+            entrainment_speed: zero,
         };
         Self {
-            orbital_speed: 0.0,
-            spin_speed: 0.0,
+            orbital_speed: zero,
+            spin_speed: zero,
             screw: slip,
             nut: slip,
         }
