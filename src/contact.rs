@@ -21,8 +21,12 @@ use crate::math;
 /// Smallest axis ratio that [`FrictionMap::new`] takes: relative radii of ratio 1 to about 1400.
 pub const SMALLEST_AXIS_RATIO: f32 = 0.01;
 
-/// Beyond this offset ratio a contact slides; `1/x^4` underflows there and nothing changes any more.
+/// Largest offset ratio that counts.
 const LARGEST_OFFSET: f32 = 1e9;
+
+/// From this offset ratio, 2^29, on a contact does nothing but slide: its moment is below 1e-9. One of few numbers
+/// that an instruction can compare with, without a load.
+const SLIDING_OFFSET: f32 = 536_870_912.0;
 
 /// Least stiffness outside the contact, over force over slip. A contact that slides has next to no
 /// stiffness of its own: speeds and compliances found from tangents alone are far off for a body of which
@@ -210,20 +214,30 @@ impl FrictionMap {
     #[must_use]
     pub fn evaluate(&self, offset: f32) -> NormalizedFriction {
         let distance = offset.abs();
-        if distance <= 1.0 {
+        // Positive numbers are in the order of their bits, and NaN comes last.
+        let bits = distance.to_bits();
+        if bits <= 1.0_f32.to_bits() {
             let (force, moment, _) = self.inside(offset);
             NormalizedFriction {
                 force,
                 moment,
                 power: moment + offset * force,
             }
-        } else {
-            let (distance, nearness) = bounded(distance);
-            let (force, moment, _) = self.outside(nearness);
+        } else if bits < SLIDING_OFFSET.to_bits() {
+            let u = 1.0 / distance;
+            let outer = self.outside(u);
+            let (sum, slope) = (u * outer.sum, u * outer.slope);
             NormalizedFriction {
-                force: if offset < 0.0 { -force } else { force },
-                moment,
-                power: moment + distance * force,
+                // `x (u - u³ slope)`: the sign for one product.
+                force: offset * (u - outer.square * slope),
+                moment: sum + slope,
+                power: distance + sum,
+            }
+        } else {
+            NormalizedFriction {
+                force: if offset < 0.0 { -1.0 } else { 1.0 },
+                moment: 0.0,
+                power: limited(distance),
             }
         }
     }
@@ -264,7 +278,10 @@ impl FrictionMap {
         } else {
             // An infinite distance is that of a contact without any spin: nearness zero.
             let nearness = 1.0 / distance;
-            let (force, moment, curvature) = self.outside(nearness);
+            let outer = self.outside(nearness);
+            let force = 1.0 - outer.square * outer.slope;
+            let moment = nearness * (outer.sum + outer.slope);
+            let curvature = outer.square * nearness * outer.curvature;
             let least = LEAST_STIFFNESS * force * nearness;
             (
                 if slip < 0.0 { -force } else { force },
@@ -299,35 +316,45 @@ impl FrictionMap {
         (offset * secant, moment, secant - cubic - cubic)
     }
 
-    /// `|f|`, `M` and `f'` outside the contact, from `u = 1/|x|`.
+    /// Outside the contact, from `u = 1/|x|`.
     #[inline]
-    fn outside(&self, u: f32) -> (f32, f32, f32) {
+    fn outside(&self, u: f32) -> Outer {
         let [far, third, ninth] = self.outer;
-        let u2 = u * u;
-        let u4 = u2 * u2;
-        let third = third * u2;
-        let ninth = ninth * (u4 * u4);
-        // q + 3 c3 u² + 9 c9 u⁸ and 2 q + 4 c3 u² + 10 c9 u⁸, with few different factors.
+        let square = u * u;
+        let fourth = square * square;
+        let third = third * square;
+        let ninth = ninth * (fourth * fourth);
+        // q + 3 c3 u² + 9 c9 u⁸ with few different factors.
         let sum = far + third + ninth;
         let rest = third + 4.0 * ninth;
-        let slope = sum + (rest + rest);
-        let force = 1.0 - u2 * slope;
-        let moment = u * (sum + slope);
-        let curvature = u2 * u * (2.0 * far + 12.0 * third + 90.0 * ninth);
-        (force, moment, curvature)
+        Outer {
+            square,
+            sum,
+            slope: sum + (rest + rest),
+            curvature: 2.0 * far + 12.0 * third + 90.0 * ninth,
+        }
     }
 }
 
-/// A distance greater than one, or NaN, limited to the largest offset, and its reciprocal.
-#[inline]
-fn bounded(distance: f32) -> (f32, f32) {
-    // Written so that NaN takes the limit; `f32::min` is a library call on a Cortex-M4F.
-    let distance = if distance < LARGEST_OFFSET {
+/// Outside the contact: `P = |x| + u sum`, `|f| = 1 - u² slope`, `M = u (sum + slope)`, `f' = u³ curvature`.
+struct Outer {
+    /// `u²`.
+    square: f32,
+    sum: f32,
+    slope: f32,
+    curvature: f32,
+}
+
+/// A distance of at most [`LARGEST_OFFSET`], which NaN becomes, too. `f32::min` is a library call on a Cortex-M4F; this
+/// call, in the way of sliding alone, leaves the others without a frame.
+#[cold]
+#[inline(never)]
+fn limited(distance: f32) -> f32 {
+    if distance < LARGEST_OFFSET {
         distance
     } else {
         LARGEST_OFFSET
-    };
-    (distance, 1.0 / distance)
+    }
 }
 
 #[cfg(test)]
@@ -383,13 +410,14 @@ mod tests {
         for step in 1_u8..=100 {
             let map = FrictionMap::new(f32::from(step) / 100.0).unwrap();
             let (inner, outer) = (map.inside(1.0), map.outside(1.0));
+            let outer = (1.0 - outer.slope, outer.sum + outer.slope);
             // Three coefficients of order 10 with roundings of 6e-8.
             assert!((inner.0 - outer.0).abs() < 1e-6, "axis ratio 0.01 x {step}");
             assert!((inner.1 - outer.1).abs() < 1e-6, "axis ratio 0.01 x {step}");
             for point in 0_u8..=200 {
                 let x = f32::from(point) / 200.0;
                 assert!(map.inside(x).2 > 0.0);
-                assert!(map.outside(x).2 >= 0.0, "axis ratio 0.01 x {step}, u {x}");
+                assert!(map.outside(x).curvature >= 0.0, "axis ratio 0.01 x {step}, u {x}");
             }
         }
     }
