@@ -417,7 +417,10 @@ mod tests {
             for point in 0_u8..=200 {
                 let x = f32::from(point) / 200.0;
                 assert!(map.inside(x).2 > 0.0);
-                assert!(map.outside(x).curvature >= 0.0, "axis ratio 0.01 x {step}, u {x}");
+                assert!(
+                    map.outside(x).curvature >= 0.0,
+                    "axis ratio 0.01 x {step}, u {x}"
+                );
             }
         }
     }

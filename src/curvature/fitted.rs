@@ -60,7 +60,7 @@ impl FittedCurvature {
         let mut system = [[0.0; NODES + 1]; NODES];
         for (row, node) in system.iter_mut().zip(CHEBYSHEV) {
             let angle = ContactAngle::new(half_range - half_range * node);
-            let kappa1 = arch.principal(angle).kappa1 * scale;
+            let kappa1 = arch.first(angle) * scale;
             *row = [
                 1.0,
                 angle.cos,
@@ -89,7 +89,7 @@ impl FittedCurvature {
         // The products first: each then is ready when a sum takes it.
         let (along, across) = (self.n1 * cos, self.d1 * cos);
         let (along_2, across_2) = (self.n2 * sin, self.d2 * sin);
-        (self.n0 + (along + along_2)) / (1.0 - (across + across_2))
+        ((self.n0 + along) + along_2) / ((1.0 - across) - across_2)
     }
 }
 

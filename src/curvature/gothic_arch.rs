@@ -91,12 +91,31 @@ struct ShapeOperator {
     twist_squared: f32,
     /// `D`.
     scale: f32,
-    /// `1 / D³`.
-    inverse_cube: f32,
+    /// `D³`.
+    cube: f32,
     h11: f32,
     h22: f32,
-    /// `q = h12² / (h + sqrt(h² + h12²))`.
-    shift: f32,
+    h12_squared: f32,
+    /// `h + sqrt(h² + h12²)`, what `q` is divided by.
+    spread: f32,
+}
+
+impl ShapeOperator {
+    /// `q = h12² / (h + sqrt(h² + h12²))` and `1 / D³`.
+    #[inline]
+    fn quotients(&self) -> (f32, f32) {
+        (self.h12_squared / self.spread, 1.0 / self.cube)
+    }
+
+    /// The same by one division, and two roundings more.
+    #[inline]
+    fn quotients_by_one_division(&self) -> (f32, f32) {
+        let inverse = 1.0 / (self.cube * self.spread);
+        (
+            self.h12_squared * self.cube * inverse,
+            self.spread * inverse,
+        )
+    }
 }
 
 impl GothicArch {
@@ -178,10 +197,18 @@ impl GothicArch {
     #[must_use]
     pub fn principal(&self, contact_angle: ContactAngle) -> PrincipalCurvatures {
         let shape = self.shape_operator(contact_angle);
+        let (shift, inverse_cube) = shape.quotients_by_one_division();
         PrincipalCurvatures {
-            kappa1: (shape.h22 + shape.shift) * shape.inverse_cube,
-            kappa2: (shape.h11 - shape.shift) * shape.inverse_cube,
+            kappa1: (shape.h22 + shift) * inverse_cube,
+            kappa2: (shape.h11 - shift) * inverse_cube,
         }
+    }
+
+    /// The first of them with fewer roundings, for constants that are derived from it.
+    pub(super) fn first(&self, contact_angle: ContactAngle) -> f32 {
+        let shape = self.shape_operator(contact_angle);
+        let (shift, inverse_cube) = shape.quotients();
+        (shape.h22 + shift) * inverse_cube
     }
 
     /// Sums of the curvatures of groove and ball, 1/m, for a ball whose radius is smaller than the
@@ -192,12 +219,13 @@ impl GothicArch {
     #[must_use]
     pub fn relative(&self, contact_angle: ContactAngle, clearance: f32) -> RelativeCurvatures {
         let shape = self.shape_operator(contact_angle);
+        let (shift, inverse_cube) = shape.quotients();
         let ball_curvature = 1.0 / (self.groove_radius - clearance);
         let excess = shape.twist_squared * self.profile_curvature
             / (shape.scale * (shape.scale + shape.area))
-            - shape.shift * shape.inverse_cube;
+            - shift * inverse_cube;
         RelativeCurvatures {
-            along: ball_curvature + (shape.h22 + shape.shift) * shape.inverse_cube,
+            along: ball_curvature + (shape.h22 + shift) * inverse_cube,
             across: clearance * ball_curvature * self.profile_curvature + excess,
         }
     }
@@ -257,18 +285,15 @@ impl GothicArch {
             scale_squared,
         );
 
-        // Both quotients by one division.
-        let cube = scale_squared * scale;
-        let spread = half_difference + root;
-        let inverse = 1.0 / (cube * spread);
         ShapeOperator {
             area,
             twist_squared,
             scale,
-            inverse_cube: spread * inverse,
+            cube: scale_squared * scale,
             h11,
             h22,
-            shift: h12_squared * cube * inverse,
+            h12_squared,
+            spread: half_difference + root,
         }
     }
 }
