@@ -282,7 +282,7 @@ impl ContactKinematics {
     /// A speed that is not a number or beyond 1e6 rad/s counts as 0: every result is 0 then.
     ///
     /// Errors over the domain of [`ContactKinematics`], numbers rounded to f32 included, largest (rms):
-    /// orbital speed 3.5e-7 (7e-8), spin speed 4.3e-7 (1e-7), entrainment speed 4.7e-7 (1e-7), each of
+    /// orbital speed 3.9e-7 (8e-8), spin speed 4.8e-7 (1e-7), entrainment speed 5.0e-7 (1e-7), each of
     /// itself; rolling slip 2.1e-7 (4e-8), side slip 7e-8 (8e-9), spin on the ball's radius 2.6e-7
     /// (5e-8), each of the entrainment speed.
     ///

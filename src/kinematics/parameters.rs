@@ -214,11 +214,12 @@ impl Path {
     /// True where contact angle and ellipse are within their own ranges.
     #[inline]
     pub fn accepts(&self, contact: EllipticContact) -> bool {
-        // Written so that a comparison with NaN refuses.
-        contact.contact_angle.abs() <= FRAC_PI_2
-            && contact.semi_major <= self.largest_ellipse
-            && contact.semi_minor <= contact.semi_major
-            && contact.semi_minor >= 0.0
+        // Positive numbers are in the order of their bits, with NaN and negative numbers beyond them: the lower
+        // bound needs no comparison. Adding zero turns -0 into +0.
+        let (semi_major, semi_minor) = (contact.semi_major + 0.0, contact.semi_minor + 0.0);
+        contact.contact_angle.abs().to_bits() <= FRAC_PI_2.to_bits()
+            && semi_major.to_bits() <= self.largest_ellipse.to_bits()
+            && semi_minor.to_bits() <= semi_major.to_bits()
     }
 
     /// Directions of both contacts, or the field that keeps the ball from rolling.
