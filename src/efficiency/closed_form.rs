@@ -54,7 +54,26 @@ pub struct EfficiencyGeometry {
     drive_scale: f32,
     /// `1 / (Ca² R)`.
     backdrive_scale: f32,
+    rolling: Rolling,
 }
+
+/// What [`EfficiencyGeometry::rolling_loss`] takes, with `ta` at least [`LEAST_TANGENT`]: without lead it cancels
+/// where there is no rolling resistance, and is nothing beside one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+struct Rolling {
+    /// `a ta`.
+    slide: f32,
+    /// `1 + ta²`.
+    resistance: f32,
+    /// `ta Sb`.
+    grip: f32,
+    /// `ta (a - Cb)`.
+    gain: f32,
+}
+
+/// Tangent of a lead angle that is none; its products with friction coefficients stay far from underflow.
+const LEAST_TANGENT: f32 = 1e-20;
 
 impl EfficiencyGeometry {
     /// Constants from the lead angle `alpha` (rad, 0 to 1.5), the contact angle `beta` (rad, 0.001 to
@@ -89,6 +108,11 @@ impl EfficiencyGeometry {
         let secant_squared = 1.0 + tan_lead * tan_lead;
         // Never from 1/Ca² - Sb²: that cancels where R is small.
         let root = constant::sqrt(cos * cos + tan_lead * tan_lead);
+        let tangent = if tan_lead > LEAST_TANGENT {
+            tan_lead
+        } else {
+            LEAST_TANGENT
+        };
         Self {
             sin_contact: sin,
             cos_contact: cos,
@@ -98,6 +122,12 @@ impl EfficiencyGeometry {
             ball_ratio,
             drive_scale: secant_squared / sin,
             backdrive_scale: secant_squared / root,
+            rolling: Rolling {
+                slide: ball_ratio * tangent,
+                resistance: secant_squared,
+                grip: tangent * sin,
+                gain: tangent * (ball_ratio - cos),
+            },
         }
     }
 
@@ -117,15 +147,27 @@ impl EfficiencyGeometry {
     #[inline]
     #[must_use]
     pub const fn rolling_loss(&self, friction: f32, rolling_tangent: f32) -> f32 {
-        let slide = friction * self.ball_ratio;
-        let grip = self.sin_contact + friction * (self.ball_ratio - self.cos_contact);
-        if rolling_tangent > 0.0 {
-            (slide * self.tan_lead + rolling_tangent * self.secant_squared)
-                / (grip * self.tan_lead + rolling_tangent)
+        // False for NaN. The call, in the way of what is no tangent alone, leaves the other one without a frame.
+        if rolling_tangent >= 0.0 {
+            let Rolling {
+                slide,
+                resistance,
+                grip,
+                gain,
+            } = self.rolling;
+            let (slide, gain) = (friction * slide, friction * gain);
+            (slide + rolling_tangent * resistance) / ((grip + gain) + rolling_tangent)
         } else {
-            // The tangent of the lead angle cancels; without lead this is the limit.
-            slide / grip
+            self.sliding_while_rolling(friction)
         }
+    }
+
+    /// The loss without rolling resistance.
+    #[cold]
+    #[inline(never)]
+    const fn sliding_while_rolling(&self, friction: f32) -> f32 {
+        let slide = friction * self.ball_ratio;
+        slide / (self.sin_contact + friction * (self.ball_ratio - self.cos_contact))
     }
 
     /// Rolling efficiency where the load back-drives the screw:
