@@ -152,8 +152,8 @@ fn a_folded_ball_screw_has_the_bits_of_one_made_at_run_time() {
     }
 }
 
-/// Set-up shares the algebra of the exact curvatures with the loop, but not the square root: the sums
-/// of curvatures and the fit's nodes must not notice.
+/// Set-up shares the algebra of the exact curvatures with the loop, but neither the square root, which must not
+/// show, nor the one division of the loop.
 #[test]
 fn the_roots_of_set_up_are_those_of_the_loop() {
     for set_up in &CATALOGUE_SET_UPS {
@@ -163,7 +163,8 @@ fn the_roots_of_set_up_are_those_of_the_loop() {
             let relative = arch.relative(angle, clearance);
             let ball_curvature = 1.0 / (arch.groove_radius() - clearance);
             let along = ball_curvature + arch.principal(angle).kappa1;
-            assert_eq!(relative.along.to_bits(), along.to_bits());
+            // The loop's quotients have two roundings more each, and a sum rounds both.
+            assert!((relative.along / along - 1.0).abs() <= 2.5 * f32::EPSILON);
         }
         let slope = set_up.design.tan_lead_angle();
         let cos_lead_angle = 1.0 / math::sqrt(1.0 + slope * slope);
