@@ -429,7 +429,7 @@ impl FourPointBall {
 
     /// The Newton step at a motion, with moments `(roll, yaw)` of the neighbours' friction over the ball
     /// radius, N.
-    #[inline]
+    #[inline(always)]
     pub(super) fn propose(
         &self,
         contacts: &FourPointContacts,
@@ -478,7 +478,7 @@ impl FourPointBall {
     }
 
     /// Takes a Newton step under the net force of the neighbours.
-    #[inline]
+    #[inline(always)]
     pub(super) fn advance(
         &self,
         contacts: &FourPointContacts,
