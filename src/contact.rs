@@ -272,8 +272,9 @@ impl FrictionMap {
         semi_major: f32,
         stick_spin: f32,
     ) -> Dissipation {
-        // The floor keeps the divisions below finite where both spins are zero.
-        let stick2 = stick_spin * stick_spin + 1e-24;
+        // The floor, a billionth of a rad/s, keeps the divisions below finite where both spins are zero, and the product
+        // of rim and speed normal.
+        let stick2 = stick_spin * stick_spin + 1e-18;
         let rim = semi_major * math::sqrt(spin * spin + stick2);
         let speed = slip.abs();
         let (force, moment, curvature, inverse_rim) = if speed <= rim {
