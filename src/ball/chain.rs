@@ -90,7 +90,7 @@ impl FourPointBall {
             .zip(compliances.iter_mut())
             .zip(proposals.iter_mut());
         for (((contacts, state), moments), ((free, compliance), proposal)) in given.zip(found) {
-            *proposal = self.propose(contacts, state.motion, *moments);
+            *proposal = self.propose(contacts, state.motion, Some(*moments));
             *free = direction * self.speed_deviation(state.motion.speed + proposal.free.speed);
             *compliance = self.speed_deviation(proposal.column.speed);
         }
@@ -104,7 +104,7 @@ impl FourPointBall {
             states.iter_mut().zip(given.zip(forces.iter()))
         {
             let net = sign * (behind - ahead);
-            *state = self.advance(contacts, state.motion, proposal, net, *moments);
+            *state = self.advance(contacts, state.motion, proposal, net, Some(*moments));
             behind = ahead;
         }
     }

@@ -46,21 +46,22 @@ pub const fn cbrt_and_squared(x: f32) -> (f32, f32) {
     (root.value(), root.squared())
 }
 
+/// Bits of 2^-125: of a smaller number the cube in `normal_root` would be subnormal.
+const SMALLEST_CUBE: u32 = 0x0100_0000;
+
 /// Cube root of any number.
 #[inline]
 const fn root(x: f32) -> Root {
-    // Below 2^-120 a difference in `common_root` would be subnormal, from 2^126 on `3 x` could overflow.
-    const SMALLEST: u32 = 0x0380_0000;
-    const SPAN: u32 = 0x7e80_0000 - SMALLEST;
-    if x.abs().to_bits().wrapping_sub(SMALLEST) < SPAN {
-        common_root(x)
+    const SPAN: u32 = f32::INFINITY.to_bits() - SMALLEST_CUBE;
+    if x.abs().to_bits().wrapping_sub(SMALLEST_CUBE) < SPAN {
+        normal_root(x)
     } else {
         let (short, rest) = rare_root(x);
         Root { short, rest }
     }
 }
 
-/// Cube root of a number of common magnitude, either sign, without a division. With `s` for it:
+/// Cube root of a number from 2^-125 on, either sign, without a division. With `s` for it:
 ///
 /// 1. `t`, about `1/s`: the exponent divided by -3 in integers. `h = |x| t³` then lies between 0.45 and
 ///    0.56, the same for every power of eight.
@@ -73,47 +74,55 @@ const fn root(x: f32) -> Root {
 ///    It leaves 3e-11; the rest of the root, `near - short` less the step, is below 2^-7 of it and so are
 ///    its roundings.
 #[inline(always)]
-const fn common_root(x: f32) -> Root {
+const fn normal_root(x: f32) -> Root {
     const SEED: u32 = 0x5477_9d9d;
     const ZERO: f32 = 1.448_389_2;
     const CENTRE: f32 = 0.351_304_5;
     const OFFSET: f32 = 0.744_889_5;
 
+    // In an order that leaves few operations waiting for the one before.
     let magnitude = x.abs();
     let t = f32::from_bits(SEED - magnitude.to_bits() / 3);
-    let h = (magnitude * t) * (t * t);
+    let t_squared = t * t;
+    let h = (magnitude * t) * t_squared;
     let from_centre = h - CENTRE;
-    let inverse = t * ((ZERO - h) * (from_centre * from_centre + OFFSET));
+    let to_zero = t * (ZERO - h);
+    let inverse = to_zero * (from_centre * from_centre + OFFSET);
+    let third_of_near = x * inverse;
+    let three = 3.0 * inverse;
+    let near = third_of_near * three;
     let derivative = inverse * inverse;
 
-    let near = (3.0 * x) * derivative;
     let short = f32::from_bits(near.to_bits() & 0xffff_0000);
     let beyond = near - short;
     let short_squared = short * short;
-    let excess = beyond * (near * (near + short) + short_squared) + (short_squared * short - x);
+    let sum = near * (near + short);
+    let cube = short_squared * short;
+    let sum = sum + short_squared;
+    let difference = cube - x;
+    // Each product by the derivative before they are added: of small numbers they would be subnormal.
+    let slope = sum * derivative;
+    let step = difference * derivative;
     Root {
         short,
-        rest: beyond - excess * derivative,
+        rest: beyond - (beyond * slope + step),
     }
 }
 
-/// Subnormals and the two ends of the range by an exact cube of two; zeros, infinities and NaN are their
-/// own roots: twice themselves, squared or not.
+/// The smallest numbers by an exact cube of two; zeros, infinities and NaN are their own roots: twice themselves, squared or
+/// not.
 #[cold]
 #[inline(never)]
 const fn rare_root(x: f32) -> (f32, f32) {
     const TWO_TO_48: f32 = 281_474_976_710_656.0;
-    const TWO_TO_16: f32 = 65_536.0;
-    if x == 0.0 || !x.is_finite() {
-        return (x, x);
-    }
-    let (before, after) = if x.abs() < 1.0 {
-        (TWO_TO_48, 1.0 / TWO_TO_16)
+    const ONE_BY_TWO_TO_16: f32 = 1.0 / 65_536.0;
+    // Neither zero nor beyond the finite numbers.
+    if x.abs().to_bits().wrapping_sub(1) < SMALLEST_CUBE {
+        let Root { short, rest } = normal_root(x * TWO_TO_48);
+        (short * ONE_BY_TWO_TO_16, rest * ONE_BY_TWO_TO_16)
     } else {
-        (1.0 / TWO_TO_48, TWO_TO_16)
-    };
-    let Root { short, rest } = common_root(x * before);
-    (short * after, rest * after)
+        (x, x)
+    }
 }
 
 /// Sine and cosine; see [`math::sin_cos`](super::sin_cos).
