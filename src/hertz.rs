@@ -4,10 +4,10 @@
 //! the load is left.
 
 use crate::curvature::{GothicArch, RelativeCurvatures};
-use crate::error::{Error, in_range};
+use crate::error::{Error, attempt, in_range};
 use crate::geometry::{BallScrew, ContactAngle, Groove, LinearBearing};
 use crate::material::contact_modulus;
-use crate::math;
+use crate::math::{self, constant};
 
 /// Largest ratio of the two relative radii: that of conformities from 0.500 01 on.
 pub const LARGEST_RADIUS_RATIO: f32 = 1e5;
@@ -65,10 +65,10 @@ pub struct ContactEllipse {
 
 impl HertzContact {
     /// Constants from the two relative curvatures, 1/m in either order, and the contact modulus, Pa;
-    /// unchecked. For set-up, or where a contact angle has changed: 2 cube roots, 5 square roots, 8
-    /// divisions.
+    /// unchecked. For set-up; a constant can take them. Cost: 2 cube roots, 5 square roots by integers
+    /// (some 250 cycles each on a Cortex-M4F), 8 divisions.
     #[must_use]
-    pub fn new(relative: RelativeCurvatures, contact_modulus: f32) -> Self {
+    pub const fn new(relative: RelativeCurvatures, contact_modulus: f32) -> Self {
         let (steep, flat) = if relative.along >= relative.across {
             (relative.along, relative.across)
         } else {
@@ -78,7 +78,7 @@ impl HertzContact {
         let (first, second) = elliptic_integrals(axis_ratio);
 
         // The load stands outside: a = semi_major F^(1/3), and likewise the others.
-        let semi_major = math::cbrt(
+        let semi_major = constant::cbrt(
             3.0 * second
                 / (core::f32::consts::PI * axis_ratio * axis_ratio)
                 / ((steep + flat) * contact_modulus),
@@ -99,16 +99,21 @@ impl HertzContact {
     /// # Errors
     /// [`Error`] naming `relative_radius_1`, `relative_radius_2` (1e-9 to 1e9, ratio at most
     /// [`LARGEST_RADIUS_RATIO`]) or `contact_modulus` (1e3 to 1e15).
-    pub fn checked(
+    pub const fn checked(
         relative_radius_1: f32,
         relative_radius_2: f32,
         contact_modulus: f32,
     ) -> Result<Self, Error> {
-        let first = in_range("relative_radius_1", relative_radius_1, 1e-9, 1e9)?;
+        let first = attempt!(in_range("relative_radius_1", relative_radius_1, 1e-9, 1e9));
         let smallest = (first / LARGEST_RADIUS_RATIO).max(1e-9);
         let largest = (first * LARGEST_RADIUS_RATIO).min(1e9);
-        let second = in_range("relative_radius_2", relative_radius_2, smallest, largest)?;
-        let modulus = in_range("contact_modulus", contact_modulus, 1e3, 1e15)?;
+        let second = attempt!(in_range(
+            "relative_radius_2",
+            relative_radius_2,
+            smallest,
+            largest
+        ));
+        let modulus = attempt!(in_range("contact_modulus", contact_modulus, 1e3, 1e15));
         let relative = RelativeCurvatures {
             along: 1.0 / first,
             across: 1.0 / second,
@@ -118,13 +123,13 @@ impl HertzContact {
 
     /// The contact of ball and one groove of a validated ball screw, at its nominal contact angle.
     #[must_use]
-    pub fn of(design: &BallScrew, groove: Groove) -> Self {
+    pub const fn of(design: &BallScrew, groove: Groove) -> Self {
         Self::of_at(design, groove, design.contact_angle())
     }
 
     /// The contact of ball and one groove of a validated ball screw, at any contact angle.
     #[must_use]
-    pub fn of_at(design: &BallScrew, groove: Groove, contact_angle: ContactAngle) -> Self {
+    pub const fn of_at(design: &BallScrew, groove: Groove, contact_angle: ContactAngle) -> Self {
         let arch = GothicArch::of(design, groove);
         let parameters = design.parameters();
         Self::new(
@@ -135,7 +140,7 @@ impl HertzContact {
 
     /// The contact of ball and groove of a validated linear bearing: the track is straight.
     #[must_use]
-    pub fn of_linear(design: &LinearBearing) -> Self {
+    pub const fn of_linear(design: &LinearBearing) -> Self {
         let parameters = design.parameters();
         let ball_curvature = 1.0 / design.ball_radius();
         Self::new(
@@ -209,8 +214,8 @@ impl HertzContact {
 /// 1.02e-5, in f32 1.1e-5. The coefficients of each polynomial are positive but for one, so that
 /// evaluation does not cancel.
 #[inline]
-fn axis_ratio(radius_ratio: f32) -> f32 {
-    let x = math::cbrt(radius_ratio);
+const fn axis_ratio(radius_ratio: f32) -> f32 {
+    let x = constant::cbrt(radius_ratio);
     let numerator = 7.79600917
         + x * (610.73455674
             + x * (5099.78270213 + x * (4178.1987507 + x * (7032.48001515 - x * 1288.84940892))));
@@ -224,19 +229,21 @@ fn axis_ratio(radius_ratio: f32) -> f32 {
 ///
 /// `K = pi / (2 agm(1, k))`, `E = K (1 - sum 2^(i-1) c_i²)`; five steps leave less than half an ulp.
 #[inline]
-fn elliptic_integrals(axis_ratio: f32) -> (f32, f32) {
+const fn elliptic_integrals(axis_ratio: f32) -> (f32, f32) {
     const STEPS: usize = 5;
     let mut arithmetic = 1.0;
     let mut geometric = axis_ratio;
     let mut sum = 0.5 * (1.0 - axis_ratio) * (1.0 + axis_ratio);
     let mut weight = 1.0;
-    for _ in 0..STEPS {
+    let mut step = 0;
+    while step < STEPS {
         let half_difference = 0.5 * (arithmetic - geometric);
         let mean = 0.5 * (arithmetic + geometric);
-        geometric = math::sqrt(arithmetic * geometric);
+        geometric = constant::sqrt(arithmetic * geometric);
         arithmetic = mean;
         sum += weight * half_difference * half_difference;
         weight *= 2.0;
+        step += 1;
     }
     let first = core::f32::consts::FRAC_PI_2 / arithmetic;
     (first, first * (1.0 - sum))

@@ -8,9 +8,9 @@
 //!
 //! | call | when | what it costs |
 //! |---|---|---|
-//! | [`ContactKinematics::new`] | once | checks every number, forms all constants: 1600 cycles |
-//! | [`ContactKinematics::update`] | contact angles or loads changed | one division, two square roots, two sines and cosines: 530 cycles |
-//! | [`ContactKinematics::tick`] | every interrupt | ten multiplications: 70 cycles |
+//! | [`ContactKinematics::new`] | once | checks every number, forms all constants: 2100 cycles; none as a constant |
+//! | [`ContactKinematics::update`] | contact angles or loads changed | one division, two square roots, two sines and cosines: 450 cycles |
+//! | [`ContactKinematics::tick`] | every interrupt | ten multiplications: 60 cycles |
 //! | [`ContactCoefficients::ratios`] | after an update, if wanted | the speed-free ratios, with arc tangents: 430 cycles a contact |
 //! | [`FrictionPower::new`] | after an update, if wanted | pressure-weighted mean slip of both contacts: 1900 cycles |
 //!
@@ -46,8 +46,9 @@ pub use parameters::{EllipticContact, KinematicsParameters};
 pub use pitch_angle::PitchMethod;
 pub use traditional::TraditionalKinematics;
 
-use crate::error::Error;
-use coefficients::{Direction, Groove};
+use crate::error::{Error, attempt};
+use crate::math::{self, constant};
+use coefficients::{Direction, Groove, Rotation};
 use parameters::Path;
 
 /// Slip of one contact at its centre.
@@ -69,12 +70,12 @@ pub struct ContactSlip {
 
 impl ContactSlip {
     #[inline]
-    fn times(&self, speed: f32) -> Self {
+    fn times(&self, speed: f32, magnitude: f32) -> Self {
         Self {
             rolling_slip: self.rolling_slip * speed,
             side_slip: self.side_slip * speed,
             spin: self.spin * speed,
-            entrainment_speed: self.entrainment_speed * abs(speed),
+            entrainment_speed: self.entrainment_speed * magnitude,
         }
     }
 }
@@ -97,13 +98,46 @@ pub struct BallKinematics {
 }
 
 impl BallKinematics {
+    /// From the motion per speed to that at a speed; a wrong one counts as 0.
     #[inline]
-    fn times(&self, speed: f32) -> Self {
+    fn at(&self, speed: f32) -> Self {
+        let magnitude = abs(speed);
+        // False for NaN, too. Only the way of wrong speeds holds a call: the other one needs no stack frame.
+        if magnitude <= SPEED_LIMIT {
+            self.times(speed, magnitude)
+        } else {
+            Self::still(magnitude)
+        }
+    }
+
+    #[inline]
+    fn times(&self, speed: f32, magnitude: f32) -> Self {
         Self {
             orbital_speed: self.orbital_speed * speed,
             spin_speed: self.spin_speed * speed,
-            screw: self.screw.times(speed),
-            nut: self.nut.times(speed),
+            screw: self.screw.times(speed, magnitude),
+            nut: self.nut.times(speed, magnitude),
+        }
+    }
+
+    /// Every result zero, of the sign of a speed that is none: a zero which is not a constant is stored from a
+    /// register; for a constant the compiler calls the function that clears memory, which takes longer than
+    /// the products.
+    #[cold]
+    #[inline(never)]
+    fn still(speed: f32) -> Self {
+        let zero = 0.0_f32.copysign(speed);
+        let slip = ContactSlip {
+            rolling_slip: zero,
+            side_slip: zero,
+            spin: zero,
+            entrainment_speed: zero,
+        };
+        Self {
+            orbital_speed: zero,
+            spin_speed: zero,
+            screw: slip,
+            nut: slip,
         }
     }
 }
@@ -201,7 +235,7 @@ pub struct ContactKinematics {
 }
 
 impl ContactKinematics {
-    /// Checks the parameters and forms all constants.
+    /// Checks the parameters and forms all constants. Set-up only; a constant can take them.
     ///
     /// # Errors
     /// Names the first field of [`KinematicsParameters`] that is not a number or out of range, and
@@ -209,9 +243,9 @@ impl ContactKinematics {
     /// hardly moves at the contact (`b_k < 0.25`, about 75°), a contact ellipse larger than 0.3 of the
     /// ball's radius (outside Hertz' theory), a rolling radius that folds the ball's path past the
     /// screw's axis.
-    pub fn new(parameters: &KinematicsParameters) -> Result<Self, Error> {
-        let path = Path::new(parameters)?;
-        let (screw, nut) = path.checked_directions(parameters)?;
+    pub const fn new(parameters: &KinematicsParameters) -> Result<Self, Error> {
+        let path = attempt!(Path::new(parameters));
+        let (screw, nut) = attempt!(path.checked_directions(parameters));
         let mut kinematics = Self {
             orbital_speed: 0.0,
             spin_speed: 0.0,
@@ -219,7 +253,9 @@ impl ContactKinematics {
             nut: ContactCoefficients::new(&path.nut),
             path,
         };
-        kinematics.fold(&screw, &nut);
+        let (screw, nut) = kinematics.fold(&screw, &nut);
+        kinematics.screw.slip.entrainment_speed = constant::sqrt(screw);
+        kinematics.nut.slip.entrainment_speed = constant::sqrt(nut);
         Ok(kinematics)
     }
 
@@ -228,8 +264,8 @@ impl ContactKinematics {
     /// True when taken. False, and nothing changes, where any of the six numbers is not one that
     /// [`new`](Self::new) would accept.
     ///
-    /// Cost: about 530 cycles (modelled, Cortex-M4F), 170 of them the two sines and cosines of the own
-    /// backend and 60 the checks.
+    /// Cost: about 450 cycles (modelled, Cortex-M4F), 110 of them the two sines and cosines of the own
+    /// backend and 45 the checks.
     #[must_use]
     pub fn update(&mut self, screw: EllipticContact, nut: EllipticContact) -> bool {
         if !(self.path.accepts(screw) && self.path.accepts(nut)) {
@@ -237,10 +273,15 @@ impl ContactKinematics {
         }
         let screw = self.path.direction(&self.path.screw, screw, Groove::Screw);
         let nut = self.path.direction(&self.path.nut, nut, Groove::Nut);
-        if !(screw.rolls(&self.path.screw) && nut.rolls(&self.path.nut)) {
+        // The nut's groove lies outside the path, which it cannot fold whatever the contact angle is.
+        if !(screw.grips() && screw.reaches(&self.path.screw) && nut.grips()) {
             return false;
         }
-        self.fold(&screw, &nut);
+        let (screw, nut) = self.fold(&screw, &nut);
+        (
+            self.screw.slip.entrainment_speed,
+            self.nut.slip.entrainment_speed,
+        ) = math::sqrt_pair(screw, nut);
         true
     }
 
@@ -249,16 +290,16 @@ impl ContactKinematics {
     /// A speed that is not a number or beyond 1e6 rad/s counts as 0: every result is 0 then.
     ///
     /// Errors over the domain of [`ContactKinematics`], numbers rounded to f32 included, largest (rms):
-    /// orbital speed 3.5e-7 (7e-8), spin speed 4.3e-7 (1e-7), entrainment speed 4.7e-7 (1e-7), each of
+    /// orbital speed 3.9e-7 (8e-8), spin speed 4.8e-7 (1e-7), entrainment speed 5.0e-7 (1e-7), each of
     /// itself; rolling slip 2.1e-7 (4e-8), side slip 7e-8 (8e-9), spin on the ball's radius 2.6e-7
     /// (5e-8), each of the entrainment speed.
     ///
-    /// Cost: ten multiplications; as a call that loads ten constants and stores ten results about 70
+    /// Cost: ten multiplications; as a call that loads ten constants and stores ten results about 60
     /// cycles (modelled, Cortex-M4F), less where it is inlined and not every result is used.
     #[inline]
     #[must_use]
     pub fn tick(&self, speed: f32) -> BallKinematics {
-        self.per_speed().times(sane_speed(speed))
+        self.per_speed().at(speed)
     }
 
     /// Motion and slip per rad/s of the screw: the constants that [`tick`](Self::tick) multiplies.
@@ -304,9 +345,11 @@ impl ContactKinematics {
 }
 
 impl ContactKinematics {
-    /// Forms what contact angles and ellipses decide, in place.
+    /// Forms what contact angles and ellipses decide, in place, but for the entrainment speeds at screw and
+    /// nut: it returns their squares.
     #[inline(always)]
-    fn fold(&mut self, screw: &Direction, nut: &Direction) {
+    #[must_use]
+    const fn fold(&mut self, screw: &Direction, nut: &Direction) -> (f32, f32) {
         // w and omega_R with one division: G_i / (G_i + G_o) = A_i b_o / (A_i b_o + A_o b_i).
         let screw_share = screw.reach * nut.grip;
         let nut_share = nut.reach * screw.grip;
@@ -314,17 +357,16 @@ impl ContactKinematics {
         let orbital_speed = screw_share * inverse;
         let spin_speed = screw.reach * nut.reach * inverse;
         let (path, inner, outer) = (&self.path, Groove::Screw, Groove::Nut);
-        self.screw.fold(
-            path,
-            &path.screw,
-            screw,
-            -(nut_share * inverse),
-            inner,
-            spin_speed,
-        );
-        self.nut
-            .fold(path, &path.nut, nut, -orbital_speed, outer, spin_speed);
+        let rotation = Rotation::new(path, spin_speed);
+        let relative_speed = -(nut_share * inverse);
+        let screw = self
+            .screw
+            .fold(path, &path.screw, screw, relative_speed, inner, &rotation);
+        let nut = self
+            .nut
+            .fold(path, &path.nut, nut, -orbital_speed, outer, &rotation);
         self.orbital_speed = orbital_speed;
         self.spin_speed = spin_speed;
+        (screw, nut)
     }
 }

@@ -81,8 +81,9 @@ pub use kinematics::{
 pub use material::{Material, contact_modulus};
 pub use model::FrictionModel;
 pub use scene::{
-    CagedBallScrew, CagedBallScrewConfiguration, DeviationMap, Faults, FrictionBranch, Harmonic,
-    Inputs, Limits, LinearBearingConfiguration, LinearBearingTrain, LinearInputs, LinearLimits,
-    Outputs, Regime, Scene, TrainOutputs, UncagedBallScrew, UncagedBallScrewConfiguration,
+    CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, DeviationMap, Faults,
+    FrictionBranch, Harmonic, Inputs, Limits, LinearBearingConfiguration, LinearBearingTrain,
+    LinearConstants, LinearInputs, LinearLimits, Outputs, Regime, Scene, TrainOutputs,
+    UncagedBallScrew, UncagedBallScrewConfiguration, UncagedConstants,
 };
 pub use train::{BallContact, Press, Train};

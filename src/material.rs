@@ -1,6 +1,6 @@
 //! Elastic constants of balls and grooves.
 
-use crate::error::{Error, in_range};
+use crate::error::{Error, attempt, in_range};
 
 /// An isotropic elastic material.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,15 +36,9 @@ impl Material {
     /// [`Error::NotFinite`] or [`Error::OutOfRange`] naming `youngs_modulus`, `poisson_ratio` or
     /// `density`.
     pub const fn checked(self) -> Result<Self, Error> {
-        if let Err(error) = in_range("youngs_modulus", self.youngs_modulus, 1e6, 1e13) {
-            return Err(error);
-        }
-        if let Err(error) = in_range("poisson_ratio", self.poisson_ratio, 0.0, 0.5) {
-            return Err(error);
-        }
-        if let Err(error) = in_range("density", self.density, 1.0, 1e5) {
-            return Err(error);
-        }
+        attempt!(in_range("youngs_modulus", self.youngs_modulus, 1e6, 1e13));
+        attempt!(in_range("poisson_ratio", self.poisson_ratio, 0.0, 0.5));
+        attempt!(in_range("density", self.density, 1.0, 1e5));
         Ok(self)
     }
 

@@ -63,6 +63,32 @@ use crate::scene::Scene;
 /// let model = FrictionModel::<CagedBallScrew, _>::of(&GEAR);
 /// assert_eq!(model.state().faulted_ticks, 0);
 /// ```
+///
+/// With a field out of range this does not compile:
+///
+/// ```compile_fail,E0080
+/// # use epas_friction::{
+/// #     CATALOGUE, CagedBallScrewConfiguration, CagedConstants, Error, FrictionBranch, Limits,
+/// # };
+/// # static GEAR: CagedConstants = match gear() {
+/// #     Ok(constants) => constants,
+/// #     Err(_) => panic!("a field is out of range"),
+/// # };
+/// # const fn gear() -> Result<CagedConstants, Error> {
+/// #     CagedConstants::new(&CagedBallScrewConfiguration {
+/// #         design: match CATALOGUE[15].design() {
+/// #             Ok(design) => design,
+/// #             Err(error) => return Err(error),
+/// #         },
+///         friction: 7.5,
+/// #         rolling_tangent: 0.0,
+/// #         branch: FrictionBranch::Rolling,
+/// #         preload: 0.0,
+/// #         reversal_speed: 0.5,
+/// #         limits: Limits { nut_speed: 500.0, axial_load: 20_000.0, friction_torque: 5.0 },
+/// #     })
+/// # }
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FrictionModel<S: Scene, C = <S as Scene>::Constants> {
     constants: C,

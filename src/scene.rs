@@ -25,6 +25,7 @@ pub use screw::{UncagedBallScrew, UncagedBallScrewConfiguration, UncagedConstant
 pub use uncaged::TrainOutputs;
 
 use crate::error::Error;
+use faults::Flagged;
 
 /// What the control interrupt knows at a tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -72,16 +73,40 @@ pub struct Outputs {
     pub faults: Faults,
 }
 
-impl Outputs {
-    /// The safe output: no torque, flagged.
+impl Flagged for Outputs {
     #[inline]
-    pub(crate) const fn safe(faults: Faults) -> Self {
+    fn safe(faults: Faults) -> Self {
         Self {
             friction_torque: 0.0,
             load_torque: 0.0,
             efficiency: 0.0,
             regime: Regime::Standing,
             faults,
+        }
+    }
+
+    #[inline]
+    fn faults(&self) -> Faults {
+        self.faults
+    }
+}
+
+/// A preload's friction beside a vanishing load would make the efficiency of back-driving infinite.
+const LEAST_EFFICIENCY: f32 = -1e6;
+
+/// Work out over work in, from the torques of load and friction with their signs; 0 without load.
+#[inline(always)]
+fn efficiency(driving: bool, load: f32, friction: f32) -> f32 {
+    if load == 0.0 {
+        0.0
+    } else if driving {
+        load / (load + friction)
+    } else {
+        let efficiency = 1.0 + friction / load;
+        if efficiency > LEAST_EFFICIENCY {
+            efficiency
+        } else {
+            LEAST_EFFICIENCY
         }
     }
 }

@@ -107,14 +107,15 @@ fn maps_equal_the_contact_integral() {
         power.max,
         power.rms()
     );
-    // Documented errors of the maps.
+    // Documented errors of the maps: the two-term expansion outside the contact, continuous at its rim, is
+    // chosen for its cost within 1e-3, 2e-3 and 1e-3.
     assert!(
         force.max <= FRICTION_MAP.largest
             && force.rms() <= FRICTION_MAP.rms
             && force.mean().abs() <= 1e-6
     );
-    assert!(moment.max <= 6.5e-4 && moment.rms() <= 1.1e-4 && moment.mean().abs() <= 2e-5);
-    assert!(power.max <= 4.2e-5 && power.rms() <= 5.4e-6 && power.mean().abs() <= 1e-6);
+    assert!(moment.max <= 1.8e-3 && moment.rms() <= 3.5e-4 && moment.mean().abs() <= 8e-5);
+    assert!(power.max <= 2.5e-4 && power.rms() <= 3.1e-5 && power.mean().abs() <= 1e-5);
 }
 
 #[test]

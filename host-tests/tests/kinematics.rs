@@ -182,8 +182,9 @@ impl Errors {
             self.largest
         );
         assert!(rms <= 0.4 * bound, "{name}: rms {rms:e}");
-        // A bias would show as a mean beside which the scatter is small.
-        assert!(mean.abs() <= 0.1 * bound, "{name}: mean {mean:e}");
+        // A bias would show as a mean beside which the scatter is small. Tabulated cases share a few angles, and with
+        // them the rounding of their sines and cosines, 3e-8.
+        assert!(mean.abs() <= 0.12 * bound, "{name}: mean {mean:e}");
     }
 }
 
@@ -797,6 +798,16 @@ fn what_cannot_roll_is_refused() {
     });
     assert_eq!(error.field(), "contact_angle_screw");
     assert!(!error.allowed().contains(-0.8));
+    // The grip ends where the range says, but for the last of 24 halvings of less than half a turn (2e-7 rad)
+    // and the rounding of the angle (6e-8 rad).
+    let end = error.allowed().minimum;
+    for (angle, taken) in [(end, true), (end - 4e-7, false)] {
+        let given = KinematicsParameters {
+            contact_angle_screw: angle,
+            ..good
+        };
+        assert_eq!(ContactKinematics::new(&given).is_ok(), taken, "{angle}");
+    }
     let error = refused(KinematicsParameters {
         contact_angle_nut: -0.8,
         ..good

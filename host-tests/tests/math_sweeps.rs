@@ -162,7 +162,7 @@ fn check_angles(stride: usize) {
     let relative_sin = |x: f32| absolute_sin(x) / f64::from(x).sin();
     let relative_cos = |x: f32| absolute_cos(x) / f64::from(x).cos();
     for (name, bound, bits, error) in [
-        // Polynomial 4e-8, three roundings of 2^-25 at values below one.
+        // Roundings of 2^-25 at values below one: of the table's number, and of the last sum.
         (
             "sin, absolute",
             1.2e-7,

@@ -3,8 +3,8 @@
 use super::linear::LinearBallParameters;
 use super::root::{inverse_cube_roots, loaded};
 use crate::contact::FrictionMap;
-use crate::error::{Error, in_range};
-use crate::math;
+use crate::error::{Error, attempt, in_range};
+use crate::math::constant;
 
 /// Slope `k_f` of the friction force over the offset ratio that Lin 2019 reads off Figure 3.11 (b). It
 /// is the mean slope up to half the semi-axis; the exact one at the centre is
@@ -85,16 +85,18 @@ impl AnalyticLinearBall {
     /// # Errors
     /// [`Error`] naming the field of [`LinearBallParameters`], or `slope` (0.1 to 10), that is out of
     /// range.
-    pub fn new(parameters: &LinearBallParameters, slope: f32) -> Result<Self, Error> {
-        let parameters = parameters.checked()?;
-        FrictionMap::new(parameters.axis_ratio)?;
-        let slope = in_range("slope", slope, 0.1, 10.0)?;
-        let (sin, cos) = math::sin_cos(parameters.contact_angle);
+    pub const fn new(parameters: &LinearBallParameters, slope: f32) -> Result<Self, Error> {
+        let parameters = attempt!(parameters.checked());
+        attempt!(FrictionMap::new(parameters.axis_ratio));
+        let slope = attempt!(in_range("slope", slope, 0.1, 10.0));
+        let (sin, cos) = constant::sin_cos(parameters.contact_angle);
         let half_tangent = 0.5 * sin / cos;
         Ok(Self {
             half_tangent,
             // The loads of a diagonal enter by their sum, the formula by their mean.
-            compliance: math::cbrt_squared(2.0) * half_tangent * parameters.semi_major_coefficient
+            compliance: constant::cbrt_squared(2.0)
+                * half_tangent
+                * parameters.semi_major_coefficient
                 / (slope * parameters.friction * parameters.ball_radius),
         })
     }

@@ -3,8 +3,8 @@
 use super::root::{inverse_cube_roots, loaded};
 use super::symmetric::{System, Vector};
 use crate::contact::FrictionMap;
-use crate::error::Error;
-use crate::math;
+use crate::error::{Error, attempt};
+use crate::math::{self, constant};
 
 /// Newton steps from the four-force start that [`FourPointBall::solve`] takes: three are enough for
 /// loads under which contact angle deviations move the contacts by less than their own size.
@@ -185,7 +185,7 @@ impl Proposal {
 }
 
 impl FourPointBall {
-    pub(super) fn folded(
+    pub(super) const fn folded(
         friction: f32,
         contact_angle: f32,
         speed: f32,
@@ -193,7 +193,7 @@ impl FourPointBall {
         lower: Track,
         upper: Track,
     ) -> Self {
-        let (sin, cos) = math::sin_cos(contact_angle);
+        let (sin, cos) = constant::sin_cos(contact_angle);
         Self {
             friction,
             contact_angle,
@@ -560,14 +560,14 @@ impl Contact {
 }
 
 impl Track {
-    pub(super) fn new(
+    pub(super) const fn new(
         axis_ratio: f32,
         semi_major: f32,
         ball_radius: f32,
         roll: f32,
     ) -> Result<Self, Error> {
         Ok(Self {
-            map: FrictionMap::new(axis_ratio)?,
+            map: attempt!(FrictionMap::new(axis_ratio)),
             semi_major: semi_major / ball_radius,
             roll,
         })

@@ -1,8 +1,8 @@
 //! Constants of a ball in a linear bearing.
 
 use super::four_point::{FourPointBall, Track};
-use crate::error::{Error, in_range};
-use crate::math;
+use crate::error::{Error, attempt, in_range};
+use crate::math::constant;
 
 /// Spin below which a contact counts as sticking, in units of track speed over ball radius; contacts of
 /// a ball in four-point contact spin with about half that unit.
@@ -26,16 +26,16 @@ pub struct LinearBallParameters {
 }
 
 impl LinearBallParameters {
-    pub(super) fn checked(&self) -> Result<Self, Error> {
-        in_range("ball_radius", self.ball_radius, 1e-5, 1.0)?;
-        in_range("contact_angle", self.contact_angle, 0.05, 1.5)?;
-        in_range(
+    pub(super) const fn checked(&self) -> Result<Self, Error> {
+        attempt!(in_range("ball_radius", self.ball_radius, 1e-5, 1.0));
+        attempt!(in_range("contact_angle", self.contact_angle, 0.05, 1.5));
+        attempt!(in_range(
             "semi_major_coefficient",
             self.semi_major_coefficient,
             1e-8,
             1.0,
-        )?;
-        in_range("friction", self.friction, 1e-6, 10.0)?;
+        ));
+        attempt!(in_range("friction", self.friction, 1e-6, 10.0));
         Ok(*self)
     }
 }
@@ -88,16 +88,16 @@ impl FourPointBall {
     ///
     /// # Errors
     /// [`Error`] naming the field of [`LinearBallParameters`] that is out of range.
-    pub fn linear(parameters: &LinearBallParameters) -> Result<Self, Error> {
-        let parameters = parameters.checked()?;
-        let (_, cos) = math::sin_cos(parameters.contact_angle);
+    pub const fn linear(parameters: &LinearBallParameters) -> Result<Self, Error> {
+        let parameters = attempt!(parameters.checked());
+        let (_, cos) = constant::sin_cos(parameters.contact_angle);
         // Half the track speed along, and no slip at the bottom: R_B omega_x cos(beta_0) = v/2.
-        let track = Track::new(
+        let track = attempt!(Track::new(
             parameters.axis_ratio,
             parameters.semi_major_coefficient,
             parameters.ball_radius,
             0.5 / cos,
-        )?;
+        ));
         Ok(Self::folded(
             parameters.friction,
             parameters.contact_angle,

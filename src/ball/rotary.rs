@@ -1,8 +1,9 @@
 //! A ball in a rotary four-point contact bearing.
 
 use super::four_point::{BallState, FourPointBall, FourPointContacts, Track};
-use crate::error::{Error, in_range};
-use crate::math;
+use crate::contact::SMALLEST_AXIS_RATIO;
+use crate::error::{Error, attempt, in_range};
+use crate::math::constant;
 
 /// Spin below which a contact counts as sticking, over the spin `omega_I sin(beta_0)` that the two
 /// contacts of a diagonal share out between them in two-point rolling.
@@ -78,49 +79,59 @@ pub struct RotaryMotion {
     pub yaw: f32,
 }
 
+const fn axis_ratio(field: &'static str, value: f32) -> Result<f32, Error> {
+    in_range(field, value, SMALLEST_AXIS_RATIO, 1.0)
+}
+
+const fn semi_major(field: &'static str, value: f32) -> Result<f32, Error> {
+    in_range(field, value, 1e-8, 1.0)
+}
+
 impl RotaryBall {
     /// A ball in a rotary bearing.
     ///
     /// # Errors
     /// [`Error`] naming the field of [`RotaryBallParameters`] that is out of range.
-    pub fn new(parameters: &RotaryBallParameters) -> Result<Self, Error> {
-        let ball_radius = in_range("ball_radius", parameters.ball_radius, 1e-5, 1.0)?;
-        let pitch_radius = in_range(
+    pub const fn new(parameters: &RotaryBallParameters) -> Result<Self, Error> {
+        let ball_radius = attempt!(in_range("ball_radius", parameters.ball_radius, 1e-5, 1.0));
+        let pitch_radius = attempt!(in_range(
             "pitch_radius",
             parameters.pitch_radius,
             1.01 * ball_radius,
             100.0,
-        )?;
-        let contact_angle = in_range("contact_angle", parameters.contact_angle, 0.05, 1.5)?;
-        let friction = in_range("friction", parameters.friction, 1e-6, 10.0)?;
-        let axis_ratio =
-            |field, value| in_range(field, value, crate::contact::SMALLEST_AXIS_RATIO, 1.0);
-        let semi_major = |field, value| in_range(field, value, 1e-8, 1.0);
+        ));
+        let contact_angle = attempt!(in_range(
+            "contact_angle",
+            parameters.contact_angle,
+            0.05,
+            1.5
+        ));
+        let friction = attempt!(in_range("friction", parameters.friction, 1e-6, 10.0));
 
         // In units of omega_I R_P: inner ring and ball without slip at the nominal angle give
         // omega_B = (1 - g cos)/2, and omega_x + omega_B = -omega_B/(g cos).
-        let (sin, cos) = math::sin_cos(contact_angle);
+        let (sin, cos) = constant::sin_cos(contact_angle);
         let radius_ratio = ball_radius / pitch_radius;
         let speed = 0.5 * (1.0 - radius_ratio * cos);
         let roll = -speed / cos;
-        let inner = Track::new(
-            axis_ratio("axis_ratio_inner", parameters.axis_ratio_inner)?,
-            semi_major(
+        let inner = attempt!(Track::new(
+            attempt!(axis_ratio("axis_ratio_inner", parameters.axis_ratio_inner)),
+            attempt!(semi_major(
                 "semi_major_coefficient_inner",
                 parameters.semi_major_coefficient_inner,
-            )?,
+            )),
             ball_radius,
             roll - radius_ratio,
-        )?;
-        let outer = Track::new(
-            axis_ratio("axis_ratio_outer", parameters.axis_ratio_outer)?,
-            semi_major(
+        ));
+        let outer = attempt!(Track::new(
+            attempt!(axis_ratio("axis_ratio_outer", parameters.axis_ratio_outer)),
+            attempt!(semi_major(
                 "semi_major_coefficient_outer",
                 parameters.semi_major_coefficient_outer,
-            )?,
+            )),
             ball_radius,
             roll,
-        )?;
+        ));
         Ok(Self {
             ball: FourPointBall::folded(
                 friction,

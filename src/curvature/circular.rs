@@ -22,16 +22,16 @@ impl CircularGrooveCurvature {
     /// Constants of one groove from its path and its groove radius `r_s`, m.
     #[inline]
     #[must_use]
-    pub fn new(groove: Groove, path: &HelixPath, groove_radius: f32) -> Self {
+    pub const fn new(groove: Groove, path: &HelixPath, groove_radius: f32) -> Self {
         Self {
             signed_path_radius: groove.sign() / path.curvature,
             groove_radius,
         }
     }
 
-    /// Constants of one groove of a validated design.
+    /// Constants of one groove of a validated design; a constant can take them.
     #[must_use]
-    pub fn of(design: &BallScrew, groove: Groove) -> Self {
+    pub const fn of(design: &BallScrew, groove: Groove) -> Self {
         Self::new(groove, design.path(), design.profile(groove).groove_radius)
     }
 
@@ -41,7 +41,7 @@ impl CircularGrooveCurvature {
     /// operations of the literature formula: the lead costs nothing in the loop.
     #[inline]
     #[must_use]
-    pub fn first(&self, contact_angle: ContactAngle) -> f32 {
+    pub const fn first(&self, contact_angle: ContactAngle) -> f32 {
         contact_angle.cos / (self.signed_path_radius - self.groove_radius * contact_angle.cos)
     }
 
@@ -49,7 +49,7 @@ impl CircularGrooveCurvature {
     /// the gothic arch on the 31 catalogue sizes. A constant: fold it at set-up.
     #[inline]
     #[must_use]
-    pub fn second(&self) -> f32 {
+    pub const fn second(&self) -> f32 {
         -1.0 / self.groove_radius
     }
 }

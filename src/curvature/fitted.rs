@@ -2,7 +2,7 @@
 
 use super::GothicArch;
 use crate::geometry::{BallScrew, ContactAngle, Groove};
-use crate::math;
+use crate::math::constant;
 
 /// Contact angle, rad (72 degrees), up to which [`FittedCurvature::of`] fits.
 pub const DEFAULT_FIT_RANGE: f32 = 1.256_637_1;
@@ -44,24 +44,26 @@ pub struct FittedCurvature {
 }
 
 impl FittedCurvature {
-    /// The fit for one groove of a validated design, for contact angles 0 to 72 degrees.
+    /// The fit for one groove of a validated design, for contact angles 0 to 72 degrees; a constant can
+    /// take it, and firmware then holds nothing of the linear system.
     #[must_use]
-    pub fn of(design: &BallScrew, groove: Groove) -> Self {
+    pub const fn of(design: &BallScrew, groove: Groove) -> Self {
         Self::new(&GothicArch::of(design, groove), DEFAULT_FIT_RANGE)
     }
 
     /// The fit for contact angles 0 to `largest_contact_angle`, rad, 0.2 to 1.55; outside it is
     /// moved to the nearer bound. Set-up only: five exact curvatures and one 5 x 5 system.
     #[must_use]
-    pub fn new(arch: &GothicArch, largest_contact_angle: f32) -> Self {
+    pub const fn new(arch: &GothicArch, largest_contact_angle: f32) -> Self {
         let half_range = 0.5 * largest_contact_angle.clamp(0.2, 1.55);
         // Curvatures in units of the groove's own, so that the system is free of scale.
         let scale = arch.groove_radius();
         let mut system = [[0.0; NODES + 1]; NODES];
-        for (row, node) in system.iter_mut().zip(CHEBYSHEV) {
-            let angle = ContactAngle::new(half_range - half_range * node);
-            let kappa1 = arch.principal(angle).kappa1 * scale;
-            *row = [
+        let mut node = 0;
+        while node < NODES {
+            let angle = ContactAngle::new(half_range - half_range * CHEBYSHEV[node]);
+            let kappa1 = arch.first(angle) * scale;
+            system[node] = [
                 1.0,
                 angle.cos,
                 angle.sin,
@@ -69,6 +71,7 @@ impl FittedCurvature {
                 kappa1 * angle.sin,
                 kappa1,
             ];
+            node += 1;
         }
         let [n0, n1, n2, d1, d2] = solve(system);
         let unscale = 1.0 / scale;
@@ -84,9 +87,12 @@ impl FittedCurvature {
     /// First principal curvature, 1/m.
     #[inline]
     #[must_use]
-    pub fn first(&self, contact_angle: ContactAngle) -> f32 {
+    pub const fn first(&self, contact_angle: ContactAngle) -> f32 {
         let ContactAngle { cos, sin } = contact_angle;
-        (self.n0 + self.n1 * cos + self.n2 * sin) / (1.0 - self.d1 * cos - self.d2 * sin)
+        // The products first: each then is ready when a sum takes it.
+        let (along, across) = (self.n1 * cos, self.d1 * cos);
+        let (along_2, across_2) = (self.n2 * sin, self.d2 * sin);
+        ((self.n0 + along) + along_2) / ((1.0 - across) - across_2)
     }
 }
 
@@ -95,58 +101,88 @@ impl FittedCurvature {
 ///
 /// A column that is zero to rounding (a circular groove, a lead of zero) leaves its unknown at zero,
 /// which is then one of the exact solutions.
-fn solve(mut rows: [[f32; NODES + 1]; NODES]) -> [f32; NODES] {
+const fn solve(mut rows: [[f32; NODES + 1]; NODES]) -> [f32; NODES] {
     /// A pivot smaller than this beside columns of length one is rounding.
     const RANK_TOLERANCE: f32 = 4.0 * f32::EPSILON;
 
     let mut column_scale = [0.0; NODES];
-    for (column, scale) in column_scale.iter_mut().enumerate() {
+    let mut column = 0;
+    while column < NODES {
         let mut sum = 0.0;
-        for row in &rows {
-            sum += row[column] * row[column];
+        let mut row = 0;
+        while row < NODES {
+            sum += rows[row][column] * rows[row][column];
+            row += 1;
         }
-        if sum > 0.0 {
-            *scale = 1.0 / math::sqrt(sum);
+        let scale = if sum > 0.0 {
+            1.0 / constant::sqrt(sum)
+        } else {
+            0.0
+        };
+        let mut row = 0;
+        while row < NODES {
+            rows[row][column] *= scale;
+            row += 1;
         }
-        for row in &mut rows {
-            row[column] *= *scale;
-        }
+        column_scale[column] = scale;
+        column += 1;
     }
 
-    for pivot in 0..NODES {
+    let mut pivot = 0;
+    while pivot < NODES {
         // Bubbling the largest element up takes the place of an indexed swap, so that every index is
-        // a loop counter and no bounds check can remain.
-        for below in pivot + 1..NODES {
+        // a loop counter and no bounds check can remain; element by element, which needs no copy of
+        // memory. What lies left of the pivot is never read again.
+        let mut below = pivot + 1;
+        while below < NODES {
             if rows[below][pivot].abs() > rows[pivot][pivot].abs() {
-                rows.swap(pivot, below);
+                let mut column = pivot;
+                while column <= NODES {
+                    let above = rows[pivot][column];
+                    rows[pivot][column] = rows[below][column];
+                    rows[below][column] = above;
+                    column += 1;
+                }
             }
-        }
-        let diagonal = rows[pivot][pivot];
-        if diagonal.abs() <= RANK_TOLERANCE {
-            continue;
+            below += 1;
         }
         let upper = rows[pivot];
-        for row in rows.iter_mut().skip(pivot + 1) {
-            let factor = row[pivot] / diagonal;
-            for (element, above) in row.iter_mut().zip(upper) {
-                *element -= factor * above;
+        let diagonal = upper[pivot];
+        if !(diagonal.abs() <= RANK_TOLERANCE) {
+            let mut below = pivot + 1;
+            while below < NODES {
+                let factor = rows[below][pivot] / diagonal;
+                let mut column = pivot + 1;
+                while column <= NODES {
+                    rows[below][column] -= factor * upper[column];
+                    column += 1;
+                }
+                below += 1;
             }
         }
+        pivot += 1;
     }
 
     let mut solution = [0.0; NODES];
-    for pivot in (0..NODES).rev() {
+    let mut solved = 0;
+    while solved < NODES {
+        let pivot = NODES - 1 - solved;
         let row = &rows[pivot];
         let mut rest = row[NODES];
-        for column in pivot + 1..NODES {
+        let mut column = pivot + 1;
+        while column < NODES {
             rest -= row[column] * solution[column];
+            column += 1;
         }
         if row[pivot].abs() > RANK_TOLERANCE {
             solution[pivot] = rest / row[pivot];
         }
+        solved += 1;
     }
-    for (value, scale) in solution.iter_mut().zip(column_scale) {
-        *value *= scale;
+    let mut column = 0;
+    while column < NODES {
+        solution[column] *= column_scale[column];
+        column += 1;
     }
     solution
 }

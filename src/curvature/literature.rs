@@ -19,23 +19,23 @@ impl LiteratureCurvature {
     /// Constants of one groove from the pitch radius `r_m` and the ball radius `r_b`, m.
     #[inline]
     #[must_use]
-    pub fn new(groove: Groove, pitch_radius: f32, ball_radius: f32) -> Self {
+    pub const fn new(groove: Groove, pitch_radius: f32, ball_radius: f32) -> Self {
         Self {
             signed_pitch_radius: groove.sign() * pitch_radius,
             ball_radius,
         }
     }
 
-    /// Constants of one groove of a validated design.
+    /// Constants of one groove of a validated design; a constant can take them.
     #[must_use]
-    pub fn of(design: &BallScrew, groove: Groove) -> Self {
+    pub const fn of(design: &BallScrew, groove: Groove) -> Self {
         Self::new(groove, design.pitch_radius(), design.ball_radius())
     }
 
     /// First principal curvature, 1/m. Cost: one division, 2 other operations.
     #[inline]
     #[must_use]
-    pub fn first(&self, contact_angle: ContactAngle) -> f32 {
+    pub const fn first(&self, contact_angle: ContactAngle) -> f32 {
         contact_angle.cos / (self.signed_pitch_radius - self.ball_radius * contact_angle.cos)
     }
 }

@@ -2,9 +2,9 @@
 
 use core::f32::consts::FRAC_PI_2;
 
-use crate::error::{Error, in_range};
+use crate::error::{Error, attempt, in_range};
 use crate::geometry::{BallScrew, ContactAngle};
-use crate::math;
+use crate::math::constant;
 
 /// Which way power flows through the ball screw.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,19 +54,38 @@ pub struct EfficiencyGeometry {
     drive_scale: f32,
     /// `1 / (Ca² R)`.
     backdrive_scale: f32,
+    rolling: Rolling,
 }
+
+/// What [`EfficiencyGeometry::rolling_loss`] takes, with `ta` at least [`LEAST_TANGENT`]: without lead it cancels
+/// where there is no rolling resistance, and is nothing beside one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+struct Rolling {
+    /// `a ta`.
+    slide: f32,
+    /// `1 + ta²`.
+    resistance: f32,
+    /// `ta Sb`.
+    grip: f32,
+    /// `ta (a - Cb)`.
+    gain: f32,
+}
+
+/// Tangent of a lead angle that is none; its products with friction coefficients stay far from underflow.
+const LEAST_TANGENT: f32 = 1e-20;
 
 impl EfficiencyGeometry {
     /// Constants from the lead angle `alpha` (rad, 0 to 1.5), the contact angle `beta` (rad, 0.001 to
-    /// pi/2) and the ball ratio `a` (0 to 1). Set-up only.
+    /// pi/2) and the ball ratio `a` (0 to 1). Set-up only; a constant can take them.
     ///
     /// # Errors
     /// [`Error`] naming `lead_angle`, `contact_angle` or `ball_ratio`.
-    pub fn new(lead_angle: f32, contact_angle: f32, ball_ratio: f32) -> Result<Self, Error> {
-        in_range("lead_angle", lead_angle, 0.0, 1.5)?;
-        in_range("contact_angle", contact_angle, 0.001, FRAC_PI_2)?;
-        in_range("ball_ratio", ball_ratio, 0.0, 1.0)?;
-        let (sin, cos) = math::sin_cos(lead_angle);
+    pub const fn new(lead_angle: f32, contact_angle: f32, ball_ratio: f32) -> Result<Self, Error> {
+        attempt!(in_range("lead_angle", lead_angle, 0.0, 1.5));
+        attempt!(in_range("contact_angle", contact_angle, 0.001, FRAC_PI_2));
+        attempt!(in_range("ball_ratio", ball_ratio, 0.0, 1.0));
+        let (sin, cos) = constant::sin_cos(lead_angle);
         Ok(Self::from_parts(
             sin / cos,
             ContactAngle::new(contact_angle),
@@ -74,9 +93,9 @@ impl EfficiencyGeometry {
         ))
     }
 
-    /// Constants of a validated design at its nominal contact angle.
+    /// Constants of a validated design at its nominal contact angle; a constant can take them.
     #[must_use]
-    pub fn of(design: &BallScrew) -> Self {
+    pub const fn of(design: &BallScrew) -> Self {
         Self::from_parts(
             design.tan_lead_angle(),
             design.contact_angle(),
@@ -84,11 +103,16 @@ impl EfficiencyGeometry {
         )
     }
 
-    fn from_parts(tan_lead: f32, contact_angle: ContactAngle, ball_ratio: f32) -> Self {
+    const fn from_parts(tan_lead: f32, contact_angle: ContactAngle, ball_ratio: f32) -> Self {
         let ContactAngle { cos, sin } = contact_angle;
         let secant_squared = 1.0 + tan_lead * tan_lead;
         // Never from 1/Ca² - Sb²: that cancels where R is small.
-        let root = math::sqrt(cos * cos + tan_lead * tan_lead);
+        let root = constant::sqrt(cos * cos + tan_lead * tan_lead);
+        let tangent = if tan_lead > LEAST_TANGENT {
+            tan_lead
+        } else {
+            LEAST_TANGENT
+        };
         Self {
             sin_contact: sin,
             cos_contact: cos,
@@ -98,6 +122,12 @@ impl EfficiencyGeometry {
             ball_ratio,
             drive_scale: secant_squared / sin,
             backdrive_scale: secant_squared / root,
+            rolling: Rolling {
+                slide: ball_ratio * tangent,
+                resistance: secant_squared,
+                grip: tangent * sin,
+                gain: tangent * (ball_ratio - cos),
+            },
         }
     }
 
@@ -109,23 +139,35 @@ impl EfficiencyGeometry {
     /// operations.
     #[inline]
     #[must_use]
-    pub fn rolling_efficiency(&self, friction: f32, rolling_tangent: f32) -> f32 {
+    pub const fn rolling_efficiency(&self, friction: f32, rolling_tangent: f32) -> f32 {
         1.0 - self.rolling_loss(friction, rolling_tangent)
     }
 
     /// One less [`EfficiencyGeometry::rolling_efficiency`], by its own formula.
     #[inline]
     #[must_use]
-    pub fn rolling_loss(&self, friction: f32, rolling_tangent: f32) -> f32 {
-        let slide = friction * self.ball_ratio;
-        let grip = self.sin_contact + friction * (self.ball_ratio - self.cos_contact);
-        if rolling_tangent > 0.0 {
-            (slide * self.tan_lead + rolling_tangent * self.secant_squared)
-                / (grip * self.tan_lead + rolling_tangent)
+    pub const fn rolling_loss(&self, friction: f32, rolling_tangent: f32) -> f32 {
+        // False for NaN. The call, in the way of what is no tangent alone, leaves the other one without a frame.
+        if rolling_tangent >= 0.0 {
+            let Rolling {
+                slide,
+                resistance,
+                grip,
+                gain,
+            } = self.rolling;
+            let (slide, gain) = (friction * slide, friction * gain);
+            (slide + rolling_tangent * resistance) / ((grip + gain) + rolling_tangent)
         } else {
-            // The tangent of the lead angle cancels; without lead this is the limit.
-            slide / grip
+            self.sliding_while_rolling(friction)
         }
+    }
+
+    /// The loss without rolling resistance.
+    #[cold]
+    #[inline(never)]
+    const fn sliding_while_rolling(&self, friction: f32) -> f32 {
+        let slide = friction * self.ball_ratio;
+        slide / (self.sin_contact + friction * (self.ball_ratio - self.cos_contact))
     }
 
     /// Rolling efficiency where the load back-drives the screw:
@@ -135,7 +177,7 @@ impl EfficiencyGeometry {
     /// Negative infinity where there is no lead but rolling resistance: no load moves it.
     #[inline]
     #[must_use]
-    pub fn rolling_backdrive_efficiency(&self, friction: f32, rolling_tangent: f32) -> f32 {
+    pub const fn rolling_backdrive_efficiency(&self, friction: f32, rolling_tangent: f32) -> f32 {
         let slide = friction * self.ball_ratio;
         let grip = self.sin_contact + friction * self.cos_contact + rolling_tangent * self.tan_lead;
         let loss = if rolling_tangent > 0.0 {
@@ -149,7 +191,7 @@ impl EfficiencyGeometry {
     /// Rolling efficiency of a driven nut as printed in eq. (4): `a + 2 Cb` and `a + Cb` in the places
     /// of `a` and `a - Cb`. For comparison with the paper only.
     #[must_use]
-    pub fn rolling_nut_as_printed(&self, friction: f32, rolling_tangent: f32) -> f32 {
+    pub const fn rolling_nut_as_printed(&self, friction: f32, rolling_tangent: f32) -> f32 {
         let slide = friction * (self.ball_ratio + 2.0 * self.cos_contact);
         let grip = self.sin_contact + friction * (self.ball_ratio + self.cos_contact);
         let loss = if rolling_tangent > 0.0 {
@@ -167,28 +209,28 @@ impl EfficiencyGeometry {
     /// one division, 4 other operations.
     #[inline]
     #[must_use]
-    pub fn sliding_efficiency(&self, friction: f32) -> f32 {
+    pub const fn sliding_efficiency(&self, friction: f32) -> f32 {
         1.0 - self.sliding_loss(friction)
     }
 
     /// One less [`EfficiencyGeometry::sliding_efficiency`], by its own formula.
     #[inline]
     #[must_use]
-    pub fn sliding_loss(&self, friction: f32) -> f32 {
+    pub const fn sliding_loss(&self, friction: f32) -> f32 {
         friction * self.drive_scale / (self.root + friction * self.sin_contact)
     }
 
     /// Full-sliding efficiency of back-driving, eq. (17): `1 - eta = f / (Ca² R (Sb + f R))`.
     #[inline]
     #[must_use]
-    pub fn sliding_backdrive_efficiency(&self, friction: f32) -> f32 {
+    pub const fn sliding_backdrive_efficiency(&self, friction: f32) -> f32 {
         1.0 - self.sliding_backdrive_loss(friction)
     }
 
     /// One less [`EfficiencyGeometry::sliding_backdrive_efficiency`], by its own formula.
     #[inline]
     #[must_use]
-    pub fn sliding_backdrive_loss(&self, friction: f32) -> f32 {
+    pub const fn sliding_backdrive_loss(&self, friction: f32) -> f32 {
         friction * self.backdrive_scale / (self.sin_contact + friction * self.root)
     }
 
@@ -196,7 +238,7 @@ impl EfficiencyGeometry {
     /// `f Sb >= R` for back-driving. Exactly where the efficiency of that direction is not positive.
     #[inline]
     #[must_use]
-    pub fn locks(&self, drive: Drive, friction: f32) -> bool {
+    pub const fn locks(&self, drive: Drive, friction: f32) -> bool {
         match drive {
             Drive::Driving => friction * self.root >= self.sin_contact,
             Drive::BackDriving => friction * self.sin_contact >= self.root,
@@ -204,17 +246,17 @@ impl EfficiencyGeometry {
     }
 
     /// Normal load of a contact per axial load on one ball, friction neglected: `Q / Fa = 1 / (Ca
-    /// Sb)`, eq. (20) (printed with `C_ci` for `C_alpha`).
+    /// Sb)`, eq. (20) (printed with `C_ci` for `C_alpha`). Set-up only.
     #[must_use]
-    pub fn normal_per_axial_load(&self) -> f32 {
-        math::sqrt(self.secant_squared) / self.sin_contact
+    pub const fn normal_per_axial_load(&self) -> f32 {
+        constant::sqrt(self.secant_squared) / self.sin_contact
     }
 
     /// Normal load of a contact per torque on one ball, friction neglected, times the pitch radius:
-    /// `Q r_m / M = 1 / (Sa Sb)`, eq. (21). Infinite without lead.
+    /// `Q r_m / M = 1 / (Sa Sb)`, eq. (21). Infinite without lead. Set-up only.
     #[must_use]
-    pub fn normal_per_torque(&self) -> f32 {
-        math::sqrt(self.secant_squared) / (self.tan_lead * self.sin_contact)
+    pub const fn normal_per_torque(&self) -> f32 {
+        constant::sqrt(self.secant_squared) / (self.tan_lead * self.sin_contact)
     }
 
     /// Friction torque per axial load, m, of a rolling screw: `r_m [f a ta + t (1 + ta²)] / (Sb -+ f
@@ -223,7 +265,7 @@ impl EfficiencyGeometry {
     /// It is eq. (3) as a torque, `r_m ta (1/eta - 1)` driving and `r_m ta (1 - eta)` back-driving,
     /// without the division by a vanishing lead. Infinite or negative where driving locks.
     #[must_use]
-    pub fn rolling_torque_per_load(
+    pub const fn rolling_torque_per_load(
         &self,
         drive: Drive,
         pitch_radius: f32,
@@ -243,7 +285,12 @@ impl EfficiencyGeometry {
     /// Friction torque per axial load, m, in full sliding: `r_m ta f / (Ca² Sb R -+ f (Ca R)²)`, upper
     /// sign driving; eq. (14) and (17) as torques. Infinite or negative where driving locks.
     #[must_use]
-    pub fn sliding_torque_per_load(&self, drive: Drive, pitch_radius: f32, friction: f32) -> f32 {
+    pub const fn sliding_torque_per_load(
+        &self,
+        drive: Drive,
+        pitch_radius: f32,
+        friction: f32,
+    ) -> f32 {
         let hold = friction * self.root;
         let grip = match drive {
             Drive::Driving => self.sin_contact - hold,

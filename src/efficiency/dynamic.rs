@@ -1,7 +1,7 @@
 //! What the ball's own inertia changes in full sliding.
 
 use super::EfficiencyGeometry;
-use crate::math;
+use crate::math::constant;
 
 /// Correction of the full-sliding efficiency for the centripetal force on the ball:
 /// `eta = eta14 (1 + k1 Pi)` with `Pi = m r_m Omega² / Fa`, `m` the mass of a ball, `Omega` the
@@ -34,11 +34,12 @@ pub struct DynamicCorrection {
 }
 
 impl DynamicCorrection {
-    /// Folds `eta14` and `k1` for one geometry and friction coefficient. Set-up only.
+    /// Folds `eta14` and `k1` for one geometry and friction coefficient. Set-up only; a constant can
+    /// take them.
     ///
     /// Where driving locks (`f R >= Sb`) there is no steady motion to correct: the coefficient is 0.
     #[must_use]
-    pub fn new(geometry: &EfficiencyGeometry, friction: f32) -> Self {
+    pub const fn new(geometry: &EfficiencyGeometry, friction: f32) -> Self {
         let sb = geometry.sin_contact_angle();
         let cb = geometry.cos_contact_angle();
         let ta = geometry.tan_lead_angle();
@@ -57,7 +58,7 @@ impl DynamicCorrection {
         let bracket = s0 + g * c0
             - (sb - f * ta) / grip
             - f * g * (cb / ca_squared - a * r * r) / (2.0 * r * sb * (r + f * sb));
-        let coefficient = w0 * w0 / share * math::sqrt(ca_squared) * grip * bracket;
+        let coefficient = w0 * w0 / share * constant::sqrt(ca_squared) * grip * bracket;
         Self {
             efficiency,
             coefficient: if grip > 0.0 && coefficient.is_finite() {
@@ -78,7 +79,7 @@ impl DynamicCorrection {
     /// Efficiency at the dynamic number `Pi = m r_m Omega² / Fa`, at least 0. Cost: 3 operations.
     #[inline]
     #[must_use]
-    pub fn efficiency(&self, dynamic_number: f32) -> f32 {
+    pub const fn efficiency(&self, dynamic_number: f32) -> f32 {
         self.efficiency + self.efficiency * (self.coefficient * dynamic_number)
     }
 }

@@ -2,7 +2,7 @@
 
 use super::Drive;
 use crate::error::{Error, in_range};
-use crate::math;
+use crate::math::{self, constant};
 
 /// The contact angle at which full sliding loses least, with the loss-free bound on the lead angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -67,8 +67,8 @@ pub fn optimum_contact_angle(
 /// for both directions and for every lead angle where the optimum exists; 86.1 % at a friction of
 /// 0.075.
 #[must_use]
-pub fn optimum_efficiency(friction: f32) -> f32 {
+pub const fn optimum_efficiency(friction: f32) -> f32 {
     // 1 / (sqrt(1 + f²) + f)²: the same number without a subtraction.
-    let sum = math::sqrt(1.0 + friction * friction) + friction;
+    let sum = constant::sqrt(1.0 + friction * friction) + friction;
     1.0 / (sum * sum)
 }

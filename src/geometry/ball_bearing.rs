@@ -1,7 +1,7 @@
 //! A ball bearing: a ball screw without lead.
 
 use super::{BallScrew, BallScrewParameters, GrooveSize};
-use crate::error::Error;
+use crate::error::{Error, attempt};
 use crate::material::Material;
 
 /// What a catalogue or a drawing prints of a four-point or angular contact ball bearing; unchecked.
@@ -34,12 +34,13 @@ pub struct BallBearingParameters {
 pub struct BallBearing(BallScrew);
 
 impl BallBearing {
-    /// Checks every field and folds the constants. Set-up only.
+    /// Checks every field and folds the constants. Set-up only; a constant can take it, as that of
+    /// [`BallScrew::new`].
     ///
     /// # Errors
     /// As [`BallScrew::new`].
-    pub fn new(parameters: BallBearingParameters) -> Result<Self, Error> {
-        BallScrew::new(BallScrewParameters {
+    pub const fn new(parameters: BallBearingParameters) -> Result<Self, Error> {
+        Ok(Self(attempt!(BallScrew::new(BallScrewParameters {
             pitch_radius: parameters.pitch_radius,
             lead: 0.0,
             ball_radius: parameters.ball_radius,
@@ -48,8 +49,7 @@ impl BallBearing {
             contact_angle: parameters.contact_angle,
             ball_material: parameters.ball_material,
             groove_material: parameters.groove_material,
-        })
-        .map(Self)
+        }))))
     }
 
     /// The bearing as a ball screw with lead 0.

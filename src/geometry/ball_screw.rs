@@ -3,9 +3,9 @@
 use core::f32::consts::TAU;
 
 use super::{ContactAngle, Groove, GrooveProfile, GrooveSize, HelixPath, LARGEST_CONTACT_ANGLE};
-use crate::error::{Error, Range, in_range};
+use crate::error::{Error, Range, attempt, in_range};
 use crate::material::Material;
-use crate::math;
+use crate::math::constant;
 
 /// What a catalogue or a drawing prints of a ball screw; unchecked.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,6 +52,35 @@ pub struct BallScrewParameters {
 /// assert_eq!(BallScrew::new(wrong).unwrap_err().field(), "lead");
 /// # Ok::<(), epas_friction::Error>(())
 /// ```
+///
+/// A constant can take a design, and whatever is set up from it: firmware then holds no code of the
+/// set-up, and a wrong number stops the compiler.
+///
+/// ```
+/// use epas_friction::{BallScrew, BallScrewParameters, DISSERTATION_DESIGNS, Groove, HertzContact};
+///
+/// const PARAMETERS: BallScrewParameters = DISSERTATION_DESIGNS[2].parameters;
+/// const DESIGN: BallScrew = match BallScrew::new(PARAMETERS) {
+///     Ok(design) => design,
+///     Err(_) => panic!("the ball screw's design is out of range"),
+/// };
+/// const CONTACT: HertzContact = HertzContact::of(&DESIGN, Groove::Nut);
+/// assert!(CONTACT.at(100.0).max_pressure > 1e9);
+/// ```
+///
+/// ```compile_fail,E0080
+/// use epas_friction::{BallScrew, BallScrewParameters, DISSERTATION_DESIGNS};
+///
+/// const PARAMETERS: BallScrewParameters = BallScrewParameters {
+///     lead: -7e-3,
+///     ..DISSERTATION_DESIGNS[2].parameters
+/// };
+/// const DESIGN: BallScrew = match BallScrew::new(PARAMETERS) {
+///     Ok(design) => design,
+///     Err(_) => panic!("the ball screw's design is out of range"),
+/// };
+/// println!("{DESIGN:?}");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct BallScrew {
@@ -71,44 +100,53 @@ struct Section {
     clearance: f32,
 }
 
+impl Section {
+    const fn new(
+        size: GrooveSize,
+        ball_radius: f32,
+        contact_angle: ContactAngle,
+    ) -> Result<Self, Error> {
+        let (radius, clearance) = attempt!(size.radius_and_clearance(ball_radius));
+        Ok(Self {
+            profile: GrooveProfile::new(radius, clearance, contact_angle),
+            clearance,
+        })
+    }
+}
+
 impl BallScrew {
-    /// Checks every field and folds the constants. Set-up only.
+    /// Checks every field and folds the constants. Set-up only; a constant can take it.
     ///
     /// # Errors
     /// [`Error`] naming the first field that is not finite or out of range: `pitch_radius`, `lead`,
     /// `ball_radius`, `contact_angle`, `conformity` or `groove_radius`, or a material's field;
     /// [`Error::FoldedGroove`] where the screw's groove would reach past its axis (`A <= 0`).
-    pub fn new(parameters: BallScrewParameters) -> Result<Self, Error> {
+    pub const fn new(parameters: BallScrewParameters) -> Result<Self, Error> {
         let BallScrewParameters {
             pitch_radius,
             lead,
             ball_radius,
             ..
         } = parameters;
-        in_range("pitch_radius", pitch_radius, 1e-4, 10.0)?;
-        in_range("lead", lead, 0.0, 100.0)?;
-        in_range("ball_radius", ball_radius, 1e-5, 0.9 * pitch_radius)?;
-        in_range(
+        attempt!(in_range("pitch_radius", pitch_radius, 1e-4, 10.0));
+        attempt!(in_range("lead", lead, 0.0, 100.0));
+        let largest_ball = 0.9 * pitch_radius;
+        attempt!(in_range("ball_radius", ball_radius, 1e-5, largest_ball));
+        attempt!(in_range(
             "contact_angle",
             parameters.contact_angle,
             0.01,
-            LARGEST_CONTACT_ANGLE,
-        )?;
-        parameters.ball_material.checked()?;
-        parameters.groove_material.checked()?;
+            LARGEST_CONTACT_ANGLE
+        ));
+        attempt!(parameters.ball_material.checked());
+        attempt!(parameters.groove_material.checked());
 
         let contact_angle = ContactAngle::new(parameters.contact_angle);
-        let section = |size: GrooveSize| -> Result<Section, Error> {
-            let (radius, clearance) = size.radius_and_clearance(ball_radius)?;
-            Ok(Section {
-                profile: GrooveProfile::new(radius, clearance, contact_angle),
-                clearance,
-            })
-        };
-        let screw = section(parameters.screw_groove)?;
-        let nut = section(parameters.nut_groove)?;
+        let (screw, nut) = (parameters.screw_groove, parameters.nut_groove);
+        let screw = attempt!(Section::new(screw, ball_radius, contact_angle));
+        let nut = attempt!(Section::new(nut, ball_radius, contact_angle));
         let path = HelixPath::from_lead(pitch_radius, lead);
-        refuse_folded(&path, &screw.profile)?;
+        attempt!(refuse_folded(&path, &screw.profile));
 
         Ok(Self {
             parameters,
@@ -151,7 +189,7 @@ impl BallScrew {
     /// Ball radius over pitch radius, the papers' `a`.
     #[inline]
     #[must_use]
-    pub fn ball_ratio(&self) -> f32 {
+    pub const fn ball_ratio(&self) -> f32 {
         self.parameters.ball_radius / self.parameters.pitch_radius
     }
 
@@ -162,10 +200,10 @@ impl BallScrew {
         self.tan_lead_angle
     }
 
-    /// Cosine of the lead angle.
+    /// Cosine of the lead angle. For set-up, by the root that a constant can take.
     #[must_use]
-    pub fn cos_lead_angle(&self) -> f32 {
-        1.0 / math::sqrt(1.0 + self.tan_lead_angle * self.tan_lead_angle)
+    pub const fn cos_lead_angle(&self) -> f32 {
+        1.0 / constant::sqrt(1.0 + self.tan_lead_angle * self.tan_lead_angle)
     }
 
     /// Curvature and torsion of the path of the ball centres.
@@ -198,7 +236,7 @@ impl BallScrew {
 
     /// Mass of one ball, kg.
     #[must_use]
-    pub fn ball_mass(&self) -> f32 {
+    pub const fn ball_mass(&self) -> f32 {
         let radius = self.parameters.ball_radius;
         const VOLUME: f32 = 2.0 / 3.0 * TAU;
         self.parameters.ball_material.density * VOLUME * radius * radius * radius
@@ -214,7 +252,7 @@ impl BallScrew {
 
 /// The surface is regular while `A = 1 + kappa H - kappa r_s cos(phi) > 0`; the bottom of the groove
 /// (`cos(phi) = 1`) folds first.
-fn refuse_folded(path: &HelixPath, screw: &GrooveProfile) -> Result<(), Error> {
+const fn refuse_folded(path: &HelixPath, screw: &GrooveProfile) -> Result<(), Error> {
     let largest = 1.0 / path.curvature + screw.offset_h;
     if screw.groove_radius < largest {
         Ok(())

@@ -43,11 +43,11 @@ impl CatalogueSize {
         }
     }
 
-    /// The validated design of this size.
+    /// The validated design of this size; a constant can take it.
     ///
     /// # Errors
     /// As [`BallScrew::new`]; none of [`CATALOGUE`] fails.
-    pub fn design(&self) -> Result<BallScrew, Error> {
+    pub const fn design(&self) -> Result<BallScrew, Error> {
         BallScrew::new(self.parameters())
     }
 }

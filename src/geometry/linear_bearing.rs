@@ -1,7 +1,7 @@
 //! A linear ball bearing with four-point contact.
 
 use super::{ContactAngle, GrooveSize, LARGEST_CONTACT_ANGLE};
-use crate::error::{Error, in_range};
+use crate::error::{Error, attempt, in_range};
 use crate::material::Material;
 
 /// What a drawing prints of a linear ball bearing with gothic-arch grooves; unchecked.
@@ -32,29 +32,29 @@ pub struct LinearBearing {
 }
 
 impl LinearBearing {
-    /// Checks every field and folds the constants. Set-up only.
+    /// Checks every field and folds the constants. Set-up only; a constant can take it, as that of
+    /// [`BallScrew::new`](super::BallScrew::new).
     ///
     /// # Errors
     /// [`Error`] naming `ball_radius`, `conformity` or `groove_radius`, `contact_angle`, or a
     /// material's field.
-    pub fn new(parameters: LinearBearingParameters) -> Result<Self, Error> {
-        in_range("ball_radius", parameters.ball_radius, 1e-5, 1.0)?;
-        in_range(
+    pub const fn new(parameters: LinearBearingParameters) -> Result<Self, Error> {
+        let ball_radius = attempt!(in_range("ball_radius", parameters.ball_radius, 1e-5, 1.0));
+        let contact_angle = attempt!(in_range(
             "contact_angle",
             parameters.contact_angle,
             0.01,
-            LARGEST_CONTACT_ANGLE,
-        )?;
-        parameters.ball_material.checked()?;
-        parameters.groove_material.checked()?;
-        let (groove_radius, clearance) = parameters
-            .groove
-            .radius_and_clearance(parameters.ball_radius)?;
+            LARGEST_CONTACT_ANGLE
+        ));
+        attempt!(parameters.ball_material.checked());
+        attempt!(parameters.groove_material.checked());
+        let (groove_radius, clearance) =
+            attempt!(parameters.groove.radius_and_clearance(ball_radius));
         Ok(Self {
             parameters,
             groove_radius,
             clearance,
-            contact_angle: ContactAngle::new(parameters.contact_angle),
+            contact_angle: ContactAngle::new(contact_angle),
         })
     }
 

@@ -3,8 +3,8 @@
 use core::f32::consts::{FRAC_PI_2, TAU};
 
 use super::{ContactAngle, LARGEST_CONFORMITY, SMALLEST_CONFORMITY};
-use crate::error::{Error, in_range};
-use crate::math;
+use crate::error::{Error, attempt, in_range};
+use crate::math::constant;
 
 /// Which of the two grooves a ball runs between.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,7 +45,7 @@ impl HelixPath {
     /// No trigonometry, and no loss of digits at any lead: an error of the lead angle `alpha` would
     /// be magnified by `2 tan(alpha)`. Cost: two divisions, 5 other operations.
     #[must_use]
-    pub fn from_lead(pitch_radius: f32, lead: f32) -> Self {
+    pub const fn from_lead(pitch_radius: f32, lead: f32) -> Self {
         let reduced = lead * (1.0 / TAU);
         // Scaled by the pitch radius, so that no square overflows or underflows at any unit of length.
         let tangent = reduced / pitch_radius;
@@ -58,8 +58,8 @@ impl HelixPath {
 
     /// Curvature and torsion from the lead angle `alpha`, rad, 0 to pi/2.
     #[must_use]
-    pub fn from_lead_angle(pitch_radius: f32, lead_angle: f32) -> Self {
-        let (sin, cos) = math::sin_cos(lead_angle);
+    pub const fn from_lead_angle(pitch_radius: f32, lead_angle: f32) -> Self {
+        let (sin, cos) = constant::sin_cos(lead_angle);
         let scaled = cos / pitch_radius;
         Self {
             curvature: cos * scaled,
@@ -71,9 +71,12 @@ impl HelixPath {
     ///
     /// # Errors
     /// [`Error`] naming `pitch_radius` (1e-9 to 1e9, any unit of length) or `lead_angle` (0 to pi/2).
-    pub fn checked_from_lead_angle(pitch_radius: f32, lead_angle: f32) -> Result<Self, Error> {
-        in_range("pitch_radius", pitch_radius, 1e-9, 1e9)?;
-        in_range("lead_angle", lead_angle, 0.0, FRAC_PI_2)?;
+    pub const fn checked_from_lead_angle(
+        pitch_radius: f32,
+        lead_angle: f32,
+    ) -> Result<Self, Error> {
+        attempt!(in_range("pitch_radius", pitch_radius, 1e-9, 1e9));
+        attempt!(in_range("lead_angle", lead_angle, 0.0, FRAC_PI_2));
         Ok(Self::from_lead_angle(pitch_radius, lead_angle))
     }
 }
@@ -93,26 +96,26 @@ impl GrooveSize {
     /// Groove radius and its excess over the ball radius, m; checked.
     ///
     /// The subtractions are exact (Sterbenz), so that the excess keeps all digits of the input.
-    pub(super) fn radius_and_clearance(self, ball_radius: f32) -> Result<(f32, f32), Error> {
+    pub(super) const fn radius_and_clearance(self, ball_radius: f32) -> Result<(f32, f32), Error> {
         match self {
             Self::Conformity(conformity) => {
-                in_range(
+                attempt!(in_range(
                     "conformity",
                     conformity,
                     SMALLEST_CONFORMITY,
-                    LARGEST_CONFORMITY,
-                )?;
+                    LARGEST_CONFORMITY
+                ));
                 let diameter = 2.0 * ball_radius;
                 Ok((conformity * diameter, (conformity - 0.5) * diameter))
             }
             Self::Radius(radius) => {
                 let diameter = 2.0 * ball_radius;
-                in_range(
+                attempt!(in_range(
                     "groove_radius",
                     radius,
                     SMALLEST_CONFORMITY * diameter,
-                    LARGEST_CONFORMITY * diameter,
-                )?;
+                    LARGEST_CONFORMITY * diameter
+                ));
                 Ok((radius, radius - ball_radius))
             }
         }
@@ -136,7 +139,7 @@ impl GrooveProfile {
     /// Offsets for a nominal contact angle: `H = (r_s - r_b) cos(phi0)`, `L = (r_s - r_b) sin(phi0)`
     /// (Bertolino et al. 2023, eq. (3), (4)).
     #[must_use]
-    pub fn new(groove_radius: f32, clearance: f32, contact_angle: ContactAngle) -> Self {
+    pub const fn new(groove_radius: f32, clearance: f32, contact_angle: ContactAngle) -> Self {
         Self {
             groove_radius,
             offset_h: clearance * contact_angle.cos,

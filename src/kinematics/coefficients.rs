@@ -2,7 +2,7 @@
 
 use super::parameters::{EllipticContact, GroovePath, Path};
 use super::{ContactSlip, abs, sane_speed};
-use crate::math;
+use crate::math::{self, constant};
 
 /// Which raceway; carries the sign that (3) to (40) print as upper and lower.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,6 +36,24 @@ pub(super) struct Direction {
     /// Semi-axes of the ellipse, m.
     semi_major: f32,
     semi_minor: f32,
+}
+
+/// The ball's rotation, `omega_R / omega`, along the path's binormal, tangent and normal.
+pub(super) struct Rotation {
+    binormal: f32,
+    tangent: f32,
+    normal: f32,
+}
+
+impl Rotation {
+    #[inline(always)]
+    pub(super) const fn new(path: &Path, spin_speed: f32) -> Self {
+        Self {
+            binormal: spin_speed * path.axis_binormal,
+            tangent: spin_speed * path.axis_tangent,
+            normal: spin_speed * path.axis_normal,
+        }
+    }
 }
 
 /// The ratios of Alberdi et al., eqs. (37) to (40), at the centre of a contact.
@@ -76,8 +94,6 @@ pub struct ContactCoefficients {
     entrainment_side: f32,
     /// Rolling slip per metre that the surface lies inside the rolling radius, 1.
     rolling_gradient: f32,
-    /// Side slip per metre from the ball's centre, 1.
-    side_gradient: f32,
     /// `S_k` at the centre, m.
     pub(super) distance: f32,
     /// `1 / (2 R_k)`, 1/m.
@@ -95,7 +111,29 @@ impl Path {
         contact: EllipticContact,
         groove: Groove,
     ) -> Direction {
-        let (sine, cosine) = math::sin_cos(contact.contact_angle);
+        let sin_cos = math::sin_cos(contact.contact_angle);
+        self.resolved(sin_cos, groove_path, contact, groove)
+    }
+
+    /// The same for set-up, by the kernel that a constant can take.
+    pub const fn constant_direction(
+        &self,
+        groove_path: &GroovePath,
+        contact: EllipticContact,
+        groove: Groove,
+    ) -> Direction {
+        let sin_cos = constant::sin_cos(contact.contact_angle);
+        self.resolved(sin_cos, groove_path, contact, groove)
+    }
+
+    #[inline(always)]
+    const fn resolved(
+        &self,
+        (sine, cosine): (f32, f32),
+        groove_path: &GroovePath,
+        contact: EllipticContact,
+        groove: Groove,
+    ) -> Direction {
         Direction {
             sine,
             cosine,
@@ -121,7 +159,6 @@ impl ContactCoefficients {
             entrainment_rolling: 0.0,
             entrainment_side: 0.0,
             rolling_gradient: 0.0,
-            side_gradient: 0.0,
             distance: 0.0,
             half_curvature: groove_path.half_curvature,
             semi_major: 0.0,
@@ -130,52 +167,57 @@ impl ContactCoefficients {
     }
 
     /// Forms everything from one contact's direction: `relative_speed` is `omega_k / omega` (frame of
-    /// the orbiting ball against the raceway), `spin_speed` is `omega_R / omega`.
+    /// the orbiting ball against the raceway).
+    ///
+    /// All but the entrainment speed: it returns that one's square, because loop and set-up differ in the
+    /// square root.
     #[inline(always)]
-    pub(super) fn fold(
+    #[must_use]
+    pub(super) const fn fold(
         &mut self,
         path: &Path,
         groove_path: &GroovePath,
         direction: &Direction,
         relative_speed: f32,
         groove: Groove,
-        spin_speed: f32,
-    ) {
+        rotation: &Rotation,
+    ) -> f32 {
         // Symbols of Alberdi et al.: w = omega_k / omega, z = (a / (D/2))^2.
         let w = relative_speed;
-        let turning = groove.sign() * spin_speed;
+        let sign = groove.sign();
         let z = direction.semi_major * direction.semi_major * path.inverse_ball_radius_squared;
-        let [c1, c2, c3, c4] = groove_path.deficit;
-        let deficit = z * (c1 + z * (c2 + z * (c3 + z * c4)));
+        let [c1, c2, c3] = groove_path.deficit;
+        let deficit = z * (c1 + z * (c2 + z * c3));
         // r' - S: two small numbers added, in place of the difference of two speeds in (31).
         let inside = groove_path.rolling_excess + deficit;
         let distance = groove_path.rolling_radius - inside;
 
         let rolling_gradient = w * groove_path.path_over_rolling;
         let climb = w * path.sin_lead;
-        let swerve = turning * path.axis_tangent;
+        let swerve = sign * rotation.tangent;
         let side_gradient = climb + swerve;
-        let spin = w * path.cos_lead * direction.sine - turning * direction.lean;
+        let spin = (w * path.cos_lead - sign * rotation.binormal) * direction.sine
+            + (sign * rotation.normal) * direction.cosine;
 
         // (36): half the sum of both surfaces' velocities relative to the moving contact.
-        let across = groove.sign() * path.cos_lead * direction.cosine;
-        let entrainment_rolling = 0.5 * w * (path.radius + distance * (direction.reach - across));
-        let entrainment_side = 0.5 * distance * (climb - swerve);
+        let across = sign * path.cos_lead * direction.cosine;
+        let half_distance = 0.5 * distance;
+        let entrainment_rolling =
+            w * (path.half_radius + half_distance * (direction.reach - across));
+        let entrainment_side = half_distance * (climb - swerve);
         self.slip = ContactSlip {
             rolling_slip: rolling_gradient * inside,
             side_slip: side_gradient * distance,
             spin,
-            entrainment_speed: math::sqrt(
-                entrainment_rolling * entrainment_rolling + entrainment_side * entrainment_side,
-            ),
+            entrainment_speed: 0.0,
         };
         self.entrainment_rolling = entrainment_rolling;
         self.entrainment_side = entrainment_side;
         self.rolling_gradient = rolling_gradient;
-        self.side_gradient = side_gradient;
         self.distance = distance;
         self.semi_major = direction.semi_major;
         self.semi_minor = direction.semi_minor;
+        entrainment_rolling * entrainment_rolling + entrainment_side * entrainment_side
     }
 }
 
@@ -240,11 +282,17 @@ impl ContactCoefficients {
         let slope = 2.0 * self.half_curvature * y;
         let sagitta = slope * y / (1.0 + math::sqrt(1.0 - slope * slope));
         let rolling = self.slip.rolling_slip + self.rolling_gradient * sagitta - self.slip.spin * y;
-        let side = self.slip.side_slip - self.side_gradient * sagitta + self.slip.spin * x;
+        let side = self.slip.side_slip - self.side_gradient() * sagitta + self.slip.spin * x;
         SlipVector {
             rolling: speed * rolling,
             side: speed * side,
         }
+    }
+
+    /// Side slip per metre from the ball's centre, 1.
+    #[inline]
+    fn side_gradient(&self) -> f32 {
+        self.slip.side_slip / self.distance
     }
 
     /// Coefficients of `y^2` in rolling and side slip, 1/m: the parabola of the deformed surface.
@@ -252,7 +300,7 @@ impl ContactCoefficients {
     pub(super) fn parabolas(&self) -> (f32, f32) {
         (
             self.rolling_gradient * self.half_curvature,
-            -self.side_gradient * self.half_curvature,
+            -self.side_gradient() * self.half_curvature,
         )
     }
 

@@ -1,8 +1,8 @@
 //! What the kinematics of one ball are set up from, checked once.
 
 use super::coefficients::{Direction, Groove};
-use crate::error::{Error, Range, in_range};
-use crate::math;
+use crate::error::{Error, Range, attempt, in_range};
+use crate::math::constant;
 use core::f32::consts::FRAC_PI_2;
 
 /// Geometry and state of one ball with a contact on the screw and one on the nut.
@@ -105,12 +105,30 @@ pub(super) struct GroovePath {
     pub rolling_excess: f32,
     /// Half the curvature of the deformed surface, `1 / (2 R)`, 1/m; eq. (15).
     pub half_curvature: f32,
-    /// Sagitta of ball and deformed surface over the ellipse, as a power series in `(a / (D/2))^2`.
-    pub deficit: [f32; 4],
+    /// Sagitta of ball and deformed surface over the ellipse, as a polynomial in `(a / (D/2))^2`.
+    pub deficit: [f32; 3],
 }
 
+/// `z^4` for `z` from 0 to 0.09, the square of [`LARGEST_ELLIPSE`], by `z`, `z^2` and `z^3`: what Chebyshev's
+/// polynomial of the fourth degree leaves, with its first zero at 0. Within 6e-7, which is 1e-8 ball radii of sagitta.
+const FOURTH_POWER: [f32; 3] = {
+    // Half the interval, and its middle.
+    let half = 0.09 / (1.0 + 0.923_879_5);
+    let middle = 0.09 - half;
+    [
+        4.0 * middle * middle * middle - 2.0 * half * half * middle,
+        half * half - 6.0 * middle * middle,
+        4.0 * middle,
+    ]
+};
+
 impl GroovePath {
-    fn new(path_radius: f32, ball_radius: f32, groove_radius: f32, rolling_radius: f32) -> Self {
+    const fn new(
+        path_radius: f32,
+        ball_radius: f32,
+        groove_radius: f32,
+        rolling_radius: f32,
+    ) -> Self {
         let ball_diameter = 2.0 * ball_radius;
         // rho = (D/2) / R = (2 r + D) / (4 r); 1 - rho from 2 r - D, which is exact for
         // D/2 <= 2 r <= 2 D: conformity would otherwise lose 1 / (2 r / D - 1) = 20 fold.
@@ -124,16 +142,16 @@ impl GroovePath {
         let sum_5 = sum_3 + rho_2 * rho + rho_4;
         let sum_7 = sum_5 + rho_4 * rho + rho_4 * rho_2;
         let scale = ball_radius * gap;
+        let fourth = sum_7 * 0.0390625;
         Self {
             path_over_rolling: path_radius / rolling_radius,
             rolling_radius,
             rolling_excess: rolling_radius - ball_radius,
             half_curvature: 0.5 * rho / ball_radius,
             deficit: [
-                scale * 0.5,
-                scale * sum_3 * 0.125,
-                scale * sum_5 * 0.0625,
-                scale * sum_7 * 0.0390625,
+                scale * (0.5 + fourth * FOURTH_POWER[0]),
+                scale * (sum_3 * 0.125 + fourth * FOURTH_POWER[1]),
+                scale * (sum_5 * 0.0625 + fourth * FOURTH_POWER[2]),
             ],
         }
     }
@@ -149,6 +167,8 @@ pub(super) struct Path {
     pub cos_lead: f32,
     /// `q = r_m / cos psi`, m.
     pub radius: f32,
+    /// `q / 2`, m.
+    pub half_radius: f32,
     /// `h = cos beta cos beta'`: direction of the axis of rotation against the binormal.
     pub axis_binormal: f32,
     /// `t = cos beta sin beta'`: along the path.
@@ -164,43 +184,43 @@ pub(super) struct Path {
 }
 
 impl Path {
-    pub fn new(parameters: &KinematicsParameters) -> Result<Self, Error> {
+    pub const fn new(parameters: &KinematicsParameters) -> Result<Self, Error> {
         let p = parameters;
-        let diameter = in_range("ball_diameter", p.ball_diameter, 1.0e-4, 0.2)?;
-        let pitch_radius = in_range("pitch_radius", p.pitch_radius, 1.0e-4, 2.0)?;
-        let lead_angle = in_range("lead_angle", p.lead_angle, -1.2, 1.2)?;
+        let diameter = attempt!(in_range("ball_diameter", p.ball_diameter, 1.0e-4, 0.2));
+        let pitch_radius = attempt!(in_range("pitch_radius", p.pitch_radius, 1.0e-4, 2.0));
+        let lead_angle = attempt!(in_range("lead_angle", p.lead_angle, -1.2, 1.2));
         let ball_radius = 0.5 * diameter;
-        let groove = |field, radius| in_range(field, radius, ball_radius, 2.0 * diameter);
-        let groove_screw = groove("groove_radius_screw", p.groove_radius_screw)?;
-        let groove_nut = groove("groove_radius_nut", p.groove_radius_nut)?;
-        let angle = |field, angle| in_range(field, angle, -FRAC_PI_2, FRAC_PI_2);
-        angle("contact_angle_screw", p.contact_angle_screw)?;
-        angle("contact_angle_nut", p.contact_angle_nut)?;
-        let pitch_angle = angle("pitch_angle", p.pitch_angle)?;
-        let yaw_angle = in_range("yaw_angle", p.yaw_angle, -0.5, 0.5)?;
-        let rolling = |field, radius| in_range(field, radius, 0.5 * ball_radius, diameter);
-        let rolling_screw = rolling("rolling_radius_screw", p.rolling_radius_screw)?;
-        let rolling_nut = rolling("rolling_radius_nut", p.rolling_radius_nut)?;
+        let (least, most) = (ball_radius, 2.0 * diameter);
+        let (screw, nut) = (p.groove_radius_screw, p.groove_radius_nut);
+        let groove_screw = attempt!(in_range("groove_radius_screw", screw, least, most));
+        let groove_nut = attempt!(in_range("groove_radius_nut", nut, least, most));
+        let (least, most) = (-FRAC_PI_2, FRAC_PI_2);
+        let (screw, nut) = (p.contact_angle_screw, p.contact_angle_nut);
+        attempt!(in_range("contact_angle_screw", screw, least, most));
+        attempt!(in_range("contact_angle_nut", nut, least, most));
+        let pitch_angle = attempt!(in_range("pitch_angle", p.pitch_angle, least, most));
+        let yaw_angle = attempt!(in_range("yaw_angle", p.yaw_angle, -0.5, 0.5));
+        let (least, most) = (0.5 * ball_radius, diameter);
+        let (screw, nut) = (p.rolling_radius_screw, p.rolling_radius_nut);
+        let rolling_screw = attempt!(in_range("rolling_radius_screw", screw, least, most));
+        let rolling_nut = attempt!(in_range("rolling_radius_nut", nut, least, most));
         let largest_ellipse = LARGEST_ELLIPSE * ball_radius;
-        let major = |field, semi_major| in_range(field, semi_major, 0.0, largest_ellipse);
-        let semi_major_screw = major("semi_major_screw", p.semi_major_screw)?;
-        in_range(
-            "semi_minor_screw",
-            p.semi_minor_screw,
-            0.0,
-            semi_major_screw,
-        )?;
-        let semi_major_nut = major("semi_major_nut", p.semi_major_nut)?;
-        in_range("semi_minor_nut", p.semi_minor_nut, 0.0, semi_major_nut)?;
+        let (major, minor) = (p.semi_major_screw, p.semi_minor_screw);
+        let major = attempt!(in_range("semi_major_screw", major, 0.0, largest_ellipse));
+        attempt!(in_range("semi_minor_screw", minor, 0.0, major));
+        let (major, minor) = (p.semi_major_nut, p.semi_minor_nut);
+        let major = attempt!(in_range("semi_major_nut", major, 0.0, largest_ellipse));
+        attempt!(in_range("semi_minor_nut", minor, 0.0, major));
 
-        let (sin_lead, cos_lead) = math::sin_cos(lead_angle);
-        let (sin_pitch, cos_pitch) = math::sin_cos(pitch_angle);
-        let (sin_yaw, cos_yaw) = math::sin_cos(yaw_angle);
+        let (sin_lead, cos_lead) = constant::sin_cos(lead_angle);
+        let (sin_pitch, cos_pitch) = constant::sin_cos(pitch_angle);
+        let (sin_yaw, cos_yaw) = constant::sin_cos(yaw_angle);
         let radius = pitch_radius / cos_lead;
         Ok(Self {
             sin_lead,
             cos_lead,
             radius,
+            half_radius: 0.5 * radius,
             axis_binormal: cos_pitch * cos_yaw,
             axis_tangent: cos_pitch * sin_yaw,
             axis_normal: sin_pitch,
@@ -214,26 +234,37 @@ impl Path {
     /// True where contact angle and ellipse are within their own ranges.
     #[inline]
     pub fn accepts(&self, contact: EllipticContact) -> bool {
+        // Positive numbers are in the order of their bits, with NaN and negative numbers beyond them: the lower
+        // bound needs no comparison.
+        let (semi_major, semi_minor) = (contact.semi_major.to_bits(), contact.semi_minor.to_bits());
+        contact.contact_angle.abs().to_bits() <= FRAC_PI_2.to_bits()
+            && (semi_major <= self.largest_ellipse.to_bits() && semi_minor <= semi_major
+                || self.accepts_zeros(contact))
+    }
+
+    /// True where the ellipse is within its range, zeros of either sign included.
+    #[cold]
+    #[inline(never)]
+    fn accepts_zeros(&self, contact: EllipticContact) -> bool {
         // Written so that a comparison with NaN refuses.
-        contact.contact_angle.abs() <= FRAC_PI_2
-            && contact.semi_major <= self.largest_ellipse
+        contact.semi_major <= self.largest_ellipse
             && contact.semi_minor <= contact.semi_major
             && contact.semi_minor >= 0.0
     }
 
     /// Directions of both contacts, or the field that keeps the ball from rolling.
-    pub fn checked_directions(
+    pub const fn checked_directions(
         &self,
         parameters: &KinematicsParameters,
     ) -> Result<(Direction, Direction), Error> {
-        let screw = self.direction(&self.screw, parameters.screw(), Groove::Screw);
-        let nut = self.direction(&self.nut, parameters.nut(), Groove::Nut);
-        self.check(&screw, &self.screw, Groove::Screw, parameters)?;
-        self.check(&nut, &self.nut, Groove::Nut, parameters)?;
+        let screw = self.constant_direction(&self.screw, parameters.screw(), Groove::Screw);
+        let nut = self.constant_direction(&self.nut, parameters.nut(), Groove::Nut);
+        attempt!(self.check(&screw, &self.screw, Groove::Screw, parameters));
+        attempt!(self.check(&nut, &self.nut, Groove::Nut, parameters));
         Ok((screw, nut))
     }
 
-    fn check(
+    const fn check(
         &self,
         direction: &Direction,
         groove_path: &GroovePath,
@@ -253,17 +284,12 @@ impl Path {
             ),
         };
         if !direction.grips() {
-            // b = h cos(alpha) + sin(beta) sin(alpha): a cosine about the pitch angle, which yaw narrows;
-            // less what the angles' rounding may cost.
-            let (h, n) = (self.axis_binormal, self.axis_normal);
-            let middle = libm::atan2f(n, h);
-            let half = libm::acosf(LEAST_GRIP / math::sqrt(h * h + n * n)) - 1e-5;
             return Err(Error::OutOfRange {
                 field: angle_field,
                 value: angle,
                 allowed: Range::new(
-                    (middle - half).max(-FRAC_PI_2),
-                    (middle + half).min(FRAC_PI_2),
+                    self.last_grip(parameters.pitch_angle, -FRAC_PI_2),
+                    self.last_grip(parameters.pitch_angle, FRAC_PI_2),
                 ),
             });
         }
@@ -279,24 +305,48 @@ impl Path {
         }
         Ok(())
     }
+
+    /// The contact angle, rad, next to `bound` at which the ball still grips.
+    ///
+    /// `b = h cos(alpha) + sin(beta) sin(alpha)` is a cosine about the pitch angle, which yaw narrows but
+    /// leaves above 0.87 there: halving the way from it to the bound finds the one place where the grip ends,
+    /// by the numbers that a check of the angle would form.
+    const fn last_grip(&self, pitch_angle: f32, bound: f32) -> f32 {
+        const HALVINGS: u32 = 24;
+        if self.grip_at(bound) >= LEAST_GRIP {
+            return bound;
+        }
+        let (mut inside, mut outside) = (pitch_angle, bound);
+        let mut halving = 0;
+        while halving < HALVINGS {
+            let middle = 0.5 * (inside + outside);
+            if self.grip_at(middle) >= LEAST_GRIP {
+                inside = middle;
+            } else {
+                outside = middle;
+            }
+            halving += 1;
+        }
+        inside
+    }
+
+    /// `b` at a contact angle, rad.
+    const fn grip_at(&self, contact_angle: f32) -> f32 {
+        let (sine, cosine) = constant::sin_cos(contact_angle);
+        self.axis_binormal * cosine + self.axis_normal * sine
+    }
 }
 
 impl Direction {
     /// True where the ball's surface moves fast enough at the contact to roll there.
     #[inline]
-    pub fn grips(&self) -> bool {
+    pub const fn grips(&self) -> bool {
         self.grip >= LEAST_GRIP
     }
 
     /// True where the ball's path does not fold past the axis.
     #[inline]
-    pub fn reaches(&self, groove_path: &GroovePath) -> bool {
+    pub const fn reaches(&self, groove_path: &GroovePath) -> bool {
         self.reach >= LEAST_REACH * groove_path.path_over_rolling
-    }
-
-    /// True where both hold.
-    #[inline]
-    pub fn rolls(&self, groove_path: &GroovePath) -> bool {
-        self.grips() && self.reaches(groove_path)
     }
 }

@@ -91,7 +91,7 @@ impl PitchMethod {
     /// Errors: 2e-7 rad for the raceway controls (as long as no right angle is passed), 1e-4 rad for
     /// the methods that weigh by loads.
     ///
-    /// Cost: about 2300 cycles for a closed form, its check included; `LeastPower` about 68 000
+    /// Cost: about 2800 cycles for a closed form, its check included; `LeastPower` about 76 000
     /// (modelled, Cortex-M4F).
     ///
     /// # Errors

@@ -1,7 +1,7 @@
 //! The traditional formulation, beside the revised one.
 
 use super::parameters::Path;
-use super::{BallKinematics, ContactSlip, KinematicsParameters, sane_speed};
+use super::{BallKinematics, ContactSlip, KinematicsParameters};
 use crate::error::Error;
 use crate::math;
 
@@ -95,6 +95,6 @@ impl TraditionalKinematics {
     #[inline]
     #[must_use]
     pub fn tick(&self, speed: f32) -> BallKinematics {
-        self.per_speed.times(sane_speed(speed))
+        self.per_speed.at(speed)
     }
 }

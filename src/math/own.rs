@@ -118,69 +118,92 @@ const fn rare_root(x: f32) -> (f32, f32) {
 
 /// Sine and cosine; see [`math::sin_cos`](super::sin_cos).
 ///
-/// Polynomials for the rest, at most pi/4, that the nearest multiple of pi/2 leaves: that of Cephes for the
-/// cosine, a minimax one (4e-9 relative) for the sine. The multiple's last two bits exchange them and set
-/// their signs.
+/// The nearest of 64 directions from a table, turned by the rest of the angle. The rest is at most pi/64: two terms of
+/// each series are enough, and hardly anything of them is added to the numbers of the table, so that there is
+/// little more than the rounding of these and of the last sums.
 #[inline]
 #[must_use]
 pub const fn sin_cos(x: f32) -> (f32, f32) {
-    let (quadrant, rest) = reduced(x);
+    let (steps, rest) = reduced(x);
+    // Both results side by side: each operation then finds its operands ready, which saves a core without
+    // reordering a cycle at every second one. No index is out of bounds.
+    let step = (steps as usize) % STEPS;
+    let (cos_step, sin_step) = (TURN[step], TURN[step + STEPS / 4]);
     let square = rest * rest;
-    // Horner's scheme of both side by side: each operation then finds its operands ready, which saves a
-    // core without reordering a cycle at every second one.
-    let (cos, sin) = (2.443_066_8e-5 * square, -1.951_829_2e-4 * square);
-    let (cos, sin) = (cos - 1.388_730_1e-3, sin + 8.332_189e-3);
-    let (cos, sin) = (cos * square, sin * square);
-    let (cos, sin) = (cos + 4.166_664_6e-2, sin - 1.666_665_5e-1);
-    let (cos, cube) = (cos * square, rest * square);
-    let (cos, sin) = (cos - 0.5, sin * cube);
-    let (cos, sin) = (cos * square, rest + sin);
-    let cos = cos + 1.0;
-
-    // The quadrants count backwards.
-    let (sin, cos) = if quadrant & 1 == 0 {
-        (sin, cos)
-    } else {
-        (-cos, sin)
-    };
-    if quadrant & 2 == 0 {
-        (sin, cos)
-    } else {
-        (-sin, -cos)
-    }
+    let (versine, cube) = (4.166_666_8e-2 * square, rest * square);
+    let (versine, sin) = (versine - 0.5, -1.666_500_3e-1 * cube);
+    let (versine, sin) = (versine * square, rest + sin);
+    let (sin_versine, cos_versine) = (sin_step * versine, cos_step * versine);
+    let (sin_change, cos_change) = (sin_versine + cos_step * sin, cos_versine - sin_step * sin);
+    (sin_step + sin_change, cos_step + cos_change)
 }
 
-/// The nearest multiple of pi/2 (the last two bits of its negative) and what it leaves of an angle.
-///
-/// pi/2 is taken away in three parts, the first two of so few bits (5 and 20) that their products and
-/// differences are exact up to the sixteenth multiple: the rest keeps full relative precision, however
-/// small it is.
+/// Directions of a turn.
+const STEPS: usize = 64;
+
+/// Cosines of the directions, backwards, which are the sines of those a quarter of a turn further on.
+const TURN: [f32; STEPS + STEPS / 4] = {
+    // Sines of pi/32, 2 pi/32 and so on.
+    const SINES: [f32; STEPS / 4 + 1] = [
+        0.0, 0.09801714, 0.19509032, 0.29028466, 0.38268343, 0.47139674, 0.55557024, 0.6343933,
+        0.70710677, 0.77301043, 0.8314696, 0.8819213, 0.9238795, 0.95694035, 0.98078525, 0.9951847,
+        1.0,
+    ];
+    const QUARTER: usize = STEPS / 4;
+    let mut turn = [0.0; STEPS + QUARTER];
+    let mut index = 0;
+    while index < turn.len() {
+        let step = index % QUARTER;
+        turn[index] = match index / QUARTER % 4 {
+            0 => SINES[QUARTER - step],
+            1 => 0.0 - SINES[step],
+            2 => 0.0 - SINES[QUARTER - step],
+            _ => SINES[step],
+        };
+        index += 1;
+    }
+    turn
+};
+
+/// The nearest multiple of pi/32 (the last six bits of its negative) and what it leaves of an angle.
 #[inline(always)]
 const fn reduced(x: f32) -> (u32, f32) {
-    const LARGEST_MULTIPLE: u32 = 16;
-    // Adding it rounds to the nearest integer, and leaves that integer in the low bits, counted from
-    // -LARGEST_MULTIPLE.
-    const TWO_TO_23: f32 = 8_388_608.0;
-    const ROUND: f32 = TWO_TO_23 + LARGEST_MULTIPLE as f32;
-    const PART_1: f32 = 1.5625;
-    const PART_2: f32 = 8.296_325_8e-3;
-    const PART_3: f32 = 9.920_936e-10;
-
-    // Subtracted twice from the same constant, which is loaded once.
-    let shifted = ROUND - x * core::f32::consts::FRAC_2_PI;
-    let count = shifted.to_bits().wrapping_sub(TWO_TO_23.to_bits());
+    let (count, rest) = reduced_from_near(x);
     // False for NaN too.
     if count <= 2 * LARGEST_MULTIPLE {
-        let multiple = ROUND - shifted;
-        let rest = ((x - multiple * PART_1) - multiple * PART_2) - multiple * PART_3;
         (count, rest)
     } else {
         reduced_from_afar(x)
     }
 }
 
-/// The same for angles of more than four turns: four parts, the first of eight bits, and no full relative
-/// precision next to the zeros.
+/// Largest multiple of pi/32 that is taken away at once: four turns.
+const LARGEST_MULTIPLE: u32 = 256;
+
+/// The same for angles of no more than four turns; others give a multiple that is out of range.
+///
+/// pi/32 is taken away in three parts, the first two of so few bits (5 and 20) that their products and
+/// differences are exact where a sine or cosine vanishes, up to the sixteenth quarter of a turn: the rest keeps full
+/// relative precision there, however small it is.
+#[inline(always)]
+const fn reduced_from_near(x: f32) -> (u32, f32) {
+    // Adding it rounds to the nearest integer, and leaves that integer in the low bits, counted from
+    // -LARGEST_MULTIPLE.
+    const TWO_TO_23: f32 = 8_388_608.0;
+    const ROUND: f32 = TWO_TO_23 + LARGEST_MULTIPLE as f32;
+    const PART_1: f32 = 9.765_625e-2;
+    const PART_2: f32 = 5.185_203_6e-4;
+    const PART_3: f32 = 6.200_585e-11;
+
+    // Subtracted twice from the same constant, which is loaded once.
+    let shifted = ROUND - x * (16.0 * core::f32::consts::FRAC_2_PI);
+    let multiple = ROUND - shifted;
+    let rest = ((x - multiple * PART_1) - multiple * PART_2) - multiple * PART_3;
+    (shifted.to_bits().wrapping_sub(TWO_TO_23.to_bits()), rest)
+}
+
+/// The same for angles of more than four turns: first multiples of pi/2, in four parts of which the first one has eight
+/// bits, without full relative precision next to the zeros.
 #[cold]
 #[inline(never)]
 const fn reduced_from_afar(x: f32) -> (u32, f32) {
@@ -195,7 +218,9 @@ const fn reduced_from_afar(x: f32) -> (u32, f32) {
         let multiple = ROUND - shifted;
         let rest =
             ((x - multiple * PART_1) - multiple * PART_2) - multiple * PART_3 - multiple * PART_4;
-        (shifted.to_bits(), rest)
+        let (count, rest) = reduced_from_near(rest);
+        let quarters = shifted.to_bits().wrapping_mul(STEPS as u32 / 4);
+        (count.wrapping_add(quarters), rest)
     } else if x.is_finite() {
         (0, 0.0)
     } else {

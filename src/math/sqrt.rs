@@ -10,8 +10,41 @@ pub fn sqrt(x: f32) -> f32 {
     target::sqrt(x)
 }
 
+/// Two square roots. On an Arm core they take fewer cycles together: while one operand is on its way into the
+/// floating-point unit, or one root on its way out, the other one is worked on.
+#[inline]
+#[must_use]
+pub fn sqrt_pair(x: f32, y: f32) -> (f32, f32) {
+    target::sqrt_pair(x, y)
+}
+
 #[cfg(all(target_arch = "arm", target_abi = "eabihf"))]
 mod target {
+    /// Two roots at once; see [`sqrt`].
+    #[allow(unsafe_code)]
+    #[inline(always)]
+    pub fn sqrt_pair(x: f32, y: f32) -> (f32, f32) {
+        let first: u32;
+        let second: u32;
+        // SAFETY: as below; `s1` is declared as overwritten, too.
+        unsafe {
+            core::arch::asm!(
+                "vmov s0, {first}",
+                "vmov s1, {second}",
+                "vsqrt.f32 s0, s0",
+                "vsqrt.f32 s1, s1",
+                "vmov {first}, s0",
+                "vmov {second}, s1",
+                first = inout(reg) x.to_bits() => first,
+                second = inout(reg) y.to_bits() => second,
+                out("s0") _,
+                out("s1") _,
+                options(pure, nomem, nostack),
+            );
+        }
+        (f32::from_bits(first), f32::from_bits(second))
+    }
+
     /// The compiler offers no safe way to this instruction: `core::f32::math` is unstable, and the
     /// register class of single-precision registers is refused, so that the operand goes through a
     /// general register.
@@ -47,6 +80,11 @@ mod target {
         // intrinsics work on values only.
         unsafe { _mm_cvtss_f32(_mm_sqrt_ss(_mm_set_ss(x))) }
     }
+
+    #[inline(always)]
+    pub fn sqrt_pair(x: f32, y: f32) -> (f32, f32) {
+        (sqrt(x), sqrt(y))
+    }
 }
 
 #[cfg(not(any(
@@ -64,5 +102,10 @@ mod target {
     #[inline(always)]
     pub fn sqrt(x: f32) -> f32 {
         ::libm::sqrtf(x)
+    }
+
+    #[inline(always)]
+    pub fn sqrt_pair(x: f32, y: f32) -> (f32, f32) {
+        (sqrt(x), sqrt(y))
     }
 }

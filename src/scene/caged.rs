@@ -2,9 +2,10 @@
 
 use core::f32::consts::TAU;
 
-use super::{Faults, Inputs, Limits, Outputs, Regime, Scene};
+use super::faults::answered;
+use super::{Faults, Inputs, Limits, Outputs, Regime, Scene, efficiency};
 use crate::efficiency::{Drive, EfficiencyGeometry, LARGEST_FRICTION};
-use crate::error::{Error, in_range};
+use crate::error::{Error, attempt, in_range};
 use crate::geometry::BallScrew;
 use crate::math;
 
@@ -18,9 +19,6 @@ pub enum FrictionBranch {
     /// The ball slides along the path at both contacts, eq. (14) and (17): the pessimistic bound.
     Sliding,
 }
-
-/// A preload's friction beside a vanishing load would make the efficiency of back-driving infinite.
-const LEAST_EFFICIENCY: f32 = -1e6;
 
 /// A caged ball screw: friction from the grooves alone, in closed form.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -91,7 +89,7 @@ impl Preload {
     /// `(12 (2 sqrt(2) - 2) / 8 - 1) / 8`: the sum is continuous at lift-off.
     const QUARTIC: f32 = 0.030330086;
 
-    fn new(preload: f32) -> Self {
+    const fn new(preload: f32) -> Self {
         if preload > 0.0 {
             Self {
                 lift_off: 2.0 * core::f32::consts::SQRT_2 * preload,
@@ -137,32 +135,66 @@ impl Scene for CagedBallScrew {
     type Outputs = Outputs;
 
     fn constants(configuration: &CagedBallScrewConfiguration) -> Result<CagedConstants, Error> {
-        let friction = in_range("friction", configuration.friction, 0.0, LARGEST_FRICTION)?;
-        let rolling = in_range("rolling_tangent", configuration.rolling_tangent, 0.0, 0.1)?;
-        let preload = configuration.preload;
-        if preload != 0.0 {
-            in_range("preload", preload, 1e-3, 1e6)?;
-        }
-        let reversal_speed = in_range("reversal_speed", configuration.reversal_speed, 1e-6, 1e3)?;
-        let limits = configuration.limits.checked()?;
+        CagedConstants::new(configuration)
+    }
 
-        let design = &configuration.design;
+    fn initial_state(_: &CagedConstants) -> CagedState {
+        CagedState::default()
+    }
+
+    #[inline]
+    fn step(constants: &CagedConstants, state: &mut CagedState, inputs: Inputs) -> Outputs {
+        let (outputs, ticks) = answered(
+            constants.limits.admit(inputs),
+            state.faulted_ticks,
+            |inputs, faults| constants.outputs(inputs, faults),
+        );
+        state.faulted_ticks = ticks;
+        outputs
+    }
+}
+
+impl CagedConstants {
+    /// Checks a configuration and folds its constants: at set-up, or in a constant when firmware is compiled (see
+    /// [`FrictionModel`](crate::FrictionModel)).
+    ///
+    /// # Errors
+    /// [`Error`] naming the field out of range.
+    pub const fn new(configuration: &CagedBallScrewConfiguration) -> Result<Self, Error> {
+        let CagedBallScrewConfiguration {
+            ref design,
+            friction,
+            rolling_tangent: rolling,
+            branch,
+            preload,
+            reversal_speed,
+            limits,
+        } = *configuration;
+        attempt!(in_range("friction", friction, 0.0, LARGEST_FRICTION));
+        attempt!(in_range("rolling_tangent", rolling, 0.0, 0.1));
+        if preload != 0.0 {
+            attempt!(in_range("preload", preload, 1e-3, 1e6));
+        }
+        attempt!(in_range("reversal_speed", reversal_speed, 1e-6, 1e3));
+        let limits = attempt!(limits.checked());
+
         let geometry = EfficiencyGeometry::of(design);
-        let torque_per_load = |drive| match configuration.branch {
-            FrictionBranch::Rolling => {
-                geometry.rolling_torque_per_load(drive, design.pitch_radius(), friction, rolling)
-            }
-            FrictionBranch::Sliding => {
-                geometry.sliding_torque_per_load(drive, design.pitch_radius(), friction)
-            }
+        let radius = design.pitch_radius();
+        let (drive, backdrive) = match branch {
+            FrictionBranch::Rolling => (
+                geometry.rolling_torque_per_load(Drive::Driving, radius, friction, rolling),
+                geometry.rolling_torque_per_load(Drive::BackDriving, radius, friction, rolling),
+            ),
+            FrictionBranch::Sliding => (
+                geometry.sliding_torque_per_load(Drive::Driving, radius, friction),
+                geometry.sliding_torque_per_load(Drive::BackDriving, radius, friction),
+            ),
         };
-        let drive = torque_per_load(Drive::Driving);
-        let backdrive = torque_per_load(Drive::BackDriving);
         // Beyond its lock the formula turns infinite or negative; a torque that would be a thousand
         // pitch radii times the load is as good as locked.
-        let drive_locked = !(drive >= 0.0 && drive < 1e3 * design.pitch_radius());
+        let drive_locked = !(drive >= 0.0 && drive < 1e3 * radius);
 
-        Ok(CagedConstants {
+        Ok(Self {
             half_drive: if drive_locked {
                 0.5 * backdrive
             } else {
@@ -178,27 +210,6 @@ impl Scene for CagedBallScrew {
         })
     }
 
-    fn initial_state(_: &CagedConstants) -> CagedState {
-        CagedState::default()
-    }
-
-    #[inline]
-    fn step(constants: &CagedConstants, state: &mut CagedState, inputs: Inputs) -> Outputs {
-        let (admitted, faults) = constants.limits.admit(inputs);
-        let outputs = match admitted {
-            Some(inputs) => constants.outputs(inputs, faults),
-            None => Outputs::safe(faults),
-        };
-        state.faulted_ticks = if outputs.faults.any() {
-            state.faulted_ticks.saturating_add(1)
-        } else {
-            0
-        };
-        outputs
-    }
-}
-
-impl CagedConstants {
     /// `T = s [c_d (S + s F) + c_b (S - s F)] / 2` with the blended direction `s = w / sqrt(w² +
     /// w_s²)`, the flanks' sum `S` and difference `F`: `c_d |F|` driving and `c_b |F|` back-driving
     /// away from the reversal, zero at standstill, smooth between, odd under reversal of speed and
@@ -227,17 +238,10 @@ impl CagedConstants {
         };
         let (friction_torque, limited) = self.limits.limit_torque(torque);
 
-        let efficiency = if locks_driving || load_work == 0.0 {
+        let efficiency = if locks_driving {
             0.0
-        } else if load_work > 0.0 {
-            load_work / (load_work + full)
         } else {
-            let efficiency = 1.0 + full / load_work;
-            if efficiency > LEAST_EFFICIENCY {
-                efficiency
-            } else {
-                LEAST_EFFICIENCY
-            }
+            efficiency(load_work > 0.0, load_work, full)
         };
         let regime = if speed.abs() < self.reversal_speed {
             Regime::Standing

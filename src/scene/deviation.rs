@@ -1,6 +1,6 @@
 //! How contact angles deviate along a groove: manufacturing errors, as a table made once.
 
-use crate::error::{Error, in_range};
+use crate::error::{Error, attempt, in_range};
 
 /// Samples of a period.
 const SAMPLES: usize = 64;
@@ -89,15 +89,19 @@ impl DeviationMap {
                 cosine,
                 sine,
             } = harmonics[wave];
-            if let Err(error) = in_range("order", order as f32, 0.0, HIGHEST_ORDER as f32) {
-                return Err(error);
-            }
-            if let Err(error) = in_range("cosine", cosine, -LARGEST_DEVIATION, LARGEST_DEVIATION) {
-                return Err(error);
-            }
-            if let Err(error) = in_range("sine", sine, -LARGEST_DEVIATION, LARGEST_DEVIATION) {
-                return Err(error);
-            }
+            attempt!(in_range("order", order as f32, 0.0, HIGHEST_ORDER as f32));
+            attempt!(in_range(
+                "cosine",
+                cosine,
+                -LARGEST_DEVIATION,
+                LARGEST_DEVIATION
+            ));
+            attempt!(in_range(
+                "sine",
+                sine,
+                -LARGEST_DEVIATION,
+                LARGEST_DEVIATION
+            ));
             let mut sample = 0;
             while sample < SAMPLES {
                 let phase = sample * order as usize;
@@ -115,21 +119,17 @@ impl DeviationMap {
     /// # Errors
     /// [`Error`] naming `turns` (1 to 100), or `deviation` (plus or minus [`LARGEST_DEVIATION`]).
     pub const fn from_samples(turns: u16, deviations: &[f32; SAMPLES]) -> Result<Self, Error> {
-        if let Err(error) = in_range("turns", turns as f32, 1.0, 100.0) {
-            return Err(error);
-        }
+        attempt!(in_range("turns", turns as f32, 1.0, 100.0));
         let mut largest = 1e-9;
         let mut sample = 0;
         while sample < SAMPLES {
             let deviation = deviations[sample];
-            if let Err(error) = in_range(
+            attempt!(in_range(
                 "deviation",
                 deviation,
                 -LARGEST_DEVIATION,
                 LARGEST_DEVIATION,
-            ) {
-                return Err(error);
-            }
+            ));
             let size = if deviation < 0.0 {
                 -deviation
             } else {
@@ -172,7 +172,7 @@ impl DeviationMap {
     }
 
     /// Its largest sample, rad, where that is not beyond `largest`.
-    pub(super) fn checked(&self, field: &'static str, largest: f32) -> Result<f32, Error> {
+    pub(super) const fn checked(&self, field: &'static str, largest: f32) -> Result<f32, Error> {
         // A map keeps its largest sample within a rounding.
         let margin = 1.0 + 4.0 * f32::EPSILON;
         in_range(

@@ -1,7 +1,7 @@
 //! What can be wrong in a tick, and the limits that are kept whatever comes in.
 
 use super::Inputs;
-use crate::error::{Error, in_range};
+use crate::error::{Error, attempt, in_range};
 
 /// What was wrong with a tick's inputs, or limited in its outputs; a set of flags.
 ///
@@ -95,10 +95,10 @@ impl Limits {
     ///
     /// # Errors
     /// [`Error`] naming `nut_speed`, `axial_load` or `friction_torque`.
-    pub fn checked(self) -> Result<Self, Error> {
-        in_range("nut_speed", self.nut_speed, 1e-3, 1e6)?;
-        in_range("axial_load", self.axial_load, 1e-3, 1e7)?;
-        in_range("friction_torque", self.friction_torque, 1e-6, 1e6)?;
+    pub const fn checked(self) -> Result<Self, Error> {
+        attempt!(in_range("nut_speed", self.nut_speed, 1e-3, 1e6));
+        attempt!(in_range("axial_load", self.axial_load, 1e-3, 1e7));
+        attempt!(in_range("friction_torque", self.friction_torque, 1e-6, 1e6));
         Ok(self)
     }
 
@@ -106,35 +106,89 @@ impl Limits {
     /// can stand in.
     #[inline]
     pub(crate) fn admit(&self, inputs: Inputs) -> (Option<Inputs>, Faults) {
-        let Inputs {
+        let (admitted, faults) = admit(
+            inputs.nut_speed,
+            self.nut_speed,
+            [inputs.axial_load],
+            self.axial_load,
+        );
+        let admitted = admitted.map(|(nut_speed, [axial_load])| Inputs {
             nut_speed,
             axial_load,
-        } = inputs;
-        if nut_speed.is_finite() && axial_load.is_finite() {
-            let faults = Faults::NONE
-                .with(nut_speed.abs() > self.nut_speed, Faults::SPEED_RANGE)
-                .with(axial_load.abs() > self.axial_load, Faults::LOAD_RANGE);
-            let admitted = Inputs {
-                nut_speed: bounded(nut_speed, self.nut_speed),
-                axial_load: bounded(axial_load, self.axial_load),
-            };
-            (Some(admitted), faults)
-        } else {
-            let faults = Faults::NONE
-                .with(!nut_speed.is_finite(), Faults::SPEED_NOT_FINITE)
-                .with(!axial_load.is_finite(), Faults::LOAD_NOT_FINITE);
-            (None, faults)
-        }
+        });
+        (admitted, faults)
     }
 
     /// The friction torque within its limit, and whether it was cut.
     #[inline]
     pub(crate) fn limit_torque(&self, torque: f32) -> (f32, Faults) {
-        (
-            bounded(torque, self.friction_torque),
-            Faults::NONE.with(torque.abs() > self.friction_torque, Faults::TORQUE_LIMIT),
-        )
+        limit(torque, self.friction_torque)
     }
+}
+
+/// A scene's outputs, as far as faults decide them.
+pub(super) trait Flagged {
+    /// The safe output.
+    fn safe(faults: Faults) -> Self;
+    /// What was wrong.
+    fn faults(&self) -> Faults;
+}
+
+/// What a scene makes of admitted inputs, the safe output where nothing was admitted, and how many ticks have
+/// been flagged in a row, when it was `ticks` before.
+#[inline(always)]
+pub(super) fn answered<I, O: Flagged>(
+    (admitted, faults): (Option<I>, Faults),
+    ticks: u32,
+    outputs: impl FnOnce(I, Faults) -> O,
+) -> (O, u32) {
+    let outputs = match admitted {
+        Some(inputs) => outputs(inputs, faults),
+        None => O::safe(faults),
+    };
+    let ticks = if outputs.faults().any() {
+        ticks.saturating_add(1)
+    } else {
+        0
+    };
+    (outputs, ticks)
+}
+
+/// A speed and loads within plus and minus their largest values, with what was wrong; `None` beside the flags
+/// where no number can stand in.
+#[inline(always)]
+pub(super) fn admit<const LOADS: usize>(
+    speed: f32,
+    largest_speed: f32,
+    loads: [f32; LOADS],
+    largest_load: f32,
+) -> (Option<(f32, [f32; LOADS])>, Faults) {
+    let finite = loads.iter().all(|load| load.is_finite());
+    if speed.is_finite() && finite {
+        let beyond = loads.iter().any(|load| load.abs() > largest_load);
+        let faults = Faults::NONE
+            .with(speed.abs() > largest_speed, Faults::SPEED_RANGE)
+            .with(beyond, Faults::LOAD_RANGE);
+        let admitted = (
+            bounded(speed, largest_speed),
+            loads.map(|load| bounded(load, largest_load)),
+        );
+        (Some(admitted), faults)
+    } else {
+        let faults = Faults::NONE
+            .with(!speed.is_finite(), Faults::SPEED_NOT_FINITE)
+            .with(!finite, Faults::LOAD_NOT_FINITE);
+        (None, faults)
+    }
+}
+
+/// A friction torque or force within its limit, and whether it was cut.
+#[inline]
+pub(super) fn limit(friction: f32, largest: f32) -> (f32, Faults) {
+    (
+        bounded(friction, largest),
+        Faults::NONE.with(friction.abs() > largest, Faults::TORQUE_LIMIT),
+    )
 }
 
 /// `value` within plus and minus `bound`.
@@ -142,7 +196,7 @@ impl Limits {
 /// Written with comparisons: `max` and `min` become calls of C functions on a Cortex-M, and `clamp`
 /// keeps a panic for bounds that are not ordered.
 #[inline]
-pub(super) fn bounded(value: f32, bound: f32) -> f32 {
+fn bounded(value: f32, bound: f32) -> f32 {
     if value > bound {
         bound
     } else if value < -bound {

@@ -1,13 +1,13 @@
 //! A linear bearing with four-point contact and balls that press on each other.
 
 use super::deviation::DeviationMap;
-use super::faults::bounded;
+use super::faults::{admit, answered, limit};
 use super::uncaged::TrainOutputs;
 use super::zone::{LARGEST_ADVANCE, LONGEST_RETURN, LONGEST_TRACK, LoadedZone, Phase};
 use super::{Faults, Regime, Scene};
 use crate::ball::{LoadShare, largest_deviation};
 use crate::contact::FrictionMap;
-use crate::error::{Error, in_range};
+use crate::error::{Error, attempt, in_range};
 use crate::geometry::LinearBearing;
 use crate::hertz::HertzContact;
 use crate::math;
@@ -88,10 +88,10 @@ pub struct LinearBearingConfiguration {
     pub limits: LinearLimits,
 }
 
-/// Constants of a linear bearing.
+/// Constants of a linear bearing with `N` balls.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct LinearConstants {
+pub struct LinearConstants<const N: usize> {
     zone: LoadedZone,
     track: Track,
     /// Loads over the diagonals' forces: `1/(2 n cos beta)` and `1/(2 n sin beta)` for `n` loaded balls.
@@ -124,10 +124,10 @@ pub struct LinearState<const N: usize> {
 }
 
 impl LinearLimits {
-    fn checked(self) -> Result<Self, Error> {
-        in_range("speed", self.speed, 1e-6, 1e3)?;
-        in_range("load", self.load, 1e-3, 1e7)?;
-        in_range("friction_force", self.friction_force, 1e-6, 1e6)?;
+    const fn checked(self) -> Result<Self, Error> {
+        attempt!(in_range("speed", self.speed, 1e-6, 1e3));
+        attempt!(in_range("load", self.load, 1e-3, 1e7));
+        attempt!(in_range("friction_force", self.friction_force, 1e-6, 1e6));
         Ok(self)
     }
 
@@ -135,88 +135,155 @@ impl LinearLimits {
     /// stand in.
     #[inline]
     fn admit(&self, inputs: LinearInputs) -> (Option<LinearInputs>, Faults) {
-        let LinearInputs {
+        let (admitted, faults) = admit(
+            inputs.speed,
+            self.speed,
+            [inputs.normal_load, inputs.side_load],
+            self.load,
+        );
+        let admitted = admitted.map(|(speed, [normal_load, side_load])| LinearInputs {
             speed,
             normal_load,
             side_load,
-        } = inputs;
-        let loads = normal_load.is_finite() && side_load.is_finite();
-        if speed.is_finite() && loads {
-            let beyond = normal_load.abs() > self.load || side_load.abs() > self.load;
-            let admitted = LinearInputs {
-                speed: bounded(speed, self.speed),
-                normal_load: bounded(normal_load, self.load),
-                side_load: bounded(side_load, self.load),
-            };
-            let faults = Faults::NONE
-                .with(speed.abs() > self.speed, Faults::SPEED_RANGE)
-                .with(beyond, Faults::LOAD_RANGE);
-            (Some(admitted), faults)
-        } else {
-            let faults = Faults::NONE
-                .with(!speed.is_finite(), Faults::SPEED_NOT_FINITE)
-                .with(!loads, Faults::LOAD_NOT_FINITE);
-            (None, faults)
-        }
+        });
+        (admitted, faults)
     }
 }
 
 impl<const N: usize> Scene for LinearBearingTrain<N> {
     type Configuration = LinearBearingConfiguration;
-    type Constants = LinearConstants;
+    type Constants = LinearConstants<N>;
     type State = LinearState<N>;
     type Inputs = LinearInputs;
     type Outputs = TrainOutputs;
 
-    fn constants(configuration: &LinearBearingConfiguration) -> Result<LinearConstants, Error> {
-        let bearing = &configuration.bearing;
-        let friction = in_range("friction", configuration.friction, 1e-3, 1.0)?;
-        let ball_friction = in_range("ball_friction", configuration.ball_friction, 0.0, 1.0)?;
-        let loaded = in_range("loaded_length", configuration.loaded_length, 1e-4, 100.0)?;
-        let return_length = in_range("return_length", configuration.return_length, 0.0, 100.0)?;
-        let wavelength = in_range("wavelength", configuration.wavelength, 1e-4, 100.0)?;
-        let reversal_speed = in_range("reversal_speed", configuration.reversal_speed, 1e-9, 10.0)?;
-        let tick = in_range("tick", configuration.tick, 1e-6, 1.0)?;
-        let limits = configuration.limits.checked()?;
+    fn constants(configuration: &LinearBearingConfiguration) -> Result<LinearConstants<N>, Error> {
+        LinearConstants::new(configuration)
+    }
 
-        in_range("return_length", return_length, 0.0, LONGEST_RETURN * loaded)?;
+    fn initial_state(constants: &LinearConstants<N>) -> LinearState<N> {
+        LinearState {
+            train: Train::spread(constants.track),
+            phase: Phase::default(),
+            faulted_ticks: 0,
+        }
+    }
+
+    #[inline]
+    fn step(
+        constants: &LinearConstants<N>,
+        state: &mut LinearState<N>,
+        inputs: LinearInputs,
+    ) -> TrainOutputs {
+        let (outputs, ticks) = answered(
+            constants.limits.admit(inputs),
+            state.faulted_ticks,
+            |inputs, faults| constants.outputs(state, inputs, faults),
+        );
+        state.faulted_ticks = ticks;
+        outputs
+    }
+}
+
+impl<const N: usize> LinearConstants<N> {
+    /// Checks a configuration and folds its constants: at set-up, or in a constant when firmware is compiled (see
+    /// [`FrictionModel`](crate::FrictionModel)).
+    ///
+    /// # Errors
+    /// [`Error`] naming the field out of range.
+    pub const fn new(configuration: &LinearBearingConfiguration) -> Result<Self, Error> {
+        let bearing = &configuration.bearing;
+        let friction = attempt!(in_range("friction", configuration.friction, 1e-3, 1.0));
+        let ball_friction = attempt!(in_range(
+            "ball_friction",
+            configuration.ball_friction,
+            0.0,
+            1.0
+        ));
+        let loaded = attempt!(in_range(
+            "loaded_length",
+            configuration.loaded_length,
+            1e-4,
+            100.0
+        ));
+        let return_length = attempt!(in_range(
+            "return_length",
+            configuration.return_length,
+            0.0,
+            100.0
+        ));
+        let wavelength = attempt!(in_range(
+            "wavelength",
+            configuration.wavelength,
+            1e-4,
+            100.0
+        ));
+        let reversal_speed = attempt!(in_range(
+            "reversal_speed",
+            configuration.reversal_speed,
+            1e-9,
+            10.0
+        ));
+        let tick = attempt!(in_range("tick", configuration.tick, 1e-6, 1.0));
+        let limits = attempt!(configuration.limits.checked());
+
+        attempt!(in_range(
+            "return_length",
+            return_length,
+            0.0,
+            LONGEST_RETURN * loaded
+        ));
         let length = loaded + return_length;
         let radius = bearing.ball_radius();
-        let track = Track::new(length, 2.0 * radius, N)?;
-        in_range("wavelength", wavelength, length / LONGEST_TRACK, 100.0)?;
-        let zone = LoadedZone::new(
+        let track = attempt!(Track::new(length, 2.0 * radius, N));
+        attempt!(in_range(
+            "wavelength",
+            wavelength,
+            length / LONGEST_TRACK,
+            100.0
+        ));
+        let zone = attempt!(LoadedZone::new(
             loaded / wavelength,
             length / wavelength,
             configuration.rail_deviation,
             configuration.carriage_deviation,
             configuration.load_shares,
-        )?;
-        in_range(
+        ));
+        attempt!(in_range(
             "tick",
             tick,
             0.0,
             2.0 * LARGEST_TRAVEL * length / limits.speed,
-        )?;
-        let period = wavelength * f32::from(zone.passing_turns());
-        in_range("tick", tick, 0.0, LARGEST_ADVANCE * period / limits.speed)?;
+        ));
+        let period = wavelength * zone.passing_turns() as f32;
+        attempt!(in_range(
+            "tick",
+            tick,
+            0.0,
+            LARGEST_ADVANCE * period / limits.speed
+        ));
 
         // The deviations' sum times half the tangent is a ball's speed deviation: no more than a half.
         let nominal = bearing.parameters().contact_angle;
         let angle = bearing.contact_angle();
         let largest = largest_deviation(nominal, angle.sin / angle.cos);
-        configuration
-            .rail_deviation
-            .checked("rail_deviation", largest)?;
-        configuration
-            .carriage_deviation
-            .checked("carriage_deviation", largest)?;
+        attempt!(
+            configuration
+                .rail_deviation
+                .checked("rail_deviation", largest)
+        );
+        attempt!(
+            configuration
+                .carriage_deviation
+                .checked("carriage_deviation", largest)
+        );
 
         let contact = HertzContact::of_linear(bearing);
-        let map = FrictionMap::new(contact.axis_ratio())?;
+        let map = attempt!(FrictionMap::new(contact.axis_ratio()));
         let per_ball = length / (loaded * N as f32);
         let half_tangent = 0.5 * angle.sin / angle.cos;
         let semi_major = contact.semi_major_coefficient();
-        Ok(LinearConstants {
+        Ok(Self {
             zone,
             track,
             normal: 0.5 * per_ball / angle.cos,
@@ -236,37 +303,8 @@ impl<const N: usize> Scene for LinearBearingTrain<N> {
         })
     }
 
-    fn initial_state(constants: &LinearConstants) -> LinearState<N> {
-        LinearState {
-            train: Train::spread(constants.track),
-            phase: Phase::default(),
-            faulted_ticks: 0,
-        }
-    }
-
-    #[inline]
-    fn step(
-        constants: &LinearConstants,
-        state: &mut LinearState<N>,
-        inputs: LinearInputs,
-    ) -> TrainOutputs {
-        let (admitted, faults) = constants.limits.admit(inputs);
-        let outputs = match admitted {
-            Some(inputs) => constants.outputs(state, inputs, faults),
-            None => TrainOutputs::safe(faults),
-        };
-        state.faulted_ticks = if outputs.faults.any() {
-            state.faulted_ticks.saturating_add(1)
-        } else {
-            0
-        };
-        outputs
-    }
-}
-
-impl LinearConstants {
     #[inline(always)]
-    fn outputs<const N: usize>(
+    fn outputs(
         &self,
         state: &mut LinearState<N>,
         inputs: LinearInputs,
@@ -309,8 +347,8 @@ impl LinearConstants {
 
         let groove_friction = direction * (drag * drags);
         let ball_friction = direction * (self.rubbing * pressing.force);
-        let total = groove_friction + ball_friction;
-        let friction = bounded(total, self.limits.friction_force);
+        let (friction, limited) =
+            limit(groove_friction + ball_friction, self.limits.friction_force);
         TrainOutputs {
             friction,
             groove_friction,
@@ -323,7 +361,7 @@ impl LinearConstants {
             } else {
                 Regime::Driving
             },
-            faults: faults.with(friction != total, Faults::TORQUE_LIMIT),
+            faults: faults | limited,
         }
     }
 }

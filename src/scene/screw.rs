@@ -1,15 +1,17 @@
 //! A ball screw without cage: its balls press on each other.
 
+use core::borrow::Borrow;
 use core::f32::consts::TAU;
 
 use super::deviation::DeviationMap;
+use super::faults::answered;
 use super::uncaged::TrainOutputs;
 use super::zone::{LARGEST_ADVANCE, LONGEST_RETURN, LONGEST_TRACK, LoadedZone, Phase};
 use super::{Faults, Inputs, Limits, Regime, Scene};
 use crate::ball::{GrooveFit, LoadShare, LoopSums, ScrewRow};
-use crate::error::{Error, in_range};
+use crate::error::{Error, attempt, in_range};
 use crate::geometry::BallScrew;
-use crate::math;
+use crate::math::{self, constant};
 use crate::model::FrictionModel;
 use crate::train::{IMPEDANCE_RANGE, LARGEST_FREE_SPEED, LARGEST_TRAVEL, Track, Train};
 
@@ -57,10 +59,10 @@ pub struct UncagedBallScrewConfiguration {
     pub limits: Limits,
 }
 
-/// Constants of a ball screw without cage.
+/// Constants of a ball screw without cage, with `N` balls.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct UncagedConstants {
+pub struct UncagedConstants<const N: usize> {
     row: ScrewRow,
     zone: LoadedZone,
     track: Track,
@@ -93,74 +95,134 @@ pub struct UncagedState<const N: usize> {
 
 impl<const N: usize> Scene for UncagedBallScrew<N> {
     type Configuration = UncagedBallScrewConfiguration;
-    type Constants = UncagedConstants;
+    type Constants = UncagedConstants<N>;
     type State = UncagedState<N>;
     type Inputs = Inputs;
     type Outputs = TrainOutputs;
 
-    fn constants(configuration: &UncagedBallScrewConfiguration) -> Result<UncagedConstants, Error> {
+    fn constants(
+        configuration: &UncagedBallScrewConfiguration,
+    ) -> Result<UncagedConstants<N>, Error> {
+        UncagedConstants::new(configuration)
+    }
+
+    fn initial_state(constants: &UncagedConstants<N>) -> UncagedState<N> {
+        UncagedState {
+            train: Train::spread(constants.track),
+            phase: Phase::default(),
+            faulted_ticks: 0,
+        }
+    }
+
+    #[inline]
+    fn step(
+        constants: &UncagedConstants<N>,
+        state: &mut UncagedState<N>,
+        inputs: Inputs,
+    ) -> TrainOutputs {
+        let (outputs, ticks) = answered(
+            constants.limits.admit(inputs),
+            state.faulted_ticks,
+            |inputs, faults| constants.outputs(state, inputs, faults),
+        );
+        state.faulted_ticks = ticks;
+        outputs
+    }
+}
+
+impl<const N: usize> UncagedConstants<N> {
+    /// Checks a configuration and folds its constants: at set-up, or in a constant when firmware is compiled (see
+    /// [`FrictionModel`](crate::FrictionModel)).
+    ///
+    /// # Errors
+    /// [`Error`] naming the field out of range.
+    pub const fn new(configuration: &UncagedBallScrewConfiguration) -> Result<Self, Error> {
         let design = &configuration.design;
-        let friction = in_range("friction", configuration.friction, 1e-3, 0.5)?;
-        let ball_friction = in_range("ball_friction", configuration.ball_friction, 0.0, 1.0)?;
-        let turns = in_range("turns", configuration.turns, 0.1, 100.0)?;
-        let return_length = in_range("return_length", configuration.return_length, 0.0, 10.0)?;
-        let reversal_speed = in_range("reversal_speed", configuration.reversal_speed, 1e-6, 1e3)?;
-        let tick = in_range("tick", configuration.tick, 1e-6, 1.0)?;
-        let limits = configuration.limits.checked()?;
-        let row = ScrewRow::new(design, friction, configuration.fit)?;
+        let friction = attempt!(in_range("friction", configuration.friction, 1e-3, 0.5));
+        let ball_friction = attempt!(in_range(
+            "ball_friction",
+            configuration.ball_friction,
+            0.0,
+            1.0
+        ));
+        let turns = attempt!(in_range("turns", configuration.turns, 0.1, 100.0));
+        let return_length = attempt!(in_range(
+            "return_length",
+            configuration.return_length,
+            0.0,
+            10.0
+        ));
+        let reversal_speed = attempt!(in_range(
+            "reversal_speed",
+            configuration.reversal_speed,
+            1e-6,
+            1e3
+        ));
+        let tick = attempt!(in_range("tick", configuration.tick, 1e-6, 1.0));
+        let limits = attempt!(configuration.limits.checked());
+        let row = attempt!(ScrewRow::new(design, friction, configuration.fit));
         let largest = row.largest_deviation();
-        let on_screw = configuration
-            .screw_deviation
-            .checked("screw_deviation", largest)?;
-        let in_nut = configuration
-            .nut_deviation
-            .checked("nut_deviation", largest)?;
+        let on_screw = attempt!(
+            configuration
+                .screw_deviation
+                .checked("screw_deviation", largest)
+        );
+        let in_nut = attempt!(
+            configuration
+                .nut_deviation
+                .checked("nut_deviation", largest)
+        );
 
         let path = design.pitch_radius() / design.cos_lead_angle();
         let per_turn = TAU * path;
         let loaded = turns * per_turn;
         let longest = LONGEST_TRACK * per_turn - loaded;
-        in_range("return_length", return_length, 0.0, longest)?;
-        in_range("return_length", return_length, 0.0, LONGEST_RETURN * loaded)?;
+        attempt!(in_range("return_length", return_length, 0.0, longest));
+        attempt!(in_range(
+            "return_length",
+            return_length,
+            0.0,
+            LONGEST_RETURN * loaded
+        ));
         let length = loaded + return_length;
         let pitch = 2.0 * path * arc_sine(design.ball_radius() / path);
-        let track = Track::new(length, pitch, N)?;
-        let zone = LoadedZone::new(
+        let track = attempt!(Track::new(length, pitch, N));
+        let zone = attempt!(LoadedZone::new(
             turns,
             length / per_turn,
             configuration.screw_deviation,
             configuration.nut_deviation,
             configuration.load_shares,
-        )?;
+        ));
 
         let speed = path - row.nominal_speed();
         // Where balls hardly move against the nut, deviations that are small against the pitch radius
         // are large against that.
-        let relative = fastest_deviation(&row, on_screw, in_nut) / speed;
+        let relative = row.fastest_deviation(on_screw, in_nut) / speed;
         if relative > LARGEST_FREE_SPEED {
-            in_range(
+            attempt!(in_range(
                 "screw_deviation",
                 on_screw,
                 0.0,
                 on_screw * LARGEST_FREE_SPEED / relative,
-            )?;
-            in_range(
+            ));
+            attempt!(in_range(
                 "nut_deviation",
                 in_nut,
                 0.0,
                 in_nut * LARGEST_FREE_SPEED / relative,
-            )?;
+            ));
         }
         let fastest = LARGEST_TRAVEL * length / (speed * limits.nut_speed);
-        in_range("tick", tick, 0.0, fastest)?;
-        let period = TAU * f32::from(zone.passing_turns());
-        in_range(
+        attempt!(in_range("tick", tick, 0.0, fastest));
+        let period = TAU * zone.passing_turns() as f32;
+        attempt!(in_range(
             "tick",
             tick,
             0.0,
             LARGEST_ADVANCE * period / limits.nut_speed,
-        )?;
-        Ok(UncagedConstants {
+        ));
+        Ok(Self {
             row,
             per_ball: length / (loaded * N as f32),
             speed,
@@ -177,42 +239,8 @@ impl<const N: usize> Scene for UncagedBallScrew<N> {
         })
     }
 
-    fn initial_state(constants: &UncagedConstants) -> UncagedState<N> {
-        UncagedState {
-            train: Train::spread(constants.track),
-            phase: Phase::default(),
-            faulted_ticks: 0,
-        }
-    }
-
-    #[inline]
-    fn step(
-        constants: &UncagedConstants,
-        state: &mut UncagedState<N>,
-        inputs: Inputs,
-    ) -> TrainOutputs {
-        let (admitted, faults) = constants.limits.admit(inputs);
-        let outputs = match admitted {
-            Some(inputs) => constants.outputs(state, inputs, faults),
-            None => TrainOutputs::safe(faults),
-        };
-        state.faulted_ticks = if outputs.faults.any() {
-            state.faulted_ticks.saturating_add(1)
-        } else {
-            0
-        };
-        outputs
-    }
-}
-
-impl UncagedConstants {
     #[inline(always)]
-    fn outputs<const N: usize>(
-        &self,
-        state: &mut UncagedState<N>,
-        inputs: Inputs,
-        faults: Faults,
-    ) -> TrainOutputs {
+    fn outputs(&self, state: &mut UncagedState<N>, inputs: Inputs, faults: Faults) -> TrainOutputs {
         let Inputs {
             nut_speed,
             axial_load,
@@ -277,7 +305,7 @@ impl UncagedConstants {
     }
 }
 
-impl<const N: usize> FrictionModel<UncagedBallScrew<N>> {
+impl<const N: usize, C: Borrow<UncagedConstants<N>>> FrictionModel<UncagedBallScrew<N>, C> {
     /// Sets the angle of the nut against the screw, rad, from which the screw's deviations are counted:
     /// once after start-up, and again whenever an absolute sensor has it; between, the model integrates
     /// the speed. An angle that is NaN, or beyond 1e7 periods of the map, counts as 0.
@@ -287,27 +315,14 @@ impl<const N: usize> FrictionModel<UncagedBallScrew<N>> {
     }
 }
 
-/// Largest deviation of a ball's speed, m per unit of nut speed: at the corners of the deviations, in
-/// both directions of load and motion, where it is largest, with a load that no preload evens out.
-fn fastest_deviation(row: &ScrewRow, on_screw: f32, in_nut: f32) -> f32 {
-    let mut fastest = 0.0;
-    for (nut_speed, load) in [(1.0, 1e7), (1.0, -1e7), (-1.0, 1e7), (-1.0, -1e7)] {
-        let tick = row.at(nut_speed, load);
-        for (screw, nut) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] {
-            let ball = tick.ball(screw * on_screw, nut * in_nut, &LoadShare::MEAN);
-            let size = ball.speed_deviation.abs();
-            fastest = if size > fastest { size } else { fastest };
-        }
-    }
-    fastest
-}
-
 /// `asin(x)` for `x` in 0 to 0.9, by Newton's method from `x`; at set-up only.
-fn arc_sine(x: f32) -> f32 {
+const fn arc_sine(x: f32) -> f32 {
     let mut angle = x;
-    for _ in 0..6 {
-        let (sin, cos) = math::sin_cos(angle);
+    let mut step = 0;
+    while step < 6 {
+        let (sin, cos) = constant::sin_cos(angle);
         angle += (x - sin) / cos;
+        step += 1;
     }
     angle
 }

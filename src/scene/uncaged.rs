@@ -1,6 +1,7 @@
 //! What scenes with a train of balls have in common.
 
-use super::{Faults, Outputs, Regime};
+use super::faults::Flagged;
+use super::{Faults, Outputs, Regime, efficiency};
 
 /// What a scene with balls that press on each other returns.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,10 +27,9 @@ pub struct TrainOutputs {
     pub faults: Faults,
 }
 
-impl TrainOutputs {
-    /// The safe output: no torque, flagged.
+impl Flagged for TrainOutputs {
     #[inline]
-    pub(super) const fn safe(faults: Faults) -> Self {
+    fn safe(faults: Faults) -> Self {
         Self {
             friction: 0.0,
             groove_friction: 0.0,
@@ -40,6 +40,11 @@ impl TrainOutputs {
             regime: Regime::Standing,
             faults,
         }
+    }
+
+    #[inline]
+    fn faults(&self) -> Faults {
+        self.faults
     }
 }
 
@@ -53,15 +58,12 @@ impl From<TrainOutputs> for Outputs {
             faults,
             ..
         } = outputs;
-        // Both have a sign: of the speed, and of the load.
-        let efficiency = if load_torque == 0.0 || matches!(regime, Regime::Standing) {
+        let efficiency = if matches!(regime, Regime::Standing) {
             0.0
-        } else if (load_torque < 0.0) == (friction < 0.0) {
-            // Signs, because the product of two small torques would vanish.
-            load_torque / (load_torque + friction)
         } else {
-            let efficiency = 1.0 + friction / load_torque;
-            if efficiency > -1e6 { efficiency } else { -1e6 }
+            // Signs, because the product of two small torques would vanish.
+            let driving = (load_torque < 0.0) == (friction < 0.0);
+            efficiency(driving, load_torque, friction)
         };
         Self {
             friction_torque: friction,

@@ -2,7 +2,7 @@
 
 use super::deviation::{DeviationMap, PHASE_BITS};
 use crate::ball::LoadShare;
-use crate::error::{Error, in_range};
+use crate::error::{Error, attempt, in_range};
 
 /// Units of length on the track.
 const UNITS: f32 = 4_294_967_296.0;
@@ -47,26 +47,22 @@ pub(super) struct Place {
 
 impl LoadedZone {
     /// A track of `length` with `loaded` of it under load, in turns or wavelengths of the maps.
-    pub(super) fn new(
+    pub(super) const fn new(
         loaded: f32,
         length: f32,
         passing: &'static DeviationMap,
         own: &'static DeviationMap,
         shares: &'static [LoadShare],
     ) -> Result<Self, Error> {
-        in_range("load_shares", shares.len() as f32, 1.0, 256.0)?;
-        let ratio = |map: &DeviationMap| {
-            let ratio = length / f32::from(map.turns());
-            (ratio * (1_u32 << PHASE_BITS) as f32) as u32
-        };
+        attempt!(in_range("load_shares", shares.len() as f32, 1.0, 256.0));
         // A whole number ends the table at most 2e-5 of the track too early; that of a track without return is exact
         // when the quotient's rounding is taken off.
         let entries = shares.len() as f32 * length / loaded * (1_u32 << FRACTION_BITS) as f32;
         let entries = (entries * (1.0 - 4.0 * f32::EPSILON)) as u32 + 1;
         Ok(Self {
             entries,
-            passing_ratio: ratio(passing),
-            own_ratio: ratio(own),
+            passing_ratio: phase_ratio(passing, length),
+            own_ratio: phase_ratio(own, length),
             passing,
             own,
             shares,
@@ -100,9 +96,15 @@ impl LoadedZone {
     }
 
     /// Phase of the passing groove, in units of 2^-32, per turn or wavelength.
-    pub(super) fn phase_per_turn(&self) -> f32 {
-        UNITS / f32::from(self.passing.turns())
+    pub(super) const fn phase_per_turn(&self) -> f32 {
+        UNITS / self.passing.turns() as f32
     }
+}
+
+/// Phase of a map at the end of a track of `length` turns.
+const fn phase_ratio(map: &DeviationMap, length: f32) -> u32 {
+    let ratio = length / map.turns() as f32;
+    (ratio * (1_u32 << PHASE_BITS) as f32) as u32
 }
 
 /// A phase that advances by parts of a unit and wraps around.

@@ -3,7 +3,7 @@
 use super::ball::Ball;
 use super::pool::{FRACTIONS, Moves, OVERLAP, Pressing};
 use super::press::Press;
-use crate::error::{Error, in_range};
+use crate::error::{Error, attempt, in_range};
 
 /// Units of length on the track: positions wrap around where it closes.
 const UNITS: f32 = 4_294_967_296.0;
@@ -64,17 +64,22 @@ pub(crate) struct Track {
 }
 
 impl Track {
-    pub(crate) fn new(length: f32, pitch: f32, balls: usize) -> Result<Self, Error> {
-        in_range("length", length, 1e-4, 1e4)?;
-        in_range("pitch", pitch, 1e-6 * length, length / balls as f32)?;
+    pub(crate) const fn new(length: f32, pitch: f32, balls: usize) -> Result<Self, Error> {
+        attempt!(in_range("length", length, 1e-4, 1e4));
+        attempt!(in_range(
+            "pitch",
+            pitch,
+            1e-6 * length,
+            length / balls as f32
+        ));
         let units = UNITS / length;
         let pitch = (pitch * units) as u32;
         // f32 holds the pitch to 2^-24; balls that fill the track must not overfill it by that.
-        let fits = u32::try_from((1_u64 << 32) / balls as u64).unwrap_or(u32::MAX);
-        Ok(Self {
-            pitch: if pitch > fits { fits } else { pitch },
-            units,
-        })
+        let pitch = match (1_u64 << 32).checked_div(balls as u64) {
+            Some(fits) if (pitch as u64) > fits => fits as u32,
+            _ => pitch,
+        };
+        Ok(Self { pitch, units })
     }
 }
 

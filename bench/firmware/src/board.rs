@@ -32,6 +32,7 @@ impl Console {
     }
 
     /// Writes a number in decimals.
+    #[inline(never)]
     pub fn number(&mut self, number: u32) {
         let mut left = number;
         let mut digits = [0; 10];
@@ -49,6 +50,7 @@ impl Console {
         }
     }
 
+    #[inline(never)]
     fn bytes(&mut self, bytes: &[u8]) {
         if let Some(stream) = &mut self.stream {
             // Nobody may be listening, and nothing can be done about it here.
@@ -85,17 +87,19 @@ const PAINT: u32 = 0xA5A5_5A5A;
 /// How much of it is painted, in words.
 const PAINTED: usize = 2048;
 
-/// Bytes of stack that some work takes below its caller, at most; 8192 where it takes all that is
-/// painted.
+/// Bytes of stack that some work, done some times with its number, takes below its caller, at most; 8192 where
+/// it takes all that is painted.
 #[inline(never)]
-pub fn stack_used(work: impl FnOnce()) -> u32 {
+pub fn stack_used(times: u32, work: &mut dyn FnMut(u32)) -> u32 {
     let top = cortex_m::register::msp::read() as *mut u32;
     for word in 1..=PAINTED {
         // SAFETY: free stack, below everything that is in use and within the memory of the board.
         unsafe { top.sub(word).write_volatile(PAINT) };
     }
     black_box(());
-    work();
+    for number in 0..times {
+        work(number);
+    }
     black_box(());
     let mut used = PAINTED;
     while used > 0 {
@@ -113,33 +117,32 @@ fn set_up<S: Run>(place: &mut MaybeUninit<S::Model>) -> Option<&mut S::Model> {
     S::set_up().ok().map(|model| place.write(model))
 }
 
-#[inline(never)]
-fn tick<S: Run>(model: &mut S::Model, number: u32, digest: &mut Digest) {
-    let (nut_speed, axial_load) = course(number);
-    S::tick(model, nut_speed, axial_load, digest);
-}
-
 /// Runs a scene in its own image: set-up, then [`TICKS`] ticks; writes the digest of all results and the
 /// stack that either takes.
 pub fn run<S: Run>(console: &mut Console, place: &mut MaybeUninit<S::Model>) -> bool {
-    let mut model = None;
-    let set_up_stack = stack_used(|| model = set_up::<S>(place));
+    let (mut place, mut model) = (Some(place), None);
+    let set_up_stack = stack_used(1, &mut |_| model = place.take().and_then(set_up::<S>));
     let Some(model) = model else {
         return false;
     };
     let mut digest = Digest::default();
-    let stack = stack_used(|| {
-        for number in 0..TICKS {
-            tick::<S>(model, number, &mut digest);
-        }
+    let stack = stack_used(TICKS, &mut |number| {
+        let (nut_speed, axial_load) = course(number);
+        S::tick(model, nut_speed, axial_load, &mut digest);
     });
-    console.text(S::NAME);
-    for number in [digest.0, stack, set_up_stack] {
+    report(console, S::NAME, [digest.0, stack, set_up_stack]);
+    true
+}
+
+/// One line of a scene: the program has it once, however many scenes it runs.
+#[inline(never)]
+fn report(console: &mut Console, name: &str, figures: [u32; 3]) {
+    console.text(name);
+    for figure in figures {
         console.text(" ");
-        console.number(number);
+        console.number(figure);
     }
     console.text("\n");
-    true
 }
 
 /// Makes a program of some scenes.

@@ -1,13 +1,15 @@
-//! The scenes that the firmware runs, each set up as its user would.
-
-use core::hint::black_box;
+//! The scenes that the firmware runs, each with the constants of one gear.
+//!
+//! An image of a scene has them from the compiler, in flash. What is counted sets them up when it runs, or the
+//! compiler would fold them into the functions.
 
 use epas_friction::{
-    BallScrew, CagedBallScrew, CagedBallScrewConfiguration, ContactAngle, DISSERTATION_DESIGNS,
-    DeviationMap, Drive, EfficiencyGeometry, Error, FittedCurvature, FrictionBranch, FrictionModel,
-    Groove, GrooveFit, GrooveSize, Harmonic, Inputs, Limits, LinearBearing,
-    LinearBearingConfiguration, LinearBearingParameters, LinearBearingTrain, LinearInputs,
-    LinearLimits, LoadShare, Material, UncagedBallScrew, UncagedBallScrewConfiguration,
+    BallScrew, CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, ContactAngle,
+    DISSERTATION_DESIGNS, DeviationMap, Drive, EfficiencyGeometry, Error, FittedCurvature,
+    FrictionBranch, FrictionModel, Groove, GrooveFit, GrooveSize, Harmonic, Inputs, Limits,
+    LinearBearing, LinearBearingConfiguration, LinearBearingParameters, LinearBearingTrain,
+    LinearConstants, LinearInputs, LinearLimits, LoadShare, Material, UncagedBallScrew,
+    UncagedBallScrewConfiguration, UncagedConstants,
 };
 
 use crate::subjects::{BALLS, outputs, train_outputs};
@@ -19,23 +21,50 @@ pub const ROW: usize = 24;
 pub const TICK: f32 = 1e-3;
 
 /// Two waves a turn, Lin 2019, Fig. 3.23.
-static SCREW_DEVIATION: DeviationMap = map(&[Harmonic {
-    order: 2,
-    cosine: 0.0,
-    sine: 0.04,
-}]);
+static SCREW_DEVIATION: DeviationMap = folded(DeviationMap::from_harmonics(
+    1,
+    &[Harmonic {
+        order: 2,
+        cosine: 0.0,
+        sine: 0.04,
+    }],
+));
 
 /// Three waves a turn.
-static NUT_DEVIATION: DeviationMap = map(&[Harmonic {
-    order: 3,
-    cosine: 0.02,
-    sine: 0.01,
-}]);
+static NUT_DEVIATION: DeviationMap = folded(DeviationMap::from_harmonics(
+    1,
+    &[Harmonic {
+        order: 3,
+        cosine: 0.02,
+        sine: 0.01,
+    }],
+));
 
-const fn map(harmonics: &[Harmonic]) -> DeviationMap {
-    match DeviationMap::from_harmonics(1, harmonics) {
-        Ok(map) => map,
-        Err(_) => DeviationMap::NONE,
+const DESIGN: BallScrew = {
+    let [_, design, _] = DISSERTATION_DESIGNS;
+    folded(BallScrew::new(design.parameters))
+};
+
+const BEARING: LinearBearing = folded(LinearBearing::new(LinearBearingParameters {
+    ball_radius: 0.005,
+    groove: GrooveSize::Conformity(0.54),
+    contact_angle: core::f32::consts::FRAC_PI_4,
+    ball_material: Material::STEEL,
+    groove_material: Material::STEEL,
+}));
+
+static CURVATURE: FittedCurvature = FittedCurvature::of(&DESIGN, Groove::Screw);
+static EFFICIENCY: EfficiencyGeometry = EfficiencyGeometry::of(&DESIGN);
+static CAGED: CagedConstants = folded(CagedConstants::new(&folded(caged_configuration())));
+static LINEAR: LinearConstants<ROW> = folded(LinearConstants::new(&folded(linear_configuration())));
+static UNCAGED: UncagedConstants<BALLS> =
+    folded(UncagedConstants::new(&folded(uncaged_configuration())));
+
+/// What a set-up gives; what it refuses does not compile.
+const fn folded<T: Copy>(set_up: Result<T, Error>) -> T {
+    match set_up {
+        Ok(folded) => folded,
+        Err(_) => panic!("a field is out of range"),
     }
 }
 
@@ -103,10 +132,10 @@ pub struct Curvature;
 
 impl Run for Curvature {
     const NAME: &'static str = "curvature";
-    type Model = FittedCurvature;
+    type Model = &'static FittedCurvature;
 
     fn set_up() -> Result<Self::Model, Error> {
-        Ok(FittedCurvature::of(&design()?, Groove::Screw))
+        Ok(&CURVATURE)
     }
 
     fn tick(model: &mut Self::Model, nut_speed: f32, _: f32, digest: &mut Digest) {
@@ -121,10 +150,10 @@ pub struct Efficiency;
 
 impl Run for Efficiency {
     const NAME: &'static str = "efficiency";
-    type Model = EfficiencyGeometry;
+    type Model = &'static EfficiencyGeometry;
 
     fn set_up() -> Result<Self::Model, Error> {
-        Ok(EfficiencyGeometry::of(&design()?))
+        Ok(&EFFICIENCY)
     }
 
     fn tick(model: &mut Self::Model, nut_speed: f32, axial_load: f32, digest: &mut Digest) {
@@ -138,10 +167,10 @@ pub struct Caged;
 
 impl Run for Caged {
     const NAME: &'static str = "caged_ball_screw";
-    type Model = FrictionModel<CagedBallScrew>;
+    type Model = FrictionModel<CagedBallScrew, &'static CagedConstants>;
 
     fn set_up() -> Result<Self::Model, Error> {
-        FrictionModel::new(&black_box(caged_configuration()?))
+        Ok(FrictionModel::of(&CAGED))
     }
 
     fn tick(model: &mut Self::Model, nut_speed: f32, axial_load: f32, digest: &mut Digest) {
@@ -157,10 +186,10 @@ pub struct Linear;
 
 impl Run for Linear {
     const NAME: &'static str = "linear_bearing";
-    type Model = FrictionModel<LinearBearingTrain<ROW>>;
+    type Model = FrictionModel<LinearBearingTrain<ROW>, &'static LinearConstants<ROW>>;
 
     fn set_up() -> Result<Self::Model, Error> {
-        FrictionModel::new(&black_box(linear_configuration()?))
+        Ok(FrictionModel::of(&LINEAR))
     }
 
     fn tick(model: &mut Self::Model, nut_speed: f32, axial_load: f32, digest: &mut Digest) {
@@ -177,10 +206,10 @@ pub struct Uncaged;
 
 impl Run for Uncaged {
     const NAME: &'static str = "ball_screw_37";
-    type Model = FrictionModel<UncagedBallScrew<BALLS>>;
+    type Model = FrictionModel<UncagedBallScrew<BALLS>, &'static UncagedConstants<BALLS>>;
 
     fn set_up() -> Result<Self::Model, Error> {
-        FrictionModel::new(&black_box(uncaged_configuration()?))
+        Ok(FrictionModel::of(&UNCAGED))
     }
 
     fn tick(model: &mut Self::Model, nut_speed: f32, axial_load: f32, digest: &mut Digest) {
@@ -196,18 +225,17 @@ impl Run for Uncaged {
 ///
 /// # Errors
 /// None.
-pub fn design() -> Result<BallScrew, Error> {
-    let [_, design, _] = black_box(&DISSERTATION_DESIGNS);
-    BallScrew::new(design.parameters)
+pub const fn design() -> Result<BallScrew, Error> {
+    Ok(DESIGN)
 }
 
 /// Its caged form.
 ///
 /// # Errors
 /// None.
-pub fn caged_configuration() -> Result<CagedBallScrewConfiguration, Error> {
+pub const fn caged_configuration() -> Result<CagedBallScrewConfiguration, Error> {
     Ok(CagedBallScrewConfiguration {
-        design: design()?,
+        design: DESIGN,
         friction: 0.075,
         rolling_tangent: 0.0,
         branch: FrictionBranch::Rolling,
@@ -221,9 +249,9 @@ pub fn caged_configuration() -> Result<CagedBallScrewConfiguration, Error> {
 ///
 /// # Errors
 /// None.
-pub fn uncaged_configuration() -> Result<UncagedBallScrewConfiguration, Error> {
+pub const fn uncaged_configuration() -> Result<UncagedBallScrewConfiguration, Error> {
     Ok(UncagedBallScrewConfiguration {
-        design: design()?,
+        design: DESIGN,
         friction: 0.1,
         ball_friction: 0.1,
         fit: GrooveFit::Zero,
@@ -242,15 +270,9 @@ pub fn uncaged_configuration() -> Result<UncagedBallScrewConfiguration, Error> {
 ///
 /// # Errors
 /// None.
-pub fn linear_configuration() -> Result<LinearBearingConfiguration, Error> {
+pub const fn linear_configuration() -> Result<LinearBearingConfiguration, Error> {
     Ok(LinearBearingConfiguration {
-        bearing: LinearBearing::new(black_box(LinearBearingParameters {
-            ball_radius: 0.005,
-            groove: GrooveSize::Conformity(0.54),
-            contact_angle: core::f32::consts::FRAC_PI_4,
-            ball_material: Material::STEEL,
-            groove_material: Material::STEEL,
-        }))?,
+        bearing: BEARING,
         friction: 0.1,
         ball_friction: 0.1,
         loaded_length: 0.16,

@@ -1,7 +1,7 @@
 //! All figures of a run: functions, scenes, proofs.
 
 use std::fmt::Write as _;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use epas_firmware::subjects::{COUNTED, PEERS, SUBJECTS};
 use serde::{Deserialize, Serialize};
@@ -127,6 +127,8 @@ pub struct FunctionFigures {
     pub cycles_min: u32,
     /// See above.
     pub cycles_max: u32,
+    /// Most cycles of the same function built for size.
+    pub cycles_max_small: u32,
     /// Most instructions of the same function built for a Cortex-M7.
     pub instructions_max_cortex_m7: u32,
     /// How many inputs.
@@ -148,6 +150,10 @@ pub struct SceneFigures {
     pub stack: u64,
     /// Bytes of stack of the set-up.
     pub stack_set_up: u64,
+    /// Bytes of flash of its whole image built for size.
+    pub flash_small: u64,
+    /// Bytes of stack of a tick, at most, built for size.
+    pub stack_small: u64,
 }
 
 /// What an image of a scene prints: for each of its scenes the digest of its results and the stack.
@@ -173,16 +179,9 @@ pub fn measure() -> Result<Figures, Failure> {
         .map(String::as_str)
         .chain(["check", "control_loop", "count"])
         .collect();
-    let (folder, panic_free) = match build(&images, Core::M4, "release", "")? {
-        Built::In(folder) => (folder, true),
-        Built::Panics(said) => {
-            eprintln!("{said}");
-            match build(&images, Core::M4, "release", "halt")? {
-                Built::In(folder) => (folder, false),
-                Built::Panics(said) => return Err(Failure::Data(said)),
-            }
-        }
-    };
+    let (small, small_panic_free) = built(&images, "small")?;
+    let (folder, panic_free) = built(&images, "release")?;
+    let panic_free = panic_free && small_panic_free;
 
     let checked = Core::M4.run(&folder.join("check"))?;
     let looped = Core::M4.run(&folder.join("control_loop"))?;
@@ -193,9 +192,9 @@ pub fn measure() -> Result<Figures, Failure> {
     }
 
     let mut figures = Figures {
-        functions: functions(&folder)?,
+        functions: functions(&folder, &small)?,
         scenes: Vec::new(),
-        empty: scene(&folder, "empty", 0)?.0,
+        empty: scene([&folder, &small], "empty", 0)?.0,
         panic_free,
         soft_double: false,
         equal_to_host: checked.passed && looped.passed,
@@ -207,7 +206,7 @@ pub fn measure() -> Result<Figures, Failure> {
     let mut alone = Vec::new();
     let mut together = Vec::new();
     for (name, has, left_out) in SCENES {
-        let (scene, lines) = scene(&folder, name, figures.empty.flash)?;
+        let (scene, lines) = scene([&folder, &small], name, figures.empty.flash)?;
         figures
             .out_of_place
             .extend(out_of_place(&folder, name, has, left_out)?);
@@ -237,19 +236,36 @@ pub fn measure() -> Result<Figures, Failure> {
     Ok(figures)
 }
 
-/// Counts every function on both cores.
-fn functions(folder: &Path) -> Result<Vec<FunctionFigures>, Failure> {
+/// Builds images for the Cortex-M4F, and whether they link without any way to the panic handler.
+fn built(images: &[&str], profile: &str) -> Result<(PathBuf, bool), Failure> {
+    match build(images, Core::M4, profile, "")? {
+        Built::In(folder) => Ok((folder, true)),
+        Built::Panics(said) => {
+            eprintln!("{said}");
+            match build(images, Core::M4, profile, "halt")? {
+                Built::In(folder) => Ok((folder, false)),
+                Built::Panics(said) => Err(Failure::Data(said)),
+            }
+        }
+    }
+}
+
+/// Counts every function on both cores, on the first one built for size as well.
+fn functions(folder: &Path, small: &Path) -> Result<Vec<FunctionFigures>, Failure> {
     let on_m4 = count(Core::M4, &folder.join("count"))?;
+    let small = count(Core::M4, &small.join("count"))?;
     let on_m7 = match build(&["count"], Core::M7, "release", "halt")? {
         Built::In(folder) => count(Core::M7, &folder.join("count"))?,
         Built::Panics(said) => return Err(Failure::Data(said)),
     };
     on_m4
         .iter()
+        .zip(&small)
         .zip(&on_m7)
-        .map(|((name, calls), (_, other))| {
+        .map(|(((name, calls), (_, small)), (_, other))| {
             let missing = || Failure::Data(format!("{name} was never called"));
             let [instructions, cycles] = calls.ranges().ok_or_else(missing)?;
+            let [_, small] = small.ranges().ok_or_else(missing)?;
             let [other, _] = other.ranges().ok_or_else(missing)?;
             Ok(FunctionFigures {
                 name: (*name).into(),
@@ -257,6 +273,7 @@ fn functions(folder: &Path) -> Result<Vec<FunctionFigures>, Failure> {
                 instructions_max: instructions.1,
                 cycles_min: cycles.0,
                 cycles_max: cycles.1,
+                cycles_max_small: small.1,
                 instructions_max_cortex_m7: other.1,
                 inputs: calls.calls.len() as u32,
             })
@@ -328,11 +345,9 @@ fn out_of_place(
         .collect())
 }
 
-/// Runs the image of a scene.
-fn scene(folder: &Path, name: &str, empty: u64) -> Result<(SceneFigures, Vec<Line>), Failure> {
-    let path = folder.join(format!("scene_{name}"));
-    let image = Image::read(&path)?;
-    let run = Core::M4.run(&path)?;
+/// What the image of a scene prints.
+fn lines(path: &Path) -> Result<Vec<Line>, Failure> {
+    let run = Core::M4.run(path)?;
     let text = run.text();
     let lines: Option<Vec<Line>> = text
         .lines()
@@ -346,20 +361,41 @@ fn scene(folder: &Path, name: &str, empty: u64) -> Result<(SceneFigures, Vec<Lin
             })
         })
         .collect();
-    let lines = lines.filter(|lines| run.passed && !lines.is_empty());
-    let Some(lines) = lines else {
-        return Err(Failure::Data(format!("scene {name} failed:\n{text}")));
-    };
-    let most = |value: fn(&Line) -> u64| lines.iter().map(value).max().unwrap_or(0);
+    lines
+        .filter(|lines| run.passed && !lines.is_empty())
+        .ok_or_else(|| Failure::Data(format!("{} failed:\n{text}", path.display())))
+}
+
+/// Runs the image of a scene, built for speed and built for size.
+fn scene(
+    folders: [&Path; 2],
+    name: &str,
+    empty: u64,
+) -> Result<(SceneFigures, Vec<Line>), Failure> {
+    let [fast, small] = folders.map(|folder| folder.join(format!("scene_{name}")));
+    let image = Image::read(&fast)?;
+    let most = |lines: &[Line], value: fn(&Line) -> u64| lines.iter().map(value).max().unwrap_or(0);
+    let (found, of_small) = (lines(&fast)?, lines(&small)?);
+    if !found
+        .iter()
+        .map(|line| line.digest)
+        .eq(of_small.iter().map(|line| line.digest))
+    {
+        return Err(Failure::Data(format!(
+            "scene {name} built for size gives other results"
+        )));
+    }
     let figures = SceneFigures {
         name: name.into(),
         flash: image.flash,
         flash_beyond_empty: image.flash.saturating_sub(empty),
         ram: image.ram,
-        stack: most(|line| line.stack),
-        stack_set_up: most(|line| line.set_up),
+        stack: most(&found, |line| line.stack),
+        stack_set_up: most(&found, |line| line.set_up),
+        flash_small: Image::read(&small)?.flash,
+        stack_small: most(&of_small, |line| line.stack),
     };
-    Ok((figures, lines))
+    Ok((figures, found))
 }
 
 impl Figures {
@@ -377,40 +413,50 @@ impl Figures {
     pub fn text(&self) -> String {
         let mut text = String::from(
             "Cortex-M4F, cycles by Arm's table (a model, no wait states), each call from its first instruction\n\
-             to its return\n\n",
+             to its return; `small` is what is built for size\n\n",
         );
         let _ = writeln!(
             text,
-            "{:26}{:>8}{:>8}{:>10}{:>8}{:>12}",
-            "function", "instr.", "most", "cycles", "most", "M7 instr."
+            "{:26}{:>8}{:>8}{:>10}{:>8}{:>8}{:>12}",
+            "function", "instr.", "most", "cycles", "most", "small", "M7 instr."
         );
         for entry in &self.functions {
             let _ = writeln!(
                 text,
-                "{:26}{:>8}{:>8}{:>10}{:>8}{:>12}",
+                "{:26}{:>8}{:>8}{:>10}{:>8}{:>8}{:>12}",
                 entry.name,
                 entry.instructions_min,
                 entry.instructions_max,
                 entry.cycles_min,
                 entry.cycles_max,
+                entry.cycles_max_small,
                 entry.instructions_max_cortex_m7
             );
         }
         let _ = writeln!(
             text,
-            "\n{:26}{:>8}{:>14}{:>8}{:>8}{:>16}",
-            "scene, bytes", "flash", "beyond empty", "RAM", "stack", "set-up's stack"
+            "\n{:26}{:>8}{:>14}{:>8}{:>8}{:>16}{:>8}{:>8}",
+            "scene, bytes",
+            "flash",
+            "beyond empty",
+            "RAM",
+            "stack",
+            "set-up's stack",
+            "small",
+            "stack"
         );
         for scene in self.scenes.iter().chain([&self.empty]) {
             let _ = writeln!(
                 text,
-                "{:26}{:>8}{:>14}{:>8}{:>8}{:>16}",
+                "{:26}{:>8}{:>14}{:>8}{:>8}{:>16}{:>8}{:>8}",
                 scene.name,
                 scene.flash,
                 scene.flash_beyond_empty,
                 scene.ram,
                 scene.stack,
-                scene.stack_set_up
+                scene.stack_set_up,
+                scene.flash_small,
+                scene.stack_small
             );
         }
         let _ = writeln!(text, "\n{:44}{:>10}{:>10}", "budget", "allowed", "found");

@@ -2,10 +2,10 @@
 
 use super::slip_map::SlipMap;
 use crate::ball::root::{inverse_cube_roots, loaded};
-use crate::error::{Error, in_range};
+use crate::error::{Error, attempt, in_range};
 use crate::geometry::{BallScrew, Groove};
 use crate::hertz::HertzContact;
-use crate::math;
+use crate::math::{self, constant};
 
 /// Contact angles are taken within these limits, rad.
 pub const CONTACT_ANGLE_RANGE: (f32, f32) = (0.05, 1.5);
@@ -165,33 +165,36 @@ pub struct ScrewBallState {
     pub groove_torque: f32,
 }
 
+impl Race {
+    const fn new(design: &BallScrew, groove: Groove, speed: f32) -> Result<Self, Error> {
+        let contact = HertzContact::of(design, groove);
+        Ok(Self {
+            map: attempt!(SlipMap::new(contact.axis_ratio())),
+            semi_major: contact.semi_major_coefficient() / design.ball_radius(),
+            speed,
+        })
+    }
+}
+
 impl ScrewBall {
     /// Folds the constants of a design: set-up only.
     ///
     /// # Errors
     /// [`Error`] naming `friction` (1e-6 to 0.5), `contact_angle` (0.05 to 1.5) or `axis_ratio`.
-    pub fn new(design: &BallScrew, friction: f32) -> Result<Self, Error> {
-        let friction = in_range("friction", friction, 1e-6, 0.5)?;
+    pub const fn new(design: &BallScrew, friction: f32) -> Result<Self, Error> {
+        let friction = attempt!(in_range("friction", friction, 1e-6, 0.5));
         let (least, most) = CONTACT_ANGLE_RANGE;
-        in_range(
+        attempt!(in_range(
             "contact_angle",
             design.parameters().contact_angle,
             least,
             most,
-        )?;
+        ));
         let radius = design.ball_radius();
         let cos_lead = design.cos_lead_angle();
         let path = design.pitch_radius() / (cos_lead * radius);
         let cos = design.contact_angle().cos;
         let nominal_speed = 0.5 * (path + cos_lead * cos);
-        let race = |groove: Groove, speed: f32| -> Result<Race, Error> {
-            let contact = HertzContact::of(design, groove);
-            Ok(Race {
-                map: SlipMap::new(contact.axis_ratio())?,
-                semi_major: contact.semi_major_coefficient() / radius,
-                speed,
-            })
-        };
         let sin_between = 1.0 / path;
         Ok(Self {
             friction,
@@ -202,10 +205,10 @@ impl ScrewBall {
             cos_lead,
             nominal_speed,
             roll: nominal_speed / cos,
-            cos_between: math::sqrt((1.0 - sin_between) * (1.0 + sin_between)),
+            cos_between: constant::sqrt((1.0 - sin_between) * (1.0 + sin_between)),
             sin_between,
-            screw: race(Groove::Screw, 0.0)?,
-            nut: race(Groove::Nut, 1.0)?,
+            screw: attempt!(Race::new(design, Groove::Screw, 0.0)),
+            nut: attempt!(Race::new(design, Groove::Nut, 1.0)),
         })
     }
 

@@ -5,7 +5,7 @@ use crate::ball::root::{inverse_cube_roots, loaded};
 use crate::error::{Error, attempt, in_range};
 use crate::geometry::{BallScrew, Groove};
 use crate::hertz::HertzContact;
-use crate::math;
+use crate::math::{self, constant};
 
 /// Largest deviation of a contact angle from the nominal one, rad.
 const LARGEST_DEVIATION: f32 = 0.2;
@@ -152,7 +152,7 @@ struct Race {
 }
 
 impl Race {
-    fn new(design: &BallScrew, groove: Groove, spin: f32, slip: f32) -> Result<Self, Error> {
+    const fn new(design: &BallScrew, groove: Groove, spin: f32, slip: f32) -> Result<Self, Error> {
         let contact = HertzContact::of(design, groove);
         Ok(Self {
             table: attempt!(AcrossTable::new(contact.axis_ratio(), slip)),
@@ -265,17 +265,17 @@ impl ScrewRow {
     ///
     /// # Errors
     /// [`Error`] naming `friction` (1e-6 to 0.5), `contact_angle` (0.05 to 1.5), `contact_force` or `axis_ratio`.
-    pub fn new(design: &BallScrew, friction: f32, fit: GrooveFit) -> Result<Self, Error> {
-        let friction = in_range("friction", friction, 1e-6, 0.5)?;
-        in_range(
+    pub const fn new(design: &BallScrew, friction: f32, fit: GrooveFit) -> Result<Self, Error> {
+        let friction = attempt!(in_range("friction", friction, 1e-6, 0.5));
+        attempt!(in_range(
             "contact_angle",
             design.parameters().contact_angle,
             0.05,
             1.5,
-        )?;
+        ));
         let preload = match fit {
             GrooveFit::Preload { contact_force } => {
-                in_range("contact_force", contact_force, 1e-3, 1e6)?
+                attempt!(in_range("contact_force", contact_force, 1e-3, 1e6))
             }
             GrooveFit::Zero | GrooveFit::Play => 0.0,
         };
@@ -325,21 +325,22 @@ impl ScrewRow {
         // The ball sticks to the race on which it would lose more: that with the longer ellipse.
         let sticks_to_screw = screw.rim > nut.rim;
         let chord = 1.0 - (radius / path) * (radius / path);
-        let tumbling = |cosine: f32| math::sqrt(sin * sin * chord + cosine * cosine);
-        let two_point = if sticks_to_screw {
-            Branch {
-                rubbing: speed * tumbling(cos - ratio),
-                rubbing_slope: tumbling(cos - ratio),
-                spin: 0.0,
-                ..on_screw
-            }
+        let cosine = if sticks_to_screw {
+            cos - ratio
         } else {
-            Branch {
-                rubbing: rest * tumbling(cos + ratio),
-                rubbing_slope: -tumbling(cos + ratio),
-                spin: 0.0,
-                ..on_screw
-            }
+            cos + ratio
+        };
+        let tumbling = constant::sqrt(sin * sin * chord + cosine * cosine);
+        let (rubbing, rubbing_slope) = if sticks_to_screw {
+            (speed * tumbling, tumbling)
+        } else {
+            (rest * tumbling, -tumbling)
+        };
+        let two_point = Branch {
+            rubbing,
+            rubbing_slope,
+            spin: 0.0,
+            ..on_screw
         };
         Ok(Self {
             friction,
@@ -447,9 +448,10 @@ impl ScrewRow {
         let contact = slides.at(root);
         let limit = self.friction * normal;
         let per_limit = 1.0 / (4.0 * limit);
+        let (branch, weights) = self.turned_in_two_points(side);
         self.tick(
-            &self.two_point,
-            [0.0, -0.5 * side, 0.5 * side],
+            branch,
+            weights,
             &Mean {
                 gain: 1.0,
                 compliance: contact.give * per_limit,
@@ -498,11 +500,7 @@ impl ScrewRow {
             1.0 / main
         };
         let compliance = self.quarter_per_friction * compliance;
-        let (branch, weights) = if on_screw {
-            (&self.on_screw, [side, 0.0, side])
-        } else {
-            (&self.on_nut, [-side, side, 0.0])
-        };
+        let (branch, weights) = self.turned_in_more_points(side, on_screw);
         self.tick(
             branch,
             weights,
@@ -516,6 +514,57 @@ impl ScrewRow {
                 third_load: third,
             },
         )
+    }
+
+    /// How speeds follow deviations, and the signs and weights with which these count: for both together,
+    /// at the screw, at the nut.
+    #[inline]
+    const fn turned_in_two_points(&self, side: f32) -> (&Branch, [f32; 3]) {
+        (&self.two_point, [0.0, -0.5 * side, 0.5 * side])
+    }
+
+    /// The same with the third contact on the screw or on the nut.
+    #[inline]
+    const fn turned_in_more_points(&self, side: f32, on_screw: bool) -> (&Branch, [f32; 3]) {
+        if on_screw {
+            (&self.on_screw, [side, 0.0, side])
+        } else {
+            (&self.on_nut, [-side, side, 0.0])
+        }
+    }
+
+    /// Largest deviation of a ball's speed, m per unit of nut speed, that contact angles make which deviate by up
+    /// to this much: at the corners of the deviations, where it is largest, in both directions of load and motion,
+    /// and with a load beyond a preload, which would even it out. For set-up.
+    pub(crate) const fn fastest_deviation(&self, on_screw: f32, in_nut: f32) -> f32 {
+        const ONE_DIAGONAL: Mean = Mean {
+            gain: 1.0,
+            compliance: 0.0,
+            compliance_rolling: 0.0,
+            torque: 0.0,
+            torque_rolling: 0.0,
+            main_load: 0.0,
+            third_load: 0.0,
+        };
+        let mut fastest = 0.0;
+        // Each bit stands for one sign.
+        let mut signs = 0;
+        while signs < 16 {
+            let side = signed(1.0, signs & 1);
+            let (branch, weights) = if self.play {
+                self.turned_in_two_points(side)
+            } else {
+                self.turned_in_more_points(side, signs & 2 == 0)
+            };
+            let ball = self.tick(branch, weights, &ONE_DIAGONAL).ball(
+                signed(on_screw, signs & 4),
+                signed(in_nut, signs & 8),
+                &LoadShare::MEAN,
+            );
+            fastest = larger(ball.speed_deviation.abs(), fastest);
+            signs += 1;
+        }
+        fastest
     }
 
     /// Loads of the contacts under a given difference of the two diagonals.
@@ -585,7 +634,7 @@ impl ScrewRow {
     }
 
     #[inline]
-    fn tick(&self, branch: &Branch, weights: [f32; 3], mean: &Mean) -> ScrewTick {
+    const fn tick(&self, branch: &Branch, weights: [f32; 3], mean: &Mean) -> ScrewTick {
         let [turn_sign, screw_weight, nut_weight] = weights;
         ScrewTick {
             largest_deviation: self.largest_deviation,
@@ -647,7 +696,7 @@ impl ScrewTick {
     /// One ball.
     #[inline]
     #[must_use]
-    pub fn ball(
+    pub const fn ball(
         &self,
         screw_deviation: f32,
         nut_deviation: f32,
@@ -789,7 +838,7 @@ impl ScrewLoop {
 }
 
 /// Series of `1/(1 + x) - 1` with `x = (tan b sin u - (1 - cos u))/2`, from the power of one on.
-fn turn_series(tangent: f32) -> [f32; 5] {
+const fn turn_series(tangent: f32) -> [f32; 5] {
     let x1 = 0.5 * tangent;
     let x2 = -0.25;
     let x3 = -tangent / 12.0;
@@ -811,7 +860,7 @@ fn closing(third: f32) -> f32 {
 }
 
 #[inline]
-fn larger(first: f32, second: f32) -> f32 {
+const fn larger(first: f32, second: f32) -> f32 {
     if first > second { first } else { second }
 }
 
@@ -825,7 +874,7 @@ fn cube_root(x: f32) -> f32 {
 /// Largest deviation of a contact angle: 0.2 rad, less where the deviations of both grooves together
 /// would turn a contact through the plane across the axis, or where the series in them, which converges
 /// like the powers of `tan(b) u/2`, would need more terms.
-pub(crate) fn largest_deviation(contact_angle: f32, tangent: f32) -> f32 {
+pub(crate) const fn largest_deviation(contact_angle: f32, tangent: f32) -> f32 {
     let both = if contact_angle * tangent < 1.0 {
         contact_angle
     } else {
@@ -838,9 +887,14 @@ pub(crate) fn largest_deviation(contact_angle: f32, tangent: f32) -> f32 {
     }
 }
 
+/// `value` with the sign that a bit stands for.
+const fn signed(value: f32, bit: u8) -> f32 {
+    if bit == 0 { value } else { -value }
+}
+
 /// A deviation within the limits of the series; NaN gives zero.
 #[inline]
-fn limited(deviation: f32, largest: f32) -> f32 {
+const fn limited(deviation: f32, largest: f32) -> f32 {
     if deviation.abs() <= largest {
         deviation
     } else if deviation.is_nan() {
@@ -853,6 +907,33 @@ fn limited(deviation: f32, largest: f32) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Set-up looks at deviations alone, without the loads that a tick finds them from.
+    #[test]
+    fn the_fastest_ball_is_that_of_the_heaviest_loads() {
+        let fits = [
+            GrooveFit::Zero,
+            GrooveFit::Play,
+            GrooveFit::Preload {
+                contact_force: 1e-3,
+            },
+            GrooveFit::Preload { contact_force: 1e6 },
+        ];
+        for size in &crate::CATALOGUE {
+            for fit in fits {
+                let row = ScrewRow::new(&size.design().unwrap(), 0.1, fit).unwrap();
+                let mut fastest = 0.0_f32;
+                for (nut_speed, load) in [(1.0, 1e7), (1.0, -1e7), (-1.0, 1e7), (-1.0, -1e7)] {
+                    let tick = row.at(nut_speed, load);
+                    for (screw, nut) in [(0.1, 0.07), (0.1, -0.07), (-0.1, 0.07), (-0.1, -0.07)] {
+                        let ball = tick.ball(screw, nut, &LoadShare::MEAN);
+                        fastest = fastest.max(ball.speed_deviation.abs());
+                    }
+                }
+                assert_eq!(row.fastest_deviation(0.1, 0.07), fastest, "{fit:?}");
+            }
+        }
+    }
 
     /// A cube root to one rounding of Newton's last step (1.5 x 2^-24), squared (twice that and a rounding).
     #[test]

@@ -1,0 +1,315 @@
+//! A whole gear folded by the compiler is the gear that a program would set up, to the bit, and runs like it.
+
+use std::fmt::Debug;
+use std::hint::black_box;
+
+use epas_friction::{
+    AnalyticLinearBall, BallScrew, CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration,
+    CagedConstants, DISSERTATION_DESIGNS, DeviationMap, Error, FourPointBall, FrictionBranch,
+    FrictionMap, FrictionModel, GrooveFit, GrooveSize, Harmonic, Inputs, Limits,
+    LinearBallParameters, LinearBearing, LinearBearingConfiguration, LinearBearingParameters,
+    LinearBearingTrain, LinearConstants, LinearInputs, LinearLimits, LoadShare, Material, Outputs,
+    PUBLISHED_SLOPE, RotaryBall, RotaryBallParameters, Scene, ScrewBall, ScrewRow, SlipMap,
+    TrainOutputs, UncagedBallScrew, UncagedBallScrewConfiguration, UncagedConstants,
+};
+
+const fn folded<T: Copy>(set_up: Result<T, Error>) -> T {
+    match set_up {
+        Ok(folded) => folded,
+        Err(_) => panic!("a field is out of range"),
+    }
+}
+
+static WAVES: DeviationMap = folded(DeviationMap::from_harmonics(
+    1,
+    &[
+        Harmonic {
+            order: 2,
+            cosine: 0.0,
+            sine: 0.04014,
+        },
+        Harmonic {
+            order: 5,
+            cosine: 0.003,
+            sine: -0.002,
+        },
+    ],
+));
+static SLOW_WAVE: DeviationMap = folded(DeviationMap::from_harmonics(
+    2,
+    &[Harmonic {
+        order: 3,
+        cosine: 0.01,
+        sine: 0.02,
+    }],
+));
+static SHARES: [LoadShare; 3] = [
+    folded(LoadShare::new(0.4)),
+    LoadShare::MEAN,
+    folded(LoadShare::new(1.6)),
+];
+
+const LIMITS: Limits = Limits {
+    nut_speed: 300.0,
+    axial_load: 20_000.0,
+    friction_torque: 5.0,
+};
+
+const fn caged(branch: FrictionBranch, preload: f32) -> CagedBallScrewConfiguration {
+    CagedBallScrewConfiguration {
+        design: folded(CATALOGUE[15].design()),
+        friction: 0.075,
+        rolling_tangent: 1e-3,
+        branch,
+        preload,
+        reversal_speed: 0.5,
+        limits: LIMITS,
+    }
+}
+
+const fn uncaged(fit: GrooveFit) -> UncagedBallScrewConfiguration {
+    UncagedBallScrewConfiguration {
+        design: folded(BallScrew::new(DISSERTATION_DESIGNS[1].parameters)),
+        friction: 0.1,
+        ball_friction: 0.1,
+        fit,
+        turns: 2.0,
+        return_length: 0.03,
+        screw_deviation: &WAVES,
+        nut_deviation: &SLOW_WAVE,
+        load_shares: &SHARES,
+        reversal_speed: 0.5,
+        tick: 1e-4,
+        limits: LIMITS,
+    }
+}
+
+const fn linear() -> LinearBearingConfiguration {
+    LinearBearingConfiguration {
+        bearing: folded(LinearBearing::new(LinearBearingParameters {
+            ball_radius: 0.005,
+            groove: GrooveSize::Conformity(0.54),
+            contact_angle: 0.7,
+            ball_material: Material::SILICON_NITRIDE,
+            groove_material: Material::STEEL,
+        })),
+        friction: 0.1,
+        ball_friction: 0.15,
+        loaded_length: 0.16,
+        return_length: 0.09,
+        wavelength: 0.06,
+        rail_deviation: &WAVES,
+        carriage_deviation: &SLOW_WAVE,
+        load_shares: &SHARES,
+        reversal_speed: 1e-3,
+        tick: 1e-4,
+        limits: LinearLimits {
+            speed: 3.0,
+            load: 5_000.0,
+            friction_force: 500.0,
+        },
+    }
+}
+
+const PRELOAD: GrooveFit = GrooveFit::Preload {
+    contact_force: 20.0,
+};
+
+static ROLLING: CagedConstants =
+    folded(CagedConstants::new(&caged(FrictionBranch::Rolling, 300.0)));
+static SLIDING: CagedConstants = folded(CagedConstants::new(&caged(FrictionBranch::Sliding, 0.0)));
+static ZERO: UncagedConstants<37> = folded(UncagedConstants::new(&uncaged(GrooveFit::Zero)));
+static PLAY: UncagedConstants<37> = folded(UncagedConstants::new(&uncaged(GrooveFit::Play)));
+static PRELOADED: UncagedConstants<24> = folded(UncagedConstants::new(&uncaged(PRELOAD)));
+static CARRIAGE: LinearConstants<24> = folded(LinearConstants::new(&linear()));
+
+/// `Debug` prints the shortest text that reads back as the same number, and the sign of a zero: equal texts
+/// are equal bits. No NaN may hide among them.
+fn same_bits(folded: &impl Debug, computed: &impl Debug) {
+    let (folded, computed) = (format!("{folded:?}"), format!("{computed:?}"));
+    assert!(!folded.contains("NaN"), "{folded}");
+    assert_eq!(folded, computed);
+}
+
+/// Nut or carriage to and fro, over all four quadrants, with a sensor that fails now and then.
+fn manoeuvre() -> impl Iterator<Item = (f32, f32)> {
+    (0..4000_i16).map(|tick| {
+        let phase = f32::from(tick) * 0.01;
+        let speed = 200.0 * phase.sin();
+        let load = 12_000.0 * (0.37 * phase).cos();
+        match tick % 501 {
+            100 => (f32::NAN, load),
+            200 => (speed, f32::INFINITY),
+            300 => (1e9, load),
+            _ => (speed, load),
+        }
+    })
+}
+
+/// Constants are the same as at run time, and so is every output of every tick, and the state at the end.
+fn same_gear<S>(
+    constants: &'static S::Constants,
+    configuration: &S::Configuration,
+    inputs: fn(f32, f32) -> S::Inputs,
+) where
+    S: Scene<Constants: Clone + Debug, State: Debug, Outputs: Debug>,
+{
+    same_bits(
+        constants,
+        &S::constants(black_box(configuration)).ok().unwrap(),
+    );
+    let mut referring = FrictionModel::<S, _>::of(constants);
+    let mut owning = FrictionModel::<S>::new(black_box(configuration)).unwrap();
+    for (speed, load) in manoeuvre() {
+        same_bits(
+            &referring.step(inputs(speed, load)),
+            &owning.step(inputs(speed, load)),
+        );
+    }
+    same_bits(referring.state(), owning.state());
+    assert!(std::ptr::eq(referring.constants(), constants));
+
+    referring.reset();
+    same_bits(
+        referring.state(),
+        FrictionModel::<S>::of(constants.clone()).state(),
+    );
+}
+
+const fn nut(nut_speed: f32, axial_load: f32) -> Inputs {
+    Inputs {
+        nut_speed,
+        axial_load,
+    }
+}
+
+#[test]
+fn a_folded_caged_ball_screw_is_the_one_set_up_at_run_time() {
+    same_gear::<CagedBallScrew>(&ROLLING, &caged(FrictionBranch::Rolling, 300.0), nut);
+    same_gear::<CagedBallScrew>(&SLIDING, &caged(FrictionBranch::Sliding, 0.0), nut);
+}
+
+#[test]
+fn a_folded_ball_screw_without_cage_is_the_one_set_up_at_run_time() {
+    same_gear::<UncagedBallScrew<37>>(&ZERO, &uncaged(GrooveFit::Zero), nut);
+    same_gear::<UncagedBallScrew<37>>(&PLAY, &uncaged(GrooveFit::Play), nut);
+    same_gear::<UncagedBallScrew<24>>(&PRELOADED, &uncaged(PRELOAD), nut);
+}
+
+#[test]
+fn a_folded_linear_bearing_is_the_one_set_up_at_run_time() {
+    same_gear::<LinearBearingTrain<24>>(&CARRIAGE, &linear(), |speed, load| LinearInputs {
+        speed: 0.01 * speed,
+        normal_load: 2_000.0,
+        side_load: 0.1 * load,
+    });
+}
+
+/// The angle moves the screw's deviations under the balls, whoever owns the constants.
+#[test]
+fn a_model_of_a_reference_takes_the_nut_angle() {
+    let mut referring = FrictionModel::<UncagedBallScrew<37>, _>::of(&ZERO);
+    let mut owning = FrictionModel::<UncagedBallScrew<37>>::of(ZERO);
+    let at_rest: TrainOutputs = referring.step(nut(50.0, 3_000.0));
+    same_bits(&at_rest, &owning.step(nut(50.0, 3_000.0)));
+    // Half a wave of the screw's deviations.
+    referring.set_nut_angle(0.8);
+    owning.set_nut_angle(0.8);
+    let turned = referring.step(nut(50.0, 3_000.0));
+    same_bits(&turned, &owning.step(nut(50.0, 3_000.0)));
+    assert_ne!(Outputs::from(turned), Outputs::from(at_rest));
+}
+
+/// A bad field is an error of the compiler where a constant is asked for, and names itself where it is not.
+#[test]
+fn a_refused_gear_names_its_field() {
+    const BAD: Result<UncagedConstants<37>, Error> =
+        UncagedConstants::new(&UncagedBallScrewConfiguration {
+            tick: 0.1,
+            ..uncaged(GrooveFit::Zero)
+        });
+    const CROWDED: Result<UncagedConstants<60>, Error> =
+        UncagedConstants::new(&uncaged(GrooveFit::Zero));
+    const HASTY: Result<LinearConstants<24>, Error> =
+        LinearConstants::new(&LinearBearingConfiguration {
+            limits: LinearLimits {
+                speed: f32::NAN,
+                ..linear().limits
+            },
+            ..linear()
+        });
+    const SLIPPERY: Result<CagedConstants, Error> =
+        CagedConstants::new(&CagedBallScrewConfiguration {
+            friction: -0.1,
+            ..caged(FrictionBranch::Rolling, 0.0)
+        });
+    let fields = [
+        BAD.unwrap_err(),
+        CROWDED.unwrap_err(),
+        HASTY.unwrap_err(),
+        SLIPPERY.unwrap_err(),
+    ]
+    .map(|error| error.field());
+    assert_eq!(fields, ["tick", "pitch", "speed", "friction"]);
+}
+
+/// What engineers set up one by one.
+#[derive(Debug)]
+#[allow(dead_code)] // Read through `Debug`.
+struct Parts {
+    map: FrictionMap,
+    slip: SlipMap,
+    linear: FourPointBall,
+    published: AnalyticLinearBall,
+    rotary: RotaryBall,
+    screw: ScrewBall,
+    row: ScrewRow,
+}
+
+const RATIOS: [f32; 5] = [0.02, 0.0811, 0.2321, 0.7, 0.95];
+
+const fn parts(axis_ratio: f32, contact_angle: f32) -> Parts {
+    let design = folded(BallScrew::new(DISSERTATION_DESIGNS[2].parameters));
+    let ball = LinearBallParameters {
+        ball_radius: 0.005,
+        contact_angle,
+        axis_ratio,
+        semi_major_coefficient: 9.075e-5,
+        friction: 0.1,
+    };
+    let rotary = RotaryBallParameters {
+        ball_radius: 0.00625,
+        pitch_radius: 0.035,
+        contact_angle,
+        axis_ratio_inner: axis_ratio,
+        axis_ratio_outer: 0.216,
+        semi_major_coefficient_inner: 1.288e-4,
+        semi_major_coefficient_outer: 1.196e-4,
+        friction: 0.1,
+    };
+    let published = AnalyticLinearBall::new(&ball, PUBLISHED_SLOPE);
+    Parts {
+        map: folded(FrictionMap::new(axis_ratio)),
+        slip: folded(SlipMap::new(axis_ratio)),
+        linear: folded(FourPointBall::linear(&ball)),
+        published: folded(published),
+        rotary: folded(RotaryBall::new(&rotary)),
+        screw: folded(ScrewBall::new(&design, 0.1)),
+        row: folded(ScrewRow::new(&design, 0.1, PRELOAD)),
+    }
+}
+
+#[test]
+fn folded_balls_and_contacts_have_the_bits_of_those_made_at_run_time() {
+    const FOLDED: [Parts; 5] = [
+        parts(RATIOS[0], 0.3),
+        parts(RATIOS[1], 0.6),
+        parts(RATIOS[2], 0.785),
+        parts(RATIOS[3], 1.0),
+        parts(RATIOS[4], 1.4),
+    ];
+    let angles = [0.3, 0.6, 0.785, 1.0, 1.4];
+    for ((folded, ratio), angle) in FOLDED.iter().zip(RATIOS).zip(angles) {
+        same_bits(folded, &parts(black_box(ratio), black_box(angle)));
+    }
+}
