@@ -3,7 +3,7 @@
 use super::ball::Ball;
 
 /// What rounding may leave of a cluster's pushes over the largest force before it is taken out.
-const ROUNDING: f32 = 4e-7;
+const ROUNDING: f32 = 1e-6;
 
 /// Balls that move as one: they touch, or close their last distance within the tick.
 ///

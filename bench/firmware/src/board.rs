@@ -88,17 +88,18 @@ const PAINT: u32 = 0xA5A5_5A5A;
 const PAINTED: usize = 2048;
 
 /// Bytes of stack that some work, done some times with its number, takes below its caller, at most; 8192 where
-/// it takes all that is painted.
+/// it takes all that is painted. The work says where its caller's stack ends.
 #[inline(never)]
-pub fn stack_used(times: u32, work: &mut dyn FnMut(u32)) -> u32 {
+pub fn stack_used(times: u32, work: &mut dyn FnMut(u32) -> u32) -> u32 {
     let top = cortex_m::register::msp::read() as *mut u32;
     for word in 1..=PAINTED {
         // SAFETY: free stack, below everything that is in use and within the memory of the board.
         unsafe { top.sub(word).write_volatile(PAINT) };
     }
     black_box(());
+    let mut end = 0;
     for number in 0..times {
-        work(number);
+        end = work(number);
     }
     black_box(());
     let mut used = PAINTED;
@@ -109,7 +110,7 @@ pub fn stack_used(times: u32, work: &mut dyn FnMut(u32)) -> u32 {
         }
         used -= 1;
     }
-    4 * used as u32
+    (4 * used as u32).saturating_sub(top as u32 - end)
 }
 
 #[inline(never)]
@@ -121,7 +122,10 @@ fn set_up<S: Run>(place: &mut MaybeUninit<S::Model>) -> Option<&mut S::Model> {
 /// stack that either takes.
 pub fn run<S: Run>(console: &mut Console, place: &mut MaybeUninit<S::Model>) -> bool {
     let (mut place, mut model) = (Some(place), None);
-    let set_up_stack = stack_used(1, &mut |_| model = place.take().and_then(set_up::<S>));
+    let set_up_stack = stack_used(1, &mut |_| {
+        model = place.take().and_then(set_up::<S>);
+        cortex_m::register::msp::read()
+    });
     let Some(model) = model else {
         return false;
     };
@@ -129,6 +133,7 @@ pub fn run<S: Run>(console: &mut Console, place: &mut MaybeUninit<S::Model>) -> 
     let stack = stack_used(TICKS, &mut |number| {
         let (nut_speed, axial_load) = course(number);
         S::tick(model, nut_speed, axial_load, &mut digest);
+        cortex_m::register::msp::read()
     });
     report(console, S::NAME, [digest.0, stack, set_up_stack]);
     true

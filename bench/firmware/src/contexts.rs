@@ -5,7 +5,7 @@ use core::hint::black_box;
 use epas_friction::{
     AnalyticLinearBall, BallChain, BallScrew, BallState, CATALOGUE, CagedBallScrew,
     CircularGrooveCurvature, ContactKinematics, EfficiencyGeometry, Error, FittedCurvature,
-    FourPointBall, FrictionMap, FrictionModel, GothicArch, Groove, GrooveFit, HertzContact,
+    FourPointBall, FrictionMap, FrictionModel, GothicArch, Groove, GrooveFit, HertzContact, Inputs,
     KinematicsParameters, LinearBallParameters, LinearBearingTrain, LiteratureCurvature,
     PUBLISHED_SLOPE, Press, RotaryBall, RotaryBallParameters, ScrewRow, ScrewTick, Train,
     UncagedBallScrew,
@@ -61,6 +61,8 @@ pub struct Contexts {
     pub train: Train<BALLS>,
     /// Ball screw without cage.
     pub uncaged: FrictionModel<UncagedBallScrew<BALLS>>,
+    /// The same after turns under a falling load: most balls press on each other.
+    pub pressing: FrictionModel<UncagedBallScrew<BALLS>>,
     /// Linear bearing.
     pub carriage: FrictionModel<LinearBearingTrain<ROW>>,
     /// What others run.
@@ -145,6 +147,7 @@ impl Contexts {
             press: Press::new(),
             train: Train::evenly_spaced(0.2248, 0.00594)?,
             uncaged: FrictionModel::new(&black_box(uncaged_configuration()?))?,
+            pressing: pressing(FrictionModel::new(&black_box(uncaged_configuration()?))?),
             carriage: FrictionModel::new(&black_box(linear_configuration()?))?,
             lugre: black_box(LuGre {
                 stribeck: Stribeck {
@@ -160,4 +163,17 @@ impl Contexts {
             }),
         })
     }
+}
+
+/// A ball screw that has turned with its load falling.
+fn pressing(
+    mut model: FrictionModel<UncagedBallScrew<BALLS>>,
+) -> FrictionModel<UncagedBallScrew<BALLS>> {
+    for tick in 0..200_u8 {
+        let _ = model.step(Inputs {
+            nut_speed: 40.0,
+            axial_load: 4_000.0 - 20.0 * f32::from(tick),
+        });
+    }
+    model
 }

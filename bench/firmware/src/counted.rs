@@ -210,6 +210,13 @@ counted! {
         model.step(Inputs { nut_speed, axial_load })
     }
 
+    /// The same, where most balls press on each other.
+    fn count_step_train_37_pressing(
+        model: &mut FrictionModel<UncagedBallScrew<BALLS>>, nut_speed: f32, axial_load: f32
+    ) -> TrainOutputs {
+        model.step(Inputs { nut_speed, axial_load })
+    }
+
     /// One tick of a linear bearing.
     fn count_step_linear(
         model: &mut FrictionModel<LinearBearingTrain<ROW>>, speed: f32, normal_load: f32, side_load: f32

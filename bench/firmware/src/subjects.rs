@@ -18,7 +18,8 @@ use crate::counted::{
     count_linear_ball_analytic, count_linear_ball_refined, count_linear_chain_2, count_lugre_step,
     count_micromath_cos, count_micromath_powf, count_micromath_sqrt, count_press_37,
     count_rotary_ball_refined, count_sin_cos, count_sqrt, count_step_caged, count_step_efficiency,
-    count_step_linear, count_step_train_37, count_stribeck_curve, count_train_37,
+    count_step_linear, count_step_train_37, count_step_train_37_pressing, count_stribeck_curve,
+    count_train_37,
 };
 use crate::scenes::EfficiencyStep;
 use crate::spread::Spread;
@@ -432,6 +433,10 @@ subjects! {
     step_train_37: |spread| -> [2] tick(spread),
         |c, [nut_speed, axial_load]| -> [7] train_outputs(
             &timed!(c, count_step_train_37(black_box(&mut c.uncaged), nut_speed, axial_load))
+        );
+    step_train_37_pressing: |spread| -> [2] [spread.between(10.0, 30.0), spread.between(4_000.0, 40.0)],
+        |c, [nut_speed, axial_load]| -> [7] train_outputs(
+            &timed!(c, count_step_train_37_pressing(black_box(&mut c.pressing), nut_speed, axial_load))
         );
     step_linear: |spread| -> [2] {
             let [speed, load] = tick(spread);
