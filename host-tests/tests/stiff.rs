@@ -3,6 +3,7 @@
 mod absurd;
 #[path = "absurd/gears.rs"]
 mod gears;
+mod recorded;
 
 use absurd::{Random, Trial, sound_train};
 use epas_friction::{
@@ -175,7 +176,13 @@ fn a_minute_of_turning_to_and_fro() {
 #[test]
 #[ignore = "minutes: cargo test --release -p epas-reference --test stiff -- --ignored --nocapture"]
 fn a_thousand_million_ticks() {
-    long_run::<8>(1_000_000_000, 1000);
+    const TICKS: u64 = 1_000_000_000;
+    long_run::<8>(TICKS, 1000);
+    recorded::print(
+        "ticks of one train that turns to and fro: no drift, no overlap, no ball lost",
+        TICKS,
+        "cargo test --release -p epas-reference --test stiff -- --ignored --nocapture",
+    );
 }
 
 #[test]
