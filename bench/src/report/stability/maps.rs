@@ -314,11 +314,12 @@ pub const MAPS: [Map; 21] = [
         ..PLAIN
     },
     Map {
-        title: "rolling efficiency, absolute",
+        title: "rolling efficiency, absolute, where driving does not lock",
         x: ("contact angle (deg)", 0.0, 90.0),
         y: ("ball ratio", 0.0, 1.0),
         request: |contact, ratio| efficiency(0.1, 10.0, contact, ratio),
         value: ("/rolling_screw", "/rolling_screw"),
+        unless: Some("/locked_drive"),
         promise: Some(&promises::EFFICIENCY),
         ..PLAIN
     },
@@ -354,8 +355,9 @@ pub const MAPS: [Map; 21] = [
         ..PLAIN
     },
     Map {
-        title: "orbital speed, relative, subnormal speeds to 1e6",
-        x: ("log10 of the speed (rad/s)", -44.8, 6.0),
+        // Subnormal numbers have fewer digits, down to one.
+        title: "orbital speed, relative, smallest normal speeds to 1e6",
+        x: ("log10 of the speed (rad/s)", -36.0, 6.0),
         y: ("pitch angle (deg)", -90.0, 90.0),
         request: |speed, pitch| kinematics(10.0, 45.0, pitch, power(speed)),
         value: ("/orbital_speed", "/orbital_speed"),
@@ -428,15 +430,15 @@ pub const MAPS: [Map; 21] = [
         ..PLAIN
     },
     Map {
-        title: "force in the middle of a row of linear balls, relative",
+        title: "force between the rear two of a row of linear balls, relative",
         x: ("balls", 2.0, 64.0),
         y: ("deviation (deg)", 0.5, 3.0),
         request: |balls, degrees| {
             let balls = balls.round() as u32;
-            // Side forces that fall from rear to front: every ball presses on the next.
+            // Side forces that rise from rear to front: every ball presses on the next.
             linear((0..balls).map(|ball| {
                 let place = f64::from(ball) / f64::from(balls - 1);
-                (degrees, 0.6 * (1.0 - 2.0 * place))
+                (degrees, 0.6 * (2.0 * place - 1.0))
             }))
         },
         value: ("/refined/contact_force/0", "/contact_force/0"),
@@ -461,7 +463,7 @@ pub const MAPS: [Map; 21] = [
         title: "force between two balls in the screw, N",
         x: ("log10 of the load of a contact (N)", 0.0, 2.5),
         y: ("difference of the deviations (deg)", 0.0, 3.0),
-        request: |load, degrees| screw(power(load), 0.2, [degrees, 0.0]),
+        request: |load, degrees| screw(power(load), 0.2, [0.0, degrees]),
         value: ("/contact_force/0", "/contact_force/0"),
         fineness: 0.5,
         ..PLAIN

@@ -27,6 +27,8 @@ const TURNS: [f64; 6] = [-3.0, -2.0, -1.0, 1.0, 2.0, 3.0];
 /// Side-force ratios over which a border is looked for.
 const SIDES: (f64, f64) = (0.7, 0.998);
 const STEPS: u32 = 150;
+/// How far from the border, in side-force ratios, the speeds before and after it are taken.
+const BESIDE: f64 = 1e-3;
 
 /// Where the speed of a ball in a linear bearing jumps.
 struct Border {
@@ -59,9 +61,8 @@ impl Border {
             }
             last = now;
         }
-        // A jump stays as large as it is however near to it one looks.
         let mut width = (high - low) / f64::from(STEPS);
-        while width > 1e-9 {
+        while width > 1e-6 {
             width *= 0.5;
             let middle = speed(found.side - width)?;
             if (middle - found.before).abs() < (middle - found.after).abs() {
@@ -71,6 +72,9 @@ impl Border {
                 found.side -= width;
             }
         }
+        // At the jump itself all motions in between lose the same power.
+        found.before = speed(found.side - BESIDE)?;
+        found.after = speed(found.side + BESIDE)?;
         Ok(found)
     }
 }
@@ -204,7 +208,7 @@ fn screw_point(ball: &ScrewBall, third: f64, degrees: f64) -> Option<ScrewPoint>
 fn screw_points(ball: &ScrewBall, degrees: f64, quick: bool) -> Vec<ScrewPoint> {
     // Where the ball is all but held by two contacts the reference takes a second for each.
     let (far, fine) = if quick { (4_u32, 6) } else { (16, 48) };
-    let light = (0..far).map(|step| -4.6 + 2.8 * f64::from(step) / f64::from(far));
+    let light = (0..far).map(|step| -4.5 + 2.8 * f64::from(step) / f64::from(far));
     let heavy = (0..=fine).map(|step| -1.8 + 1.8 * f64::from(step) / f64::from(fine));
     light
         .chain(heavy)
