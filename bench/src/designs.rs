@@ -123,6 +123,14 @@ impl FromStr for DesignSource {
 }
 
 impl DesignSource {
+    /// The file, where it is one.
+    pub fn file(&self) -> Option<&Path> {
+        match self {
+            Self::File(path) => Some(path),
+            Self::BuiltIn { .. } | Self::LinearBearing => None,
+        }
+    }
+
     /// The ball screw, checked.
     pub fn load(&self) -> Result<Design, Failure> {
         match self {

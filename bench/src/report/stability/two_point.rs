@@ -207,7 +207,7 @@ fn screw_point(ball: &ScrewBall, third: f64, degrees: f64) -> Option<ScrewPoint>
 
 fn screw_points(ball: &ScrewBall, degrees: f64, quick: bool) -> Vec<ScrewPoint> {
     // Where the ball is all but held by two contacts the reference takes a second for each.
-    let (far, fine) = if quick { (4_u32, 6) } else { (16, 48) };
+    let (far, fine) = if quick { (4_u32, 6) } else { (8, 48) };
     let light = (0..far).map(|step| -4.5 + 2.8 * f64::from(step) / f64::from(far));
     let heavy = (0..=fine).map(|step| -1.8 + 1.8 * f64::from(step) / f64::from(fine));
     light
