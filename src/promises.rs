@@ -226,6 +226,7 @@ pub const ALL: [Promise; 13] = [
 /// Ticks within which a scene flags what is wrong with its inputs.
 pub const TICKS_TO_FLAG: u32 = 1;
 
-/// Ticks after a failure until outputs are unflagged and right for the state; a train keeps where its
-/// balls are, and goes on from there.
+/// Ticks after a failure until outputs are unflagged and right for the state. A train keeps where its balls
+/// and the deviations' phase are, and goes on from there: behind by the travel of the missed ticks, until
+/// `set_nut_angle` brings the phase of a ball screw back, or `reset` everything.
 pub const TICKS_TO_RECOVER: u32 = 1;

@@ -98,7 +98,8 @@ pub fn blocks(swept: &Errors, requests: u64) -> Result<Vec<Block>, Failure> {
     });
     Ok(vec![
         Block::Text(
-            "Runs that take minutes to hours are recorded with the command that makes each. Failures are \
+            "Runs that take minutes to hours are recorded with the command that makes each; what this run has \
+             swept stands in the last row below, in the column of inputs above, and under Scalar kernels. Failures are \
              panics, numbers that are not finite, torques beyond their limit or with the wrong sign, flags that \
              are missing or wrong, balls that are lost or overlap."
                 .into(),
