@@ -24,7 +24,7 @@ fn source(command: &str) -> String {
         root.join("..")
             .join(command.split_whitespace().next().unwrap())
     };
-    std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{command}: {path:?}: {error}"))
+    std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{command}: {error}"))
 }
 
 #[test]

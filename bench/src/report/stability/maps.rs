@@ -1,6 +1,7 @@
 //! Errors over whole domains: every map is made of requests of `eval`.
 
 use std::f64::consts::FRAC_PI_4;
+use std::fmt::Write as _;
 
 use epas_friction::promises::{self, Promise};
 use serde_json::Value;
@@ -55,7 +56,7 @@ fn exact(number: f64) -> String {
 fn request(model: &str, fields: &[(&str, f64)]) -> String {
     let mut line = format!("{{\"id\":0,\"model\":\"{model}\"");
     for (name, value) in fields {
-        line.push_str(&format!(",\"{name}\":{}", exact(*value)));
+        let _ = write!(line, ",\"{name}\":{}", exact(*value));
     }
     line.push('}');
     line
