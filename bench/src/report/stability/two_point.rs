@@ -172,10 +172,10 @@ const MAIN: f64 = 75.0;
 
 /// What holds the ball of a ball screw, by the load of its third contact over the main ones.
 const REGIMES: [(&str, f64, f64); 4] = [
-    ("three contacts: the third one is pinned", -1.2, 0.0),
-    ("three contacts: the third one slides", -2.9, -1.2),
-    ("about the change of the race that sticks", -4.1, -2.9),
-    ("two contacts: one race sticks", -9.0, -4.1),
+    ("three contacts: the third one is pinned", 0.063, 1.0),
+    ("three contacts: the third one slides", 1e-3, 0.063),
+    ("about the change of the race that sticks", 1e-4, 1e-3),
+    ("two contacts: one race sticks", 0.0, 1e-4),
 ];
 
 struct ScrewPoint {
@@ -248,9 +248,8 @@ fn screw_rows(points: &[ScrewPoint]) -> Vec<Vec<Cell>> {
             let mut worst = [0.0_f64; 2];
             let mut count = 0_u32;
             for point in points {
-                if let (true, Some(exact)) =
-                    (point.third > *low && point.third <= *high, point.exact)
-                {
+                let third = 10f64.powf(point.third);
+                if let (true, Some(exact)) = (third > *low && third <= *high, point.exact) {
                     count += 1;
                     worst[0] = worst[0].max((point.closed - exact).abs());
                     worst[1] = worst[1].max((point.refined - exact).abs());
@@ -258,7 +257,7 @@ fn screw_rows(points: &[ScrewPoint]) -> Vec<Vec<Cell>> {
             }
             vec![
                 (*name).into(),
-                format!("1e{low} to 1e{high}").into(),
+                format!("{low} to {high}").into(),
                 Cell::fixed(f64::from(count), 0),
                 Cell::power(worst[0]),
                 Cell::power(worst[1]),
