@@ -13,6 +13,7 @@ use epas_friction::{
     DISSERTATION_DESIGNS, FrictionBranch, FrictionModel, GrooveSize, Limits, Material,
 };
 use serde::Deserialize;
+use serde::de::DeserializeOwned;
 
 use crate::failure::Failure;
 use crate::files::Bounded;
@@ -123,6 +124,14 @@ impl FromStr for DesignSource {
 }
 
 impl DesignSource {
+    /// The file, where it is one.
+    pub fn file(&self) -> Option<&Path> {
+        match self {
+            Self::File(path) => Some(path),
+            Self::BuiltIn { .. } | Self::LinearBearing => None,
+        }
+    }
+
     /// The ball screw, checked.
     pub fn load(&self) -> Result<Design, Failure> {
         match self {
@@ -139,7 +148,7 @@ impl DesignSource {
                 "{} is a linear bearing: its scene is linear",
                 train::LINEAR
             ))),
-            Self::File(path) => from_file(path),
+            Self::File(path) => from_file(path, DesignFile::design),
         }
     }
 }
@@ -208,13 +217,17 @@ enum BranchName {
 /// Largest design file, bytes: a hundred times what one needs.
 const LARGEST_FILE: u64 = 1 << 18;
 
-fn from_file(path: &Path) -> Result<Design, Failure> {
+/// Reads a design file, and makes a design of what it says and of its own name.
+fn from_file<Table: DeserializeOwned, Made>(
+    path: &Path,
+    design: impl FnOnce(Table, &str) -> Result<Made, String>,
+) -> Result<Made, Failure> {
     let failure = |message: String| Failure::Data(format!("{}: {message}", path.display()));
     let text = read_text(path)?;
-    let file: DesignFile =
+    let file: Table =
         toml::from_str(&text).map_err(|error| failure(error.to_string().trim_end().into()))?;
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-    file.design(&stem).map_err(failure)
+    design(file, &stem).map_err(failure)
 }
 
 fn read_text(path: &Path) -> Result<String, Failure> {

@@ -185,7 +185,10 @@ fn answer_all(input: impl Read, path: &Path, mut output: impl Write) -> Result<b
 /// Answers one request.
 fn answer(line: &str) -> Reply<'_> {
     let (id, result) = match Fields::parse(line) {
-        Ok(mut fields) => (fields.id(), evaluate(fields)),
+        Ok(fields) => match fields.id() {
+            Ok(id) => (id, evaluate(fields)),
+            Err(error) => (None, Err(error)),
+        },
         Err(error) => (None, Err(error)),
     };
     match result {

@@ -27,13 +27,32 @@ impl Failure {
     pub fn report(&self) -> ExitCode {
         match self {
             Self::Data(message) => {
-                eprintln!("error: {message}");
+                eprintln!("error: {}", printable(message));
                 ExitCode::FAILURE
             }
             Self::Answered => ExitCode::FAILURE,
             Self::BrokenPipe => ExitCode::SUCCESS,
         }
     }
+}
+
+/// A message that may quote a file: no longer than a screen holds, and nothing in it that a terminal obeys.
+fn printable(message: &str) -> String {
+    const LONGEST: usize = 2000;
+    let mut letters = message.chars();
+    let mut text: String = letters
+        .by_ref()
+        .take(LONGEST)
+        .map(|letter| match letter {
+            '\n' | '\t' => letter,
+            _ if letter.is_control() => char::REPLACEMENT_CHARACTER,
+            _ => letter,
+        })
+        .collect();
+    if letters.next().is_some() {
+        text.push_str("...");
+    }
+    text
 }
 
 /// Errors of reading stdin and writing stdout; those of files are named by [`Failure::file`].

@@ -18,12 +18,20 @@ pub enum Existing {
 }
 
 impl Existing {
-    /// Fails before any work is done where a file would be in the way.
+    /// Fails before any work is done where something would be in the way: any file, or with
+    /// [`Existing::Replace`] what is none, such as a device or a pipe.
     pub fn check(self, path: &Path) -> Result<(), Failure> {
-        if self == Self::Keep && path.exists() {
-            Err(in_the_way(path))
-        } else {
-            Ok(())
+        // Of a link what it leads to; where that is nothing, the link itself.
+        let Ok(there) = fs::metadata(path).or_else(|_| fs::symlink_metadata(path)) else {
+            return Ok(());
+        };
+        match self {
+            Self::Keep => Err(in_the_way(path)),
+            Self::Replace if there.is_file() || there.is_symlink() => Ok(()),
+            Self::Replace => Err(Failure::Data(format!(
+                "{} is no ordinary file: it stays",
+                path.display()
+            ))),
         }
     }
 }

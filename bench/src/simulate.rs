@@ -122,6 +122,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     };
     if let (true, Some(source)) = (arguments.loads.wanted(), &arguments.design) {
         let output = arguments.output.as_deref();
+        refuse_same([source.file()], arguments.output.iter())?;
         return loads::run(&source.load()?, &arguments.loads, output, existing);
     }
     let subject = Subject::new(
@@ -139,7 +140,11 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     for path in output.iter().chain(&plot) {
         existing.check(path)?;
     }
-    refuse_same(arguments.input.as_deref(), output.iter().chain(&plot))?;
+    let design = arguments.design.as_ref().and_then(DesignSource::file);
+    refuse_same(
+        [arguments.input.as_deref(), design],
+        output.iter().chain(&plot),
+    )?;
 
     // Every sample is computed once and written once.
     let steps = trace.samples.len() * (1 + usize::from(output.is_some()));
@@ -235,12 +240,12 @@ fn targets(
     )
 }
 
-/// The trace itself is never overwritten, nor one output by the other.
-fn refuse_same<'a>(
-    input: Option<&Path>,
+/// Trace and design are never overwritten, nor one output by the other.
+fn refuse_same<'a, const N: usize>(
+    inputs: [Option<&Path>; N],
     outputs: impl Iterator<Item = &'a PathBuf>,
 ) -> Result<(), Failure> {
-    let mut taken: Vec<PathBuf> = input.map(place).into_iter().collect();
+    let mut taken: Vec<PathBuf> = inputs.into_iter().flatten().map(place).collect();
     for output in outputs {
         let place = place(output);
         if taken.contains(&place) {

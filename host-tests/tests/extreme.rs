@@ -3,9 +3,13 @@
 mod absurd;
 #[path = "absurd/objects.rs"]
 mod objects;
+mod recorded;
 
 use absurd::{Random, soak};
 use epas_friction::{CagedBallScrew, LinearBearingTrain, UncagedBallScrew};
+
+const COMMAND: &str =
+    "cargo test --release -p epas-reference --test extreme -- --ignored --nocapture";
 
 /// Every scene, from one ball to 64.
 fn all_scenes(seed: u64, models: u64, ticks: u64) -> u64 {
@@ -59,7 +63,9 @@ fn random_numbers_are_refused_or_give_finite_objects() {
 #[test]
 #[ignore = "minutes: cargo test --release -p epas-reference --test extreme -- --ignored --nocapture"]
 fn a_hundred_million_random_objects() {
-    random_objects(1 << 32, 100_000_000);
+    const COUNT: u64 = 100_000_000;
+    random_objects(1 << 32, COUNT);
+    recorded::print("objects made of random numbers", COUNT, COMMAND);
 }
 
 /// The recorded full run.
@@ -72,5 +78,9 @@ fn a_thousand_million_random_inputs() {
         ticks += all_scenes(round, 4000, 1000);
         round += 1;
     }
-    println!("{ticks} random ticks in all scenes");
+    recorded::print(
+        "ticks of all scenes under random inputs, 1 to 64 balls",
+        ticks,
+        COMMAND,
+    );
 }

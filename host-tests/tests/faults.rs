@@ -3,12 +3,15 @@
 mod absurd;
 #[path = "absurd/gears.rs"]
 mod gears;
+mod recorded;
 
 use absurd::{EDGES, Random, Trial, sound_train};
 use epas_friction::{
     BallScrew, CagedBallScrew, DeviationMap, Faults, FrictionModel, Inputs, LinearBearing,
-    LinearBearingTrain, LinearInputs, UncagedBallScrew, UncagedBallScrewConfiguration,
+    LinearBearingTrain, LinearInputs, UncagedBallScrew, UncagedBallScrewConfiguration, promises,
 };
+
+const COMMAND: &str = "cargo test -p epas-reference --test faults -- --nocapture";
 
 type Screw = UncagedBallScrew<{ gears::SCREW_BALLS }>;
 type Rail = LinearBearingTrain<{ gears::LINEAR_BALLS }>;
@@ -99,10 +102,10 @@ fn suffer<S: Trial>(
         }
         tick += 1;
     }
-    println!(
-        "{}: {injected} failing ticks, {} episodes",
-        S::name(),
-        injected / 20
+    recorded::print(
+        &format!("ticks with a failing sensor, {}", S::name()),
+        injected.into(),
+        COMMAND,
     );
     injected
 }
@@ -176,6 +179,90 @@ fn a_lost_sensor_stops_the_state() {
         assert_eq!(model.state().train, without.state().train);
         assert_eq!(model.step(inputs), without.step(inputs), "tick {tick}");
         assert_eq!(model.state().faulted_ticks, 0);
+    }
+}
+
+/// Runs a model at one speed and load, loses the speed for `missed` ticks, and holds it to what the
+/// documentation of the scenes with a train says: flagged and finite within `TICKS_TO_FLAG`, unflagged within
+/// `TICKS_TO_RECOVER` of the first sound tick, and from then on the model that never failed, `missed` ticks
+/// ago: the balls and the phase of the deviations stand back by the missed travel, and by nothing else.
+///
+/// Returns the model and the one that never failed, at the same tick.
+fn lose_the_speed<S: Trial<State: std::fmt::Debug>>(
+    configuration: &S::Configuration,
+    sound: [f32; 3],
+    missed: u32,
+    faults: impl Fn(&S::Outputs) -> Faults,
+) -> (FrictionModel<S>, FrictionModel<S>)
+where
+    FrictionModel<S>: Copy,
+{
+    let mut lost = sound;
+    lost[0] = f32::NAN;
+    let mut never_failed = FrictionModel::<S>::new(configuration).unwrap();
+    let mut model = never_failed;
+    for _ in 0..500 {
+        never_failed.step(S::inputs(sound));
+        model.step(S::inputs(sound));
+    }
+    let mut ahead = never_failed;
+    for tick in 0..missed {
+        ahead.step(S::inputs(sound));
+        let outputs = model.step(S::inputs(lost));
+        S::check(configuration, lost, &outputs).unwrap();
+        assert!(
+            faults(&outputs).any() || tick + 1 < promises::TICKS_TO_FLAG,
+            "tick {tick} is not flagged"
+        );
+    }
+    for tick in 0..500 {
+        ahead.step(S::inputs(sound));
+        let outputs = model.step(S::inputs(sound));
+        let expected = never_failed.step(S::inputs(sound));
+        assert!(
+            !faults(&outputs).any() || tick + 1 < promises::TICKS_TO_RECOVER,
+            "still flagged {tick} ticks after"
+        );
+        assert_eq!(S::numbers(&outputs), S::numbers(&expected), "tick {tick}");
+        let debug = |model: &FrictionModel<S>| format!("{:?}", model.state());
+        assert_eq!(debug(&model), debug(&never_failed), "tick {tick}");
+    }
+    (model, ahead)
+}
+
+/// The phase of the screw's deviations, as its state prints it.
+fn phase(model: &FrictionModel<Screw>) -> String {
+    let state = format!("{:?}", model.state());
+    let (_, phase) = state.split_once("phase: ").unwrap();
+    phase.split_once('}').unwrap().0.to_owned()
+}
+
+#[test]
+fn recovery_takes_a_tick_and_leaves_the_missed_travel() {
+    for missed in [1, 7, 300] {
+        let screw = gears::uncaged();
+        let (speed, tick) = (150.0, screw.tick);
+        let (mut model, mut ahead) =
+            lose_the_speed::<Screw>(&screw, [speed, 6e3, 0.0], missed, |outputs| outputs.faults);
+        // An absolute sensor tells where the screw is; the balls stay where they are.
+        assert_ne!(phase(&model), phase(&ahead));
+        let balls = model.state().train;
+        let angle = speed * tick * (1000 + missed) as f32;
+        model.set_nut_angle(angle);
+        ahead.set_nut_angle(angle);
+        assert_eq!(phase(&model), phase(&ahead));
+        assert_eq!(model.state().train, balls);
+        // `reset` takes both back to the start.
+        model.reset();
+        ahead.reset();
+        assert_eq!(model.state(), ahead.state());
+
+        lose_the_speed::<Rail>(&gears::linear(), [1.0, 5e3, 1e3], missed, |outputs| {
+            outputs.faults
+        });
+        lose_the_speed::<CagedBallScrew>(&gears::caged(), [150.0, 6e3, 0.0], missed, |outputs| {
+            outputs.faults
+        });
     }
 }
 
@@ -323,7 +410,12 @@ fn corrupted_configurations_are_refused_or_harmless() {
             Err(_) => refused += 1,
         }
     }
-    println!("{} corrupted configurations, {refused} refused", 3 * COUNT);
+    println!("{refused} refused");
+    recorded::print(
+        "configurations with corrupted bits",
+        (3 * COUNT).into(),
+        COMMAND,
+    );
     // Most turned bits are low ones of the mantissa; if none were refused the test would be blind.
     assert!(refused > COUNT / 10);
 }

@@ -565,6 +565,69 @@ fn every_scale_is_kept() {
     }
 }
 
+proptest::proptest! {
+    /// Whatever the model puts out, the duty stays within the authority about the middle, and is neutral
+    /// where a flag asks for it or the torque is no number.
+    #[test]
+    fn the_authority_bounds_every_duty(
+        bits: u32,
+        flags in 0_u8..32,
+        scale: u16,
+        full in 1e-6_f32..1e6,
+        authority in 0.0_f32..=1.0,
+        share in 0.0_f32..=1.0,
+        limited_values_pass: bool,
+    ) {
+        struct Channel(u16);
+        impl embedded_hal::pwm::ErrorType for Channel {
+            type Error = std::convert::Infallible;
+        }
+        impl embedded_hal::pwm::SetDutyCycle for Channel {
+            fn max_duty_cycle(&self) -> u16 {
+                self.0
+            }
+            fn set_duty_cycle(&mut self, _: u16) -> Result<(), Self::Error> {
+                Ok(())
+            }
+        }
+        let all = [
+            Faults::SPEED_NOT_FINITE,
+            Faults::LOAD_NOT_FINITE,
+            Faults::SPEED_RANGE,
+            Faults::LOAD_RANGE,
+            Faults::TORQUE_LIMIT,
+        ];
+        let mut faults = Faults::NONE;
+        for flag in all {
+            if flags & flag.bits() != 0 {
+                faults |= flag;
+            }
+        }
+        let configuration = FeedForwardConfiguration {
+            full_torque: full,
+            largest_torque: authority * full,
+            share,
+            reaction: if limited_values_pass {
+                FaultReaction::LimitedValuesPass
+            } else {
+                FaultReaction::NeutralOnAnyFault
+            },
+        };
+        let mut stage = FrictionFeedForward::new(Channel(scale), &configuration).unwrap();
+        let torque = f32::from_bits(bits);
+        let Ok(applied) = stage.apply(&outputs(torque, faults));
+        let middle = 0.5 * f64::from(scale);
+        let away = (f64::from(applied.duty) - middle).abs();
+        // Half a count of rounding, and what f32 makes of the product.
+        let reach = f64::from(authority) * middle;
+        proptest::prop_assert!(away <= reach * (1.0 + 1e-6) + 0.51, "{away} counts of {reach}");
+        let lost = flags & 3 != 0 || (faults.any() && !limited_values_pass);
+        proptest::prop_assert!(applied.neutral || !lost);
+        proptest::prop_assert!(applied.neutral || torque.is_finite());
+        proptest::prop_assert!(!applied.neutral || away <= 0.5);
+    }
+}
+
 #[test]
 fn an_error_of_the_channel_is_surfaced() {
     let failure = MockError::Io(std::io::ErrorKind::NotConnected);

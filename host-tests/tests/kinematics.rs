@@ -5,6 +5,7 @@ use epas_friction::kinematics::{
     ContactKinematics, ContactSlip, EllipticContact, FrictionPower, KinematicsParameters,
     PitchMethod, SlipParts, TraditionalKinematics,
 };
+use epas_friction::promises::{self, Promise};
 use epas_reference::kinematics::{
     self as reference, HertzMean, KinematicsInput, MeanSlip, Raceway, Revised, Traditional,
     operating, pitch_angle,
@@ -188,6 +189,22 @@ impl Errors {
     }
 }
 
+impl Errors {
+    /// Within what the table of promises says.
+    fn hold(&self, promise: &Promise) {
+        let (rms, mean) = ((self.squares / self.count).sqrt(), self.sum / self.count);
+        let line = format!(
+            "{}: {} inputs, largest {:.2e}, rms {rms:.1e}, mean {mean:+.1e}",
+            promise.function, self.count, self.largest
+        );
+        println!("{line}");
+        assert!(
+            self.largest <= promise.largest && rms <= promise.rms && mean.abs() <= promise.mean,
+            "{line}"
+        );
+    }
+}
+
 fn turn(left: f64, right: f64) -> f64 {
     (left - right + PI).rem_euclid(TAU) - PI
 }
@@ -332,6 +349,7 @@ fn random_geometries() {
         sweep.add(&random.input(), &format!("random {step}"));
     }
     sweep.assert();
+    sweep.rolling.hold(&promises::KINEMATICS);
 }
 
 /// Alberdi et al., sections 4.1 and 4.2, and yaw angles of section 4.3.2.

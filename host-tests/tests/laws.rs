@@ -4,9 +4,10 @@ mod absurd;
 
 use absurd::{Random, Trial, accepted};
 use epas_friction::{
-    CagedBallScrew, CagedBallScrewConfiguration, ContactAngle, DeviationMap, FrictionModel,
-    GothicArch, Groove, GrooveFit, GrooveProfile, HelixPath, HertzContact, Inputs,
-    LinearBearingTrain, Press, Regime, UncagedBallScrew, UncagedBallScrewConfiguration,
+    BallScrew, CagedBallScrew, CagedBallScrewConfiguration, ContactAngle, DeviationMap,
+    FrictionModel, GothicArch, Groove, GrooveFit, GrooveProfile, GrooveSize, HelixPath,
+    HertzContact, Inputs, LinearBearingConfiguration, LinearBearingTrain, LinearInputs,
+    LinearLimits, Press, Regime, UncagedBallScrew, UncagedBallScrewConfiguration,
 };
 use proptest::prelude::*;
 
@@ -50,6 +51,25 @@ fn uncaged(seed: u64, ball_friction: f32) -> FrictionModel<UncagedBallScrew<7>> 
         configuration.limits.friction_torque = 1e6;
         if let Ok(model) = FrictionModel::new(&configuration) {
             return model;
+        }
+    }
+}
+
+/// A linear bearing without deviations; its limits.
+fn linear(seed: u64, ball_friction: f32) -> (FrictionModel<LinearBearingTrain<5>>, LinearLimits) {
+    static NONE: DeviationMap = DeviationMap::NONE;
+    let mut random = Random(seed);
+    loop {
+        let (configuration, ..) = accepted::<LinearBearingTrain<5>>(&mut random);
+        let mut configuration = LinearBearingConfiguration {
+            ball_friction,
+            rail_deviation: &NONE,
+            carriage_deviation: &NONE,
+            ..configuration
+        };
+        configuration.limits.friction_force = 1e6;
+        if let Ok(model) = FrictionModel::new(&configuration) {
+            return (model, configuration.limits);
         }
     }
 }
@@ -143,6 +163,95 @@ proptest! {
         let large = HertzContact::checked(8.0 * first, 8.0 * second, 2e11).unwrap().at(64.0 * load);
         prop_assert!((small.max_pressure / large.max_pressure - 1.0).abs() < 1e-6);
         prop_assert!((8.0 * small.semi_major / large.semi_major - 1.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn a_linear_bearing_reverses_and_grows_with_load(
+        seed: u64, speed in -1.0_f32..1.0, normal in 0.0_f32..0.5, side in -1.0_f32..1.0, more in 1.0_f32..2.0,
+    ) {
+        let (mut model, limits) = linear(seed, 0.3);
+        let inputs = |speed: f32, more: f32, side: f32| LinearInputs {
+            speed: speed * limits.speed,
+            normal_load: more * normal * limits.load,
+            side_load: more * side * normal * limits.load,
+        };
+        let there = model.step(inputs(speed, 1.0, side));
+        model.reset();
+        let back = model.step(inputs(-speed, 1.0, side));
+        prop_assert_eq!(there.friction, -back.friction);
+        // Mirrored, the diagonals change places.
+        model.reset();
+        let mirrored = model.step(inputs(speed, 1.0, -side));
+        prop_assert!((there.friction - mirrored.friction).abs() <= 1e-6 * there.friction.abs());
+        model.reset();
+        let heavy = model.step(inputs(speed, more, side));
+        prop_assert!(heavy.friction.abs() >= there.friction.abs() * (1.0 - 1e-5));
+        // Of balls alike none presses; what there is comes from the grooves.
+        prop_assert_eq!((there.contacts, there.ball_friction), (0, 0.0));
+        prop_assert!(there.faults.any() || there.friction == there.groove_friction);
+    }
+
+    #[test]
+    fn no_size_of_a_screw_is_special(
+        seed: u64, speed in -1e3_f32..1e3, load in -1e3_f32..1e3, power in -1_i32..2,
+    ) {
+        // Eight times the size under 64 times the load: the same stresses and angles, 512 times the torque.
+        // A power of two scales without rounding but in roots, series and the floors of tiny loads.
+        let scale = 8.0_f32.powi(power);
+        let mut random = Random(seed);
+        let enlarged = |design: &BallScrew| {
+            let mut parameters = *design.parameters();
+            parameters.pitch_radius *= scale;
+            parameters.lead *= scale;
+            parameters.ball_radius *= scale;
+            for groove in [&mut parameters.screw_groove, &mut parameters.nut_groove] {
+                if let GrooveSize::Radius(radius) = groove {
+                    *radius *= scale;
+                }
+            }
+            BallScrew::new(parameters)
+        };
+        let torque = scale * scale * scale;
+        let alike = |one: f32, other: f32| {
+            (one * torque - other).abs() <= 2e-4 * (one * torque).abs() + 1e-30
+        };
+
+        let (mut configuration, ..) = accepted::<CagedBallScrew>(&mut random);
+        configuration.preload = 0.0;
+        configuration.limits.nut_speed = 1e3;
+        configuration.limits.axial_load = 1e6;
+        configuration.limits.friction_torque = 1e6;
+        let small = FrictionModel::<CagedBallScrew>::new(&configuration);
+        let large = enlarged(&configuration.design).and_then(|design| {
+            FrictionModel::<CagedBallScrew>::new(&CagedBallScrewConfiguration { design, ..configuration })
+        });
+        if let (Ok(mut small), Ok(mut large)) = (small, large) {
+            let one = small.step(inputs(speed, load));
+            let other = large.step(inputs(speed, scale * scale * load));
+            let faults = one.faults.any() || other.faults.any();
+            prop_assert!(faults || alike(one.friction_torque, other.friction_torque), "{one:?} {other:?}");
+            prop_assert!(faults || (one.efficiency - other.efficiency).abs() <= 1e-4 * one.efficiency.abs());
+        }
+
+        let (mut configuration, ..) = accepted::<UncagedBallScrew<7>>(&mut random);
+        configuration.fit = GrooveFit::Zero;
+        configuration.limits.axial_load = 1e6;
+        configuration.limits.friction_torque = 1e6;
+        let nut_speed = 1e-3 * speed * configuration.limits.nut_speed;
+        let small = FrictionModel::<UncagedBallScrew<7>>::new(&configuration);
+        let large = enlarged(&configuration.design).and_then(|design| {
+            let return_length = configuration.return_length * scale;
+            FrictionModel::<UncagedBallScrew<7>>::new(
+                &UncagedBallScrewConfiguration { design, return_length, ..configuration },
+            )
+        });
+        // Below a newton the loads' floor counts.
+        if let (Ok(mut small), Ok(mut large), true) = (small, large, load.abs() > 64.0) {
+            let one = small.step(inputs(nut_speed, load));
+            let other = large.step(inputs(nut_speed, scale * scale * load));
+            let faults = one.faults.any() || other.faults.any();
+            prop_assert!(faults || alike(one.groove_friction, other.groove_friction), "{one:?} {other:?}");
+        }
     }
 
     #[test]

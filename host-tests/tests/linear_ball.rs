@@ -7,7 +7,7 @@ mod golden;
 
 use epas_friction::{
     AnalyticLinearBall, BallChain, FourPointBall, FourPointContacts, LinearBallParameters,
-    PUBLISHED_SLOPE,
+    PUBLISHED_SLOPE, promises,
 };
 use exact_ball::{ExactBall, ExactMap};
 use std::f64::consts::FRAC_PI_4;
@@ -363,6 +363,18 @@ fn random_contact_angles_and_side_forces() {
         println!("{label}: {errors}");
     }
     println!("loss relative: {loss}");
+    for (errors, promise) in [
+        (&errors[0], &promises::ANALYTIC_BALL),
+        (&errors[3], &promises::FOUR_POINT_BALL),
+    ] {
+        assert!(
+            errors.max <= promise.largest
+                && errors.rms() <= promise.rms
+                && errors.mean().abs() <= promise.mean,
+            "{}: {errors}",
+            promise.function
+        );
+    }
     assert!(errors[4].max < 5e-5 && errors[4].rms() < 3e-6 && errors[4].mean().abs() < 1e-6);
     assert!(loss.max < 1e-3);
 }

@@ -4,6 +4,8 @@
 //! the largest and smallest numbers); all inputs with
 //! `cargo test --release -p epas-reference --test math_sweeps -- --ignored --nocapture`.
 
+mod recorded;
+
 use epas_friction::{math, promises};
 
 #[path = "../../src/math/libm.rs"]
@@ -51,6 +53,19 @@ impl Errors {
 
     fn rms(&self) -> f64 {
         (self.squares / self.count).sqrt()
+    }
+
+    /// The line of a sweep over all inputs.
+    fn record(&self, name: &str) {
+        recorded::Sweep {
+            quantity: name,
+            inputs: self.count,
+            largest: self.max,
+            rms: self.rms(),
+            mean: self.mean(),
+            command: COMMAND,
+        }
+        .print();
     }
 
     fn report(&self, name: &str) {
@@ -125,6 +140,8 @@ fn around_powers_of_two(error: impl Fn(f32) -> f64) -> Errors {
 
 const LARGEST: u32 = 0x7f7f_ffff;
 const STRIDE: usize = 1009;
+const COMMAND: &str =
+    "cargo test --release -p epas-reference --test math_sweeps -- --ignored --nocapture";
 
 fn check_roots(stride: usize) {
     let kernels: [(&str, f64, ErrorAt); 4] = [
@@ -144,6 +161,9 @@ fn check_roots(stride: usize) {
     for (name, bound, error) in kernels {
         let errors = sweep(1, LARGEST, stride, error);
         errors.report(name);
+        if stride == 1 {
+            errors.record(&format!("math::{name}, ulp"));
+        }
         let corners = around_powers_of_two(error);
         corners.report("  around powers of two");
         assert!(errors.max <= bound, "{name} at {:e}", errors.at);
@@ -196,6 +216,9 @@ fn check_angles(stride: usize) {
             errors.rms(),
             errors.mean()
         );
+        if stride == 1 {
+            errors.record(&format!("math::sin_cos: {name}"));
+        }
         assert!(errors.max <= bound, "{name} at {:e}", errors.at);
         assert!(
             errors.rms() < 0.5 * bound && errors.mean().abs() < 0.1 * bound,

@@ -35,8 +35,12 @@ const LARGEST_SPEED_DEVIATION: f32 = 1.0;
 /// Valid for four loaded contacts with nearly equal loads on a diagonal. Largest error of the speed
 /// deviation against the minimum of the dissipation, angle deviations of the bottom groove up to 3
 /// degrees, in units of `v/2`: 2.3e-3 for side-force ratios up to 0.5, 4.1e-3 up to 0.6, 5.8e-3 up to
-/// 0.8; four independent angles 1.4e-2 (rms 1.9e-3). Beyond 0.85 it misses the change to two-point
-/// rolling altogether. Of the force between two balls, up to 10 N: 0.62 N (rms 0.24 N) up to 0.8.
+/// 0.8; four independent angles 1.5e-2 (rms 2e-3). Of the force between two balls, up to 10 N: 0.62 N
+/// (rms 0.24 N) up to 0.8. Near two-point rolling, from side-force ratios of 0.88 to 0.98 on, the exact
+/// speed jumps: where the weaker diagonal carries less than `(3/8) E (a/R_B)/sin(2 beta_0)` of the stronger
+/// one (3.7 % in Lin 2019, Table 3.3) it falls from 8.8e-3 per degree of the deviation to 3e-4. This formula
+/// keeps the speed from before, too large by up to 9.5e-3 per degree, never of the wrong sense, and never
+/// beyond `tan(beta_0)/2` times the larger of the two differences of angles.
 ///
 /// Cost of two balls and the force between them: 244 modelled cycles.
 ///

@@ -24,7 +24,12 @@ const SMALLEST_FORCE: f32 = 1e-6;
 ///
 /// Speed deviations are within 6e-3 of `v/2` for side-force ratios up to 0.8 and deviations up to 3
 /// degrees, where [`FourPointBall::refine_chain`](crate::FourPointBall::refine_chain) is within 4e-5 at
-/// some 1,500 cycles a ball.
+/// some 1,500 cycles a ball. From ratios of 0.88 to 0.98 on, where balls change to two-point rolling, they
+/// are too large by up to 9.5e-3 per degree, and so is the force between balls; no flag says so.
+///
+/// A tick whose speed or load is no number is flagged in that tick, puts out no force, and leaves the state as
+/// it is; the next sound tick is unflagged. Balls, and the phase of the rail's deviations, stand behind by the
+/// travel of the missed ticks from then on, until [`FrictionModel::reset`](crate::FrictionModel::reset).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LinearBearingTrain<const N: usize>;

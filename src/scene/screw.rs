@@ -20,6 +20,11 @@ const UNLOADED: f32 = 1e-6;
 const _: () = assert!(UNLOADED >= IMPEDANCE_RANGE.0);
 
 /// A ball screw without cage, with `N` balls in one circuit: friction of the grooves and between balls.
+///
+/// A tick whose speed or load is no number is flagged in that tick, puts out no torque, and leaves the state as
+/// it is; the next sound tick is unflagged. Balls, and the phase of the screw's deviations, then stand behind by
+/// the travel of the missed ticks, and friction is that of this position: sound, but that of an earlier angle.
+/// [`FrictionModel::set_nut_angle`] brings the phase back; the balls, whose places no sensor knows, stay behind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct UncagedBallScrew<const N: usize>;
@@ -308,7 +313,8 @@ impl<const N: usize> UncagedConstants<N> {
 impl<const N: usize, C: Borrow<UncagedConstants<N>>> FrictionModel<UncagedBallScrew<N>, C> {
     /// Sets the angle of the nut against the screw, rad, from which the screw's deviations are counted:
     /// once after start-up, and again whenever an absolute sensor has it; between, the model integrates
-    /// the speed. An angle that is NaN, or beyond 1e7 periods of the map, counts as 0.
+    /// the speed. Ticks without a valid speed are missing in that sum, one beyond its limit counts with the
+    /// limit. An angle that is NaN, or beyond 1e7 periods of the map, counts as 0.
     pub fn set_nut_angle(&mut self, angle: f32) {
         let turns = f32::from(self.constants().zone.passing_turns());
         self.state_mut().phase.set(angle / (TAU * turns));

@@ -240,12 +240,7 @@ impl LinearDesign {
 
     /// Reads a design file.
     pub fn read(path: &Path) -> Result<Self, Failure> {
-        let failure = |message: String| Failure::Data(format!("{}: {message}", path.display()));
-        let text = super::read_text(path)?;
-        let file: LinearFile =
-            toml::from_str(&text).map_err(|error| failure(error.to_string().trim_end().into()))?;
-        let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-        file.design(&stem).map_err(failure)
+        super::from_file(path, LinearFile::design)
     }
 }
 

@@ -94,15 +94,22 @@ impl<'a> Fields<'a> {
         serde_json::from_str(line).map_err(|error| BadField::request(error.to_string()))
     }
 
-    /// Takes the id, as it was written.
-    pub fn id(&mut self) -> Option<&'a RawValue> {
-        self.values.get("id").copied()
+    /// The id, as it was written; one that is nested deeper than whoever reads the answer may follow is
+    /// refused.
+    pub fn id(&self) -> Result<Option<&'a RawValue>, BadField> {
+        match self.values.get("id").copied() {
+            Some(id) if depth(id) > DEEPEST => Err(BadField::new(
+                "id",
+                format!("is nested deeper than {DEEPEST}"),
+            )),
+            id => Ok(id),
+        }
     }
 
     /// Refuses a request that gives a field twice or has no id.
     pub fn refuse_duplicate(&mut self) -> Result<(), BadField> {
         if let Some(field) = self.duplicate.take() {
-            return Err(BadField::new(field, "is given twice"));
+            return Err(BadField::new(beginning(&field), "is given twice"));
         }
         self.take("id").map(drop)
     }
@@ -223,7 +230,7 @@ impl<'a> Fields<'a> {
     /// Refuses every field that no one has taken.
     pub fn finish(self) -> Result<(), BadField> {
         match self.values.into_keys().next() {
-            Some(field) => Err(BadField::new(field, "is unknown to this model")),
+            Some(field) => Err(BadField::new(beginning(&field), "is unknown to this model")),
             None => Ok(()),
         }
     }
@@ -254,12 +261,40 @@ fn number(field: &str, raw: &RawValue) -> Result<f64, BadField> {
     }
 }
 
+/// Deepest nesting of an id: that to which readers of JSON commonly go.
+const DEEPEST: usize = 100;
+
+/// How deep lists and objects of a JSON value are nested.
+fn depth(raw: &RawValue) -> usize {
+    let (mut depth, mut deepest) = (0_usize, 0);
+    let (mut in_text, mut escaped) = (false, false);
+    for byte in raw.get().bytes() {
+        match byte {
+            _ if escaped => escaped = false,
+            b'\\' => escaped = in_text,
+            b'"' => in_text = !in_text,
+            b'[' | b'{' if !in_text => {
+                depth += 1;
+                deepest = deepest.max(depth);
+            }
+            b']' | b'}' if !in_text => depth = depth.saturating_sub(1),
+            _ => {}
+        }
+    }
+    deepest
+}
+
 /// The beginning of a JSON value, for a message.
 fn shown(raw: &RawValue) -> Cow<'_, str> {
+    beginning(raw.get())
+}
+
+/// The beginning of a text, for a message.
+fn beginning(text: &str) -> Cow<'_, str> {
     const LENGTH: usize = 40;
-    match raw.get().char_indices().nth(LENGTH) {
-        Some((end, _)) => Cow::Owned(format!("{}...", &raw.get()[..end])),
-        None => Cow::Borrowed(raw.get()),
+    match text.char_indices().nth(LENGTH) {
+        Some((end, _)) => Cow::Owned(format!("{}...", &text[..end])),
+        None => Cow::Borrowed(text),
     }
 }
 
@@ -340,6 +375,20 @@ mod tests {
             ("7", "request"),
         ] {
             assert_eq!(error(line).field, field, "{line}");
+        }
+    }
+
+    #[test]
+    fn depth_counts_what_is_no_text() {
+        for (json, expected) in [
+            ("1", 0),
+            ("[]", 1),
+            (r#"{"a": [1, {"b": []}]}"#, 4),
+            (r#"["[[[\"[[", "{\\"]"#, 1),
+            (r#"[[],[[]],"]"]"#, 3),
+        ] {
+            let raw: &RawValue = serde_json::from_str(json).unwrap();
+            assert_eq!(depth(raw), expected, "{json}");
         }
     }
 

@@ -5,6 +5,9 @@ use std::io::{self, BufRead, BufReader, Read};
 /// Longest line that is read, in bytes: far above any request, far below what would fill a memory.
 const LONGEST: u64 = 1 << 20;
 
+/// Most bytes that are skipped to the end of a line which is too long: a device may never end one.
+const MOST_SKIPPED: u64 = 1 << 30;
+
 /// Reads lines into one buffer.
 pub struct Lines<R> {
     input: BufReader<R>,
@@ -58,6 +61,14 @@ impl<R: Read> Lines<R> {
 
     /// Skips to the end of the line; true where it was there already.
     fn skip_line(&mut self) -> io::Result<bool> {
-        Ok(self.input.skip_until(b'\n')? == 0)
+        let mut rest = (&mut self.input).take(MOST_SKIPPED);
+        let skipped = rest.skip_until(b'\n')?;
+        if rest.limit() == 0 {
+            return Err(io::Error::new(
+                io::ErrorKind::FileTooLarge,
+                format!("a line has more than {MOST_SKIPPED} bytes"),
+            ));
+        }
+        Ok(skipped == 0)
     }
 }

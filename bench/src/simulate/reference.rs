@@ -155,13 +155,7 @@ fn whole_screw(design: &UncagedDesign, trace: &Trace) -> Result<Vec<Friction>, F
             let opposing = load_torque * first.nut_speed.signum();
             Friction {
                 friction_torque: size * first.nut_speed.signum(),
-                efficiency: if opposing > 0.0 {
-                    opposing / (opposing + size)
-                } else if opposing < 0.0 {
-                    1.0 + size / opposing
-                } else {
-                    0.0
-                },
+                efficiency: efficiency(opposing, size),
             }
         })
         .collect())
@@ -174,6 +168,18 @@ pub struct Friction {
     pub friction_torque: f64,
     /// Efficiency in the present direction.
     pub efficiency: f64,
+}
+
+/// Efficiency in the present direction, from the torque of the load, positive where it opposes the motion, and
+/// that of friction; 0 without a load.
+fn efficiency(load_torque: f64, friction_torque: f64) -> f64 {
+    if load_torque > 0.0 {
+        load_torque / (load_torque + friction_torque)
+    } else if load_torque < 0.0 {
+        1.0 + friction_torque / load_torque
+    } else {
+        0.0
+    }
 }
 
 /// A caged ball screw in float64.
@@ -256,13 +262,7 @@ impl ReferenceScene {
         let full = torque(opposing);
         Friction {
             friction_torque: (direction * torque(direction * load)).clamp(-largest, largest),
-            efficiency: if load_work > 0.0 {
-                load_work / (load_work + full)
-            } else if load_work < 0.0 {
-                1.0 + full / load_work
-            } else {
-                0.0
-            },
+            efficiency: efficiency(load_work, full),
         }
     }
 

@@ -40,8 +40,12 @@ trait Model {
     fn pressing(&self) -> u64;
 }
 
-fn bits(contacts: impl Iterator<Item = u8>) -> u64 {
-    contacts.fold(0, |bits, ball| bits | 1 << ball)
+/// Balls that press on the one in front, one bit each.
+fn pressing<const N: usize>(train: &epas_friction::Train<N>) -> u64 {
+    train
+        .contacts()
+        .iter()
+        .fold(0, |bits, contact| bits | 1 << contact.ball)
 }
 
 impl<const N: usize> Model for FrictionModel<UncagedBallScrew<N>> {
@@ -56,13 +60,7 @@ impl<const N: usize> Model for FrictionModel<UncagedBallScrew<N>> {
     }
 
     fn pressing(&self) -> u64 {
-        bits(
-            self.state()
-                .train
-                .contacts()
-                .iter()
-                .map(|contact| contact.ball),
-        )
+        pressing(&self.state().train)
     }
 }
 
@@ -79,13 +77,7 @@ impl<const N: usize> Model for FrictionModel<LinearBearingTrain<N>> {
     }
 
     fn pressing(&self) -> u64 {
-        bits(
-            self.state()
-                .train
-                .contacts()
-                .iter()
-                .map(|contact| contact.ball),
-        )
+        pressing(&self.state().train)
     }
 }
 

@@ -5,7 +5,7 @@ use std::fs;
 use serde_json::Value;
 use tempfile::tempdir;
 
-use super::run_in;
+use super::{run, run_in};
 
 #[test]
 fn the_report_reproduces_the_printed_tables_and_writes_every_figure() {
@@ -48,6 +48,8 @@ fn the_report_reproduces_the_printed_tables_and_writes_every_figure() {
         "lin_figure_3_14",
         "lin_figure_3_15",
         "lin_figure_4_7",
+        "stability_maps",
+        "two_point_contact",
     ];
     for figure in figures {
         assert!(read(&format!("{figure}.svg")).starts_with("<svg"));
@@ -70,6 +72,15 @@ fn the_report_reproduces_the_printed_tables_and_writes_every_figure() {
         "hertzian_constants",
         "published",
         "published_open",
+        "stability",
+        "two_point_linear",
+        "two_point_screw",
+        "two_point_play",
+        "recorded_sweeps",
+        "recorded_runs",
+        "mended",
+        "known_limits",
+        "promises",
     ] {
         let rows = json[table]["rows"].as_array().unwrap();
         assert!(!rows.is_empty());
@@ -78,6 +89,7 @@ fn the_report_reproduces_the_printed_tables_and_writes_every_figure() {
             rows.len() + 1
         );
     }
+    worst_cases_are_reproduced(&json["stability"]);
     // Whatever figures there are, the page holds each of them, and no picture is left out.
     let pictures = fs::read_dir(&report)
         .unwrap()
@@ -90,6 +102,51 @@ fn the_report_reproduces_the_printed_tables_and_writes_every_figure() {
     // The page asks for nothing: no script, no style sheet, no picture from elsewhere.
     for link in ["src=", "<script", "<link", "@import", "url("] {
         assert!(!page.contains(link), "{link}");
+    }
+}
+
+/// Every worst case of the error maps, run as the line that the table prints, gives the error of the table;
+/// and no map is empty.
+fn worst_cases_are_reproduced(table: &Value) {
+    let columns: Vec<_> = table["columns"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|column| column.as_str().unwrap())
+        .collect();
+    let rows = table["rows"].as_array().unwrap();
+    assert!(rows.len() > 20);
+    let cell = |row: &Value, name: &str| {
+        let place = columns.iter().position(|column| *column == name).unwrap();
+        row[place].clone()
+    };
+    let lines: Vec<_> = rows
+        .iter()
+        .map(|row| cell(row, "worst case").as_str().unwrap().to_owned())
+        .collect();
+    let answers = run(&["eval"], &lines.join("\n"));
+    assert_eq!(answers.code, 0, "{}", answers.stdout);
+    for (row, answer) in rows.iter().zip(answers.stdout.lines()) {
+        let answer: Value = serde_json::from_str(answer).unwrap();
+        let number = |side: &str, place: &str| {
+            answer[side]
+                .pointer(cell(row, place).as_str().unwrap())
+                .and_then(Value::as_f64)
+        };
+        let over = if cell(row, "error over") == "" {
+            1.0
+        } else {
+            number("reference", "error over").unwrap()
+        };
+        let truth = number("reference", "reference").unwrap();
+        let error = (number("in_loop", "in_loop").unwrap() - truth) / over;
+        let printed = cell(row, "largest").as_f64().unwrap();
+        // The program and this test read the same digits.
+        assert!(
+            (error.abs() - printed).abs() <= 1e-12 * printed,
+            "{row}: {error}"
+        );
+        assert!(cell(row, "inputs").as_f64().unwrap() >= 30.0, "{row}");
     }
 }
 

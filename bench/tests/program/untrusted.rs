@@ -112,6 +112,128 @@ fn hostile_traces_are_refused() {
     assert_eq!(run.code, 1);
 }
 
+#[test]
+fn answers_are_as_short_as_what_they_say() {
+    let name = "x".repeat(900_000);
+    let deep = |depth: usize| {
+        format!(
+            r#"{{"id":{}{},"model":"friction_map","axis_ratio":0.3,"offset":1}}"#,
+            "[".repeat(depth),
+            "]".repeat(depth)
+        )
+    };
+    let input = [
+        format!(r#"{{"id":1,"model":"friction_map","{name}":1,"axis_ratio":0.3,"offset":1}}"#),
+        format!(
+            r#"{{"id":2,"model":"friction_map","{0}":1,"{0}":2}}"#,
+            &name[..400_000]
+        ),
+        deep(100_000),
+        deep(101),
+        deep(100),
+    ]
+    .join("\n");
+    let run = run(&["eval"], &input);
+    let lines: Vec<_> = run.stdout.lines().collect();
+    for line in &lines[..4] {
+        assert!(line.contains("\"error\"") && line.len() < 300, "{line}");
+    }
+    // What cannot be echoed is not.
+    assert!(lines[2].starts_with(r#"{"id":null,"error":{"field":"id""#));
+    assert!(lines[4].contains("in_loop"));
+}
+
+/// What a file holds is quoted so that a terminal shows it.
+#[test]
+fn messages_are_short_and_obey_no_file() {
+    let folder = tempfile::tempdir().unwrap();
+    for text in [
+        format!("lead = {}\n", "9".repeat(100_000)),
+        "lead = \"\u{1b}]0;title\u{7}\"\n\u{1b}[2J".to_owned(),
+    ] {
+        fs::write(folder.path().join("design.toml"), text).unwrap();
+        let run = run_in(
+            folder.path(),
+            &["simulate", "--design", "design.toml", "--manoeuvre", "kerb"],
+            "",
+        );
+        assert_eq!(run.code, 1);
+        assert!(run.stderr.len() < 2100, "{}", run.stderr.len());
+        assert!(
+            !run.stderr.contains(['\u{1b}', '\u{7}']),
+            "{:?}",
+            run.stderr
+        );
+    }
+}
+
+/// Neither an input nor what is no file is replaced, with `--force` either.
+#[cfg(unix)]
+#[test]
+fn force_replaces_outputs_only() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    let design = "pitch_radius = 0.016\nlead = 0.02\nball_radius = 0.003175\nconformity = 0.528\n\
+                  contact_angle = 0.785\nloaded_balls = 30\n[loads]\nscrew_length = 0.8\n\
+                  screw_diameter = 0.03\nnut_position = 0.4\naxial_load = 5000.0\nturns = 2.5\n";
+    fs::write(path("design.toml"), design).unwrap();
+    fs::write(path("precious.csv"), "precious").unwrap();
+    fs::create_dir(path("folder")).unwrap();
+    std::os::unix::fs::symlink("precious.csv", path("link.csv")).unwrap();
+    std::os::unix::fs::symlink("nowhere.csv", path("dangling.csv")).unwrap();
+    // A socket stands for every file that is none; a pipe or a device would be gone as well.
+    let _socket = std::os::unix::net::UnixListener::bind(path("socket")).unwrap();
+    let simulate = |output: &str, more: &[&str]| {
+        let mut arguments = vec![
+            "simulate",
+            "--design",
+            "design.toml",
+            "--manoeuvre",
+            "kerb",
+            "--output",
+            output,
+        ];
+        arguments.extend(more);
+        run_in(folder.path(), &arguments, "")
+    };
+    for output in [
+        "link.csv",
+        "dangling.csv",
+        "precious.csv",
+        "socket",
+        "folder",
+    ] {
+        assert_eq!(simulate(output, &[]).code, 1, "{output}");
+    }
+    for output in ["design.toml", "./folder/../design.toml", "socket", "folder"] {
+        let run = simulate(output, &["--force"]);
+        assert_eq!(run.code, 1, "{output}: {}", run.stderr);
+    }
+    let loads = run_in(
+        folder.path(),
+        &[
+            "simulate",
+            "--loads",
+            "--design",
+            "design.toml",
+            "--output",
+            "design.toml",
+            "--force",
+        ],
+        "",
+    );
+    assert_eq!(loads.code, 1, "{}", loads.stderr);
+    // A link is replaced, not what it leads to.
+    assert_eq!(simulate("link.csv", &["--force"]).code, 0);
+    assert_eq!(
+        fs::read_to_string(path("precious.csv")).unwrap(),
+        "precious"
+    );
+    assert_eq!(fs::read_to_string(path("design.toml")).unwrap(), design);
+    assert!(!path("nowhere.csv").exists());
+    assert!(path("socket").exists() && path("folder").is_dir());
+}
+
 /// A device says that it is empty, and never ends.
 #[cfg(unix)]
 #[test]
@@ -132,6 +254,9 @@ fn a_device_is_read_no_further_than_a_file() {
     );
     assert_eq!(run.code, 1);
     assert!(run.stderr.contains("more than"), "{}", run.stderr);
+    let run = run_in(folder.path(), &["eval", "endless.toml"], "");
+    assert_eq!(run.code, 1);
+    assert!(run.stderr.contains("more than") && run.stdout.is_empty());
 }
 
 #[test]

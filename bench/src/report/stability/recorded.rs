@@ -1,0 +1,140 @@
+//! Recorded runs, too long for every report, from `host-tests/recorded.json`.
+
+use serde::Deserialize;
+
+use crate::failure::Failure;
+use crate::report::document::{Block, Cell, Table};
+use crate::report::statistics::Errors;
+
+/// The file.
+const RECORDED: &str = include_str!(concat!(
+    env!("CARGO_MANIFEST_DIR"),
+    "/../host-tests/recorded.json"
+));
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Recorded {
+    sweeps: Vec<Sweep>,
+    runs: Vec<Run>,
+    mended: Vec<Mended>,
+    limits: Vec<String>,
+}
+
+/// Every input of a function.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Sweep {
+    quantity: String,
+    inputs: u64,
+    largest: f64,
+    rms: f64,
+    mean: f64,
+    command: String,
+}
+
+/// So many of something.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Run {
+    what: String,
+    count: u64,
+    failures: u64,
+    command: String,
+}
+
+/// What such runs found.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Mended {
+    found: String,
+    now: String,
+}
+
+fn columns(names: &[&str]) -> Vec<String> {
+    names.iter().map(|name| (*name).to_owned()).collect()
+}
+
+/// A whole number in groups of three digits.
+fn grouped(count: u64) -> Cell {
+    let digits = count.to_string();
+    let mut text = String::new();
+    for (place, digit) in digits.char_indices() {
+        if place > 0 && (digits.len() - place).is_multiple_of(3) {
+            text.push(' ');
+        }
+        text.push(digit);
+    }
+    Cell::Number(count as f64, text)
+}
+
+/// Tables of the file, beside what this run has swept.
+pub fn blocks(swept: &Errors, requests: u64) -> Result<Vec<Block>, Failure> {
+    let recorded: Recorded = serde_json::from_str(RECORDED)
+        .map_err(|error| Failure::Data(format!("host-tests/recorded.json: {error}")))?;
+    let sweeps = recorded.sweeps.into_iter().map(|sweep| {
+        vec![
+            sweep.quantity.into(),
+            grouped(sweep.inputs),
+            Cell::power(sweep.largest),
+            Cell::power(sweep.rms),
+            Cell::power(sweep.mean),
+            sweep.command.into(),
+        ]
+    });
+    let this = vec![
+        format!("{requests} requests of the maps above, in this run").into(),
+        grouped(requests),
+        grouped(u64::from(!swept.largest.is_finite())),
+        "cargo run --release -p epas-bench".into(),
+    ];
+    let runs = recorded.runs.into_iter().map(|run| {
+        vec![
+            run.what.into(),
+            grouped(run.count),
+            grouped(run.failures),
+            run.command.into(),
+        ]
+    });
+    Ok(vec![
+        Block::Text(
+            "Runs that take minutes to hours are recorded with the command that makes each; what this run has \
+             swept stands in the last row below, in the column of inputs above, and under Scalar kernels. Failures are \
+             panics, numbers that are not finite, torques beyond their limit or with the wrong sign, flags that \
+             are missing or wrong, balls that are lost or overlap."
+                .into(),
+        ),
+        Block::Table(Table {
+            name: "recorded_sweeps",
+            caption: "Recorded: every f32 of a function's domain against float64".into(),
+            columns: columns(&["quantity", "inputs", "largest", "rms", "mean", "command"]),
+            rows: sweeps.collect(),
+        }),
+        Block::Table(Table {
+            name: "recorded_runs",
+            caption: "Recorded: random, failing and hostile inputs".into(),
+            columns: columns(&["what", "count", "failures", "command"]),
+            rows: runs.chain([this]).collect(),
+        }),
+        Block::Table(Table {
+            name: "mended",
+            caption: "What such runs found, and what the same input does now".into(),
+            columns: columns(&["found", "now"]),
+            rows: recorded
+                .mended
+                .into_iter()
+                .map(|mended| vec![mended.found.into(), mended.now.into()])
+                .collect(),
+        }),
+        Block::Table(Table {
+            name: "known_limits",
+            caption: "Limits that are known and remain".into(),
+            columns: columns(&["limit"]),
+            rows: recorded
+                .limits
+                .into_iter()
+                .map(|limit| vec![limit.into()])
+                .collect(),
+        }),
+    ])
+}

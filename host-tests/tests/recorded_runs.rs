@@ -1,0 +1,73 @@
+//! `recorded.json`: every recorded run names a command that is there, and none has failures.
+
+use std::path::Path;
+
+use serde_json::Value;
+
+fn recorded() -> Value {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/recorded.json");
+    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
+}
+
+fn list<'a>(recorded: &'a Value, name: &str) -> &'a [Value] {
+    recorded[name].as_array().unwrap()
+}
+
+/// The source of the test that a command runs; of any other command, the script that must be there.
+fn source(command: &str) -> String {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let path = if command.starts_with("cargo test") {
+        let (_, test) = command.split_once("--test ").expect(command);
+        let name = test.split_whitespace().next().unwrap();
+        root.join("tests").join(format!("{name}.rs"))
+    } else {
+        root.join("..")
+            .join(command.split_whitespace().next().unwrap())
+    };
+    std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{command}: {error}"))
+}
+
+#[test]
+fn every_command_is_there() {
+    let recorded = recorded();
+    for run in list(&recorded, "runs")
+        .iter()
+        .chain(list(&recorded, "sweeps"))
+    {
+        let command = run["command"].as_str().unwrap();
+        let source = source(command);
+        assert_eq!(
+            command.contains("--ignored"),
+            source.contains("#[ignore"),
+            "{command}"
+        );
+        // What is recorded is what the tests print of themselves.
+        assert!(
+            !command.starts_with("cargo test") || source.contains("mod recorded;"),
+            "{command}"
+        );
+    }
+}
+
+#[test]
+fn nothing_fails_and_as_much_has_run_as_is_asked_for() {
+    let recorded = recorded();
+    let runs = list(&recorded, "runs");
+    for run in runs {
+        assert_eq!(run["failures"].as_u64(), Some(0), "{run}");
+        assert!(run["count"].as_u64().unwrap() > 0, "{run}");
+    }
+    let random: u64 = runs
+        .iter()
+        .filter(|run| run["what"].as_str().unwrap().contains("random inputs"))
+        .map(|run| run["count"].as_u64().unwrap())
+        .sum();
+    assert!(random >= 1_000_000_000);
+    for sweep in list(&recorded, "sweeps") {
+        let number = |name: &str| sweep[name].as_f64().unwrap();
+        assert!(number("inputs") >= 1e9, "{sweep}");
+        assert!(number("rms") <= number("largest"), "{sweep}");
+        assert!(number("mean").abs() <= number("rms"), "{sweep}");
+    }
+    assert!(list(&recorded, "mended").len() > 10 && list(&recorded, "limits").len() > 5);
+}

@@ -1,0 +1,314 @@
+//! Balls near two-point contact: where their speed jumps in the exact model, and what the closed forms and the
+//! refined balls do there.
+
+use std::f64::consts::FRAC_PI_4;
+
+use epas_friction::{
+    AnalyticLinearBall, BallScrew, BallScrewParameters, ContactAngle, FourPointBall, Groove,
+    GrooveFit, GrooveSize, HertzContact, LinearBallParameters, LoadShare, Material,
+    PUBLISHED_SLOPE, ScrewBall, ScrewRow,
+};
+use epas_reference::friction::ball_screw_ball::{
+    Groove as Flank, ScrewContact, ScrewTrack, motion_with_contacts,
+};
+use epas_reference::friction::linear_ball::{EllipseLaw, LinearBall, contact_forces};
+use epas_reference::friction::maps::FrictionMap;
+
+/// The ball of Lin 2019, Table 3.3.
+const BALL_RADIUS: f64 = 0.005;
+const AXIS_RATIO: f64 = 0.232_146_373;
+const FRICTION: f64 = 0.1;
+
+fn semi_major_constant() -> f64 {
+    5.3073e-4 * BALL_RADIUS.cbrt()
+}
+
+fn linear_parameters() -> LinearBallParameters {
+    LinearBallParameters {
+        ball_radius: BALL_RADIUS as f32,
+        contact_angle: FRAC_PI_4 as f32,
+        axis_ratio: AXIS_RATIO as f32,
+        semi_major_coefficient: semi_major_constant() as f32,
+        friction: FRICTION as f32,
+    }
+}
+
+/// Its bottom groove turned, 100 N down and `side` of it across.
+fn turned(degrees: f64, side: f64) -> LinearBall {
+    let turn = degrees.to_radians();
+    let contact_angles = [-turn, turn, 0.0, 0.0].map(|deviation| FRAC_PI_4 + deviation);
+    LinearBall {
+        ball_radius: BALL_RADIUS,
+        friction: FRICTION,
+        contact_angles,
+        contact_forces: contact_forces(contact_angles, 100.0 * side, 100.0)
+            .map(|force| force.max(0.0)),
+        ellipse: EllipseLaw {
+            semi_major_constant: semi_major_constant(),
+            axis_ratio: AXIS_RATIO,
+        },
+    }
+}
+
+fn exact(degrees: f64, side: f64) -> f64 {
+    turned(degrees, side).solve(1.0).unwrap().speed_deviation
+}
+
+/// Mean loads of the weaker and the stronger diagonal.
+fn diagonals(ball: &LinearBall) -> (f64, f64) {
+    let [bottom_left, bottom_right, top_right, top_left] = ball.contact_forces;
+    let (up, down) = (
+        0.5 * (bottom_left + top_right),
+        0.5 * (bottom_right + top_left),
+    );
+    (up.min(down), up.max(down))
+}
+
+/// Side-force ratio at which the speed jumps: there it is half of what it was.
+fn border(degrees: f64) -> f64 {
+    let (mut low, mut high) = (0.8, 0.995);
+    while high - low > 1e-6 {
+        let middle = 0.5 * (low + high);
+        if exact(degrees, middle).abs() > 0.5 * exact(degrees, low).abs() {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    low
+}
+
+#[test]
+fn the_speed_of_a_linear_ball_jumps_where_a_diagonal_is_weak() {
+    let closed = AnalyticLinearBall::new(&linear_parameters(), PUBLISHED_SLOPE).unwrap();
+    let refined = FourPointBall::linear(&linear_parameters()).unwrap();
+    let speeds = |ball: &LinearBall| {
+        let angles = ball.contact_angles.map(|angle| angle as f32);
+        let forces = ball.contact_forces.map(|force| force as f32);
+        let state = refined.solve(&refined.contacts(&angles, &forces));
+        (
+            f64::from(closed.speed_deviation(&angles, &forces).speed_deviation),
+            f64::from(state.speed_deviation),
+        )
+    };
+    for degrees in [-3.0, -2.0, -1.0, 1.0, 2.0, 3.0] {
+        let side = border(degrees);
+        let size = f64::abs(degrees);
+        let (before, after) = (exact(degrees, side - 1e-3), exact(degrees, side + 1e-3));
+        let (weak, strong) = diagonals(&turned(degrees, side));
+        // The spin of the strong diagonal stops where rolling about it costs less than the weak one slipping:
+        // F_weak = F_strong 3/8 E(e) (a/R_B)/sin 2 beta.
+        let semi_major = semi_major_constant() * strong.cbrt() / BALL_RADIUS;
+        let moment = FrictionMap::new(AXIS_RATIO).unwrap().at(0.0).moment;
+        let predicted = moment * semi_major;
+        println!(
+            "{degrees} degrees: border at a side force of {side:.4}, diagonals {:.4} ({predicted:.4} predicted), \
+             speed deviation {before:+.2e} before, {after:+.2e} after",
+            weak / strong
+        );
+        assert!(
+            (weak / strong / predicted - 1.0).abs() < 0.04,
+            "{degrees}: {} where {predicted} is predicted",
+            weak / strong
+        );
+        // A jump: of some 0.007 per degree, in a step of the side force in which speeds else change by 1e-5.
+        assert!((before - after).abs() > 6e-3 * size, "{before} {after}");
+        assert!(after.abs() < 4e-4 * size, "{after}");
+
+        let mut step = 0.7;
+        while step < 0.9995 {
+            let ball = turned(degrees, step);
+            let truth = exact(degrees, step);
+            let (closed, refined) = speeds(&ball);
+            let line = format!("{degrees} degrees, side force {step}: {closed} {refined} {truth}");
+            // Bounded by the angles alone, whatever the loads are.
+            assert!(
+                closed.abs() <= 0.5 * size.to_radians() * (1.0 + 1e-5),
+                "{line}"
+            );
+            if step < side - 0.01 {
+                // 3.2 % and 15 % of the speed itself, and what 5 Newton steps leave.
+                assert!((closed - truth).abs() < 2e-3 * size, "{line}");
+                assert!((refined - truth).abs() < 5e-6, "{line}");
+            } else if step > side + 0.01 {
+                // It keeps the speed from before: too large, never of the wrong sense.
+                assert!(
+                    (closed - truth).abs() < 9.5e-3 * size && closed.abs() > truth.abs(),
+                    "{line}"
+                );
+                assert!((refined - truth).abs() < 8e-4, "{line}");
+            } else {
+                assert!((closed - truth).abs() < 9.5e-3 * size, "{line}");
+                assert!((refined - truth).abs() < 8e-3 * size, "{line}");
+            }
+            step += 0.003;
+        }
+    }
+}
+
+const TRACK: ScrewTrack = ScrewTrack {
+    pitch_radius: 16.5e-3,
+    lead: 20e-3,
+    ball_radius: 2.778e-3,
+};
+
+/// The ball screw of Lin 2019, Table 3.6.
+fn screw() -> BallScrew {
+    BallScrew::new(BallScrewParameters {
+        pitch_radius: 16.5e-3,
+        lead: 20e-3,
+        ball_radius: 2.778e-3,
+        screw_groove: GrooveSize::Radius(3.254e-3),
+        nut_groove: GrooveSize::Radius(3.254e-3),
+        contact_angle: std::f32::consts::FRAC_PI_4,
+        ball_material: Material::STEEL,
+        groove_material: Material::STEEL,
+    })
+    .unwrap()
+}
+
+/// Orbital speed over the nut's in equilibrium of Coulomb friction.
+fn orbital_speed(design: &BallScrew, angles: &[f32; 4], forces: &[f32; 4]) -> f64 {
+    let flanks = [
+        (Flank::ScrewLeft, Groove::Screw),
+        (Flank::ScrewRight, Groove::Screw),
+        (Flank::NutLeft, Groove::Nut),
+        (Flank::NutRight, Groove::Nut),
+    ];
+    let contacts: Vec<_> = flanks
+        .into_iter()
+        .zip(angles.iter().zip(forces))
+        .filter(|(_, (_, force))| **force > 0.0)
+        .map(|((flank, groove), (angle, force))| {
+            let contact = HertzContact::of_at(design, groove, ContactAngle::new(*angle));
+            ScrewContact {
+                groove: flank,
+                load: f64::from(*force),
+                contact_angle: f64::from(*angle),
+                ellipse: EllipseLaw {
+                    semi_major_constant: f64::from(contact.semi_major_coefficient()),
+                    axis_ratio: f64::from(contact.axis_ratio()),
+                },
+            }
+        })
+        .collect();
+    motion_with_contacts(&TRACK, &contacts, FRICTION, 1.0)
+        .unwrap()
+        .orbital_speed
+}
+
+/// SR and NL carry 75 N each, SL a part of it; only the screw's groove deviates.
+fn with_third(degrees: f64, third: f32) -> ([f32; 4], [f32; 4]) {
+    let turn = degrees.to_radians();
+    (
+        [-turn, turn, 0.0, 0.0].map(|deviation| (FRAC_PI_4 + deviation) as f32),
+        [75.0 * third, 75.0, 75.0, 0.0],
+    )
+}
+
+#[test]
+fn a_third_contact_of_the_screw_holds_slides_and_lets_go() {
+    let design = screw();
+    let ball = ScrewBall::new(&design, FRICTION as f32).unwrap();
+    // Load of the third contact; largest errors of the orbital speed over the nut's, closed form and refined.
+    for (third, closed, refined) in [
+        // Pinned: 2 degrees move the speed by 0.015.
+        (0.3, 1e-4, 3e-6),
+        (0.1, 1.5e-4, 3e-6),
+        // It slides: between pinned and two-point rolling the speed is that of neither.
+        (0.05, 6e-3, 1e-5),
+        (0.02, 2e-3, 1.5e-3),
+        (0.005, 1e-4, 5e-5),
+        // Two contacts: one race sticks, here the nut's; below 2e-4 the screw's.
+        (5e-4, 5e-5, 5e-5),
+        (3e-5, 5e-5, 5e-5),
+    ] {
+        for degrees in [-2.0, 2.0] {
+            let (angles, forces) = with_third(degrees, third);
+            let truth = orbital_speed(&design, &angles, &forces);
+            let contacts = ball.contacts(&angles, &forces);
+            let speed = |motion| f64::from(ball.orbital_speed(motion));
+            let errors = [
+                speed(&ball.closed_form(&contacts).motion) - truth,
+                speed(&ball.solve(&contacts).motion) - truth,
+            ];
+            println!("third contact {third:e}, {degrees:+} degrees: {truth:.6}, errors {errors:?}");
+            assert!(
+                errors[0].abs() < closed && errors[1].abs() < refined,
+                "third contact {third:e}, {degrees} degrees: {errors:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn the_race_that_sticks_changes_at_once() {
+    let design = screw();
+    for degrees in [-2.0, 2.0] {
+        let speed = |third: f32| {
+            let (angles, forces) = with_third(degrees, third);
+            orbital_speed(&design, &angles, &forces)
+        };
+        let [screw_far, screw_near, nut_near, nut_far] = [3e-5, 8e-5, 3.2e-4, 1e-3].map(speed);
+        // Twice as much load or half of it moves the speed by 1e-5 on either side, and by 2e-3 across.
+        assert!(
+            (screw_far - screw_near).abs() < 1e-5,
+            "{screw_far} {screw_near}"
+        );
+        assert!((nut_far - nut_near).abs() < 1e-5, "{nut_far} {nut_near}");
+        let jump = nut_near - screw_near;
+        println!("{degrees} degrees: the orbital speed jumps by {jump:+.2e} of the nut's");
+        // The closed form, which takes the motion with the least loss, jumps with it but for the last per cent
+        // of the load; steps smooth the jump.
+        let ball = ScrewBall::new(&design, FRICTION as f32).unwrap();
+        for third in [1.1e-4, 1.4e-4, 1.8e-4, 2.3e-4, 2.9e-4] {
+            let (angles, forces) = with_third(degrees, third);
+            let truth = orbital_speed(&design, &angles, &forces);
+            let contacts = ball.contacts(&angles, &forces);
+            let error = |motion| f64::from(ball.orbital_speed(motion)) - truth;
+            let errors = [
+                error(&ball.closed_form(&contacts).motion),
+                error(&ball.solve(&contacts).motion),
+            ];
+            println!("third contact {third:e}, {degrees:+} degrees: errors {errors:?}");
+            assert!(
+                errors[0].abs() < 2e-5 && errors[1].abs() < 1.3e-3,
+                "third contact {third:e}, {degrees} degrees: {errors:?}"
+            );
+        }
+        assert!((1.5e-3..2.6e-3).contains(&jump.abs()), "{jump}");
+    }
+}
+
+#[test]
+fn a_row_with_play_has_the_mean_speed_of_two_contacts() {
+    // Its speed is that between a ball that sticks to the screw and one that sticks to the nut: what
+    // `ScrewRow` documents for deviations of up to 3 degrees in both grooves.
+    const DOCUMENTED: f64 = 4.6e-3;
+    let design = screw();
+    let row = ScrewRow::new(&design, FRICTION as f32, GrooveFit::Play).unwrap();
+    let path = design.pitch_radius() / design.cos_lead_angle();
+    let mut worst = 0.0_f64;
+    for (screw, nut, load) in [
+        (0.0, 0.0, -50.0_f32),
+        (3.0, -3.0, -50.0),
+        (-3.0, -3.0, -50.0),
+        (3.0, 3.0, -50.0),
+        (-3.0, -3.0, 50.0),
+        (3.0, 3.0, 50.0),
+    ] {
+        let [turn_screw, turn_nut] = [screw, nut].map(|degrees: f32| degrees.to_radians());
+        let tick = row.at(1.0, load);
+        let ball = tick.ball(turn_screw, turn_nut, &LoadShare::MEAN);
+        let speed = f64::from((tick.nominal_speed() + ball.speed_deviation) / path);
+        let (angles, forces) = row.contacts(1.0, load, turn_screw, turn_nut);
+        let error = speed - orbital_speed(&design, &angles, &forces);
+        println!("screw {screw:+} nut {nut:+} degrees, {load:+} N: {error:+.2e}");
+        worst = worst.max(error.abs());
+        // Equal angles on screw and nut: both races give the same speed.
+        if angles[1] == angles[2] && load < 0.0 || angles[0] == angles[3] && load > 0.0 {
+            assert!(error.abs() < 1e-4, "{error}");
+        }
+    }
+    assert!((0.9 * DOCUMENTED..DOCUMENTED).contains(&worst), "{worst}");
+}
