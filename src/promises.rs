@@ -56,7 +56,7 @@ pub const CBRT: Promise = Promise {
     outside: "there is none",
     not_finite: "NaN, infinities as they are",
     tiny: "zeros keep their sign, subnormals are numbers",
-    cycles: 150,
+    cycles: 110,
 };
 
 /// [`math::cbrt_squared`](crate::math::cbrt_squared).
@@ -79,7 +79,7 @@ pub const SIN_COS: Promise = Promise {
     outside: "8e-8 to 8192 rad; (0, 1) beyond",
     not_finite: "NaN",
     tiny: "the sine of either zero is +0, subnormals are numbers",
-    cycles: 100,
+    cycles: 60,
 };
 
 /// [`GothicArch::principal`](crate::GothicArch::principal).
@@ -94,7 +94,7 @@ pub const GOTHIC_ARCH: Promise = Promise {
               refused",
     not_finite: "refused at set-up",
     tiny: "no lead: the bearing's formula to the last digits",
-    cycles: 150,
+    cycles: 140,
 };
 
 /// [`FittedCurvature::first`](crate::FittedCurvature::first).
@@ -105,7 +105,7 @@ pub const FITTED_CURVATURE: Promise = Promise {
     rms: 2e-7,
     mean: 6e-8,
     outside: "extrapolates smoothly; refit for steeper contact angles",
-    cycles: 50,
+    cycles: 45,
     ..GOTHIC_ARCH
 };
 
@@ -162,7 +162,7 @@ pub const KINEMATICS: Promise = Promise {
     outside: "refused at set-up or update",
     not_finite: "a speed that is none, or beyond 1e6 rad/s: all 0",
     tiny: "proportional to the speed",
-    cycles: 75,
+    cycles: 60,
 };
 
 /// [`AnalyticLinearBall::speed_deviation`](crate::AnalyticLinearBall::speed_deviation).
@@ -188,7 +188,7 @@ pub const FOUR_POINT_BALL: Promise = Promise {
     outside: "follows the change to two-point rolling within some ticks",
     not_finite: "angles: nominal; forces: lost contact; a spoilt state: nominal rolling",
     tiny: "a contact without load is lost",
-    cycles: 3500,
+    cycles: 3000,
     ..ANALYTIC_BALL
 };
 
@@ -203,7 +203,7 @@ pub const PRESS: Promise = Promise {
     outside: "1e-5 for impedances up to 1e12; free speeds beyond 1 or impedances beyond 1e-9 to 1e9: no forces, and it says so",
     not_finite: "free speeds and impedances as outside; rooms that are NaN: no contact",
     tiny: "rooms up to 0: contact",
-    cycles: 7000,
+    cycles: 7500,
 };
 
 /// Every promise, in the order of the crate's modules.
