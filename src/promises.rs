@@ -76,7 +76,7 @@ pub const SIN_COS: Promise = Promise {
     largest: 6.3e-8,
     rms: 3e-8,
     mean: 3e-9,
-    outside: "8e-8 to 8192 rad; (0, 1) beyond",
+    outside: "9e-8 to 8192 rad; (0, 1) beyond",
     not_finite: "NaN",
     tiny: "the sine of either zero is +0, subnormals are numbers",
     cycles: 60,
@@ -228,5 +228,5 @@ pub const TICKS_TO_FLAG: u32 = 1;
 
 /// Ticks after a failure until outputs are unflagged and right for the state. A train keeps where its balls
 /// and the deviations' phase are, and goes on from there: behind by the travel of the missed ticks, until
-/// `set_nut_angle` brings the phase of a ball screw back, or `reset` everything.
+/// `set_nut_angle` or `set_carriage_position` brings the phase back, or `reset` everything.
 pub const TICKS_TO_RECOVER: u32 = 1;

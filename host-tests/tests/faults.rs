@@ -230,8 +230,8 @@ where
     (model, ahead)
 }
 
-/// The phase of the screw's deviations, as its state prints it.
-fn phase(model: &FrictionModel<Screw>) -> String {
+/// The phase of the passing groove's deviations, as the state prints it.
+fn phase<S: Trial<State: std::fmt::Debug>>(model: &FrictionModel<S>) -> String {
     let state = format!("{:?}", model.state());
     let (_, phase) = state.split_once("phase: ").unwrap();
     phase.split_once('}').unwrap().0.to_owned()
@@ -257,9 +257,20 @@ fn recovery_takes_a_tick_and_leaves_the_missed_travel() {
         ahead.reset();
         assert_eq!(model.state(), ahead.state());
 
-        lose_the_speed::<Rail>(&gears::linear(), [1.0, 5e3, 1e3], missed, |outputs| {
-            outputs.faults
-        });
+        let rail = gears::linear();
+        let (mut model, mut ahead) =
+            lose_the_speed::<Rail>(&rail, [1.0, 5e3, 1e3], missed, |outputs| outputs.faults);
+        assert_ne!(phase(&model), phase(&ahead));
+        let balls = model.state().train;
+        let position = rail.tick * (1000 + missed) as f32;
+        model.set_carriage_position(position);
+        ahead.set_carriage_position(position);
+        assert_eq!(phase(&model), phase(&ahead));
+        assert_eq!(model.state().train, balls);
+        model.set_carriage_position(f32::NAN);
+        ahead.set_carriage_position(0.0);
+        assert_eq!(phase(&model), phase(&ahead));
+
         lose_the_speed::<CagedBallScrew>(&gears::caged(), [150.0, 6e3, 0.0], missed, |outputs| {
             outputs.faults
         });

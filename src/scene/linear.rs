@@ -1,5 +1,7 @@
 //! A linear bearing with four-point contact and balls that press on each other.
 
+use core::borrow::Borrow;
+
 use super::deviation::DeviationMap;
 use super::faults::{admit, answered, limit};
 use super::uncaged::TrainOutputs;
@@ -11,6 +13,7 @@ use crate::error::{Error, attempt, in_range};
 use crate::geometry::LinearBearing;
 use crate::hertz::HertzContact;
 use crate::math;
+use crate::model::FrictionModel;
 use crate::train::{LARGEST_TRAVEL, Track, Train};
 
 /// Impedance of a ball that no load presses into its grooves, N: it goes along with its neighbours.
@@ -29,7 +32,8 @@ const SMALLEST_FORCE: f32 = 1e-6;
 ///
 /// A tick whose speed or load is no number is flagged in that tick, puts out no force, and leaves the state as
 /// it is; the next sound tick is unflagged. Balls, and the phase of the rail's deviations, stand behind by the
-/// travel of the missed ticks from then on, until [`FrictionModel::reset`](crate::FrictionModel::reset).
+/// travel of the missed ticks from then on, until [`FrictionModel::reset`](crate::FrictionModel::reset);
+/// [`FrictionModel::set_carriage_position`] brings the phase back.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LinearBearingTrain<const N: usize>;
@@ -112,6 +116,8 @@ pub struct LinearConstants<const N: usize> {
     rubbing: f32,
     travel: f32,
     phase: f32,
+    /// Periods of the rail's deviations per metre.
+    periods: f32,
     reversal_speed: f32,
     reversal_squared: f32,
     limits: LinearLimits,
@@ -302,6 +308,7 @@ impl<const N: usize> LinearConstants<N> {
             rubbing: ball_friction / angle.cos,
             travel: -0.5 * tick,
             phase: zone.phase_per_turn() * tick / wavelength,
+            periods: 1.0 / (wavelength * zone.passing_turns() as f32),
             reversal_speed,
             reversal_squared: reversal_speed * reversal_speed,
             limits,
@@ -368,6 +375,17 @@ impl<const N: usize> LinearConstants<N> {
             },
             faults: faults | limited,
         }
+    }
+}
+
+impl<const N: usize, C: Borrow<LinearConstants<N>>> FrictionModel<LinearBearingTrain<N>, C> {
+    /// Sets the carriage's place along the rail, m, from which the rail's deviations are counted: once after start-up,
+    /// and again whenever an absolute sensor has it; between, the model integrates the speed. Ticks without a valid
+    /// speed are missing in that sum, one beyond its limit counts with the limit. A place that is NaN, or beyond
+    /// 8e6 periods of the map, counts as 0.
+    pub fn set_carriage_position(&mut self, position: f32) {
+        let periods = position * self.constants().periods;
+        self.state_mut().phase.set(periods);
     }
 }
 

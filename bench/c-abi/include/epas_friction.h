@@ -422,7 +422,7 @@ extern "C" {
 /**
  * Size of `epas_screw_t` in words of eight bytes.
  */
-#define EPAS_SCREW_WORDS 210
+#define EPAS_SCREW_WORDS 212
 
 /**
  * Balls in the circuit of `epas_linear_t`, return included. A bearing with another number needs the
@@ -1131,6 +1131,13 @@ uint32_t epas_linear_init(struct epas_linear_t *place,
 uint32_t epas_linear_step(struct epas_linear_t *place,
                           const struct epas_linear_inputs_t *inputs,
                           struct epas_train_outputs_t *outputs);
+
+/**
+ * Sets the carriage's place along the rail, m, from which the rail's deviations are counted: once after start-up, and
+ * again whenever an absolute sensor has it; between, the model integrates the speed.
+ */
+uint32_t epas_linear_set_carriage_position(struct epas_linear_t *place,
+                                           float position);
 
 /**
  * Back to the state before the first tick.

@@ -449,6 +449,22 @@ pub unsafe extern "C" fn epas_linear_step(
     unsafe { step::<Linear>(place, inputs, outputs) }
 }
 
+/// Sets the carriage's place along the rail, m, from which the rail's deviations are counted: once after start-up, and
+/// again whenever an absolute sensor has it; between, the model integrates the speed.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn epas_linear_set_carriage_position(
+    place: *mut LinearPlace,
+    position: f32,
+) -> u32 {
+    match unsafe { placed::<Linear>(place) } {
+        Ok(placed) => {
+            placed.model.set_carriage_position(position);
+            EPAS_OK
+        }
+        Err(status) => status,
+    }
+}
+
 /// Back to the state before the first tick.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn epas_linear_reset(place: *mut LinearPlace) -> u32 {

@@ -122,5 +122,8 @@ uint32_t test_setup_linear(epas_linear_t *place)
     if (status == EPAS_OK) {
         status = epas_linear_init(place, &test_linear_configuration, NULL);
     }
+    if (status == EPAS_OK) {
+        status = epas_linear_set_carriage_position(place, 0.0125f);
+    }
     return status;
 }

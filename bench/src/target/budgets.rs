@@ -58,7 +58,7 @@ const fn scene(name: &'static str, quantity: Quantity, most: f64) -> Budget {
 
 /// Every budget. The unit of the first four is the literature formula of the curvature, 31 cycles; 8,400
 /// cycles are one period of a 20 kHz loop at 168 MHz.
-pub const BUDGETS: [Budget; 30] = [
+pub const BUDGETS: [Budget; 31] = [
     cycles("curvature_literature", 31.0),
     cycles("curvature_circular_groove", 36.0),
     cycles("curvature_fitted", 45.0),
@@ -76,6 +76,7 @@ pub const BUDGETS: [Budget; 30] = [
     cycles("train_37", 2500.0),
     cycles("step_caged", 300.0),
     cycles("step_train_37", 8400.0),
+    cycles("step_train_37_pressing", 8400.0),
     spread("step_efficiency"),
     spread("step_caged"),
     spread("step_linear"),

@@ -251,6 +251,7 @@ fn linear() -> Result<Vec<Vec<u32>>, Error> {
             friction_force: 50.0,
         },
     })?;
+    model.set_carriage_position(0.0125);
     let mut numbers = Numbers(0x0343_0349);
     let mut speed = Wander {
         value: 0.0,

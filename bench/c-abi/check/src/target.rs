@@ -48,6 +48,7 @@ const PARTS: [(&str, &[&str]); 6] = [
             "epas_screw_faulted_ticks",
             "epas_linear_init",
             "epas_linear_step",
+            "epas_linear_set_carriage_position",
             "epas_linear_reset",
             "epas_linear_faulted_ticks",
             "epas_efficiency",
