@@ -111,12 +111,17 @@ impl ShapeOperator {
         )
     }
 
-    /// The same by one division, and two roundings more.
+    /// Both principal curvatures by one division: `kappa1 = (h22 spread + h12²)/(spread D³)` with
+    /// `spread = h + root`, and `kappa2` likewise.
     #[inline]
-    const fn quotients_by_one_division(&self, root: f32, scale: f32) -> (f32, f32) {
+    const fn eigenvalues(&self, root: f32, scale: f32) -> PrincipalCurvatures {
         let (cube, spread) = (self.scale_squared * scale, self.half_difference + root);
         let inverse = 1.0 / (cube * spread);
-        (self.h12_squared * cube * inverse, spread * inverse)
+        let (first, second) = (self.h22 * spread, self.h11 * spread);
+        PrincipalCurvatures {
+            kappa1: (first + self.h12_squared) * inverse,
+            kappa2: (second - self.h12_squared) * inverse,
+        }
     }
 }
 
@@ -205,11 +210,7 @@ impl GothicArch {
     pub fn principal(&self, contact_angle: ContactAngle) -> PrincipalCurvatures {
         let shape = self.shape_operator(contact_angle);
         let (root, scale) = math::sqrt_pair(shape.radicand, shape.scale_squared);
-        let (shift, inverse_cube) = shape.quotients_by_one_division(root, scale);
-        PrincipalCurvatures {
-            kappa1: (shape.h22 + shift) * inverse_cube,
-            kappa2: (shape.h11 - shift) * inverse_cube,
-        }
+        shape.eigenvalues(root, scale)
     }
 
     /// The first of them with fewer roundings, for constants that are derived from it.
