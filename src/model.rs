@@ -3,7 +3,9 @@
 use core::borrow::Borrow;
 
 use crate::error::Error;
-use crate::scene::Scene;
+use crate::scene::{
+    LinearBearingTrain, LinearConstants, Scene, UncagedBallScrew, UncagedConstants,
+};
 
 /// Friction of one scene: configured once, stepped in the interrupt.
 ///
@@ -128,12 +130,29 @@ impl<S: Scene, C: Borrow<S::Constants>> FrictionModel<S, C> {
         self.constants.borrow()
     }
 
-    pub(crate) const fn state_mut(&mut self) -> &mut S::State {
-        &mut self.state
-    }
-
     /// The state, for diagnosis.
     pub const fn state(&self) -> &S::State {
         &self.state
+    }
+}
+
+impl<const N: usize, C: Borrow<UncagedConstants<N>>> FrictionModel<UncagedBallScrew<N>, C> {
+    /// Sets the angle of the nut against the screw, rad, from which the screw's deviations are counted:
+    /// once after start-up, and again whenever an absolute sensor has it; between, the model integrates
+    /// the speed. Ticks without a valid speed are missing in that sum, one beyond its limit counts with the
+    /// limit. An angle that is NaN, or beyond 8e6 periods of the map, counts as 0.
+    pub fn set_nut_angle(&mut self, angle: f32) {
+        self.state.set_nut_angle(self.constants.borrow(), angle);
+    }
+}
+
+impl<const N: usize, C: Borrow<LinearConstants<N>>> FrictionModel<LinearBearingTrain<N>, C> {
+    /// Sets the carriage's place along the rail, m, from which the rail's deviations are counted: once after start-up,
+    /// and again whenever an absolute sensor has it; between, the model integrates the speed. Ticks without a valid
+    /// speed are missing in that sum, one beyond its limit counts with the limit. A place that is NaN, or beyond
+    /// 8e6 periods of the map, counts as 0.
+    pub fn set_carriage_position(&mut self, position: f32) {
+        self.state
+            .set_carriage_position(self.constants.borrow(), position);
     }
 }

@@ -1,7 +1,5 @@
 //! A linear bearing with four-point contact and balls that press on each other.
 
-use core::borrow::Borrow;
-
 use super::deviation::DeviationMap;
 use super::faults::{admit, answered, limit};
 use super::uncaged::TrainOutputs;
@@ -13,7 +11,6 @@ use crate::error::{Error, attempt, in_range};
 use crate::geometry::LinearBearing;
 use crate::hertz::HertzContact;
 use crate::math;
-use crate::model::FrictionModel;
 use crate::train::{LARGEST_TRAVEL, Track, Train};
 
 /// Impedance of a ball that no load presses into its grooves, N: it goes along with its neighbours.
@@ -378,14 +375,9 @@ impl<const N: usize> LinearConstants<N> {
     }
 }
 
-impl<const N: usize, C: Borrow<LinearConstants<N>>> FrictionModel<LinearBearingTrain<N>, C> {
-    /// Sets the carriage's place along the rail, m, from which the rail's deviations are counted: once after start-up,
-    /// and again whenever an absolute sensor has it; between, the model integrates the speed. Ticks without a valid
-    /// speed are missing in that sum, one beyond its limit counts with the limit. A place that is NaN, or beyond
-    /// 8e6 periods of the map, counts as 0.
-    pub fn set_carriage_position(&mut self, position: f32) {
-        let periods = position * self.constants().periods;
-        self.state_mut().phase.set(periods);
+impl<const N: usize> LinearState<N> {
+    pub(crate) fn set_carriage_position(&mut self, constants: &LinearConstants<N>, position: f32) {
+        self.phase.set(position * constants.periods);
     }
 }
 

@@ -1,6 +1,5 @@
 //! A ball screw without cage: its balls press on each other.
 
-use core::borrow::Borrow;
 use core::f32::consts::TAU;
 
 use super::deviation::DeviationMap;
@@ -12,7 +11,6 @@ use crate::ball::{GrooveFit, LoadShare, LoopSums, ScrewRow};
 use crate::error::{Error, attempt, in_range};
 use crate::geometry::BallScrew;
 use crate::math::{self, constant};
-use crate::model::FrictionModel;
 use crate::train::{IMPEDANCE_RANGE, LARGEST_FREE_SPEED, LARGEST_TRAVEL, Track, Train};
 
 /// Impedance of a ball that no load presses into its grooves, N: it goes along with its neighbours.
@@ -310,14 +308,10 @@ impl<const N: usize> UncagedConstants<N> {
     }
 }
 
-impl<const N: usize, C: Borrow<UncagedConstants<N>>> FrictionModel<UncagedBallScrew<N>, C> {
-    /// Sets the angle of the nut against the screw, rad, from which the screw's deviations are counted:
-    /// once after start-up, and again whenever an absolute sensor has it; between, the model integrates
-    /// the speed. Ticks without a valid speed are missing in that sum, one beyond its limit counts with the
-    /// limit. An angle that is NaN, or beyond 1e7 periods of the map, counts as 0.
-    pub fn set_nut_angle(&mut self, angle: f32) {
-        let turns = f32::from(self.constants().zone.passing_turns());
-        self.state_mut().phase.set(angle / (TAU * turns));
+impl<const N: usize> UncagedState<N> {
+    pub(crate) fn set_nut_angle(&mut self, constants: &UncagedConstants<N>, angle: f32) {
+        let turns = f32::from(constants.zone.passing_turns());
+        self.phase.set(angle / (TAU * turns));
     }
 }
 
