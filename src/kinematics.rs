@@ -291,7 +291,7 @@ impl ContactKinematics {
     ///
     /// Errors over the domain of [`ContactKinematics`], numbers rounded to f32 included, largest (rms):
     /// orbital speed 3.9e-7 (8e-8), spin speed 4.8e-7 (1e-7), entrainment speed 5.0e-7 (1e-7), each of
-    /// itself; rolling slip 2.1e-7 (4e-8), side slip 7e-8 (8e-9), spin on the ball's radius 2.6e-7
+    /// itself; rolling slip 2.2e-7 (4e-8), side slip 8.1e-8 (8e-9), spin on the ball's radius 2.7e-7
     /// (5e-8), each of the entrainment speed.
     ///
     /// Cost: ten multiplications; as a call that loads ten constants and stores ten results about 60
