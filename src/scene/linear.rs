@@ -30,7 +30,7 @@ const SMALLEST_FORCE: f32 = 1e-6;
 /// A tick whose speed or load is no number is flagged in that tick, puts out no force, and leaves the state as
 /// it is; the next sound tick is unflagged. Balls, and the phase of the rail's deviations, stand behind by the
 /// travel of the missed ticks from then on, until [`FrictionModel::reset`](crate::FrictionModel::reset);
-/// [`FrictionModel::set_carriage_position`] brings the phase back.
+/// [`FrictionModel::set_carriage_position`](crate::FrictionModel::set_carriage_position) brings the phase back.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LinearBearingTrain<const N: usize>;

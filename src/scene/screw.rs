@@ -22,7 +22,7 @@ const _: () = assert!(UNLOADED >= IMPEDANCE_RANGE.0);
 /// A tick whose speed or load is no number is flagged in that tick, puts out no torque, and leaves the state as
 /// it is; the next sound tick is unflagged. Balls, and the phase of the screw's deviations, then stand behind by
 /// the travel of the missed ticks, and friction is that of this position: sound, but that of an earlier angle.
-/// [`FrictionModel::set_nut_angle`] brings the phase back; the balls, whose places no sensor knows, stay behind.
+/// [`FrictionModel::set_nut_angle`](crate::FrictionModel::set_nut_angle) brings the phase back; the balls, whose places no sensor knows, stay behind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct UncagedBallScrew<const N: usize>;
