@@ -65,6 +65,26 @@ pub enum Error {
 }
 
 impl Error {
+    /// A value that folds the groove surface, where the other fields leave it `minimum` to `maximum`. The range ends below
+    /// the value, whatever rounding has made of `maximum`.
+    pub(crate) const fn folded(
+        field: &'static str,
+        value: f32,
+        minimum: f32,
+        maximum: f32,
+    ) -> Self {
+        let maximum = if maximum < value {
+            maximum
+        } else {
+            value.next_down()
+        };
+        Self::FoldedGroove {
+            field,
+            value,
+            allowed: Range::new(minimum, maximum),
+        }
+    }
+
     /// Name of the field that is wrong.
     #[must_use]
     pub const fn field(&self) -> &'static str {
@@ -166,6 +186,18 @@ mod tests {
         assert_eq!(
             error.to_string(),
             "lead = -0.5 is out of range; allowed: 0 to 1"
+        );
+    }
+
+    #[test]
+    fn the_range_that_folding_leaves_ends_below_the_value() {
+        for maximum in [0.5, 2e-9, 2.1e-9, f32::INFINITY] {
+            let error = Error::folded("groove_radius", 2e-9, 0.0, maximum);
+            assert!(!error.allowed().contains(error.value()), "{error}");
+        }
+        assert_eq!(
+            Error::folded("lead", 2.0, 0.0, 1.0).allowed(),
+            Range::new(0.0, 1.0)
         );
     }
 

@@ -1,6 +1,6 @@
 //! The exact principal curvatures of a gothic-arch groove.
 
-use crate::error::{Error, Range, attempt, in_range};
+use crate::error::{Error, attempt, in_range};
 use crate::geometry::{BallScrew, ContactAngle, Groove, GrooveProfile, HelixPath};
 use crate::math::{self, constant};
 
@@ -188,16 +188,13 @@ impl GothicArch {
         }
         let path_radius = 1.0 / path.curvature;
         Err(match groove {
-            Groove::Screw => Error::FoldedGroove {
-                field: "groove_radius",
-                value: radius,
-                allowed: Range::new(0.0, (path_radius + profile.offset_h) / contact_angle.cos),
-            },
-            Groove::Nut => Error::FoldedGroove {
-                field: "offset_h",
-                value: profile.offset_h,
-                allowed: Range::new(0.0, path_radius * (1.0 - f32::EPSILON)),
-            },
+            Groove::Screw => Error::folded(
+                "groove_radius",
+                radius,
+                0.0,
+                (path_radius + profile.offset_h) / contact_angle.cos,
+            ),
+            Groove::Nut => Error::folded("offset_h", profile.offset_h, 0.0, path_radius),
         })
     }
 

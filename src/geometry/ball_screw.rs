@@ -3,7 +3,7 @@
 use core::f32::consts::TAU;
 
 use super::{ContactAngle, Groove, GrooveProfile, GrooveSize, HelixPath, LARGEST_CONTACT_ANGLE};
-use crate::error::{Error, Range, attempt, in_range};
+use crate::error::{Error, attempt, in_range};
 use crate::material::Material;
 use crate::math::constant;
 
@@ -257,10 +257,11 @@ const fn refuse_folded(path: &HelixPath, screw: &GrooveProfile) -> Result<(), Er
     if screw.groove_radius < largest {
         Ok(())
     } else {
-        Err(Error::FoldedGroove {
-            field: "groove_radius",
-            value: screw.groove_radius,
-            allowed: Range::new(0.0, largest),
-        })
+        Err(Error::folded(
+            "groove_radius",
+            screw.groove_radius,
+            0.0,
+            largest,
+        ))
     }
 }

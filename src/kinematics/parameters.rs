@@ -297,11 +297,12 @@ impl Path {
             // A >= 0.1 q, that is r' cos(alpha) cos^2(psi) <= 0.9 r_m, with q = r_m / cos(psi).
             let limit =
                 (1.0 - LEAST_REACH) * self.radius / (self.cos_lead * direction.cosine.abs());
-            return Err(Error::FoldedGroove {
-                field: radius_field,
-                value: groove_path.rolling_radius,
-                allowed: Range::new(0.25 * parameters.ball_diameter, limit),
-            });
+            return Err(Error::folded(
+                radius_field,
+                groove_path.rolling_radius,
+                0.25 * parameters.ball_diameter,
+                limit,
+            ));
         }
         Ok(())
     }
