@@ -1,42 +1,19 @@
-//! One ball between its grooves: speed deviation, compliance and loss, and what neighbours do to them.
+//! One ball between its grooves, as a step computes it: closed forms.
 //!
-//! | | what it is | where it holds |
+//! | | what it is | runs in |
 //! |---|---|---|
-//! | [`AnalyticLinearBall`] | the published closed form (Lin 2019, eqs. (3.43), (3.51)) | four loaded contacts, nearly equal |
-//! | [`FourPointBall::start`] | four-force start: exact angles, every contact its own load | four loaded contacts |
-//! | [`FourPointBall::step`] | one damped Newton step on the dissipation | from pure rolling to pure sliding |
-//! | [`FourPointBall::refine_chain`] | the same for balls that press on each other | straight tracks, any number |
+//! | [`AnalyticLinearBall`] | ball of a linear bearing, the published closed form (Lin 2019, eqs. (3.43), (3.51)) | `LinearBearingTrain` |
+//! | [`ScrewRow`], [`ScrewTick`] | balls of a ball screw under one load | `UncagedBallScrew` |
+//! | [`LoadShare`] | a ball's share of the load | both |
 //!
-//! Contacts come in the order bottom left, bottom right, top right, top left (Lin 2019, Fig. 3.10); in a
-//! rotary bearing bottom is the inner ring and top the outer one. The bottom groove of a linear bearing
-//! rests and the top groove moves; contact angles are measured from the axis on which top and bottom lie
-//! towards the left and the right.
-//!
-//! Friction forces do not depend on the size of the speed, and dissipation is even in it: motions are in
-//! units of the track speed, signed, and no function here takes that speed. A negative one changes the
-//! sense of rear and front only ([`FourPointBall::refine_chain`]). At standstill the forces of Coulomb
-//! friction are undefined: what is found is their limit, with which the motion sets in.
+//! Refined forms, which a step does not run, stand in [`refined`](crate::refined).
 
-mod analytic;
-mod chain;
-mod four_point;
 mod linear;
-mod root;
-mod rotary;
+mod loads;
 mod screw;
-mod symmetric;
 
-pub use analytic::{AnalyticLinearBall, PUBLISHED_SLOPE, SpeedDeviation};
-pub use chain::BallChain;
-pub use four_point::{
-    BallMotion, BallState, ContactMotion, DEFAULT_NEWTON_STEPS, FourPointBall, FourPointContacts,
-    LARGEST_ANGLE_DEVIATION,
-};
-pub use linear::LinearBallParameters;
-pub use rotary::{RotaryBall, RotaryBallParameters, RotaryMotion};
-pub use screw::{
-    CONTACT_ANGLE_RANGE, DEFAULT_IMPEDANCE_STEPS, GrooveFit, LoadShare, ScrewBall, ScrewBallLoop,
-    ScrewBallMotion, ScrewBallState, ScrewChain, ScrewContactMotion, ScrewContacts, ScrewRow,
-    ScrewTick, SlipFriction, SlipMap,
-};
+pub use linear::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE, SpeedDeviation};
+pub use loads::LoadShare;
+pub(crate) use loads::loaded;
+pub use screw::{GrooveFit, ScrewBallLoop, ScrewRow, ScrewTick};
 pub(crate) use screw::{LoopSums, largest_deviation};

@@ -9,9 +9,8 @@
 //!
 //! ```
 //! use embedded_hal::{pwm::SetDutyCycle, spi::SpiDevice};
-//! use epas_friction::{
-//!     CagedBallScrew, FrictionFeedForward, FrictionModel, Inputs, MagneticEncoder,
-//! };
+//! use epas_friction::{CagedBallScrew, FrictionModel, Inputs};
+//! use epas_friction::hal::{FrictionFeedForward, MagneticEncoder};
 //!
 //! fn tick<SPI: SpiDevice, PWM: SetDutyCycle>(
 //!     encoder: &mut MagneticEncoder<SPI>,

@@ -7,6 +7,7 @@ use crate::curvature::{GothicArch, RelativeCurvatures};
 use crate::error::{Error, attempt, in_range};
 use crate::geometry::{BallScrew, ContactAngle, Groove, LinearBearing};
 use crate::material::contact_modulus;
+use crate::math::elliptic::{Complete, complete};
 use crate::math::{self, constant};
 
 /// Largest ratio of the two relative radii: that of conformities from 0.500 01 on.
@@ -31,7 +32,9 @@ pub const LARGEST_RADIUS_RATIO: f32 = 1e5;
 /// deflection 5e-6, pressure 1e-5.
 ///
 /// ```
-/// use epas_friction::{CATALOGUE, Groove, HertzContact};
+/// use epas_friction::CATALOGUE;
+/// use epas_friction::geometry::Groove;
+/// use epas_friction::hertz::HertzContact;
 /// let design = CATALOGUE[15].design()?; // 32 x 20 x 6.35
 /// let contact = HertzContact::of(&design, Groove::Screw);
 /// let ellipse = contact.at(100.0);
@@ -75,7 +78,7 @@ impl HertzContact {
             (relative.across, relative.along)
         };
         let axis_ratio = axis_ratio(flat / steep);
-        let (first, second) = elliptic_integrals(axis_ratio);
+        let Complete { first, second, .. } = complete(axis_ratio);
 
         // The load stands outside: a = semi_major F^(1/3), and likewise the others.
         let semi_major = constant::cbrt(
@@ -223,28 +226,4 @@ const fn axis_ratio(radius_ratio: f32) -> f32 {
         1.0 + x * (268.19154063 + x * (4970.99764586 + x * (6769.88079708 + x * 3630.23062516)));
     let ratio = x * x * (numerator / denominator);
     if ratio < 1.0 { ratio } else { 1.0 }
-}
-
-/// Complete elliptic integrals `(K, E)` of the modulus `sqrt(1 - k²)`, `k` from 0.001 to 1.
-///
-/// `K = pi / (2 agm(1, k))`, `E = K (1 - sum 2^(i-1) c_i²)`; five steps leave less than half an ulp.
-#[inline]
-const fn elliptic_integrals(axis_ratio: f32) -> (f32, f32) {
-    const STEPS: usize = 5;
-    let mut arithmetic = 1.0;
-    let mut geometric = axis_ratio;
-    let mut sum = 0.5 * (1.0 - axis_ratio) * (1.0 + axis_ratio);
-    let mut weight = 1.0;
-    let mut step = 0;
-    while step < STEPS {
-        let half_difference = 0.5 * (arithmetic - geometric);
-        let mean = 0.5 * (arithmetic + geometric);
-        geometric = constant::sqrt(arithmetic * geometric);
-        arithmetic = mean;
-        sum += weight * half_difference * half_difference;
-        weight *= 2.0;
-        step += 1;
-    }
-    let first = core::f32::consts::FRAC_PI_2 / arithmetic;
-    (first, first * (1.0 - sum))
 }

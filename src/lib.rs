@@ -8,23 +8,30 @@
 //! groove points into its metal. A right-hand thread; the load is positive where it opposes the travel
 //! that a positive nut speed makes.
 //!
-//! # Where things are
+//! # Where things are, and where they run
 //!
-//! | module | what |
-//! |---|---|
-//! | [`math`] | square root, cube root, sine and cosine |
-//! | [`material`] | elastic constants |
-//! | [`geometry`] | validated designs, built-in sizes |
-//! | [`curvature`] | groove curvature: literature, circular groove, fitted, exact |
-//! | [`hertz`] | contact ellipse, deflection, pressure |
-//! | [`efficiency`] | closed-form efficiency, self-locking, optimum, design procedure |
-//! | [`kinematics`] | rolling, side and spin slip of a contact, their ratios and friction power |
-//! | [`contact`] | force, moment and power of one contact with slip and spin |
-//! | [`ball`] | one ball in a linear or rotary four-point bearing: speed deviation, compliance, loss |
-//! | [`scene`] | what a mechanism needs and what it leaves out |
-//! | [`model`] | configured once, stepped in the interrupt |
-//! | [`promises`] | domain, errors, behaviour outside and cost of every function, in one table |
-//! | `hal` | adapters for `embedded-hal`: nut speed from an encoder, friction torque to a duty cycle |
+//! In the order of use: a module imports only from those above it. "Step" means that the control interrupt runs it;
+//! "set-up" that it runs once, or in the compiler; "direct" that no scene links it: firmware or a tool that wants it
+//! calls it by its own name.
+//!
+//! | module | what | runs in |
+//! |---|---|---|
+//! | [`error`] | field, value and allowed range of what was refused | set-up |
+//! | [`math`] | square root, cube root, sine and cosine; elliptic integrals and arcsine | step; set-up |
+//! | [`material`] | elastic constants | set-up |
+//! | [`geometry`] | validated designs, built-in sizes | set-up |
+//! | [`curvature`] | groove curvature: literature, circular groove, fitted, exact | set-up (the exact one); direct |
+//! | [`hertz`] | contact ellipse, deflection, pressure | set-up; direct |
+//! | [`contact`] | friction of one contact: along the track, across it, in any direction | set-up and step (across); direct |
+//! | [`train`] | a row of balls that push each other: free speeds and impedances in, forces and moves out | step of both trains |
+//! | [`ball`] | one ball between its grooves, closed forms | step of both trains |
+//! | [`refined`] | one ball and chains of balls, refined by Newton steps | direct |
+//! | [`efficiency`] | closed-form efficiency, self-locking; optimum and design procedure | set-up of the caged scene; direct |
+//! | [`kinematics`] | rolling, side and spin slip of a contact, their ratios and friction power | direct |
+//! | [`scene`] | what a mechanism needs and what it leaves out | step |
+//! | [`model`] | [`FrictionModel`]: admit, compute, limit, count | step |
+//! | `hal` | adapters for `embedded-hal`: nut speed from an encoder, friction torque to a duty cycle | beside the step |
+//! | [`promises`] | domain, errors, behaviour outside and cost of every function, in one table | nowhere: a table |
 //!
 //! Everything is set up once, with errors that name the field, its value and the allowed range; from
 //! then on nothing returns a `Result`, nothing panics, and every output is finite and flagged.
@@ -43,42 +50,17 @@ pub mod material;
 pub mod math;
 pub mod model;
 pub mod promises;
+pub mod refined;
 pub mod scene;
 pub mod train;
 
-pub use ball::{
-    AnalyticLinearBall, BallChain, BallMotion, BallState, ContactMotion, FourPointBall,
-    FourPointContacts, GrooveFit, LinearBallParameters, LoadShare, PUBLISHED_SLOPE, RotaryBall,
-    RotaryBallParameters, RotaryMotion, ScrewBall, ScrewBallLoop, ScrewBallMotion, ScrewBallState,
-    ScrewChain, ScrewContactMotion, ScrewContacts, ScrewRow, ScrewTick, SlipFriction, SlipMap,
-    SpeedDeviation,
-};
-pub use contact::{Dissipation, FrictionMap, NormalizedFriction};
-pub use curvature::{
-    CircularGrooveCurvature, FittedCurvature, GothicArch, LiteratureCurvature, PrincipalCurvatures,
-    RelativeCurvatures,
-};
-pub use efficiency::{
-    DesignFigures, DesignRequest, Drive, Duty, DynamicCorrection, EfficiencyGeometry,
-    OptimumContactAngle, optimum_contact_angle, optimum_efficiency,
-};
+pub use ball::{GrooveFit, LoadShare};
 pub use error::{Error, Range};
 pub use geometry::{
-    BallBearing, BallBearingParameters, BallScrew, BallScrewParameters, CATALOGUE, CatalogueSize,
-    ContactAngle, DISSERTATION_DESIGNS, Groove, GrooveProfile, GrooveSize, HelixPath,
+    BallScrew, BallScrewParameters, CATALOGUE, CatalogueSize, DISSERTATION_DESIGNS, GrooveSize,
     LinearBearing, LinearBearingParameters, NamedDesign,
 };
-#[cfg(feature = "embedded-hal")]
-pub use hal::{
-    AppliedDuty, Diagnostics, EncoderConfiguration, EncoderError, FaultReaction,
-    FeedForwardConfiguration, FrictionFeedForward, MagneticEncoder, NutMotion, SensorErrors,
-};
-pub use hertz::{ContactEllipse, HertzContact};
-pub use kinematics::{
-    BallKinematics, ContactKinematics, ContactSlip, EllipticContact, FrictionPower,
-    KinematicsParameters, PitchMethod, SlipRatios, SlipVector, TraditionalKinematics,
-};
-pub use material::{Material, contact_modulus};
+pub use material::Material;
 pub use model::FrictionModel;
 pub use scene::{
     CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, DeviationMap, Faults,
@@ -86,4 +68,3 @@ pub use scene::{
     LinearConstants, LinearInputs, LinearLimits, Outputs, Regime, Scene, TrainOutputs,
     UncagedBallScrew, UncagedBallScrewConfiguration, UncagedConstants,
 };
-pub use train::{BallContact, Press, Train};

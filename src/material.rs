@@ -55,7 +55,8 @@ impl Material {
 /// among them, print twice this value as `E'`.
 ///
 /// ```
-/// use epas_friction::{Material, contact_modulus};
+/// use epas_friction::Material;
+/// use epas_friction::material::contact_modulus;
 /// let steel = contact_modulus(&Material::STEEL, &Material::STEEL);
 /// assert!((steel - 113.93229e9).abs() < 1e5);
 /// ```

@@ -18,12 +18,14 @@
 //! calls those of [`constant`], so that all of it can be done by the compiler.
 
 pub mod constant;
+pub(crate) mod elliptic;
 pub mod own;
 
 #[cfg(feature = "libm")]
 mod libm;
 #[cfg(feature = "micromath")]
 mod micromath;
+mod powers;
 mod sqrt;
 
 #[cfg(all(feature = "libm", feature = "micromath"))]
@@ -36,6 +38,7 @@ use self::micromath as backend;
 #[cfg(not(any(feature = "libm", feature = "micromath")))]
 use own as backend;
 
+pub(crate) use powers::inverse_cube_roots;
 pub use sqrt::sqrt;
 pub(crate) use sqrt::sqrt_pair;
 

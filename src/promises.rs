@@ -82,7 +82,7 @@ pub const SIN_COS: Promise = Promise {
     cycles: 60,
 };
 
-/// [`GothicArch::principal`](crate::GothicArch::principal).
+/// [`GothicArch::principal`](crate::curvature::GothicArch::principal).
 pub const GOTHIC_ARCH: Promise = Promise {
     function: "GothicArch::principal",
     domain: "31 catalogue sizes, contact angles 0 to 80 deg, both grooves",
@@ -97,7 +97,7 @@ pub const GOTHIC_ARCH: Promise = Promise {
     cycles: 140,
 };
 
-/// [`FittedCurvature::first`](crate::FittedCurvature::first).
+/// [`FittedCurvature::first`](crate::curvature::FittedCurvature::first).
 pub const FITTED_CURVATURE: Promise = Promise {
     function: "FittedCurvature::first",
     domain: "31 catalogue sizes, contact angles 0 to 72 deg, both grooves",
@@ -109,7 +109,7 @@ pub const FITTED_CURVATURE: Promise = Promise {
     ..GOTHIC_ARCH
 };
 
-/// [`HertzContact::at`](crate::HertzContact::at) with its constants.
+/// [`HertzContact::at`](crate::hertz::HertzContact::at) with its constants.
 pub const HERTZ: Promise = Promise {
     function: "HertzContact::at",
     domain: "ratios of the relative radii 1 to 1e5, loads 1e-3 to 1e6 N",
@@ -123,7 +123,7 @@ pub const HERTZ: Promise = Promise {
     cycles: 110,
 };
 
-/// [`EfficiencyGeometry::sliding_efficiency`](crate::EfficiencyGeometry::sliding_efficiency).
+/// [`EfficiencyGeometry::sliding_efficiency`](crate::efficiency::EfficiencyGeometry::sliding_efficiency).
 pub const EFFICIENCY: Promise = Promise {
     function: "EfficiencyGeometry::sliding_efficiency",
     domain: "friction 0.001 to 0.3, lead angles 0.5 to 60, contact angles 5 to 85 deg, before the lock",
@@ -137,7 +137,7 @@ pub const EFFICIENCY: Promise = Promise {
     cycles: 40,
 };
 
-/// [`FrictionMap::evaluate`](crate::FrictionMap::evaluate).
+/// [`FrictionMap::evaluate`](crate::contact::FrictionMap::evaluate).
 pub const FRICTION_MAP: Promise = Promise {
     function: "FrictionMap::evaluate",
     domain: "axis ratios 0.05 to 1, every offset",
@@ -151,7 +151,7 @@ pub const FRICTION_MAP: Promise = Promise {
     cycles: 50,
 };
 
-/// [`ContactKinematics::tick`](crate::ContactKinematics::tick).
+/// [`ContactKinematics::tick`](crate::kinematics::ContactKinematics::tick).
 pub const KINEMATICS: Promise = Promise {
     function: "ContactKinematics::tick",
     domain: "helix angles to 40 deg, grips from 0.25",
@@ -165,7 +165,7 @@ pub const KINEMATICS: Promise = Promise {
     cycles: 60,
 };
 
-/// [`AnalyticLinearBall::speed_deviation`](crate::AnalyticLinearBall::speed_deviation).
+/// [`AnalyticLinearBall::speed_deviation`](crate::ball::AnalyticLinearBall::speed_deviation).
 pub const ANALYTIC_BALL: Promise = Promise {
     function: "AnalyticLinearBall::speed_deviation",
     domain: "side-force ratios to 0.8, contact angles within 3 deg of each other",
@@ -179,7 +179,7 @@ pub const ANALYTIC_BALL: Promise = Promise {
     cycles: 125,
 };
 
-/// [`FourPointBall::step`](crate::FourPointBall::step), two of them from the start.
+/// [`FourPointBall::step`](crate::refined::FourPointBall::step), two of them from the start.
 pub const FOUR_POINT_BALL: Promise = Promise {
     function: "FourPointBall::step, twice",
     largest: 3.3e-4,
@@ -192,7 +192,7 @@ pub const FOUR_POINT_BALL: Promise = Promise {
     ..ANALYTIC_BALL
 };
 
-/// [`Press::solve`](crate::Press::solve).
+/// [`Press::solve`](crate::train::Press::solve).
 pub const PRESS: Promise = Promise {
     function: "Press::solve",
     domain: "2 to 64 balls, impedances that differ by up to 1e6; cycles for 37 balls",

@@ -2,10 +2,10 @@
 
 use std::f64::consts::{FRAC_PI_4, TAU};
 
+use epas_friction::ball::LinearBallParameters;
 use epas_friction::{
     BallScrew, BallScrewParameters, DeviationMap, FrictionModel, GrooveFit, GrooveSize, Harmonic,
-    Limits, LinearBallParameters, LoadShare, Material, UncagedBallScrew,
-    UncagedBallScrewConfiguration,
+    Limits, LoadShare, Material, UncagedBallScrew, UncagedBallScrewConfiguration,
 };
 use epas_reference::curvature::{Groove, Surface};
 use epas_reference::friction::ball_screw_ball::ScrewTrack;

@@ -19,9 +19,10 @@ mod trains;
 use std::hint::black_box;
 use std::time::Instant;
 
-use epas_friction::{
-    ContactAngle, ContactEllipse, HertzContact, Inputs, Outputs, PrincipalCurvatures,
-};
+use epas_friction::curvature::PrincipalCurvatures;
+use epas_friction::geometry::ContactAngle;
+use epas_friction::hertz::{ContactEllipse, HertzContact};
+use epas_friction::{Inputs, Outputs};
 
 pub use competitors::{Competition, compete};
 

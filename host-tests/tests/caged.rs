@@ -1,8 +1,9 @@
 //! The caged ball screw in the loop: energy, signs, continuity, bad input.
 
+use epas_friction::efficiency::EfficiencyGeometry;
 use epas_friction::{
     BallScrew, CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, DISSERTATION_DESIGNS,
-    EfficiencyGeometry, Faults, FrictionBranch, FrictionModel, Inputs, Limits, Outputs, Regime,
+    Faults, FrictionBranch, FrictionModel, Inputs, Limits, Outputs, Regime,
 };
 use epas_reference::efficiency::Screw;
 use proptest::prelude::*;
@@ -238,7 +239,7 @@ fn a_locked_drive_is_said_and_bounded() {
     parameters.contact_angle = 20f32.to_radians();
     parameters.lead = std::f32::consts::TAU * parameters.pitch_radius * 60f32.to_radians().tan();
     let design = BallScrew::new(parameters).unwrap();
-    assert!(EfficiencyGeometry::of(&design).locks(epas_friction::Drive::Driving, 0.5));
+    assert!(EfficiencyGeometry::of(&design).locks(epas_friction::efficiency::Drive::Driving, 0.5));
     let mut model = model(&CagedBallScrewConfiguration {
         design,
         friction: 0.5,

@@ -7,12 +7,19 @@
 use std::fmt::Debug;
 use std::hint::black_box;
 
+use epas_friction::curvature::{
+    CircularGrooveCurvature, FittedCurvature, GothicArch, LiteratureCurvature,
+};
+use epas_friction::efficiency::{Drive, DynamicCorrection, EfficiencyGeometry};
+use epas_friction::geometry::{
+    BallBearing, BallBearingParameters, ContactAngle, Groove, HelixPath,
+};
+use epas_friction::hertz::HertzContact;
+use epas_friction::kinematics::{ContactKinematics, EllipticContact, KinematicsParameters};
+use epas_friction::material::contact_modulus;
 use epas_friction::{
-    BallBearing, BallBearingParameters, BallScrew, CATALOGUE, CircularGrooveCurvature,
-    ContactAngle, ContactKinematics, DISSERTATION_DESIGNS, Drive, DynamicCorrection,
-    EfficiencyGeometry, EllipticContact, FittedCurvature, GothicArch, Groove, GrooveSize,
-    HelixPath, HertzContact, KinematicsParameters, LinearBearing, LinearBearingParameters,
-    LiteratureCurvature, Material, contact_modulus, math,
+    BallScrew, CATALOGUE, DISSERTATION_DESIGNS, GrooveSize, LinearBearing, LinearBearingParameters,
+    Material, math,
 };
 
 /// Everything that follows from one ball screw.

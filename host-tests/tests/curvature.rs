@@ -1,9 +1,10 @@
 //! The crate's curvature forms against 65-digit values of the Weingarten map.
 
-use epas_friction::{
-    CATALOGUE, CircularGrooveCurvature, ContactAngle, Error, FittedCurvature, GothicArch, Groove,
-    GrooveProfile, HelixPath, LiteratureCurvature,
+use epas_friction::curvature::{
+    CircularGrooveCurvature, FittedCurvature, GothicArch, LiteratureCurvature,
 };
+use epas_friction::geometry::{ContactAngle, Groove, GrooveProfile, HelixPath};
+use epas_friction::{CATALOGUE, Error};
 use serde::Deserialize;
 
 #[derive(Deserialize)]

@@ -1,10 +1,11 @@
 //! Closed-form efficiency: the reference against 17-digit values, the crate against both, and the laws
 //! that bind efficiency, torque and self-locking.
 
-use epas_friction::{
-    CATALOGUE, DesignRequest, Drive, Duty, DynamicCorrection, EfficiencyGeometry, Material,
-    optimum_contact_angle, optimum_efficiency,
+use epas_friction::efficiency::{
+    DesignRequest, Drive, Duty, DynamicCorrection, EfficiencyGeometry, optimum_contact_angle,
+    optimum_efficiency,
 };
+use epas_friction::{CATALOGUE, Material};
 use epas_reference::efficiency::{self as reference, Screw};
 use proptest::prelude::*;
 use serde_json::Value;

@@ -3,7 +3,7 @@
 mod exact_friction;
 mod golden;
 
-use epas_friction::FrictionMap;
+use epas_friction::contact::FrictionMap;
 use epas_friction::promises::FRICTION_MAP;
 use exact_friction::quadrature;
 

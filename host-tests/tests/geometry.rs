@@ -1,9 +1,12 @@
 //! Designs: every field of every constructor with every kind of bad number; derived constants.
 
+use epas_friction::curvature::{GothicArch, LiteratureCurvature};
+use epas_friction::geometry::{
+    BallBearing, BallBearingParameters, ContactAngle, Groove, HelixPath,
+};
 use epas_friction::{
-    BallBearing, BallBearingParameters, BallScrew, BallScrewParameters, CATALOGUE, ContactAngle,
-    DISSERTATION_DESIGNS, Error, GothicArch, Groove, GrooveSize, HelixPath, LinearBearing,
-    LinearBearingParameters, LiteratureCurvature, Material,
+    BallScrew, BallScrewParameters, CATALOGUE, DISSERTATION_DESIGNS, Error, GrooveSize,
+    LinearBearing, LinearBearingParameters, Material,
 };
 
 const BAD: [f32; 7] = [

@@ -7,11 +7,13 @@ use embedded_hal::spi::{ErrorKind, ErrorType, Operation, SpiDevice};
 use embedded_hal_mock::eh1::MockError;
 use embedded_hal_mock::eh1::pwm::{Mock as PwmMock, Transaction as Pwm};
 use embedded_hal_mock::eh1::spi::{Mock as SpiMock, Transaction as Spi};
+use epas_friction::hal::{
+    EncoderConfiguration, EncoderError, FaultReaction, FeedForwardConfiguration,
+    FrictionFeedForward, MagneticEncoder,
+};
 use epas_friction::{
-    BallScrew, CagedBallScrew, CagedBallScrewConfiguration, DISSERTATION_DESIGNS,
-    EncoderConfiguration, EncoderError, FaultReaction, Faults, FeedForwardConfiguration,
-    FrictionBranch, FrictionFeedForward, FrictionModel, Inputs, Limits, MagneticEncoder, Outputs,
-    Regime,
+    BallScrew, CagedBallScrew, CagedBallScrewConfiguration, DISSERTATION_DESIGNS, Faults,
+    FrictionBranch, FrictionModel, Inputs, Limits, Outputs, Regime,
 };
 
 const READ_ANGLE: u16 = 0xFFFF;

@@ -1,8 +1,10 @@
 //! The contact ellipse: the reference against tabulated values, the crate against the reference.
 
+use epas_friction::geometry::Groove;
+use epas_friction::hertz::HertzContact;
 use epas_friction::{
-    BallScrew, CATALOGUE, DISSERTATION_DESIGNS, Groove, GrooveSize, HertzContact, LinearBearing,
-    LinearBearingParameters, Material,
+    BallScrew, CATALOGUE, DISSERTATION_DESIGNS, GrooveSize, LinearBearing, LinearBearingParameters,
+    Material,
 };
 use epas_reference::curvature;
 use epas_reference::hertz::{self, Hertz};

@@ -3,11 +3,14 @@
 mod absurd;
 
 use absurd::{Random, Trial, accepted};
+use epas_friction::curvature::GothicArch;
+use epas_friction::geometry::{ContactAngle, Groove, GrooveProfile, HelixPath};
+use epas_friction::hertz::HertzContact;
+use epas_friction::train::Press;
 use epas_friction::{
-    BallScrew, CagedBallScrew, CagedBallScrewConfiguration, ContactAngle, DeviationMap,
-    FrictionModel, GothicArch, Groove, GrooveFit, GrooveProfile, GrooveSize, HelixPath,
-    HertzContact, Inputs, LinearBearingConfiguration, LinearBearingTrain, LinearInputs,
-    LinearLimits, Press, Regime, UncagedBallScrew, UncagedBallScrewConfiguration,
+    BallScrew, CagedBallScrew, CagedBallScrewConfiguration, DeviationMap, FrictionModel, GrooveFit,
+    GrooveSize, Inputs, LinearBearingConfiguration, LinearBearingTrain, LinearInputs, LinearLimits,
+    Regime, UncagedBallScrew, UncagedBallScrewConfiguration,
 };
 use proptest::prelude::*;
 

@@ -5,10 +5,9 @@ mod exact_ball;
 mod exact_friction;
 mod golden;
 
-use epas_friction::{
-    AnalyticLinearBall, BallChain, FourPointBall, FourPointContacts, LinearBallParameters,
-    PUBLISHED_SLOPE, promises,
-};
+use epas_friction::ball::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE};
+use epas_friction::promises;
+use epas_friction::refined::{BallChain, FourPointBall, FourPointContacts};
 use exact_ball::{ExactBall, ExactMap};
 use std::f64::consts::FRAC_PI_4;
 use std::sync::OnceLock;

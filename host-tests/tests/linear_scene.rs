@@ -3,10 +3,12 @@
 
 use std::f64::consts::{FRAC_PI_4, TAU};
 
+use epas_friction::contact::FrictionMap;
+use epas_friction::hertz::HertzContact;
 use epas_friction::{
-    DeviationMap, Faults, FrictionMap, FrictionModel, GrooveSize, Harmonic, HertzContact,
-    LinearBearing, LinearBearingConfiguration, LinearBearingParameters, LinearBearingTrain,
-    LinearInputs, LinearLimits, LoadShare, Material, Regime,
+    DeviationMap, Faults, FrictionModel, GrooveSize, Harmonic, LinearBearing,
+    LinearBearingConfiguration, LinearBearingParameters, LinearBearingTrain, LinearInputs,
+    LinearLimits, LoadShare, Material, Regime,
 };
 use epas_reference::friction::linear_ball::{
     EllipseLaw, LinearBall, analytic_compliance, analytic_speed_deviation,

@@ -3,7 +3,10 @@
 
 use std::f64::consts::FRAC_PI_4;
 
-use epas_friction::{BallChain, FourPointBall, FrictionMap, LinearBallParameters, Press};
+use epas_friction::ball::LinearBallParameters;
+use epas_friction::contact::FrictionMap;
+use epas_friction::refined::{BallChain, FourPointBall};
+use epas_friction::train::Press;
 use epas_reference::friction::chain::solve_chain;
 use epas_reference::friction::linear_ball::{EllipseLaw, LinearBall, contact_forces};
 

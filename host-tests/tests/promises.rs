@@ -5,11 +5,13 @@ mod absurd;
 use std::fmt::Write;
 
 use absurd::Random;
+use epas_friction::contact::FrictionMap;
+use epas_friction::curvature::{FittedCurvature, GothicArch};
+use epas_friction::efficiency::EfficiencyGeometry;
+use epas_friction::geometry::{ContactAngle, Groove};
+use epas_friction::hertz::HertzContact;
 use epas_friction::promises::{self, Promise};
-use epas_friction::{
-    CATALOGUE, ContactAngle, EfficiencyGeometry, FittedCurvature, FrictionMap, GothicArch, Groove,
-    HertzContact, math,
-};
+use epas_friction::{CATALOGUE, math};
 use epas_reference::curvature::{self, Surface};
 use epas_reference::efficiency::Screw;
 use epas_reference::friction::maps;

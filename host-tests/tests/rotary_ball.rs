@@ -2,7 +2,7 @@
 
 mod golden;
 
-use epas_friction::{RotaryBall, RotaryBallParameters, RotaryMotion};
+use epas_friction::refined::{RotaryBall, RotaryBallParameters, RotaryMotion};
 use serde_json::Value;
 
 const INNER_SPEED: f32 = 62.831_853;
@@ -102,7 +102,8 @@ fn table_3_2_slips() {
 
 #[test]
 fn a_large_pitch_radius_is_a_straight_track() {
-    use epas_friction::{FourPointBall, LinearBallParameters};
+    use epas_friction::ball::LinearBallParameters;
+    use epas_friction::refined::FourPointBall;
     let straight = FourPointBall::linear(&LinearBallParameters {
         ball_radius: 0.005,
         contact_angle: 0.8,

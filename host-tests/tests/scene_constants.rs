@@ -3,14 +3,16 @@
 use std::fmt::Debug;
 use std::hint::black_box;
 
+use epas_friction::ball::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE, ScrewRow};
+use epas_friction::contact::{FrictionMap, SlipMap};
+use epas_friction::refined::{FourPointBall, RotaryBall, RotaryBallParameters, ScrewBall};
 use epas_friction::{
-    AnalyticLinearBall, BallScrew, CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration,
-    CagedConstants, DISSERTATION_DESIGNS, DeviationMap, Error, FourPointBall, FrictionBranch,
-    FrictionMap, FrictionModel, GrooveFit, GrooveSize, Harmonic, Inputs, Limits,
-    LinearBallParameters, LinearBearing, LinearBearingConfiguration, LinearBearingParameters,
-    LinearBearingTrain, LinearConstants, LinearInputs, LinearLimits, LoadShare, Material, Outputs,
-    PUBLISHED_SLOPE, RotaryBall, RotaryBallParameters, Scene, ScrewBall, ScrewRow, SlipMap,
-    TrainOutputs, UncagedBallScrew, UncagedBallScrewConfiguration, UncagedConstants,
+    BallScrew, CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, CagedConstants,
+    DISSERTATION_DESIGNS, DeviationMap, Error, FrictionBranch, FrictionModel, GrooveFit,
+    GrooveSize, Harmonic, Inputs, Limits, LinearBearing, LinearBearingConfiguration,
+    LinearBearingParameters, LinearBearingTrain, LinearConstants, LinearInputs, LinearLimits,
+    LoadShare, Material, Outputs, Scene, TrainOutputs, UncagedBallScrew,
+    UncagedBallScrewConfiguration, UncagedConstants,
 };
 
 const fn folded<T: Copy>(set_up: Result<T, Error>) -> T {

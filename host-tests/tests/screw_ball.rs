@@ -1,10 +1,13 @@
 //! The ball of a ball screw: closed form and refined variant against the exact models.
 
-use epas_friction::{
-    BallScrew, BallScrewParameters, ContactAngle, Groove, GrooveFit, GrooveSize, HertzContact,
-    LoadShare, Material, Press, ScrewBall, ScrewBallMotion, ScrewBallState, ScrewChain,
-    ScrewContacts, ScrewRow,
+use epas_friction::ball::ScrewRow;
+use epas_friction::geometry::{ContactAngle, Groove};
+use epas_friction::hertz::HertzContact;
+use epas_friction::refined::{
+    ScrewBall, ScrewBallMotion, ScrewBallState, ScrewChain, ScrewContacts,
 };
+use epas_friction::train::Press;
+use epas_friction::{BallScrew, BallScrewParameters, GrooveFit, GrooveSize, LoadShare, Material};
 use epas_reference::friction::ball_screw_ball::{
     Groove as Flank, ScrewContact, ScrewMotion, ScrewTrack, motion_with_contacts,
 };
@@ -39,8 +42,8 @@ fn design() -> BallScrew {
     .unwrap()
 }
 
-fn law(design: &BallScrew, groove: epas_friction::Groove) -> HertzLaw {
-    let contact = epas_friction::HertzContact::of(design, groove);
+fn law(design: &BallScrew, groove: epas_friction::geometry::Groove) -> HertzLaw {
+    let contact = epas_friction::hertz::HertzContact::of(design, groove);
     HertzLaw {
         ellipse: EllipseLaw {
             semi_major_constant: f64::from(contact.semi_major_coefficient()),
@@ -66,8 +69,8 @@ fn row_is_the_closed_form_with_a_third_contact() {
         let row = ScrewRow::new(&design, friction as f32, GrooveFit::Zero).unwrap();
         let model = ThreePointModel {
             track: TRACK,
-            screw: law(&design, epas_friction::Groove::Screw),
-            nut: law(&design, epas_friction::Groove::Nut),
+            screw: law(&design, epas_friction::geometry::Groove::Screw),
+            nut: law(&design, epas_friction::geometry::Groove::Nut),
             friction,
             contact_angle: FRAC_PI_4,
         };

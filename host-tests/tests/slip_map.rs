@@ -1,6 +1,6 @@
 //! Friction of a contact that slips in any direction and spins, against quadrature.
 
-use epas_friction::SlipMap;
+use epas_friction::contact::SlipMap;
 use epas_reference::friction::patch::{Patch, PatchFriction, PatchVelocity};
 use std::f64::consts::TAU;
 

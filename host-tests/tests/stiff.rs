@@ -6,9 +6,8 @@ mod gears;
 mod recorded;
 
 use absurd::{Random, Trial, sound_train};
-use epas_friction::{
-    CagedBallScrew, FrictionModel, Inputs, Press, Train, UncagedBallScrew, promises,
-};
+use epas_friction::train::{Press, Train};
+use epas_friction::{CagedBallScrew, FrictionModel, Inputs, UncagedBallScrew, promises};
 
 /// Speeds and forces of a row in contact by the max-min formula of isotonic regression, in f64.
 fn exact_row(free: &[f64], impedance: &[f64]) -> (Vec<f64>, Vec<f64>) {

@@ -1,7 +1,7 @@
 //! The train of balls: the pooling pass against exhaustive search, a general complementarity solver
 //! and stored chains; positions over many ticks.
 
-use epas_friction::{Press, Train};
+use epas_friction::train::{Press, Train};
 use epas_reference::friction::chain::isotonic_by_min_max;
 
 /// Deterministic numbers in 0..1 (splitmix64).

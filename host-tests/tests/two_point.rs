@@ -3,11 +3,11 @@
 
 use std::f64::consts::FRAC_PI_4;
 
-use epas_friction::{
-    AnalyticLinearBall, BallScrew, BallScrewParameters, ContactAngle, FourPointBall, Groove,
-    GrooveFit, GrooveSize, HertzContact, LinearBallParameters, LoadShare, Material,
-    PUBLISHED_SLOPE, ScrewBall, ScrewRow,
-};
+use epas_friction::ball::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE, ScrewRow};
+use epas_friction::geometry::{ContactAngle, Groove};
+use epas_friction::hertz::HertzContact;
+use epas_friction::refined::{FourPointBall, ScrewBall};
+use epas_friction::{BallScrew, BallScrewParameters, GrooveFit, GrooveSize, LoadShare, Material};
 use epas_reference::friction::ball_screw_ball::{
     Groove as Flank, ScrewContact, ScrewTrack, motion_with_contacts,
 };

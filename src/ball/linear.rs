@@ -1,12 +1,20 @@
-//! Constants of a ball in a linear bearing.
+//! The published closed form of one ball in a linear bearing.
 
-use super::four_point::{FourPointBall, Track};
+use super::loads::loaded;
+use crate::contact::FrictionMap;
 use crate::error::{Error, attempt, in_range};
-use crate::math::constant;
+use crate::math::{constant, inverse_cube_roots};
 
-/// Spin below which a contact counts as sticking, in units of track speed over ball radius; contacts of
-/// a ball in four-point contact spin with about half that unit.
-const STICK_SPIN: f32 = 0.01;
+/// Slope `k_f` of the friction force over the offset ratio that Lin 2019 reads off Figure 3.11 (b). It
+/// is the mean slope up to half the semi-axis; the exact one at the centre is
+/// [`FrictionMap::slope`](crate::contact::FrictionMap::slope), 1.442 at conformity 0.56.
+pub const PUBLISHED_SLOPE: f32 = 1.38;
+
+/// Added to the sum of the two `F^(2/3)`, `N^(2/3)`: a ball without load is as good as free.
+const SMALLEST_SUM: f32 = 1e-9;
+
+/// Largest speed deviation that counts: a ball that stands still or runs with the track.
+const LARGEST_SPEED_DEVIATION: f32 = 1.0;
 
 /// What a four-point contact linear bearing and its contact ellipse give to a ball.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,7 +34,7 @@ pub struct LinearBallParameters {
 }
 
 impl LinearBallParameters {
-    pub(super) const fn checked(&self) -> Result<Self, Error> {
+    pub(crate) const fn checked(&self) -> Result<Self, Error> {
         attempt!(in_range("ball_radius", self.ball_radius, 1e-5, 1.0));
         attempt!(in_range("contact_angle", self.contact_angle, 0.05, 1.5));
         attempt!(in_range(
@@ -40,71 +48,140 @@ impl LinearBallParameters {
     }
 }
 
-impl FourPointBall {
-    /// A ball in a linear bearing: the bottom groove rests, the top groove moves with the track speed.
-    ///
-    /// Largest error of the speed deviation, in units of `v/2`, against the least exact dissipation in
-    /// f64, contact angle deviations of the bottom groove up to 3 degrees (deviations up to 0.025):
-    ///
-    /// | side-force ratio up to | (3.43) | start | +1 step | +2 | +3 |
-    /// |---|---|---|---|---|---|
-    /// | 0.5 | 2.3e-3 | 2.2e-3 | 4.6e-4 | 9.3e-6 | 1.7e-6 |
-    /// | 0.6 | 4.1e-3 | 4.0e-3 | 1.4e-3 | 2.4e-5 | 3.1e-6 |
-    /// | 0.8 | 5.8e-3 | 5.6e-3 | 2.4e-3 | 3.8e-5 | 3.1e-6 |
-    /// | 0.93 | 2.2e-2 | 5.7e-3 | 2.8e-3 | 5.9e-4 | 8.2e-4 |
-    ///
-    /// 400 random sets of four angles within ±3 degrees, side-force ratio up to 0.8 (largest, rms): start
-    /// 1.4e-2, 1.8e-3; two steps 3.1e-4, 2.0e-5; three steps 3.4e-6, 6.5e-7. One step a tick from the last
-    /// tick's state follows a side force that swings by ±0.8 in 100 ticks within 5.2e-5. The drag is
-    /// 2.7e-4 small at most.
-    ///
-    /// Where loads are so light that the angle deviations move the contacts by more than their own size
-    /// (1 N in the ball of Table 3.3), three steps leave up to 7e-3, the five of [`FourPointBall::solve`]
-    /// 4.5e-4; from 10 N on three steps leave 7e-5, at 30, 45 and 60 degrees alike.
-    ///
-    /// At a ratio of 0.88 to 0.98 the ball changes from four-point to two-point rolling, and its speed
-    /// jumps by up to 0.025: a true discontinuity of Coulomb friction. Within some 0.02 of it the error
-    /// is up to the jump, and a ball takes some ticks to follow it.
-    ///
-    /// ```
-    /// use epas_friction::{FourPointBall, LinearBallParameters};
-    /// let ball = FourPointBall::linear(&LinearBallParameters {
-    ///     ball_radius: 0.005,
-    ///     contact_angle: core::f32::consts::FRAC_PI_4,
-    ///     axis_ratio: 0.2321,
-    ///     semi_major_coefficient: 9.075e-5,
-    ///     friction: 0.1,
-    /// })?;
-    /// // Lin 2019, Table 3.4, case (a), numerical model: 0.87 %.
-    /// let angles = [0.7505, 0.8203, 0.7854, 0.7854];
-    /// let contacts = ball.contacts(&angles, &[114.06, 24.32, 113.14, 28.28]);
-    /// let mut state = ball.solve(&contacts);
-    /// assert!((state.speed_deviation - 0.0087).abs() < 1e-4);
-    /// // In the loop: one step a tick.
-    /// state = ball.step(&contacts, &state, 0.0);
-    /// # assert!((state.speed_deviation - 0.0087).abs() < 1e-4);
-    /// # Ok::<(), epas_friction::Error>(())
-    /// ```
+/// Published closed form of the speed of a ball in a four-point contact linear bearing.
+///
+/// With nominal contact angle `beta_0`, angle deviations `dBL`, `dBR`, `dTR`, `dTL`, mean loads `F_U` of
+/// BL and TR and `F_D` of BR and TL, `A = F^(2/3)` and `a = Psi R_B^(1/3) F^(1/3)`:
+///
+/// ```text
+/// epsilon    = tan(beta_0) ((dTR - dBL) A_U + (dTL - dBR) A_D) / (2 (A_U + A_D))
+/// compliance = tan(beta_0) Psi / (2 k_f mu R_B^(2/3) (A_U + A_D))
+/// F_B2B      = (epsilon_rear - epsilon_front) / (compliance_rear + compliance_front)
+/// ```
+///
+/// (Lin 2019, eqs. (3.43) and (3.51).) Corrected: the printed factor `1 - cos 2 beta_0` must be
+/// `tan beta_0`, which is the same at 45 degrees only (0.577 against 0.5 at 30 degrees), and the printed
+/// exponents -2/3 of (3.51) must be +2/3.
+///
+/// Valid for four loaded contacts with nearly equal loads on a diagonal. Largest error of the speed
+/// deviation against the minimum of the dissipation, angle deviations of the bottom groove up to 3
+/// degrees, in units of `v/2`: 2.3e-3 for side-force ratios up to 0.5, 4.1e-3 up to 0.6, 5.8e-3 up to
+/// 0.8; four independent angles 1.5e-2 (rms 2e-3). Of the force between two balls, up to 10 N: 0.62 N
+/// (rms 0.24 N) up to 0.8. Near two-point rolling, from side-force ratios of 0.88 to 0.98 on, the exact
+/// speed jumps: where the weaker diagonal carries less than `(3/8) E (a/R_B)/sin(2 beta_0)` of the stronger
+/// one (3.7 % in Lin 2019, Table 3.3) it falls from 8.8e-3 per degree of the deviation to 3e-4. This formula
+/// keeps the speed from before, too large by up to 9.5e-3 per degree, never of the wrong sense, and never
+/// beyond `tan(beta_0)/2` times the larger of the two differences of angles.
+///
+/// Cost of two balls and the force between them: 244 modelled cycles.
+///
+/// ```
+/// use epas_friction::ball::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE};
+/// let parameters = LinearBallParameters {
+///     ball_radius: 0.005,
+///     contact_angle: core::f32::consts::FRAC_PI_4,
+///     axis_ratio: 0.2321,
+///     semi_major_coefficient: 5.307e-4 * 0.171, // Psi R_B^(1/3)
+///     friction: 0.1,
+/// };
+/// let ball = AnalyticLinearBall::new(&parameters, PUBLISHED_SLOPE)?;
+/// // Lin 2019, Table 3.4, case (a): a yaw moment on two balls, bottom groove turned by 2 degrees.
+/// let turned = 2_f32.to_radians();
+/// let angles = [0.7854 - turned, 0.7854 + turned, 0.7854, 0.7854];
+/// let (strong, weak) = (113.14, 28.28);
+/// let rear = ball.speed_deviation(&angles, &[strong, weak, strong, weak]);
+/// let front = ball.speed_deviation(&angles, &[weak, strong, weak, strong]);
+/// assert!((rear.speed_deviation - 0.0075).abs() < 1e-4);
+/// // Table 3.5: 3.74 N.
+/// assert!((rear.contact_force(&front) - 3.74).abs() < 0.01);
+/// # Ok::<(), epas_friction::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct AnalyticLinearBall {
+    half_tangent: f32,
+    compliance: f32,
+}
+
+/// Speed of a ball relative to nominal rolling and how it gives way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct SpeedDeviation {
+    /// `epsilon`: the ball moves with `(1 + epsilon) v/2`.
+    pub speed_deviation: f32,
+    /// Change of `epsilon` with a force along the track, 1/N.
+    pub compliance: f32,
+}
+
+impl AnalyticLinearBall {
+    /// Constants of the closed form with a slope `k_f` of the friction force: [`PUBLISHED_SLOPE`] for the
+    /// published formula, [`FrictionMap::slope`] for the exact one.
     ///
     /// # Errors
-    /// [`Error`] naming the field of [`LinearBallParameters`] that is out of range.
-    pub const fn linear(parameters: &LinearBallParameters) -> Result<Self, Error> {
+    /// [`Error`] naming the field of [`LinearBallParameters`], or `slope` (0.1 to 10), that is out of
+    /// range.
+    pub const fn new(parameters: &LinearBallParameters, slope: f32) -> Result<Self, Error> {
         let parameters = attempt!(parameters.checked());
-        let (_, cos) = constant::sin_cos(parameters.contact_angle);
-        // Half the track speed along, and no slip at the bottom: R_B omega_x cos(beta_0) = v/2.
-        let track = attempt!(Track::new(
-            parameters.axis_ratio,
-            parameters.semi_major_coefficient,
-            parameters.ball_radius,
-            0.5 / cos,
-        ));
-        Ok(Self::folded(
-            parameters.friction,
-            parameters.contact_angle,
-            0.5,
-            STICK_SPIN,
-            track,
-            track,
-        ))
+        attempt!(FrictionMap::new(parameters.axis_ratio));
+        let slope = attempt!(in_range("slope", slope, 0.1, 10.0));
+        let (sin, cos) = constant::sin_cos(parameters.contact_angle);
+        let half_tangent = 0.5 * sin / cos;
+        Ok(Self {
+            half_tangent,
+            // The loads of a diagonal enter by their sum, the formula by their mean.
+            compliance: constant::cbrt_squared(2.0)
+                * half_tangent
+                * parameters.semi_major_coefficient
+                / (slope * parameters.friction * parameters.ball_radius),
+        })
+    }
+
+    /// Speed deviation and compliance from contact angles, rad, and forces, N, in the order BL, BR, TR,
+    /// TL.
+    ///
+    /// Only differences of the angles count: they may be given as such or as deviations from the nominal
+    /// one; where one is not a number, or infinite, the deviation is 0. A diagonal counts with the mean
+    /// of its two forces; a sum up to zero, above 1e7 N, or NaN is no load. With no load at all the
+    /// deviation is 0 and the compliance that of 3e-14 N. Powers are within 2.7e-5.
+    #[inline]
+    #[must_use]
+    pub fn speed_deviation(
+        &self,
+        contact_angles: &[f32; 4],
+        contact_forces: &[f32; 4],
+    ) -> SpeedDeviation {
+        let [angle_bl, angle_br, angle_tr, angle_tl] = *contact_angles;
+        let [force_bl, force_br, force_tr, force_tl] = *contact_forces;
+        let up = loaded(force_bl + force_tr);
+        let down = loaded(force_br + force_tl);
+        let [up_root, down_root] = inverse_cube_roots([up, down]);
+        let (up, down) = (up * up_root, down * down_root);
+        let inverse = 1.0 / (up + down + SMALLEST_SUM);
+        let turn = (angle_tr - angle_bl) * up + (angle_tl - angle_br) * down;
+        let speed_deviation = self.half_tangent * turn * inverse;
+        SpeedDeviation {
+            // False for NaN too.
+            speed_deviation: if speed_deviation.abs() <= LARGEST_SPEED_DEVIATION {
+                speed_deviation
+            } else {
+                0.0
+            },
+            compliance: self.compliance * inverse,
+        }
+    }
+}
+
+impl SpeedDeviation {
+    /// Force with which this ball presses on the one in front of it, N; zero where it lags behind
+    /// (Lin 2019, eq. (3.51)). For a track speed above zero; below it rear and front change places.
+    #[inline]
+    #[must_use]
+    pub fn contact_force(&self, front: &Self) -> f32 {
+        let lead = self.speed_deviation - front.speed_deviation;
+        if lead > 0.0 {
+            lead / (self.compliance + front.compliance)
+        } else {
+            0.0
+        }
     }
 }

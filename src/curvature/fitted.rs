@@ -25,7 +25,9 @@ const CHEBYSHEV: [f32; NODES] = [0.95105652, 0.58778525, 0.0, -0.58778525, -0.95
 /// Cost in the loop: one division, 8 other operations.
 ///
 /// ```
-/// use epas_friction::{CATALOGUE, ContactAngle, FittedCurvature, GothicArch, Groove};
+/// use epas_friction::CATALOGUE;
+/// use epas_friction::curvature::{FittedCurvature, GothicArch};
+/// use epas_friction::geometry::{ContactAngle, Groove};
 /// let design = CATALOGUE[15].design()?;
 /// let angle = ContactAngle::new(50f32.to_radians());
 /// let fitted = FittedCurvature::of(&design, Groove::Nut).first(angle);

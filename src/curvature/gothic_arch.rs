@@ -51,7 +51,9 @@ pub struct RelativeCurvatures {
 /// `kappa2`.
 ///
 /// ```
-/// use epas_friction::{CATALOGUE, ContactAngle, GothicArch, Groove};
+/// use epas_friction::CATALOGUE;
+/// use epas_friction::curvature::GothicArch;
+/// use epas_friction::geometry::{ContactAngle, Groove};
 /// let design = CATALOGUE[15].design()?; // 32 x 20 x 6.35
 /// let screw = GothicArch::of(&design, Groove::Screw);
 /// let curvatures = screw.principal(ContactAngle::new(45f32.to_radians()));

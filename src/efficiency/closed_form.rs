@@ -29,7 +29,7 @@ pub enum Drive {
 /// 3e-7 absolute for an efficiency between 0 and 1, 4e-7 relative for a loss.
 ///
 /// ```
-/// use epas_friction::EfficiencyGeometry;
+/// use epas_friction::efficiency::EfficiencyGeometry;
 /// let screw = EfficiencyGeometry::new(10f32.to_radians(), 45f32.to_radians(), 0.17984)?;
 /// assert!((screw.rolling_efficiency(0.075, 0.0) - 0.979796).abs() < 1e-6);
 /// assert!((screw.sliding_efficiency(0.075) - 0.860112).abs() < 1e-6);

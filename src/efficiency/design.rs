@@ -92,7 +92,8 @@ impl DesignRequest {
     /// change a choice and call again. Set-up only.
     ///
     /// ```
-    /// use epas_friction::{DesignRequest, Duty, Material};
+    /// use epas_friction::Material;
+    /// use epas_friction::efficiency::{DesignRequest, Duty};
     /// let figures = DesignRequest {
     ///     duty: Duty::MoveAxialLoad(14_500.0),
     ///     lead_angle: 5f32.to_radians(),

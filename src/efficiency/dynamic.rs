@@ -20,7 +20,7 @@ use crate::math::constant;
 /// off by 5.8e-6.
 ///
 /// ```
-/// use epas_friction::{DynamicCorrection, EfficiencyGeometry};
+/// use epas_friction::efficiency::{DynamicCorrection, EfficiencyGeometry};
 /// let screw = EfficiencyGeometry::new(10f32.to_radians(), 45f32.to_radians(), 0.17984)?;
 /// let correction = DynamicCorrection::new(&screw, 0.075);
 /// assert!((correction.coefficient() + 4.03e-3).abs() < 1e-5);

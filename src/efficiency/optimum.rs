@@ -23,7 +23,7 @@ pub struct OptimumContactAngle {
 /// prints (18) without the root: it reads `R² = Sb² + 2 f Sb R`. Set-up only.
 ///
 /// ```
-/// use epas_friction::{Drive, optimum_contact_angle};
+/// use epas_friction::efficiency::{Drive, optimum_contact_angle};
 /// let best = optimum_contact_angle(Drive::Driving, 10f32.to_radians(), 0.075)?;
 /// assert!((best.contact_angle.unwrap().to_degrees() - 48.106).abs() < 1e-3);
 /// # Ok::<(), epas_friction::Error>(())

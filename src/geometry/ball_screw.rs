@@ -57,7 +57,9 @@ pub struct BallScrewParameters {
 /// set-up, and a wrong number stops the compiler.
 ///
 /// ```
-/// use epas_friction::{BallScrew, BallScrewParameters, DISSERTATION_DESIGNS, Groove, HertzContact};
+/// use epas_friction::{BallScrew, BallScrewParameters, DISSERTATION_DESIGNS};
+/// use epas_friction::geometry::Groove;
+/// use epas_friction::hertz::HertzContact;
 ///
 /// const PARAMETERS: BallScrewParameters = DISSERTATION_DESIGNS[2].parameters;
 /// const DESIGN: BallScrew = match BallScrew::new(PARAMETERS) {

@@ -20,10 +20,10 @@ const UNLOADED: f32 = 1e-6;
 const SMALLEST_FORCE: f32 = 1e-6;
 
 /// A linear bearing without cage, with `N` balls in one circuit, in four-point contact: the published
-/// closed form for every ball ([`AnalyticLinearBall`](crate::AnalyticLinearBall)), with its corrections.
+/// closed form for every ball ([`AnalyticLinearBall`](crate::ball::AnalyticLinearBall)), with its corrections.
 ///
 /// Speed deviations are within 6e-3 of `v/2` for side-force ratios up to 0.8 and deviations up to 3
-/// degrees, where [`FourPointBall::refine_chain`](crate::FourPointBall::refine_chain) is within 4e-5 at
+/// degrees, where [`FourPointBall::refine_chain`](crate::refined::FourPointBall::refine_chain) is within 4e-5 at
 /// some 1,500 cycles a ball. From ratios of 0.88 to 0.98 on, where balls change to two-point rolling, they
 /// are too large by up to 9.5e-3 per degree, and so is the force between balls; no flag says so.
 ///

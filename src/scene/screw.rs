@@ -10,7 +10,8 @@ use super::{Faults, Inputs, Limits, Regime, Scene};
 use crate::ball::{GrooveFit, LoadShare, LoopSums, ScrewRow};
 use crate::error::{Error, attempt, in_range};
 use crate::geometry::BallScrew;
-use crate::math::{self, constant};
+use crate::math;
+use crate::math::elliptic::arc_sine;
 use crate::train::{IMPEDANCE_RANGE, LARGEST_FREE_SPEED, LARGEST_TRAVEL, Track, Train};
 
 /// Impedance of a ball that no load presses into its grooves, N: it goes along with its neighbours.
@@ -313,16 +314,4 @@ impl<const N: usize> UncagedState<N> {
         let turns = f32::from(constants.zone.passing_turns());
         self.phase.set(angle / (TAU * turns));
     }
-}
-
-/// `asin(x)` for `x` in 0 to 0.9, by Newton's method from `x`; at set-up only.
-const fn arc_sine(x: f32) -> f32 {
-    let mut angle = x;
-    let mut step = 0;
-    while step < 6 {
-        let (sin, cos) = constant::sin_cos(angle);
-        angle += (x - sin) / cos;
-        step += 1;
-    }
-    angle
 }

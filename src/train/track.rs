@@ -23,7 +23,7 @@ pub const LARGEST_TRAVEL: f32 = 0.03;
 /// sense of motion and on the way travelled.
 ///
 /// ```
-/// use epas_friction::Train;
+/// use epas_friction::train::Train;
 /// // Three balls of 10 mm in contact on a track of 1 m, the fastest at the rear.
 /// let mut train = Train::<3>::new(1.0, 0.01, &[0.0; 3])?;
 /// train.step(&[0.02, 0.01, 0.0], &[1e3; 3], 1e-4);

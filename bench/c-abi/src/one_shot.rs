@@ -1,9 +1,9 @@
 //! Functions without state: efficiency, curvature.
 
-use epas_friction::{
-    CircularGrooveCurvature, ContactAngle, Drive, EfficiencyGeometry, Error, GothicArch, Groove,
-    LiteratureCurvature, Range, efficiency::LARGEST_FRICTION,
-};
+use epas_friction::curvature::{CircularGrooveCurvature, GothicArch, LiteratureCurvature};
+use epas_friction::efficiency::{Drive, EfficiencyGeometry, LARGEST_FRICTION};
+use epas_friction::geometry::{ContactAngle, Groove};
+use epas_friction::{Error, Range};
 
 use crate::design::ball_screw;
 use crate::status::{

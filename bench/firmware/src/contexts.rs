@@ -2,13 +2,24 @@
 
 use core::hint::black_box;
 
+use epas_friction::ball::{
+    AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE, ScrewRow, ScrewTick,
+};
+use epas_friction::contact::FrictionMap;
+use epas_friction::curvature::{
+    CircularGrooveCurvature, FittedCurvature, GothicArch, LiteratureCurvature,
+};
+use epas_friction::efficiency::EfficiencyGeometry;
+use epas_friction::geometry::Groove;
+use epas_friction::hertz::HertzContact;
+use epas_friction::kinematics::{ContactKinematics, KinematicsParameters};
+use epas_friction::refined::{
+    BallChain, BallState, FourPointBall, RotaryBall, RotaryBallParameters,
+};
+use epas_friction::train::{Press, Train};
 use epas_friction::{
-    AnalyticLinearBall, BallChain, BallScrew, BallState, CATALOGUE, CagedBallScrew,
-    CircularGrooveCurvature, ContactKinematics, EfficiencyGeometry, Error, FittedCurvature,
-    FourPointBall, FrictionMap, FrictionModel, GothicArch, Groove, GrooveFit, HertzContact, Inputs,
-    KinematicsParameters, LinearBallParameters, LinearBearingTrain, LiteratureCurvature,
-    PUBLISHED_SLOPE, Press, RotaryBall, RotaryBallParameters, ScrewRow, ScrewTick, Train,
-    UncagedBallScrew,
+    BallScrew, CATALOGUE, CagedBallScrew, Error, FrictionModel, GrooveFit, Inputs,
+    LinearBearingTrain, UncagedBallScrew,
 };
 
 use crate::peers::{LuGre, Stribeck};

@@ -1,9 +1,12 @@
 //! A control loop: every scene stepped once a tick over a recorded manoeuvre, and one of them from an angle
 //! sensor to the duty of a bridge.
 
+use epas_friction::hal::{
+    EncoderConfiguration, FaultReaction, FeedForwardConfiguration, FrictionFeedForward,
+    MagneticEncoder,
+};
 use epas_friction::{
-    CagedBallScrew, EncoderConfiguration, Error, FaultReaction, FeedForwardConfiguration,
-    FrictionFeedForward, FrictionModel, Inputs, LinearBearingTrain, LinearInputs, MagneticEncoder,
+    CagedBallScrew, Error, FrictionModel, Inputs, LinearBearingTrain, LinearInputs,
     UncagedBallScrew,
 };
 

@@ -6,14 +6,20 @@
 // Rust calls Rust here: the C calling convention is what passes numbers in floating-point registers.
 #![allow(improper_ctypes_definitions)]
 
+use epas_friction::ball::{AnalyticLinearBall, ScrewBallLoop, ScrewRow, ScrewTick};
+use epas_friction::contact::{Dissipation, FrictionMap, NormalizedFriction};
+use epas_friction::curvature::{
+    CircularGrooveCurvature, FittedCurvature, GothicArch, LiteratureCurvature, PrincipalCurvatures,
+};
+use epas_friction::efficiency::EfficiencyGeometry;
+use epas_friction::geometry::ContactAngle;
+use epas_friction::hertz::{ContactEllipse, HertzContact};
+use epas_friction::kinematics::{BallKinematics, ContactKinematics, EllipticContact, SlipRatios};
+use epas_friction::refined::{BallChain, BallState, FourPointBall, RotaryBall};
+use epas_friction::train::{Press, Train};
 use epas_friction::{
-    AnalyticLinearBall, BallChain, BallKinematics, BallState, CagedBallScrew,
-    CircularGrooveCurvature, ContactAngle, ContactEllipse, ContactKinematics, Dissipation,
-    EfficiencyGeometry, EllipticContact, FittedCurvature, FourPointBall, FrictionMap,
-    FrictionModel, GothicArch, HertzContact, Inputs, LinearBearingTrain, LinearInputs,
-    LiteratureCurvature, LoadShare, NormalizedFriction, Outputs, Press, PrincipalCurvatures,
-    RotaryBall, ScrewBallLoop, ScrewRow, ScrewTick, SlipRatios, Train, TrainOutputs,
-    UncagedBallScrew, math,
+    CagedBallScrew, FrictionModel, Inputs, LinearBearingTrain, LinearInputs, LoadShare, Outputs,
+    TrainOutputs, UncagedBallScrew, math,
 };
 
 use crate::peers::{LuGre, Stribeck};

@@ -3,11 +3,13 @@
 //! An image of a scene has them from the compiler, in flash. What is counted sets them up when it runs, or the
 //! compiler would fold them into the functions.
 
+use epas_friction::curvature::FittedCurvature;
+use epas_friction::efficiency::{Drive, EfficiencyGeometry};
+use epas_friction::geometry::{ContactAngle, Groove};
 use epas_friction::{
-    BallScrew, CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, ContactAngle,
-    DISSERTATION_DESIGNS, DeviationMap, Drive, EfficiencyGeometry, Error, FittedCurvature,
-    FrictionBranch, FrictionModel, Groove, GrooveFit, GrooveSize, Harmonic, Inputs, Limits,
-    LinearBearing, LinearBearingConfiguration, LinearBearingParameters, LinearBearingTrain,
+    BallScrew, CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, DISSERTATION_DESIGNS,
+    DeviationMap, Error, FrictionBranch, FrictionModel, GrooveFit, GrooveSize, Harmonic, Inputs,
+    Limits, LinearBearing, LinearBearingConfiguration, LinearBearingParameters, LinearBearingTrain,
     LinearConstants, LinearInputs, LinearLimits, LoadShare, Material, UncagedBallScrew,
     UncagedBallScrewConfiguration, UncagedConstants,
 };

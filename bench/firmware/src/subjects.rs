@@ -2,10 +2,9 @@
 
 use core::hint::black_box;
 
-use epas_friction::{
-    BallKinematics, ContactSlip, EllipticContact, Faults, LoadShare, Outputs, Regime,
-    ScrewBallLoop, TrainOutputs, math,
-};
+use epas_friction::ball::ScrewBallLoop;
+use epas_friction::kinematics::{BallKinematics, ContactSlip, EllipticContact};
+use epas_friction::{Faults, LoadShare, Outputs, Regime, TrainOutputs, math};
 
 use crate::contexts::Contexts;
 use crate::counted::{

@@ -1,10 +1,9 @@
 //! `ball_screw_train`: a row of touching balls in a ball screw, each with given contacts.
 
 use epas_friction::geometry::{LARGEST_CONFORMITY, SMALLEST_CONFORMITY};
-use epas_friction::{
-    BallScrew, BallScrewParameters, GrooveSize, Material, Press, ScrewBall, ScrewBallState,
-    ScrewChain,
-};
+use epas_friction::refined::{ScrewBall, ScrewBallState, ScrewChain};
+use epas_friction::train::Press;
+use epas_friction::{BallScrew, BallScrewParameters, GrooveSize, Material};
 use epas_reference::curvature::{self, Surface};
 use epas_reference::friction::ball_screw_ball::{Groove, ScrewContact, ScrewTrack};
 use epas_reference::friction::ball_screw_train::solve_screw_train;

@@ -1,6 +1,6 @@
 //! `contact_kinematics`: slip, spin and entrainment of the two contacts of a ball, at their centres.
 
-use epas_friction::{ContactKinematics, KinematicsParameters};
+use epas_friction::kinematics::{ContactKinematics, KinematicsParameters};
 use epas_reference::kinematics::{self as reference, InvalidInput, KinematicsInput, Revised};
 use serde::Serialize;
 
@@ -82,7 +82,8 @@ fn in_loop(input: &KinematicsInput) -> Result<Ball, BadField> {
         semi_minor_nut: input.semi_minor_nut as f32,
     })?;
     let ball = model.tick(input.speed as f32);
-    let contact = |slip: epas_friction::ContactSlip, ratios: epas_friction::SlipRatios| Contact {
+    let contact = |slip: epas_friction::kinematics::ContactSlip,
+                   ratios: epas_friction::kinematics::SlipRatios| Contact {
         rolling_slip: slip.rolling_slip.into(),
         side_slip: slip.side_slip.into(),
         spin: slip.spin.into(),

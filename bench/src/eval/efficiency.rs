@@ -1,7 +1,7 @@
 //! `efficiency`: the closed forms and the locked states.
 
 use epas_friction::efficiency::LARGEST_FRICTION;
-use epas_friction::{Drive, EfficiencyGeometry};
+use epas_friction::efficiency::{Drive, EfficiencyGeometry};
 use epas_reference::efficiency::Screw;
 use serde::Serialize;
 

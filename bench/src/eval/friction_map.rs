@@ -1,6 +1,6 @@
 //! `friction_map`: friction of one contact with slip and spin, normalised.
 
-use epas_friction::FrictionMap;
+use epas_friction::contact::FrictionMap;
 use epas_friction::contact::SMALLEST_AXIS_RATIO;
 use epas_reference::friction::maps;
 use serde::Serialize;

@@ -1,10 +1,10 @@
 //! `groove_curvature`: first and second principal curvature at a contact point.
 
 use epas_friction::curvature::DEFAULT_FIT_RANGE;
-use epas_friction::{
-    CircularGrooveCurvature, ContactAngle, FittedCurvature, GothicArch, Groove, GrooveProfile,
-    HelixPath, LiteratureCurvature,
+use epas_friction::curvature::{
+    CircularGrooveCurvature, FittedCurvature, GothicArch, LiteratureCurvature,
 };
+use epas_friction::geometry::{ContactAngle, Groove, GrooveProfile, HelixPath};
 use epas_reference::curvature::{self, Surface};
 use serde::Serialize;
 

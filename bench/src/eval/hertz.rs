@@ -1,6 +1,6 @@
 //! `hertz`: the contact ellipse of one contact.
 
-use epas_friction::HertzContact;
+use epas_friction::hertz::HertzContact;
 use epas_reference::hertz::Hertz;
 use serde::Serialize;
 

@@ -1,11 +1,11 @@
 //! `linear_train`: a row of touching balls in a four-point contact linear bearing.
 
-use epas_friction::ball::{DEFAULT_NEWTON_STEPS, LARGEST_ANGLE_DEVIATION};
+use epas_friction::ball::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE};
+use epas_friction::hertz::HertzContact;
+use epas_friction::refined::{BallChain, FourPointBall};
+use epas_friction::refined::{DEFAULT_NEWTON_STEPS, LARGEST_ANGLE_DEVIATION};
 use epas_friction::train::Press;
-use epas_friction::{
-    AnalyticLinearBall, BallChain, FourPointBall, GrooveSize, HertzContact, LinearBallParameters,
-    LinearBearing, LinearBearingParameters, Material, PUBLISHED_SLOPE,
-};
+use epas_friction::{GrooveSize, LinearBearing, LinearBearingParameters, Material};
 use epas_reference::friction::chain::{LinearChain, solve_chain};
 use epas_reference::friction::linear_ball::{EllipseLaw, LinearBall};
 use epas_reference::hertz::{Hertz, contact_modulus};

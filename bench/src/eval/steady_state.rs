@@ -3,7 +3,7 @@
 use std::f32::consts::TAU;
 
 use epas_friction::efficiency::LARGEST_FRICTION;
-use epas_friction::{DynamicCorrection, EfficiencyGeometry};
+use epas_friction::efficiency::{DynamicCorrection, EfficiencyGeometry};
 use epas_reference::steady_state::{BallScrewState, NoSteadyState};
 use serde::Serialize;
 

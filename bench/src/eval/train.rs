@@ -1,7 +1,7 @@
 //! What requests about trains of balls have in common.
 
-use epas_friction::Press;
 use epas_friction::train::IMPEDANCE_RANGE;
+use epas_friction::train::Press;
 use epas_reference::friction::FrictionError;
 
 use super::fields::BadField;

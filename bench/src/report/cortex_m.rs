@@ -4,9 +4,9 @@ use std::f64::consts::TAU;
 
 use epas_firmware::counted::count_idsp_sin_cos;
 use epas_firmware::spread::Spread;
-use epas_friction::{
-    AnalyticLinearBall, FourPointBall, LinearBallParameters, PUBLISHED_SLOPE, math,
-};
+use epas_friction::ball::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE};
+use epas_friction::math;
+use epas_friction::refined::FourPointBall;
 use epas_reference::friction::linear_ball::{EllipseLaw, LinearBall};
 
 use super::Context;

@@ -1,10 +1,11 @@
 //! Groove curvature: Tables A1 and A2, Figures 8 to 11 of Bertolino et al. 2023, and the new forms in
 //! each.
 
-use epas_friction::{
-    BallScrew, CATALOGUE, CircularGrooveCurvature, ContactAngle, FittedCurvature, GothicArch,
-    Groove, GrooveProfile, HelixPath, LiteratureCurvature,
+use epas_friction::curvature::{
+    CircularGrooveCurvature, FittedCurvature, GothicArch, LiteratureCurvature,
 };
+use epas_friction::geometry::{ContactAngle, Groove, GrooveProfile, HelixPath};
+use epas_friction::{BallScrew, CATALOGUE};
 use epas_reference::curvature::{self as reference, Surface};
 use epas_reference::published::{Row, TABLE_A1, TABLE_A2, computed_errors};
 

@@ -3,7 +3,7 @@
 
 use std::f64::consts::TAU;
 
-use epas_friction::{
+use epas_friction::efficiency::{
     Drive, DynamicCorrection, EfficiencyGeometry, optimum_contact_angle, optimum_efficiency,
 };
 use epas_reference::efficiency::{self as reference, Screw};

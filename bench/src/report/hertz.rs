@@ -1,6 +1,6 @@
 //! The contact ellipse against exact elliptic integrals.
 
-use epas_friction::HertzContact;
+use epas_friction::hertz::HertzContact;
 use epas_reference::hertz::Hertz;
 
 use super::Context;

@@ -3,7 +3,10 @@
 use std::f64::consts::TAU;
 use std::io::{self, Write};
 
-use epas_friction::{EfficiencyGeometry, Faults, Groove, HertzContact, Regime};
+use epas_friction::efficiency::EfficiencyGeometry;
+use epas_friction::geometry::Groove;
+use epas_friction::hertz::HertzContact;
+use epas_friction::{Faults, Regime};
 
 use super::subject::Subject;
 use super::trace::{Sample, Trace};

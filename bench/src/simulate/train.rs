@@ -41,7 +41,7 @@ trait Model {
 }
 
 /// Balls that press on the one in front, one bit each.
-fn pressing<const N: usize>(train: &epas_friction::Train<N>) -> u64 {
+fn pressing<const N: usize>(train: &epas_friction::train::Train<N>) -> u64 {
     train
         .contacts()
         .iter()

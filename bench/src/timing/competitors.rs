@@ -2,10 +2,15 @@
 
 use std::hint::black_box;
 
+use epas_friction::curvature::{
+    CircularGrooveCurvature, FittedCurvature, GothicArch, LiteratureCurvature,
+};
+use epas_friction::efficiency::{DynamicCorrection, EfficiencyGeometry};
+use epas_friction::geometry::{ContactAngle, Groove};
+use epas_friction::hertz::HertzContact;
 use epas_friction::{
-    CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, CircularGrooveCurvature, ContactAngle,
-    DynamicCorrection, EfficiencyGeometry, FittedCurvature, FrictionBranch, FrictionModel,
-    GothicArch, Groove, HertzContact, Inputs, Limits, LiteratureCurvature, math,
+    CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, FrictionBranch, FrictionModel, Inputs,
+    Limits, math,
 };
 use epas_reference::curvature as reference;
 use epas_reference::published::TABLE_A1;

@@ -4,11 +4,11 @@ use std::array;
 use std::f64::consts::TAU;
 use std::hint::black_box;
 
+use epas_friction::ball::{AnalyticLinearBall, PUBLISHED_SLOPE, ScrewRow, SpeedDeviation};
+use epas_friction::refined::{BallChain, BallState, FourPointBall, ScrewBall, ScrewChain};
 use epas_friction::train::Press;
-use epas_friction::{
-    AnalyticLinearBall, BallChain, BallState, FourPointBall, GrooveFit, Inputs, LoadShare,
-    PUBLISHED_SLOPE, ScrewBall, ScrewChain, ScrewRow, SpeedDeviation, Train, TrainOutputs,
-};
+use epas_friction::train::Train;
+use epas_friction::{GrooveFit, Inputs, LoadShare, TrainOutputs};
 
 use super::competitors::{Group, List};
 use super::{Feed, Race, Taken};

@@ -4,11 +4,12 @@
 use std::fmt::Debug;
 use std::sync::LazyLock;
 
+use epas_friction::train::Train;
 use epas_friction::{
     BallScrew, BallScrewParameters, CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration,
     DeviationMap, Faults, FrictionBranch, FrictionModel, GrooveFit, GrooveSize, Inputs, Limits,
     LinearBearing, LinearBearingConfiguration, LinearBearingParameters, LinearBearingTrain,
-    LinearInputs, LinearLimits, LoadShare, Material, Outputs, Scene, Train, TrainOutputs,
+    LinearInputs, LinearLimits, LoadShare, Material, Outputs, Scene, TrainOutputs,
     UncagedBallScrew, UncagedBallScrewConfiguration,
 };
 

@@ -1,12 +1,21 @@
 //! Every object that is made from plain numbers: refused, or its answers are finite.
 
+use epas_friction::ball::{AnalyticLinearBall, LinearBallParameters, ScrewRow, SpeedDeviation};
+use epas_friction::contact::FrictionMap;
+use epas_friction::curvature::{FittedCurvature, GothicArch};
+use epas_friction::efficiency::{
+    DesignRequest, Duty, DynamicCorrection, EfficiencyGeometry, optimum_contact_angle,
+    optimum_efficiency,
+};
+use epas_friction::geometry::{ContactAngle, Groove, GrooveProfile, HelixPath};
+use epas_friction::hertz::HertzContact;
+use epas_friction::kinematics::{
+    ContactKinematics, EllipticContact, FrictionPower, KinematicsParameters, TraditionalKinematics,
+};
+use epas_friction::refined::{FourPointBall, RotaryBall, RotaryBallParameters};
+use epas_friction::train::{Press, Train};
 use epas_friction::{
-    AnalyticLinearBall, BallScrew, BallScrewParameters, ContactAngle, ContactKinematics,
-    DesignRequest, Duty, DynamicCorrection, EfficiencyGeometry, EllipticContact, Error,
-    FittedCurvature, FourPointBall, FrictionMap, FrictionPower, GothicArch, Groove, GrooveFit,
-    GrooveProfile, GrooveSize, HelixPath, HertzContact, KinematicsParameters, LinearBallParameters,
-    LoadShare, Material, Press, RotaryBall, RotaryBallParameters, ScrewRow, SpeedDeviation,
-    TraditionalKinematics, Train, optimum_contact_angle, optimum_efficiency,
+    BallScrew, BallScrewParameters, Error, GrooveFit, GrooveSize, LoadShare, Material,
 };
 
 /// Numbers to make objects of, in turn; zeros when they are used up.
@@ -263,8 +272,8 @@ fn efficiency(numbers: &mut Numbers) -> Result<(), String> {
     let friction = numbers.within(0.0, 1.0).abs();
     let friction = if friction <= 1.0 { friction } else { 0.1 };
     for drive in [
-        epas_friction::Drive::Driving,
-        epas_friction::Drive::BackDriving,
+        epas_friction::efficiency::Drive::Driving,
+        epas_friction::efficiency::Drive::BackDriving,
     ] {
         match optimum_contact_angle(drive, lead, friction) {
             Ok(best) => all_finite(

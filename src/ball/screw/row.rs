@@ -1,11 +1,11 @@
 //! Closed form for a row of balls in a ball screw, at the price of a control loop.
 
-use super::across::{Across, AcrossTable};
-use crate::ball::root::{inverse_cube_roots, loaded};
+use crate::ball::loads::{LoadShare, loaded};
+use crate::contact::{Across, AcrossTable};
 use crate::error::{Error, attempt, in_range};
 use crate::geometry::{BallScrew, Groove};
 use crate::hertz::HertzContact;
-use crate::math::{self, constant};
+use crate::math::{self, constant, inverse_cube_roots};
 
 /// Largest deviation of a contact angle from the nominal one, rad.
 const LARGEST_DEVIATION: f32 = 0.2;
@@ -34,61 +34,9 @@ pub enum GrooveFit {
     },
 }
 
-/// A ball's share of the load and its cube root, folded at set-up.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct LoadShare {
-    share: f32,
-    root: f32,
-}
-
-impl LoadShare {
-    /// The mean load.
-    pub const MEAN: Self = Self {
-        share: 1.0,
-        root: 1.0,
-    };
-
-    /// Powers of a ball's load over the mean load of all balls, 0.01 to 100; a table of them is a constant.
-    ///
-    /// Largest error of a power 2.1e-7, relative.
-    ///
-    /// # Errors
-    /// [`Error`] naming `share`.
-    pub const fn new(share: f32) -> Result<Self, Error> {
-        let share = attempt!(in_range("share", share, 0.01, 100.0));
-        // Newton's method from 1, which a constant can take: 14 steps from either end of the range.
-        let mut root = 1.0;
-        let mut step = 0;
-        while step < 16 {
-            root -= (root - share / (root * root)) * (1.0 / 3.0);
-            step += 1;
-        }
-        Ok(Self { share, root })
-    }
-
-    /// Its power of 2/3.
-    #[inline]
-    pub(crate) const fn two_thirds(&self) -> f32 {
-        self.root * self.root
-    }
-
-    /// Its power of 4/3.
-    #[inline]
-    pub(crate) const fn four_thirds(&self) -> f32 {
-        self.share * self.root
-    }
-
-    /// Load over the mean load.
-    #[must_use]
-    pub const fn share(&self) -> f32 {
-        self.share
-    }
-}
-
 /// Balls of one ball screw: constants of the closed form.
 ///
-/// The closed form of [`ScrewBall`](crate::ScrewBall) where all balls carry shares of one axial load and contact angles
+/// The closed form of [`ScrewBall`](crate::refined::ScrewBall) where all balls carry shares of one axial load and contact angles
 /// deviate with the grooves: what depends on the load is found once a tick ([`ScrewRow::at`]), and a ball costs two
 /// polynomials ([`ScrewTick::ball`]). Spin moments are left out:
 ///
@@ -115,7 +63,7 @@ impl LoadShare {
 /// 21 % at 25 N, 44 % at 50 N and a factor two at 100 N. Table 3.7, read as 50 N on each ball: -1.3 % and -2.9 %.
 /// With two contacts and unequal contact angles the speed is that between a ball which sticks to the screw and one which
 /// sticks to the nut: off by up to 4.5e-3 of the nut's speed for deviations of 3 degrees in both grooves of Table 3.6;
-/// [`ScrewBall::closed_form`](crate::ScrewBall::closed_form) tells them apart.
+/// [`ScrewBall::closed_form`](crate::refined::ScrewBall::closed_form) tells them apart.
 ///
 /// Source: not in Lin 2019; from its equations (3.65)-(3.76).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -388,7 +336,7 @@ impl ScrewRow {
     }
 
     /// Contact angles, rad, and contact forces, N, of one ball, in the order SL, SR, NL, NR: what
-    /// [`ScrewBall::contacts`](crate::ScrewBall::contacts) takes.
+    /// [`ScrewBall::contacts`](crate::refined::ScrewBall::contacts) takes.
     ///
     /// A positive axial load of the screw on the ball, N, is carried by SL and NR, a negative one by SR and NL.
     /// Friction across the track of that pair pushes the ball along the other diagonal and, in grooves
@@ -934,29 +882,5 @@ mod tests {
                 assert_eq!(row.fastest_deviation(0.1, 0.07), fastest, "{fit:?}");
             }
         }
-    }
-
-    /// A cube root to one rounding of Newton's last step (1.5 x 2^-24), squared (twice that and a rounding).
-    #[test]
-    fn load_shares_have_their_powers() {
-        const TABLE: [Result<LoadShare, Error>; 2] = [LoadShare::new(0.97), LoadShare::new(0.0)];
-        assert!(TABLE[0].is_ok() && TABLE[1].is_err());
-        assert_eq!(LoadShare::new(1.0), Ok(LoadShare::MEAN));
-        let mut worst = 0.0_f64;
-        for step in 0..=40_000_u16 {
-            let share = (0.01 * libm::pow(1e4, f64::from(step) / 4e4)) as f32;
-            let Ok(powers) = LoadShare::new(share.clamp(0.01, 100.0)) else {
-                panic!("{share}")
-            };
-            let root = libm::cbrt(f64::from(powers.share));
-            for (found, truth) in [
-                (powers.root, root),
-                (powers.four_thirds(), root * root * root * root),
-                (powers.two_thirds(), root * root),
-            ] {
-                worst = worst.max((f64::from(found) / truth - 1.0).abs());
-            }
-        }
-        assert!(worst < 2.5e-7, "{worst}");
     }
 }

@@ -4,13 +4,15 @@
 
 use std::fmt::Write as _;
 
+use epas_friction::curvature::{CircularGrooveCurvature, GothicArch, LiteratureCurvature};
+use epas_friction::efficiency::{Drive, EfficiencyGeometry};
+use epas_friction::geometry::{ContactAngle, Groove};
 use epas_friction::{
     BallScrew, BallScrewParameters, CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration,
-    CircularGrooveCurvature, ContactAngle, DeviationMap, Drive, EfficiencyGeometry, Error,
-    FrictionBranch, FrictionModel, GothicArch, Groove, GrooveFit, GrooveSize, Harmonic, Inputs,
+    DeviationMap, Error, FrictionBranch, FrictionModel, GrooveFit, GrooveSize, Harmonic, Inputs,
     Limits, LinearBearing, LinearBearingConfiguration, LinearBearingParameters, LinearBearingTrain,
-    LinearInputs, LinearLimits, LiteratureCurvature, LoadShare, Material, Regime, TrainOutputs,
-    UncagedBallScrew, UncagedBallScrewConfiguration,
+    LinearInputs, LinearLimits, LoadShare, Material, Regime, TrainOutputs, UncagedBallScrew,
+    UncagedBallScrewConfiguration,
 };
 
 use crate::Outcome;

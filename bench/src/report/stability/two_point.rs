@@ -2,10 +2,9 @@
 
 use std::f64::consts::FRAC_PI_4;
 
-use epas_friction::{
-    AnalyticLinearBall, BallScrew, FourPointBall, GrooveFit, LoadShare, PUBLISHED_SLOPE, ScrewBall,
-    ScrewRow,
-};
+use epas_friction::ball::{AnalyticLinearBall, PUBLISHED_SLOPE, ScrewRow};
+use epas_friction::refined::{FourPointBall, ScrewBall};
+use epas_friction::{BallScrew, GrooveFit, LoadShare};
 use epas_reference::friction::linear_ball::LinearBall;
 use serde_json::Value;
 

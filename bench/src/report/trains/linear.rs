@@ -2,11 +2,9 @@
 
 use std::f64::consts::TAU;
 
+use epas_friction::ball::{AnalyticLinearBall, PUBLISHED_SLOPE, SpeedDeviation};
+use epas_friction::refined::{BallChain, BallState, FourPointBall, FourPointContacts};
 use epas_friction::train::Press;
-use epas_friction::{
-    AnalyticLinearBall, BallChain, BallState, FourPointBall, FourPointContacts, PUBLISHED_SLOPE,
-    SpeedDeviation,
-};
 use epas_reference::friction::FrictionError;
 use epas_reference::friction::chain::solve_chain;
 use epas_reference::friction::linear_ball::LinearBall;

@@ -1,7 +1,9 @@
 //! The ball of a ball screw: closed forms and impedance iteration against the elastic model.
 
+use epas_friction::ball::ScrewRow;
+use epas_friction::refined::{ScrewBall, ScrewChain, ScrewContacts};
 use epas_friction::train::Press;
-use epas_friction::{GrooveFit, LoadShare, ScrewBall, ScrewChain, ScrewContacts, ScrewRow};
+use epas_friction::{GrooveFit, LoadShare};
 use epas_reference::friction::ball_screw_ball::ScrewMotion;
 use epas_reference::friction::ball_screw_elastic::ScrewSupport;
 
@@ -106,7 +108,7 @@ impl Models {
         };
         self.ball.press_chain(&mut chain, 1.0, &mut pool);
         let mut forces = [0.0, chain.forces[0].into(), 0.0, 0.0];
-        let of = |state: &epas_friction::ScrewBallState| {
+        let of = |state: &epas_friction::refined::ScrewBallState| {
             f64::from(self.ball.orbital_speed(&state.motion)) - truth
         };
         let mut speeds = [0.0, of(&closed[front]), 0.0, 0.0];

@@ -1,7 +1,7 @@
 //! The impedance iteration: contact impedances at the motion found, a fixed number of times.
 
 use super::given::{STICK_SPIN, ScrewBall, ScrewBallMotion, ScrewBallState, ScrewContacts};
-use crate::ball::symmetric::{System, Vector};
+use crate::refined::symmetric::{System, Vector};
 
 /// Impedance steps from [`ScrewBall::start`] that [`ScrewBall::solve`] takes.
 pub const DEFAULT_IMPEDANCE_STEPS: u8 = 4;
@@ -141,7 +141,7 @@ impl ScrewBall {
     ///
     /// The state's compliance belongs to the start of the step, its torque to the end, to second order in the step.
     /// A motion that is no number, or larger than 1e6, starts again from nominal rolling. Cost: four
-    /// [`SlipMap`](crate::SlipMap) with second derivatives, a system of four equations; it does not depend on the
+    /// [`SlipMap`](crate::contact::SlipMap) with second derivatives, a system of four equations; it does not depend on the
     /// data but for the contacts that are lost.
     ///
     /// `force`, N, is the net force of the neighbours along the track in the direction of positive nut speed; a

@@ -41,7 +41,7 @@ pub struct RotaryBallParameters {
 /// 33.686 N mm when its integrals are not interpolated) are met within 0.07, 0.005 and 0.001 %.
 ///
 /// ```
-/// use epas_friction::{RotaryBall, RotaryBallParameters};
+/// use epas_friction::refined::{RotaryBall, RotaryBallParameters};
 /// let ball = RotaryBall::new(&RotaryBallParameters {
 ///     ball_radius: 0.00625,
 ///     pitch_radius: 0.035,

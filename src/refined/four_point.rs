@@ -1,10 +1,10 @@
 //! A ball in up to four contacts on a straight or circular track, moving with the least loss.
 
-use super::root::{inverse_cube_roots, loaded};
 use super::symmetric::{System, Vector};
+use crate::ball::loaded;
 use crate::contact::FrictionMap;
 use crate::error::{Error, attempt};
-use crate::math::{self, constant};
+use crate::math::{self, constant, inverse_cube_roots};
 
 /// Newton steps from the four-force start that [`FourPointBall::solve`] takes: three are enough for
 /// loads under which contact angle deviations move the contacts by less than their own size.
@@ -56,7 +56,7 @@ const QUADRANTS: [(f32, f32); 4] = [(-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0), (1.0
 /// `sum D_i(V_i, w_i)`, a convex function of three unknowns. Rotary and linear bearings differ in the
 /// speeds of the grooves only.
 ///
-/// Made by [`FourPointBall::linear`] or inside [`RotaryBall`](crate::RotaryBall).
+/// Made by [`FourPointBall::linear`] or inside [`RotaryBall`](crate::refined::RotaryBall).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct FourPointBall {
@@ -321,7 +321,7 @@ impl FourPointBall {
     /// Motion after the four-force start and [`DEFAULT_NEWTON_STEPS`] Newton steps, with no force from
     /// neighbours: what to set a ball to before the first tick.
     ///
-    /// Near two-point rolling the exact speed jumps (see [`AnalyticLinearBall`](crate::AnalyticLinearBall)).
+    /// Near two-point rolling the exact speed jumps (see [`AnalyticLinearBall`](crate::ball::AnalyticLinearBall)).
     /// Angle deviations of the bottom groove up to 3 degrees: within 5e-6 of `v/2` up to 0.01 of the
     /// side-force ratio before the jump, within 8e-4 from 0.01 after it on, and in between off by up to the
     /// jump itself, 8e-3 per degree.

@@ -1,7 +1,7 @@
 //! Balls of a ball screw that press on each other.
 
 use super::given::{ScrewBall, ScrewBallMotion, ScrewBallState, ScrewContacts};
-use super::refined::{Proposal, Rubbing};
+use super::iteration::{Proposal, Rubbing};
 use crate::math;
 
 /// `N` balls in a row and the forces between them, kept from step to step.
@@ -68,7 +68,7 @@ impl ScrewBall {
     /// turns them into the contact forces under which no ball overtakes the one in front of it: called as
     /// `pool(speed_deviations, compliances, forces)`, it must fill `forces` with numbers of at least zero,
     /// `forces[j]` acting between ball `j` and ball `j + 1`, the last one between the last ball and the first
-    /// (zero unless the track is a full ring); [`Press`](crate::Press) does it. A force acts along the chord
+    /// (zero unless the track is a full ring); [`Press`](crate::train::Press) does it. A force acts along the chord
     /// between two balls, `cos b` of it along the track, `sin b = R_B/(L/2 pi)` (Lin 2019, eqs. (3.72), (3.75)).
     ///
     /// Friction between the balls, with coefficient `ball_friction` (eqs. (3.73)-(3.75)), lags one step behind:

@@ -1,7 +1,4 @@
-//! Powers of a contact force.
-
-/// Largest load, N.
-const LARGEST_LOAD: f32 = 1e7;
+//! Powers of a contact force, to five digits.
 
 /// `x^(-1/3)` of two positive normal numbers, with a relative error of 2.7e-5: `x` times it is
 /// `x^(2/3)`, `x` times its square is `x^(1/3)`. Zero gives a finite number, so that both are zero.
@@ -12,7 +9,7 @@ const LARGEST_LOAD: f32 = 1e7;
 /// side by side: each instruction then has its operands ready, which saves a core without reordering a
 /// cycle at every second one.
 #[inline]
-pub(super) fn inverse_cube_roots(x: [f32; 2]) -> [f32; 2] {
+pub(crate) fn inverse_cube_roots(x: [f32; 2]) -> [f32; 2] {
     const EXPONENT: u32 = 0x548d_0ddb;
     let [p, q] = x;
     let y = f32::from_bits(EXPONENT - p.to_bits() / 3);
@@ -25,18 +22,6 @@ pub(super) fn inverse_cube_roots(x: [f32; 2]) -> [f32; 2] {
     let (e, f) = (c * e, d * f);
     let (e, f) = (1.743_091_7 - e, 1.743_091_7 - f);
     [y * e, z * f]
-}
-
-/// A load above zero and up to 1e7 N as it is; anything else, NaN included, is none.
-#[inline]
-pub(super) fn loaded(load: f32) -> f32 {
-    // Positive numbers are in the order of their bits, everything else is larger: one comparison.
-    let bits = load.to_bits();
-    f32::from_bits(if bits <= LARGEST_LOAD.to_bits() {
-        bits
-    } else {
-        0
-    })
 }
 
 #[cfg(test)]
@@ -63,15 +48,5 @@ mod tests {
         );
         assert!((sum / count).abs() < 5e-6);
         assert_eq!(0.0 * inverse_cube_roots([0.0, 1.0])[0], 0.0);
-    }
-
-    #[test]
-    fn loads_that_are_none() {
-        for load in [0.0, -0.0, -1.0, f32::NAN, -f32::NAN, f32::NEG_INFINITY] {
-            assert_eq!(loaded(load), 0.0);
-        }
-        assert_eq!(loaded(f32::INFINITY), 0.0);
-        assert_eq!(loaded(1e7), 1e7);
-        assert_eq!(loaded(70.0), 70.0);
     }
 }

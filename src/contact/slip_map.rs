@@ -3,6 +3,7 @@
 use core::f32::consts::FRAC_1_SQRT_2;
 
 use crate::error::{Error, attempt, in_range};
+use crate::math::elliptic::{incomplete, narrow_integral};
 use crate::math::{self, constant};
 
 /// Points of interpolation of the two elliptic integrals.
@@ -28,22 +29,6 @@ const FAR: f32 = 4.0;
 
 /// Largest `sqrt(lambda)` next to it.
 const LARGEST_ROOT: f32 = 2.0;
-
-/// Steps of Carlson's duplication: each divides the spread of the arguments by four.
-const DUPLICATIONS: u8 = 9;
-
-/// Panels over which `C5` is integrated at set-up, each half as long as its distance from zero: up to 1300
-/// times the lower limit.
-const PANELS: u8 = 18;
-
-/// Gauss-Legendre nodes on -1 to 1 and their weights.
-const GAUSS: [(f32, f32); 5] = [
-    (-0.906_179_85, 0.236_926_88),
-    (-0.538_469_3, 0.478_628_67),
-    (0.0, 0.568_888_9),
-    (0.538_469_3, 0.478_628_67),
-    (0.906_179_85, 0.236_926_88),
-];
 
 /// Smallest axis ratio, that of a conformity of about 0.5005.
 const SMALLEST_AXIS_RATIO: f32 = 0.02;
@@ -92,7 +77,7 @@ const LARGEST_AXIS_RATIO: f32 = 0.95;
 /// three polynomials of ten terms are evaluated.
 ///
 /// ```
-/// use epas_friction::SlipMap;
+/// use epas_friction::contact::SlipMap;
 /// let map = SlipMap::new(0.25)?;
 /// let (semi_major, spin) = (2e-4, 20.0);
 /// let spinning = map.dissipation(0.0, 0.0, spin, semi_major, 0.0);
@@ -191,7 +176,7 @@ impl SlipMap {
             let part = 0.5 * (1.0 + CHEBYSHEV[point]) * largest;
             let root = scale * part / (1.0 - part);
             let lambda = root * root;
-            let (along, across) = integrals(square, lambda);
+            let (along, across) = incomplete(square, lambda);
             let stretch = root + scale;
             first[point] = along * stretch;
             second[point] = across * stretch;
@@ -206,7 +191,7 @@ impl SlipMap {
             fifth[point] = narrow * (square + lambda) * stretch;
             point += 1;
         }
-        let (along, across) = integrals(square, 0.0);
+        let (along, across) = incomplete(square, 0.0);
         let mut map = Self {
             axis_ratio: k,
             square,
@@ -240,7 +225,7 @@ impl SlipMap {
 
     /// Friction over `mu F` at a slip across and along the track, m/s, and a spin, rad/s, of a contact with the
     /// semi-major axis `a`, m, with stick treated smoothly as in
-    /// [`FrictionMap::dissipation`](crate::FrictionMap::dissipation): `|w|` becomes
+    /// [`FrictionMap::dissipation`](crate::contact::FrictionMap::dissipation): `|w|` becomes
     /// `W = sqrt(w² + stick_spin²)` in the potential.
     ///
     /// Slips are those at the contact's centre. The friction force on the ball is `-mu F across`,
@@ -285,7 +270,7 @@ impl SlipMap {
 
     /// Friction force over `mu F` under a slip across the track, where the spin moves the rim with `rim = a |w|`.
     #[inline]
-    pub(super) fn share_across(&self, slip: f32, rim: f32) -> f32 {
+    pub(crate) fn share_across(&self, slip: f32, rim: f32) -> f32 {
         let place = slip / rim;
         let square = place * place;
         if square <= FAR {
@@ -474,57 +459,6 @@ const fn far_quartic(square: f32) -> [f32; 3] {
         0.125 * (4.0 * long + 4.0 * short - 22.0 * mixed),
         0.125 * (4.0 * mixed - long),
     ]
-}
-
-/// `C1` and `C2` at `lambda`: `2 R_F - 2/3 R_D` and `2 R_F - 2/3 k² R_D` of the arguments `lambda`, `k² + lambda`,
-/// `1 + lambda`, the last of `R_D` being `1 + lambda` and `k² + lambda`, by Carlson's duplication.
-pub(super) const fn integrals(square: f32, lambda: f32) -> (f32, f32) {
-    let (mut x, mut y, mut z) = (lambda, square + lambda, 1.0 + lambda);
-    let mut weight = 1.0;
-    let (mut long, mut short) = (0.0, 0.0);
-    let mut duplication = 0;
-    while duplication < DUPLICATIONS {
-        let (a, b, c) = (constant::sqrt(x), constant::sqrt(y), constant::sqrt(z));
-        let step = a * b + b * c + c * a;
-        long += weight / (c * (z + step));
-        short += weight / (b * (y + step));
-        weight *= 0.25;
-        x = 0.25 * (x + step);
-        y = 0.25 * (y + step);
-        z = 0.25 * (z + step);
-        duplication += 1;
-    }
-    let (mean_long, mean_short) = (0.2 * (x + y + 3.0 * z), 0.2 * (x + z + 3.0 * y));
-    let first = 2.0 / constant::sqrt((x + y + z) * (1.0 / 3.0));
-    let long = 3.0 * long + weight / (mean_long * constant::sqrt(mean_long));
-    let short = 3.0 * short + weight / (mean_short * constant::sqrt(mean_short));
-    (
-        first - (2.0 / 3.0) * long,
-        first - (2.0 / 3.0) * square * short,
-    )
-}
-
-/// `C5` from `lambda = root²` on, by Gauss-Legendre quadrature in `sqrt(s)`, panel by panel.
-pub(super) const fn narrow_integral(square: f32, root: f32) -> f32 {
-    let mut sum = 0.0;
-    let mut end = root;
-    let mut panel = 0;
-    while panel < PANELS {
-        let mut point = 0;
-        while point < GAUSS.len() {
-            let (node, weight) = GAUSS[point];
-            let part = 0.5 * (1.0 + node);
-            let r = end * (1.0 + 0.5 * part);
-            let r2 = r * r;
-            let short = 1.0 / (square + r2);
-            let value = 2.0 * r2 * short * short * constant::sqrt(short / (1.0 + r2));
-            sum += 0.25 * weight * end * value;
-            point += 1;
-        }
-        end *= 1.5;
-        panel += 1;
-    }
-    sum
 }
 
 const fn divided_differences(mut values: [f32; POINTS]) -> [f32; POINTS] {

@@ -1,11 +1,11 @@
 //! One ball with given contacts: speed, impedance, spin and losses in closed form.
 
-use super::slip_map::SlipMap;
-use crate::ball::root::{inverse_cube_roots, loaded};
+use crate::ball::loaded;
+use crate::contact::SlipMap;
 use crate::error::{Error, attempt, in_range};
 use crate::geometry::{BallScrew, Groove};
 use crate::hertz::HertzContact;
-use crate::math::{self, constant};
+use crate::math::{self, constant, inverse_cube_roots};
 
 /// Contact angles are taken within these limits, rad.
 pub const CONTACT_ANGLE_RANGE: (f32, f32) = (0.05, 1.5);
@@ -55,10 +55,12 @@ const QUADRANTS: [(f32, f32); 4] = [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0
 /// | [`ScrewBall::refine`] | impedances at the motion found, a fixed number of times |
 /// | [`ScrewBall::refine_chain`] | the same for balls that press on each other |
 ///
-/// Loads of the contacts come from elsewhere: [`ScrewRow::contacts`](crate::ScrewRow::contacts) finds them from the axial load.
+/// Loads of the contacts come from elsewhere: [`ScrewRow::contacts`](crate::ball::ScrewRow::contacts) finds them from the axial load.
 ///
 /// ```
-/// use epas_friction::{CATALOGUE, Press, ScrewBall, ScrewChain};
+/// use epas_friction::CATALOGUE;
+/// use epas_friction::refined::{ScrewBall, ScrewChain};
+/// use epas_friction::train::Press;
 /// let design = CATALOGUE[15].design()?; // 32 x 20 x 6.35
 /// let ball = ScrewBall::new(&design, 0.1)?;
 /// // SL, SR, NL, NR: two balls under SR-NL load with a light third contact, the front one slower.
@@ -300,7 +302,7 @@ impl ScrewBall {
     /// of the load, with errors up to 1.3e-3.
     ///
     /// Source: not in Lin 2019; from its equations (3.65)-(3.76). Cost: eight evaluations of the friction across the
-    /// track and eight of [`SlipMap`](crate::SlipMap); up to twelve more with two contacts or a light third one.
+    /// track and eight of [`SlipMap`](crate::contact::SlipMap); up to twelve more with two contacts or a light third one.
     #[must_use]
     pub fn closed_form(&self, contacts: &ScrewContacts) -> ScrewBallState {
         let pinned = self.pinned(contacts);
@@ -322,7 +324,7 @@ impl ScrewBall {
     ///
     /// Largest error of the orbital speed where a third contact slides: 1.5e-3 of the nut's speed (rms 5e-4), of the
     /// groove torque 1.1 % (0.25 %). Cost: up to nine more evaluations of the loss, four
-    /// [`SlipMap`](crate::SlipMap) each.
+    /// [`SlipMap`](crate::contact::SlipMap) each.
     #[must_use]
     pub fn start(&self, contacts: &ScrewContacts) -> ScrewBallState {
         let pinned = self.pinned(contacts);

@@ -1,8 +1,9 @@
 //! Friction of a contact that slips across the track by a given speed, as a table over its size.
 
-use super::slip_map::{checked_axis_ratio, integrals, narrow_integral};
+use super::slip_map::checked_axis_ratio;
 use crate::error::{Error, attempt};
 use crate::math::constant;
+use crate::math::elliptic::{incomplete, narrow_integral};
 
 /// Cells of the table.
 const CELLS: usize = 10;
@@ -30,7 +31,7 @@ const LEAST_SLIP: f32 = 1e-30;
 /// loss and 2.7e-3 (1.5e-2) of the give.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub(super) struct AcrossTable {
+pub(crate) struct AcrossTable {
     /// `c v`, m.
     slip: f32,
     /// `c`.
@@ -43,17 +44,17 @@ pub(super) struct AcrossTable {
 
 /// One contact that slips across the track only.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Across {
+pub(crate) struct Across {
     /// Power loss over `mu F`.
-    pub(super) drag: f32,
+    pub(crate) drag: f32,
     /// Slip along the track over the friction force that resists it, times `mu F`.
-    pub(super) give: f32,
+    pub(crate) give: f32,
     /// Friction force across the track over `mu F`.
-    pub(super) share: f32,
+    pub(crate) share: f32,
     /// Change of the drag with the logarithm of the ellipse's size or of the spin.
-    pub(super) drag_growth: f32,
+    pub(crate) drag_growth: f32,
     /// Change of the give with it.
-    pub(super) give_growth: f32,
+    pub(crate) give_growth: f32,
 }
 
 impl AcrossTable {
@@ -61,7 +62,7 @@ impl AcrossTable {
     ///
     /// # Errors
     /// [`Error`] naming `axis_ratio` where it is not within 0.02 to 0.95.
-    pub(super) const fn new(axis_ratio: f32, slip: f32) -> Result<Self, Error> {
+    pub(crate) const fn new(axis_ratio: f32, slip: f32) -> Result<Self, Error> {
         let k = attempt!(checked_axis_ratio(axis_ratio));
         let reach = 1.0 / constant::sqrt(k);
         let cell = 1.0 / CELLS as f32;
@@ -88,7 +89,7 @@ impl AcrossTable {
             };
             node += 1;
         }
-        let (_, across) = integrals(k * k, 0.0);
+        let (_, across) = incomplete(k * k, 0.0);
         Ok(Self {
             slip: reach * slip + LEAST_SLIP,
             reach,
@@ -98,13 +99,13 @@ impl AcrossTable {
     }
 
     /// Friction force over `mu F` by the ratio of slip and rim's speed, where that is small.
-    pub(super) const fn share_slope(&self) -> f32 {
+    pub(crate) const fn share_slope(&self) -> f32 {
         self.share_slope
     }
 
     /// The contact where the spin moves the rim with `rim = a |w|`, m.
     #[inline(never)]
-    pub(super) fn at(&self, rim: f32) -> Across {
+    pub(crate) fn at(&self, rim: f32) -> Across {
         let whole = rim + self.slip;
         let place = rim / whole * CELLS as f32;
         let cell = place as usize;
@@ -156,7 +157,7 @@ const fn spinning(k: f32, slip: f32) -> [f32; 4] {
     let (long, short) = (1.0 + lambda, square + lambda);
     let root = constant::sqrt(lambda);
     let weight = 2.0 * lambda * root / constant::sqrt(long * short);
-    let (along, across) = integrals(square, lambda);
+    let (along, across) = incomplete(square, lambda);
     let both = (across - along) / ((1.0 - k) * (1.0 + k));
     let narrow = if lambda < square {
         (across - both - weight / short) / (3.0 * square)
@@ -182,7 +183,7 @@ const fn spinning(k: f32, slip: f32) -> [f32; 4] {
 mod tests {
     extern crate std;
     use super::*;
-    use crate::ball::screw::SlipMap;
+    use crate::contact::SlipMap;
 
     /// Largest errors of power loss and give over themselves, of the share, and of both changes over power loss and
     /// give, against the integrals; then the first three against the map.

@@ -1,0 +1,109 @@
+//! What a ball is loaded with: its load, bounded, and its share of the mean load.
+
+use crate::error::{Error, attempt, in_range};
+
+/// Largest load, N.
+const LARGEST_LOAD: f32 = 1e7;
+
+/// A load above zero and up to 1e7 N as it is; anything else, NaN included, is none.
+#[inline]
+pub(crate) fn loaded(load: f32) -> f32 {
+    // Positive numbers are in the order of their bits, everything else is larger: one comparison.
+    let bits = load.to_bits();
+    f32::from_bits(if bits <= LARGEST_LOAD.to_bits() {
+        bits
+    } else {
+        0
+    })
+}
+
+/// A ball's share of the load and its cube root, folded at set-up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct LoadShare {
+    pub(super) share: f32,
+    pub(super) root: f32,
+}
+
+impl LoadShare {
+    /// The mean load.
+    pub const MEAN: Self = Self {
+        share: 1.0,
+        root: 1.0,
+    };
+
+    /// Powers of a ball's load over the mean load of all balls, 0.01 to 100; a table of them is a constant.
+    ///
+    /// Largest error of a power 2.1e-7, relative.
+    ///
+    /// # Errors
+    /// [`Error`] naming `share`.
+    pub const fn new(share: f32) -> Result<Self, Error> {
+        let share = attempt!(in_range("share", share, 0.01, 100.0));
+        // Newton's method from 1, which a constant can take: 14 steps from either end of the range.
+        let mut root = 1.0;
+        let mut step = 0;
+        while step < 16 {
+            root -= (root - share / (root * root)) * (1.0 / 3.0);
+            step += 1;
+        }
+        Ok(Self { share, root })
+    }
+
+    /// Its power of 2/3.
+    #[inline]
+    pub(crate) const fn two_thirds(&self) -> f32 {
+        self.root * self.root
+    }
+
+    /// Its power of 4/3.
+    #[inline]
+    pub(crate) const fn four_thirds(&self) -> f32 {
+        self.share * self.root
+    }
+
+    /// Load over the mean load.
+    #[must_use]
+    pub const fn share(&self) -> f32 {
+        self.share
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn loads_that_are_none() {
+        for load in [0.0, -0.0, -1.0, f32::NAN, -f32::NAN, f32::NEG_INFINITY] {
+            assert_eq!(loaded(load), 0.0);
+        }
+        assert_eq!(loaded(f32::INFINITY), 0.0);
+        assert_eq!(loaded(1e7), 1e7);
+        assert_eq!(loaded(70.0), 70.0);
+    }
+
+    /// A cube root to one rounding of Newton's last step (1.5 x 2^-24), squared (twice that and a rounding).
+    #[test]
+    fn load_shares_have_their_powers() {
+        const TABLE: [Result<LoadShare, Error>; 2] = [LoadShare::new(0.97), LoadShare::new(0.0)];
+        assert!(TABLE[0].is_ok() && TABLE[1].is_err());
+        assert_eq!(LoadShare::new(1.0), Ok(LoadShare::MEAN));
+        let mut worst = 0.0_f64;
+        for step in 0..=40_000_u16 {
+            let share = (0.01 * libm::pow(1e4, f64::from(step) / 4e4)) as f32;
+            let Ok(powers) = LoadShare::new(share.clamp(0.01, 100.0)) else {
+                panic!("{share}")
+            };
+            let root = libm::cbrt(f64::from(powers.share));
+            for (found, truth) in [
+                (powers.root, root),
+                (powers.four_thirds(), root * root * root * root),
+                (powers.two_thirds(), root * root),
+            ] {
+                worst = worst.max((f64::from(found) / truth - 1.0).abs());
+            }
+        }
+        assert!(worst < 2.5e-7, "{worst}");
+    }
+}

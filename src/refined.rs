@@ -1,0 +1,36 @@
+//! One ball between its grooves, refined: beside the closed forms of [`ball`](crate::ball), called directly and
+//! run by no scene.
+//!
+//! | | what it is | where it holds |
+//! |---|---|---|
+//! | [`FourPointBall::start`] | four-force start: exact angles, every contact its own load | four loaded contacts |
+//! | [`FourPointBall::step`] | one damped Newton step on the dissipation | from pure rolling to pure sliding |
+//! | [`FourPointBall::refine_chain`] | the same for balls that press on each other | straight tracks, any number |
+//!
+//! Contacts come in the order bottom left, bottom right, top right, top left (Lin 2019, Fig. 3.10); in a
+//! rotary bearing bottom is the inner ring and top the outer one. The bottom groove of a linear bearing
+//! rests and the top groove moves; contact angles are measured from the axis on which top and bottom lie
+//! towards the left and the right.
+//!
+//! Friction forces do not depend on the size of the speed, and dissipation is even in it: motions are in
+//! units of the track speed, signed, and no function here takes that speed. A negative one changes the
+//! sense of rear and front only ([`FourPointBall::refine_chain`]). At standstill the forces of Coulomb
+//! friction are undefined: what is found is their limit, with which the motion sets in.
+
+mod chain;
+mod four_point;
+mod linear;
+mod rotary;
+mod screw;
+mod symmetric;
+
+pub use chain::BallChain;
+pub use four_point::{
+    BallMotion, BallState, ContactMotion, DEFAULT_NEWTON_STEPS, FourPointBall, FourPointContacts,
+    LARGEST_ANGLE_DEVIATION,
+};
+pub use rotary::{RotaryBall, RotaryBallParameters, RotaryMotion};
+pub use screw::{
+    CONTACT_ANGLE_RANGE, DEFAULT_IMPEDANCE_STEPS, ScrewBall, ScrewBallMotion, ScrewBallState,
+    ScrewChain, ScrewContactMotion, ScrewContacts,
+};
