@@ -10,10 +10,12 @@
 
 mod linear;
 mod loads;
+mod preload;
 mod screw;
 
 pub use linear::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE, SpeedDeviation};
 pub use loads::LoadShare;
 pub(crate) use loads::loaded;
+pub(crate) use preload::Preload;
 pub use screw::{GrooveFit, ScrewBallLoop, ScrewRow, ScrewTick};
 pub(crate) use screw::{LoopSums, largest_deviation};

@@ -157,7 +157,7 @@ fn every_ball_is_in_balance() {
             let sum: f64 = forces.iter().sum();
             // (3.52), (3.53): balls that roll alike slip with v/cos(beta) at their contact.
             let rubbing = f64::signum(speed) * 0.08 * sum / FRAC_PI_4.cos();
-            assert!((f64::from(output.ball_friction) - rubbing).abs() <= 1e-5 * rubbing.abs());
+            assert!((f64::from(output.ball_force) - rubbing).abs() <= 1e-5 * rubbing.abs());
             pressing += contacts;
             travelled += speed * 1e-3;
         }
@@ -214,7 +214,7 @@ fn groove_friction_is_the_spin_of_all_contacts() {
             .filter(|p| f64::from(*p) < 2_f64.powi(32) / 1.2)
             .count();
         let exact = loaded as f64 * motion.power_loss;
-        let error = f64::from(output.groove_friction) / exact - 1.0;
+        let error = f64::from(output.groove_force) / exact - 1.0;
         println!("{normal} N, {side} N: {exact:.6} N, error {error:.1e}");
         // The exact ball rolls slower by a part d of its spin, because that saves spin in proportion to d and
         // costs slip in proportion to d² only: at its best M(0)/f'(0) (a tan(beta)/R_B)²/2 of the loss, which
@@ -287,7 +287,7 @@ fn bad_inputs_are_flagged_and_bad_configurations_named() {
     ] {
         let output = model.step(inputs);
         assert!(output.faults.contains(faults), "{inputs:?}: {output:?}");
-        assert!(output.friction.abs() <= 1e3 && output.largest_contact_force.is_finite());
+        assert!(output.friction_force.abs() <= 1e3 && output.largest_contact_force.is_finite());
         assert!(!model.step(sound).faults.any());
     }
     // Lifted off, and at rest.
@@ -296,12 +296,12 @@ fn bad_inputs_are_flagged_and_bad_configurations_named() {
         side_load: 0.0,
         ..sound
     });
-    assert!(lifted.friction.abs() < 1e-6 && !lifted.faults.any());
+    assert!(lifted.friction_force.abs() < 1e-6 && !lifted.faults.any());
     let rest = model.step(LinearInputs {
         speed: 0.0,
         ..sound
     });
-    assert_eq!((rest.friction, rest.regime), (0.0, Regime::Standing));
+    assert_eq!((rest.friction_force, rest.regime), (0.0, Regime::Standing));
 
     let with = |change: &dyn Fn(&mut LinearBearingConfiguration)| {
         let mut bad = configuration();

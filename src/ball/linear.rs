@@ -155,17 +155,29 @@ impl AnalyticLinearBall {
         let up = loaded(force_bl + force_tr);
         let down = loaded(force_br + force_tl);
         let [up_root, down_root] = inverse_cube_roots([up, down]);
-        let (up, down) = (up * up_root, down * down_root);
-        let inverse = 1.0 / (up + down + SMALLEST_SUM);
-        let turn = (angle_tr - angle_bl) * up + (angle_tl - angle_br) * down;
-        let speed_deviation = self.half_tangent * turn * inverse;
+        let ball = self.closed_form(
+            [up * up_root, down * down_root],
+            [angle_tr - angle_bl, angle_tl - angle_br],
+        );
         SpeedDeviation {
             // False for NaN too.
-            speed_deviation: if speed_deviation.abs() <= LARGEST_SPEED_DEVIATION {
-                speed_deviation
+            speed_deviation: if ball.speed_deviation.abs() <= LARGEST_SPEED_DEVIATION {
+                ball.speed_deviation
             } else {
                 0.0
             },
+            ..ball
+        }
+    }
+
+    /// (3.43) and (3.51) from the forces of both diagonals, each the sum of its two contacts, to the power of 2/3,
+    /// `N^(2/3)`, and from the differences of angles `dTR - dBL` and `dTL - dBR`, rad. Linear in the angles.
+    #[inline(always)]
+    pub(crate) fn closed_form(&self, [up, down]: [f32; 2], turns: [f32; 2]) -> SpeedDeviation {
+        let inverse = 1.0 / (up + down + SMALLEST_SUM);
+        let turn = turns[0] * up + turns[1] * down;
+        SpeedDeviation {
+            speed_deviation: self.half_tangent * turn * inverse,
             compliance: self.compliance * inverse,
         }
     }

@@ -1,6 +1,7 @@
 //! Closed form for a row of balls in a ball screw, at the price of a control loop.
 
 use crate::ball::loads::{LoadShare, loaded};
+use crate::ball::preload::Preload;
 use crate::contact::{Across, AcrossTable};
 use crate::error::{Error, attempt, in_range};
 use crate::geometry::{BallScrew, Groove};
@@ -15,9 +16,6 @@ const SMALLEST_LOAD: f32 = 1e-3;
 
 /// Load of a light contact below which it does not count, over that of the main contacts.
 const LEAST_LOAD: f32 = 1e-6;
-
-/// Ratio of load difference to preload at which the unloaded diagonal loses contact: `2^(3/2)`.
-const LOST: f32 = 2.828_427_1;
 
 /// How balls fit between the grooves.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -74,9 +72,8 @@ pub struct ScrewRow {
     contact_angle: f32,
     /// Normal force of a contact over the axial load, `1/(sin beta cos alpha)`.
     normal: f32,
-    preload: f32,
-    /// One over three times the preload; 0 without.
-    per_preload: f32,
+    /// Contact forces of the two diagonals without a load.
+    preload: Preload,
     play: bool,
     nominal_speed: f32,
     largest_deviation: f32,
@@ -296,12 +293,7 @@ impl ScrewRow {
             quarter_per_friction: 0.25 / friction,
             contact_angle: design.parameters().contact_angle,
             normal: 1.0 / (sin * cos_lead),
-            preload,
-            per_preload: if preload > 0.0 {
-                1.0 / (3.0 * preload)
-            } else {
-                0.0
-            },
+            preload: Preload::new(preload),
             play,
             nominal_speed: speed,
             largest_deviation: largest_deviation(design.parameters().contact_angle, sin / cos),
@@ -523,12 +515,14 @@ impl ScrewRow {
         let sliding = self.sliding;
         let rim = self.screw.rim * cube_root(normal);
         let size = math::sqrt(rim * rim + sliding * sliding + 1e-30);
-        let main = self.loaded_diagonal(normal * size / (size - self.friction * sliding));
+        let main = self
+            .preload
+            .larger(normal * size / (size - self.friction * sliding));
         let root = cube_root(main);
         let screw = self.screw.at(root);
         let nut = self.nut.at(root);
         let loss = 0.5 * self.friction * (screw.share + nut.share);
-        let (main, other) = self.diagonals(normal / (1.0 - loss));
+        let (main, other) = self.preload.both(normal / (1.0 - loss));
 
         // Friction across the track of the loaded diagonal pushes the ball along the other one.
         let push = loss * main;
@@ -547,38 +541,6 @@ impl ScrewRow {
             fourth,
             screw,
             nut,
-        }
-    }
-
-    /// Normal force of the loaded diagonal with a given difference to the other one, within 9e-4 of the preload.
-    #[inline]
-    fn loaded_diagonal(&self, difference: f32) -> f32 {
-        if difference < LOST * self.preload {
-            let plus = 1.0 + closing(difference * self.per_preload);
-            self.preload * (plus * math::sqrt(plus))
-        } else {
-            difference
-        }
-    }
-
-    /// Normal forces of the loaded and the other diagonal with a given difference.
-    ///
-    /// Both follow from one displacement `x` over the preload's deflection, `F (1 ± x)^(3/2)`.
-    #[inline]
-    fn diagonals(&self, difference: f32) -> (f32, f32) {
-        if difference < LOST * self.preload {
-            let third = difference * self.per_preload;
-            let x = closing(third);
-            let (plus, minus) = (1.0 + x, larger(1.0 - x, 0.0));
-            let (up, down) = (math::sqrt(plus), math::sqrt(minus));
-            // A step of Newton's method, with the slopes of both powers for their change: within 4e-6.
-            let excess = plus * up - minus * down - 3.0 * third;
-            let step = excess / (up + down);
-            let main = self.preload * (up * (plus - step));
-            let other = self.preload * (down * (minus + step));
-            (main, larger(other, 0.0))
-        } else {
-            (difference, 0.0)
         }
     }
 
@@ -799,13 +761,6 @@ const fn turn_series(tangent: f32) -> [f32; 5] {
     let c4 = -(x1 * c3 + x2 * c2 + x3 * c1 + x4);
     let c5 = -(x1 * c4 + x2 * c3 + x3 * c2 + x4 * c1 + x5);
     [c1, c2, c3, c4, c5]
-}
-
-/// `x` where `((1 + x)^(3/2) - (1 - x)^(3/2))/3` is `third`, for `x` in 0 to 1, within 4.3e-4.
-#[inline]
-fn closing(third: f32) -> f32 {
-    let square = third * third;
-    third * (1.0 + square * (0.055_61 + square * (-0.044_86 + square * 0.065_821)))
 }
 
 #[inline]
