@@ -6,6 +6,7 @@
 //! | [`Train`] | the balls' positions on a closed track, and a tick that moves them |
 
 mod ball;
+mod intake;
 mod pool;
 mod press;
 mod track;

@@ -37,7 +37,7 @@ pub const LARGEST_TRAVEL: f32 = 0.03;
 pub struct Train<const N: usize> {
     /// What of the nominal travel is not yet a whole unit.
     rest: f32,
-    press: Press<N>,
+    pub(super) press: Press<N>,
     track: Track,
 }
 
@@ -213,30 +213,10 @@ impl<const N: usize> Train<N> {
         sound
     }
 
-    /// [`Train::step`] with the free speed and the impedance that `free` makes of each ball's position,
-    /// which all count.
-    #[inline(always)]
-    pub(crate) fn run(&mut self, travel: f32, mut free: impl FnMut(u32) -> (f32, f32)) -> Pressing {
-        let travel = self.counted(travel);
-        let mut room = self.room(travel);
-        let mut ahead = 0.0;
-        let mut behind = self.press.balls.as_mut_slice();
-        while let [rest @ .., ball] = behind {
-            let place = ball.position;
-            let (speed, impedance) = free(place);
-            ball.set(speed, impedance, room.next(place) + (ahead - speed));
-            ahead = speed;
-            behind = rest;
-        }
-        self.without_overlap(room);
-        self.press.join(true);
-        self.advance(travel)
-    }
-
     /// Slacks of the two balls that the pass over all balls leaves: the last one, whose front ball comes at the
     /// pass's end, and the one that was foremost, which alone may have come too far by rounding.
     #[inline(always)]
-    fn without_overlap(&mut self, room: Room) {
+    pub(super) fn without_overlap(&mut self, room: Room) {
         let last = N - 1;
         let foremost = self.press.foremost();
         for index in [last, foremost] {
@@ -258,7 +238,7 @@ impl<const N: usize> Train<N> {
     }
 
     #[inline(always)]
-    fn room(&self, travel: f32) -> Room {
+    pub(super) fn room(&self, travel: f32) -> Room {
         let way = travel.abs();
         let pitch = self.track.pitch;
         let first = self.press.balls.first().map_or(0, |ball| ball.position);
@@ -271,7 +251,7 @@ impl<const N: usize> Train<N> {
 
     /// Travel in units.
     #[inline]
-    fn counted(&self, travel: f32) -> f32 {
+    pub(super) fn counted(&self, travel: f32) -> f32 {
         let travel = travel * self.track.units;
         let largest = LARGEST_TRAVEL * UNITS;
         if travel > largest {
@@ -287,7 +267,7 @@ impl<const N: usize> Train<N> {
 
     /// Finds speeds and forces and moves the balls.
     #[inline(always)]
-    fn advance(&mut self, travel: f32) -> Pressing {
+    pub(super) fn advance(&mut self, travel: f32) -> Pressing {
         let way = if travel < 0.0 { -travel } else { travel };
         let travel = travel + self.rest;
         let whole = travel as i32;
@@ -315,7 +295,7 @@ impl<const N: usize> Train<N> {
 
 /// Speeds at which balls may run up to the ones in front, from the last ball on.
 #[derive(Clone, Copy)]
-struct Room {
+pub(super) struct Room {
     /// Where the next ball touches the one in front.
     touching: u32,
     pitch: u32,
@@ -325,7 +305,7 @@ struct Room {
 
 impl Room {
     #[inline(always)]
-    fn next(&mut self, place: u32) -> f32 {
+    pub(super) fn next(&mut self, place: u32) -> f32 {
         let distance = self.touching.wrapping_sub(place);
         self.touching = place.wrapping_sub(self.pitch);
         distance as f32 * self.per_unit
