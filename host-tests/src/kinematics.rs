@@ -32,7 +32,8 @@ pub use rigid_body::RigidBody;
 pub use traditional::Traditional;
 
 use std::f64::consts::FRAC_PI_2;
-use std::fmt;
+
+use crate::error::ReferenceError;
 
 /// Which raceway a contact is on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,29 +57,6 @@ impl Raceway {
         }
     }
 }
-
-/// A number that the model cannot take.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct InvalidInput {
-    /// Name of the field of [`KinematicsInput`].
-    pub field: &'static str,
-    /// The value found.
-    pub value: f64,
-    /// What it must be.
-    pub requirement: &'static str,
-}
-
-impl fmt::Display for InvalidInput {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            formatter,
-            "{} = {}: must be {}",
-            self.field, self.value, self.requirement
-        )
-    }
-}
-
-impl std::error::Error for InvalidInput {}
 
 /// Geometry and state of one ball, in metres, radians, rad/s.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -164,16 +142,15 @@ impl KinematicsInput {
     ///
     /// # Errors
     /// The first field that does not.
-    pub fn validate(&self) -> Result<(), InvalidInput> {
-        let check = |field, value: f64, holds: bool, requirement| {
+    pub fn validate(&self) -> Result<(), ReferenceError> {
+        let check = |field, value: f64, holds: bool, requirement: &str| {
             if value.is_finite() && holds {
                 Ok(())
             } else {
-                Err(InvalidInput {
+                Err(ReferenceError::input(
                     field,
-                    value,
-                    requirement,
-                })
+                    format!("{value} must be {requirement}"),
+                ))
             }
         };
         let positive = |field, value: f64| check(field, value, value > 0.0, "positive");

@@ -69,21 +69,6 @@ pub struct SteadyState {
     pub steps: usize,
 }
 
-/// Why there is no steady state.
-#[derive(Clone, Debug, PartialEq)]
-pub enum NoSteadyState {
-    /// An input is out of range.
-    Input(ReferenceError),
-    /// Without friction nothing holds the ball's spin.
-    Frictionless,
-    /// Driving locks: `f R >= Sb`, eq. (16).
-    Locked,
-    /// The slip at the nut would have to be negative: the lead angle is below the limit.
-    NoSlip,
-    /// Newton's method did not converge; the residual it reached.
-    NotConverged(f64),
-}
-
 /// The scaled problem.
 struct Scaled {
     sin_a: f64,
@@ -211,7 +196,7 @@ impl Scaled {
     }
 
     /// Damped Newton's method with a central-difference Jacobian; at most 60 steps.
-    fn solve(&self) -> Result<(Unknowns, f64, usize), NoSteadyState> {
+    fn solve(&self) -> Result<(Unknowns, f64, usize), ReferenceError> {
         const TOLERANCE: f64 = 1e-13;
         let mut y = self.start();
         let mut residual = self.residual(&y);
@@ -249,7 +234,10 @@ impl Scaled {
         if size < floor.max(1e-10) {
             Ok((y, size, steps))
         } else {
-            Err(NoSteadyState::NotConverged(size))
+            Err(ReferenceError::NotConverged {
+                residual: size,
+                unit: "of the scaled equations",
+            })
         }
     }
 }
@@ -258,17 +246,17 @@ impl BallScrewState {
     /// The steady state, or why there is none.
     ///
     /// # Errors
-    /// [`NoSteadyState`].
-    pub fn solve(&self) -> Result<SteadyState, NoSteadyState> {
-        self.check().map_err(NoSteadyState::Input)?;
+    /// [`ReferenceError`].
+    pub fn solve(&self) -> Result<SteadyState, ReferenceError> {
+        self.check()?;
         if self.friction == 0.0 {
-            return Err(NoSteadyState::Frictionless);
+            return Err(ReferenceError::Frictionless);
         }
         let (sin_a, cos_a) = self.lead_angle.sin_cos();
         let (sin_b, cos_b) = self.contact_angle.sin_cos();
         let f = self.friction;
         if f * cos_b.hypot(sin_a / cos_a) >= sin_b {
-            return Err(NoSteadyState::Locked);
+            return Err(ReferenceError::Locked);
         }
         let r_b = self.ball_radius;
         let mass = self.ball_mass();
@@ -285,12 +273,12 @@ impl BallScrewState {
             inertia: mass * self.pitch_radius * f * r_b / moment_of_inertia,
         };
         if scaled.start()[5] <= 0.0 {
-            return Err(NoSteadyState::NoSlip);
+            return Err(ReferenceError::NoSlip);
         }
         let (y, residual, steps) = scaled.solve()?;
         let motion = scaled.motion(&y);
         if y[5] <= 0.0 || motion.slip_b <= 0.0 || y[2] < 0.0 {
-            return Err(NoSteadyState::NoSlip);
+            return Err(ReferenceError::NoSlip);
         }
 
         let q_b = (y[0] - scaled.eps * y[1]) * unit_load;
@@ -347,7 +335,10 @@ impl BallScrewState {
         )?;
         within("speed", self.speed, -1e6, 1e6)?;
         if self.speed.abs() < 1e-6 {
-            return Err(ReferenceError::new("speed", "a steady state needs motion"));
+            return Err(ReferenceError::input(
+                "speed",
+                "a steady state needs motion",
+            ));
         }
         within("axial_load", self.axial_load, 1e-6, 1e9)?;
         within("ball_density", self.ball_density, 1.0, 1e6)?;

@@ -762,8 +762,8 @@ fn wrong_input_is_refused_by_name() {
         for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
             let mut input = good;
             set(&mut input, value);
-            assert_eq!(Revised::new(&input).unwrap_err().field, name);
-            assert_eq!(RigidBody::new(&input).unwrap_err().field, name);
+            assert_eq!(Revised::new(&input).unwrap_err().field(), Some(name));
+            assert_eq!(RigidBody::new(&input).unwrap_err().field(), Some(name));
         }
     }
     let far = KinematicsInput {
@@ -771,7 +771,7 @@ fn wrong_input_is_refused_by_name() {
         ..good
     };
     let error = Revised::new(&far).unwrap_err();
-    assert_eq!(error.field, "contact_angle_nut");
+    assert_eq!(error.field(), Some("contact_angle_nut"));
     assert!(
         error
             .to_string()
@@ -782,8 +782,8 @@ fn wrong_input_is_refused_by_name() {
         ..good
     };
     assert_eq!(
-        Revised::new(&folded).unwrap_err().field,
-        "rolling_radius_screw"
+        Revised::new(&folded).unwrap_err().field(),
+        Some("rolling_radius_screw")
     );
 }
 

@@ -3,18 +3,12 @@
 
 use epas_reference::kinematics::figures::{self, ConstraintRow, FieldPoint, Formulation};
 use epas_reference::kinematics::published::{Verdict, table};
-use epas_reference::kinematics::{ContactKinematics, InvalidInput, Raceway, Revised};
+use epas_reference::kinematics::{ContactKinematics, Raceway, Revised};
 
 use super::Context;
 use super::document::{Block, Cell, Figure, Section, Table};
 use crate::failure::Failure;
 use crate::plot::{Axis, Chart, Mark, Panel, Series};
-
-impl From<InvalidInput> for Failure {
-    fn from(error: InvalidInput) -> Self {
-        Self::Data(error.to_string())
-    }
-}
 
 /// The section.
 pub fn section(context: &Context) -> Result<Section, Failure> {

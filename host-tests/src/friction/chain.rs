@@ -10,7 +10,7 @@ use super::linear_ball::{LinearBall, LinearMotion};
 use super::newton::Local;
 use super::planar::{self, ContactFriction, PlanarContact};
 use super::train_newton::{Train, solve_train};
-use super::{FrictionError, within};
+use crate::error::{ReferenceError, within};
 
 /// Pools the adjacent violators of `x_j <= x_(j+1)` in `min sum (x_j - free_j)^2/(2 compliance_j)`.
 ///
@@ -240,12 +240,12 @@ pub fn solve_chain(
     balls: &[LinearBall],
     ball_friction: f64,
     speed: f64,
-) -> Result<LinearChain, FrictionError> {
+) -> Result<LinearChain, ReferenceError> {
     within("ball_friction", ball_friction, 0.0, 1.0)?;
     within("speed", speed, -1e6, 1e6)?;
     within("balls", balls.len() as f64, 1.0, 1e4)?;
     if speed == 0.0 {
-        return Err(FrictionError::Standstill);
+        return Err(ReferenceError::Standstill);
     }
     let radius = balls.first().map_or(1.0, |b| b.ball_radius);
     let friction = balls.first().map_or(0.0, |b| b.friction);
@@ -264,12 +264,7 @@ pub fn solve_chain(
         contacts: &contacts,
         ball_friction,
     };
-    let (solution, rest_spin) = solve_train(&train).map_err(|error| match error {
-        FrictionError::NotConverged { residual } => FrictionError::NotConverged {
-            residual: friction * residual,
-        },
-        other => other,
-    })?;
+    let (solution, rest_spin) = solve_train(&train).map_err(|error| error.scaled(friction))?;
     let (residual, iterations) = (solution.residual, solution.iterations);
 
     let mut motions = Vec::with_capacity(balls.len());

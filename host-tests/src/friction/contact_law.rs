@@ -3,7 +3,7 @@
 use ellip::{elliprd, elliprf, elliprg};
 
 use super::linear_ball::EllipseLaw;
-use super::{FrictionError, within};
+use crate::error::{ReferenceError, within};
 
 /// Which correction for the eccentricity of the ellipse enters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,7 +48,7 @@ impl HertzLaw {
         relative_radius_2: f64,
         contact_modulus: f64,
         eccentricity: Eccentricity,
-    ) -> Result<Self, FrictionError> {
+    ) -> Result<Self, ReferenceError> {
         within("relative_radius_1", relative_radius_1, 1e-9, 1e6)?;
         within("relative_radius_2", relative_radius_2, 1e-9, 1e6)?;
         within("contact_modulus", contact_modulus, 1.0, 1e15)?;
@@ -72,7 +72,7 @@ impl HertzLaw {
             }
         }
         let k = (low * high).sqrt();
-        let out = FrictionError::OutOfRange {
+        let out = ReferenceError::OutOfRange {
             field: "relative_radius_2",
             value: ratio,
             min: 1.0,

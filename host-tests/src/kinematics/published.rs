@@ -1,7 +1,8 @@
 //! Numbers printed by Alberdi et al., against computed ones.
 
 use super::operating::{self, CONTACT_LOAD};
-use super::{InvalidInput, KinematicsInput, Raceway, Revised, Traditional, figures, pitch_angle};
+use super::{KinematicsInput, Raceway, Revised, Traditional, figures, pitch_angle};
+use crate::error::ReferenceError;
 use roots::{SimpleConvergency, find_root_brent};
 use std::f64::consts::PI;
 use std::fmt;
@@ -60,7 +61,7 @@ const DEGREE: f64 = PI / 180.0;
 pub fn yaw_without_side_slip(
     input: &KinematicsInput,
     raceway: Raceway,
-) -> Result<f64, InvalidInput> {
+) -> Result<f64, ReferenceError> {
     Revised::new(input)?;
     let side = |yaw_angle: f64| {
         Revised::new(&KinematicsInput {
@@ -74,11 +75,7 @@ pub fn yaw_without_side_slip(
         max_iter: 100,
     };
     find_root_brent(-20.0 * DEGREE, 20.0 * DEGREE, side, &mut convergency).map_err(|_| {
-        InvalidInput {
-            field: "yaw_angle",
-            value: input.yaw_angle,
-            requirement: "such that side slip vanishes within 20 degrees",
-        }
+        ReferenceError::input("yaw_angle", "side slip does not vanish within 20 degrees")
     })
 }
 
@@ -86,7 +83,7 @@ pub fn yaw_without_side_slip(
 ///
 /// # Errors
 /// None for the paper's screw; the type of the model's constructor.
-pub fn table() -> Result<Vec<Row>, InvalidInput> {
+pub fn table() -> Result<Vec<Row>, ReferenceError> {
     let revised = figures::case_one(operating::LEAD_ANGLE)?;
     let input = *revised.input();
     let ball = revised.evaluate();
@@ -300,7 +297,7 @@ pub fn table() -> Result<Vec<Row>, InvalidInput> {
         0.05,
         reproduced,
     );
-    let at_yaw = |degrees: f64| -> Result<_, InvalidInput> {
+    let at_yaw = |degrees: f64| -> Result<_, ReferenceError> {
         Ok(Revised::new(&KinematicsInput {
             yaw_angle: degrees * DEGREE,
             ..input

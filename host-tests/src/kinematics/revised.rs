@@ -1,6 +1,7 @@
 //! Alberdi et al., eqs. (12) to (40).
 
-use super::{BallKinematics, ContactKinematics, InvalidInput, KinematicsInput, Raceway};
+use super::{BallKinematics, ContactKinematics, KinematicsInput, Raceway};
+use crate::error::ReferenceError;
 
 /// `cos beta cos beta' cos alpha_k + sin beta sin alpha_k`, the last factor of (22).
 pub(super) fn surface_speed_factor(input: &KinematicsInput, raceway: Raceway) -> f64 {
@@ -37,7 +38,7 @@ impl Revised {
     ///
     /// # Errors
     /// The field of the input that the model cannot take.
-    pub fn new(input: &KinematicsInput) -> Result<Self, InvalidInput> {
+    pub fn new(input: &KinematicsInput) -> Result<Self, ReferenceError> {
         input.validate()?;
         let path = |raceway| rolling_path(input, raceway);
         let factor = |raceway| surface_speed_factor(input, raceway);

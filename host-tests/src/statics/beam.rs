@@ -65,14 +65,14 @@ pub fn groove_reduction(geometry: &Geometry, outer_diameter: f64) -> Result<f64,
     let across = geometry.excess() * sin;
     let depth = geometry.excess() * cos + geometry.pitch_radius - 0.5 * outer_diameter;
     if depth < 0.0 {
-        return Err(ReferenceError::new(
+        return Err(ReferenceError::input(
             "screw_diameter",
             "the screw encloses the ball path",
         ));
     }
     let contact = geometry.pitch_radius - geometry.ball_radius * cos;
     if 0.5 * outer_diameter < contact || depth >= radius {
-        return Err(ReferenceError::new(
+        return Err(ReferenceError::input(
             "screw_diameter",
             format!("{outer_diameter}: the balls touch the screw at a radius of {contact}"),
         ));
@@ -89,7 +89,7 @@ pub fn groove_reduction(geometry: &Geometry, outer_diameter: f64) -> Result<f64,
     let whole = PI * (0.5 * outer_diameter).powi(2) * geometry.lead;
     let square = 1.0 - removed / whole;
     if square < 0.25 {
-        return Err(ReferenceError::new(
+        return Err(ReferenceError::input(
             "screw_diameter",
             "the groove takes half of the diameter or more",
         ));

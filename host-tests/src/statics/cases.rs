@@ -96,7 +96,7 @@ impl CaseStudy {
     pub fn setup(&self) -> Result<Setup, ReferenceError> {
         self.geometry.check()?;
         if !(1..=super::problem::LARGEST_TRAIN).contains(&self.balls) {
-            return Err(ReferenceError::new(
+            return Err(ReferenceError::input(
                 "balls",
                 format!(
                     "{} is not within 1 to {}",
@@ -125,7 +125,7 @@ impl CaseStudy {
                 }
             }
             each => {
-                return Err(ReferenceError::new(
+                return Err(ReferenceError::input(
                     "ball_oversize",
                     format!("has {} entries for {} balls", each.len(), balls.len()),
                 ));

@@ -135,7 +135,7 @@ pub fn exact(
     let relative = [curvatures.kappa1, curvatures.kappa2]
         .map(|curvature| 1.0 / (1.0 / ball_radius + curvature));
     if relative.iter().any(|radius| *radius <= 0.0) {
-        return Err(ReferenceError::new(
+        return Err(ReferenceError::input(
             "groove_radius",
             "the ball does not fit into the groove",
         ));
@@ -178,7 +178,7 @@ fn as_printed(
     let relative = [across, along].map(|radius| 1.0 / (1.0 / geometry.ball_radius + 1.0 / radius));
     let [small, large] = sorted(relative);
     if small <= 0.0 {
-        return Err(ReferenceError::new(
+        return Err(ReferenceError::input(
             "groove_radius",
             "the ball does not fit into the groove by the printed radii",
         ));

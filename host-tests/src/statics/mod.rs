@@ -39,5 +39,5 @@ pub use fitted::FittedSurface;
 pub use geometry::{Contact, Geometry};
 pub use problem::{Ball, Load, NutPose, State, StaticLoad, Support};
 pub use shaft::{Shaft, ShaftModel};
-pub use solution::{Outcome, StaticError, StaticSolution};
+pub use solution::{Outcome, StaticSolution};
 pub use surface::{Deviation, SurfaceError};

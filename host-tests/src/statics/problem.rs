@@ -185,7 +185,7 @@ impl StaticLoad {
         } = setup;
         geometry.check()?;
         if balls.is_empty() || balls.len() > LARGEST_TRAIN {
-            return Err(ReferenceError::new(
+            return Err(ReferenceError::input(
                 "balls",
                 format!("{} is not within 1 to {LARGEST_TRAIN}", balls.len()),
             ));
