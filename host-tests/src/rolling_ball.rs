@@ -20,7 +20,7 @@ use num_dual::jacobian;
 use crate::ball_motion::{Motion, State};
 use crate::curvature::Groove;
 use crate::error::{ReferenceError, within};
-use crate::steady_state::BallScrewState;
+use crate::steady_state::ball::BallScrewState;
 
 /// Slip speed over which friction is smoothed where none is given, over the slip of rolling.
 pub const SMOOTHING: f64 = 1e-3;

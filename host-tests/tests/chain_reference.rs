@@ -3,8 +3,9 @@
 use std::f64::consts::FRAC_PI_4;
 
 use epas_reference::ReferenceError;
-use epas_reference::friction::chain::{
-    LinearChain, exhaustive_contacts, isotonic_by_min_max, pool_adjacent_violators, solve_chain,
+use epas_reference::friction::chain::{LinearChain, solve_chain};
+use epas_reference::friction::isotonic::{
+    exhaustive_contacts, isotonic_by_min_max, pool_adjacent_violators,
 };
 use epas_reference::friction::linear_ball::{
     EllipseLaw, LinearBall, PUBLISHED_FORCE_SLOPE, contact_forces,

@@ -333,7 +333,7 @@ fn golden_cases_within_the_promise() {
         );
         // Yaw angles at which side slip vanishes at one contact.
         for raceway in Raceway::BOTH {
-            if let Ok(yaw_angle) = reference::published::yaw_without_side_slip(&input, raceway) {
+            if let Ok(yaw_angle) = reference::yaw_without_side_slip(&input, raceway) {
                 sweep.add(&KinematicsInput { yaw_angle, ..input }, &tag);
             }
         }
@@ -683,7 +683,7 @@ fn friction_power_of_linear_fields_within_3_1_percent() {
         input.rolling_radius_screw = half
             + half * moment * direction.cos() * spin
                 / revised.rolling_gradient(Raceway::Screw).abs();
-        if let Ok(yaw) = reference::published::yaw_without_side_slip(&input, Raceway::Screw) {
+        if let Ok(yaw) = reference::yaw_without_side_slip(&input, Raceway::Screw) {
             input.yaw_angle = yaw + moment * direction.sin() * spin / revised.spin_ratio();
         }
         // Little spin on a small ellipse is slip of the size of f32's rounding: no test of a mean.

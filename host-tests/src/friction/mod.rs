@@ -17,6 +17,7 @@
 //! | [`contact_law`] | size and stiffness of a Hertzian contact, exact and as the dissertation takes it |
 //! | [`planar`] | equilibrium of a ball whose contacts slip along the track only |
 //! | [`linear_ball`] | ball of a linear bearing, statics, the published analytical formulas |
+//! | [`isotonic`] | rows of balls that push each other, each answering a force in proportion, three ways |
 //! | [`chain`] | chains of touching balls in a linear bearing, with and without ball-to-ball friction |
 //! | [`rotary_ball`] | four-point rotary bearing, statics and friction (Tables 3.1 and 3.2) |
 //! | [`rotary_bearing`] | whole rotary bearing: load distribution and friction (section 4.3.1) |
@@ -38,6 +39,7 @@ pub mod ball_screw_grooves;
 pub mod ball_screw_train;
 pub mod chain;
 pub mod contact_law;
+pub mod isotonic;
 pub mod linear_ball;
 pub mod maps;
 mod newton;

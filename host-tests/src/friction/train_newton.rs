@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 
-use super::chain::pool_adjacent_violators;
+use super::isotonic::pool_adjacent_violators;
 use super::newton::{Local, STAGES};
 use crate::error::ReferenceError;
 

@@ -3,9 +3,13 @@
 //! Each function returns what one figure draws, for the screw of the paper's Table 2 under the
 //! paper's load. Angles in radians, lengths in metres, speeds in m/s and rad/s.
 
+use super::input::{KinematicsInput, Raceway};
 use super::operating::{self, LoadedBall};
 use super::pitch_angle;
-use super::{ContactKinematics, HertzMean, KinematicsInput, Raceway, Revised, Traditional};
+use super::power::HertzMean;
+use super::revised::Revised;
+use super::slip::ContactKinematics;
+use super::traditional::Traditional;
 use crate::error::ReferenceError;
 
 const DEGREE: f64 = std::f64::consts::PI / 180.0;

@@ -1,6 +1,6 @@
 //! Slip from first principles: velocities of material points as derivatives of their positions.
 
-use super::{KinematicsInput, Raceway};
+use super::input::{KinematicsInput, Raceway};
 use crate::error::ReferenceError;
 use num_dual::{Dual64, DualNum};
 

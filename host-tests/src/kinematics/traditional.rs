@@ -1,6 +1,7 @@
 //! The formulation that Alberdi et al. revise.
 
-use super::{KinematicsInput, Raceway, Revised};
+use super::input::{KinematicsInput, Raceway};
+use super::revised::Revised;
 
 /// Slip by the formula of Lin, Ravani and Velinsky 1994, which leaves the orbiting frame's rotation
 /// out of the ball's surface velocity.
@@ -28,7 +29,7 @@ impl Traditional {
             (input.pitch_radius
                 - raceway.sign() * contact.rolling_radius * contact.contact_angle.cos())
                 * cos_psi
-                / (contact.rolling_radius * super::revised::surface_speed_factor(input, raceway))
+                / (contact.rolling_radius * input.surface_speed_factor(raceway))
         };
         let (inner, outer) = (path(Raceway::Screw), path(Raceway::Nut));
         let spin_ratio = inner * outer / (inner + outer);

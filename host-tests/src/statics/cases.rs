@@ -1,9 +1,10 @@
 //! The load cases of the dissertation, and the one of the program's interface.
 
+use super::ball::NutPose;
 use super::beam::Elastic;
 use super::contact::{ContactConstants, HertzConvention};
 use super::geometry::Geometry;
-use super::problem::{Load, NutPose, Setup, StaticLoad, Support, even_train};
+use super::problem::{Load, Setup, StaticLoad, Support, even_train};
 use super::shaft::Shaft;
 use crate::error::{ReferenceError, within};
 

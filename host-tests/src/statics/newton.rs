@@ -4,7 +4,7 @@ use super::ball::Touch;
 use super::contact::ContactConstants;
 use super::problem::{State, StaticLoad};
 use super::shaft::ShaftModel;
-use super::solution::StaticSolution;
+use super::solution::{LEAST_FORCE, StaticSolution};
 use super::system::{Evaluation, System};
 use crate::error::ReferenceError;
 use nalgebra::Vector2;
@@ -14,9 +14,6 @@ const LARGEST_ITERATIONS: usize = 300;
 const LEAST_LEVENBERG: f64 = 1e-13;
 /// Residual relative to the largest force at which the search ends.
 const TOLERANCE: f64 = 1e-11;
-/// Force, N, that residuals and lost contacts are measured against where nothing larger is loaded: the
-/// forces of an unloaded screw that was disturbed fall towards zero without end.
-pub(super) const LEAST_FORCE: f64 = 1e-9;
 /// Residual relative to the largest force below which a search that rounding has stopped has converged.
 const ROUNDING: f64 = 1e-7;
 

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use nalgebra::Vector2;
 
-use super::ball::{Arm, ArmInput, Errors};
+use super::ball::{Arm, ArmInput, Ball, Errors, NutPose};
 use super::beam::Elastic;
 use super::contact::{ContactConstants, exact, nominal_curvatures};
 use super::geometry::{Contact, Geometry};
@@ -13,32 +13,6 @@ use super::surface::SurfaceError;
 use crate::curvature::Groove;
 use crate::error::{ReferenceError, within};
 use crate::hertz::contact_modulus;
-
-/// One ball.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Ball {
-    /// Azimuth on the ball path, rad.
-    pub azimuth: f64,
-    /// Nominal axial position of its centre, m.
-    pub position: f64,
-    /// Oversize of its radius, m; negative where it is small.
-    pub oversize: f64,
-    /// Which of the four arcs (SL, SR, NL, NR) exist for it: an angular-contact row has two.
-    pub arcs: [bool; 4],
-}
-
-impl Ball {
-    /// A ball of nominal size that can touch all four arcs.
-    #[must_use]
-    pub const fn new(azimuth: f64, position: f64) -> Self {
-        Self {
-            azimuth,
-            position,
-            oversize: 0.0,
-            arcs: [true; 4],
-        }
-    }
-}
 
 /// Balls evenly along the helix, `spacing` rad apart and centred at `position`, m, the first at
 /// `first_azimuth`, rad.
@@ -102,17 +76,6 @@ impl Load {
             moment: [0.0; 3],
         }
     }
-}
-
-/// Where the rigid nut stands: a small motion off its nominal place.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct NutPose {
-    /// Place on the axis that it turns about, m.
-    pub position: f64,
-    /// Displacement, m.
-    pub displacement: [f64; 3],
-    /// Rotation, rad.
-    pub rotation: [f64; 3],
 }
 
 /// Unknowns of the problem.

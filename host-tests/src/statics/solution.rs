@@ -1,7 +1,6 @@
 //! What a load case gives.
 
 use super::geometry::Contact;
-use super::newton::LEAST_FORCE;
 use super::problem::{State, StaticLoad};
 use super::system::Evaluation;
 
@@ -43,6 +42,9 @@ pub struct StaticSolution {
     pub state: State,
 }
 
+/// Force, N, that residuals and lost contacts are measured against where nothing larger is loaded: the
+/// forces of an unloaded screw that was disturbed fall towards zero without end.
+pub const LEAST_FORCE: f64 = 1e-9;
 /// Force relative to the largest one below which a ball counts as lost: the residual's reach.
 const LOST: f64 = 1e-9;
 

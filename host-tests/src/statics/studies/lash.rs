@@ -6,9 +6,10 @@ use rayon::prelude::*;
 
 use super::{Tick, told};
 use crate::error::{ReferenceError, within};
+use crate::statics::ball::Ball;
 use crate::statics::cases::CaseStudy;
 use crate::statics::geometry::Geometry;
-use crate::statics::problem::{Ball, Load, StaticLoad, Support};
+use crate::statics::problem::{Load, StaticLoad, Support};
 
 /// Where the balls lie on a track that they do not fill (Figure 4.2; the text shows but does not define
 /// them).

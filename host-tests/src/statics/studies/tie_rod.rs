@@ -10,10 +10,11 @@ use rayon::prelude::*;
 
 use super::{Tick, told};
 use crate::error::ReferenceError;
+use crate::statics::ball::NutPose;
 use crate::statics::cases::CaseStudy;
 use crate::statics::contact::ContactConstants;
 use crate::statics::geometry::Geometry;
-use crate::statics::problem::{Load, NutPose, Setup, State, StaticLoad, Support, even_train};
+use crate::statics::problem::{Load, Setup, State, StaticLoad, Support, even_train};
 use crate::statics::shaft::Shaft;
 use crate::statics::solution::StaticSolution;
 
