@@ -5,7 +5,8 @@ use roots::{SimpleConvergency, find_root_brent};
 
 use crate::error::{ReferenceError, within};
 
-/// Contact modulus, Pa: `1/E* = (1 - nu1²)/E1 + (1 - nu2²)/E2`.
+/// Contact modulus of two bodies given as Young's modulus (Pa) and Poisson's ratio, Pa:
+/// `1/E* = (1 - nu1²)/E1 + (1 - nu2²)/E2`.
 #[must_use]
 pub fn contact_modulus(first: (f64, f64), second: (f64, f64)) -> f64 {
     let compliance = |(youngs_modulus, poisson_ratio): (f64, f64)| {

@@ -756,7 +756,7 @@ fn wrong_input_is_refused_by_name() {
     assert!(
         error
             .to_string()
-            .starts_with("contact_angle_nut = -1: must be")
+            .starts_with("contact_angle_nut: -1 must be")
     );
     let folded = KinematicsInput {
         rolling_radius_screw: 30e-3,

@@ -8,6 +8,8 @@ use nalgebra::{Matrix4, SMatrix, Vector3, Vector4};
 use super::linear_ball::EllipseLaw;
 use super::newton::{Local, Minimum, minimise, sharpen};
 use super::patch::{Patch, PatchVelocity};
+use crate::curvature;
+use crate::design::BallScrewDesign;
 use crate::error::{ReferenceError, within};
 
 /// The four groove flanks, screw or nut, left (towards -z) or right.
@@ -37,6 +39,15 @@ impl Groove {
         matches!(self, Self::NutLeft | Self::NutRight)
     }
 
+    /// The groove that the flank belongs to.
+    pub const fn part(self) -> curvature::Groove {
+        if self.on_nut() {
+            curvature::Groove::Nut
+        } else {
+            curvature::Groove::Screw
+        }
+    }
+
     /// Signs of the x and z component of the direction from ball centre to contact.
     pub(crate) const fn signs(self) -> (f64, f64) {
         match self {
@@ -57,6 +68,16 @@ pub struct ScrewTrack {
     pub lead: f64,
     /// Ball radius, m.
     pub ball_radius: f64,
+}
+
+impl From<&BallScrewDesign> for ScrewTrack {
+    fn from(design: &BallScrewDesign) -> Self {
+        Self {
+            pitch_radius: design.pitch_radius,
+            lead: design.lead,
+            ball_radius: design.ball_radius,
+        }
+    }
 }
 
 impl ScrewTrack {

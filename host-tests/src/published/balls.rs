@@ -3,17 +3,19 @@
 use std::error::Error;
 use std::f64::consts::{FRAC_PI_4, PI, SQRT_2, TAU};
 
-use crate::curvature::{Groove, Surface, profile};
+use crate::curvature::Groove;
+use crate::design::{BallScrewDesign, LinearBearingDesign};
 use crate::error::ReferenceError;
 use crate::friction::ball_screw_ball::ScrewTrack;
 use crate::friction::ball_screw_closed::ThreePointModel;
 use crate::friction::ball_screw_elastic::{BallSlip, ElasticBalls, ScrewSupport};
 use crate::friction::ball_screw_grooves::ElasticGrooves;
 use crate::friction::chain::solve_chain;
-use crate::friction::contact_law::{Eccentricity, HertzLaw};
+use crate::friction::contact_law::HertzLaw;
 use crate::friction::linear_ball::{LinearBall, analytic_contact_force, contact_forces};
 use crate::friction::maps::FrictionMap;
 use crate::friction::whole_screw::{WholeScrew, WholeScrewState};
+use crate::material::Elastic;
 use crate::record::{Page, Verdict};
 
 /// Slope of the friction force in (3.35) as the dissertation picks it from a plot.
@@ -22,27 +24,25 @@ pub const FORCE_SLOPE: f64 = 1.38;
 /// Ball radius of Table 3.3, m.
 const LINEAR_BALL_RADIUS: f64 = 5e-3;
 
-/// Contact modulus of two bodies of Tables 3.3 and 3.6, Pa.
-const MODULUS: f64 = 2.1e11 / (2.0 * (1.0 - 0.28 * 0.28));
-
 /// Contact law of the linear bearing, by conformity: relative radii `R_B` and `R_B / (1 - 1/(2 conf))`.
 ///
 /// # Errors
-/// As [`HertzLaw::new`].
+/// As [`BallScrewDesign::contact`].
 pub fn linear_law(conformity: f64) -> Result<HertzLaw, ReferenceError> {
-    HertzLaw::new(
-        LINEAR_BALL_RADIUS,
-        LINEAR_BALL_RADIUS / (1.0 - 0.5 / conformity),
-        MODULUS,
-        Eccentricity::Exact,
-    )
+    let design = LinearBearingDesign {
+        ball_radius: LINEAR_BALL_RADIUS,
+        groove_radius: 2.0 * conformity * LINEAR_BALL_RADIUS,
+        ball: Elastic::STEEL,
+        groove: Elastic::STEEL,
+    };
+    Ok(design.contact()?.into())
 }
 
 /// Ball of Table 3.3 with contact angles BL, BR, TR, TL deviating from 45 degrees, rad, under 100 N and a side force of
 /// `side_force_ratio` times that; loads from statics.
 ///
 /// # Errors
-/// As [`HertzLaw::new`].
+/// As [`BallScrewDesign::contact`].
 pub fn linear_ball(
     deviations: [f64; 4],
     side_force_ratio: f64,
@@ -61,7 +61,7 @@ pub fn linear_ball(
 /// `-rho` on the front one, as the two-ball module carries a yaw moment.
 ///
 /// # Errors
-/// As [`HertzLaw::new`].
+/// As [`BallScrewDesign::contact`].
 pub fn linear_pair(theta: f64, rho: f64) -> Result<[LinearBall; 2], ReferenceError> {
     Ok([
         linear_ball([-theta, theta, 0.0, 0.0], rho)?,
@@ -72,7 +72,7 @@ pub fn linear_pair(theta: f64, rho: f64) -> Result<[LinearBall; 2], ReferenceErr
 /// The same pair as the closed form takes it: two diagonals of equal loads.
 ///
 /// # Errors
-/// As [`HertzLaw::new`].
+/// As [`BallScrewDesign::contact`].
 pub fn symmetric_pair(theta: f64, rho: f64) -> Result<[LinearBall; 2], ReferenceError> {
     let with = |ball: LinearBall, rho: f64| {
         let (up, down) = (100.0 * (1.0 - rho) / SQRT_2, 100.0 * (1.0 + rho) / SQRT_2);
@@ -106,35 +106,30 @@ pub const TRACK: ScrewTrack = ScrewTrack {
 /// Groove radius of Table 2.1, m: that of Table 3.6, 0.56 ball diameters, is 4 % less.
 pub const GROOVE_RADIUS: f64 = 3.254e-3;
 
+/// The ball screw of Tables 2.1 and 3.6.
+pub const SCREW: BallScrewDesign = BallScrewDesign {
+    pitch_radius: TRACK.pitch_radius,
+    lead: TRACK.lead,
+    ball_radius: TRACK.ball_radius,
+    screw_groove_radius: GROOVE_RADIUS,
+    nut_groove_radius: GROOVE_RADIUS,
+    contact_angle: FRAC_PI_4,
+    ball: Elastic::STEEL,
+    groove: Elastic::STEEL,
+};
+
 /// Contact law of the ball screw of Tables 2.1 and 3.6 with its right curvatures.
 ///
 /// # Errors
-/// As [`HertzLaw::new`].
+/// As [`BallScrewDesign::contact`].
 pub fn screw_law(groove: Groove) -> Result<HertzLaw, ReferenceError> {
-    let conformity = GROOVE_RADIUS / (2.0 * TRACK.ball_radius);
-    let (groove_radius, offset_h, offset_l) = profile(TRACK.ball_radius, conformity, FRAC_PI_4);
-    let curvatures = Surface {
-        groove,
-        pitch_radius: TRACK.pitch_radius,
-        lead_angle: (TRACK.lead / (TAU * TRACK.pitch_radius)).atan(),
-        groove_radius,
-        offset_h,
-        offset_l,
-    }
-    .principal(FRAC_PI_4);
-    let relative = |curvature: f64| 1.0 / (1.0 / TRACK.ball_radius + curvature);
-    HertzLaw::new(
-        relative(curvatures.kappa1),
-        relative(curvatures.kappa2),
-        MODULUS,
-        Eccentricity::Exact,
-    )
+    Ok(SCREW.contact(groove)?.into())
 }
 
 /// The two balls of Table 3.7: deviations 0 and `theta` (rad) of the contact angles on the screw.
 ///
 /// # Errors
-/// As [`HertzLaw::new`].
+/// As [`BallScrewDesign::contact`].
 pub fn screw_pair(theta: f64) -> Result<ElasticBalls, ReferenceError> {
     let (screw, nut) = (screw_law(Groove::Screw)?, screw_law(Groove::Nut)?);
     let grooves = |theta: f64| ElasticGrooves {
@@ -157,7 +152,7 @@ pub fn screw_pair(theta: f64) -> Result<ElasticBalls, ReferenceError> {
 /// The screw of section 3.4.4: 37 balls on two turns under 1500 N, with an amplitude of the contact-angle deviation, rad.
 ///
 /// # Errors
-/// As [`HertzLaw::new`].
+/// As [`BallScrewDesign::contact`].
 pub fn whole_screw(deviation: f64) -> Result<WholeScrew, ReferenceError> {
     Ok(WholeScrew {
         model: ThreePointModel {

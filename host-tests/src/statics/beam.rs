@@ -5,38 +5,8 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use nalgebra::SMatrix;
 
 use super::geometry::Geometry;
-use crate::error::{ReferenceError, within};
-
-/// Elastic constants of one body.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Elastic {
-    /// Young's modulus, Pa.
-    pub youngs_modulus: f64,
-    /// Poisson's ratio.
-    pub poisson_ratio: f64,
-}
-
-impl Elastic {
-    /// Steel of the dissertation: 210 GPa (its tables print N/mm² by mistake) and 0.28.
-    pub const STEEL: Self = Self {
-        youngs_modulus: 210e9,
-        poisson_ratio: 0.28,
-    };
-
-    /// Refuses what is no elastic body.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] naming `youngs_modulus` or `poisson_ratio`.
-    pub fn check(&self) -> Result<(), ReferenceError> {
-        within("youngs_modulus", self.youngs_modulus, 1e6, 1e13)?;
-        within("poisson_ratio", self.poisson_ratio, 0.0, 0.49)?;
-        Ok(())
-    }
-
-    fn shear_modulus(&self) -> f64 {
-        self.youngs_modulus / (2.0 * (1.0 + self.poisson_ratio))
-    }
-}
+use crate::error::ReferenceError;
+use crate::material::Elastic;
 
 /// Stiffnesses of a circular cross-section.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,12 +1,12 @@
 //! The load cases of the dissertation, and the one of the program's interface.
 
 use super::ball::NutPose;
-use super::beam::Elastic;
 use super::contact::{ContactConstants, HertzConvention};
 use super::geometry::Geometry;
 use super::problem::{Load, Setup, StaticLoad, Support, even_train};
 use super::shaft::Shaft;
 use crate::error::{ReferenceError, within};
+use crate::material::Elastic;
 
 /// A ball screw with a held nut, loaded at its left end, which is guided along the axis: the case
 /// studies of Lin 2019, section 2.4.

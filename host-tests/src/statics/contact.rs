@@ -2,11 +2,11 @@
 
 use nalgebra::{Matrix2, Vector3};
 
-use super::beam::Elastic;
 use super::geometry::Geometry;
 use crate::curvature::{Groove, PrincipalCurvatures, Surface, profile};
 use crate::error::ReferenceError;
-use crate::hertz::{Hertz, axis_ratio, contact_modulus};
+use crate::hertz::{Hertz, axis_ratio};
+use crate::material::Elastic;
 
 /// How principal radii and Hertzian constants are computed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -110,10 +110,7 @@ fn contact(
 ) -> Result<GrooveContact, ReferenceError> {
     metal.check()?;
     ball.check()?;
-    let modulus = contact_modulus(
-        (metal.youngs_modulus, metal.poisson_ratio),
-        (ball.youngs_modulus, ball.poisson_ratio),
-    );
+    let modulus = metal.contact_modulus(&ball);
     match convention {
         HertzConvention::Correct => {
             let curvatures = nominal_curvatures(geometry, groove)?;

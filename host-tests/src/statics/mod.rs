@@ -33,8 +33,9 @@ pub mod studies;
 pub mod surface;
 mod system;
 
+pub use crate::material::Elastic;
 pub use ball::{Ball, NutPose};
-pub use beam::{Elastic, Section};
+pub use beam::Section;
 pub use contact::{ContactConstants, HertzConvention};
 pub use fitted::FittedSurface;
 pub use geometry::{Contact, Geometry};

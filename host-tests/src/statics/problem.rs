@@ -5,14 +5,13 @@ use std::sync::Arc;
 use nalgebra::Vector2;
 
 use super::ball::{Arm, ArmInput, Ball, Errors, NutPose};
-use super::beam::Elastic;
 use super::contact::{ContactConstants, exact, nominal_curvatures};
 use super::geometry::{Contact, Geometry};
 use super::shaft::{Shaft, ShaftModel};
 use super::surface::SurfaceError;
 use crate::curvature::Groove;
 use crate::error::{ReferenceError, within};
-use crate::hertz::contact_modulus;
+use crate::material::Elastic;
 
 /// Balls evenly along the helix, `spacing` rad apart and centred at `position`, m, the first at
 /// `first_azimuth`, rad.
@@ -335,9 +334,6 @@ fn local_deflection(
         / (step * step);
     let arc = geometry.pitch_radius.hypot(geometry.advance());
     curvatures.kappa1 -= wave / (arc * arc);
-    let modulus = contact_modulus(
-        (metal.youngs_modulus, metal.poisson_ratio),
-        (sphere.youngs_modulus, sphere.poisson_ratio),
-    );
+    let modulus = metal.contact_modulus(&sphere);
     exact(geometry.ball_radius, curvatures, modulus).map(|contact| contact.deflection)
 }

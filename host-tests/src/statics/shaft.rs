@@ -2,9 +2,10 @@
 
 use nalgebra::{SMatrix, Vector3};
 
-use super::beam::{Elastic, Section, groove_reduction};
+use super::beam::{Section, groove_reduction};
 use super::geometry::Geometry;
 use crate::error::{ReferenceError, within};
+use crate::material::Elastic;
 
 /// What the shaft can do.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
