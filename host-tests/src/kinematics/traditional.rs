@@ -7,6 +7,12 @@ use super::revised::Revised;
 /// out of the ball's surface velocity.
 ///
 /// Per rad/s of the screw: (26) without its second term, plus (29), minus (19) or (21).
+///
+/// It lets the ball turn by its rotation *relative* to the orbiting frame where the formula needs the
+/// *absolute* one, which is larger by the orbital speed; [`Self::with_absolute_rotation`] puts that right and
+/// equals the revised formulation. For the screw of Alberdi et al. its slip is three times the true one (2.9
+/// at the screw, 3.4 at the nut), nearly all of it along the path, and side slip at the nut vanishes where
+/// there is as much as at the screw. It stands here for comparison and must not feed wear or heat.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Traditional {
     input: KinematicsInput,

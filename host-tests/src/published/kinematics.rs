@@ -1,6 +1,6 @@
 //! Every computable number that Alberdi et al. print, for the screw of their Table 2.
 //!
-//! Each function computes one section of the paper; [`Printed`] holds what stands there.
+//! Each function computes one section of the paper; the tables above them hold what stands there.
 
 use crate::error::ReferenceError;
 use crate::kinematics::operating::{self, CONTACT_LOAD};
