@@ -38,13 +38,11 @@ mod coefficients;
 mod friction_power;
 mod parameters;
 mod pitch_angle;
-mod traditional;
 
 pub use coefficients::{ContactCoefficients, SlipRatios, SlipVector};
 pub use friction_power::{BallFrictionPower, FrictionPower, SlipParts};
 pub use parameters::{EllipticContact, KinematicsParameters};
 pub use pitch_angle::PitchMethod;
-pub use traditional::TraditionalKinematics;
 
 use crate::error::{Error, attempt};
 use crate::math::{self, constant};

@@ -21,7 +21,7 @@ use num_dual::DualNum;
 
 use crate::curvature::Groove;
 use crate::error::ReferenceError;
-use crate::steady_state::BallScrewState;
+use crate::steady_state::ball::BallScrewState;
 
 /// How far the ball is from rolling: `wt`, `wn`, `wb` and `D w`, less those of rolling, over `|Omega|`.
 ///

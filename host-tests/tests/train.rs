@@ -2,7 +2,7 @@
 //! and stored chains; positions over many ticks.
 
 use epas_friction::train::{Press, Train};
-use epas_reference::friction::chain::isotonic_by_min_max;
+use epas_reference::friction::isotonic::isotonic_by_min_max;
 
 /// Deterministic numbers in 0..1 (splitmix64).
 struct Random(u64);

@@ -8,14 +8,15 @@ use epas_friction::{
     Harmonic, Inputs, Limits, LoadShare, Material, Outputs, Regime, UncagedBallScrew,
     UncagedBallScrewConfiguration, UncagedOutputs,
 };
+use epas_reference::curvature::Groove;
 use epas_reference::friction::ball_screw_ball::ScrewTrack;
 use epas_reference::friction::ball_screw_closed::{
     ContactAngles, Support, ThreePointModel, speed_ratio,
 };
 use epas_reference::friction::ball_screw_elastic::BallSlip;
-use epas_reference::friction::contact_law::HertzLaw;
-use epas_reference::friction::linear_ball::EllipseLaw;
 use epas_reference::friction::whole_screw::{WholeScrew, WholeScrewState};
+
+mod given;
 
 /// Lin 2019, Table 2.1 (radii in m) with 37 balls in two turns.
 fn design() -> BallScrew {
@@ -71,19 +72,8 @@ type Model = FrictionModel<UncagedBallScrew<37>>;
 
 /// The same screw in float64; contact laws from the reference's own curvatures and elliptic integrals.
 fn reference(degrees: f64, axial_load: f64, nut_speed: f64) -> WholeScrew {
-    let stored: serde_json::Value =
-        serde_json::from_str(include_str!("../golden/ballscrew.json")).unwrap();
-    let law = |side: &str| {
-        let stored = &stored["hertz"][format!("{side}_rG3.254")]["correct"];
-        let value = |key: &str| stored[key].as_f64().unwrap() * 1e-3;
-        HertzLaw {
-            ellipse: EllipseLaw {
-                semi_major_constant: value("Ca"),
-                axis_ratio: value("Cb") / value("Ca"),
-            },
-            compliance: value("C"),
-        }
-    };
+    let numbers = given::ball_screw(design().parameters());
+    let law = |groove| numbers.contact(groove).unwrap().into();
     WholeScrew {
         model: ThreePointModel {
             track: ScrewTrack {
@@ -91,8 +81,8 @@ fn reference(degrees: f64, axial_load: f64, nut_speed: f64) -> WholeScrew {
                 lead: 20e-3,
                 ball_radius: 2.778e-3,
             },
-            screw: law("S"),
-            nut: law("N"),
+            screw: law(Groove::Screw),
+            nut: law(Groove::Nut),
             friction: 0.1,
             contact_angle: FRAC_PI_4,
         },

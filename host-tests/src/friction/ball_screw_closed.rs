@@ -10,7 +10,7 @@ use super::ball_screw_ball::ScrewTrack;
 use super::contact_law::HertzLaw;
 use super::linear_ball::EllipseLaw;
 use super::patch::{Patch, PatchVelocity};
-use super::{FrictionError, within};
+use crate::error::{ReferenceError, within};
 
 /// Which contacts carry the ball.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -131,7 +131,7 @@ impl ThreePointModel {
         angles: ContactAngles,
         axial_load: f64,
         nut_speed: f64,
-    ) -> Result<ThreePointBall, FrictionError> {
+    ) -> Result<ThreePointBall, ReferenceError> {
         self.track.check()?;
         let mu = within("friction", self.friction, 1e-6, 0.5)?;
         let load = within("axial_load", axial_load.abs(), 1e-9, 1e9)?;
@@ -141,10 +141,10 @@ impl ThreePointModel {
             within("angles", value, 0.05, 1.5)?;
         }
         if nut_speed == 0.0 {
-            return Err(FrictionError::Standstill);
+            return Err(ReferenceError::Standstill);
         }
         if support == Support::TwoPoint {
-            return Err(FrictionError::Undriven);
+            return Err(ReferenceError::Undriven);
         }
         let track = &self.track;
         let (sin_a, cos_a) = track.lead_angle();

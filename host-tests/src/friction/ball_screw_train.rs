@@ -12,7 +12,7 @@ use super::ball_screw_ball::{
 };
 use super::newton::Local;
 use super::train_newton::{Train, solve_train};
-use super::{FrictionError, within};
+use crate::error::{ReferenceError, within};
 
 /// Motion of a train of balls, all neighbours close enough to touch.
 #[derive(Clone, Debug, PartialEq)]
@@ -118,13 +118,13 @@ pub fn solve_screw_train(
     friction: f64,
     ball_friction: f64,
     nut_speed: f64,
-) -> Result<ScrewTrain, FrictionError> {
+) -> Result<ScrewTrain, ReferenceError> {
     let mu = within("friction", friction, 0.0, 1.0)?;
     let between = within("ball_friction", ball_friction, 0.0, 1.0)?;
     within("nut_speed", nut_speed, -1e6, 1e6)?;
     within("balls", balls.len() as f64, 1.0, 1e4)?;
     if nut_speed == 0.0 {
-        return Err(FrictionError::Standstill);
+        return Err(ReferenceError::Standstill);
     }
     let rows = balls
         .iter()
@@ -142,12 +142,7 @@ pub fn solve_screw_train(
         ball_friction: between / arm,
         way: nut_speed.signum(),
     };
-    let (solution, rest_spin) = solve_train(&train).map_err(|error| match error {
-        FrictionError::NotConverged { residual } => FrictionError::NotConverged {
-            residual: mu * residual,
-        },
-        other => other,
-    })?;
+    let (solution, rest_spin) = solve_train(&train).map_err(|error| error.scaled(mu))?;
     let motions: Vec<_> = rows
         .iter()
         .zip(&solution.points)

@@ -10,7 +10,7 @@ use nalgebra::{Matrix2, Matrix2x5, SMatrix, SVector, Vector2};
 
 use super::newton::{Local, minimise};
 use super::rotary_ball::{RotaryBearing, RotaryContacts, SIGNS};
-use super::{FrictionError, within};
+use crate::error::{ReferenceError, within};
 
 /// Which contacts the balls of a row can make.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -233,9 +233,9 @@ impl Place<'_> {
     }
 }
 
-fn check(rows: &[BallRow]) -> Result<(), FrictionError> {
+fn check(rows: &[BallRow]) -> Result<(), ReferenceError> {
     if rows.is_empty() {
-        return Err(FrictionError::Unsupported);
+        return Err(ReferenceError::Unsupported);
     }
     for row in rows {
         within("balls", row.balls as f64, 1.0, 1000.0)?;
@@ -248,7 +248,7 @@ fn check(rows: &[BallRow]) -> Result<(), FrictionError> {
     Ok(())
 }
 
-fn places(rows: &[BallRow]) -> Result<Vec<Place<'_>>, FrictionError> {
+fn places(rows: &[BallRow]) -> Result<Vec<Place<'_>>, ReferenceError> {
     let mut places = Vec::new();
     for (index, row) in rows.iter().enumerate() {
         let compliances = [
@@ -273,14 +273,14 @@ fn places(rows: &[BallRow]) -> Result<Vec<Place<'_>>, FrictionError> {
 /// Loads up to 1e6 N, moments up to 1e5 N m. Without load and without preload there is nothing to share: forces are zero.
 ///
 /// # Errors
-/// [`FrictionError`]: an input out of range; `Unsupported` if no displacement up to a quarter of the ball radius makes the balls
+/// [`ReferenceError`]: an input out of range; `Unsupported` if no displacement up to a quarter of the ball radius makes the balls
 /// take up the load, or only by contacts beyond the ends of the groove arcs; no convergence to 1e-7 of the largest
 /// force and the rounding of a deflection in the play.
 pub fn distribute(
     rows: &[BallRow],
     load: &RingLoad,
     tilt: Tilt,
-) -> Result<LoadedBearing, FrictionError> {
+) -> Result<LoadedBearing, ReferenceError> {
     check(rows)?;
     for (field, value) in [
         ("axial", load.axial),
@@ -364,7 +364,7 @@ pub fn distribute(
             energy(y, push)
         })
     };
-    let start = from(&push).ok_or(FrictionError::Unsupported)?;
+    let start = from(&push).ok_or(ReferenceError::Unsupported)?;
     let mut end = solve(start, &push);
     if end.residual > (1e-9 * scale + 100.0 * tolerance) * unit {
         // A light load in much play touches few balls, and most directions have no stiffness: come down from a load that closes
@@ -409,7 +409,7 @@ pub fn distribute(
         })
         .collect();
     if residual.is_nan() || residual > 1e-7 * largest.max(1e-9) + 10.0 * tolerance {
-        return Err(FrictionError::NotConverged { residual });
+        return Err(ReferenceError::unbalanced(residual));
     }
     // The arcs end in the groove's bottom and at its edge.
     let on_arc = |angle: f64| (0.0..=std::f64::consts::FRAC_PI_2).contains(&angle);
@@ -422,7 +422,7 @@ pub fn distribute(
         contacts.any(|(angle, force)| force > 0.0 && !on_arc(angle))
     });
     if beyond {
-        return Err(FrictionError::Unsupported);
+        return Err(ReferenceError::Unsupported);
     }
     Ok(LoadedBearing {
         displacement: [ring[0], ring[1], ring[2]],
@@ -474,10 +474,10 @@ impl LoadedBearing {
         rows: &[BallRow],
         friction: f64,
         inner_speed: f64,
-    ) -> Result<BearingFriction, FrictionError> {
+    ) -> Result<BearingFriction, ReferenceError> {
         let mut ball_torques = Vec::with_capacity(self.balls.len());
         for ball in &self.balls {
-            let row = rows.get(ball.row).ok_or(FrictionError::Unsupported)?;
+            let row = rows.get(ball.row).ok_or(ReferenceError::Unsupported)?;
             let [il, ir, or, ol] = ball.contacts.contact_forces;
             let torque = if il.max(ir) > 0.0 && or.max(ol) > 0.0 {
                 let mut contacts = ball.contacts;

@@ -2,9 +2,9 @@
 
 use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 
-use super::FrictionError;
-use super::chain::pool_adjacent_violators;
+use super::isotonic::pool_adjacent_violators;
 use super::newton::{Local, STAGES};
+use crate::error::ReferenceError;
 
 /// A train of balls whose first unknown is the speed along the track, rear to front.
 pub(crate) trait Train<const N: usize> {
@@ -29,7 +29,7 @@ pub(crate) trait Train<const N: usize> {
 /// Returns motions, multipliers and residual, and the smoothing they belong to.
 pub(crate) fn solve_train<const N: usize>(
     train: &impl Train<N>,
-) -> Result<(TrainMinimum<N>, f64), FrictionError> {
+) -> Result<(TrainMinimum<N>, f64), ReferenceError> {
     let cold: Vec<_> = (0..train.balls()).map(|j| train.start(j)).collect();
     let tolerance = 4e-14 * train.largest();
     let minimum_at = |start: &[SVector<f64, N>], rest_spin: f64| {
@@ -81,14 +81,12 @@ pub(crate) fn solve_train<const N: usize>(
                 let accept = f64::max(1e-8, 1e-14 / spin) * train.largest();
                 path = (next.residual <= accept).then_some(next);
             }
-            solution = path.ok_or(FrictionError::NotConverged { residual })?;
+            solution = path.ok_or(ReferenceError::unbalanced(residual))?;
             rest_spin = spin;
         }
     }
     if solution.residual.is_nan() || solution.residual > 1e-6 * train.largest() {
-        return Err(FrictionError::NotConverged {
-            residual: solution.residual,
-        });
+        return Err(ReferenceError::unbalanced(solution.residual));
     }
     solution.iterations += iterations;
     Ok((solution, rest_spin))

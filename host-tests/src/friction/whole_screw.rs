@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::ball_screw_closed::{ContactAngles, Support, ThreePointBall, ThreePointModel};
 use super::ball_screw_elastic::BallSlip;
-use super::{FrictionError, within};
+use crate::error::{ReferenceError, within};
 
 /// Ball screw with a contact-angle deviation on the screw that varies along the track, evenly loaded balls, and a closed return.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -70,7 +70,7 @@ impl WholeScrewState {
 const TABLE: usize = 512;
 
 impl WholeScrew {
-    fn ball(&self, deviation: f64) -> Result<ThreePointBall, FrictionError> {
+    fn ball(&self, deviation: f64) -> Result<ThreePointBall, ReferenceError> {
         let support = Support::of(self.axial_load, self.nut_speed);
         let angle = self.model.contact_angle;
         // The load is carried by SR-NL when negative along z: then the main contact on the screw is SR.
@@ -121,7 +121,7 @@ impl WholeScrew {
         nut_angle: f64,
         steps: usize,
         substeps: usize,
-    ) -> Result<Vec<WholeScrewState>, FrictionError> {
+    ) -> Result<Vec<WholeScrewState>, ReferenceError> {
         within("balls", self.balls as f64, 2.0, 1000.0)?;
         within("turns", self.turns, 0.1, 100.0)?;
         within("deviation", self.deviation, -0.2, 0.2)?;

@@ -5,7 +5,9 @@
 //!
 //! Table 1's iterative method (ITE) is not defined in the paper and its 44° cannot be reconstructed.
 
-use super::{HertzMean, KinematicsInput, Raceway, Revised, mean_slip};
+use super::input::{KinematicsInput, Raceway};
+use super::power::{HertzMean, mean_slip};
+use super::revised::Revised;
 use ellip::ellipe;
 use roots::{SimpleConvergency, find_root_brent};
 use std::f64::consts::FRAC_PI_2;

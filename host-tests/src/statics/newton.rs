@@ -4,8 +4,9 @@ use super::ball::Touch;
 use super::contact::ContactConstants;
 use super::problem::{State, StaticLoad};
 use super::shaft::ShaftModel;
-use super::solution::{StaticError, StaticSolution};
+use super::solution::{LEAST_FORCE, StaticSolution};
 use super::system::{Evaluation, System};
+use crate::error::ReferenceError;
 use nalgebra::Vector2;
 
 const LARGEST_ITERATIONS: usize = 300;
@@ -13,9 +14,6 @@ const LARGEST_ITERATIONS: usize = 300;
 const LEAST_LEVENBERG: f64 = 1e-13;
 /// Residual relative to the largest force at which the search ends.
 const TOLERANCE: f64 = 1e-11;
-/// Force, N, that residuals and lost contacts are measured against where nothing larger is loaded: the
-/// forces of an unloaded screw that was disturbed fall towards zero without end.
-pub(super) const LEAST_FORCE: f64 = 1e-9;
 /// Residual relative to the largest force below which a search that rounding has stopped has converged.
 const ROUNDING: f64 = 1e-7;
 
@@ -23,8 +21,8 @@ impl StaticLoad {
     /// Finds the loads from a start that suits the axial load, in three to ten steps.
     ///
     /// # Errors
-    /// [`StaticError::NotConverged`] with the residual left.
-    pub fn solve(&self) -> Result<StaticSolution, StaticError> {
+    /// [`ReferenceError::NotConverged`] with the residual left.
+    pub fn solve(&self) -> Result<StaticSolution, ReferenceError> {
         self.solve_from(self.start())
     }
 
@@ -100,9 +98,9 @@ impl StaticLoad {
     /// Finds the loads from any start. Held displacements take their values whatever the start says.
     ///
     /// # Errors
-    /// [`StaticError::Input`] where the start does not fit the case, [`StaticError::NotConverged`] with
+    /// [`ReferenceError::Input`] where the start does not fit the case, [`ReferenceError::NotConverged`] with
     /// the residual left.
-    pub fn solve_from(&self, mut state: State) -> Result<StaticSolution, StaticError> {
+    pub fn solve_from(&self, mut state: State) -> Result<StaticSolution, ReferenceError> {
         self.fits(&state)?;
         for (value, held) in state.nodes.iter_mut().zip(self.held()) {
             if let Some(held) = held {
@@ -141,10 +139,7 @@ impl StaticLoad {
                 if residual <= ROUNDING || self.at_rounding(&system, &state, &at, &held) {
                     return Ok(StaticSolution::new(self, &state, &at, iteration, residual));
                 }
-                return Err(StaticError::NotConverged {
-                    iterations: iteration,
-                    residual,
-                });
+                return Err(not_converged(residual));
             };
             (state, at) = (trial, there);
             if share == 1.0 {
@@ -164,13 +159,10 @@ impl StaticLoad {
                 residual,
             ));
         }
-        Err(StaticError::NotConverged {
-            iterations: LARGEST_ITERATIONS,
-            residual,
-        })
+        Err(not_converged(residual))
     }
 
-    fn fits(&self, state: &State) -> Result<(), StaticError> {
+    fn fits(&self, state: &State) -> Result<(), ReferenceError> {
         let right_size =
             state.nodes.len() == self.loads.len() && state.balls.len() == self.arms.len();
         let finite = state.nodes.iter().all(|value| value.is_finite())
@@ -182,7 +174,7 @@ impl StaticLoad {
         if right_size && finite {
             Ok(())
         } else {
-            Err(crate::ReferenceError::new("start", "does not fit the load case").into())
+            Err(ReferenceError::input("start", "does not fit the load case"))
         }
     }
 
@@ -264,6 +256,14 @@ impl StaticLoad {
             scale = scale.max(as_force(dof, *load));
         }
         worst / scale
+    }
+}
+
+/// The search ended with this residual, see [`StaticLoad::residual`].
+fn not_converged(residual: f64) -> ReferenceError {
+    ReferenceError::NotConverged {
+        residual,
+        unit: "of the largest force",
     }
 }
 
