@@ -1,7 +1,9 @@
 //! The traditional formulation, beside the revised one.
 
-use super::parameters::Path;
-use super::{BallKinematics, ContactSlip, KinematicsParameters};
+use super::direction::Direction;
+use super::parameters::KinematicsParameters;
+use super::path::Path;
+use super::slip::{BallKinematics, ContactSlip};
 use crate::error::Error;
 use crate::math;
 
@@ -50,29 +52,28 @@ impl TraditionalKinematics {
         let screw_speed = -(reach_nut * screw.grip * inverse);
         let spin_speed = reach_screw * reach_nut * inverse;
 
-        let slip = |direction: &super::coefficients::Direction,
-                    distance: f32,
-                    sign: f32,
-                    relative_speed: f32,
-                    raceway: f32| {
-            let turning = sign * spin_speed;
-            // Speeds of raceway and ball relative to the moving contact, along and across the path.
-            let raceway_rolling =
-                relative_speed * path.radius + raceway * distance * c * direction.cosine;
-            let ball_rolling = spin_speed * distance * direction.grip;
-            let raceway_side = -raceway * distance * s;
-            let ball_side = turning * distance * path.axis_tangent;
-            let (mean_rolling, mean_side) = (
-                0.5 * (raceway_rolling - ball_rolling),
-                0.5 * (raceway_side - ball_side),
-            );
-            ContactSlip {
-                rolling_slip: raceway_rolling + ball_rolling,
-                side_slip: raceway_side + ball_side,
-                spin: -(raceway * c * direction.sine) - turning * direction.lean,
-                entrainment_speed: math::sqrt(mean_rolling * mean_rolling + mean_side * mean_side),
-            }
-        };
+        let slip =
+            |direction: &Direction, distance: f32, sign: f32, relative_speed: f32, raceway: f32| {
+                let turning = sign * spin_speed;
+                // Speeds of raceway and ball relative to the moving contact, along and across the path.
+                let raceway_rolling =
+                    relative_speed * path.radius + raceway * distance * c * direction.cosine;
+                let ball_rolling = spin_speed * distance * direction.grip;
+                let raceway_side = -raceway * distance * s;
+                let ball_side = turning * distance * path.axis_tangent;
+                let (mean_rolling, mean_side) = (
+                    0.5 * (raceway_rolling - ball_rolling),
+                    0.5 * (raceway_side - ball_side),
+                );
+                ContactSlip {
+                    rolling_slip: raceway_rolling + ball_rolling,
+                    side_slip: raceway_side + ball_side,
+                    spin: -(raceway * c * direction.sine) - turning * direction.lean,
+                    entrainment_speed: math::sqrt(
+                        mean_rolling * mean_rolling + mean_side * mean_side,
+                    ),
+                }
+            };
         Ok(Self {
             per_speed: BallKinematics {
                 orbital_speed,
@@ -95,6 +96,6 @@ impl TraditionalKinematics {
     #[inline]
     #[must_use]
     pub fn tick(&self, speed: f32) -> BallKinematics {
-        self.per_speed.at(speed)
+        self.per_speed.at_speed(speed)
     }
 }
