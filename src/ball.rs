@@ -16,6 +16,6 @@ mod screw;
 pub use linear::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE, SpeedDeviation};
 pub use loads::LoadShare;
 pub(crate) use loads::loaded;
-pub(crate) use preload::Preload;
+pub(crate) use preload::PreloadSum;
 pub(crate) use screw::largest_deviation;
 pub use screw::{GrooveFit, LoopBall, LoopSums, ScrewLoop, ScrewRow, ScrewTick, ScrewTickBall};

@@ -126,14 +126,21 @@ impl AnalyticLinearBall {
         let slope = attempt!(in_range("slope", slope, 0.1, 10.0));
         let (sin, cos) = constant::sin_cos(parameters.contact_angle);
         let half_tangent = 0.5 * sin / cos;
-        Ok(Self {
+        Ok(Self::folded(
             half_tangent,
-            // The loads of a diagonal enter by their sum, the formula by their mean.
-            compliance: constant::cbrt_squared(2.0)
-                * half_tangent
-                * parameters.semi_major_coefficient
+            parameters.semi_major_coefficient
                 / (slope * parameters.friction * parameters.ball_radius),
-        })
+        ))
+    }
+
+    /// From `tan(beta_0)/2` and `Psi / (k_f mu R_B^(2/3))`, N^(-1/3).
+    pub(crate) const fn folded(half_tangent: f32, compliance: f32) -> Self {
+        // The loads of a diagonal enter by their sum, the formula by their mean.
+        const TWO_TO_TWO_THIRDS: f32 = constant::cbrt_squared(2.0);
+        Self {
+            half_tangent,
+            compliance: TWO_TO_TWO_THIRDS * half_tangent * compliance,
+        }
     }
 
     /// Speed deviation and compliance from contact angles, rad, and forces, N, in the order BL, BR, TR,

@@ -18,30 +18,37 @@ const LOST: f32 = 2.828_427_1;
 /// `(12 (2 sqrt(2) - 2) / 8 - 1) / 8`: the sum of the two forces is continuous where the unloaded side is lost.
 const QUARTIC: f32 = 0.030330086;
 
-/// A preload, with what follows from it.
+/// A preload, with what both forces follow from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(crate) struct Preload {
     /// `P`, N; 0 without a preload.
     force: f32,
-    /// `2 sqrt(2) P`, N: the load at which the unloaded side is lost.
-    lift_off: f32,
     /// `1 / (3 P)`, 1/N; 0 without a preload.
     per_three: f32,
+}
+
+/// The same, with what their sum alone follows from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(crate) struct PreloadSum {
+    /// `2 sqrt(2) P`, N: the load at which the unloaded side is lost.
+    lift_off: f32,
+    /// `2 P`, N.
+    constant: f32,
     /// `1 / (12 P)`, 1/N; 0 without a preload.
     square: f32,
     /// `QUARTIC / P^2`, 1/N^2; 0 without a preload.
     quartic: f32,
 }
 
-impl Preload {
+impl PreloadSum {
     /// Folds a preload, N; 0 is none.
     pub(crate) const fn new(force: f32) -> Self {
         let loaded = force > 0.0;
         Self {
-            force,
             lift_off: LOST * force,
-            per_three: if loaded { 1.0 / (3.0 * force) } else { 0.0 },
+            constant: 2.0 * force,
             square: if loaded { 1.0 / (12.0 * force) } else { 0.0 },
             quartic: if loaded {
                 QUARTIC / (force * force)
@@ -54,20 +61,34 @@ impl Preload {
     /// Sum of both forces, N, under a load of either sign, N: `P (2 + y^2/12 + ...)` with `y = F / P`, and the load from
     /// `y = 2 sqrt(2)` on. The next coefficient is chosen so that both meet there; the largest error between is 0.8 %.
     #[inline(always)]
-    pub(crate) fn sum(&self, load: f32) -> f32 {
+    pub(crate) fn under(&self, load: f32) -> f32 {
         let magnitude = load.abs();
         if magnitude < self.lift_off {
             let squared = load * load;
-            2.0 * self.force + squared * self.square * (1.0 + squared * self.quartic)
+            self.constant + squared * self.square * (1.0 + squared * self.quartic)
         } else {
             magnitude
+        }
+    }
+}
+
+impl Preload {
+    /// Folds a preload, N; 0 is none.
+    pub(crate) const fn new(force: f32) -> Self {
+        Self {
+            force,
+            per_three: if force > 0.0 {
+                1.0 / (3.0 * force)
+            } else {
+                0.0
+            },
         }
     }
 
     /// The larger force, N, under a load not below 0, N: within 9e-4 of the preload.
     #[inline]
     pub(crate) fn larger(&self, load: f32) -> f32 {
-        if load < self.lift_off {
+        if load < LOST * self.force {
             let plus = 1.0 + closing(load * self.per_three);
             self.force * (plus * math::sqrt(plus))
         } else {
@@ -80,7 +101,7 @@ impl Preload {
     /// Both follow from one displacement `x` over the preload's deflection, `P (1 + x)^(3/2)` and `P (1 - x)^(3/2)`.
     #[inline]
     pub(crate) fn both(&self, load: f32) -> (f32, f32) {
-        if load < self.lift_off {
+        if load < LOST * self.force {
             let third = load * self.per_three;
             let x = closing(third);
             let (plus, minus) = (1.0 + x, not_negative(1.0 - x));

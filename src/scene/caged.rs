@@ -5,7 +5,7 @@ use core::f32::consts::TAU;
 use super::contract::{Admitted, Inputs, Limits, Regime, Reversal, Scene};
 use super::faults::Faults;
 use super::outputs::{Outputs, efficiency};
-use crate::ball::Preload;
+use crate::ball::PreloadSum;
 use crate::efficiency::{Drive, EfficiencyGeometry, LARGEST_FRICTION};
 use crate::error::{Error, attempt, in_range};
 use crate::geometry::BallScrew;
@@ -64,7 +64,8 @@ pub struct CagedConstants {
     reversal: Reversal,
     /// Whether no torque drives a load.
     drive_locked: bool,
-    preload: Preload,
+    /// Sum of both flanks' axial loads under the load between them.
+    flanks: PreloadSum,
     limits: Limits,
 }
 
@@ -138,7 +139,7 @@ impl CagedConstants {
             reduced_lead: design.lead() / TAU,
             reversal,
             drive_locked,
-            preload: Preload::new(preload),
+            flanks: PreloadSum::new(preload),
             limits,
         })
     }
@@ -154,7 +155,7 @@ impl CagedConstants {
             axial_load: load,
         } = inputs;
         let direction = self.reversal.direction(speed);
-        let sum = self.preload.sum(load);
+        let sum = self.flanks.under(load);
         let load_torque = load * self.reduced_lead;
 
         // Full friction in the direction of motion, for the efficiency; standstill counts as forward.

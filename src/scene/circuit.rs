@@ -7,5 +7,7 @@ mod phase;
 mod zone;
 
 pub use configuration::CircuitState;
-pub(super) use configuration::{Circuit, CircuitConfiguration, LONGEST_TRACK, UNLOADED};
+pub(super) use configuration::{
+    Circuit, CircuitConfiguration, LONGEST_TRACK, UNLOADED, per_loaded_ball,
+};
 pub use deviation::{DeviationMap, HIGHEST_ORDER, Harmonic, LARGEST_DEVIATION};

@@ -2,11 +2,12 @@
 
 use super::circuit::{
     Circuit, CircuitConfiguration, CircuitState, DeviationMap, LONGEST_TRACK, UNLOADED,
+    per_loaded_ball,
 };
 use super::contract::{Admitted, Regime, Reversal, Scene};
 use super::faults::{Faults, bounded};
 use super::outputs::LinearOutputs;
-use crate::ball::{AnalyticLinearBall, LinearBallParameters, LoadShare, largest_deviation};
+use crate::ball::{AnalyticLinearBall, LoadShare, largest_deviation};
 use crate::contact::FrictionMap;
 use crate::error::{Error, attempt, in_range};
 use crate::geometry::LinearBearing;
@@ -108,6 +109,8 @@ pub struct LinearConstants<const N: usize> {
     drag: f32,
     /// Friction force of two balls over the force between them.
     rubbing: f32,
+    /// Length that counts as one turn of the deviation maps, m.
+    wavelength: f32,
     reversal: Reversal,
     limits: LinearLimits,
 }
@@ -248,27 +251,23 @@ impl<const N: usize> LinearConstants<N> {
         let map = attempt!(FrictionMap::new(contact.axis_ratio()));
         let radius = bearing.ball_radius();
         let semi_major = contact.semi_major_coefficient();
-        let ball = attempt!(AnalyticLinearBall::new(
-            &LinearBallParameters {
-                ball_radius: radius,
-                contact_angle: nominal,
-                axis_ratio: contact.axis_ratio(),
-                semi_major_coefficient: semi_major,
-                friction,
-            },
-            map.slope(),
-        ));
+        let half_tangent = 0.5 * angle.sin / angle.cos;
         // Four contacts that spin with v tan(beta)/(2 R_B) each.
-        let spin = 0.5 * angle.sin / angle.cos / radius;
-        let drag = 2.0 * map.spin_moment() * friction * semi_major * spin;
+        let drag = 2.0 * map.spin_moment() * friction * semi_major * half_tangent / radius;
+        let ball = AnalyticLinearBall::folded(
+            half_tangent,
+            semi_major / (map.slope() * friction * radius),
+        );
+        let per_ball = per_loaded_ball(configuration.loaded_length, configuration.return_length, N);
         Ok(Self {
             circuit,
             ball,
-            normal: circuit.per_ball() / angle.cos,
-            side: circuit.per_ball() / angle.sin,
+            normal: per_ball / angle.cos,
+            side: per_ball / angle.sin,
             drag: HALF_TO_FOUR_THIRDS * drag,
             // (3.52): balls that roll alike rub with v/cos(beta).
             rubbing: ball_friction / angle.cos,
+            wavelength: configuration.wavelength,
             reversal,
             limits,
         })
@@ -333,7 +332,7 @@ impl<const N: usize> LinearConstants<N> {
 
     /// See [`FrictionModel::set_carriage_position`](crate::FrictionModel::set_carriage_position).
     pub(crate) fn set_carriage_position(&self, state: &mut CircuitState<N>, position: f32) {
-        state.set_motion(&self.circuit, position);
+        state.set_turns(&self.circuit, position / self.wavelength);
     }
 }
 

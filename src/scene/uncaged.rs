@@ -4,6 +4,7 @@ use core::f32::consts::TAU;
 
 use super::circuit::{
     Circuit, CircuitConfiguration, CircuitState, DeviationMap, LONGEST_TRACK, UNLOADED,
+    per_loaded_ball,
 };
 use super::contract::{Admitted, Inputs, Limits, Regime, Reversal, Scene};
 use super::faults::Faults;
@@ -66,6 +67,8 @@ pub struct UncagedConstants<const N: usize> {
     row: ScrewRow,
     circuit: Circuit,
     ball_friction: f32,
+    /// 1 / number of loaded balls.
+    per_ball: f32,
     /// Speed of the balls against the nut, m per unit of nut speed.
     speed: f32,
     /// 1 / that speed, 1/m.
@@ -129,7 +132,7 @@ impl UncagedBallScrewConfiguration {
         attempt!(in_range("tick", tick, 1e-6, 1.0));
         let path = design.pitch_radius() / design.cos_lead_angle();
         let per_turn = TAU * path;
-        let loaded_length = turns * per_turn;
+        let loaded_length = self.loaded_length();
         let longest = LONGEST_TRACK * per_turn - loaded_length;
         attempt!(in_range("return_length", return_length, 0.0, longest));
         CircuitConfiguration {
@@ -147,6 +150,12 @@ impl UncagedBallScrewConfiguration {
             largest_speed: limits.nut_speed,
         }
         .folded(balls)
+    }
+
+    /// Length of the loaded track, m.
+    const fn loaded_length(&self) -> f32 {
+        let path = self.design.pitch_radius() / self.design.cos_lead_angle();
+        self.turns * (TAU * path)
     }
 
     /// Checks the deviations of both grooves: what the row's formula holds for, and what keeps every ball within
@@ -179,6 +188,7 @@ impl<const N: usize> UncagedConstants<N> {
             friction,
             ball_friction,
             fit,
+            return_length,
             reversal_speed,
             limits,
             ..
@@ -194,6 +204,7 @@ impl<const N: usize> UncagedConstants<N> {
             row,
             circuit: attempt!(configuration.circuit(speed, &limits, N)),
             ball_friction,
+            per_ball: per_loaded_ball(configuration.loaded_length(), return_length, N),
             speed,
             per_speed: 1.0 / speed,
             reduced_lead: design.lead() / TAU,
@@ -209,7 +220,7 @@ impl<const N: usize> UncagedConstants<N> {
             axial_load,
         } = inputs;
         let direction = self.reversal.direction(nut_speed);
-        let tick = self.row.at(nut_speed, axial_load * self.circuit.per_ball());
+        let tick = self.row.at(nut_speed, axial_load * self.per_ball);
         // Speeds are along the track, over the size of the nominal speed against the nut.
         let (reference, per_reference) = if nut_speed < 0.0 {
             (-self.speed, -self.per_speed)
@@ -266,6 +277,6 @@ impl<const N: usize> UncagedConstants<N> {
 
     /// See [`FrictionModel::set_nut_angle`](crate::FrictionModel::set_nut_angle).
     pub(crate) fn set_nut_angle(&self, state: &mut CircuitState<N>, angle: f32) {
-        state.set_motion(&self.circuit, angle);
+        state.set_turns(&self.circuit, angle / TAU);
     }
 }

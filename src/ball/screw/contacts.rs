@@ -3,6 +3,8 @@
 use super::raceway::{Raceway, cube_root};
 use crate::ball::preload::Preload;
 use crate::contact::Across;
+use crate::error::{Error, attempt};
+use crate::geometry::{BallScrew, Groove};
 use crate::math;
 
 /// Load of a light contact below which it does not count, over that of the main contacts.
@@ -37,20 +39,27 @@ pub(super) struct Loads {
 }
 
 impl Contacts {
-    /// Of both grooves that slip by `slip`, m per unit of nut speed, with a preload, N.
+    /// Of a design's grooves in which a ball spins by `spins` (screw, nut) and slips by `slip`, m, per unit of nut speed,
+    /// with a preload, N.
+    ///
+    /// # Errors
+    /// [`Error`] naming `axis_ratio`.
     pub(super) const fn new(
+        design: &BallScrew,
         friction: f32,
-        [screw, nut]: [Raceway; 2],
-        preload: f32,
+        [screw_spin, nut_spin]: [f32; 2],
         slip: f32,
-    ) -> Self {
-        Self {
+        preload: f32,
+    ) -> Result<Self, Error> {
+        let screw = attempt!(Raceway::new(design, Groove::Screw, screw_spin, slip));
+        let nut = attempt!(Raceway::new(design, Groove::Nut, nut_spin, slip));
+        Ok(Self {
             friction,
             preload: Preload::new(preload),
             sliding: screw.share_slope() * slip,
             screw,
             nut,
-        }
+        })
     }
 
     /// Loads of the contacts under a given difference of the two diagonals.

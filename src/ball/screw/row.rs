@@ -2,12 +2,12 @@
 
 use super::contacts::{Contacts, Loads};
 use super::fit::GrooveFit;
-use super::raceway::{Raceway, cube_root};
+use super::raceway::cube_root;
 use super::speeds::Speeds;
 use super::tick::{Mean, ScrewTick, limited};
 use crate::ball::loads::{LoadShare, loaded};
 use crate::error::{Error, attempt, in_range};
-use crate::geometry::{BallScrew, Groove};
+use crate::geometry::BallScrew;
 
 /// Smallest load per ball, N: below it a ball keeps the motion and the compliance that it has there.
 const SMALLEST_LOAD: f32 = 1e-3;
@@ -94,12 +94,12 @@ impl ScrewRow {
         let slip = if play { 1.0 } else { 0.5 }
             * design.ball_radius()
             * (design.cos_lead_angle() * design.tan_lead_angle());
-        let grooves = attempt!(raceways(design, play, slip));
-        let [screw, nut] = grooves;
+        let spins = spins(design, play);
+        let contacts = attempt!(Contacts::new(design, friction, spins, slip, preload));
         // The ball sticks to the groove on which it would lose more: that with the longer ellipse.
-        let sticks_to_screw = screw.end_speed() > nut.end_speed();
+        let sticks_to_screw = contacts.screw.end_speed() > contacts.nut.end_speed();
         Ok(Self {
-            contacts: Contacts::new(friction, grooves, preload, slip),
+            contacts,
             speeds: Speeds::new(design, sticks_to_screw),
             quarter_per_friction: 0.25 / friction,
             contact_angle,
@@ -282,22 +282,18 @@ impl ScrewRow {
     }
 }
 
-/// Both grooves of a design, screw first, with the spin and the slip across the track of a ball in rolling.
-const fn raceways(design: &BallScrew, play: bool, slip: f32) -> Result<[Raceway; 2], Error> {
+/// Spin of a nominal ball in the contacts with the screw and with the nut, over the nut's speed.
+const fn spins(design: &BallScrew, play: bool) -> [f32; 2] {
     let angle = design.contact_angle();
     let cos_lead = design.cos_lead_angle();
-    let [screw_spin, nut_spin] = if play {
+    if play {
         [cos_lead * angle.sin; 2]
     } else {
         let path = design.pitch_radius() / cos_lead;
         let rolling = path / (design.ball_radius() * angle.cos);
         let half = 0.5 * angle.sin;
         [half * (rolling + cos_lead), half * (rolling - cos_lead)]
-    };
-    Ok([
-        attempt!(Raceway::new(design, Groove::Screw, screw_spin, slip)),
-        attempt!(Raceway::new(design, Groove::Nut, nut_spin, slip)),
-    ])
+    }
 }
 
 /// Size of an axial load on a ball, N, within what counts.

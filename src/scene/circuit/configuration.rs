@@ -55,15 +55,11 @@ pub(crate) struct CircuitConfiguration {
 pub(crate) struct Circuit {
     zone: LoadedZone,
     track: Track,
-    /// 1 / number of loaded balls.
-    per_ball: f32,
     /// Travel of the balls along the track in a tick, over the speed of the motion: negative, because the track runs
     /// along with the body that moves.
     travel: f32,
     /// Advance of the passing groove's phase in a tick, in units of it, over the speed of the motion.
     advance: f32,
-    /// Motion in a period of the passing groove's map.
-    period: f32,
 }
 
 /// What a tick changes in a circuit of `N` balls.
@@ -100,21 +96,18 @@ impl CircuitConfiguration {
         Ok(Circuit {
             zone,
             track,
-            per_ball: length / (self.loaded_length * balls as f32),
             travel: -self.travel_per_motion * tick,
             advance: zone.phase_per_turn() * tick / self.motion_per_turn,
-            period,
         })
     }
 }
 
-impl Circuit {
-    /// 1 / number of loaded balls.
-    #[inline(always)]
-    pub(crate) const fn per_ball(&self) -> f32 {
-        self.per_ball
-    }
+/// 1 / number of loaded balls, where so many fill the whole circuit.
+pub(crate) const fn per_loaded_ball(loaded_length: f32, return_length: f32, balls: usize) -> f32 {
+    (loaded_length + return_length) / (loaded_length * balls as f32)
+}
 
+impl Circuit {
     /// Units of the deviations of the passing groove and of the recirculating one, rad.
     #[inline(always)]
     pub(crate) const fn deviation_units(&self) -> (f32, f32) {
@@ -155,8 +148,8 @@ impl<const N: usize> CircuitState<N> {
         self.phase.advance(speed * circuit.advance);
     }
 
-    /// Sets the motion from which the passing groove's deviations are counted.
-    pub(crate) fn set_motion(&mut self, circuit: &Circuit, motion: f32) {
-        self.phase.set(motion / circuit.period);
+    /// Sets the motion from which the passing groove's deviations are counted, in turns of the maps.
+    pub(crate) fn set_turns(&mut self, circuit: &Circuit, turns: f32) {
+        self.phase.set(turns / circuit.zone.passing_turns());
     }
 }

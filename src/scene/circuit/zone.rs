@@ -78,6 +78,12 @@ impl LoadedZone {
         (self.passing.unit(), self.recirculating.unit())
     }
 
+    /// Turns of the maps in a period of the passing groove.
+    #[inline]
+    pub(super) fn passing_turns(&self) -> f32 {
+        f32::from(self.passing.turns())
+    }
+
     /// Phase of the passing groove, in units of 2^-32, per turn or wavelength.
     pub(super) const fn phase_per_turn(&self) -> f32 {
         UNITS / self.passing.turns() as f32
