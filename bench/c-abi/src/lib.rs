@@ -19,13 +19,17 @@ mod caged;
 mod design;
 mod linear;
 mod one_shot;
+mod requests;
 mod scene;
 mod screw;
 mod status;
 mod tables;
 mod types;
+mod version;
 
 pub use boundary::*;
+pub use requests::*;
 pub use status::*;
 pub use tables::*;
 pub use types::*;
+pub use version::*;

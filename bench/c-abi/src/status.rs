@@ -76,7 +76,7 @@ pub const EPAS_FIELD_LOAD_SHARES: u32 = 26u32;
 /// `screw_deviation`, in a linear bearing `rail_deviation`
 pub const EPAS_FIELD_PASSING_DEVIATION: u32 = 27u32;
 /// `nut_deviation`, in a linear bearing `carriage_deviation`
-pub const EPAS_FIELD_OWN_DEVIATION: u32 = 28u32;
+pub const EPAS_FIELD_RECIRCULATING_DEVIATION: u32 = 28u32;
 /// `reversal_speed`
 pub const EPAS_FIELD_REVERSAL_SPEED: u32 = 29u32;
 /// `tick`
@@ -177,7 +177,11 @@ const FIELDS: [(u32, &CStr, &str); 49] = [
     ),
     (EPAS_FIELD_LOAD_SHARES, c"load_shares", ""),
     (EPAS_FIELD_PASSING_DEVIATION, c"passing deviation", ""),
-    (EPAS_FIELD_OWN_DEVIATION, c"own deviation", ""),
+    (
+        EPAS_FIELD_RECIRCULATING_DEVIATION,
+        c"recirculating deviation",
+        "",
+    ),
     (
         EPAS_FIELD_REVERSAL_SPEED,
         c"reversal_speed",

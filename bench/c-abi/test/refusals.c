@@ -46,7 +46,7 @@ static void pointers(void)
     static epas_screw_t screw;
     const epas_inputs_t inputs = {10.0f, 1000.0f};
     epas_outputs_t outputs = {0};
-    epas_train_outputs_t train = {0};
+    epas_screw_outputs_t screw_outputs = {0};
     epas_failure_t failure;
     uint32_t ticks;
 
@@ -70,10 +70,10 @@ static void pointers(void)
     check(epas_caged_step(&caged, &inputs, NULL) == EPAS_NULL_POINTER, "step without outputs");
 
     /* Another scene's place. */
-    check(epas_screw_step((epas_screw_t *)(void *)&caged, &inputs, &train) == EPAS_NOT_INITIALISED,
+    check(epas_screw_step((epas_screw_t *)(void *)&caged, &inputs, &screw_outputs) == EPAS_NOT_INITIALISED,
           "another scene's place");
-    check(train.faults == EPAS_FAULT_CALL, "another scene's place, flagged");
-    check(epas_screw_step(&screw, &inputs, &train) == EPAS_NOT_INITIALISED, "a screw of zeros");
+    check(screw_outputs.faults == EPAS_FAULT_CALL, "another scene's place, flagged");
+    check(epas_screw_step(&screw, &inputs, &screw_outputs) == EPAS_NOT_INITIALISED, "a screw of zeros");
 
     /* A model that is copied as a whole is one of its own. */
     never = caged;
@@ -182,7 +182,7 @@ static void train_fields(void)
     wrong = test_screw_configuration;
     wrong.nut_deviation = &empty;
     status = epas_screw_init(&screw, &wrong, &failure);
-    check_failure(status, &failure, EPAS_NOT_INITIALISED, EPAS_FIELD_OWN_DEVIATION, "own deviation");
+    check_failure(status, &failure, EPAS_NOT_INITIALISED, EPAS_FIELD_RECIRCULATING_DEVIATION, "recirculating deviation");
 
     wrong = test_screw_configuration;
     status = epas_load_shares_init(shares, one_wrong, 2u, &failure);
