@@ -17,6 +17,7 @@
 
 mod across;
 mod along;
+mod integrals;
 mod slip_map;
 
 pub(crate) use across::{Across, AcrossTable};

@@ -17,19 +17,14 @@
 //! sense of rear and front only ([`FourPointBall::refine_chain`]). At standstill the forces of Coulomb
 //! friction are undefined: what is found is their limit, with which the motion sets in.
 
-mod chain;
 mod four_point;
-mod linear;
-mod rotary;
 mod screw;
 mod symmetric;
 
-pub use chain::BallChain;
 pub use four_point::{
-    BallMotion, BallState, ContactMotion, DEFAULT_NEWTON_STEPS, FourPointBall, FourPointContacts,
-    LARGEST_ANGLE_DEVIATION,
+    BallChain, BallMotion, BallState, ContactMotion, DEFAULT_NEWTON_STEPS, FourPointBall,
+    FourPointContacts, LARGEST_ANGLE_DEVIATION, RotaryBall, RotaryBallParameters, RotaryMotion,
 };
-pub use rotary::{RotaryBall, RotaryBallParameters, RotaryMotion};
 pub use screw::{
     CONTACT_ANGLE_RANGE, DEFAULT_IMPEDANCE_STEPS, ScrewBall, ScrewBallMotion, ScrewBallState,
     ScrewChain, ScrewContactMotion, ScrewContacts,

@@ -1,9 +1,9 @@
 //! Friction of a contact that slips across the track by a given speed, as a table over its size.
 
-use super::slip_map::checked_axis_ratio;
+use super::integrals::{checked_axis_ratio, fifth_integral};
 use crate::error::{Error, attempt};
 use crate::math::constant;
-use crate::math::elliptic::{incomplete, narrow_integral};
+use crate::math::elliptic::incomplete;
 
 /// Cells of the table.
 const CELLS: usize = 10;
@@ -159,11 +159,7 @@ const fn spinning(k: f32, slip: f32) -> [f32; 4] {
     let weight = 2.0 * lambda * root / constant::sqrt(long * short);
     let (along, across) = incomplete(square, lambda);
     let both = (across - along) / ((1.0 - k) * (1.0 + k));
-    let narrow = if lambda < square {
-        (across - both - weight / short) / (3.0 * square)
-    } else {
-        narrow_integral(square, root)
-    };
+    let narrow = fifth_integral(k, lambda, root, along, across);
     let whole = weight + along + square * across;
     let cubic = narrow * place;
     let share = 0.75 * slip * (across - cubic);

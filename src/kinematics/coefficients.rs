@@ -1,40 +1,10 @@
 //! Constants of one contact, and what follows from them.
 
-use super::parameters::{EllipticContact, GroovePath, Path};
-use super::{ContactSlip, abs, sane_speed};
-use crate::math::{self, constant};
-
-/// Which raceway; carries the sign that (3) to (40) print as upper and lower.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Groove {
-    /// Inner contact, upper sign.
-    Screw,
-    /// Outer contact, lower sign.
-    Nut,
-}
-
-impl Groove {
-    #[inline]
-    const fn sign(self) -> f32 {
-        match self {
-            Self::Screw => 1.0,
-            Self::Nut => -1.0,
-        }
-    }
-}
-
-/// A contact angle, resolved against path and axis of rotation.
-pub(super) struct Direction {
-    pub sine: f32,
-    pub cosine: f32,
-    /// `A_k / r'_k`.
-    pub reach: f32,
-    /// `b_k`.
-    pub grip: f32,
-    /// Semi-axes of the ellipse, m.
-    semi_major: f32,
-    semi_minor: f32,
-}
+use super::direction::Direction;
+use super::path::{GroovePath, Path};
+use super::slip::{ContactSlip, sane_speed};
+use crate::geometry::Groove;
+use crate::math;
 
 /// The ball's rotation, `omega_R / omega`, along the path's binormal, tangent and normal.
 pub(super) struct Rotation {
@@ -98,49 +68,6 @@ pub struct ContactCoefficients {
     half_curvature: f32,
     pub(super) semi_major: f32,
     pub(super) semi_minor: f32,
-}
-
-impl Path {
-    /// Resolves one contact.
-    #[inline(always)]
-    pub fn direction(
-        &self,
-        groove_path: &GroovePath,
-        contact: EllipticContact,
-        groove: Groove,
-    ) -> Direction {
-        let sin_cos = math::sin_cos(contact.contact_angle);
-        self.resolved(sin_cos, groove_path, contact, groove)
-    }
-
-    /// The same for set-up, by the kernel that a constant can take.
-    pub const fn constant_direction(
-        &self,
-        groove_path: &GroovePath,
-        contact: EllipticContact,
-        groove: Groove,
-    ) -> Direction {
-        let sin_cos = constant::sin_cos(contact.contact_angle);
-        self.resolved(sin_cos, groove_path, contact, groove)
-    }
-
-    #[inline(always)]
-    const fn resolved(
-        &self,
-        (sine, cosine): (f32, f32),
-        groove_path: &GroovePath,
-        contact: EllipticContact,
-        groove: Groove,
-    ) -> Direction {
-        Direction {
-            sine,
-            cosine,
-            reach: groove_path.path_over_rolling - groove.sign() * self.cos_lead * cosine,
-            grip: self.axis_binormal * cosine + self.axis_normal * sine,
-            semi_major: contact.semi_major,
-            semi_minor: contact.semi_minor,
-        }
-    }
 }
 
 impl ContactCoefficients {
@@ -268,7 +195,7 @@ impl ContactCoefficients {
     /// a wrong speed counts as 0, as in [`tick`](super::ContactKinematics::tick).
     #[must_use]
     pub fn slip_at(&self, speed: f32, x: f32, y: f32) -> SlipVector {
-        if !(abs(x) <= self.semi_minor && abs(y) <= self.semi_major) {
+        if !(x.abs() <= self.semi_minor && y.abs() <= self.semi_major) {
             return SlipVector {
                 rolling: 0.0,
                 side: 0.0,

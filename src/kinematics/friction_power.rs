@@ -1,6 +1,8 @@
 //! What slip costs: friction power of the contacts under Hertz pressure.
 
-use super::{ContactCoefficients, ContactKinematics, abs, sane_speed};
+use super::ball::ContactKinematics;
+use super::coefficients::ContactCoefficients;
+use super::slip::sane_speed;
 use crate::math;
 
 /// A quantity split by the kind of slip that causes it.
@@ -188,7 +190,7 @@ impl FrictionPower {
         load_nut: f32,
         speed: f32,
     ) -> BallFrictionPower {
-        let rate = within(friction, 10.0) * abs(sane_speed(speed));
+        let rate = within(friction, 10.0) * sane_speed(speed).abs();
         BallFrictionPower {
             screw: self.screw.times(rate * within(load_screw, 1.0e7)),
             nut: self.nut.times(rate * within(load_nut, 1.0e7)),

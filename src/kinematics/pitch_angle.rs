@@ -1,6 +1,8 @@
 //! Ways to choose the pitch angle of the ball's axis of rotation.
 
-use super::{ContactKinematics, FrictionPower, KinematicsParameters};
+use super::ball::ContactKinematics;
+use super::friction_power::FrictionPower;
+use super::parameters::KinematicsParameters;
 use crate::error::{Error, in_range};
 use crate::math;
 

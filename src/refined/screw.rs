@@ -1,12 +1,16 @@
 //! The ball of a ball screw with contacts that are given, and balls that press on each other.
 
+mod ball;
 mod chain;
-mod given;
+mod closed_form;
+mod contacts;
+mod equations;
+mod impedance;
 mod iteration;
+mod motion;
 
+pub use ball::{CONTACT_ANGLE_RANGE, ScrewBall};
 pub use chain::ScrewChain;
-pub use given::{
-    CONTACT_ANGLE_RANGE, ScrewBall, ScrewBallMotion, ScrewBallState, ScrewContactMotion,
-    ScrewContacts,
-};
+pub use contacts::ScrewContacts;
 pub use iteration::DEFAULT_IMPEDANCE_STEPS;
+pub use motion::{ScrewBallMotion, ScrewBallState, ScrewContactMotion};

@@ -1,7 +1,9 @@
 //! Balls of a ball screw that press on each other.
 
-use super::given::{ScrewBall, ScrewBallMotion, ScrewBallState, ScrewContacts};
-use super::iteration::{Proposal, Rubbing};
+use super::ball::ScrewBall;
+use super::contacts::ScrewContacts;
+use super::impedance::{ImpedanceStep, Rubbing};
+use super::motion::{ScrewBallMotion, ScrewBallState};
 use crate::math;
 
 /// `N` balls in a row and the forces between them, kept from step to step.
@@ -16,7 +18,7 @@ pub struct ScrewChain<const N: usize> {
     speed_deviations: [f32; N],
     compliances: [f32; N],
     rubbing: [Rubbing; N],
-    proposals: [Proposal; N],
+    proposals: [ImpedanceStep; N],
 }
 
 impl<const N: usize> ScrewChain<N> {
@@ -29,7 +31,7 @@ impl<const N: usize> ScrewChain<N> {
             speed_deviations: [0.0; N],
             compliances: [0.0; N],
             rubbing: [[0.0; 4]; N],
-            proposals: [Proposal::EMPTY; N],
+            proposals: [ImpedanceStep::EMPTY; N],
         }
     }
 }

@@ -1,6 +1,9 @@
 //! Balls that press on each other: one Newton step of all of them.
 
-use super::four_point::{BallMotion, BallState, FourPointBall, FourPointContacts, Proposal};
+use super::ball::FourPointBall;
+use super::contacts::FourPointContacts;
+use super::motion::{BallMotion, BallState};
+use super::newton::NewtonStep;
 use crate::math;
 
 /// `N` balls in a row and the forces between them, kept from step to step.
@@ -18,7 +21,7 @@ pub struct BallChain<const N: usize> {
     speed_deviations: [f32; N],
     compliances: [f32; N],
     moments: [(f32, f32); N],
-    proposals: [Proposal; N],
+    proposals: [NewtonStep; N],
 }
 
 impl<const N: usize> BallChain<N> {
@@ -31,7 +34,7 @@ impl<const N: usize> BallChain<N> {
             speed_deviations: [0.0; N],
             compliances: [0.0; N],
             moments: [(0.0, 0.0); N],
-            proposals: [Proposal::EMPTY; N],
+            proposals: [NewtonStep::EMPTY; N],
         }
     }
 }
@@ -129,6 +132,24 @@ impl FourPointBall {
             }
         }
         ball_friction * sum
+    }
+
+    /// Speed with which two touching balls rub, in units of the track speed (Lin 2019, eq. (3.26)).
+    ///
+    /// Balls that roll alike rub with `1/cos(contact angle)`, eq. (3.52).
+    #[must_use]
+    pub fn rubbing_speed(&self, rear: &BallMotion, front: &BallMotion) -> f32 {
+        let (roll, yaw) = self.rubbing(rear, front);
+        math::sqrt(roll * roll + yaw * yaw)
+    }
+
+    /// Sum of two balls' rotations: the velocity of their surfaces against each other.
+    #[inline]
+    fn rubbing(&self, rear: &BallMotion, front: &BallMotion) -> (f32, f32) {
+        (
+            2.0 * self.nominal_roll() + rear.roll + front.roll,
+            rear.yaw + front.yaw,
+        )
     }
 
     /// Moments over ball radius by which neighbours brake each ball's rotation, N.

@@ -1,6 +1,6 @@
 //! The refined ball in a linear bearing.
 
-use super::four_point::{FourPointBall, Track};
+use super::ball::{FourPointBall, FourPointGroove};
 use crate::ball::LinearBallParameters;
 use crate::error::{Error, attempt};
 use crate::math::constant;
@@ -62,7 +62,7 @@ impl FourPointBall {
         let parameters = attempt!(parameters.checked());
         let (_, cos) = constant::sin_cos(parameters.contact_angle);
         // Half the track speed along, and no slip at the bottom: R_B omega_x cos(beta_0) = v/2.
-        let track = attempt!(Track::new(
+        let track = attempt!(FourPointGroove::new(
             parameters.axis_ratio,
             parameters.semi_major_coefficient,
             parameters.ball_radius,

@@ -1,6 +1,8 @@
 //! A ball in a rotary four-point contact bearing.
 
-use super::four_point::{BallState, FourPointBall, FourPointContacts, Track};
+use super::ball::{FourPointBall, FourPointGroove};
+use super::contacts::FourPointContacts;
+use super::motion::BallState;
 use crate::contact::SMALLEST_AXIS_RATIO;
 use crate::error::{Error, attempt, in_range};
 use crate::math::constant;
@@ -114,7 +116,7 @@ impl RotaryBall {
         let radius_ratio = ball_radius / pitch_radius;
         let speed = 0.5 * (1.0 - radius_ratio * cos);
         let roll = -speed / cos;
-        let inner = attempt!(Track::new(
+        let inner = attempt!(FourPointGroove::new(
             attempt!(axis_ratio("axis_ratio_inner", parameters.axis_ratio_inner)),
             attempt!(semi_major(
                 "semi_major_coefficient_inner",
@@ -123,7 +125,7 @@ impl RotaryBall {
             ball_radius,
             roll - radius_ratio,
         ));
-        let outer = attempt!(Track::new(
+        let outer = attempt!(FourPointGroove::new(
             attempt!(axis_ratio("axis_ratio_outer", parameters.axis_ratio_outer)),
             attempt!(semi_major(
                 "semi_major_coefficient_outer",

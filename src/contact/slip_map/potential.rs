@@ -1,0 +1,12 @@
+//! The potential of a contact over spin and semi-major axis.
+
+/// `P` with its derivatives by `x` (along) and `z` (across), and `M = P - x P_x - z P_z`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Potential {
+    pub(super) moment: f32,
+    pub(super) along: f32,
+    pub(super) across: f32,
+    pub(super) along_along: f32,
+    pub(super) mixed: f32,
+    pub(super) across_across: f32,
+}

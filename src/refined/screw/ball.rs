@@ -1,0 +1,279 @@
+//! The ball and its grooves, with constants folded at set-up; its contacts from angles and forces.
+
+use super::contacts::{ScrewContact, ScrewContacts};
+use super::motion::{ScrewBallMotion, ScrewBallState, ScrewContactMotion};
+use crate::ball::loaded;
+use crate::contact::SlipMap;
+use crate::error::{Error, attempt, in_range};
+use crate::geometry::{BallScrew, Groove};
+use crate::hertz::HertzContact;
+use crate::math::{self, constant, inverse_cube_roots};
+
+/// ScrewContact angles are taken within these limits, rad.
+pub const CONTACT_ANGLE_RANGE: (f32, f32) = (0.05, 1.5);
+
+/// Spin below which a contact sticks, over the nut's speed.
+pub(super) const STICK_SPIN: f32 = 0.01;
+
+/// Sum of speeds that no ball reaches: ball radii and radians per radian of the nut.
+const LARGEST_MOTION: f32 = 1e6;
+
+/// Smallest contact force, N: below it a contact is lost.
+const LEAST_FORCE: f32 = 1e-9;
+
+/// Signs of the radial and the axial component of the direction from the ball's centre to the contact:
+/// SL, SR, NL, NR.
+const QUADRANTS: [(f32, f32); 4] = [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)];
+
+/// A ball in the grooves of a ball screw with contacts that are given: angles and forces of two, three or
+/// four of SL, SR, NL, NR (screw or nut; left towards the screw's negative axis, or right).
+///
+/// Frame of the ball: x radially outward, y along the track, z nearly along the axis. The screw stands and
+/// the nut turns with `w_N`; all lengths are in ball radii and all velocities per unit of `w_N`. With the
+/// ball's total angular velocity `Omega` and `L_p = sqrt(R_P² + (p/2 pi)²)/R_B`, contact `k` at
+/// `n = (∓cos beta, 0, ∓sin beta)` on a groove that turns with `w_k` (0 screw, 1 nut) has
+///
+/// ```text
+/// along the track    V_2 = (w_B - w_k) L_p + n_x Omega_z - n_z Omega_x - w_k n_x cos alpha
+/// across the track   V_1 = Omega_y - w_k sin alpha
+/// spin               w   = n_x Omega_x + n_z (Omega_z - w_k cos alpha)
+/// ```
+///
+/// (Lin 2019, eqs. (3.65)-(3.68), (F.4)-(F.6), in one form). A ball moves so that the power it loses in its
+/// contacts is least, which is the balance (3.69) along the track and about all three axes.
+///
+/// | | what it is |
+/// |---|---|
+/// | [`ScrewBall::closed_form`] | contact impedances of rolling, then one linear system |
+/// | [`ScrewBall::refine`] | impedances at the motion found, a fixed number of times |
+/// | [`ScrewBall::refine_chain`] | the same for balls that press on each other |
+///
+/// Loads of the contacts come from elsewhere: [`ScrewRow::contacts`](crate::ball::ScrewRow::contacts) finds them from the axial load.
+///
+/// ```
+/// use epas_friction::CATALOGUE;
+/// use epas_friction::refined::{ScrewBall, ScrewChain};
+/// use epas_friction::train::Press;
+/// let design = CATALOGUE[15].design()?; // 32 x 20 x 6.35
+/// let ball = ScrewBall::new(&design, 0.1)?;
+/// // SL, SR, NL, NR: two balls under SR-NL load with a light third contact, the front one slower.
+/// let forces = [9.0, 75.0, 75.0, 0.0];
+/// let rear = ball.contacts(&[0.785, 0.785, 0.785, 0.785], &forces);
+/// let front = ball.contacts(&[0.750, 0.820, 0.785, 0.785], &forces);
+/// let mut chain = ScrewChain::new([ball.start(&rear), ball.start(&front)]);
+/// let mut press = Press::<2>::new();
+/// for _ in 0..3 {
+///     ball.refine_chain(&[rear, front], &mut chain, 1.0, 0.1, |free, compliance, forces| {
+///         press.solve(free, &compliance.map(|y| 1.0 / y), &[0.0, f32::INFINITY]);
+///         forces.iter_mut().zip(press.forces()).for_each(|(force, found)| *force = found);
+///     });
+/// }
+/// assert!(chain.forces[0] > 1.0 && chain.forces[1] == 0.0);
+/// let torque: f32 = chain.balls.iter().map(|state| state.groove_torque).sum();
+/// assert!(torque > ball.ball_torque(&chain, 0.1));
+/// # Ok::<(), epas_friction::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct ScrewBall {
+    friction: f32,
+    ball_radius: f32,
+    pub(super) path: f32,
+    pub(super) inverse_speed: f32,
+    pub(super) sin_lead: f32,
+    pub(super) cos_lead: f32,
+    pub(super) nominal_speed: f32,
+    /// `Omega_z` in nominal rolling with three or four contacts.
+    roll: f32,
+    pub(super) cos_between: f32,
+    pub(super) sin_between: f32,
+    screw: HelixGroove,
+    nut: HelixGroove,
+}
+
+/// One groove.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(super) struct HelixGroove {
+    pub(super) map: SlipMap,
+    /// Semi-major axis over ball radius at one newton, `N^(-1/3)`.
+    semi_major: f32,
+    /// Angular velocity over the nut's.
+    pub(super) speed: f32,
+}
+
+impl HelixGroove {
+    const fn new(design: &BallScrew, groove: Groove, speed: f32) -> Result<Self, Error> {
+        let contact = HertzContact::of(design, groove);
+        Ok(Self {
+            map: attempt!(SlipMap::new(contact.axis_ratio())),
+            semi_major: contact.semi_major_coefficient() / design.ball_radius(),
+            speed,
+        })
+    }
+}
+
+impl ScrewBall {
+    /// Folds the constants of a design: set-up only.
+    ///
+    /// # Errors
+    /// [`Error`] naming `friction` (1e-6 to 0.5), `contact_angle` (0.05 to 1.5) or `axis_ratio`.
+    pub const fn new(design: &BallScrew, friction: f32) -> Result<Self, Error> {
+        let friction = attempt!(in_range("friction", friction, 1e-6, 0.5));
+        let (least, most) = CONTACT_ANGLE_RANGE;
+        attempt!(in_range(
+            "contact_angle",
+            design.parameters().contact_angle,
+            least,
+            most,
+        ));
+        let radius = design.ball_radius();
+        let cos_lead = design.cos_lead_angle();
+        let path = design.pitch_radius() / (cos_lead * radius);
+        let cos = design.contact_angle().cos;
+        let nominal_speed = 0.5 * (path + cos_lead * cos);
+        let sin_between = 1.0 / path;
+        Ok(Self {
+            friction,
+            ball_radius: radius,
+            path,
+            inverse_speed: 1.0 / nominal_speed,
+            sin_lead: cos_lead * design.tan_lead_angle(),
+            cos_lead,
+            nominal_speed,
+            roll: nominal_speed / cos,
+            cos_between: constant::sqrt((1.0 - sin_between) * (1.0 + sin_between)),
+            sin_between,
+            screw: attempt!(HelixGroove::new(design, Groove::Screw, 0.0)),
+            nut: attempt!(HelixGroove::new(design, Groove::Nut, 1.0)),
+        })
+    }
+
+    /// Orbital speed over the nut's speed in nominal rolling, `(1 + r cos beta)/2` with
+    /// `r = R_B R_P/(L/2 pi)²`.
+    #[must_use]
+    pub fn nominal_orbital_speed(&self) -> f32 {
+        self.nominal_speed * self.sin_between
+    }
+
+    /// Orbital speed over the nut's speed.
+    #[must_use]
+    pub fn orbital_speed(&self, motion: &ScrewBallMotion) -> f32 {
+        (self.nominal_speed + motion.speed) * self.sin_between
+    }
+
+    /// Contacts from their angles, rad, and forces, N, in the order SL, SR, NL, NR.
+    ///
+    /// Angles outside [`CONTACT_ANGLE_RANGE`] are taken at its ends, NaN at the lower one; a force below
+    /// 1e-9 N, above 1e7 N, or NaN is a lost contact. Ellipses are those of the nominal contact angle.
+    #[must_use]
+    pub fn contacts(&self, contact_angles: &[f32; 4], contact_forces: &[f32; 4]) -> ScrewContacts {
+        let (least, most) = CONTACT_ANGLE_RANGE;
+        let [a, b, c, d] = contact_forces.map(loaded);
+        let [left, right] = inverse_cube_roots([a, b]);
+        let [far_left, far_right] = inverse_cube_roots([c, d]);
+        let loads = [(a, left), (b, right), (c, far_left), (d, far_right)];
+        let mut contact = [ScrewContact::default(); 4];
+        let given = contact_angles.iter().zip(loads);
+        for (((contact, given), quadrant), groove) in contact
+            .iter_mut()
+            .zip(given)
+            .zip(&QUADRANTS)
+            .zip(self.grooves())
+        {
+            let (&angle, (force, root)) = given;
+            let angle = if angle > least { angle } else { least };
+            let angle = if angle < most { angle } else { most };
+            let (sin, cos) = math::sin_cos(angle);
+            let (outward, right) = *quadrant;
+            let (nx, nz) = (outward * cos, right * sin);
+            contact.arm = (nx, nz);
+            contact.along = self.nominal_speed - groove.speed * (self.path + self.cos_lead * nx);
+            contact.across = -groove.speed * self.sin_lead;
+            contact.spin = -groove.speed * self.cos_lead * nz;
+            if force >= LEAST_FORCE {
+                contact.friction = self.friction * force;
+                contact.semi_major = groove.semi_major * (force * root * root);
+            }
+        }
+        ScrewContacts { contact }
+    }
+
+    /// A motion as it is; one that is no number, or of a ball that nothing holds, becomes nominal rolling.
+    #[inline]
+    pub(super) fn sound(&self, motion: ScrewBallMotion) -> ScrewBallMotion {
+        let [x, y, z] = motion.turn;
+        // False for NaN.
+        if motion.speed.abs() + x.abs() + y.abs() + z.abs() < LARGEST_MOTION {
+            motion
+        } else {
+            self.nominal()
+        }
+    }
+
+    /// Nominal rolling, with the slip across the track shared evenly by screw and nut.
+    #[inline]
+    pub(super) const fn nominal(&self) -> ScrewBallMotion {
+        ScrewBallMotion {
+            speed: 0.0,
+            turn: [0.0, 0.5 * self.sin_lead, self.roll],
+        }
+    }
+
+    /// Slip and spin of the four contacts at a motion.
+    #[must_use]
+    pub fn contact_motion(
+        &self,
+        contacts: &ScrewContacts,
+        motion: &ScrewBallMotion,
+    ) -> [ScrewContactMotion; 4] {
+        contacts.contact.map(|contact| contact.motion(motion))
+    }
+
+    /// Torque on the nut that the grooves take at a motion, N m: the sum of the contacts' power losses over
+    /// the nut's speed.
+    #[must_use]
+    pub fn groove_torque(&self, contacts: &ScrewContacts, motion: &ScrewBallMotion) -> f32 {
+        let mut torque = 0.0;
+        for (contact, groove) in contacts.contact.iter().zip(self.grooves()) {
+            if contact.friction > 0.0 {
+                let at = contact.motion(motion);
+                let friction = groove.map.dissipation(
+                    at.across,
+                    at.along,
+                    at.spin,
+                    contact.semi_major,
+                    STICK_SPIN,
+                );
+                torque += contact.friction * friction.power;
+            }
+        }
+        torque * self.ball_radius
+    }
+
+    #[inline]
+    pub(super) const fn radius(&self) -> f32 {
+        self.ball_radius
+    }
+
+    #[inline]
+    pub(super) fn grooves(&self) -> [&HelixGroove; 4] {
+        [&self.screw, &self.screw, &self.nut, &self.nut]
+    }
+
+    /// State from a motion, the compliance of its speed, and its power loss over the ball radius.
+    #[inline]
+    pub(super) fn state(
+        &self,
+        motion: ScrewBallMotion,
+        compliance: f32,
+        torque: f32,
+    ) -> ScrewBallState {
+        ScrewBallState {
+            motion,
+            speed_deviation: motion.speed * self.inverse_speed,
+            compliance: compliance * self.inverse_speed,
+            groove_torque: torque * self.ball_radius,
+        }
+    }
+}
