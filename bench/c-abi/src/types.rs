@@ -325,7 +325,7 @@ pub struct LinearOutputs {
 }
 
 /// Size of `epas_linear_t` in words of eight bytes.
-pub const EPAS_LINEAR_WORDS: usize = 131;
+pub const EPAS_LINEAR_WORDS: usize = 132;
 
 /// Place for the constants and the state of a linear bearing; as `epas_caged_t`.
 #[derive(Clone, Copy, Debug)]
