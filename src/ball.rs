@@ -17,5 +17,5 @@ pub use linear::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE, Spee
 pub use loads::LoadShare;
 pub(crate) use loads::loaded;
 pub(crate) use preload::Preload;
-pub use screw::{GrooveFit, ScrewBallLoop, ScrewRow, ScrewTick};
-pub(crate) use screw::{LoopSums, largest_deviation};
+pub(crate) use screw::largest_deviation;
+pub use screw::{GrooveFit, LoopBall, LoopSums, ScrewLoop, ScrewRow, ScrewTick, ScrewTickBall};

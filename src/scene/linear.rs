@@ -304,16 +304,18 @@ impl<const N: usize> LinearConstants<N> {
         let (passing, recirculating) = self.circuit.deviation_units();
         let (passing, recirculating) = (turn * passing, turn * recirculating);
         let mut shares = 0.0;
-        let pressing = state.train.run(self.circuit.travel(speed), |position| {
-            match self.circuit.place(position, phase) {
+        let mut balls = state.train.intake(self.circuit.travel(speed));
+        while let Some(next) = balls.next_ball() {
+            match self.circuit.place(next.position(), phase) {
                 Some(place) => {
                     shares += place.share.four_thirds();
                     let free = recirculating * place.recirculating + passing * place.passing;
-                    (free, impedance * place.share.two_thirds())
+                    next.put(free, impedance * place.share.two_thirds());
                 }
-                None => (0.0, UNLOADED),
+                None => next.put(0.0, UNLOADED),
             }
-        });
+        }
+        let pressing = balls.press();
         state.advance(&self.circuit, speed);
 
         let groove_force = direction * (drag * shares);

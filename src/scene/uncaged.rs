@@ -220,17 +220,18 @@ impl<const N: usize> UncagedConstants<N> {
         let units = self.circuit.deviation_units();
         let row = tick.per_speed(reference, per_reference, units);
         let phase = state.phase();
-        let mut sums = LoopSums::default();
-        let travel = self.circuit.travel(nut_speed);
-        let pressing = state.train.run(travel, |position| {
-            match self.circuit.place(position, phase) {
+        let mut sums = LoopSums::NONE;
+        let mut balls = state.train.intake(self.circuit.travel(nut_speed));
+        while let Some(next) = balls.next_ball() {
+            match self.circuit.place(next.position(), phase) {
                 Some(place) => {
                     let ball = row.ball(place.passing, place.recirculating, place.share, &mut sums);
-                    (ball.speed, ball.impedance)
+                    next.put(ball.speed, ball.impedance);
                 }
-                None => (0.0, UNLOADED),
+                None => next.put(0.0, UNLOADED),
             }
-        });
+        }
+        let pressing = balls.press();
         state.advance(&self.circuit, nut_speed);
 
         // Both balls of a pair turn alike; the sign of the speeds is that of the nut speed.

@@ -54,18 +54,6 @@ impl<const N: usize> Train<N> {
             ahead,
         }
     }
-
-    /// [`Train::step`] with the free speed and the impedance that `free` makes of each ball's position,
-    /// which all count.
-    #[inline(always)]
-    pub(crate) fn run(&mut self, travel: f32, mut free: impl FnMut(u32) -> (f32, f32)) -> Pressing {
-        let mut balls = self.intake(travel);
-        while let Some(ball) = balls.next_ball() {
-            let (speed, impedance) = free(ball.position());
-            ball.put(speed, impedance);
-        }
-        balls.press()
-    }
 }
 
 impl<const N: usize> Intake<'_, N> {

@@ -6,7 +6,7 @@
 // Rust calls Rust here: the C calling convention is what passes numbers in floating-point registers.
 #![allow(improper_ctypes_definitions)]
 
-use epas_friction::ball::{AnalyticLinearBall, ScrewBallLoop, ScrewRow, ScrewTick};
+use epas_friction::ball::{AnalyticLinearBall, ScrewRow, ScrewTick, ScrewTickBall};
 use epas_friction::contact::{Dissipation, FrictionMap, NormalizedFriction};
 use epas_friction::curvature::{
     CircularGrooveCurvature, FittedCurvature, GothicArch, LiteratureCurvature, PrincipalCurvatures,
@@ -191,7 +191,7 @@ counted! {
     }
 
     /// One ball of a row.
-    fn count_ball_screw_ball(row: &ScrewTick, screw: f32, nut: f32, share: &LoadShare) -> ScrewBallLoop {
+    fn count_ball_screw_ball(row: &ScrewTick, screw: f32, nut: f32, share: &LoadShare) -> ScrewTickBall {
         row.ball(screw, nut, share)
     }
 

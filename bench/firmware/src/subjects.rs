@@ -2,7 +2,7 @@
 
 use core::hint::black_box;
 
-use epas_friction::ball::ScrewBallLoop;
+use epas_friction::ball::ScrewTickBall;
 use epas_friction::kinematics::{BallKinematics, ContactSlip, EllipticContact};
 use epas_friction::{Faults, LinearOutputs, LoadShare, Outputs, Regime, UncagedOutputs, math};
 
@@ -261,7 +261,7 @@ pub fn linear_outputs(outputs: &LinearOutputs) -> [f32; 7] {
     ]
 }
 
-fn screw_ball(ball: &ScrewBallLoop, more: f32) -> [f32; 5] {
+fn screw_ball(ball: &ScrewTickBall, more: f32) -> [f32; 5] {
     [
         ball.speed_deviation,
         ball.compliance,

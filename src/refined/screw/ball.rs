@@ -9,7 +9,7 @@ use crate::geometry::{BallScrew, Groove};
 use crate::hertz::HertzContact;
 use crate::math::{self, constant, inverse_cube_roots};
 
-/// ScrewContact angles are taken within these limits, rad.
+/// Contact angles are taken within these limits, rad.
 pub const CONTACT_ANGLE_RANGE: (f32, f32) = (0.05, 1.5);
 
 /// Spin below which a contact sticks, over the nut's speed.
