@@ -1,4 +1,4 @@
-//! Every exported function, and the only file with pointers.
+//! Every exported function, and the only module with pointers.
 //!
 //! A pointer is checked for NULL and alignment; an object that the library has to have initialised carries
 //! a mark that is checked. What cannot be checked is the caller's: that a pointer points to an object of its

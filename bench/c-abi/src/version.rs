@@ -6,9 +6,11 @@ pub const EPAS_ABI_VERSION: u32 = 2u32;
 
 /// Mark of an initialised place: it tells what the place holds, and by which version of the library.
 pub(crate) const fn mark(kind: u8) -> u32 {
-    assert!(
-        EPAS_ABI_VERSION <= 0xFF,
-        "the version takes one byte of the mark"
-    );
+    const {
+        assert!(
+            EPAS_ABI_VERSION <= 0xFF,
+            "the version takes one byte of the mark"
+        );
+    }
     0xE9A5_0000 | EPAS_ABI_VERSION << 8 | kind as u32
 }

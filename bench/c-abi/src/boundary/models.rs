@@ -19,6 +19,7 @@ pub(super) unsafe fn placed<'a, C: CScene>(
     }
 }
 
+/// Sets a model up in a place; where that fails, the place holds none.
 pub(super) unsafe fn init<C: CScene>(
     place: *mut C::Place,
     configuration: *const C::Configuration,
@@ -40,6 +41,7 @@ pub(super) unsafe fn init<C: CScene>(
     unsafe { report(outcome, failure) }
 }
 
+/// One tick, or the refused outputs where there is no model or there are no inputs.
 #[inline(always)]
 pub(super) unsafe fn step<C: CScene>(
     place: *mut C::Place,
@@ -59,6 +61,7 @@ pub(super) unsafe fn step<C: CScene>(
     status
 }
 
+/// The state before the first tick.
 pub(super) unsafe fn reset<C: CScene>(place: *mut C::Place) -> u32 {
     match unsafe { placed::<C>(place) } {
         Ok(placed) => {
@@ -69,6 +72,7 @@ pub(super) unsafe fn reset<C: CScene>(place: *mut C::Place) -> u32 {
     }
 }
 
+/// The counter of ticks whose outputs were flagged.
 pub(super) unsafe fn faulted_ticks<C: CScene>(place: *const C::Place, ticks: *mut u32) -> u32 {
     if let Err(status) = usable(ticks) {
         return status;

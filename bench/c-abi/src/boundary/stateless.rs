@@ -47,6 +47,7 @@ pub unsafe extern "C" fn epas_curvature(
     unsafe { one_shot(request, answer, failure, one_shot::curvature) }
 }
 
+/// Answers a request where both pointers are usable.
 unsafe fn one_shot<Request, Answer>(
     request: *const Request,
     answer: *mut Answer,

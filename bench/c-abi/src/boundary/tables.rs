@@ -80,6 +80,7 @@ pub unsafe extern "C" fn epas_load_shares_init(
     unsafe { report(make(), failure) }
 }
 
+/// Puts a deviation into its place; where it cannot be made, the place holds none.
 unsafe fn place_deviation(
     place: *mut Deviation,
     failure: *mut Failure,
@@ -133,6 +134,7 @@ unsafe fn load_shares(
     }
 }
 
+/// A number of shares within its range.
 fn share_count(count: u32) -> Result<usize, Failure> {
     let refused = Failure::count(
         EPAS_FIELD_LOAD_SHARE_COUNT,
