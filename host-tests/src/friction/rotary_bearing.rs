@@ -110,7 +110,7 @@ pub struct BearingFriction {
 
 type Ring = SVector<f64, 5>;
 
-/// Position and laws of one ball.
+/// Place of one ball, and stiffness and geometry of its contacts.
 struct Place<'a> {
     row: &'a BallRow,
     index: usize,
@@ -154,8 +154,8 @@ impl Place<'_> {
         )
     }
 
-    /// The ball's energy for displaced rings, at the least of the ball's position, with its derivatives by the ring; the
-    /// Hessian is the Schur complement of the ball's own.
+    /// Energy of the ball where it lies between displaced rings, which is where its energy is least, with the derivatives by the
+    /// ring's displacements. The ball's own position is eliminated, so that the Hessian is a Schur complement.
     fn relax(&self, ring: &Ring, unit: f64, tolerance: f64) -> Relaxed {
         let (sin, cos) = self.row.bearing.contact_angle.sin_cos();
         let moves = [0, 1, 2, 3].map(|contact| self.motion_of(contact));
@@ -163,7 +163,7 @@ impl Place<'_> {
         let rest = SIGNS.map(|(sx, sy)| Vector2::new(sx * sin, sy * cos) * self.offset);
         let arms = |y: &Vector2<f64>| [0, 1, 2, 3].map(|i| y * unit - shift[i] + rest[i]);
         let force = |y: &Vector2<f64>, i: usize, arm: &Vector2<f64>| {
-            // |rest + moved| - |rest|, without the difference that takes the digits of a small load.
+            // |rest + moved| - |rest|, as a quotient: the difference would lose the digits of a small load.
             let moved = y * unit - shift[i];
             let longer = moved.dot(&(arm + rest[i])) / (arm.norm() + self.offset);
             let deflection = longer + self.row.oversize;
@@ -294,7 +294,7 @@ pub fn distribute(
     }
     let places = places(rows)?;
     let pitch_radius = rows[0].bearing.pitch_radius;
-    // Rotations in displacements at the pitch circle.
+    // Rotations count as displacements at the pitch circle.
     let widths = Ring::new(1.0, 1.0, 1.0, 1.0 / pitch_radius, 1.0 / pitch_radius);
     let held = |i: usize| tilt == Tilt::Held && i >= 3;
     let mut push = Ring::new(
@@ -318,7 +318,7 @@ pub fn distribute(
         .fold(0.0, f64::max);
     let scale = total.max(preload).max(1e-12);
     let unit = compliance * scale.powf(2.0 / 3.0);
-    // Rounding of a deflection that is a small difference of play and way.
+    // Rounding of a deflection where it is the small difference of the ring's displacement and the play.
     let play = rows
         .iter()
         .fold(0.0, |most: f64, row| most.max(row.oversize.abs()));
@@ -437,8 +437,8 @@ pub fn distribute(
     })
 }
 
-/// The reach along the load, at most `limit`, from which the balls push back more than the load pushes: the start of Newton's
-/// method. In a bearing with play there is no stiffness before.
+/// The displacement along the load, at most `limit`, at which the balls push back more than the load pushes: Newton's method
+/// starts there. With less displacement a bearing with play has no stiffness.
 fn take_up(limit: f64, excess: impl Fn(f64) -> f64) -> Option<f64> {
     let mut low = 0.0;
     let mut high = f64::min(1.0, limit);

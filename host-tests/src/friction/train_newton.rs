@@ -335,7 +335,7 @@ fn solve_full_system<const N: usize>(
             fraction *= 0.5;
         }
     }
-    // Rounding may leave open contacts with a trace of force.
+    // Rounding may leave a small negative force in an open contact.
     TrainMinimum {
         points,
         multipliers: forces.iter().map(|f| f.max(0.0)).collect(),
@@ -344,8 +344,8 @@ fn solve_full_system<const N: usize>(
     }
 }
 
-/// Follows the solution of the full system from no friction between balls to the train's, in strides as long as Newton's
-/// method bears.
+/// Follows the solution of the full system while the friction between balls rises from nothing to the train's. A step of the
+/// coefficient from which Newton's method does not converge is halved.
 fn raise_ball_friction<const N: usize>(
     train: &impl Train<N>,
     start: &TrainMinimum<N>,
