@@ -15,8 +15,8 @@ use std::error::Error;
 
 use crate::record::{Page, Paper, Record};
 
-/// Every printed number of the four papers that can be computed, in the order of the papers, and those whose computation would
-/// take what the text leaves out.
+/// The printed numbers of the four papers, in the order of the papers: all that can be computed, and those that cannot because the
+/// text leaves out what the computation needs.
 ///
 /// # Errors
 /// None for the printed cases; the types of the models' own errors.

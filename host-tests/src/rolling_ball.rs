@@ -5,8 +5,8 @@
 //! spin of millions of revolutions a minute. The same equations with their rates kept (eq. (5) with
 //! `m d W'` and `I omega'`), Coulomb friction smoothed over a small slip speed, and a ball that starts
 //! to roll stay at rolling: A and A' stick, B slips across the groove alone, and the efficiency is
-//! eq. (3) without rolling resistance, whether screw or nut turns. Eq. (4), printed for the nut, is not
-//! where they lead.
+//! eq. (3) without rolling resistance, whether screw or nut turns. They never lead to eq. (4), which is
+//! printed for the nut.
 //!
 //! Where the load drives, the friction of the slipping contact presses the ball inward: A' opens, and the
 //! minor contact is B' on the screw. Then B and B' stick and A slips, with the efficiency `1 - x` to the
@@ -28,8 +28,8 @@ pub const SMOOTHING: f64 = 1e-3;
 /// What is turned, which way, and how friction is smoothed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RollingBall {
-    /// Geometry, speed, load per ball, friction. A positive speed moves the load, a negative one is the
-    /// load's: it drives.
+    /// Geometry, speed, load per ball, friction. With a positive speed the load is moved, with a negative one
+    /// it drives.
     pub ball: BallScrewState,
     /// The part that turns; the other one moves along the axis.
     pub turning: Groove,
@@ -78,7 +78,7 @@ pub struct RollingLimit {
     pub normal_nut: f64,
     /// Normal load at the minor contact, N.
     pub normal_minor: f64,
-    /// Share of the friction that the two sticking contacts use; they hold up to 1.
+    /// Friction force of each sticking contact over its Coulomb limit; above 1 they would slip.
     pub used_friction: f64,
 }
 

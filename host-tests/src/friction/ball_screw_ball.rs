@@ -332,7 +332,8 @@ pub(crate) fn rolling(track: &ScrewTrack) -> Vector4<f64> {
     )
 }
 
-/// Motion of least dissipation for given rows; `None` start means a cold one. Returns the smoothing left.
+/// Motion of least dissipation for given rows, and the spin over which friction is still smoothed (0 where every contact moves).
+/// A `warm` start lies near the end and is tried without smoothing first.
 pub(crate) fn ball_minimum(
     rows: &[ScrewRow],
     start: Vector4<f64>,

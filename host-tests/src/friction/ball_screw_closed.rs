@@ -117,8 +117,9 @@ pub struct ThreePointModel {
 impl ThreePointModel {
     /// Speed, loads, compliance and loss of a ball.
     ///
-    /// The slip across the track is `V_1 = R_B w_N sin a/2` in each main contact. Spin from the third contact's pinning:
-    /// `Om_z = w_B L/(2 pi R_B cos b)` for one on the screw, and its mirror image on the nut. Loads:
+    /// The slip across the track is `V_1 = R_B w_N sin a/2` in each main contact. The third contact does not slip along the track,
+    /// which gives the ball's spin: `Om_z = w_B L/(2 pi R_B cos b)` with that contact on the screw, and the mirror image on the nut.
+    /// Loads:
     /// `N = F/(sin b cos a)/(1 - phi mu)`, `N_3 = 2 phi mu N` with `phi` the mean of the two main contacts' share of sliding
     /// friction. Compliance: `Y = (1/kappa_S + 1/kappa_N)/4` with `kappa` the slope of the friction force along the track by the slip.
     /// `phi`, `kappa` and the loss come from the exact integrals of [`Patch::friction`].

@@ -74,9 +74,11 @@ impl ElasticMotion {
     }
 }
 
-/// Last smoothing of a contact that sticks, over the nut's speed: with finer ones rounding moves the contact through it.
+/// Finest smoothing spin of a contact that sticks, over the nut's speed. With a finer one the rounding of the motion is larger
+/// than the spin over which friction reverses.
 const FINEST: f64 = 1e-5;
-/// Coarsest smoothing that still counts as a solution, where rounding stops the sharpening (loads of millinewtons with play).
+/// Coarsest smoothing spin whose solution is accepted, where rounding stops finer ones from converging (loads of millinewtons with
+/// play).
 const COARSEST: f64 = 1e-3;
 
 /// Unknowns of one ball: place in units of the approach, and motion in units of the nut's speed.
@@ -183,7 +185,7 @@ impl Problem<'_> {
         r.iter().all(|x| x.is_finite()).then_some(r)
     }
 
-    /// Force per unit of displacement, to weigh displacements against forces.
+    /// Force per unit of displacement, N: makes the terms of displacements as large as those of forces.
     fn stiffness(&self) -> f64 {
         let grooves = &self.balls.grooves[0];
         (self.unit / (grooves.screw.compliance + grooves.nut.compliance)).powf(1.5)
@@ -282,7 +284,7 @@ impl Problem<'_> {
         let Some(mut r) = self.residual(&q) else {
             return (q, f64::INFINITY);
         };
-        // With play and a light load the ball follows a curved valley in short steps; a few steps are the rule.
+        // A few steps are the rule. With play and a light load the way to the balance is curved and takes many short ones.
         for _ in 0..400 {
             if r.amax() <= tolerance {
                 break;
@@ -443,7 +445,8 @@ impl ElasticBalls {
         let (mut q, mut residual) = problem(false, 0.0).solve(cold.clone(), tolerance);
         let mut rest_spin = 0.0;
         if residual > accept {
-            // A contact sticks in the solution or on the way: from smooth friction, sharpened as fast as Newton's method bears.
+            // A contact sticks in the solution or in between: start with friction smoothed over a wide spin, and narrow it in steps from
+            // which Newton's method still converges.
             rest_spin = 3.0;
             (q, residual) = problem(false, rest_spin).solve(cold, tolerance);
             let mut factor = 0.3;

@@ -43,9 +43,10 @@ impl ScrewTrain {
 struct Rows<'a> {
     track: &'a ScrewTrack,
     balls: &'a [Vec<ScrewRow>],
-    /// Per multiplier: the force is the multiplier over `cos b L/(2 pi R_B)`.
+    /// Friction coefficient between balls, per unit of the train's multiplier: the force between two balls is the multiplier over
+    /// `cos b L/(2 pi R_B)`.
     ball_friction: f64,
-    /// Direction of orbiting along +y.
+    /// 1 where the balls orbit along +y, -1 where they orbit along -y.
     way: f64,
 }
 

@@ -6,7 +6,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
-/// Pools the adjacent violators of `x_j <= x_(j+1)` in `min sum (x_j - free_j)^2/(2 compliance_j)`.
+/// Solves `min sum (x_j - free_j)^2/(2 compliance_j)` under `x_j <= x_(j+1)`: neighbours that break the condition are joined into one
+/// cluster with their weighted mean speed, until none does (pool adjacent violators).
 ///
 /// Returns the speeds and the contact forces between neighbours, `F_j = sum_(i <= j) (free_i - x)/compliance_i` within a cluster.
 /// Exact for the linear model, in at most `2 n - 1` comparisons.
@@ -58,8 +59,8 @@ pub fn pool_adjacent_violators(free: &[f64], compliance: &[f64]) -> (Vec<f64>, V
     (speeds, forces)
 }
 
-/// The same by the min-max formula of isotonic regression, `x_j = max_(i <= j) min_(k >= j) mean(i..k)`: no pooling, no order
-/// of merges; the reference for long chains. Takes `n^3` operations.
+/// The same by the min-max formula of isotonic regression, `x_j = max_(i <= j) min_(k >= j) mean(i..k)`, in which nothing is
+/// joined and no order matters: the reference for long chains. Takes `n^3` operations.
 pub fn isotonic_by_min_max(free: &[f64], compliance: &[f64]) -> (Vec<f64>, Vec<f64>) {
     let n = free.len();
     let mut weight = vec![0.0];

@@ -307,7 +307,8 @@ impl RotaryBearing {
         };
         let total: f64 = rows.iter().map(|row| row.friction_limit).sum();
         let mut best: Option<(Vector3<f64>, f64)> = None;
-        // Sharpened from a broad sigmoid, and from both rolling starts: the equations have no merit function of their own.
+        // The equations have no potential whose fall would guide Newton's method: it starts with a broad sigmoid that is made
+        // steeper in steps, from plain rolling and, where that fails, from the motion of least dissipation.
         let starts = [
             Vector3::from(self.rolling_start()),
             Vector3::from(least_dissipation(&rows, self.rolling_start()).motion),

@@ -1,4 +1,8 @@
 //! A whole ball screw without cage: balls that recirculate and press on each other (Lin 2019, section 3.4.4).
+//!
+//! Each ball moves by the closed form of [`super::ball_screw_closed`], which the tests hold against the exact balls of
+//! [`super::ball_screw_elastic`]. The library's scene rests on the same closed form: what is compared with this module proves
+//! the scene's implementation and its contacts between balls, not the closed form.
 
 use nalgebra::{DMatrix, DVector};
 

@@ -128,17 +128,19 @@ impl KinematicsInput {
     /// # Errors
     /// The first field that does not.
     pub fn validate(&self) -> Result<(), ReferenceError> {
-        let check = |field, value: f64, holds: bool, requirement: &str| {
-            if value.is_finite() && holds {
-                Ok(())
-            } else {
-                Err(ReferenceError::input(
-                    field,
-                    format!("{value} must be {requirement}"),
-                ))
-            }
-        };
+        self.check_lengths_and_angles()?;
+        for raceway in Raceway::BOTH {
+            self.check_ellipse(raceway)?;
+        }
+        for raceway in Raceway::BOTH {
+            self.check_rolling(raceway)?;
+        }
+        Ok(())
+    }
+
+    fn check_lengths_and_angles(&self) -> Result<(), ReferenceError> {
         let positive = |field, value: f64| check(field, value, value > 0.0, "positive");
+        let right_angle = "within -pi/2 to pi/2";
         positive("ball_diameter", self.ball_diameter)?;
         positive("pitch_radius", self.pitch_radius)?;
         let lead_angle = self.lead_angle;
@@ -146,14 +148,14 @@ impl KinematicsInput {
             "lead_angle",
             lead_angle,
             lead_angle.abs() < FRAC_PI_2,
-            "within -pi/2 to pi/2",
+            right_angle,
         )?;
-        let half = 0.5 * self.ball_diameter;
         for (field, radius) in [
             ("groove_radius_screw", self.groove_radius_screw),
             ("groove_radius_nut", self.groove_radius_nut),
         ] {
-            check(field, radius, radius >= half, "at least the ball's radius")?;
+            let fits = radius >= 0.5 * self.ball_diameter;
+            check(field, radius, fits, "at least the ball's radius")?;
         }
         for (field, angle) in [
             ("contact_angle_screw", self.contact_angle_screw),
@@ -161,65 +163,73 @@ impl KinematicsInput {
             ("pitch_angle", self.pitch_angle),
             ("yaw_angle", self.yaw_angle),
         ] {
-            check(
-                field,
-                angle,
-                angle.abs() <= FRAC_PI_2,
-                "within -pi/2 to pi/2",
-            )?;
+            check(field, angle, angle.abs() <= FRAC_PI_2, right_angle)?;
         }
         positive("rolling_radius_screw", self.rolling_radius_screw)?;
         positive("rolling_radius_nut", self.rolling_radius_nut)?;
-        check("speed", self.speed, true, "a finite number")?;
-        for (major_field, major, minor_field, minor) in [
-            (
-                "semi_major_screw",
-                self.semi_major_screw,
-                "semi_minor_screw",
-                self.semi_minor_screw,
-            ),
-            (
-                "semi_major_nut",
-                self.semi_major_nut,
-                "semi_minor_nut",
-                self.semi_minor_nut,
-            ),
-        ] {
-            check(
-                major_field,
-                major,
-                major >= 0.0 && major < half,
-                "0 or more, and less than the ball's radius",
-            )?;
-            check(
-                minor_field,
-                minor,
-                minor >= 0.0 && minor <= major,
-                "0 or more, and not above the semi-major axis",
-            )?;
-        }
-        for (raceway, angle_field, radius_field) in [
-            (
-                Raceway::Screw,
-                "contact_angle_screw",
-                "rolling_radius_screw",
-            ),
-            (Raceway::Nut, "contact_angle_nut", "rolling_radius_nut"),
-        ] {
-            let contact = self.contact(raceway);
-            check(
-                angle_field,
-                contact.contact_angle,
-                self.surface_speed_factor(raceway) > 0.0,
-                "less than a right angle from the axis about which the ball turns",
-            )?;
-            check(
-                radius_field,
-                contact.rolling_radius,
-                self.rolling_path(raceway) > 0.0,
-                "small enough that the ball's path does not fold past the axis of the screw",
-            )?;
-        }
+        check("speed", self.speed, true, "a finite number")
+    }
+
+    /// The contact ellipse is one, and smaller than the ball.
+    fn check_ellipse(&self, raceway: Raceway) -> Result<(), ReferenceError> {
+        let [major_field, minor_field] = match raceway {
+            Raceway::Screw => ["semi_major_screw", "semi_minor_screw"],
+            Raceway::Nut => ["semi_major_nut", "semi_minor_nut"],
+        };
+        let ContactInput {
+            semi_major: major,
+            semi_minor: minor,
+            ..
+        } = self.contact(raceway);
+        check(
+            major_field,
+            major,
+            major >= 0.0 && major < 0.5 * self.ball_diameter,
+            "0 or more, and less than the ball's radius",
+        )?;
+        check(
+            minor_field,
+            minor,
+            minor >= 0.0 && minor <= major,
+            "0 or more, and not above the semi-major axis",
+        )
+    }
+
+    /// The ball can roll on the raceway: both factors of (22) are positive.
+    fn check_rolling(&self, raceway: Raceway) -> Result<(), ReferenceError> {
+        let [angle_field, radius_field] = match raceway {
+            Raceway::Screw => ["contact_angle_screw", "rolling_radius_screw"],
+            Raceway::Nut => ["contact_angle_nut", "rolling_radius_nut"],
+        };
+        let contact = self.contact(raceway);
+        check(
+            angle_field,
+            contact.contact_angle,
+            self.surface_speed_factor(raceway) > 0.0,
+            "less than a right angle from the axis about which the ball turns",
+        )?;
+        check(
+            radius_field,
+            contact.rolling_radius,
+            self.rolling_path(raceway) > 0.0,
+            "small enough that the ball's path does not fold past the axis of the screw",
+        )
+    }
+}
+
+/// Passes where `value` is finite and `holds` what is required of it.
+fn check(
+    field: &'static str,
+    value: f64,
+    holds: bool,
+    requirement: &str,
+) -> Result<(), ReferenceError> {
+    if value.is_finite() && holds {
         Ok(())
+    } else {
+        Err(ReferenceError::input(
+            field,
+            format!("{value} must be {requirement}"),
+        ))
     }
 }

@@ -88,7 +88,7 @@ impl Revised {
         }
     }
 
-    /// `D/2 - S_k(y)`, m: (14) and (15), each difference of roots multiplied out by its conjugate.
+    /// `D/2 - S_k(y)`, m: (14) and (15), each difference of roots as a quotient that does not cancel.
     fn deficit(&self, raceway: Raceway, y: f64) -> f64 {
         let contact = self.input.contact(raceway);
         let diameter = self.input.ball_diameter;
@@ -235,7 +235,7 @@ impl Revised {
             entrainment_speed: speed.abs() * entrainment,
             entrainment_angle: (-v_y).atan2(-v_x),
             slide_to_roll: sliding / entrainment,
-            // Adding zero turns -0 into +0: slip straight back is pi.
+            // Adding zero turns -0 into +0, so that the angle of slip straight back is pi, not -pi.
             slide_angle: (sliding > 0.0).then(|| (side + 0.0).atan2(rolling)),
             spin_to_roll: spin * (contact.semi_major * contact.semi_minor).sqrt() / entrainment,
         }

@@ -1,4 +1,4 @@
-//! What the model says of one ball.
+//! Motion of one ball, slip of its two contacts and the ratios that characterise it.
 
 use super::input::Raceway;
 

@@ -191,12 +191,16 @@ fn peak_and_release(run: &[WholeScrewState]) -> [f64; 3] {
 
 /// Appends the records.
 pub(super) fn append(page: &mut Page<'_>) -> Result<(), Box<dyn Error>> {
-    linear(page)?;
+    contact_of_table_3_3(page)?;
+    largest_deviation(page)?;
+    two_linear_balls(page)?;
+    friction_over_the_baseline(page)?;
     screw(page)?;
     Ok(())
 }
 
-fn linear(page: &mut Page<'_>) -> Result<(), ReferenceError> {
+/// Contact constant and slope of the friction force of the ball of Table 3.3.
+fn contact_of_table_3_3(page: &mut Page<'_>) -> Result<(), ReferenceError> {
     let law = linear_law(0.56)?;
     page.turn("Table 3.3").roughly(
         "Psi",
@@ -215,6 +219,11 @@ fn linear(page: &mut Page<'_>) -> Result<(), ReferenceError> {
         map.initial_slope() - 0.15 * cubic,
         Verdict::Convention("least squares over |c/a| < 0.5; the slope itself is 1.4419"),
     );
+    Ok(())
+}
+
+/// Size of the contact at the pressure that limits the load, and the angle that it subtends (appendix G).
+fn largest_deviation(page: &mut Page<'_>) -> Result<(), ReferenceError> {
     // Pressure 3 F / (2 pi a b): F^(1/3) = 2 pi k Ca² sigma / 3.
     let ellipse = linear_law(0.52)?.ellipse;
     let root = 2.0 * PI * ellipse.axis_ratio * ellipse.semi_major_constant.powi(2) * 1554e6 / 3.0;
@@ -243,13 +252,34 @@ fn linear(page: &mut Page<'_>) -> Result<(), ReferenceError> {
         (0.5 * ratio).to_degrees(),
         Verdict::Convention("0.109 rad, rounded before"),
     );
+    Ok(())
+}
 
+/// The two balls of Figure 3.13: only the bottom groove turned, case (a), or both alike, case (b).
+fn two_linear_balls(page: &mut Page<'_>) -> Result<(), ReferenceError> {
     let theta = 2_f64.to_radians();
     let pair = linear_pair(theta, -0.6)?;
     let symmetric = symmetric_pair(theta, -0.6)?;
     let mated_ball = |rho| linear_ball([-theta, theta, -theta, theta], rho);
     let mated = [mated_ball(-0.6)?, mated_ball(0.6)?];
-    let mut table = page.turn("Table 3.4");
+    speed_deviations(&mut page.turn("Table 3.4"), &pair, &symmetric, &mated)?;
+    contact_forces_of_pairs(&mut page.turn("Table 3.5"), &pair, &symmetric, &mated)?;
+    page.turn("section 3.3.5").add(
+        "numerical model over finite elements, less one, from the printed forces",
+        "%",
+        "1.26",
+        100.0 * (4.01 / 3.96 - 1.0),
+        Verdict::Reproduces,
+    );
+    Ok(())
+}
+
+fn speed_deviations(
+    table: &mut Page<'_>,
+    pair: &[LinearBall; 2],
+    symmetric: &[LinearBall; 2],
+    mated: &[LinearBall; 2],
+) -> Result<(), ReferenceError> {
     for (index, (numerical, analytic)) in [("0.87", "0.75"), ("-0.79", "-0.75")]
         .into_iter()
         .enumerate()
@@ -285,8 +315,16 @@ fn linear(page: &mut Page<'_>) -> Result<(), ReferenceError> {
             Verdict::Reproduces,
         );
     }
-    let without = solve_chain(&pair, 0.0, 0.01)?.contact_forces[0];
-    let mut table = page.turn("Table 3.5");
+    Ok(())
+}
+
+fn contact_forces_of_pairs(
+    table: &mut Page<'_>,
+    pair: &[LinearBall; 2],
+    symmetric: &[LinearBall; 2],
+    mated: &[LinearBall; 2],
+) -> Result<(), ReferenceError> {
+    let without = solve_chain(pair, 0.0, 0.01)?.contact_forces[0];
     table.add(
         "ball-to-ball force, case (a), numerical",
         "N",
@@ -300,31 +338,28 @@ fn linear(page: &mut Page<'_>) -> Result<(), ReferenceError> {
         "ball-to-ball force, case (a), analytical",
         "N",
         ("3.74", 0.006),
-        analytic_force(&symmetric),
+        analytic_force(symmetric),
         Verdict::Convention("exponents of (3.51) +2/3, printed -2/3"),
     );
     table.roughly(
         "ball-to-ball force, case (b), numerical",
         "N",
         ("0", 1e-9),
-        solve_chain(&mated, 0.0, 0.01)?.contact_forces[0],
+        solve_chain(mated, 0.0, 0.01)?.contact_forces[0],
         Verdict::Reproduces,
     );
     table.roughly(
         "ball-to-ball force, case (b), analytical",
         "N",
         ("0", 1e-9),
-        analytic_force(&mated),
+        analytic_force(mated),
         Verdict::Reproduces,
     );
-    page.turn("section 3.3.5").add(
-        "numerical model over finite elements, less one, from the printed forces",
-        "%",
-        "1.26",
-        100.0 * (4.01 / 3.96 - 1.0),
-        Verdict::Reproduces,
-    );
-    // The edge of Figure 3.15.
+    Ok(())
+}
+
+/// The edge of Figure 3.15.
+fn friction_over_the_baseline(page: &mut Page<'_>) -> Result<(), ReferenceError> {
     let edge = linear_pair(3_f64.to_radians(), -0.6)?;
     let mut baseline = 0.0;
     for ball in &edge {

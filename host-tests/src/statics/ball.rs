@@ -88,7 +88,7 @@ pub struct Touch {
     pub stiffness: Matrix2<f64>,
 }
 
-/// What the arms of all balls are made from.
+/// What the contacts of all balls have in common.
 pub struct ArmInput<'a> {
     /// Nominal geometry.
     pub geometry: &'a Geometry,
@@ -103,7 +103,7 @@ pub struct ArmInput<'a> {
 }
 
 impl Arm {
-    /// The contact of a ball with one arc, which is the one of this index.
+    /// The contact of a ball with one arc; `index` is the arc's place in [`Contact::ALL`].
     pub fn new(
         contact: Contact,
         index: usize,

@@ -10,11 +10,13 @@ use crate::error::ReferenceError;
 use nalgebra::Vector2;
 
 const LARGEST_ITERATIONS: usize = 300;
-/// Smallest Levenberg term: next to nothing in contact, where only a load pushes, steps grow up to it.
+/// Smallest Levenberg term, relative to the stiffness. With hardly any contact closed the load alone decides the step, and this
+/// term bounds it.
 const LEAST_LEVENBERG: f64 = 1e-13;
 /// Residual relative to the largest force at which the search ends.
 const TOLERANCE: f64 = 1e-11;
-/// Residual relative to the largest force below which a search that rounding has stopped has converged.
+/// A search that can improve no further because of rounding has converged where its residual, relative to the largest force, is
+/// below this.
 const ROUNDING: f64 = 1e-7;
 
 impl StaticLoad {
@@ -124,7 +126,7 @@ impl StaticLoad {
                     [1.0, 0.5, 0.25, 0.1, 0.02].into_iter().find_map(|share| {
                         let trial = state.moved(&step.nodes, &step.balls, share);
                         let there = system.evaluate(&trial);
-                        // Near the minimum the energy no longer tells; there the residual does.
+                        // Near the minimum the energy changes by less than its rounding; there the residual decides.
                         let better = there.energy < at.energy
                             || (there.energy <= at.energy + 1e-12 * at.magnitude
                                 && self.residual(&there, &held) < residual);

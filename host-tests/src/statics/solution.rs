@@ -42,10 +42,10 @@ pub struct StaticSolution {
     pub state: State,
 }
 
-/// Force, N, that residuals and lost contacts are measured against where nothing larger is loaded: the
-/// forces of an unloaded screw that was disturbed fall towards zero without end.
+/// Least force, N, that residuals and lost contacts are measured against. In a screw without load all
+/// forces go to zero, and relative to them no residual would ever be small.
 pub const LEAST_FORCE: f64 = 1e-9;
-/// Force relative to the largest one below which a ball counts as lost: the residual's reach.
+/// Force relative to the largest one below which a ball counts as lost; smaller forces are within the residual.
 const LOST: f64 = 1e-9;
 
 impl StaticSolution {

@@ -52,7 +52,7 @@ impl Waviness {
                 surface.push(Arc::new(error));
             }
         }
-        Ok(StaticLoad::new(setup)?.solve()?)
+        StaticLoad::new(setup)?.solve()
     }
 }
 
