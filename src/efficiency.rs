@@ -17,12 +17,10 @@
 mod closed_form;
 mod design;
 mod dynamic;
-mod optimum;
 
 pub use closed_form::{Drive, EfficiencyGeometry};
-pub use design::{DesignFigures, DesignRequest, Duty};
+pub use design::{
+    DesignFigures, DesignRequest, Duty, OptimumContactAngle, optimum_contact_angle,
+    optimum_efficiency,
+};
 pub use dynamic::DynamicCorrection;
-pub use optimum::{OptimumContactAngle, optimum_contact_angle, optimum_efficiency};
-
-/// Largest friction coefficient accepted.
-pub const LARGEST_FRICTION: f32 = 1.0;

@@ -26,6 +26,6 @@ pub use four_point::{
     FourPointContacts, LARGEST_ANGLE_DEVIATION, RotaryBall, RotaryBallParameters, RotaryMotion,
 };
 pub use screw::{
-    CONTACT_ANGLE_RANGE, DEFAULT_IMPEDANCE_STEPS, ScrewBall, ScrewBallMotion, ScrewBallState,
-    ScrewChain, ScrewContactMotion, ScrewContacts,
+    DEFAULT_IMPEDANCE_STEPS, ScrewBall, ScrewBallMotion, ScrewBallState, ScrewChain,
+    ScrewContactMotion, ScrewContacts,
 };

@@ -4,10 +4,11 @@ use core::f32::consts::TAU;
 
 use super::faults::answered;
 use super::{Faults, Inputs, Limits, Outputs, Regime, Scene, efficiency};
-use crate::efficiency::{Drive, EfficiencyGeometry, LARGEST_FRICTION};
+use crate::efficiency::{Drive, EfficiencyGeometry};
 use crate::error::{Error, attempt, in_range};
 use crate::geometry::BallScrew;
 use crate::math;
+use crate::ranges;
 
 /// Which state of the ball the friction torque is computed for (see [`efficiency`](crate::efficiency)).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -170,7 +171,7 @@ impl CagedConstants {
             reversal_speed,
             limits,
         } = *configuration;
-        attempt!(in_range("friction", friction, 0.0, LARGEST_FRICTION));
+        attempt!(ranges::FRICTION_OR_NONE.checked("friction", friction));
         attempt!(in_range("rolling_tangent", rolling, 0.0, 0.1));
         if preload != 0.0 {
             attempt!(in_range("preload", preload, 1e-3, 1e6));

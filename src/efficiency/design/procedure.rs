@@ -2,13 +2,14 @@
 
 use core::f32::consts::TAU;
 
-use super::{Drive, EfficiencyGeometry, LARGEST_FRICTION, optimum_contact_angle};
-use crate::curvature::GothicArch;
+use super::optimum::optimum_contact_angle;
+use crate::efficiency::closed_form::{Drive, EfficiencyGeometry};
 use crate::error::{Error, in_range};
 use crate::geometry::{BallScrew, BallScrewParameters, Groove, GrooveSize, LARGEST_CONTACT_ANGLE};
 use crate::hertz::HertzContact;
-use crate::material::{Material, contact_modulus};
+use crate::material::Material;
 use crate::math;
+use crate::ranges;
 
 /// What the screw has to do.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -116,26 +117,8 @@ impl DesignRequest {
     /// [`Error`] naming the field of the request that is out of range, or those of
     /// [`BallScrew::new`].
     pub fn figures(&self) -> Result<DesignFigures, Error> {
-        let (drive, demand) = match self.duty {
-            Duty::MoveAxialLoad(load) => (Drive::Driving, in_range("axial_load", load, 0.0, 1e7)?),
-            Duty::DeliverTorque(torque) => {
-                (Drive::BackDriving, in_range("torque", torque, 0.0, 1e6)?)
-            }
-        };
-        in_range("lead_angle", self.lead_angle, 0.001, 1.5)?;
-        in_range("friction", self.friction, 0.0, LARGEST_FRICTION)?;
-        in_range("screw_length", self.screw_length, 0.006, 100.0)?;
-        in_range(
-            "pitch_radius",
-            self.pitch_radius,
-            self.screw_length / 60.0,
-            10.0,
-        )?;
-        in_range("ball_ratio", self.ball_ratio, 0.07, 0.2)?;
-        in_range("osculation", self.osculation, 0.95, 0.97)?;
-        let balls = in_range("loaded_balls", f32::from(self.loaded_balls), 1.0, 1e4)?;
-        in_range("rotation", self.rotation, -1e6, 1e6)?;
-
+        let (drive, demand) = self.checked_duty()?;
+        let balls = self.checked_balls()?;
         let best = optimum_contact_angle(drive, self.lead_angle, self.friction)?;
         let contact_angle = best
             .contact_angle
@@ -144,33 +127,13 @@ impl DesignRequest {
 
         let (sin_lead, cos_lead) = math::sin_cos(self.lead_angle);
         let tan_lead = sin_lead / cos_lead;
-        let ball_radius = self.ball_ratio * self.pitch_radius;
-        let groove = GrooveSize::Conformity(0.5 / self.osculation);
-        let design = BallScrew::new(BallScrewParameters {
-            pitch_radius: self.pitch_radius,
-            lead: TAU * self.pitch_radius * tan_lead,
-            ball_radius,
-            screw_groove: groove,
-            nut_groove: groove,
-            contact_angle,
-            ball_material: self.material,
-            groove_material: self.material,
-        })?;
+        let design = self.design(contact_angle, tan_lead)?;
         let geometry = EfficiencyGeometry::of(&design);
-
         let contact_force = demand / balls
             * match drive {
                 Drive::Driving => geometry.normal_per_axial_load(),
                 Drive::BackDriving => geometry.normal_per_torque() / self.pitch_radius,
             };
-        let modulus = contact_modulus(&self.material, &self.material);
-        let max_pressure = |groove: Groove| {
-            let relative = GothicArch::of(&design, groove)
-                .relative(design.contact_angle(), design.clearance(groove));
-            HertzContact::new(relative, modulus)
-                .at(contact_force)
-                .max_pressure
-        };
 
         Ok(DesignFigures {
             lead_angle: self.lead_angle,
@@ -178,13 +141,13 @@ impl DesignRequest {
             optimum_exists: best.contact_angle.is_some(),
             screw_length: self.screw_length,
             pitch_radius: self.pitch_radius,
-            ball_radius,
+            ball_radius: design.ball_radius(),
             groove_radius: design.profile(Groove::Screw).groove_radius,
             contact_force,
             advance: self.pitch_radius * tan_lead * self.rotation,
             lead: design.lead(),
-            max_pressure_screw: max_pressure(Groove::Screw),
-            max_pressure_nut: max_pressure(Groove::Nut),
+            max_pressure_screw: max_pressure(&design, Groove::Screw, contact_force),
+            max_pressure_nut: max_pressure(&design, Groove::Nut, contact_force),
             sliding_efficiency: match drive {
                 Drive::Driving => geometry.sliding_efficiency(self.friction),
                 Drive::BackDriving => geometry.sliding_backdrive_efficiency(self.friction),
@@ -197,4 +160,56 @@ impl DesignRequest {
             design,
         })
     }
+
+    /// Which way power flows, and the axial load, N, or the torque, N m, of all balls.
+    fn checked_duty(&self) -> Result<(Drive, f32), Error> {
+        Ok(match self.duty {
+            Duty::MoveAxialLoad(load) => {
+                (Drive::Driving, ranges::LOAD.checked("axial_load", load)?)
+            }
+            Duty::DeliverTorque(torque) => {
+                (Drive::BackDriving, in_range("torque", torque, 0.0, 1e6)?)
+            }
+        })
+    }
+
+    /// Number of balls, with every other choice but the duty checked before it.
+    fn checked_balls(&self) -> Result<f32, Error> {
+        in_range("lead_angle", self.lead_angle, 0.001, 1.5)?;
+        ranges::FRICTION_OR_NONE.checked("friction", self.friction)?;
+        in_range("screw_length", self.screw_length, 0.006, 100.0)?;
+        in_range(
+            "pitch_radius",
+            self.pitch_radius,
+            self.screw_length / 60.0,
+            ranges::PITCH_RADIUS.maximum,
+        )?;
+        in_range("ball_ratio", self.ball_ratio, 0.07, 0.2)?;
+        in_range("osculation", self.osculation, 0.95, 0.97)?;
+        let balls = in_range("loaded_balls", f32::from(self.loaded_balls), 1.0, 1e4)?;
+        in_range("rotation", self.rotation, -1e6, 1e6)?;
+        Ok(balls)
+    }
+
+    /// The design that the choices make.
+    fn design(&self, contact_angle: f32, tan_lead: f32) -> Result<BallScrew, Error> {
+        let groove = GrooveSize::Conformity(0.5 / self.osculation);
+        BallScrew::new(BallScrewParameters {
+            pitch_radius: self.pitch_radius,
+            lead: TAU * self.pitch_radius * tan_lead,
+            ball_radius: self.ball_ratio * self.pitch_radius,
+            screw_groove: groove,
+            nut_groove: groove,
+            contact_angle,
+            ball_material: self.material,
+            groove_material: self.material,
+        })
+    }
+}
+
+/// Largest pressure, Pa, of a contact under a force, N.
+fn max_pressure(design: &BallScrew, groove: Groove, contact_force: f32) -> f32 {
+    HertzContact::of(design, groove)
+        .at(contact_force)
+        .max_pressure
 }

@@ -4,13 +4,11 @@ use super::contacts::{ScrewContact, ScrewContacts};
 use super::motion::{ScrewBallMotion, ScrewBallState, ScrewContactMotion};
 use crate::ball::loaded;
 use crate::contact::SlipMap;
-use crate::error::{Error, attempt, in_range};
+use crate::error::{Error, Range, attempt};
 use crate::geometry::{BallScrew, Groove};
 use crate::hertz::HertzContact;
 use crate::math::{self, constant, inverse_cube_roots};
-
-/// ScrewContact angles are taken within these limits, rad.
-pub const CONTACT_ANGLE_RANGE: (f32, f32) = (0.05, 1.5);
+use crate::ranges;
 
 /// Spin below which a contact sticks, over the nut's speed.
 pub(super) const STICK_SPIN: f32 = 0.01;
@@ -117,16 +115,13 @@ impl ScrewBall {
     /// Folds the constants of a design: set-up only.
     ///
     /// # Errors
-    /// [`Error`] naming `friction` (1e-6 to 0.5), `contact_angle` (0.05 to 1.5) or `axis_ratio`.
+    /// [`Error`] naming `friction` (1e-6 to 1), `contact_angle` (0.05 to 1.5) or `axis_ratio`.
     pub const fn new(design: &BallScrew, friction: f32) -> Result<Self, Error> {
-        let friction = attempt!(in_range("friction", friction, 1e-6, 0.5));
-        let (least, most) = CONTACT_ANGLE_RANGE;
-        attempt!(in_range(
-            "contact_angle",
-            design.parameters().contact_angle,
-            least,
-            most,
-        ));
+        let friction = attempt!(ranges::FRICTION.checked("friction", friction));
+        attempt!(
+            ranges::ROLLING_CONTACT_ANGLE
+                .checked("contact_angle", design.parameters().contact_angle)
+        );
         let radius = design.ball_radius();
         let cos_lead = design.cos_lead_angle();
         let path = design.pitch_radius() / (cos_lead * radius);
@@ -164,11 +159,14 @@ impl ScrewBall {
 
     /// Contacts from their angles, rad, and forces, N, in the order SL, SR, NL, NR.
     ///
-    /// Angles outside [`CONTACT_ANGLE_RANGE`] are taken at its ends, NaN at the lower one; a force below
+    /// Angles outside [`ROLLING_CONTACT_ANGLE`](ranges::ROLLING_CONTACT_ANGLE) are taken at its ends, NaN at the lower one; a force below
     /// 1e-9 N, above 1e7 N, or NaN is a lost contact. Ellipses are those of the nominal contact angle.
     #[must_use]
     pub fn contacts(&self, contact_angles: &[f32; 4], contact_forces: &[f32; 4]) -> ScrewContacts {
-        let (least, most) = CONTACT_ANGLE_RANGE;
+        let Range {
+            minimum: least,
+            maximum: most,
+        } = ranges::ROLLING_CONTACT_ANGLE;
         let [a, b, c, d] = contact_forces.map(loaded);
         let [left, right] = inverse_cube_roots([a, b]);
         let [far_left, far_right] = inverse_cube_roots([c, d]);
