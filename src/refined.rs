@@ -18,6 +18,7 @@
 //! friction are undefined: what is found is their limit, with which the motion sets in.
 
 mod four_point;
+mod pressing;
 mod screw;
 mod symmetric;
 

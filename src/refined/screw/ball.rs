@@ -51,7 +51,6 @@ const QUADRANTS: [(f32, f32); 4] = [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0
 /// ```
 /// use epas_friction::CATALOGUE;
 /// use epas_friction::refined::{ScrewBall, ScrewChain};
-/// use epas_friction::train::Press;
 /// let design = CATALOGUE[15].design()?; // 32 x 20 x 6.35
 /// let ball = ScrewBall::new(&design, 0.1)?;
 /// // SL, SR, NL, NR: two balls under SR-NL load with a light third contact, the front one slower.
@@ -59,12 +58,9 @@ const QUADRANTS: [(f32, f32); 4] = [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0
 /// let rear = ball.contacts(&[0.785, 0.785, 0.785, 0.785], &forces);
 /// let front = ball.contacts(&[0.750, 0.820, 0.785, 0.785], &forces);
 /// let mut chain = ScrewChain::new([ball.start(&rear), ball.start(&front)]);
-/// let mut press = Press::<2>::new();
+/// let room = [0.0, f32::INFINITY]; // they touch; in front of the last one is no ball
 /// for _ in 0..3 {
-///     ball.refine_chain(&[rear, front], &mut chain, 1.0, 0.1, |free, compliance, forces| {
-///         press.solve(free, &compliance.map(|y| 1.0 / y), &[0.0, f32::INFINITY]);
-///         forces.iter_mut().zip(press.forces()).for_each(|(force, found)| *force = found);
-///     });
+///     ball.refine_chain(&[rear, front], &mut chain, &room, 1.0, 0.1);
 /// }
 /// assert!(chain.forces[0] > 1.0 && chain.forces[1] == 0.0);
 /// let torque: f32 = chain.balls.iter().map(|state| state.groove_torque).sum();
