@@ -1,5 +1,7 @@
 //! Validated designs with their derived constants: [`BallScrew`], [`LinearBearing`], [`BallBearing`].
 //!
+//! Set-up of every scene.
+//!
 //! A design starts as plain numbers from a catalogue or a drawing (`...Parameters`), is checked once,
 //! and from then on cannot be wrong. Everything that follows from it alone (lead angle, curvature and
 //! torsion of the ball path, groove offsets) is computed here, in the lead form that needs no

@@ -969,7 +969,7 @@ fn hostile_input_gives_finite_motions() {
         "friction"
     );
     assert_eq!(
-        ScrewBall::new(&design, 0.6).unwrap_err().field(),
+        ScrewBall::new(&design, 1.1).unwrap_err().field(),
         "friction"
     );
     let ball = ScrewBall::new(&design, 0.1).unwrap();

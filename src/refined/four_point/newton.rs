@@ -213,8 +213,8 @@ impl FourPointBall {
             return BallState::NOMINAL;
         }
 
-        // With the whole step dy and all outer forces L: H dy = L - g, so that the loss changes by
-        // scale g dy + scale²/2 (L - g) dy.
+        // With the whole step dy and all outer forces Q: H dy = Q - g, so that the loss changes by
+        // scale g dy + scale²/2 (Q - g) dy.
         let pull = decrement + axial_force * (2.0 * free.speed + axial_force * column.speed);
         let mut work = axial_force * speed;
         if let Some((moment_roll, moment_yaw)) = moments {

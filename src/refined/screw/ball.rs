@@ -28,11 +28,11 @@ const QUADRANTS: [(f32, f32); 4] = [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0
 ///
 /// Frame of the ball: x radially outward, y along the track, z nearly along the axis. The screw stands and
 /// the nut turns with `w_N`; all lengths are in ball radii and all velocities per unit of `w_N`. With the
-/// ball's total angular velocity `Omega` and `L_p = sqrt(R_P² + (p/2 pi)²)/R_B`, contact `k` at
+/// ball's total angular velocity `Omega` and `q = sqrt(R_P² + (p/2 pi)²)`, the length of a turn over `2 pi`, contact `k` at
 /// `n = (∓cos beta, 0, ∓sin beta)` on a groove that turns with `w_k` (0 screw, 1 nut) has
 ///
 /// ```text
-/// along the track    V_2 = (w_B - w_k) L_p + n_x Omega_z - n_z Omega_x - w_k n_x cos alpha
+/// along the track    V_2 = (w_B - w_k) q + n_x Omega_z - n_z Omega_x - w_k n_x cos alpha
 /// across the track   V_1 = Omega_y - w_k sin alpha
 /// spin               w   = n_x Omega_x + n_z (Omega_z - w_k cos alpha)
 /// ```
@@ -141,7 +141,7 @@ impl ScrewBall {
     }
 
     /// Orbital speed over the nut's speed in nominal rolling, `(1 + r cos beta)/2` with
-    /// `r = R_B R_P/(L/2 pi)²`.
+    /// `r = R_P/q²`.
     #[must_use]
     pub fn nominal_orbital_speed(&self) -> f32 {
         self.nominal_speed * self.sin_between

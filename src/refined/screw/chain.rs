@@ -74,7 +74,7 @@ impl ScrewBall {
     /// Every ball's equations give the speed deviation it would take on its own, and a compliance; [`Press`] turns them
     /// into the contact forces under which no ball overtakes the one in front of it, and with these the balls then take
     /// their steps. A force acts along the chord between two balls, `cos b` of it along the track,
-    /// `sin b = R_B/(L/2 pi)` (Lin 2019, eqs. (3.72), (3.75)).
+    /// `sin b = 1/q` (Lin 2019, eqs. (3.72), (3.75)).
     ///
     /// `room[j]` is the speed deviation, at least zero, at which ball `j` may run up to the one in front: zero where they
     /// touch, infinite where nothing is in front. The last one belongs to the last ball and the first; it is infinite
