@@ -1,6 +1,9 @@
 //! Friction of one Hertzian contact that slips and spins: force, moment and power loss under Coulomb
 //! friction, all three from one convex dissipation potential.
 //!
+//! Friction across the track runs in the step of the uncaged scene, from a table that its set-up makes. [`FrictionMap`]
+//! runs at the set-up of the linear scene. [`SlipMap`] is called directly; no scene links it.
+//!
 //! A contact of ball and groove slips along the ball path with the velocity `V` of its centre and spins
 //! about its normal with `w`. With the friction coefficient `mu`, the contact force `F` and the ellipse
 //! `a >= b` (major axis across the path) the power loss is

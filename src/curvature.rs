@@ -1,5 +1,8 @@
 //! Principal curvatures of a gothic-arch groove at a contact point.
 //!
+//! [`GothicArch`] runs at the set-up of every scene of a ball screw. The other forms are called directly; no scene links
+//! them.
+//!
 //! | form | needs | error of the first curvature on the 31 catalogue sizes, contact angles 0 to 70 degrees |
 //! |---|---|---|
 //! | [`LiteratureCurvature`] | pitch and ball radius | up to 1.2 (that is 120 %): no lead |

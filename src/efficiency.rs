@@ -1,5 +1,8 @@
 //! Closed-form efficiency of a ball screw, self-locking, the best contact angle, and a design procedure.
 //!
+//! [`EfficiencyGeometry`] runs at the set-up of the caged scene. The rest ([`DynamicCorrection`], the optimum, the design
+//! procedure) is called directly; no scene links it.
+//!
 //! Two answers stand side by side, both after Lin, Velinsky, Ravani 1994:
 //!
 //! - **rolling**, eq. (3): the ball rolls; only the contact at the screw slips, across the groove.
@@ -17,12 +20,10 @@
 mod closed_form;
 mod design;
 mod dynamic;
-mod optimum;
 
 pub use closed_form::{Drive, EfficiencyGeometry};
-pub use design::{DesignFigures, DesignRequest, Duty};
+pub use design::{
+    DesignFigures, DesignRequest, Duty, OptimumContactAngle, optimum_contact_angle,
+    optimum_efficiency,
+};
 pub use dynamic::DynamicCorrection;
-pub use optimum::{OptimumContactAngle, optimum_contact_angle, optimum_efficiency};
-
-/// Largest friction coefficient accepted.
-pub const LARGEST_FRICTION: f32 = 1.0;

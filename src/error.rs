@@ -24,6 +24,11 @@ impl Range {
     pub const fn contains(&self, value: f32) -> bool {
         value >= self.minimum && value <= self.maximum
     }
+
+    /// `value`, or the error that names `field` where it is not a number within the range.
+    pub(crate) const fn checked(self, field: &'static str, value: f32) -> Result<f32, Error> {
+        in_range(field, value, self.minimum, self.maximum)
+    }
 }
 
 /// What was wrong with a number given at set-up.

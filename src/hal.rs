@@ -28,11 +28,13 @@
 //! }
 //! ```
 
+mod configuration;
 mod encoder;
 mod feed_forward;
 mod frame;
 mod nut_speed;
 
-pub use encoder::{EncoderConfiguration, EncoderError, MagneticEncoder, NutMotion};
+pub use configuration::EncoderConfiguration;
+pub use encoder::{EncoderError, MagneticEncoder, NutMotion};
 pub use feed_forward::{AppliedDuty, FaultReaction, FeedForwardConfiguration, FrictionFeedForward};
 pub use frame::{Diagnostics, SensorErrors};

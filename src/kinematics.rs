@@ -1,5 +1,7 @@
 //! Rolling, side and spin slip of a ball between screw and nut, and what they cost.
 //!
+//! Called directly; no scene links it.
+//!
 //! A ball that orbits along a helix cannot roll without slip. Relative to a raceway it slips along
 //! its path (*rolling slip*, a parabola over the ellipse, because the deformed surface is curved),
 //! across it (*side slip*, because the path climbs), and about the contact normal (*spin*).

@@ -17,6 +17,7 @@
 //! | module | what | runs in |
 //! |---|---|---|
 //! | [`error`] | field, value and allowed range of what was refused | set-up |
+//! | [`ranges`] | one range for one quantity: friction coefficient, load, radii | set-up |
 //! | [`math`] | square root, cube root, sine and cosine; elliptic integrals and arcsine | step; set-up |
 //! | [`material`] | elastic constants | set-up |
 //! | [`geometry`] | validated designs, built-in sizes | set-up |
@@ -50,6 +51,7 @@ pub mod material;
 pub mod math;
 pub mod model;
 pub mod promises;
+pub mod ranges;
 pub mod refined;
 pub mod scene;
 pub mod train;

@@ -93,45 +93,6 @@ fn contacts((angles, forces): ([f64; 4], [f64; 4])) -> FourPointContacts {
     ball().contacts(&single(angles), &single(forces))
 }
 
-/// Forces between balls in a row by trying every set of touching neighbours.
-fn exhaustive<const N: usize>(free: &[f32; N], compliance: &[f32; N], forces: &mut [f32; N]) {
-    let free = free.map(f64::from);
-    let stiffness = compliance.map(|c| 1.0 / f64::from(c));
-    let mut best: Option<(f64, [f64; N])> = None;
-    for touching in 0..1_u32 << (N - 1) {
-        let mut found = [0.0; N];
-        let mut speeds = [0.0; N];
-        let mut start = 0;
-        while start < N {
-            let mut end = start;
-            while end + 1 < N && touching >> end & 1 == 1 {
-                end += 1;
-            }
-            let weight: f64 = stiffness[start..=end].iter().sum();
-            let common = (start..=end).map(|j| stiffness[j] * free[j]).sum::<f64>() / weight;
-            let mut force = 0.0;
-            for j in start..=end {
-                force += stiffness[j] * (free[j] - common);
-                speeds[j] = common;
-                found[j] = if j < end { force } else { 0.0 };
-            }
-            start = end + 1;
-        }
-        // The one set without tension and without overtaking: the one that breaks the rules least.
-        let tension = found.iter().fold(0.0_f64, |max, &f| max.max(-f));
-        let overtaking = speeds
-            .windows(2)
-            .fold(0.0_f64, |max, pair| max.max(pair[0] - pair[1]));
-        let breach = tension + overtaking * stiffness[0];
-        if best.is_none_or(|(least, _)| breach < least) {
-            best = Some((breach, found));
-        }
-    }
-    let (breach, found) = best.unwrap();
-    assert!(breach < 1e-4, "{breach}: {free:?} {compliance:?}");
-    *forces = found.map(|force| force as f32);
-}
-
 /// Balls in a row after the start and `steps` steps.
 fn row<const N: usize>(
     contacts: &[FourPointContacts; N],
@@ -142,8 +103,10 @@ fn row<const N: usize>(
     let ball = ball();
     let mut chain = BallChain::new();
     chain.balls = contacts.map(|contacts| ball.start(&contacts));
+    let mut room = [0.0; N];
+    room[N - 1] = f32::INFINITY;
     for _ in 0..steps {
-        ball.refine_chain(contacts, &mut chain, direction, ball_friction, exhaustive);
+        assert!(ball.refine_chain(contacts, &mut chain, &room, direction, ball_friction));
     }
     chain
 }

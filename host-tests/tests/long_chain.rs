@@ -6,7 +6,6 @@ use std::f64::consts::FRAC_PI_4;
 use epas_friction::ball::LinearBallParameters;
 use epas_friction::contact::FrictionMap;
 use epas_friction::refined::{BallChain, FourPointBall};
-use epas_friction::train::Press;
 use epas_reference::friction::chain::solve_chain;
 use epas_reference::friction::linear_ball::{EllipseLaw, LinearBall, contact_forces};
 
@@ -77,22 +76,10 @@ fn settled<const N: usize>(row: &[LinearBall; N], ball_friction: f64) -> Settled
     });
     let mut room = [0.0; N];
     room[N - 1] = f32::INFINITY;
-    let mut press = Press::new();
     let mut chain = BallChain::new();
     chain.balls = contacts.map(|contacts| ball.start(&contacts));
     for _ in 0..STEPS {
-        ball.refine_chain(
-            &contacts,
-            &mut chain,
-            1.0,
-            ball_friction as f32,
-            |free, compliance, forces| {
-                assert!(press.solve(free, &compliance.map(f32::recip), &room));
-                for (place, force) in forces.iter_mut().zip(press.forces()) {
-                    *place = force;
-                }
-            },
-        );
+        assert!(ball.refine_chain(&contacts, &mut chain, &room, 1.0, ball_friction as f32));
     }
 
     // The moving groove puts power in through the friction of its two contacts, by the steps' own law of

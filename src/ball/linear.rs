@@ -4,6 +4,7 @@ use super::loads::loaded;
 use crate::contact::FrictionMap;
 use crate::error::{Error, attempt, in_range};
 use crate::math::{constant, inverse_cube_roots};
+use crate::ranges;
 
 /// Slope `k_f` of the friction force over the offset ratio that Lin 2019 reads off Figure 3.11 (b). It
 /// is the mean slope up to half the semi-axis; the exact one at the centre is
@@ -29,21 +30,19 @@ pub struct LinearBallParameters {
     /// Semi-major axis `a` over the cube root of the contact force, m/N^(1/3); 1e-8 to 1. In the symbols
     /// of Lin 2019, eq. (3.36): `Psi R_B^(1/3)`.
     pub semi_major_coefficient: f32,
-    /// Coulomb friction coefficient `mu` of ball and groove; 1e-6 to 10.
+    /// Coulomb friction coefficient `mu` of ball and groove; 1e-6 to 1.
     pub friction: f32,
 }
 
 impl LinearBallParameters {
     pub(crate) const fn checked(&self) -> Result<Self, Error> {
-        attempt!(in_range("ball_radius", self.ball_radius, 1e-5, 1.0));
-        attempt!(in_range("contact_angle", self.contact_angle, 0.05, 1.5));
-        attempt!(in_range(
-            "semi_major_coefficient",
-            self.semi_major_coefficient,
-            1e-8,
-            1.0,
-        ));
-        attempt!(in_range("friction", self.friction, 1e-6, 10.0));
+        attempt!(ranges::BALL_RADIUS.checked("ball_radius", self.ball_radius));
+        attempt!(ranges::ROLLING_CONTACT_ANGLE.checked("contact_angle", self.contact_angle));
+        attempt!(
+            ranges::SEMI_MAJOR_COEFFICIENT
+                .checked("semi_major_coefficient", self.semi_major_coefficient)
+        );
+        attempt!(ranges::FRICTION.checked("friction", self.friction));
         Ok(*self)
     }
 }

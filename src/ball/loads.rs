@@ -1,16 +1,14 @@
 //! What a ball is loaded with: its load, bounded, and its share of the mean load.
 
 use crate::error::{Error, attempt, in_range};
-
-/// Largest load, N.
-const LARGEST_LOAD: f32 = 1e7;
+use crate::ranges;
 
 /// A load above zero and up to 1e7 N as it is; anything else, NaN included, is none.
 #[inline]
 pub(crate) fn loaded(load: f32) -> f32 {
     // Positive numbers are in the order of their bits, everything else is larger: one comparison.
     let bits = load.to_bits();
-    f32::from_bits(if bits <= LARGEST_LOAD.to_bits() {
+    f32::from_bits(if bits <= ranges::LOAD.maximum.to_bits() {
         bits
     } else {
         0

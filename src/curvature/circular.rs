@@ -1,6 +1,6 @@
 //! The paper's approximation: a circular groove along a helix.
 
-use super::GothicArch;
+use super::gothic_arch::GothicArch;
 use crate::geometry::{BallScrew, ContactAngle, Groove, HelixPath};
 
 /// First principal curvature of a circular groove (`H = L = 0`):

@@ -1,6 +1,6 @@
 //! A five-coefficient fit of the exact first curvature, made once per design.
 
-use super::GothicArch;
+use super::gothic_arch::GothicArch;
 use crate::geometry::{BallScrew, ContactAngle, Groove};
 use crate::math::constant;
 
@@ -98,15 +98,32 @@ impl FittedCurvature {
     }
 }
 
+/// A pivot smaller than this beside columns of length one is rounding.
+const RANK_TOLERANCE: f32 = 4.0 * f32::EPSILON;
+
+/// A row for every node: coefficients, and last the right-hand side.
+type Rows = [[f32; NODES + 1]; NODES];
+
 /// Solves the linear system whose rows hold the coefficients and, last, the right-hand side: Gaussian
 /// elimination with scaled columns and partial pivoting.
 ///
 /// A column that is zero to rounding (a circular groove, a lead of zero) leaves its unknown at zero,
 /// which is then one of the exact solutions.
-const fn solve(mut rows: [[f32; NODES + 1]; NODES]) -> [f32; NODES] {
-    /// A pivot smaller than this beside columns of length one is rounding.
-    const RANK_TOLERANCE: f32 = 4.0 * f32::EPSILON;
+const fn solve(mut rows: Rows) -> [f32; NODES] {
+    let column_scale = scale_columns(&mut rows);
+    eliminate(&mut rows);
+    let mut solution = substitute_back(&rows);
+    let mut column = 0;
+    while column < NODES {
+        solution[column] *= column_scale[column];
+        column += 1;
+    }
+    solution
+}
 
+/// Brings the columns to length one; their scales.
+#[inline(always)]
+const fn scale_columns(rows: &mut Rows) -> [f32; NODES] {
     let mut column_scale = [0.0; NODES];
     let mut column = 0;
     while column < NODES {
@@ -129,7 +146,12 @@ const fn solve(mut rows: [[f32; NODES + 1]; NODES]) -> [f32; NODES] {
         column_scale[column] = scale;
         column += 1;
     }
+    column_scale
+}
 
+/// Forward elimination: what lies left of the diagonal counts as zero from then on.
+#[inline(always)]
+const fn eliminate(rows: &mut Rows) {
     let mut pivot = 0;
     while pivot < NODES {
         // Bubbling the largest element up takes the place of an indexed swap, so that every index is
@@ -164,7 +186,11 @@ const fn solve(mut rows: [[f32; NODES + 1]; NODES]) -> [f32; NODES] {
         }
         pivot += 1;
     }
+}
 
+/// The solution of the triangular system.
+#[inline(always)]
+const fn substitute_back(rows: &Rows) -> [f32; NODES] {
     let mut solution = [0.0; NODES];
     let mut solved = 0;
     while solved < NODES {
@@ -180,11 +206,6 @@ const fn solve(mut rows: [[f32; NODES + 1]; NODES]) -> [f32; NODES] {
             solution[pivot] = rest / row[pivot];
         }
         solved += 1;
-    }
-    let mut column = 0;
-    while column < NODES {
-        solution[column] *= column_scale[column];
-        column += 1;
     }
     solution
 }

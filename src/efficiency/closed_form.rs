@@ -19,8 +19,7 @@ pub enum Drive {
 /// The geometry that the efficiency depends on, with its constants folded; friction comes per call.
 ///
 /// `Sb`, `Cb` are sine and cosine of the contact angle, `ta` the tangent of the lead angle, `a` the
-/// ball radius over the pitch radius, `R = sqrt(Cb² + ta²)`, `f` the friction coefficient (0 to
-/// [`LARGEST_FRICTION`](super::LARGEST_FRICTION)), `t` the rolling tangent, eq. (2):
+/// ball radius over the pitch radius, `R = sqrt(Cb² + ta²)`, `f` the friction coefficient (0 to 1), `t` the rolling tangent, eq. (2):
 /// `t = f_r / (r_b Sb)` with the lever arm `f_r` of rolling friction, m.
 ///
 /// Each efficiency is the raw value of its formula: it is negative where the screw locks. Each loss,

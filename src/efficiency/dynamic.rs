@@ -1,6 +1,6 @@
 //! What the ball's own inertia changes in full sliding.
 
-use super::EfficiencyGeometry;
+use super::closed_form::EfficiencyGeometry;
 use crate::math::constant;
 
 /// Correction of the full-sliding efficiency for the centripetal force on the ball:

@@ -1,6 +1,7 @@
 //! A ball bearing: a ball screw without lead.
 
-use super::{BallScrew, BallScrewParameters, GrooveSize};
+use super::ball_screw::{BallScrew, BallScrewParameters};
+use super::profile::GrooveSize;
 use crate::error::{Error, attempt};
 use crate::material::Material;
 

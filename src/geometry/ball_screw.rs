@@ -1,11 +1,15 @@
 //! A ball screw by its catalogue numbers.
 
-use core::f32::consts::TAU;
+use core::f32::consts::{FRAC_PI_2, TAU};
 
-use super::{ContactAngle, Groove, GrooveProfile, GrooveSize, HelixPath, LARGEST_CONTACT_ANGLE};
+use super::angle::ContactAngle;
+use super::limits::LARGEST_CONTACT_ANGLE;
+use super::profile::{Groove, GrooveProfile, GrooveSize, HelixPath};
 use crate::error::{Error, attempt, in_range};
 use crate::material::Material;
 use crate::math::constant;
+use crate::math::elliptic::arc_sine;
+use crate::ranges;
 
 /// What a catalogue or a drawing prints of a ball screw; unchecked.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -130,10 +134,15 @@ impl BallScrew {
             ball_radius,
             ..
         } = parameters;
-        attempt!(in_range("pitch_radius", pitch_radius, 1e-4, 10.0));
+        attempt!(ranges::PITCH_RADIUS.checked("pitch_radius", pitch_radius));
         attempt!(in_range("lead", lead, 0.0, 100.0));
         let largest_ball = 0.9 * pitch_radius;
-        attempt!(in_range("ball_radius", ball_radius, 1e-5, largest_ball));
+        attempt!(in_range(
+            "ball_radius",
+            ball_radius,
+            ranges::BALL_RADIUS.minimum,
+            largest_ball
+        ));
         attempt!(in_range(
             "contact_angle",
             parameters.contact_angle,
@@ -200,6 +209,20 @@ impl BallScrew {
     #[must_use]
     pub const fn tan_lead_angle(&self) -> f32 {
         self.tan_lead_angle
+    }
+
+    /// Lead angle, rad. For set-up; a constant can take it.
+    ///
+    /// Largest error 2e-7 rad, of any lead.
+    #[must_use]
+    pub const fn lead_angle(&self) -> f32 {
+        let (tan, cos) = (self.tan_lead_angle, self.cos_lead_angle());
+        // By the smaller of sine and cosine, which fixes the angle better.
+        if tan <= 1.0 {
+            arc_sine(tan * cos)
+        } else {
+            FRAC_PI_2 - arc_sine(cos)
+        }
     }
 
     /// Cosine of the lead angle. For set-up, by the root that a constant can take.

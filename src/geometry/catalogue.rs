@@ -2,7 +2,8 @@
 
 use core::f32::consts::FRAC_PI_4;
 
-use super::{BallScrew, BallScrewParameters, GrooveSize};
+use super::ball_screw::{BallScrew, BallScrewParameters};
+use super::profile::GrooveSize;
 use crate::error::Error;
 use crate::material::Material;
 

@@ -1,8 +1,11 @@
 //! A linear ball bearing with four-point contact.
 
-use super::{ContactAngle, GrooveSize, LARGEST_CONTACT_ANGLE};
+use super::angle::ContactAngle;
+use super::limits::LARGEST_CONTACT_ANGLE;
+use super::profile::GrooveSize;
 use crate::error::{Error, attempt, in_range};
 use crate::material::Material;
+use crate::ranges;
 
 /// What a drawing prints of a linear ball bearing with gothic-arch grooves; unchecked.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,7 +42,8 @@ impl LinearBearing {
     /// [`Error`] naming `ball_radius`, `conformity` or `groove_radius`, `contact_angle`, or a
     /// material's field.
     pub const fn new(parameters: LinearBearingParameters) -> Result<Self, Error> {
-        let ball_radius = attempt!(in_range("ball_radius", parameters.ball_radius, 1e-5, 1.0));
+        let ball_radius =
+            attempt!(ranges::BALL_RADIUS.checked("ball_radius", parameters.ball_radius));
         let contact_angle = attempt!(in_range(
             "contact_angle",
             parameters.contact_angle,

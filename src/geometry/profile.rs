@@ -2,7 +2,8 @@
 
 use core::f32::consts::{FRAC_PI_2, TAU};
 
-use super::{ContactAngle, LARGEST_CONFORMITY, SMALLEST_CONFORMITY};
+use super::angle::ContactAngle;
+use super::limits::{LARGEST_CONFORMITY, SMALLEST_CONFORMITY};
 use crate::error::{Error, attempt, in_range};
 use crate::math::constant;
 

@@ -34,7 +34,7 @@ pub struct SlipRatios {
     pub entrainment_angle: f32,
     /// Sliding speed over entrainment speed (`SRR`).
     pub slide_to_roll: f32,
-    /// Angle from the direction of rolling to the slip (`phi`), rad, in (-pi, pi], for a positive
+    /// Angle from the direction of rolling to the slip, rad, in (-pi, pi], for a positive
     /// speed of the screw. 0 where `slide_to_roll` is 0: no slip has no direction.
     pub slide_angle: f32,
     /// Spin times the ellipse's mean semi-axis `sqrt(a b)` over entrainment speed (`S_p`), with the

@@ -3,7 +3,9 @@
 use super::ball::ContactKinematics;
 use super::coefficients::ContactCoefficients;
 use super::slip::sane_speed;
+use crate::error::Range;
 use crate::math;
+use crate::ranges;
 
 /// A quantity split by the kind of slip that causes it.
 ///
@@ -175,7 +177,7 @@ impl FrictionPower {
         load_screw * self.screw.total() + load_nut * self.nut.total()
     }
 
-    /// Friction power (W) of one ball: friction coefficient (0 to 10), normal loads on screw and nut
+    /// Friction power (W) of one ball: friction coefficient (0 to 1), normal loads on screw and nut
     /// (N, 0 to 1e7), speed of the screw (rad/s).
     ///
     /// A factor that is not a number or out of its range counts as 0, and so does the power it makes.
@@ -190,22 +192,18 @@ impl FrictionPower {
         load_nut: f32,
         speed: f32,
     ) -> BallFrictionPower {
-        let rate = within(friction, 10.0) * sane_speed(speed).abs();
+        let rate = within(ranges::FRICTION_OR_NONE, friction) * sane_speed(speed).abs();
         BallFrictionPower {
-            screw: self.screw.times(rate * within(load_screw, 1.0e7)),
-            nut: self.nut.times(rate * within(load_nut, 1.0e7)),
+            screw: self.screw.times(rate * within(ranges::LOAD, load_screw)),
+            nut: self.nut.times(rate * within(ranges::LOAD, load_nut)),
         }
     }
 }
 
-/// `value` from 0 to `maximum`, else 0 (NaN too).
+/// `value` within the range, else 0 (NaN too).
 #[inline]
-fn within(value: f32, maximum: f32) -> f32 {
-    if value >= 0.0 && value <= maximum {
-        value
-    } else {
-        0.0
-    }
+fn within(range: Range, value: f32) -> f32 {
+    if range.contains(value) { value } else { 0.0 }
 }
 
 /// Slip over one ellipse per rad/s of the screw:

@@ -1,14 +1,20 @@
 //! What the kinematics of one ball are set up from.
 
+use crate::error::{Error, attempt};
+use crate::geometry::{BallScrew, Groove};
+use crate::hertz::HertzContact;
+use crate::math::constant;
+use crate::ranges;
+
 /// Geometry and state of one ball with a contact on the screw and one on the nut.
 ///
 /// The fields are the symbols of Alberdi et al., section 2, in SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct KinematicsParameters {
-    /// Diameter of the ball (`D`), m; 1e-4 to 0.2.
+    /// Diameter of the ball (`D`), m; 2e-5 to 2.
     pub ball_diameter: f32,
-    /// Radius of the helix of ball centres (`r_m`), m; 1e-4 to 2.
+    /// Radius of the helix of ball centres (`r_m`), m; 1e-4 to 10.
     pub pitch_radius: f32,
     /// Lead angle of that helix (`psi`), rad; -1.2 to 1.2. Positive for a right-hand thread, 0 for a
     /// ball bearing. For a given lead see [`lead_angle_of`](Self::lead_angle_of).
@@ -42,6 +48,52 @@ pub struct KinematicsParameters {
 }
 
 impl KinematicsParameters {
+    /// Those of a validated design whose balls carry the contact forces `load_screw` and `load_nut`, N, 0 to 1e7, at its
+    /// nominal contact angle. For set-up; a constant can take them.
+    ///
+    /// Ellipses are those of [`HertzContact`] under these forces. The ball's rotation is the customary one: pitch angle
+    /// equal to the contact angle ([`PitchMethod::Mean`](super::PitchMethod::Mean)), no yaw, rolling radii equal to the
+    /// ball's radius. Any field may be changed afterwards.
+    ///
+    /// ```
+    /// use epas_friction::CATALOGUE;
+    /// use epas_friction::kinematics::{ContactKinematics, KinematicsParameters};
+    /// let design = CATALOGUE[15].design()?; // 32 x 20 x 6.35
+    /// let kinematics = ContactKinematics::new(&KinematicsParameters::of(&design, 100.0, 100.0)?)?;
+    /// let ball = kinematics.tick(104.72); // 1000 revolutions a minute
+    /// assert!((ball.orbital_speed / 104.72 - 0.43).abs() < 0.01);
+    /// # Ok::<(), epas_friction::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error`] naming `load_screw` or `load_nut`. A load whose ellipse is too large for the ball, or a lead that is too
+    /// steep, is refused by [`ContactKinematics::new`](super::ContactKinematics::new).
+    pub const fn of(design: &BallScrew, load_screw: f32, load_nut: f32) -> Result<Self, Error> {
+        let load_screw = attempt!(ranges::LOAD.checked("load_screw", load_screw));
+        let load_nut = attempt!(ranges::LOAD.checked("load_nut", load_nut));
+        let screw = HertzContact::of(design, Groove::Screw);
+        let nut = HertzContact::of(design, Groove::Nut);
+        let (root_screw, root_nut) = (constant::cbrt(load_screw), constant::cbrt(load_nut));
+        let contact_angle = design.parameters().contact_angle;
+        Ok(Self {
+            ball_diameter: 2.0 * design.ball_radius(),
+            pitch_radius: design.pitch_radius(),
+            lead_angle: design.lead_angle(),
+            groove_radius_screw: design.profile(Groove::Screw).groove_radius,
+            groove_radius_nut: design.profile(Groove::Nut).groove_radius,
+            contact_angle_screw: contact_angle,
+            contact_angle_nut: contact_angle,
+            pitch_angle: contact_angle,
+            yaw_angle: 0.0,
+            rolling_radius_screw: design.ball_radius(),
+            rolling_radius_nut: design.ball_radius(),
+            semi_major_screw: screw.semi_major_coefficient() * root_screw,
+            semi_minor_screw: screw.semi_minor_coefficient() * root_screw,
+            semi_major_nut: nut.semi_major_coefficient() * root_nut,
+            semi_minor_nut: nut.semi_minor_coefficient() * root_nut,
+        })
+    }
+
     /// Lead angle (rad) of a helix: `tan psi = lead / (2 pi r_m)`, any finite lead and a positive
     /// pitch radius, both m.
     #[must_use]

@@ -1,9 +1,16 @@
 //! What the set-up fixes: helix, axis of rotation and grooves, checked once.
 
 use super::parameters::{EllipticContact, KinematicsParameters};
-use crate::error::{Error, attempt, in_range};
+use crate::error::{Error, Range, attempt, in_range};
 use crate::math::constant;
+use crate::ranges;
 use core::f32::consts::FRAC_PI_2;
+
+/// Diameter of a ball, m.
+const BALL_DIAMETER: Range = Range::new(
+    2.0 * ranges::BALL_RADIUS.minimum,
+    2.0 * ranges::BALL_RADIUS.maximum,
+);
 
 /// Hertz' half-space holds for ellipses small beside the ball: the share of the ball's radius that
 /// the semi-major axis may have.
@@ -101,8 +108,8 @@ pub(super) struct Path {
 impl Path {
     pub const fn new(parameters: &KinematicsParameters) -> Result<Self, Error> {
         let p = parameters;
-        let diameter = attempt!(in_range("ball_diameter", p.ball_diameter, 1.0e-4, 0.2));
-        let pitch_radius = attempt!(in_range("pitch_radius", p.pitch_radius, 1.0e-4, 2.0));
+        let diameter = attempt!(BALL_DIAMETER.checked("ball_diameter", p.ball_diameter));
+        let pitch_radius = attempt!(ranges::PITCH_RADIUS.checked("pitch_radius", p.pitch_radius));
         let lead_angle = attempt!(in_range("lead_angle", p.lead_angle, -1.2, 1.2));
         let ball_radius = 0.5 * diameter;
         let (least, most) = (ball_radius, 2.0 * diameter);

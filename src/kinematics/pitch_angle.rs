@@ -5,6 +5,7 @@ use super::friction_power::FrictionPower;
 use super::parameters::KinematicsParameters;
 use crate::error::{Error, in_range};
 use crate::math;
+use crate::ranges;
 
 /// How the pitch angle (`beta`) is chosen: Alberdi et al., Table 1, and two that follow from power.
 ///
@@ -99,10 +100,15 @@ impl PitchMethod {
         load_screw: f32,
         load_nut: f32,
     ) -> Result<f32, Error> {
-        in_range("load_screw", load_screw, 0.0, 1.0e7)?;
-        in_range("load_nut", load_nut, 0.0, 1.0e7)?;
+        ranges::LOAD.checked("load_screw", load_screw)?;
+        ranges::LOAD.checked("load_nut", load_nut)?;
         if load_screw + load_nut <= 0.0 {
-            in_range("load_screw", load_screw, f32::MIN_POSITIVE, 1.0e7)?;
+            in_range(
+                "load_screw",
+                load_screw,
+                f32::MIN_POSITIVE,
+                ranges::LOAD.maximum,
+            )?;
         }
         let p = parameters;
         let angle = match *self {

@@ -9,7 +9,7 @@ mod impedance;
 mod iteration;
 mod motion;
 
-pub use ball::{CONTACT_ANGLE_RANGE, ScrewBall};
+pub use ball::ScrewBall;
 pub use chain::ScrewChain;
 pub use contacts::ScrewContacts;
 pub use iteration::DEFAULT_IMPEDANCE_STEPS;

@@ -93,7 +93,7 @@ impl System {
         self.speed_speed -= speed * by.speed;
     }
 
-    /// The damped system in the form `L D Lᵀ`: speed comes last, so that its own compliance is the
+    /// The damped system as a product of triangle, diagonal and transposed triangle: speed comes last, so that its own compliance is the
     /// last reciprocal, and the matrix of rank two of two-point contact loses no digits before it.
     ///
     /// The pivots are at least the damping, 1e-6 of the trace, but for roundings of 3e-7 of the trace:

@@ -6,9 +6,10 @@ use super::contract::{Admitted, Inputs, Limits, Regime, Reversal, Scene};
 use super::faults::Faults;
 use super::outputs::{Outputs, efficiency};
 use crate::ball::PreloadSum;
-use crate::efficiency::{Drive, EfficiencyGeometry, LARGEST_FRICTION};
+use crate::efficiency::{Drive, EfficiencyGeometry};
 use crate::error::{Error, attempt, in_range};
 use crate::geometry::BallScrew;
+use crate::ranges;
 
 /// Friction torque over load and pitch radius from which on a direction counts as locked: no motor of a steering gear
 /// has a thousandth of that.
@@ -115,7 +116,7 @@ impl CagedConstants {
             reversal_speed,
             limits,
         } = *configuration;
-        attempt!(in_range("friction", friction, 0.0, LARGEST_FRICTION));
+        attempt!(ranges::FRICTION_OR_NONE.checked("friction", friction));
         attempt!(in_range("rolling_tangent", rolling, 0.0, 0.1));
         if preload != 0.0 {
             attempt!(in_range("preload", preload, 1e-3, 1e6));

@@ -1,7 +1,8 @@
 //! Functions without state: efficiency, curvature.
 
 use epas_friction::curvature::{CircularGrooveCurvature, GothicArch, LiteratureCurvature};
-use epas_friction::efficiency::{Drive, EfficiencyGeometry, LARGEST_FRICTION};
+use epas_friction::efficiency::{Drive, EfficiencyGeometry};
+use epas_friction::ranges::FRICTION_OR_NONE;
 use epas_friction::geometry::{ContactAngle, Groove};
 use epas_friction::{Error, Range};
 
@@ -49,7 +50,7 @@ pub(crate) fn efficiency(request: &EfficiencyRequest) -> Result<Efficiency, Fail
         "friction",
         request.friction,
         0.0,
-        LARGEST_FRICTION,
+        FRICTION_OR_NONE.maximum,
     )?;
     let rolling = checked(
         EPAS_FIELD_ROLLING_TANGENT,

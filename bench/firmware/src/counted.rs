@@ -165,12 +165,7 @@ counted! {
         let contacts = [rear, front].map(|ball_contacts| {
             ball.contacts(&ball_contacts.angles, &ball_contacts.forces)
         });
-        ball.refine_chain(&contacts, chain, direction, 0.1, |free, compliance, forces| {
-            let ([rear, front], [rear_compliance, front_compliance]) = (*free, *compliance);
-            let lead = rear - front;
-            let force = lead / (rear_compliance + front_compliance);
-            *forces = [if lead > 0.0 { force } else { 0.0 }, 0.0];
-        });
+        ball.refine_chain(&contacts, chain, &[0.0, f32::INFINITY], direction, 0.1);
     }
 
     /// One tick of firmware that knows the efficiency alone.

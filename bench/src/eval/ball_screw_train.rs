@@ -2,7 +2,6 @@
 
 use epas_friction::geometry::{LARGEST_CONFORMITY, SMALLEST_CONFORMITY};
 use epas_friction::refined::{ScrewBall, ScrewBallState, ScrewChain};
-use epas_friction::train::Press;
 use epas_friction::{BallScrew, BallScrewParameters, GrooveSize, Material};
 use epas_reference::design::BallScrewDesign;
 use epas_reference::friction::ball_screw_ball::{Groove, ScrewContact, ScrewTrack};
@@ -13,7 +12,7 @@ use serde::Serialize;
 
 use super::Answer;
 use super::fields::{BadField, Fields, in_range};
-use super::train::{LARGEST_TRAIN, contact_forces, pressed, room_of_a_row, solved};
+use super::train::{LARGEST_TRAIN, room_of_a_row, solved};
 
 /// Names of the grooves' flanks: screw or nut, left or right.
 const FLANKS: [(&str, Groove); 4] = [
@@ -181,21 +180,17 @@ impl Request {
 
         let mut chain = ScrewChain::new(states);
         let room = room_of_a_row(count);
-        let mut press = Press::new();
         let mut sound = true;
         let mut settled = false;
         let mut means = chain.forces;
         for _ in 0..STEPS {
             let before = chain.forces;
-            ball.refine_chain(
+            sound &= ball.refine_chain(
                 &contacts,
                 &mut chain,
+                &room,
                 direction,
                 self.friction as f32,
-                |free, compliance, forces| {
-                    sound &= pressed(&mut press, free, compliance, &room);
-                    *forces = contact_forces(&press);
-                },
             );
             let (mut largest, mut change) = (0.0_f32, 0.0_f32);
             for ((force, before), mean) in chain.forces.iter().zip(&before).zip(&mut means) {

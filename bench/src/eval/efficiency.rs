@@ -1,8 +1,8 @@
 //! `efficiency`: the closed forms and the locked states.
 
-use epas_friction::efficiency::LARGEST_FRICTION;
 use epas_friction::efficiency::{Drive, EfficiencyGeometry};
 use epas_friction::math::constant::sin_cos;
+use epas_friction::ranges::FRICTION_OR_NONE;
 use epas_reference::efficiency::Screw;
 use serde::Serialize;
 
@@ -29,7 +29,7 @@ pub fn evaluate(mut fields: Fields) -> Result<Answer, BadField> {
     let rolling_tangent = fields.optional_number("rolling_tangent")?.unwrap_or(0.0);
     fields.finish()?;
 
-    in_range("friction", friction, 0.0, LARGEST_FRICTION.into())?;
+    in_range("friction", friction, 0.0, FRICTION_OR_NONE.maximum.into())?;
     in_range("rolling_tangent", rolling_tangent, 0.0, 1.0)?;
     let geometry =
         EfficiencyGeometry::new(lead_angle as f32, contact_angle as f32, ball_ratio as f32)?;

@@ -200,18 +200,14 @@ impl Request {
             *state = ball.start(contacts);
         }
         let room = room_of_a_row(count);
-        let mut press = Press::new();
         let mut sound = true;
         for _ in 0..STEPS {
-            ball.refine_chain(
+            sound &= ball.refine_chain(
                 &contacts,
                 &mut chain,
+                &room,
                 self.direction(),
                 self.ball_friction as f32,
-                |free, compliance, forces| {
-                    sound &= pressed(&mut press, free, compliance, &room);
-                    *forces = contact_forces(&press);
-                },
             );
         }
         if !sound {

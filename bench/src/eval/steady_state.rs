@@ -2,8 +2,8 @@
 
 use std::f32::consts::TAU;
 
-use epas_friction::efficiency::LARGEST_FRICTION;
 use epas_friction::efficiency::{DynamicCorrection, EfficiencyGeometry};
+use epas_friction::ranges::FRICTION_OR_NONE;
 use epas_reference::ReferenceError;
 use epas_reference::steady_state::BallScrewState;
 use serde::Serialize;
@@ -42,7 +42,7 @@ pub fn evaluate(mut fields: Fields) -> Result<Answer, BadField> {
     let ball_density = fields.optional_number("ball_density")?;
     fields.finish()?;
 
-    in_range("friction", friction, 0.0, LARGEST_FRICTION.into())?;
+    in_range("friction", friction, 0.0, FRICTION_OR_NONE.maximum.into())?;
     in_range("pitch_radius", pitch_radius, 1e-4, 10.0)?;
     in_range("ball_radius", ball_radius, 1e-5, pitch_radius)?;
     in_range("speed", speed, -1e6, 1e6)?;

@@ -107,13 +107,6 @@ fn screw_pair(race: &mut Race, list: &mut List) -> Result<(), Failure> {
     let row = ScrewRow::new(&design, friction, GrooveFit::Zero).map_err(failure)?;
     let contacts =
         move |pair: [Loads; 2]| pair.map(|loads| ball.contacts(&loads.angles, &loads.forces));
-    let mut press = Press::<2>::new();
-    let pool = move |free: &[f32; 2], compliance: &[f32; 2], forces: &mut [f32; 2]| {
-        press.solve(free, &compliance.map(f32::recip), &OPEN);
-        for (place, force) in forces.iter_mut().zip(press.forces()) {
-            *place = force;
-        }
-    };
     let mut warm = ScrewChain::<2>::new([ball.solve(&contacts([screw_loads(0.0); 2])[0]); 2]);
     Group::new(
         race,
@@ -130,18 +123,18 @@ fn screw_pair(race: &mut Race, list: &mut List) -> Result<(), Failure> {
     .time("screw_closed_pair", move |pair| {
         let contacts = contacts(pair);
         let mut chain = ScrewChain::new(contacts.map(|contacts| ball.closed_form(&contacts)));
-        ball.press_chain(&mut chain, 1.0, pool);
+        ball.press_chain(&mut chain, &OPEN, 1.0);
         chain.forces[0]
     })
     .time("screw_warm_pair", move |pair| {
-        ball.refine_chain(&contacts(pair), &mut warm, 1.0, friction, pool);
+        ball.refine_chain(&contacts(pair), &mut warm, &OPEN, 1.0, friction);
         warm.forces[0]
     })
     .time("screw_cold_pair", move |pair| {
         let contacts = contacts(pair);
         let mut chain = ScrewChain::new(contacts.map(|contacts| ball.start(&contacts)));
         for _ in 0..3 {
-            ball.refine_chain(&contacts, &mut chain, 1.0, friction, pool);
+            ball.refine_chain(&contacts, &mut chain, &OPEN, 1.0, friction);
         }
         chain.forces[0]
     });
@@ -227,25 +220,13 @@ fn one_ball(race: &mut Race, list: &mut List, analytic: AnalyticLinearBall, ball
 fn two_balls(race: &mut Race, list: &mut List, analytic: AnalyticLinearBall, ball: FourPointBall) {
     const OPEN: [f32; 2] = [0.0, f32::INFINITY];
     let mut chain = BallChain::<2>::new();
-    let mut press = Press::<2>::new();
     let mut row = move |pair: [Loads; 2], cold: bool, steps: usize| {
         let contacts = pair.map(|loads| ball.contacts(&loads.angles, &loads.forces));
         if cold {
             chain.balls = contacts.map(|contacts| ball.start(&contacts));
         }
         for _ in 0..steps {
-            ball.refine_chain(
-                &contacts,
-                &mut chain,
-                1.0,
-                0.1,
-                |free, compliance, forces| {
-                    press.solve(free, &compliance.map(f32::recip), &OPEN);
-                    for (place, force) in forces.iter_mut().zip(press.forces()) {
-                        *place = force;
-                    }
-                },
-            );
+            ball.refine_chain(&contacts, &mut chain, &OPEN, 1.0, 0.1);
         }
         chain.forces[0]
     };

@@ -5,11 +5,13 @@ use super::contacts::FourPointContacts;
 use super::motion::{BallMotion, BallState};
 use super::newton::NewtonStep;
 use crate::math;
+use crate::refined::pressing::{impedance_of, pressed};
+use crate::train::Press;
 
 /// `N` balls in a row and the forces between them, kept from step to step.
 ///
-/// 88 bytes a ball, 64 of them the equations between the two halves of a step: they stand here, in the
-/// caller's memory, and not on the stack of an interrupt.
+/// Most of its memory are the equations between the two halves of a step and the scratch of the pressing: they stand
+/// here, in the caller's memory, and not on the stack of an interrupt.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct BallChain<const N: usize> {
@@ -19,7 +21,8 @@ pub struct BallChain<const N: usize> {
     /// ball and the first.
     pub forces: [f32; N],
     speed_deviations: [f32; N],
-    compliances: [f32; N],
+    impedances: [f32; N],
+    press: Press<N>,
     moments: [(f32, f32); N],
     proposals: [NewtonStep; N],
 }
@@ -32,7 +35,8 @@ impl<const N: usize> BallChain<N> {
             balls: [BallState::NOMINAL; N],
             forces: [0.0; N],
             speed_deviations: [0.0; N],
-            compliances: [0.0; N],
+            impedances: [0.0; N],
+            press: Press::new(),
             moments: [(0.0, 0.0); N],
             proposals: [NewtonStep::EMPTY; N],
         }
@@ -48,11 +52,13 @@ impl<const N: usize> Default for BallChain<N> {
 impl FourPointBall {
     /// One damped Newton step of `N` balls in a row, with the forces between them.
     ///
-    /// Every ball's equations give the speed deviation it would take on its own, and a compliance; `pool`
-    /// turns them into the contact forces under which no ball overtakes the one in front of it: called
-    /// as `pool(speed_deviations, compliances, forces)`, it must fill `forces` with numbers of at least
-    /// zero, `forces[j]` acting between ball `j` and ball `j + 1`, the last one between the last ball and
-    /// the first (zero unless the track is a full ring). With them the balls then take their steps.
+    /// Every ball's equations give the speed deviation it would take on its own, and a compliance;
+    /// [`Press`] turns them into the contact forces under which no ball overtakes the one in front of it, and with
+    /// these the balls then take their steps. `room[j]` is the speed deviation, at least zero, at which ball `j` may
+    /// run up to the one in front: zero where they touch, infinite where nothing is in front. The last one belongs to
+    /// the last ball and the first; it is infinite unless the track is a full ring.
+    ///
+    /// Returns whether every ball's speed counts (see [`Press::solve`]); where not, no ball presses.
     ///
     /// Friction between the balls, with coefficient `ball_friction` (Lin 2019, eqs. (3.26)-(3.29)), lags
     /// one step behind: it uses the forces that the chain holds on entry.
@@ -72,16 +78,17 @@ impl FourPointBall {
         &self,
         contacts: &[FourPointContacts; N],
         chain: &mut BallChain<N>,
+        room: &[f32; N],
         direction: f32,
         ball_friction: f32,
-        pool: impl FnOnce(&[f32; N], &[f32; N], &mut [f32; N]),
-    ) {
+    ) -> bool {
         let direction = if direction.is_nan() { 0.0 } else { direction };
         let BallChain {
             balls: states,
             forces,
             speed_deviations,
-            compliances,
+            impedances,
+            press,
             moments,
             proposals,
         } = chain;
@@ -90,15 +97,15 @@ impl FourPointBall {
         let given = contacts.iter().zip(states.iter()).zip(moments.iter());
         let found = speed_deviations
             .iter_mut()
-            .zip(compliances.iter_mut())
+            .zip(impedances.iter_mut())
             .zip(proposals.iter_mut());
-        for (((contacts, state), moments), ((free, compliance), proposal)) in given.zip(found) {
+        for (((contacts, state), moments), ((free, impedance), proposal)) in given.zip(found) {
             *proposal = self.propose(contacts, state.motion, Some(*moments));
             *free = direction * self.speed_deviation(state.motion.speed + proposal.free.speed);
-            *compliance = self.speed_deviation(proposal.column.speed);
+            *impedance = impedance_of(self.speed_deviation(proposal.column.speed));
         }
 
-        pool(speed_deviations, compliances, forces);
+        let sound = pressed(press, speed_deviations, impedances, room, forces);
 
         let sign = if direction < 0.0 { -1.0 } else { 1.0 };
         let mut behind = forces.last().copied().unwrap_or(0.0);
@@ -110,6 +117,7 @@ impl FourPointBall {
             *state = self.advance(contacts, state.motion, proposal, net, Some(*moments));
             behind = ahead;
         }
+        sound
     }
 
     /// Power loss between the balls over the track speed, N (Lin 2019, eq. (3.28)).

@@ -3,6 +3,7 @@
 use super::ball::FourPointBall;
 use super::contacts::FourPointContacts;
 use super::motion::{BallMotion, BallState, ContactMotion};
+use crate::ranges;
 use crate::refined::symmetric::{System, Vector};
 
 /// Newton steps from the four-force start that [`FourPointBall::solve`] takes: three are enough for
@@ -24,9 +25,6 @@ const ANY: f32 = 1e9;
 /// Largest deviation from nominal rolling, in units of the track speed, as the sum of its parts; nominal
 /// rolling itself is 7 at the steepest contact angle. A ball comes back from it in some 30 steps.
 const LARGEST_MOTION: f32 = 16.0;
-
-/// Largest net force of the neighbours, N.
-const LARGEST_AXIAL_FORCE: f32 = 1e7;
 
 /// One Newton step before the neighbours' force is known.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -215,8 +213,8 @@ impl FourPointBall {
             return BallState::NOMINAL;
         }
 
-        // With the whole step dy and all outer forces L: H dy = L - g, so that the loss changes by
-        // scale g dy + scale²/2 (L - g) dy.
+        // With the whole step dy and all outer forces Q: H dy = Q - g, so that the loss changes by
+        // scale g dy + scale²/2 (Q - g) dy.
         let pull = decrement + axial_force * (2.0 * free.speed + axial_force * column.speed);
         let mut work = axial_force * speed;
         if let Some((moment_roll, moment_yaw)) = moments {
@@ -240,7 +238,7 @@ fn larger(first: f32, second: f32) -> f32 {
 /// A force within what a contact can carry; what is no number, or beyond, is none.
 #[inline]
 fn counted(force: f32) -> f32 {
-    if force.abs() <= LARGEST_AXIAL_FORCE {
+    if force.abs() <= ranges::LOAD.maximum {
         force
     } else {
         0.0

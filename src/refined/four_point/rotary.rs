@@ -6,6 +6,7 @@ use super::motion::BallState;
 use crate::contact::SMALLEST_AXIS_RATIO;
 use crate::error::{Error, attempt, in_range};
 use crate::math::constant;
+use crate::ranges;
 
 /// Spin below which a contact counts as sticking, over the spin `omega_I sin(beta_0)` that the two
 /// contacts of a diagonal share out between them in two-point rolling.
@@ -29,7 +30,7 @@ pub struct RotaryBallParameters {
     pub semi_major_coefficient_inner: f32,
     /// Semi-major axis over the cube root of the contact force on the outer ring, m/N^(1/3); 1e-8 to 1.
     pub semi_major_coefficient_outer: f32,
-    /// Coulomb friction coefficient `mu` of ball and groove; 1e-6 to 10.
+    /// Coulomb friction coefficient `mu` of ball and groove; 1e-6 to 1.
     pub friction: f32,
 }
 
@@ -85,30 +86,24 @@ const fn axis_ratio(field: &'static str, value: f32) -> Result<f32, Error> {
     in_range(field, value, SMALLEST_AXIS_RATIO, 1.0)
 }
 
-const fn semi_major(field: &'static str, value: f32) -> Result<f32, Error> {
-    in_range(field, value, 1e-8, 1.0)
-}
-
 impl RotaryBall {
     /// A ball in a rotary bearing.
     ///
     /// # Errors
     /// [`Error`] naming the field of [`RotaryBallParameters`] that is out of range.
     pub const fn new(parameters: &RotaryBallParameters) -> Result<Self, Error> {
-        let ball_radius = attempt!(in_range("ball_radius", parameters.ball_radius, 1e-5, 1.0));
+        let ball_radius =
+            attempt!(ranges::BALL_RADIUS.checked("ball_radius", parameters.ball_radius));
         let pitch_radius = attempt!(in_range(
             "pitch_radius",
             parameters.pitch_radius,
             1.01 * ball_radius,
             100.0,
         ));
-        let contact_angle = attempt!(in_range(
-            "contact_angle",
-            parameters.contact_angle,
-            0.05,
-            1.5
-        ));
-        let friction = attempt!(in_range("friction", parameters.friction, 1e-6, 10.0));
+        let contact_angle = attempt!(
+            ranges::ROLLING_CONTACT_ANGLE.checked("contact_angle", parameters.contact_angle)
+        );
+        let friction = attempt!(ranges::FRICTION.checked("friction", parameters.friction));
 
         // In units of omega_I R_P: inner ring and ball without slip at the nominal angle give
         // omega_B = (1 - g cos)/2, and omega_x + omega_B = -omega_B/(g cos).
@@ -118,7 +113,7 @@ impl RotaryBall {
         let roll = -speed / cos;
         let inner = attempt!(FourPointGroove::new(
             attempt!(axis_ratio("axis_ratio_inner", parameters.axis_ratio_inner)),
-            attempt!(semi_major(
+            attempt!(ranges::SEMI_MAJOR_COEFFICIENT.checked(
                 "semi_major_coefficient_inner",
                 parameters.semi_major_coefficient_inner,
             )),
@@ -127,7 +122,7 @@ impl RotaryBall {
         ));
         let outer = attempt!(FourPointGroove::new(
             attempt!(axis_ratio("axis_ratio_outer", parameters.axis_ratio_outer)),
-            attempt!(semi_major(
+            attempt!(ranges::SEMI_MAJOR_COEFFICIENT.checked(
                 "semi_major_coefficient_outer",
                 parameters.semi_major_coefficient_outer,
             )),

@@ -4,13 +4,11 @@ use super::contacts::{ScrewContact, ScrewContacts};
 use super::motion::{ScrewBallMotion, ScrewBallState, ScrewContactMotion};
 use crate::ball::loaded;
 use crate::contact::SlipMap;
-use crate::error::{Error, attempt, in_range};
+use crate::error::{Error, Range, attempt};
 use crate::geometry::{BallScrew, Groove};
 use crate::hertz::HertzContact;
 use crate::math::{self, constant, inverse_cube_roots};
-
-/// Contact angles are taken within these limits, rad.
-pub const CONTACT_ANGLE_RANGE: (f32, f32) = (0.05, 1.5);
+use crate::ranges;
 
 /// Spin below which a contact sticks, over the nut's speed.
 pub(super) const STICK_SPIN: f32 = 0.01;
@@ -30,11 +28,11 @@ const QUADRANTS: [(f32, f32); 4] = [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0
 ///
 /// Frame of the ball: x radially outward, y along the track, z nearly along the axis. The screw stands and
 /// the nut turns with `w_N`; all lengths are in ball radii and all velocities per unit of `w_N`. With the
-/// ball's total angular velocity `Omega` and `L_p = sqrt(R_P² + (p/2 pi)²)/R_B`, contact `k` at
+/// ball's total angular velocity `Omega` and `q = sqrt(R_P² + (p/2 pi)²)`, the length of a turn over `2 pi`, contact `k` at
 /// `n = (∓cos beta, 0, ∓sin beta)` on a groove that turns with `w_k` (0 screw, 1 nut) has
 ///
 /// ```text
-/// along the track    V_2 = (w_B - w_k) L_p + n_x Omega_z - n_z Omega_x - w_k n_x cos alpha
+/// along the track    V_2 = (w_B - w_k) q + n_x Omega_z - n_z Omega_x - w_k n_x cos alpha
 /// across the track   V_1 = Omega_y - w_k sin alpha
 /// spin               w   = n_x Omega_x + n_z (Omega_z - w_k cos alpha)
 /// ```
@@ -53,7 +51,6 @@ const QUADRANTS: [(f32, f32); 4] = [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0
 /// ```
 /// use epas_friction::CATALOGUE;
 /// use epas_friction::refined::{ScrewBall, ScrewChain};
-/// use epas_friction::train::Press;
 /// let design = CATALOGUE[15].design()?; // 32 x 20 x 6.35
 /// let ball = ScrewBall::new(&design, 0.1)?;
 /// // SL, SR, NL, NR: two balls under SR-NL load with a light third contact, the front one slower.
@@ -61,12 +58,9 @@ const QUADRANTS: [(f32, f32); 4] = [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0
 /// let rear = ball.contacts(&[0.785, 0.785, 0.785, 0.785], &forces);
 /// let front = ball.contacts(&[0.750, 0.820, 0.785, 0.785], &forces);
 /// let mut chain = ScrewChain::new([ball.start(&rear), ball.start(&front)]);
-/// let mut press = Press::<2>::new();
+/// let room = [0.0, f32::INFINITY]; // they touch; in front of the last one is no ball
 /// for _ in 0..3 {
-///     ball.refine_chain(&[rear, front], &mut chain, 1.0, 0.1, |free, compliance, forces| {
-///         press.solve(free, &compliance.map(|y| 1.0 / y), &[0.0, f32::INFINITY]);
-///         forces.iter_mut().zip(press.forces()).for_each(|(force, found)| *force = found);
-///     });
+///     ball.refine_chain(&[rear, front], &mut chain, &room, 1.0, 0.1);
 /// }
 /// assert!(chain.forces[0] > 1.0 && chain.forces[1] == 0.0);
 /// let torque: f32 = chain.balls.iter().map(|state| state.groove_torque).sum();
@@ -117,16 +111,13 @@ impl ScrewBall {
     /// Folds the constants of a design: set-up only.
     ///
     /// # Errors
-    /// [`Error`] naming `friction` (1e-6 to 0.5), `contact_angle` (0.05 to 1.5) or `axis_ratio`.
+    /// [`Error`] naming `friction` (1e-6 to 1), `contact_angle` (0.05 to 1.5) or `axis_ratio`.
     pub const fn new(design: &BallScrew, friction: f32) -> Result<Self, Error> {
-        let friction = attempt!(in_range("friction", friction, 1e-6, 0.5));
-        let (least, most) = CONTACT_ANGLE_RANGE;
-        attempt!(in_range(
-            "contact_angle",
-            design.parameters().contact_angle,
-            least,
-            most,
-        ));
+        let friction = attempt!(ranges::FRICTION.checked("friction", friction));
+        attempt!(
+            ranges::ROLLING_CONTACT_ANGLE
+                .checked("contact_angle", design.parameters().contact_angle)
+        );
         let radius = design.ball_radius();
         let cos_lead = design.cos_lead_angle();
         let path = design.pitch_radius() / (cos_lead * radius);
@@ -150,7 +141,7 @@ impl ScrewBall {
     }
 
     /// Orbital speed over the nut's speed in nominal rolling, `(1 + r cos beta)/2` with
-    /// `r = R_B R_P/(L/2 pi)²`.
+    /// `r = R_P/q²`.
     #[must_use]
     pub fn nominal_orbital_speed(&self) -> f32 {
         self.nominal_speed * self.sin_between
@@ -164,11 +155,14 @@ impl ScrewBall {
 
     /// Contacts from their angles, rad, and forces, N, in the order SL, SR, NL, NR.
     ///
-    /// Angles outside [`CONTACT_ANGLE_RANGE`] are taken at its ends, NaN at the lower one; a force below
+    /// Angles outside [`ROLLING_CONTACT_ANGLE`](ranges::ROLLING_CONTACT_ANGLE) are taken at its ends, NaN at the lower one; a force below
     /// 1e-9 N, above 1e7 N, or NaN is a lost contact. Ellipses are those of the nominal contact angle.
     #[must_use]
     pub fn contacts(&self, contact_angles: &[f32; 4], contact_forces: &[f32; 4]) -> ScrewContacts {
-        let (least, most) = CONTACT_ANGLE_RANGE;
+        let Range {
+            minimum: least,
+            maximum: most,
+        } = ranges::ROLLING_CONTACT_ANGLE;
         let [a, b, c, d] = contact_forces.map(loaded);
         let [left, right] = inverse_cube_roots([a, b]);
         let [far_left, far_right] = inverse_cube_roots([c, d]);

@@ -5,6 +5,8 @@ use super::contacts::ScrewContacts;
 use super::impedance::{ImpedanceStep, Rubbing};
 use super::motion::{ScrewBallMotion, ScrewBallState};
 use crate::math;
+use crate::refined::pressing::{impedance_of, pressed};
+use crate::train::Press;
 
 /// `N` balls in a row and the forces between them, kept from step to step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,7 +18,8 @@ pub struct ScrewChain<const N: usize> {
     /// and the first.
     pub forces: [f32; N],
     speed_deviations: [f32; N],
-    compliances: [f32; N],
+    impedances: [f32; N],
+    press: Press<N>,
     rubbing: [Rubbing; N],
     proposals: [ImpedanceStep; N],
 }
@@ -29,7 +32,8 @@ impl<const N: usize> ScrewChain<N> {
             balls,
             forces: [0.0; N],
             speed_deviations: [0.0; N],
-            compliances: [0.0; N],
+            impedances: [0.0; N],
+            press: Press::new(),
             rubbing: [[0.0; 4]; N],
             proposals: [ImpedanceStep::EMPTY; N],
         }
@@ -40,38 +44,43 @@ impl ScrewBall {
     /// Forces between balls that touch, from the speeds and compliances that their states hold: the closed
     /// form `F = (v_1 - v_2)/(Y_1 + Y_2)` of two balls, and its like for `N`.
     ///
-    /// `pool` and `direction` as in [`ScrewBall::refine_chain`], where errors stand; the balls' motions stay as they
-    /// are.
+    /// `room`, `direction` and what is returned as in [`ScrewBall::refine_chain`], where errors stand; the balls' motions
+    /// stay as they are.
     pub fn press_chain<const N: usize>(
         &self,
         chain: &mut ScrewChain<N>,
+        room: &[f32; N],
         direction: f32,
-        pool: impl FnOnce(&[f32; N], &[f32; N], &mut [f32; N]),
-    ) {
+    ) -> bool {
         let direction = if direction.is_nan() { 0.0 } else { direction };
         let ScrewChain {
             balls,
             forces,
             speed_deviations,
-            compliances,
+            impedances,
+            press,
             ..
         } = chain;
-        let found = speed_deviations.iter_mut().zip(compliances.iter_mut());
-        for (state, (free, compliance)) in balls.iter().zip(found) {
+        let found = speed_deviations.iter_mut().zip(impedances.iter_mut());
+        for (state, (free, impedance)) in balls.iter().zip(found) {
             *free = direction * state.speed_deviation;
-            *compliance = state.compliance * self.cos_between;
+            *impedance = impedance_of(state.compliance * self.cos_between);
         }
-        pool(speed_deviations, compliances, forces);
+        pressed(press, speed_deviations, impedances, room, forces)
     }
 
     /// One impedance step of `N` balls in a row, with the forces between them.
     ///
-    /// Every ball's equations give the speed deviation it would take on its own, and a compliance; `pool`
-    /// turns them into the contact forces under which no ball overtakes the one in front of it: called as
-    /// `pool(speed_deviations, compliances, forces)`, it must fill `forces` with numbers of at least zero,
-    /// `forces[j]` acting between ball `j` and ball `j + 1`, the last one between the last ball and the first
-    /// (zero unless the track is a full ring); [`Press`](crate::train::Press) does it. A force acts along the chord
-    /// between two balls, `cos b` of it along the track, `sin b = R_B/(L/2 pi)` (Lin 2019, eqs. (3.72), (3.75)).
+    /// Every ball's equations give the speed deviation it would take on its own, and a compliance; [`Press`] turns them
+    /// into the contact forces under which no ball overtakes the one in front of it, and with these the balls then take
+    /// their steps. A force acts along the chord between two balls, `cos b` of it along the track,
+    /// `sin b = 1/q` (Lin 2019, eqs. (3.72), (3.75)).
+    ///
+    /// `room[j]` is the speed deviation, at least zero, at which ball `j` may run up to the one in front: zero where they
+    /// touch, infinite where nothing is in front. The last one belongs to the last ball and the first; it is infinite
+    /// unless the track is a full ring.
+    ///
+    /// Returns whether every ball's speed counts (see [`Press::solve`]); where not, no ball presses.
     ///
     /// Friction between the balls, with coefficient `ball_friction` (eqs. (3.73)-(3.75)), lags one step behind:
     /// it uses the forces that the chain holds on entry.
@@ -88,16 +97,17 @@ impl ScrewBall {
         &self,
         contacts: &[ScrewContacts; N],
         chain: &mut ScrewChain<N>,
+        room: &[f32; N],
         direction: f32,
         ball_friction: f32,
-        pool: impl FnOnce(&[f32; N], &[f32; N], &mut [f32; N]),
-    ) {
+    ) -> bool {
         let direction = if direction.is_nan() { 0.0 } else { direction };
         let ScrewChain {
             balls: states,
             forces,
             speed_deviations,
-            compliances,
+            impedances,
+            press,
             rubbing,
             proposals,
         } = chain;
@@ -109,16 +119,17 @@ impl ScrewBall {
         let given = contacts.iter().zip(states.iter()).zip(rubbing.iter());
         let found = speed_deviations
             .iter_mut()
-            .zip(compliances.iter_mut())
+            .zip(impedances.iter_mut())
             .zip(proposals.iter_mut());
-        for (((contacts, state), rubbing), ((free, compliance), proposal)) in given.zip(found) {
+        for (((contacts, state), rubbing), ((free, impedance), proposal)) in given.zip(found) {
             *proposal = self.propose(contacts, &state.motion, rubbing);
             let speed = state.motion.speed + proposal.free.speed;
             *free = direction * speed * self.inverse_speed;
-            *compliance = proposal.column.speed * self.inverse_speed * self.cos_between;
+            let compliance = proposal.column.speed * self.inverse_speed * self.cos_between;
+            *impedance = impedance_of(compliance);
         }
 
-        pool(speed_deviations, compliances, forces);
+        let sound = pressed(press, speed_deviations, impedances, room, forces);
 
         let along = if direction < 0.0 {
             -self.cos_between
@@ -134,6 +145,7 @@ impl ScrewBall {
             *state = self.advance(contacts, &state.motion, proposal, net, rubbing);
             behind = ahead;
         }
+        sound
     }
 
     /// Torque on the nut that friction between the balls takes, N m.

@@ -23,10 +23,10 @@ impl ScrewBall {
     ///
     /// ```text
     /// (sum kappa j jᵀ + sum M_w m mᵀ) s = sum (kappa j c - M m)
-    /// j = (1, -n_z, n_x)   m = (0, n_x, n_z)   s = (w_B L_p, Omega_x, Omega_z)   c: slip of the groove
+    /// j = (1, -n_z, n_x)   m = (0, n_x, n_z)   s = (w_B q, Omega_x, Omega_z)   c: slip of the groove
     /// ```
     ///
-    /// | contacts | what they say for the orbital speed, `r = R_B R_P/(L/2 pi)²` |
+    /// | contacts | what they say for the orbital speed, `r = R_P/q²` |
     /// |---|---|
     /// | third on the screw | `w_B/w_N = (1 + r cos b_N)/(1 + cos(b_N - (b_S - b_3)/2)/cos((b_S + b_3)/2))` |
     /// | third on the nut | `w_B/w_N = (C + r cos b_S)/(1 + C)`, `C = cos(b_S - (b_N - b_3)/2)/cos((b_N + b_3)/2)` |

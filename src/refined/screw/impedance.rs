@@ -207,8 +207,8 @@ impl ScrewBall {
             speed: motion.speed + scale * speed,
             turn: [turn_x + scale * x, turn_y + scale * y, turn_z + scale * z],
         };
-        // Loss after the step: with outer forces L and H dy = L - g it changes by scale g dy +
-        // scale²/2 (L - g) dy.
+        // Loss after the step: with outer forces Q and H dy = Q - g it changes by scale g dy +
+        // scale²/2 (Q - g) dy.
         let pull = decrement + force * (2.0 * free.speed + force * column.speed);
         let [along, about_x, about_y, about_z] = *rubbing;
         let work = (force + along) * speed + about_x * x + about_y * y + about_z * z;

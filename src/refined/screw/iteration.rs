@@ -3,12 +3,10 @@
 use super::ball::ScrewBall;
 use super::contacts::ScrewContacts;
 use super::motion::ScrewBallState;
+use crate::ranges;
 
 /// Impedance steps from [`ScrewBall::start`] that [`ScrewBall::solve`] takes.
 pub const DEFAULT_IMPEDANCE_STEPS: u8 = 4;
-
-/// Largest force along the track that counts, N.
-const LARGEST_FORCE: f32 = 1e7;
 
 impl ScrewBall {
     /// Motion after [`ScrewBall::start`] and [`DEFAULT_IMPEDANCE_STEPS`] impedance steps, with no force from
@@ -71,7 +69,7 @@ impl ScrewBall {
         state: &ScrewBallState,
         force: f32,
     ) -> ScrewBallState {
-        let force = if force.abs() <= LARGEST_FORCE {
+        let force = if force.abs() <= ranges::LOAD.maximum {
             force
         } else {
             0.0

@@ -4,7 +4,6 @@ use std::f64::consts::TAU;
 
 use epas_friction::ball::{AnalyticLinearBall, PUBLISHED_SLOPE, SpeedDeviation};
 use epas_friction::refined::{BallChain, BallState, FourPointBall, FourPointContacts};
-use epas_friction::train::Press;
 use epas_reference::friction::chain::solve_chain;
 use epas_reference::friction::linear_ball::LinearBall;
 
@@ -14,6 +13,9 @@ use crate::plot::{Axis, Chart, ColourMap, Mark, Note, Panel, Series};
 use crate::report::document::{Block, Cell, Figure, Table};
 use crate::report::statistics::{Errors, evenly};
 use crate::study::{self, turned_ball};
+
+/// Room of two balls that touch on an open track.
+const OPEN: [f32; 2] = [0.0, f32::INFINITY];
 
 /// Key of the time and name of each variant.
 const VARIANTS: [(&str, &str); 5] = [
@@ -99,20 +101,9 @@ impl Models {
         let contacts = [self.contacts(&pair[0]), self.contacts(&pair[1])];
         let mut chain = BallChain::<2>::new();
         chain.balls = contacts.map(|contacts| self.ball.start(&contacts));
-        let mut press = Press::new();
         for _ in 0..steps {
-            self.ball.refine_chain(
-                &contacts,
-                &mut chain,
-                1.0,
-                ball_friction,
-                |free, compliance, forces| {
-                    press.solve(free, &compliance.map(f32::recip), &[0.0, f32::INFINITY]);
-                    for (place, force) in forces.iter_mut().zip(press.forces()) {
-                        *place = force;
-                    }
-                },
-            );
+            self.ball
+                .refine_chain(&contacts, &mut chain, &OPEN, 1.0, ball_friction);
         }
         chain.forces[0].into()
     }

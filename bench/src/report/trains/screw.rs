@@ -2,7 +2,6 @@
 
 use epas_friction::ball::ScrewRow;
 use epas_friction::refined::{ScrewBall, ScrewChain, ScrewContacts};
-use epas_friction::train::Press;
 use epas_friction::{GrooveFit, LoadShare};
 use epas_reference::friction::ball_screw_ball::ScrewMotion;
 use epas_reference::friction::ball_screw_elastic::ScrewSupport;
@@ -13,6 +12,9 @@ use crate::plot::{Axis, Chart, Mark, Note, Panel, Series};
 use crate::report::document::{Block, Cell, Figure, Table};
 use crate::report::statistics::Errors;
 use crate::study;
+
+/// Room of two balls that touch on an open track.
+const OPEN: [f32; 2] = [0.0, f32::INFINITY];
 
 /// Key of the time and name of each variant.
 const VARIANTS: [(&str, &str); 4] = [
@@ -99,14 +101,7 @@ impl Models {
         let given = [0, 1].map(|ball| self.contacts(&apart.balls[ball]));
         let closed = given.map(|contacts| self.ball.closed_form(&contacts));
         let mut chain = ScrewChain::new(closed);
-        let mut press = Press::<2>::new();
-        let mut pool = |free: &[f32; 2], compliance: &[f32; 2], forces: &mut [f32; 2]| {
-            press.solve(free, &compliance.map(f32::recip), &[0.0, f32::INFINITY]);
-            for (place, force) in forces.iter_mut().zip(press.forces()) {
-                *place = force;
-            }
-        };
-        self.ball.press_chain(&mut chain, 1.0, &mut pool);
+        self.ball.press_chain(&mut chain, &OPEN, 1.0);
         let mut forces = [0.0, chain.forces[0].into(), 0.0, 0.0];
         let of = |state: &epas_friction::refined::ScrewBallState| {
             f64::from(self.ball.orbital_speed(&state.motion)) - truth
@@ -127,7 +122,7 @@ impl Models {
         for step in 1..=24 {
             let friction = study::FRICTION as f32;
             self.ball
-                .refine_chain(&given, &mut chain, 1.0, friction, &mut pool);
+                .refine_chain(&given, &mut chain, &OPEN, 1.0, friction);
             match step {
                 3 => forces[3] = chain.forces[0].into(),
                 24 => forces[2] = chain.forces[0].into(),

@@ -1,8 +1,9 @@
 //! The contact angle of least loss.
 
-use super::Drive;
+use crate::efficiency::closed_form::Drive;
 use crate::error::{Error, in_range};
 use crate::math::{self, constant};
+use crate::ranges;
 
 /// The contact angle at which full sliding loses least, with the loss-free bound on the lead angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,7 +38,7 @@ pub fn optimum_contact_angle(
     friction: f32,
 ) -> Result<OptimumContactAngle, Error> {
     in_range("lead_angle", lead_angle, 0.0, 1.5)?;
-    in_range("friction", friction, 0.0, super::LARGEST_FRICTION)?;
+    ranges::FRICTION_OR_NONE.checked("friction", friction)?;
     let (sin, cos) = math::sin_cos(lead_angle);
     let tan_squared = (sin / cos) * (sin / cos);
     let sin_friction_angle = friction / math::sqrt(1.0 + friction * friction);

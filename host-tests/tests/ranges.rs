@@ -1,0 +1,296 @@
+//! One range of the friction coefficient: formulas at both its ends, and just beyond.
+//!
+//! Where all contacts of a ball have the same coefficient, its motion does not depend on it; losses and the forces between
+//! balls are proportional to it.
+
+use epas_friction::ball::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE};
+use epas_friction::efficiency::{
+    DesignRequest, Drive, Duty, DynamicCorrection, EfficiencyGeometry, optimum_contact_angle,
+    optimum_efficiency,
+};
+use epas_friction::kinematics::{ContactKinematics, FrictionPower, KinematicsParameters};
+use epas_friction::ranges::{FRICTION, FRICTION_OF_A_ROW, FRICTION_OR_NONE, LOAD};
+use epas_friction::refined::{
+    BallChain, FourPointBall, RotaryBall, RotaryBallParameters, ScrewBall, ScrewChain,
+};
+use epas_friction::{BallScrew, CATALOGUE, Error, Material, Range};
+
+/// The value whose figures those at both ends are compared with.
+const USUAL: f32 = 0.1;
+
+/// Room of two balls that touch on an open track.
+const OPEN: [f32; 2] = [0.0, f32::INFINITY];
+
+fn screw() -> BallScrew {
+    CATALOGUE[15].design().unwrap()
+}
+
+fn linear(friction: f32) -> LinearBallParameters {
+    LinearBallParameters {
+        ball_radius: 0.005,
+        contact_angle: core::f32::consts::FRAC_PI_4,
+        axis_ratio: 0.2321,
+        semi_major_coefficient: 9.075e-5,
+        friction,
+    }
+}
+
+fn rotary(friction: f32) -> RotaryBallParameters {
+    RotaryBallParameters {
+        ball_radius: 0.00625,
+        pitch_radius: 0.035,
+        contact_angle: 0.785,
+        axis_ratio_inner: 0.157,
+        axis_ratio_outer: 0.216,
+        semi_major_coefficient_inner: 1.288e-4,
+        semi_major_coefficient_outer: 1.196e-4,
+        friction,
+    }
+}
+
+fn request(friction: f32) -> DesignRequest {
+    DesignRequest {
+        duty: Duty::MoveAxialLoad(14_500.0),
+        lead_angle: 5f32.to_radians(),
+        friction,
+        screw_length: 0.75,
+        pitch_radius: 14.5e-3,
+        ball_ratio: 0.14,
+        osculation: 0.95,
+        loaded_balls: 71,
+        rotation: 1.0,
+        material: Material::STEEL,
+    }
+}
+
+/// A constructor, by what it answers.
+type Constructor = fn(f32) -> Result<(), Error>;
+
+fn refused_beyond(range: Range, constructors: &[Constructor]) {
+    for constructor in constructors {
+        for end in [range.minimum, range.maximum] {
+            assert_eq!(constructor(end), Ok(()), "{end}");
+        }
+        for beyond in [range.minimum.next_down(), range.maximum.next_up()] {
+            let error = constructor(beyond).unwrap_err();
+            assert_eq!(error.field(), "friction");
+            assert_eq!(error.allowed(), range);
+        }
+    }
+}
+
+#[test]
+fn every_constructor_takes_the_whole_range_and_nothing_beyond() {
+    refused_beyond(
+        FRICTION,
+        &[
+            |friction| AnalyticLinearBall::new(&linear(friction), PUBLISHED_SLOPE).map(drop),
+            |friction| FourPointBall::linear(&linear(friction)).map(drop),
+            |friction| RotaryBall::new(&rotary(friction)).map(drop),
+            |friction| ScrewBall::new(&screw(), friction).map(drop),
+        ],
+    );
+    refused_beyond(
+        FRICTION_OR_NONE,
+        &[
+            |friction| optimum_contact_angle(Drive::Driving, 0.1, friction).map(drop),
+            |friction| request(friction).figures().map(drop),
+        ],
+    );
+    // What a row takes, its balls take.
+    assert!(FRICTION.minimum <= FRICTION_OF_A_ROW.minimum);
+    assert!(FRICTION_OF_A_ROW.maximum <= FRICTION.maximum);
+    assert!(FRICTION_OR_NONE.contains(FRICTION.minimum) && !FRICTION.contains(0.0));
+}
+
+/// The equations scale with the coefficient but for roundings and floors of 1e-9 N. Measured: 4.2e-7.
+const SCALED: f32 = 1e-6;
+
+fn close(found: f32, wanted: f32, what: &str) {
+    let error = found / wanted - 1.0;
+    println!("{what}: {error:e}");
+    assert!(
+        error.abs() < SCALED,
+        "{what}: {found} for {wanted}, off by {error:e}"
+    );
+}
+
+#[test]
+fn a_ball_of_a_linear_or_rotary_bearing_at_both_ends() {
+    let (angles, forces) = (
+        [0.7505, 0.8203, 0.7854, 0.7854],
+        [114.06, 24.32, 113.14, 28.28],
+    );
+    let usual = FourPointBall::linear(&linear(USUAL)).unwrap();
+    let contacts = usual.contacts(&angles, &forces);
+    let wanted = usual.solve(&contacts);
+    let closed = |friction| {
+        let ball = AnalyticLinearBall::new(&linear(friction), PUBLISHED_SLOPE).unwrap();
+        ball.speed_deviation(&angles, &forces)
+    };
+    let rotary_usual = RotaryBall::new(&rotary(USUAL)).unwrap();
+    let rotary_wanted = rotary_usual
+        .four_point()
+        .solve(&rotary_usual.contacts(&angles, &forces));
+    for friction in [FRICTION.minimum, FRICTION.maximum] {
+        let factor = friction / USUAL;
+        let ball = FourPointBall::linear(&linear(friction)).unwrap();
+        let found = ball.solve(&ball.contacts(&angles, &forces));
+        close(
+            found.speed_deviation,
+            wanted.speed_deviation,
+            "linear, speed",
+        );
+        close(
+            found.friction_force,
+            factor * wanted.friction_force,
+            "linear, force",
+        );
+        close(
+            found.compliance,
+            wanted.compliance / factor,
+            "linear, compliance",
+        );
+
+        let analytic = closed(friction);
+        assert_eq!(analytic.speed_deviation, closed(USUAL).speed_deviation);
+        close(
+            analytic.compliance,
+            closed(USUAL).compliance / factor,
+            "closed form",
+        );
+
+        let ball = RotaryBall::new(&rotary(friction)).unwrap();
+        let found = ball.four_point().solve(&ball.contacts(&angles, &forces));
+        close(
+            found.speed_deviation,
+            rotary_wanted.speed_deviation,
+            "rotary, speed",
+        );
+        let torque = factor * rotary_usual.friction_torque(&rotary_wanted);
+        close(ball.friction_torque(&found), torque, "rotary, torque");
+    }
+}
+
+/// Two balls, the one in front slower: three contacts each, and four.
+#[test]
+fn balls_of_a_screw_that_press_at_both_ends() {
+    let usual = ScrewBall::new(&screw(), USUAL).unwrap();
+    for forces in [[9.0, 75.0, 75.0, 0.0], [60.0, 75.0, 75.0, 60.0]] {
+        let pair = |ball: &ScrewBall, between: f32| {
+            let contacts = [[0.785; 4], [0.750, 0.820, 0.785, 0.785]]
+                .map(|angles| ball.contacts(&angles, &forces));
+            let states = contacts.map(|contacts| ball.solve(&contacts));
+            let mut chain = ScrewChain::new(states);
+            for _ in 0..8 {
+                assert!(ball.refine_chain(&contacts, &mut chain, &OPEN, 1.0, between));
+            }
+            (states, chain)
+        };
+        let (wanted, wanted_chain) = pair(&usual, 0.0);
+        for friction in [FRICTION.minimum, FRICTION.maximum] {
+            let factor = friction / USUAL;
+            let ball = ScrewBall::new(&screw(), friction).unwrap();
+            let (found, chain) = pair(&ball, 0.0);
+            for (found, wanted) in found.iter().zip(&wanted) {
+                let speed = ball.orbital_speed(&found.motion);
+                close(speed, usual.orbital_speed(&wanted.motion), "screw, speed");
+                let torque = factor * wanted.groove_torque;
+                close(found.groove_torque, torque, "screw, torque");
+            }
+            let force = factor * wanted_chain.forces[0];
+            close(chain.forces[0], force, "screw, contact force");
+            // Friction between the balls up to its end keeps everything finite.
+            let (_, chain) = pair(&ball, FRICTION_OR_NONE.maximum);
+            assert!(chain.forces.iter().all(|force| force.is_finite()));
+            assert!(
+                chain
+                    .balls
+                    .iter()
+                    .all(|state| state.groove_torque.is_finite())
+            );
+        }
+    }
+}
+
+#[test]
+fn balls_of_a_linear_bearing_that_press_at_both_ends() {
+    let contact_forces = [[113.0, 28.0, 113.0, 28.0], [28.0, 113.0, 28.0, 113.0]];
+    let force = |friction: f32, between: f32| {
+        let ball = FourPointBall::linear(&linear(friction)).unwrap();
+        let contacts =
+            contact_forces.map(|forces| ball.contacts(&[0.7505, 0.8203, 0.7854, 0.7854], &forces));
+        let mut chain = BallChain::<2>::new();
+        chain.balls = contacts.map(|contacts| ball.start(&contacts));
+        for _ in 0..8 {
+            assert!(ball.refine_chain(&contacts, &mut chain, &OPEN, 1.0, between));
+        }
+        assert!(
+            chain
+                .balls
+                .iter()
+                .all(|state| state.friction_force.is_finite())
+        );
+        chain.forces[0]
+    };
+    let wanted = force(USUAL, 0.0);
+    assert!(wanted > 0.1);
+    for friction in [FRICTION.minimum, FRICTION.maximum] {
+        let found = force(friction, 0.0);
+        close(found, friction / USUAL * wanted, "linear, contact force");
+        assert!(force(friction, FRICTION_OR_NONE.maximum).is_finite());
+    }
+}
+
+/// Without friction there is no loss; at 1 every figure is finite, and what locks says so.
+#[test]
+fn efficiency_at_both_ends() {
+    for (lead, contact) in [(0.01, 0.3), (0.1, 0.785), (0.5, 0.785), (1.2, 1.3)] {
+        let screw = EfficiencyGeometry::new(lead, contact, 0.18).unwrap();
+        assert_eq!(screw.rolling_efficiency(0.0, 0.0), 1.0);
+        assert_eq!(screw.rolling_backdrive_efficiency(0.0, 0.0), 1.0);
+        assert_eq!(screw.sliding_efficiency(0.0), 1.0);
+        assert_eq!(screw.sliding_backdrive_efficiency(0.0), 1.0);
+        for drive in [Drive::Driving, Drive::BackDriving] {
+            assert!(!screw.locks(drive, 0.0));
+            assert_eq!(screw.rolling_torque_per_load(drive, 0.01, 0.0, 0.0), 0.0);
+            assert_eq!(screw.sliding_torque_per_load(drive, 0.01, 0.0), 0.0);
+        }
+        let most = FRICTION_OR_NONE.maximum;
+        for (drive, efficiency) in [
+            (Drive::Driving, screw.sliding_efficiency(most)),
+            (Drive::BackDriving, screw.sliding_backdrive_efficiency(most)),
+        ] {
+            assert!(efficiency.is_finite() && efficiency < 1.0);
+            assert!(
+                screw.locks(drive, most) == (efficiency <= 0.0),
+                "{lead} {contact}"
+            );
+        }
+        assert!(screw.rolling_efficiency(most, 0.0).is_finite());
+        assert!(screw.rolling_backdrive_efficiency(most, 0.0) < 1.0);
+        let dynamic = DynamicCorrection::new(&screw, most);
+        assert!(dynamic.coefficient().is_finite() && dynamic.efficiency(1e-3).is_finite());
+    }
+    assert_eq!(optimum_efficiency(0.0), 1.0);
+    // (sqrt 2 - 1)²
+    close(optimum_efficiency(1.0), 0.171_572_88, "optimum efficiency");
+    for friction in [FRICTION_OR_NONE.minimum, FRICTION_OR_NONE.maximum] {
+        let figures = request(friction).figures().unwrap();
+        assert!(figures.max_pressure_screw.is_finite() && figures.max_pressure_nut.is_finite());
+        assert_eq!(figures.locked, figures.sliding_efficiency <= 0.0);
+    }
+}
+
+#[test]
+fn friction_power_at_both_ends() {
+    let parameters = KinematicsParameters::of(&screw(), 100.0, 100.0).unwrap();
+    let power = FrictionPower::new(&ContactKinematics::new(&parameters).unwrap());
+    let of = |friction, load| power.of_ball(friction, load, load, 100.0).total();
+    assert_eq!(of(0.0, 100.0), 0.0);
+    close(of(1.0, 100.0), 10.0 * of(0.1, 100.0), "friction power");
+    assert_eq!(of(1.0_f32.next_up(), 100.0), 0.0);
+    assert_eq!(of(0.1, LOAD.minimum), 0.0);
+    assert!(of(0.1, LOAD.maximum).is_finite() && of(0.1, LOAD.maximum) > 0.0);
+    assert_eq!(of(0.1, LOAD.maximum.next_up()), 0.0);
+}

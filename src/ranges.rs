@@ -1,0 +1,41 @@
+//! The range of a quantity that several modules take: one quantity, one range, whoever asks for it.
+//!
+//! Called at set-up, by every constructor that takes one of these quantities.
+//!
+//! A range that only one module has stands in the documentation of its field. Ranges of a validated design (conformity,
+//! nominal contact angle) stand in [`geometry`](crate::geometry).
+
+use crate::error::Range;
+
+/// Coulomb friction coefficient of ball and groove, where a formula divides by it: 1e-6 to 1.
+///
+/// Impedances and speeds of balls that press on each other are forces over friction, so that none at all leaves them
+/// undefined. The upper end is far above any rolling contact's (0.05 to 0.2).
+pub const FRICTION: Range = Range::new(1e-6, 1.0);
+
+/// Coulomb friction coefficient where no formula divides by it: 0 to 1. With 0 there is no loss.
+///
+/// That of ball and groove in efficiencies, losses and friction power; that of ball and ball everywhere.
+pub const FRICTION_OR_NONE: Range = Range::new(0.0, 1.0);
+
+/// Coulomb friction coefficient in a row of balls that find their own loads: 1e-6 to 0.5.
+///
+/// Smaller than [`FRICTION`]: friction across the track wedges the ball between its grooves, and the contact force grows
+/// by `1/(1 - mu share)` with a share of sliding friction up to 1. At 0.5 that is twofold; at 1 it has no bound.
+pub const FRICTION_OF_A_ROW: Range = Range::new(1e-6, 0.5);
+
+/// Load of one contact or one ball, N: 0 to 1e7.
+pub const LOAD: Range = Range::new(0.0, 1e7);
+
+/// Ball radius, m: 1e-5 to 1. A ball screw's design also bounds it by 0.9 of the pitch radius.
+pub const BALL_RADIUS: Range = Range::new(1e-5, 1.0);
+
+/// Radius of the cylinder on which the balls of a ball screw run, m: 1e-4 to 10.
+pub const PITCH_RADIUS: Range = Range::new(1e-4, 10.0);
+
+/// Nominal contact angle of a ball that rolls in up to four contacts, rad: 0.05 to 1.5. Its speed of rotation grows with
+/// `1/cos`, its spin vanishes with `sin`.
+pub const ROLLING_CONTACT_ANGLE: Range = Range::new(0.05, 1.5);
+
+/// Semi-major axis of a contact over the cube root of its load, m/N^(1/3): 1e-8 to 1.
+pub const SEMI_MAJOR_COEFFICIENT: Range = Range::new(1e-8, 1.0);
