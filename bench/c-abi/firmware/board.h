@@ -1,4 +1,4 @@
-/* What the start-up and semihosting give to the program. */
+/* What the board gives to the program: the timer of the core, and the exit by semihosting. */
 #ifndef BOARD_H
 #define BOARD_H
 
@@ -7,11 +7,8 @@
 /* Ends the program; the debugger, or QEMU, reports whether it passed. */
 void board_exit(uint32_t passed) __attribute__((noreturn));
 
-/* Interrupts every so many cycles of the core, with sys_tick_handler. */
+/* Interrupts the program every so many cycles of the core, with sys_tick_handler of program.h. */
 void board_start_sys_tick(uint32_t cycles);
 void board_stop_sys_tick(void);
-
-void sys_tick_handler(void);
-int main(void);
 
 #endif

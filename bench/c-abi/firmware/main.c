@@ -2,6 +2,7 @@
  * interrupt that comes in the middle of the steps of another. */
 #include "board.h"
 #include "epas_test.h"
+#include "program.h"
 
 static epas_caged_t caged;
 static epas_screw_t screw;

@@ -9,7 +9,7 @@ use epas_friction::math;
 use epas_friction::refined::FourPointBall;
 use epas_reference::friction::linear_ball::{EllipseLaw, LinearBall};
 
-use super::Context;
+use super::context::Context;
 use super::curvature::{FORMS, catalogue_errors};
 use super::document::{Block, Cell, Figure, Section, Table};
 use super::statistics::{Errors, evenly};

@@ -15,7 +15,7 @@ use epas_friction::{
     UncagedBallScrewConfiguration,
 };
 
-use crate::Outcome;
+use crate::outcome::Outcome;
 
 /// Ticks of each scene.
 const TICKS: u32 = 256;

@@ -6,7 +6,7 @@ use std::path::Path;
 use epas_friction::scene::Scene;
 use epas_friction::{CagedBallScrew, FrictionModel, LinearBearingTrain, UncagedBallScrew};
 
-use crate::Outcome;
+use crate::outcome::Outcome;
 
 /// As the library keeps a model.
 #[repr(C)]
