@@ -299,8 +299,6 @@ fn train() {
     for _ in 0..300 {
         let free: [f32; 37] = std::array::from_fn(|_| (0.02 * random()) as f32);
         let impedance: [f32; 37] = std::array::from_fn(|_| 10_f64.powf(3.0 * random()) as f32);
-        let mut gaps = [0.0; 37];
-        gaps[36] = 1.0;
         let mut train = Train::new(1.0, 0.005, &[0.0; 37]).unwrap();
         train.step(&free, &impedance, 1e-6);
         let exact = |numbers: &[f32]| numbers.iter().map(|&x| f64::from(x)).collect::<Vec<_>>();

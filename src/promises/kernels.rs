@@ -38,6 +38,7 @@ pub const CBRT_SQUARED: Promise = Promise {
     largest: 0.54,
     not_finite: "NaN; infinity",
     tiny: "zeros give 0, subnormals are numbers",
+    cycles: 118,
     counted: &["cbrt_squared"],
     ..CBRT
 };
