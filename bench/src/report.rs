@@ -3,6 +3,7 @@
 
 mod applications;
 mod bearings;
+mod context;
 mod cortex_m;
 mod curvature;
 mod document;
@@ -15,13 +16,15 @@ mod published;
 mod stability;
 mod statistics;
 mod summary;
+mod times;
 mod trains;
 
 use std::path::PathBuf;
 
 use crate::failure::Failure;
 use crate::target::TargetFigures;
-use crate::timing::{Competition, compete};
+use crate::timing::compete;
+use context::Context;
 use document::{Document, Section};
 
 /// The error of every formula against its run time, on this machine (the main job).
@@ -44,23 +47,6 @@ impl Default for Arguments {
             output: "target/report".into(),
             quick: false,
         }
-    }
-}
-
-/// What every section works with.
-struct Context {
-    quick: bool,
-    competition: Vec<Competition>,
-    target: TargetFigures,
-}
-
-impl Context {
-    /// The times of a function by its key.
-    fn times(&self, key: &str) -> Result<&Competition, Failure> {
-        self.competition
-            .iter()
-            .find(|entry| entry.key == key)
-            .ok_or_else(|| Failure::Data(format!("nothing was timed as {key}")))
     }
 }
 

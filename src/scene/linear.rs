@@ -13,6 +13,7 @@ use crate::error::{Error, attempt, in_range};
 use crate::geometry::LinearBearing;
 use crate::hertz::HertzContact;
 use crate::math;
+use crate::ranges;
 
 /// Force of a diagonal below which it does not count, N.
 const SMALLEST_FORCE: f32 = 2e-6;
@@ -67,7 +68,7 @@ pub struct LinearLimits {
 pub struct LinearBearingConfiguration {
     /// The validated design.
     pub bearing: LinearBearing,
-    /// Coulomb friction coefficient of ball and groove, 1e-3 to 1.
+    /// Coulomb friction coefficient of ball and groove, 1e-6 to 1.
     pub friction: f32,
     /// Coulomb friction coefficient of ball and ball, 0 to 1.
     pub ball_friction: f32,
@@ -234,8 +235,8 @@ impl<const N: usize> LinearConstants<N> {
             limits,
             ..
         } = *configuration;
-        attempt!(in_range("friction", friction, 1e-3, 1.0));
-        attempt!(in_range("ball_friction", ball_friction, 0.0, 1.0));
+        attempt!(ranges::FRICTION.checked("friction", friction));
+        attempt!(ranges::FRICTION_OR_NONE.checked("ball_friction", ball_friction));
         let reversal = attempt!(Reversal::new(reversal_speed, 1e-9, 10.0));
         let limits = attempt!(limits.checked());
         let circuit = attempt!(configuration.circuit(&limits, N));

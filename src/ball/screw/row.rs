@@ -8,6 +8,7 @@ use super::tick::{Mean, ScrewTick, limited};
 use crate::ball::loads::{LoadShare, loaded};
 use crate::error::{Error, attempt, in_range};
 use crate::geometry::BallScrew;
+use crate::ranges;
 
 /// Smallest load per ball, N: below it a ball keeps the motion and the compliance that it has there.
 const SMALLEST_LOAD: f32 = 1e-3;
@@ -80,9 +81,9 @@ impl ScrewRow {
     /// # Errors
     /// [`Error`] naming `friction` (1e-6 to 0.5), `contact_angle` (0.05 to 1.5), `contact_force` or `axis_ratio`.
     pub const fn new(design: &BallScrew, friction: f32, fit: GrooveFit) -> Result<Self, Error> {
-        let friction = attempt!(in_range("friction", friction, 1e-6, 0.5));
+        let friction = attempt!(ranges::FRICTION_OF_A_ROW.checked("friction", friction));
         let contact_angle = design.parameters().contact_angle;
-        attempt!(in_range("contact_angle", contact_angle, 0.05, 1.5));
+        attempt!(ranges::ROLLING_CONTACT_ANGLE.checked("contact_angle", contact_angle));
         let preload = match fit {
             GrooveFit::Preload { contact_force } => {
                 attempt!(in_range("contact_force", contact_force, 1e-3, 1e6))
