@@ -10,10 +10,12 @@
 
 mod linear;
 mod loads;
+mod preload;
 mod screw;
 
 pub use linear::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE, SpeedDeviation};
 pub use loads::LoadShare;
 pub(crate) use loads::loaded;
-pub use screw::{GrooveFit, ScrewBallLoop, ScrewRow, ScrewTick};
-pub(crate) use screw::{LoopSums, largest_deviation};
+pub(crate) use preload::PreloadSum;
+pub(crate) use screw::largest_deviation;
+pub use screw::{GrooveFit, LoopBall, LoopSums, ScrewLoop, ScrewRow, ScrewTick, ScrewTickBall};

@@ -44,7 +44,6 @@ mod parameters;
 mod path;
 mod pitch_angle;
 mod slip;
-mod traditional;
 
 pub use ball::ContactKinematics;
 pub use coefficients::{ContactCoefficients, SlipRatios, SlipVector};
@@ -52,4 +51,3 @@ pub use friction_power::{BallFrictionPower, FrictionPower, SlipParts};
 pub use parameters::{EllipticContact, KinematicsParameters};
 pub use pitch_angle::PitchMethod;
 pub use slip::{BallKinematics, ContactSlip};
-pub use traditional::TraditionalKinematics;

@@ -67,6 +67,6 @@ pub use model::FrictionModel;
 pub use scene::{
     CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, DeviationMap, Faults,
     FrictionBranch, Harmonic, Inputs, Limits, LinearBearingConfiguration, LinearBearingTrain,
-    LinearConstants, LinearInputs, LinearLimits, Outputs, Regime, Scene, TrainOutputs,
-    UncagedBallScrew, UncagedBallScrewConfiguration, UncagedConstants,
+    LinearConstants, LinearInputs, LinearLimits, LinearOutputs, Outputs, Regime, Scene,
+    UncagedBallScrew, UncagedBallScrewConfiguration, UncagedConstants, UncagedOutputs,
 };

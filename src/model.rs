@@ -4,7 +4,8 @@ use core::borrow::Borrow;
 
 use crate::error::Error;
 use crate::scene::{
-    LinearBearingTrain, LinearConstants, Scene, UncagedBallScrew, UncagedConstants,
+    Faults, LinearBearingTrain, LinearConstants, Scene, SceneOutputs, UncagedBallScrew,
+    UncagedConstants,
 };
 
 /// Friction of one scene: configured once, stepped in the interrupt.
@@ -63,7 +64,7 @@ use crate::scene::{
 /// }
 ///
 /// let model = FrictionModel::<CagedBallScrew, _>::of(&GEAR);
-/// assert_eq!(model.state().faulted_ticks, 0);
+/// assert_eq!(model.faulted_ticks(), 0);
 /// ```
 ///
 /// With a field out of range this does not compile:
@@ -95,6 +96,7 @@ use crate::scene::{
 pub struct FrictionModel<S: Scene, C = <S as Scene>::Constants> {
     constants: C,
     state: S::State,
+    faulted_ticks: u32,
 }
 
 impl<S: Scene> FrictionModel<S> {
@@ -111,18 +113,45 @@ impl<S: Scene, C: Borrow<S::Constants>> FrictionModel<S, C> {
     /// A model of constants that are folded already, or of a reference to them.
     pub fn of(constants: C) -> Self {
         let state = S::initial_state(constants.borrow());
-        Self { constants, state }
+        Self {
+            constants,
+            state,
+            faulted_ticks: 0,
+        }
     }
 
     /// One tick: bounded time, no panic, finite outputs whatever the inputs are.
+    ///
+    /// The one place where faults are handled, for every scene: inputs are admitted within their limits
+    /// ([`Scene::admit`]), the mechanism is computed from them ([`Scene::outputs`]), its friction is limited, and ticks
+    /// with a fault are counted. Where an input is NaN or infinite, nothing is computed: the output is the safe one and
+    /// the state stays as it is.
     #[inline]
     pub fn step(&mut self, inputs: S::Inputs) -> S::Outputs {
-        S::step(self.constants.borrow(), &mut self.state, inputs)
+        let constants = self.constants.borrow();
+        let admitted = S::admit(constants, inputs);
+        let outputs = match admitted.inputs {
+            Some(inputs) => S::outputs(constants, &mut self.state, inputs)
+                .limited(S::largest_friction(constants), admitted.faults),
+            None => S::Outputs::safe(admitted.faults),
+        };
+        self.faulted_ticks = if outputs.faults() == Faults::NONE {
+            0
+        } else {
+            self.faulted_ticks.saturating_add(1)
+        };
+        outputs
     }
 
     /// Back to the state before the first tick.
     pub fn reset(&mut self) {
         self.state = S::initial_state(self.constants.borrow());
+        self.faulted_ticks = 0;
+    }
+
+    /// Consecutive ticks whose outputs were flagged, up to `u32::MAX`; 0 after a sound tick.
+    pub const fn faulted_ticks(&self) -> u32 {
+        self.faulted_ticks
     }
 
     /// The folded constants.
@@ -142,7 +171,9 @@ impl<const N: usize, C: Borrow<UncagedConstants<N>>> FrictionModel<UncagedBallSc
     /// the speed. Ticks without a valid speed are missing in that sum, one beyond its limit counts with the
     /// limit. An angle that is NaN, or beyond 8e6 periods of the map, counts as 0.
     pub fn set_nut_angle(&mut self, angle: f32) {
-        self.state.set_nut_angle(self.constants.borrow(), angle);
+        self.constants
+            .borrow()
+            .set_nut_angle(&mut self.state, angle);
     }
 }
 
@@ -152,7 +183,8 @@ impl<const N: usize, C: Borrow<LinearConstants<N>>> FrictionModel<LinearBearingT
     /// speed are missing in that sum, one beyond its limit counts with the limit. A place that is NaN, or beyond
     /// 8e6 periods of the map, counts as 0.
     pub fn set_carriage_position(&mut self, position: f32) {
-        self.state
-            .set_carriage_position(self.constants.borrow(), position);
+        self.constants
+            .borrow()
+            .set_carriage_position(&mut self.state, position);
     }
 }

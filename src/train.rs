@@ -1,15 +1,86 @@
-//! The train of balls: ball-to-ball contacts, clusters, recirculation.
+//! The train of balls: which balls press on each other, how hard, and where they go.
 //!
 //! | | what it is |
 //! |---|---|
-//! | [`Press`] | forces between balls from their free speeds, compliances and distances: one exact pass |
+//! | [`Press`] | forces between balls from their free speeds, impedances and rooms: one exact pass |
 //! | [`Train`] | the balls' positions on a closed track, and a tick that moves them |
+//!
+//! A ball is known here by two numbers alone, the speed at which it would run on its own and the force that
+//! changes this speed by one, its impedance. What the numbers come from stands elsewhere. [`Press`] says what is
+//! solved; this page says how, file by file, for whoever reviews it.
+//!
+//! # Words
+//!
+//! - **Room** of a ball: the speed at which it may run up to the ball in front; their gap over the time of a tick.
+//! - **Slack** `s_j = u_(j+1) - u_j + r_j`: by how much a ball stays clear of the one in front if both run at their
+//!   free speeds `u`, with the room `r`. Around the ring the slacks add up to the rooms.
+//! - **Cluster**: neighbours that move as one, because they touch or close their gaps within the tick. A ball alone
+//!   is a cluster of one. No force acts on a cluster from outside: its front ball presses on none, nothing pushes its
+//!   rear ball.
+//! - **Push** of a cluster: the force with which the others would push the front ball, if that kept its free speed.
+//! - **Foremost** ball: one that presses on none, where walks around the ring begin.
+//!
+//! # Phases of a tick
+//!
+//! | phase | file | work for `N` balls | what holds afterwards |
+//! |---|---|---|---|
+//! | take in | `intake`, `track` | `N` balls | each ball has its free speed, impedance and slack; nothing but its position is left of the last tick |
+//! | join | `pool`, `cluster` | at most `N - 1` joins, fewer than `4 N` comparisons | clusters part the ring; none runs into the one ahead; their end balls hold their sums |
+//! | settle | `settle`, `ring` | `N` balls, a division for each cluster of two or more | each ball has its actual speed and its force, zero or more |
+//! | move | `motion`, in the walk of settling | | balls that press stand in contact exactly, no two overlap by more than rounding |
+//! | balance | `balance` | `N` balls, where rounding needs it | the net pushes on each cluster add up to zero, to 1e-6 of the largest force |
+//!
+//! What a ball holds in each phase stands in `ball`. Loops are bounded by `N`; nothing iterates to a tolerance,
+//! recurses, allocates or panics. The longest way is in [`Press::solve`] and grows in proportion to `N`.
+//!
+//! # Why joining is exact
+//!
+//! **What is stored is enough.** A cluster is known by three sums (push, impedance, inner slack), from which follow
+//! its speed and whether it runs into another; those of two as one follow from those of the two (`cluster`).
+//!
+//! **No force inside a cluster ever falls.** Counted from the rear and from the front, the force of ball `j` is
+//!
+//! ```text
+//! F_j = sum over the balls up to j of Z_i (u_i - v_i) = sum over the balls beyond j of Z_i (v_i - u_i)
+//! ```
+//!
+//! Two clusters are joined where the one behind is faster than contact allows. As one, all balls of the one behind
+//! run slower by the same amount, so that by the first sum its forces grow; all balls of the one ahead run faster,
+//! so that by the second its forces grow. The force between the two is above zero. So no join opens a contact that
+//! an earlier one has closed: joins may come in any order, and none is ever taken back.
+//!
+//! **It ends.** Each join makes one cluster of two: there are at most `N - 1`. A comparison that finds none is
+//! followed by a join or ends a cluster, so that there are fewer than `4 N`.
+//!
+//! **It is the solution.** In the end no cluster runs into the one ahead, all forces within are zero or more and
+//! those between are zero: these are the conditions in [`Press`], which one set of speeds alone fulfils. A ring keeps
+//! at least one gap between clusters or within its only one, since its slacks add up to the rooms, which are not
+//! negative.
+//!
+//! **Comparisons are strict.** Clusters exactly as fast as each other are not joined. The speeds would be the same,
+//! but the force between them would be zero but for rounding, and a contact counted that carries nothing; a ring of
+//! equal balls would be found to press all around.
+//!
+//! # Rounding
+//!
+//! Sums hold differences from free speeds, not speeds, so that what is small keeps its digits. Forces that rounding
+//! makes negative are zero. Adding up a cluster from its front leaves at its rear ball a remainder that is exactly
+//! zero but for rounding; where it exceeds 1e-6 of the largest force, `balance` takes it out. Positions are integers
+//! and do not drift; balls that overlap by up to 2^10 units of 2^32 on the track count as in contact.
 
+mod balance;
 mod ball;
+mod cluster;
+mod intake;
+mod motion;
 mod pool;
+mod positions;
 mod press;
+mod ring;
+mod settle;
 mod track;
 
+pub use positions::{BallContact, Train};
 pub use press::{IMPEDANCE_RANGE, LARGEST_FREE_SPEED, Press};
+pub use track::LARGEST_TRAVEL;
 pub(crate) use track::Track;
-pub use track::{BallContact, LARGEST_TRAVEL, Train};

@@ -5,6 +5,8 @@ use std::io;
 use std::path::Path;
 use std::process::ExitCode;
 
+use epas_reference::ReferenceError;
+
 /// Why a run stopped. Wrong usage never gets here: the argument parser ends the program itself, with
 /// exit code 2.
 #[derive(Debug)]
@@ -63,5 +65,11 @@ impl From<io::Error> for Failure {
         } else {
             Self::Data(error.to_string())
         }
+    }
+}
+
+impl From<ReferenceError> for Failure {
+    fn from(error: ReferenceError) -> Self {
+        Self::Data(error.to_string())
     }
 }

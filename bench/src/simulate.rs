@@ -403,8 +403,8 @@ fn write_table(
         record.push(outputs.faults.bits().to_string());
         if let Some(TrainRow { outputs, way, .. }) = train {
             record.push(way.to_string());
-            record.push(outputs.groove_friction.to_string());
-            record.push(outputs.ball_friction.to_string());
+            record.push(outputs.groove.to_string());
+            record.push(outputs.ball.to_string());
             record.push(outputs.contacts.to_string());
             record.push(outputs.largest_contact_force.to_string());
         }

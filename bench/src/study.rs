@@ -1,19 +1,20 @@
 //! The case studies of Lin 2019 that report and timing share.
 
-use std::f64::consts::{FRAC_PI_4, TAU};
+use std::f64::consts::FRAC_PI_4;
 
 use epas_friction::ball::LinearBallParameters;
 use epas_friction::{
     BallScrew, BallScrewParameters, DeviationMap, FrictionModel, GrooveFit, GrooveSize, Harmonic,
     Limits, LoadShare, Material, UncagedBallScrew, UncagedBallScrewConfiguration,
 };
-use epas_reference::curvature::{Groove, Surface};
+use epas_reference::curvature::Groove;
+use epas_reference::design::BallScrewDesign;
 use epas_reference::friction::ball_screw_ball::ScrewTrack;
 use epas_reference::friction::ball_screw_elastic::{BallSlip, ElasticBalls};
 use epas_reference::friction::ball_screw_grooves::ElasticGrooves;
 use epas_reference::friction::contact_law::HertzLaw;
 use epas_reference::friction::linear_ball::{EllipseLaw, LinearBall, contact_forces};
-use epas_reference::hertz::{Hertz, contact_modulus};
+use epas_reference::material::Elastic;
 
 use crate::failure::Failure;
 
@@ -91,33 +92,23 @@ pub fn ball_screw() -> Result<BallScrew, Failure> {
     .map_err(|error| Failure::Data(error.to_string()))
 }
 
-/// Contact law of one of its grooves.
+/// Contact law of one of its grooves in the reference.
 fn law(groove: Groove) -> Result<HertzLaw, Failure> {
-    let failure = |error: epas_reference::ReferenceError| Failure::Data(error.to_string());
-    let offset = (GROOVE_RADIUS - TRACK.ball_radius) * FRAC_PI_4.sin();
-    let surface = Surface {
-        groove,
-        pitch_radius: TRACK.pitch_radius,
-        lead_angle: (TRACK.lead / TAU).atan2(TRACK.pitch_radius),
-        groove_radius: GROOVE_RADIUS,
-        offset_h: offset,
-        offset_l: offset,
+    let material = Elastic {
+        youngs_modulus: YOUNGS_MODULUS,
+        poisson_ratio: POISSON_RATIO,
     };
-    let curvature = surface.principal(FRAC_PI_4);
-    let material = (YOUNGS_MODULUS, POISSON_RATIO);
-    let hertz = Hertz::new(
-        1.0 / (1.0 / TRACK.ball_radius + curvature.kappa1),
-        1.0 / (1.0 / TRACK.ball_radius + curvature.kappa2),
-        contact_modulus(material, material),
-    )
-    .map_err(failure)?;
-    Ok(HertzLaw {
-        ellipse: EllipseLaw {
-            semi_major_constant: hertz.semi_major,
-            axis_ratio: hertz.axis_ratio,
-        },
-        compliance: hertz.deflection,
-    })
+    let design = BallScrewDesign {
+        pitch_radius: TRACK.pitch_radius,
+        lead: TRACK.lead,
+        ball_radius: TRACK.ball_radius,
+        screw_groove_radius: GROOVE_RADIUS,
+        nut_groove_radius: GROOVE_RADIUS,
+        contact_angle: FRAC_PI_4,
+        ball: material,
+        groove: material,
+    };
+    Ok(design.contact(groove)?.into())
 }
 
 /// Two balls of it, from rear to front, where the screw's contact angles deviate by so many degrees: more

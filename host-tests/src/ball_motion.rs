@@ -21,12 +21,12 @@ use num_dual::DualNum;
 
 use crate::curvature::Groove;
 use crate::error::ReferenceError;
-use crate::steady_state::BallScrewState;
+use crate::steady_state::ball::BallScrewState;
 
 /// How far the ball is from rolling: `wt`, `wn`, `wb` and `D w`, less those of rolling, over `|Omega|`.
 ///
-/// Differences in place of speeds: the slip where a contact sticks is a millionth of the rim speed or
-/// less and would drown in its rounding.
+/// Differences in place of speeds: where a contact sticks its slip is a millionth of the surface speed or
+/// less, and the difference of two surface speeds would round it away.
 pub type State<T> = SVector<T, 4>;
 
 /// A contact: the groove it is on, and where.
@@ -80,7 +80,7 @@ pub struct Action<T> {
 
 impl Motion {
     /// The ball's motion where `turning` turns and the other part moves along the axis; `smoothing` over
-    /// the slip speed of rolling. A positive speed moves the load, a negative one is the load's.
+    /// the slip speed of rolling. With a positive speed the load is moved, with a negative one it drives.
     ///
     /// # Errors
     /// [`ReferenceError`] naming the field of `ball` that is out of range.
@@ -97,7 +97,7 @@ impl Motion {
         let mass = ball.ball_density * 4.0 / 3.0 * PI * radius.powi(3);
         let load = ball.axial_load / (cos_a * sin_b);
         let squared = ball.speed * ball.speed;
-        // A nut that turns one way does what a screw does that turns the other way.
+        // Only the relative turn counts: a turning nut is a screw that turns the other way.
         let (screw, nut) = match turning {
             Groove::Screw => (ball.speed.signum(), 0.0),
             Groove::Nut => (0.0, -ball.speed.signum()),

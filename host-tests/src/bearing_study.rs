@@ -5,7 +5,7 @@
 //! balls, and distance and arrangement of the two rows: they are inputs here, with defaults. The comparison is in kind: the
 //! four-point bearing's friction varies several times over, the double-row bearing's little.
 
-use crate::friction::FrictionError;
+use crate::error::ReferenceError;
 use crate::friction::rotary_ball::{RotaryBearing, RotaryConvention};
 use crate::friction::rotary_bearing::{
     BallRow, LoadedBearing, Raceways, RingLoad, Tilt, distribute,
@@ -109,7 +109,7 @@ impl TurningLoad {
     ///
     /// # Errors
     /// As [`distribute`].
-    pub fn loaded(&self, rows: &[BallRow], angle: f64) -> Result<LoadedBearing, FrictionError> {
+    pub fn loaded(&self, rows: &[BallRow], angle: f64) -> Result<LoadedBearing, ReferenceError> {
         let (sin, cos) = angle.sin_cos();
         let load = RingLoad {
             axial: self.force * cos,
@@ -123,7 +123,7 @@ impl TurningLoad {
     ///
     /// # Errors
     /// As [`distribute`] and [`LoadedBearing::friction`].
-    pub fn at(&self, angle: f64) -> Result<TurningPoint, FrictionError> {
+    pub fn at(&self, angle: f64) -> Result<TurningPoint, ReferenceError> {
         let (four, double) = (self.four_point(), self.double_row());
         let torque = |rows: &[BallRow], loaded: &LoadedBearing| {
             loaded
@@ -144,7 +144,7 @@ impl TurningLoad {
     ///
     /// # Errors
     /// As [`TurningLoad::at`].
-    pub fn sweep(&self, steps: usize) -> Result<Vec<TurningPoint>, FrictionError> {
+    pub fn sweep(&self, steps: usize) -> Result<Vec<TurningPoint>, ReferenceError> {
         (0..=steps)
             .map(|step| self.at(std::f64::consts::FRAC_PI_2 * step as f64 / steps.max(1) as f64))
             .collect()

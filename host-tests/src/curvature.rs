@@ -148,7 +148,7 @@ impl Surface {
         if 1.0 - self.path().0 * self.section(contact_angle).0 > 0.0 {
             return Ok(());
         }
-        Err(ReferenceError::new(
+        Err(ReferenceError::input(
             match self.groove {
                 Groove::Screw => "groove_radius",
                 Groove::Nut => "offset_h",

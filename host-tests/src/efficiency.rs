@@ -84,8 +84,8 @@ impl Screw {
         self.friction / (self.lead_angle.cos().powi(2) * sin * (self.root() + self.friction * sin))
     }
 
-    /// Efficiency of driving in full sliding, eq. (14), by the screw of lead angle `zeta` that it is
-    /// equal to: `tan(zeta) / tan(zeta + phi)` with `tan(zeta) = R / Sb`, `tan(phi) = f`.
+    /// Efficiency of driving in full sliding, eq. (14), as that of a plain sliding screw with the lead angle `zeta`:
+    /// `tan(zeta) / tan(zeta + phi)` with `tan(zeta) = R / Sb`, `tan(phi) = f`.
     #[must_use]
     pub fn sliding_drive(&self) -> f64 {
         let x = self.contact_angle.sin() / self.root();

@@ -5,7 +5,8 @@ use roots::{SimpleConvergency, find_root_brent};
 
 use crate::error::{ReferenceError, within};
 
-/// Contact modulus, Pa: `1/E* = (1 - nu1²)/E1 + (1 - nu2²)/E2`.
+/// Contact modulus of two bodies given as Young's modulus (Pa) and Poisson's ratio, Pa:
+/// `1/E* = (1 - nu1²)/E1 + (1 - nu2²)/E2`.
 #[must_use]
 pub fn contact_modulus(first: (f64, f64), second: (f64, f64)) -> f64 {
     let compliance = |(youngs_modulus, poisson_ratio): (f64, f64)| {
@@ -48,7 +49,7 @@ pub struct Ellipse {
 /// [`ReferenceError`] naming `axis_ratio` outside 0 (exclusive) to 1.
 pub fn complete_integrals(axis_ratio: f64) -> Result<(f64, f64), ReferenceError> {
     let square = axis_ratio * axis_ratio;
-    let failed = |_| ReferenceError::new("axis_ratio", "no elliptic integral");
+    let failed = |_| ReferenceError::input("axis_ratio", "no elliptic integral");
     let first = elliprf(0.0, square, 1.0).map_err(failed)?;
     // E = k² (RD(0, k², 1) + RD(0, 1, k²)) / 3: a sum of positive terms.
     let second = square / 3.0
@@ -84,7 +85,7 @@ pub fn axis_ratio(radius_ratio: f64) -> Result<f64, ReferenceError> {
     };
     find_root_brent(-12.0, 0.0, residual, &mut convergency)
         .map(f64::exp)
-        .map_err(|error| ReferenceError::new("radius_ratio", format!("{error:?}")))
+        .map_err(|error| ReferenceError::input("radius_ratio", format!("{error:?}")))
 }
 
 impl Hertz {
@@ -105,8 +106,8 @@ impl Hertz {
         } else {
             (relative_radius_2, relative_radius_1)
         };
-        let axis_ratio = axis_ratio(large / small)
-            .map_err(|error| ReferenceError::new("relative_radius_2", error.message))?;
+        let axis_ratio =
+            axis_ratio(large / small).map_err(|error| error.renamed("relative_radius_2"))?;
         let (first, second) = complete_integrals(axis_ratio)?;
         let equivalent = small / (1.0 + small / large);
         let pi = std::f64::consts::PI;

@@ -8,11 +8,13 @@
 mod ball_motion;
 pub mod bearing_study;
 pub mod curvature;
+pub mod design;
 pub mod efficiency;
 pub mod error;
 pub mod friction;
 pub mod hertz;
 pub mod kinematics;
+pub mod material;
 pub mod published;
 pub mod record;
 pub mod rolling_ball;

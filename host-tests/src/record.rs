@@ -84,7 +84,7 @@ pub struct Record {
     pub unit: &'static str,
     /// As printed, digit by digit.
     pub printed: String,
-    /// As computed; not a number where the text leaves out what it would take.
+    /// As computed; NaN where the text leaves out what the computation needs.
     pub computed: f64,
     /// Largest difference that counts as reproduced: half a unit of the last printed digit, unless said otherwise.
     pub tolerance: f64,
@@ -141,7 +141,7 @@ pub fn half_unit(printed: &str) -> f64 {
     let (digits, power) = printed.split_once('e').unwrap_or((printed, "0"));
     let decimals = digits.split_once('.').map_or(0, |(_, after)| after.len());
     let power: i32 = power.parse().unwrap_or(0);
-    // A little more: the half itself, in binary, is as often above as below.
+    // A little more than half: a value that ends exactly in the half may lie on either side in binary.
     0.5000001 * 10_f64.powi(power - decimals as i32)
 }
 

@@ -5,8 +5,8 @@
 //! spin of millions of revolutions a minute. The same equations with their rates kept (eq. (5) with
 //! `m d W'` and `I omega'`), Coulomb friction smoothed over a small slip speed, and a ball that starts
 //! to roll stay at rolling: A and A' stick, B slips across the groove alone, and the efficiency is
-//! eq. (3) without rolling resistance, whether screw or nut turns. Eq. (4), printed for the nut, is not
-//! where they lead.
+//! eq. (3) without rolling resistance, whether screw or nut turns. They never lead to eq. (4), which is
+//! printed for the nut.
 //!
 //! Where the load drives, the friction of the slipping contact presses the ball inward: A' opens, and the
 //! minor contact is B' on the screw. Then B and B' stick and A slips, with the efficiency `1 - x` to the
@@ -20,7 +20,7 @@ use num_dual::jacobian;
 use crate::ball_motion::{Motion, State};
 use crate::curvature::Groove;
 use crate::error::{ReferenceError, within};
-use crate::steady_state::BallScrewState;
+use crate::steady_state::ball::BallScrewState;
 
 /// Slip speed over which friction is smoothed where none is given, over the slip of rolling.
 pub const SMOOTHING: f64 = 1e-3;
@@ -28,8 +28,8 @@ pub const SMOOTHING: f64 = 1e-3;
 /// What is turned, which way, and how friction is smoothed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RollingBall {
-    /// Geometry, speed, load per ball, friction. A positive speed moves the load, a negative one is the
-    /// load's: it drives.
+    /// Geometry, speed, load per ball, friction. With a positive speed the load is moved, with a negative one
+    /// it drives.
     pub ball: BallScrewState,
     /// The part that turns; the other one moves along the axis.
     pub turning: Groove,
@@ -78,19 +78,8 @@ pub struct RollingLimit {
     pub normal_nut: f64,
     /// Normal load at the minor contact, N.
     pub normal_minor: f64,
-    /// Share of the friction that the two sticking contacts use; they hold up to 1.
+    /// Friction force of each sticking contact over its Coulomb limit; above 1 they would slip.
     pub used_friction: f64,
-}
-
-/// Why no motion can be given.
-#[derive(Clone, Debug, PartialEq)]
-pub enum NoMotion {
-    /// An input is out of range.
-    Input(ReferenceError),
-    /// A normal load turned negative at this angle of the turning part, rad: the contact opens.
-    ContactLost(f64),
-    /// The integrator gave up; its reason.
-    NotConverged(String),
 }
 
 struct System(Motion);
@@ -153,15 +142,15 @@ impl RollingBall {
     /// smoothing speed or, where rounding forbids it, to at most 1e-5.
     ///
     /// # Errors
-    /// [`NoMotion`]: an input out of range, a contact that opens, or the integrator's reason to stop.
-    pub fn run(&self, turns: f64, instants: usize) -> Result<Vec<Instant>, NoMotion> {
-        let motion = self.motion().map_err(NoMotion::Input)?;
-        within("turns", turns, 1e-6, 1e4).map_err(NoMotion::Input)?;
+    /// [`ReferenceError`]: an input out of range, a contact that opens, or the integrator's reason to stop.
+    pub fn run(&self, turns: f64, instants: usize) -> Result<Vec<Instant>, ReferenceError> {
+        let motion = self.motion()?;
+        within("turns", turns, 1e-6, 1e4)?;
         if !(1..=100_000).contains(&instants) {
-            return Err(NoMotion::Input(ReferenceError::new(
+            return Err(ReferenceError::input(
                 "instants",
                 format!("{instants} is not within 1 to 100000"),
-            )));
+            ));
         }
         self.integrate(&motion, State::zeros(), turns, instants)
     }
@@ -170,11 +159,11 @@ impl RollingBall {
     ///
     /// # Errors
     /// As [`RollingBall::run`].
-    pub fn settle(&self, turns: f64) -> Result<Instant, NoMotion> {
+    pub fn settle(&self, turns: f64) -> Result<Instant, ReferenceError> {
         let mut instants = self.run(turns, 1)?;
-        instants
-            .pop()
-            .ok_or_else(|| NoMotion::NotConverged("no instant".into()))
+        instants.pop().ok_or_else(|| ReferenceError::Integrator {
+            reason: "no instant".into(),
+        })
     }
 
     /// Rolling in closed form: the ball sticks to the groove with the minor contact, its single contact
@@ -204,14 +193,14 @@ impl RollingBall {
         // Friction presses the ball outward while the load is moved, inward where it drives.
         let outward = if self.minor == Groove::Nut { 1.0 } else { -1.0 };
         if f > 0.0 && outward * motion.relative() < 0.0 {
-            return Err(ReferenceError::new(
+            return Err(ReferenceError::input(
                 "minor",
                 "friction presses the ball away from this minor contact",
             ));
         }
         let grip = s - f * c;
         if grip <= 0.0 {
-            return Err(ReferenceError::new(
+            return Err(ReferenceError::input(
                 "friction",
                 "the slipping contact locks",
             ));
@@ -226,14 +215,14 @@ impl RollingBall {
         let sum = (linear + (linear * linear + 4.0 * c * pull * difference).sqrt()) / (2.0 * c);
         let (main, minor) = (0.5 * (sum + difference), 0.5 * (sum - difference));
         if minor < 0.0 {
-            return Err(ReferenceError::new(
+            return Err(ReferenceError::input(
                 "speed",
                 "the centrifugal force opens the minor contact",
             ));
         }
         let used_friction = single / sum;
         if f > 0.0 && used_friction > 1.0 {
-            return Err(ReferenceError::new(
+            return Err(ReferenceError::input(
                 "friction",
                 "the sticking contacts cannot hold",
             ));
@@ -267,7 +256,7 @@ impl RollingBall {
         start: State<f64>,
         turns: f64,
         instants: usize,
-    ) -> Result<Vec<Instant>, NoMotion> {
+    ) -> Result<Vec<Instant>, ReferenceError> {
         // An event is a change of sign: a contact that is open from the start has none.
         self.instant(motion, 0.0, &start)?;
         let end = turns * TAU;
@@ -295,12 +284,16 @@ impl RollingBall {
             }
             outcome = attempt(share);
         }
-        let solution = outcome.map_err(|error| NoMotion::NotConverged(error.to_string()))?;
+        let solution = outcome.map_err(|error| ReferenceError::Integrator {
+            reason: error.to_string(),
+        })?;
         if let Some(&angle) = solution.t_events.iter().flatten().next() {
-            return Err(NoMotion::ContactLost(angle));
+            return Err(ReferenceError::ContactLost { angle });
         }
         if !solution.status.is_success() || solution.t.len() != instants {
-            return Err(NoMotion::NotConverged(format!("{:?}", solution.status)));
+            return Err(ReferenceError::Integrator {
+                reason: format!("{:?}", solution.status),
+            });
         }
         solution
             .iter()
@@ -313,12 +306,12 @@ impl RollingBall {
         motion: &Motion,
         angle: f64,
         state: &State<f64>,
-    ) -> Result<Instant, NoMotion> {
+    ) -> Result<Instant, ReferenceError> {
         let ball = &self.ball;
         let actions = motion.actions(state);
         let [nut, screw, minor] = actions.map(|at| at.normal_load);
         if !(nut >= 0.0 && screw >= 0.0 && minor >= 0.0) {
-            return Err(NoMotion::ContactLost(angle));
+            return Err(ReferenceError::ContactLost { angle });
         }
         let unit = ball.axial_load / (motion.cos_a * motion.sin_b);
         let torque = motion.torque(&actions) * ball.pitch_radius * unit;

@@ -1,6 +1,6 @@
 //! Ball of a ball screw: stored single balls and pairs, Table 3.7, given contacts, and the laws of the model.
 
-use epas_reference::friction::FrictionError;
+use epas_reference::ReferenceError;
 use epas_reference::friction::ball_screw_ball::{
     Groove, ScrewContact, ScrewMotion, ScrewTrack, motion_from, motion_with_contacts,
 };
@@ -689,11 +689,11 @@ fn hostile_input_converges_or_is_named() {
     let contacts = stored_contacts(&golden("ballscrew")["impedance"][3]["contacts1"]);
     assert_eq!(
         motion_with_contacts(&TRACK, &contacts, 0.1, 0.0),
-        Err(FrictionError::Standstill)
+        Err(ReferenceError::Standstill)
     );
     assert_eq!(
         motion_with_contacts(&TRACK, &[], 0.1, 1.0),
-        Err(FrictionError::Undriven)
+        Err(ReferenceError::Undriven)
     );
     let lost: Vec<_> = contacts
         .iter()
@@ -701,7 +701,7 @@ fn hostile_input_converges_or_is_named() {
         .collect();
     assert_eq!(
         motion_with_contacts(&TRACK, &lost, 0.1, 1.0),
-        Err(FrictionError::Undriven)
+        Err(ReferenceError::Undriven)
     );
     assert!(motion_with_contacts(&TRACK, &contacts, f64::NAN, 1.0).is_err());
     assert!(
@@ -767,14 +767,14 @@ fn hostile_input_converges_or_is_named() {
     };
     match loose.solve(ScrewSupport::Load(-1e-3)) {
         Ok(motion) => assert!(motion.residual < 1e-9),
-        Err(FrictionError::NotConverged { residual }) => {
+        Err(ReferenceError::NotConverged { residual, .. }) => {
             assert!(residual.is_finite() && residual < 1e-3);
         }
         Err(other) => panic!("{other}"),
     }
     assert_eq!(
         single("3.254", 0.1, 0.0).solve(ScrewSupport::Load(1.0)),
-        Err(FrictionError::Standstill)
+        Err(ReferenceError::Standstill)
     );
     assert!(
         single("3.254", 0.0, 1.0)

@@ -222,13 +222,13 @@ fn faults_are_named_and_counted() {
     );
     let fast = step(&mut model, 501.0, 1000.0);
     assert_eq!(fast.faults, Faults::SPEED_RANGE);
-    assert_eq!(model.state().faulted_ticks, 3);
+    assert_eq!(model.faulted_ticks(), 3);
     let at_limit = step(&mut model, 500.0, 1000.0);
     assert_eq!(at_limit.friction_torque, fast.friction_torque);
-    assert_eq!(model.state().faulted_ticks, 0);
+    assert_eq!(model.faulted_ticks(), 0);
     assert_eq!(step(&mut model, 1.0, -20_001.0).faults, Faults::LOAD_RANGE);
     model.reset();
-    assert_eq!(model.state().faulted_ticks, 0);
+    assert_eq!(model.faulted_ticks(), 0);
 }
 
 /// A screw that locks in driving holds the load with the friction limit, flagged, and still lowers it.
@@ -248,7 +248,7 @@ fn a_locked_drive_is_said_and_bounded() {
     });
     let driven = step(&mut model, 100.0, 1000.0);
     assert_eq!(driven.regime, Regime::Locked);
-    assert!(driven.faults.contains(Faults::TORQUE_LIMIT));
+    assert!(driven.faults.contains(Faults::FRICTION_LIMIT));
     assert!((driven.friction_torque - 50.0).abs() < 1e-3 && driven.efficiency == 0.0);
     let lowered = step(&mut model, -100.0, 1000.0);
     assert!(lowered.friction_torque < 0.0 && !lowered.faults.any());

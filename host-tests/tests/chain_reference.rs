@@ -2,9 +2,10 @@
 
 use std::f64::consts::FRAC_PI_4;
 
-use epas_reference::friction::FrictionError;
-use epas_reference::friction::chain::{
-    LinearChain, exhaustive_contacts, isotonic_by_min_max, pool_adjacent_violators, solve_chain,
+use epas_reference::ReferenceError;
+use epas_reference::friction::chain::{LinearChain, solve_chain};
+use epas_reference::friction::isotonic::{
+    exhaustive_contacts, isotonic_by_min_max, pool_adjacent_violators,
 };
 use epas_reference::friction::linear_ball::{
     EllipseLaw, LinearBall, PUBLISHED_FORCE_SLOPE, contact_forces,
@@ -361,7 +362,10 @@ fn hostile_chains_end() {
     let rough = pair.map(|b| LinearBall { friction: 0.3, ..b });
     let chain = solve_chain(&rough, 0.3, 1.0).unwrap();
     check_laws(&rough, &chain, 0.3, 1.0, 1e-9);
-    assert_eq!(solve_chain(&pair, 0.1, 0.0), Err(FrictionError::Standstill));
+    assert_eq!(
+        solve_chain(&pair, 0.1, 0.0),
+        Err(ReferenceError::Standstill)
+    );
     assert!(solve_chain(&[], 0.1, 1.0).is_err());
     assert!(solve_chain(&pair, f64::NAN, 1.0).is_err());
     assert!(
@@ -390,7 +394,7 @@ fn hostile_chains_end() {
             0.1,
             1.0
         ),
-        Err(FrictionError::Undriven)
+        Err(ReferenceError::Undriven)
     );
     // Through the switch to two-point contact.
     for rho in [-0.99, -0.95, -0.93, -0.9, 0.92, 0.96] {

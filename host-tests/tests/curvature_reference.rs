@@ -221,7 +221,8 @@ fn bad_surfaces_are_refused_by_name() {
     let good = TABLE_A1[15].surface(Groove::Screw);
     good.check(0.0).unwrap();
     for bad in [f64::NAN, f64::INFINITY, -1.0, 1e12] {
-        let refused = |surface: Surface, angle: f64| surface.check(angle).unwrap_err().field;
+        let refused =
+            |surface: Surface, angle: f64| surface.check(angle).unwrap_err().field().unwrap();
         assert_eq!(
             refused(
                 Surface {
@@ -279,7 +280,10 @@ fn bad_surfaces_are_refused_by_name() {
         lead_angle: 0.0,
         ..good
     };
-    assert_eq!(folded.check(0.0).unwrap_err().field, "groove_radius");
+    assert_eq!(
+        folded.check(0.0).unwrap_err().field(),
+        Some("groove_radius")
+    );
     for groove in GROOVES {
         assert!(TABLE_A1[15].surface(groove).check(1.5).is_ok());
     }

@@ -124,7 +124,6 @@ fn crate_holds_over_all_cases() {
         };
         for (computed, expected) in [
             (fast.rolling_efficiency(f, t), rounded.rolling_screw()),
-            (fast.rolling_nut_as_printed(f, t), rounded.rolling_nut()),
             (fast.sliding_efficiency(f), rounded.sliding_drive()),
             (
                 fast.sliding_backdrive_efficiency(f),

@@ -93,7 +93,7 @@ fn suffer<S: Trial>(
         S::check(configuration, given, &outputs).unwrap_or_else(|error| panic!("{line}: {error}"));
         S::check_state(&model).unwrap_or_else(|error| panic!("{line}: {error}"));
         assert_eq!(
-            (faults(&outputs).bits() & !Faults::TORQUE_LIMIT.bits()) != 0,
+            (faults(&outputs).bits() & !Faults::FRICTION_LIMIT.bits()) != 0,
             flagged,
             "{line}"
         );
@@ -142,7 +142,7 @@ fn trains_recover_at_once_but_for_where_the_balls_are() {
         2,
         |outputs| outputs.faults,
         |outputs, expected, since| {
-            friction(outputs.groove_friction, expected.groove_friction, since);
+            friction(outputs.groove_torque, expected.groove_torque, since);
         },
     );
     suffer::<Rail>(
@@ -151,7 +151,7 @@ fn trains_recover_at_once_but_for_where_the_balls_are() {
         3,
         |outputs| outputs.faults,
         |outputs, expected, since| {
-            friction(outputs.groove_friction, expected.groove_friction, since);
+            friction(outputs.groove_force, expected.groove_force, since);
         },
     );
 }
@@ -175,10 +175,10 @@ fn a_lost_sensor_stops_the_state() {
         }
         let mut without = model;
         let outputs = model.step(lost);
-        assert!(outputs.faults.any() && outputs.friction == 0.0);
+        assert!(outputs.faults.any() && outputs.friction_torque == 0.0);
         assert_eq!(model.state().train, without.state().train);
         assert_eq!(model.step(inputs), without.step(inputs), "tick {tick}");
-        assert_eq!(model.state().faulted_ticks, 0);
+        assert_eq!(model.faulted_ticks(), 0);
     }
 }
 
@@ -450,14 +450,14 @@ fn a_reversal_every_tick_is_even() {
                 axial_load: 5e3,
             };
             let outputs = screw.step(inputs);
-            assert!(outputs.friction * sign > 0.0 && !outputs.faults.any());
+            assert!(outputs.friction_torque * sign > 0.0 && !outputs.faults.any());
             even.step(inputs);
             let outputs = rail.step(LinearInputs {
                 speed: sign,
                 normal_load: 5e3,
                 side_load: 1e3,
             });
-            assert!(outputs.friction * sign > 0.0 && !outputs.faults.any());
+            assert!(outputs.friction_force * sign > 0.0 && !outputs.faults.any());
         }
     }
     sound_train(&screw.state().train).unwrap();

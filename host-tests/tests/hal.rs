@@ -495,7 +495,7 @@ fn flagged_outputs_and_no_numbers_give_the_neutral_duty() {
         Faults::LOAD_NOT_FINITE,
         Faults::SPEED_RANGE,
         Faults::LOAD_RANGE,
-        Faults::TORQUE_LIMIT,
+        Faults::FRICTION_LIMIT,
     ];
     let cases: Vec<_> = flags
         .map(|flag| outputs(1.0, flag))
@@ -597,7 +597,7 @@ proptest::proptest! {
             Faults::LOAD_NOT_FINITE,
             Faults::SPEED_RANGE,
             Faults::LOAD_RANGE,
-            Faults::TORQUE_LIMIT,
+            Faults::FRICTION_LIMIT,
         ];
         let mut faults = Faults::NONE;
         for flag in all {

@@ -10,6 +10,8 @@ use epas_reference::curvature;
 use epas_reference::hertz::{self, Hertz};
 use serde_json::Value;
 
+mod given;
+
 fn golden(name: &str) -> Value {
     let text = match name {
         "friction" => include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/golden/friction.json")),
@@ -184,26 +186,7 @@ fn designs_give_the_contact_of_their_surface() {
             (Groove::Screw, curvature::Groove::Screw),
             (Groove::Nut, curvature::Groove::Nut),
         ] {
-            let ball_radius = f64::from(parameters.ball_radius);
-            let profile = design.profile(groove);
-            let angle = f64::from(parameters.contact_angle);
-            let surface = curvature::Surface {
-                groove: same,
-                pitch_radius: f64::from(parameters.pitch_radius),
-                lead_angle: (f64::from(parameters.lead)
-                    / (std::f64::consts::TAU * f64::from(parameters.pitch_radius)))
-                .atan(),
-                groove_radius: ball_radius + f64::from(design.clearance(groove)),
-                offset_h: f64::from(profile.offset_h),
-                offset_l: f64::from(profile.offset_l),
-            };
-            let principal = surface.principal(angle);
-            let exact = Hertz::new(
-                1.0 / (1.0 / ball_radius + principal.kappa1),
-                1.0 / (1.0 / ball_radius + principal.kappa2),
-                hertz::contact_modulus((210e9, f64::from(0.28_f32)), (210e9, f64::from(0.28_f32))),
-            )
-            .unwrap();
+            let exact = given::ball_screw(&parameters).contact(same).unwrap();
             let fast = HertzContact::of(&design, groove);
             let error = f64::from(fast.semi_major_coefficient()) / exact.semi_major - 1.0;
             assert!(error.abs() < 1.5e-5, "{parameters:?} {groove:?}: {error:e}");

@@ -4,13 +4,13 @@ use epas_friction::geometry::Groove;
 use epas_friction::hertz::HertzContact;
 use epas_friction::kinematics::{
     ContactKinematics, ContactSlip, EllipticContact, FrictionPower, KinematicsParameters,
-    PitchMethod, SlipParts, TraditionalKinematics,
+    PitchMethod, SlipParts,
 };
 use epas_friction::promises::{self, Promise};
 use epas_friction::{BallScrew, CATALOGUE, Error, GrooveSize};
 use epas_reference::kinematics::{
-    self as reference, HertzMean, KinematicsInput, MeanSlip, Raceway, Revised, Traditional,
-    operating, pitch_angle,
+    self as reference, HertzMean, KinematicsInput, MeanSlip, Raceway, Revised, operating,
+    pitch_angle,
 };
 use serde_json::Value;
 use std::f64::consts::{PI, TAU};
@@ -335,7 +335,7 @@ fn golden_cases_within_the_promise() {
         );
         // Yaw angles at which side slip vanishes at one contact.
         for raceway in Raceway::BOTH {
-            if let Ok(yaw_angle) = reference::published::yaw_without_side_slip(&input, raceway) {
+            if let Ok(yaw_angle) = reference::yaw_without_side_slip(&input, raceway) {
                 sweep.add(&KinematicsInput { yaw_angle, ..input }, &tag);
             }
         }
@@ -412,24 +412,12 @@ fn pitch_angles() {
                 pitch_angle::outer_raceway_control(&input),
             ),
             (
-                PitchMethod::InnerRacewayControlPrinted,
-                Some(pitch_angle::inner_raceway_control_printed(&input)),
-            ),
-            (
-                PitchMethod::OuterRacewayControlPrinted,
-                Some(pitch_angle::outer_raceway_control_printed(&input)),
-            ),
-            (
                 PitchMethod::Mean,
                 Some(pitch_angle::mean_contact_angle(&input)),
             ),
             (
                 PitchMethod::DAlembert,
                 pitch_angle::d_alembert(&input, load_screw, load_nut),
-            ),
-            (
-                PitchMethod::DAlembertPrinted,
-                pitch_angle::d_alembert_printed(&input, load_screw, load_nut),
             ),
             (
                 PitchMethod::BalancedSpin,
@@ -443,12 +431,8 @@ fn pitch_angles() {
                     let error = (f64::from(found) - wanted).abs();
                     // Weights by an elliptic integral of 4e-4 cost what they are of the range between
                     // the raceway controls, 0.3 rad at most.
-                    let weighted = matches!(
-                        method,
-                        PitchMethod::DAlembert
-                            | PitchMethod::DAlembertPrinted
-                            | PitchMethod::BalancedSpin
-                    );
+                    let weighted =
+                        matches!(method, PitchMethod::DAlembert | PitchMethod::BalancedSpin);
                     let bound = if weighted { 1e-4 } else { 1e-6 };
                     assert!(error < bound, "{method:?} {found} {wanted} {input:?}");
                     if !weighted {
@@ -507,44 +491,6 @@ fn pitch_angles() {
             field
         );
     }
-}
-
-/// The traditional formulation is there to be compared, so it need not be better than 1e-6 of the
-/// speed `omega q` that it subtracts from.
-#[test]
-fn traditional_formulation() {
-    let mut random = Random(0x5EED_1003);
-    let mut worst = 0.0_f64;
-    for _ in 0..20_000 {
-        let input = random.input();
-        let exact = Traditional::new(&Revised::new(&input).unwrap());
-        let crate_given = TraditionalKinematics::new(&parameters(&input)).unwrap();
-        let ball = crate_given.tick(input.speed as f32);
-        let scale = (input.speed * input.pitch_radius / input.lead_angle.cos()).abs();
-        let mut check = |found: f32, wanted: f64, scale: f64| {
-            let error = (f64::from(found) - wanted).abs() / scale;
-            worst = worst.max(error);
-            assert!(error < 1e-6, "{found} {wanted} {input:?}");
-        };
-        let speed = input.speed.abs();
-        check(
-            ball.orbital_speed,
-            input.speed * exact.orbital_ratio(),
-            speed,
-        );
-        let spin = exact.spin_ratio();
-        check(ball.spin_speed, input.speed * spin, speed * spin);
-        for raceway in Raceway::BOTH {
-            let slip = slip_of(&ball, raceway);
-            let [x, y] = exact.slip(raceway, 0.0, 0.0, exact.distance(raceway));
-            let [v_x, v_y] = exact.entrainment(raceway);
-            check(slip.rolling_slip, x, scale);
-            check(slip.side_slip, y, scale);
-            check(slip.entrainment_speed, v_x.hypot(v_y), scale);
-            check(slip.spin, exact.spin(raceway), speed * spin);
-        }
-    }
-    println!("traditional formulation: largest error {worst:.1e} of omega q");
 }
 
 fn parts(parts: &SlipParts) -> [f64; 4] {
@@ -685,7 +631,7 @@ fn friction_power_of_linear_fields_within_3_1_percent() {
         input.rolling_radius_screw = half
             + half * moment * direction.cos() * spin
                 / revised.rolling_gradient(Raceway::Screw).abs();
-        if let Ok(yaw) = reference::published::yaw_without_side_slip(&input, Raceway::Screw) {
+        if let Ok(yaw) = reference::yaw_without_side_slip(&input, Raceway::Screw) {
             input.yaw_angle = yaw + moment * direction.sin() * spin / revised.spin_ratio();
         }
         // Little spin on a small ellipse is slip of the size of f32's rounding: no test of a mean.
@@ -798,10 +744,6 @@ fn odd_parameters_are_refused_by_name_or_give_finite_numbers() {
                     assert!(matches!(error, Error::NotFinite { .. }));
                 }
             }
-            assert_eq!(
-                TraditionalKinematics::new(&given).is_ok(),
-                ContactKinematics::new(&given).is_ok()
-            );
         }
     }
 }

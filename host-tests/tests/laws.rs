@@ -98,7 +98,7 @@ proptest! {
         let there = model.step(inputs(0.01 * speed, 0.01 * load));
         model.reset();
         let back = model.step(inputs(-0.01 * speed, -0.01 * load));
-        prop_assert_eq!(there.friction, -back.friction);
+        prop_assert_eq!(there.friction_torque, -back.friction_torque);
     }
 
     #[test]
@@ -116,7 +116,7 @@ proptest! {
             let heavy = model.step(inputs(0.01 * speed, 1e-3 * sign * load * more));
             model.reset();
             // Powers of the load are within 3e-5, its shares within some 1e-4 of their bounds.
-            prop_assert!(heavy.friction.abs() >= light.friction.abs() * (1.0 - 1e-3));
+            prop_assert!(heavy.friction_torque.abs() >= light.friction_torque.abs() * (1.0 - 1e-3));
         }
     }
 
@@ -181,17 +181,17 @@ proptest! {
         let there = model.step(inputs(speed, 1.0, side));
         model.reset();
         let back = model.step(inputs(-speed, 1.0, side));
-        prop_assert_eq!(there.friction, -back.friction);
+        prop_assert_eq!(there.friction_force, -back.friction_force);
         // Mirrored, the diagonals change places.
         model.reset();
         let mirrored = model.step(inputs(speed, 1.0, -side));
-        prop_assert!((there.friction - mirrored.friction).abs() <= 1e-6 * there.friction.abs());
+        prop_assert!((there.friction_force - mirrored.friction_force).abs() <= 1e-6 * there.friction_force.abs());
         model.reset();
         let heavy = model.step(inputs(speed, more, side));
-        prop_assert!(heavy.friction.abs() >= there.friction.abs() * (1.0 - 1e-5));
+        prop_assert!(heavy.friction_force.abs() >= there.friction_force.abs() * (1.0 - 1e-5));
         // Of balls alike none presses; what there is comes from the grooves.
-        prop_assert_eq!((there.contacts, there.ball_friction), (0, 0.0));
-        prop_assert!(there.faults.any() || there.friction == there.groove_friction);
+        prop_assert_eq!((there.contacts, there.ball_force), (0, 0.0));
+        prop_assert!(there.faults.any() || there.friction_force == there.groove_force);
     }
 
     #[test]
@@ -253,7 +253,7 @@ proptest! {
             let one = small.step(inputs(nut_speed, load));
             let other = large.step(inputs(nut_speed, scale * scale * load));
             let faults = one.faults.any() || other.faults.any();
-            prop_assert!(faults || alike(one.groove_friction, other.groove_friction), "{one:?} {other:?}");
+            prop_assert!(faults || alike(one.groove_torque, other.groove_torque), "{one:?} {other:?}");
         }
     }
 
@@ -261,11 +261,11 @@ proptest! {
     fn scenes_reduce_to_simpler_ones(seed: u64, speed in -10.0_f32..10.0, load in -1e4_f32..1e4) {
         // Without friction between balls nothing is lost there.
         let outputs = uncaged(seed, 0.0).step(inputs(speed, load));
-        prop_assert_eq!(outputs.ball_friction, 0.0);
+        prop_assert_eq!(outputs.ball_torque, 0.0);
         // Balls that are alike do not press on each other.
         let outputs = uncaged(seed, 0.5).step(inputs(speed, load));
         prop_assert_eq!(outputs.contacts, 0);
-        prop_assert!(outputs.faults.any() || outputs.friction == outputs.groove_friction);
+        prop_assert!(outputs.faults.any() || outputs.friction_torque == outputs.groove_torque);
         // One ball has no neighbour, whatever the grooves do.
         let mut random = Random(seed);
         let (configuration, mut model, _) = accepted::<UncagedBallScrew<1>>(&mut random);
@@ -275,10 +275,10 @@ proptest! {
             0.0,
         ];
         let outputs = model.step(UncagedBallScrew::<1>::inputs(sensors));
-        prop_assert_eq!((outputs.contacts, outputs.ball_friction), (0, 0.0));
+        prop_assert_eq!((outputs.contacts, outputs.ball_torque), (0, 0.0));
         let (_, mut model, _) = accepted::<LinearBearingTrain<1>>(&mut random);
         let outputs = model.step(LinearBearingTrain::<1>::inputs([1e-7, 1.0, 0.0]));
-        prop_assert_eq!((outputs.contacts, outputs.ball_friction), (0, 0.0));
+        prop_assert_eq!((outputs.contacts, outputs.ball_force), (0, 0.0));
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Ball of a linear bearing: stored cases, the dissertation's tables, and the laws of the model.
 
-use epas_reference::friction::FrictionError;
+use epas_reference::ReferenceError;
 use epas_reference::friction::linear_ball::{
     EllipseLaw, LinearBall, LinearMotion, PUBLISHED_FORCE_SLOPE, analytic_ball_slip,
     analytic_contact_force, contact_forces,
@@ -387,14 +387,14 @@ fn speed_friction_and_load_scale_as_coulomb_says() {
                 < 1e-12 * forward.power_loss.max(1.0)
         );
     }
-    assert_eq!(ball.solve(0.0), Err(FrictionError::Standstill));
+    assert_eq!(ball.solve(0.0), Err(ReferenceError::Standstill));
 }
 
 #[test]
 fn bad_input_is_named() {
     let good = tilted(1.0, 0.2);
     let field = |ball: LinearBall| match ball.solve(1.0) {
-        Err(FrictionError::OutOfRange { field, .. }) => field,
+        Err(ReferenceError::OutOfRange { field, .. }) => field,
         other => panic!("{other:?}"),
     };
     assert_eq!(
@@ -444,7 +444,7 @@ fn bad_input_is_named() {
                 ..good
             }
             .solve(1.0),
-            Err(FrictionError::Undriven)
+            Err(ReferenceError::Undriven)
         );
     }
     // Loads from a micro-newton to 1e5 N.

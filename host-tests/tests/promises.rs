@@ -1,6 +1,7 @@
 //! The table of promises: measured, and printed where it says.
 
 mod absurd;
+mod given;
 
 use std::fmt::Write;
 
@@ -12,7 +13,7 @@ use epas_friction::geometry::{ContactAngle, Groove};
 use epas_friction::hertz::HertzContact;
 use epas_friction::promises::{self, Promise};
 use epas_friction::{CATALOGUE, math};
-use epas_reference::curvature::{self, Surface};
+use epas_reference::curvature;
 use epas_reference::efficiency::Screw;
 use epas_reference::friction::maps;
 use epas_reference::hertz::Hertz;
@@ -109,26 +110,14 @@ fn curvatures() {
             (Groove::Nut, curvature::Groove::Nut),
         ]);
         let angle = random.within(0.0, 80_f32.to_radians());
-        // The reference from exactly the numbers that the crate has.
-        let profile = design.profile(groove);
-        let path = design.path();
-        let (kappa, tau) = (f64::from(path.curvature), f64::from(path.torsion));
-        let lead_angle = (tau / kappa).atan();
-        let surface = Surface {
-            groove: side,
-            pitch_radius: lead_angle.cos().powi(2) / kappa,
-            lead_angle,
-            groove_radius: f64::from(profile.groove_radius),
-            offset_h: f64::from(profile.offset_h),
-            offset_l: f64::from(profile.offset_l),
-        };
+        let surface = given::ball_screw(design.parameters()).surface(side);
         let truth = surface.principal(f64::from(angle)).kappa1;
-        let given = ContactAngle::new(angle);
+        let at = ContactAngle::new(angle);
         let line = || format!("{} {groove:?} {angle}", size.name);
-        let found = GothicArch::of(&design, groove).principal(given).kappa1;
+        let found = GothicArch::of(&design, groove).principal(at).kappa1;
         exact.add(f64::from(found) / truth - 1.0, line);
         if angle <= 1.256 {
-            let found = FittedCurvature::of(&design, groove).first(given);
+            let found = FittedCurvature::of(&design, groove).first(at);
             fitted.add(f64::from(found) / truth - 1.0, line);
         }
     }

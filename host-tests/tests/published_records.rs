@@ -18,6 +18,10 @@ fn verdicts_are_what_the_numbers_say() {
         let row = Paper::ALL.iter().position(|paper| *paper == record.paper);
         counts[row.unwrap()][column] += 1;
         assert!(record.printed_value().is_finite(), "{record}");
+        assert!(
+            record.verdict == Verdict::Reproduces || !record.verdict.reason().is_empty(),
+            "{record}"
+        );
         if record.agrees() != reproduced {
             println!(
                 "{record}, off {}, tolerance {}",
@@ -31,6 +35,10 @@ fn verdicts_are_what_the_numbers_say() {
         println!("{}: {counts:?}", paper.name());
     }
     assert_eq!(wrong, 0);
+    let alberdi = records
+        .iter()
+        .filter(|record| record.paper == Paper::Alberdi);
+    assert_eq!(alberdi.count(), 27);
     // The 248 errors of Tables A1 and A2.
     let errors = records.iter().filter(|record| {
         record.place.starts_with("Table A") && record.quantity.ends_with("error") && record.agrees()

@@ -1,7 +1,7 @@
 //! Whole rotary bearings: laws of load distribution, the case study of Figure 4.7, and hostile loads.
 
+use epas_reference::ReferenceError;
 use epas_reference::bearing_study::{TurningLoad, variation};
-use epas_reference::friction::FrictionError;
 use epas_reference::friction::rotary_ball::{RotaryBearing, RotaryConvention};
 use epas_reference::friction::rotary_bearing::{
     BallRow, LoadedBearing, Raceways, RingLoad, Tilt, distribute,
@@ -328,7 +328,7 @@ fn bad_input_is_named() {
     };
     assert_eq!(
         distribute(&[], &load, Tilt::Free),
-        Err(FrictionError::Unsupported)
+        Err(ReferenceError::Unsupported)
     );
     let away = RingLoad {
         axial: -100.0,
@@ -336,7 +336,7 @@ fn bad_input_is_named() {
     };
     assert_eq!(
         distribute(&[good], &away, Tilt::Held),
-        Err(FrictionError::Unsupported)
+        Err(ReferenceError::Unsupported)
     );
     for (bad, name) in [
         (BallRow { balls: 0, ..good }, "balls"),
@@ -363,7 +363,7 @@ fn bad_input_is_named() {
         ),
     ] {
         match distribute(&[bad], &load, Tilt::Free) {
-            Err(FrictionError::OutOfRange { field, .. }) => assert_eq!(field, name),
+            Err(ReferenceError::OutOfRange { field, .. }) => assert_eq!(field, name),
             other => panic!("{other:?}"),
         }
     }

@@ -1,6 +1,6 @@
 //! Four-point rotary bearing: Tables 3.1 and 3.2, stored cases, Hertz constants, and the laws of the Coulomb model.
 
-use epas_reference::friction::FrictionError;
+use epas_reference::ReferenceError;
 use epas_reference::friction::contact_law::{Eccentricity, HertzLaw};
 use epas_reference::friction::rotary_ball::{RotaryBearing, RotaryContacts, RotaryConvention};
 use serde_json::Value;
@@ -275,7 +275,7 @@ fn bad_input_is_named() {
     let contacts = good.contacts_under_load(100.0, 5e-6).unwrap();
     assert_eq!(
         good.motion(&contacts, 0.1, 0.0),
-        Err(FrictionError::Standstill)
+        Err(ReferenceError::Standstill)
     );
     assert!(good.motion(&contacts, -0.1, 1.0).is_err());
     assert!(good.motion(&contacts, 0.1, f64::NAN).is_err());
@@ -292,10 +292,10 @@ fn bad_input_is_named() {
         contact_forces: [0.0; 4],
         ..contacts
     };
-    assert_eq!(good.motion(&empty, 0.1, 1.0), Err(FrictionError::Undriven));
+    assert_eq!(good.motion(&empty, 0.1, 1.0), Err(ReferenceError::Undriven));
     assert_eq!(
         good.motion_with_sigmoid(&empty, 0.1, 1.0, 100.0),
-        Err(FrictionError::Undriven)
+        Err(ReferenceError::Undriven)
     );
     assert_eq!(
         good.motion(&contacts, 0.0, 1.0).unwrap().friction_torque,

@@ -11,8 +11,8 @@ use epas_friction::{
     DISSERTATION_DESIGNS, DeviationMap, Error, FrictionBranch, FrictionModel, GrooveFit,
     GrooveSize, Harmonic, Inputs, Limits, LinearBearing, LinearBearingConfiguration,
     LinearBearingParameters, LinearBearingTrain, LinearConstants, LinearInputs, LinearLimits,
-    LoadShare, Material, Outputs, Scene, TrainOutputs, UncagedBallScrew,
-    UncagedBallScrewConfiguration, UncagedConstants,
+    LoadShare, Material, Outputs, Scene, UncagedBallScrew, UncagedBallScrewConfiguration,
+    UncagedConstants, UncagedOutputs,
 };
 
 const fn folded<T: Copy>(set_up: Result<T, Error>) -> T {
@@ -212,7 +212,7 @@ fn a_folded_linear_bearing_is_the_one_set_up_at_run_time() {
 fn a_model_of_a_reference_takes_the_nut_angle() {
     let mut referring = FrictionModel::<UncagedBallScrew<37>, _>::of(&ZERO);
     let mut owning = FrictionModel::<UncagedBallScrew<37>>::of(ZERO);
-    let at_rest: TrainOutputs = referring.step(nut(50.0, 3_000.0));
+    let at_rest: UncagedOutputs = referring.step(nut(50.0, 3_000.0));
     same_bits(&at_rest, &owning.step(nut(50.0, 3_000.0)));
     // Half a wave of the screw's deviations.
     referring.set_nut_angle(0.8);

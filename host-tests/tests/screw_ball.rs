@@ -1,12 +1,11 @@
 //! The ball of a ball screw: closed form and refined variant against the exact models.
 
 use epas_friction::ball::ScrewRow;
-use epas_friction::geometry::{ContactAngle, Groove};
-use epas_friction::hertz::HertzContact;
 use epas_friction::refined::{
     ScrewBall, ScrewBallMotion, ScrewBallState, ScrewChain, ScrewContacts,
 };
 use epas_friction::{BallScrew, BallScrewParameters, GrooveFit, GrooveSize, LoadShare, Material};
+use epas_reference::curvature;
 use epas_reference::friction::ball_screw_ball::{
     Groove as Flank, ScrewContact, ScrewMotion, ScrewTrack, motion_with_contacts,
 };
@@ -17,9 +16,10 @@ use epas_reference::friction::ball_screw_elastic::{BallSlip, ElasticBalls, Screw
 use epas_reference::friction::ball_screw_grooves::ElasticGrooves;
 use epas_reference::friction::ball_screw_train::solve_screw_train;
 use epas_reference::friction::contact_law::HertzLaw;
-use epas_reference::friction::linear_ball::EllipseLaw;
 use serde_json::Value;
 use std::f64::consts::FRAC_PI_4;
+
+mod given;
 
 const TRACK: ScrewTrack = ScrewTrack {
     pitch_radius: 16.5e-3,
@@ -41,15 +41,10 @@ fn design() -> BallScrew {
     .unwrap()
 }
 
-fn law(design: &BallScrew, groove: epas_friction::geometry::Groove) -> HertzLaw {
-    let contact = epas_friction::hertz::HertzContact::of(design, groove);
-    HertzLaw {
-        ellipse: EllipseLaw {
-            semi_major_constant: f64::from(contact.semi_major_coefficient()),
-            axis_ratio: f64::from(contact.axis_ratio()),
-        },
-        compliance: 1e-7,
-    }
+/// The reference's own contact law of one groove.
+fn law(design: &BallScrew, groove: curvature::Groove) -> HertzLaw {
+    let given = given::ball_screw(design.parameters());
+    given.contact(groove).unwrap().into()
 }
 
 #[test]
@@ -68,8 +63,8 @@ fn row_is_the_closed_form_with_a_third_contact() {
         let row = ScrewRow::new(&design, friction as f32, GrooveFit::Zero).unwrap();
         let model = ThreePointModel {
             track: TRACK,
-            screw: law(&design, epas_friction::geometry::Groove::Screw),
-            nut: law(&design, epas_friction::geometry::Groove::Nut),
+            screw: law(&design, curvature::Groove::Screw),
+            nut: law(&design, curvature::Groove::Nut),
             friction,
             contact_angle: FRAC_PI_4,
         };
@@ -253,32 +248,25 @@ impl Random {
 }
 
 fn track(design: &BallScrew) -> ScrewTrack {
-    ScrewTrack {
-        pitch_radius: f64::from(design.pitch_radius()),
-        lead: f64::from(design.lead()),
-        ball_radius: f64::from(design.ball_radius()),
-    }
+    (&given::ball_screw(design.parameters())).into()
 }
 
 /// The same contacts for the exact model, each with the ellipse of its own contact angle.
 fn exact_contacts(design: &BallScrew, angles: &[f32; 4], forces: &[f32; 4]) -> Vec<ScrewContact> {
-    let grooves = [Groove::Screw, Groove::Screw, Groove::Nut, Groove::Nut];
-    let given = Flank::ALL
-        .into_iter()
-        .zip(grooves)
-        .zip(angles.iter().zip(forces));
+    let numbers = given::ball_screw(design.parameters());
+    let given = Flank::ALL.into_iter().zip(angles.iter().zip(forces));
     given
         .filter(|(_, (_, force))| **force > 0.0)
-        .map(|((flank, groove), (angle, force))| {
-            let contact = HertzContact::of_at(design, groove, ContactAngle::new(*angle));
+        .map(|(flank, (angle, force))| {
+            let contact_angle = f64::from(*angle);
             ScrewContact {
                 groove: flank,
                 load: f64::from(*force),
-                contact_angle: f64::from(*angle),
-                ellipse: EllipseLaw {
-                    semi_major_constant: f64::from(contact.semi_major_coefficient()),
-                    axis_ratio: f64::from(contact.axis_ratio()),
-                },
+                contact_angle,
+                ellipse: numbers
+                    .contact_at(flank.part(), contact_angle)
+                    .unwrap()
+                    .into(),
             }
         })
         .collect()
@@ -740,23 +728,10 @@ fn closed_forms_are_the_geometry_of_contacts_that_do_not_slip() {
     two.finish(3e-7, 2e-7);
 }
 
-/// Hertz constants of the stored elastic models, m and N.
-fn stored_law(side: &str) -> HertzLaw {
-    let all = stored();
-    let constants = &all["hertz"][format!("{side}_rG3.254")]["correct"];
-    let value = |key: &str| number(&constants[key]) * 1e-3;
-    HertzLaw {
-        ellipse: EllipseLaw {
-            semi_major_constant: value("Ca"),
-            axis_ratio: value("Cb") / value("Ca"),
-        },
-        compliance: value("C"),
-    }
-}
-
 /// Balls in grooves without play that give way, the second one in a screw groove that deviates by `theta`.
 fn elastic(deviations: &[f64], nut_speed: f64) -> ElasticBalls {
-    let (screw, nut) = (stored_law("S"), stored_law("N"));
+    let [screw, nut] =
+        [curvature::Groove::Screw, curvature::Groove::Nut].map(|groove| law(&design(), groove));
     let grooves = deviations
         .iter()
         .map(|theta| ElasticGrooves {

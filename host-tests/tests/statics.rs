@@ -2,13 +2,14 @@
 
 use std::sync::Arc;
 
+use epas_reference::ReferenceError;
 use epas_reference::statics::cases::CaseStudy;
 use epas_reference::statics::contact::GrooveContact;
 use epas_reference::statics::problem::Setup;
 use epas_reference::statics::surface::{HarmonicError, ProfileError};
 use epas_reference::statics::{
     Contact, ContactConstants, Elastic, HertzConvention, Load, Outcome, Shaft, ShaftModel, State,
-    StaticError, StaticLoad, StaticSolution, Support,
+    StaticLoad, StaticSolution, Support,
 };
 use serde_json::Value;
 
@@ -745,7 +746,7 @@ fn hostile_starts() {
                         }
                         // Loose balls under a load far below their weight: nothing resists until each ball has
                         // been caught, one after the other.
-                        Err(StaticError::NotConverged { .. }) if loose => {
+                        Err(ReferenceError::NotConverged { .. }) if loose => {
                             told += 1;
                         }
                         Err(error) => panic!("{name}, start {start}: {error}"),
@@ -890,19 +891,22 @@ fn bad_input_names_its_field() {
     add("refinement", &|case| case.refinement = 0);
     for (field, case) in cases {
         match case.load() {
-            Err(error) => assert_eq!(error.field, field, "{error} of {case:?}"),
+            Err(error) => assert_eq!(error.field(), Some(field), "{error} of {case:?}"),
             Ok(_) => panic!("{field} is taken: {case:?}"),
         }
     }
     let case = base.load().unwrap();
     let mut short = case.start();
     short.nodes.pop();
-    assert!(matches!(case.solve_from(short), Err(StaticError::Input(_))));
+    assert!(matches!(
+        case.solve_from(short),
+        Err(ReferenceError::Input { field: "start", .. })
+    ));
     let mut hollow = case.start();
     hollow.balls[3].x = f64::NAN;
     assert!(matches!(
         case.solve_from(hollow),
-        Err(StaticError::Input(_))
+        Err(ReferenceError::Input { field: "start", .. })
     ));
 }
 
@@ -911,7 +915,7 @@ fn an_odd_setup_is_refused() {
     let refused = |change: &dyn Fn(&mut Setup)| {
         let mut setup = case_1().setup().unwrap();
         change(&mut setup);
-        StaticLoad::new(setup).unwrap_err().field
+        StaticLoad::new(setup).unwrap_err().field().unwrap()
     };
     assert_eq!(refused(&|setup| setup.balls.clear()), "balls");
     assert_eq!(refused(&|setup| setup.balls[4].position = 2.0), "balls");

@@ -202,7 +202,7 @@ fn bad_tables_are_refused() {
             Along::EveryTurn,
         )
         .unwrap_err();
-        assert_eq!(error.field, "profile", "{table}: {error}");
-        assert!(!error.message.is_empty());
+        assert_eq!(error.field(), Some("profile"), "{table}: {error}");
+        assert!(error.to_string().len() > "profile: ".len());
     }
 }

@@ -158,7 +158,7 @@ fn long_run<const N: usize>(ticks: u64, every: u64) {
         let sensors = [(300.0 * sin) as f32, (8e3 * cos) as f32, 0.0];
         let outputs = model.step(UncagedBallScrew::<N>::inputs(sensors));
         worst = worst.max(outputs.largest_contact_force);
-        sum += f64::from(outputs.friction.abs());
+        sum += f64::from(outputs.friction_torque.abs());
         contacts += u64::from(outputs.contacts);
         if tick % every == 0 {
             let checked = UncagedBallScrew::<N>::check(&configuration, sensors, &outputs)

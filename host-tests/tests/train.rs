@@ -2,7 +2,7 @@
 //! and stored chains; positions over many ticks.
 
 use epas_friction::train::{Press, Train};
-use epas_reference::friction::chain::isotonic_by_min_max;
+use epas_reference::friction::isotonic::isotonic_by_min_max;
 
 /// Deterministic numbers in 0..1 (splitmix64).
 struct Random(u64);
@@ -464,6 +464,50 @@ fn equal_speeds_gaps_and_standstill() {
     // Backwards the same speeds would drive them apart.
     train.step(&[-0.004, -0.002, 0.0, 0.0], &[1e3; 4], -1e-3);
     assert!(train.forces().eq([0.0; 4]));
+}
+
+/// Joins and forces of touching balls with impedance 1024 and these free speeds, in 64ths; the last ball has room for
+/// any speed in a row, none on a ring.
+fn joins_and_forces<const N: usize>(free: [f32; N], ring: bool) -> (usize, [f32; N]) {
+    let mut room = [0.0; N];
+    room[N - 1] = if ring { 0.0 } else { f32::INFINITY };
+    let mut press = Press::<N>::new();
+    assert!(press.solve(&free.map(|speed| speed / 64.0), &[1024.0; N], &room));
+    let mut forces = press.forces();
+    (
+        press.joins(),
+        std::array::from_fn(|_| forces.next().unwrap()),
+    )
+}
+
+/// Balls and clusters that are exactly as fast as the cluster ahead do not join it: the rule is strict, or contacts
+/// would be counted that carry no force. All numbers here are exact in binary: half a 64th times 1024 is 8.
+#[test]
+fn equal_speeds_join_nothing() {
+    for ring in [false, true] {
+        // Single balls.
+        assert_eq!(joins_and_forces([1.0; 6], ring), (0, [0.0; 6]));
+        // A single ball behind a pair with its speed, and one more behind that.
+        let pair = [0.5, 0.5, 1.0, 0.0];
+        assert_eq!(joins_and_forces(pair, ring), (1, [0.0, 0.0, 8.0, 0.0]));
+        // A pair behind a pair.
+        let pairs = [1.0, 0.0, 1.0, 0.0];
+        assert_eq!(joins_and_forces(pairs, ring), (2, [8.0, 0.0, 8.0, 0.0]));
+    }
+    // Across the place where the ring closes: the last ball runs into the first.
+    assert_eq!(
+        joins_and_forces([0.0, 0.5, 1.0], true),
+        (1, [0.0, 0.0, 8.0])
+    );
+}
+
+/// What the rule leaves out is no more than the last bit: the least speed more makes a contact.
+#[test]
+fn the_least_excess_of_speed_joins() {
+    let (joins, forces) = joins_and_forces([1.0 + f32::EPSILON, 1.0], false);
+    assert_eq!(joins, 1);
+    // Half of 2^-23 / 64 on an impedance of 1024.
+    assert_eq!(forces, [f32::EPSILON * 8.0, 0.0]);
 }
 
 /// Whatever comes in, forces and speeds are finite, forces not negative, and the next sound tick finds

@@ -4,8 +4,6 @@
 use std::f64::consts::FRAC_PI_4;
 
 use epas_friction::ball::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE, ScrewRow};
-use epas_friction::geometry::{ContactAngle, Groove};
-use epas_friction::hertz::HertzContact;
 use epas_friction::refined::{FourPointBall, ScrewBall};
 use epas_friction::{BallScrew, BallScrewParameters, GrooveFit, GrooveSize, LoadShare, Material};
 use epas_reference::friction::ball_screw_ball::{
@@ -13,6 +11,8 @@ use epas_reference::friction::ball_screw_ball::{
 };
 use epas_reference::friction::linear_ball::{EllipseLaw, LinearBall, contact_forces};
 use epas_reference::friction::maps::FrictionMap;
+
+mod given;
 
 /// The ball of Lin 2019, Table 3.3.
 const BALL_RADIUS: f64 = 0.005;
@@ -169,27 +169,19 @@ fn screw() -> BallScrew {
 
 /// Orbital speed over the nut's in equilibrium of Coulomb friction.
 fn orbital_speed(design: &BallScrew, angles: &[f32; 4], forces: &[f32; 4]) -> f64 {
-    let flanks = [
-        (Flank::ScrewLeft, Groove::Screw),
-        (Flank::ScrewRight, Groove::Screw),
-        (Flank::NutLeft, Groove::Nut),
-        (Flank::NutRight, Groove::Nut),
-    ];
-    let contacts: Vec<_> = flanks
+    let numbers = given::ball_screw(design.parameters());
+    let contacts: Vec<_> = Flank::ALL
         .into_iter()
         .zip(angles.iter().zip(forces))
         .filter(|(_, (_, force))| **force > 0.0)
-        .map(|((flank, groove), (angle, force))| {
-            let contact = HertzContact::of_at(design, groove, ContactAngle::new(*angle));
-            ScrewContact {
-                groove: flank,
-                load: f64::from(*force),
-                contact_angle: f64::from(*angle),
-                ellipse: EllipseLaw {
-                    semi_major_constant: f64::from(contact.semi_major_coefficient()),
-                    axis_ratio: f64::from(contact.axis_ratio()),
-                },
-            }
+        .map(|(flank, (angle, force))| ScrewContact {
+            groove: flank,
+            load: f64::from(*force),
+            contact_angle: f64::from(*angle),
+            ellipse: numbers
+                .contact_at(flank.part(), f64::from(*angle))
+                .unwrap()
+                .into(),
         })
         .collect();
     motion_with_contacts(&TRACK, &contacts, FRICTION, 1.0)
@@ -301,7 +293,20 @@ fn a_row_with_play_has_the_mean_speed_of_two_contacts() {
         let tick = row.at(1.0, load);
         let ball = tick.ball(turn_screw, turn_nut, &LoadShare::MEAN);
         let speed = f64::from((tick.nominal_speed() + ball.speed_deviation) / path);
-        let (angles, forces) = row.contacts(1.0, load, turn_screw, turn_nut);
+        // Two contacts of N = F / (sin(beta) cos(alpha)), each at the angle of its own flank.
+        let normal = (f64::from(load).abs() / (FRAC_PI_4.sin() * TRACK.lead_angle().1)) as f32;
+        let nominal = FRAC_PI_4 as f32;
+        let angles = [
+            nominal - turn_screw,
+            nominal + turn_screw,
+            nominal - turn_nut,
+            nominal + turn_nut,
+        ];
+        let forces = if load < 0.0 {
+            [0.0, normal, normal, 0.0]
+        } else {
+            [normal, 0.0, 0.0, normal]
+        };
         let error = speed - orbital_speed(&design, &angles, &forces);
         println!("screw {screw:+} nut {nut:+} degrees, {load:+} N: {error:+.2e}");
         worst = worst.max(error.abs());

@@ -125,14 +125,21 @@ impl AnalyticLinearBall {
         let slope = attempt!(in_range("slope", slope, 0.1, 10.0));
         let (sin, cos) = constant::sin_cos(parameters.contact_angle);
         let half_tangent = 0.5 * sin / cos;
-        Ok(Self {
+        Ok(Self::folded(
             half_tangent,
-            // The loads of a diagonal enter by their sum, the formula by their mean.
-            compliance: constant::cbrt_squared(2.0)
-                * half_tangent
-                * parameters.semi_major_coefficient
+            parameters.semi_major_coefficient
                 / (slope * parameters.friction * parameters.ball_radius),
-        })
+        ))
+    }
+
+    /// From `tan(beta_0)/2` and `Psi / (k_f mu R_B^(2/3))`, N^(-1/3).
+    pub(crate) const fn folded(half_tangent: f32, compliance: f32) -> Self {
+        // The loads of a diagonal enter by their sum, the formula by their mean.
+        const TWO_TO_TWO_THIRDS: f32 = constant::cbrt_squared(2.0);
+        Self {
+            half_tangent,
+            compliance: TWO_TO_TWO_THIRDS * half_tangent * compliance,
+        }
     }
 
     /// Speed deviation and compliance from contact angles, rad, and forces, N, in the order BL, BR, TR,
@@ -154,17 +161,29 @@ impl AnalyticLinearBall {
         let up = loaded(force_bl + force_tr);
         let down = loaded(force_br + force_tl);
         let [up_root, down_root] = inverse_cube_roots([up, down]);
-        let (up, down) = (up * up_root, down * down_root);
-        let inverse = 1.0 / (up + down + SMALLEST_SUM);
-        let turn = (angle_tr - angle_bl) * up + (angle_tl - angle_br) * down;
-        let speed_deviation = self.half_tangent * turn * inverse;
+        let ball = self.closed_form(
+            [up * up_root, down * down_root],
+            [angle_tr - angle_bl, angle_tl - angle_br],
+        );
         SpeedDeviation {
             // False for NaN too.
-            speed_deviation: if speed_deviation.abs() <= LARGEST_SPEED_DEVIATION {
-                speed_deviation
+            speed_deviation: if ball.speed_deviation.abs() <= LARGEST_SPEED_DEVIATION {
+                ball.speed_deviation
             } else {
                 0.0
             },
+            ..ball
+        }
+    }
+
+    /// (3.43) and (3.51) from the forces of both diagonals, each the sum of its two contacts, to the power of 2/3,
+    /// `N^(2/3)`, and from the differences of angles `dTR - dBL` and `dTL - dBR`, rad. Linear in the angles.
+    #[inline(always)]
+    pub(crate) fn closed_form(&self, [up, down]: [f32; 2], turns: [f32; 2]) -> SpeedDeviation {
+        let inverse = 1.0 / (up + down + SMALLEST_SUM);
+        let turn = turns[0] * up + turns[1] * down;
+        SpeedDeviation {
+            speed_deviation: self.half_tangent * turn * inverse,
             compliance: self.compliance * inverse,
         }
     }

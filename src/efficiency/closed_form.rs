@@ -187,21 +187,6 @@ impl EfficiencyGeometry {
         1.0 - loss
     }
 
-    /// Rolling efficiency of a driven nut as printed in eq. (4): `a + 2 Cb` and `a + Cb` in the places
-    /// of `a` and `a - Cb`. For comparison with the paper only.
-    #[must_use]
-    pub const fn rolling_nut_as_printed(&self, friction: f32, rolling_tangent: f32) -> f32 {
-        let slide = friction * (self.ball_ratio + 2.0 * self.cos_contact);
-        let grip = self.sin_contact + friction * (self.ball_ratio + self.cos_contact);
-        let loss = if rolling_tangent > 0.0 {
-            (slide * self.tan_lead + rolling_tangent * self.secant_squared)
-                / (grip * self.tan_lead + rolling_tangent)
-        } else {
-            slide / grip
-        };
-        1.0 - loss
-    }
-
     /// Full-sliding efficiency of driving, eq. (14): `1 - eta = f / (Ca² Sb (R + f Sb))`.
     ///
     /// The ball ratio cancels. As printed the radical seems to span `f Sb` too; it ends before. Cost:

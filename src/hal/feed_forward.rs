@@ -13,7 +13,7 @@ pub enum FaultReaction {
     #[default]
     NeutralOnAnyFault,
     /// A value at its limit ([`Faults::SPEED_RANGE`], [`Faults::LOAD_RANGE`],
-    /// [`Faults::TORQUE_LIMIT`]) is still put out, so that the torque does not drop where it is largest;
+    /// [`Faults::FRICTION_LIMIT`]) is still put out, so that the torque does not drop where it is largest;
     /// any other flag: neutral.
     LimitedValuesPass,
 }
@@ -131,7 +131,7 @@ impl<PWM: SetDutyCycle> FrictionFeedForward<PWM> {
 
     fn refuses(&self, faults: Faults) -> bool {
         const LIMITED: u8 =
-            Faults::SPEED_RANGE.bits() | Faults::LOAD_RANGE.bits() | Faults::TORQUE_LIMIT.bits();
+            Faults::SPEED_RANGE.bits() | Faults::LOAD_RANGE.bits() | Faults::FRICTION_LIMIT.bits();
         match self.reaction {
             FaultReaction::NeutralOnAnyFault => faults.any(),
             FaultReaction::LimitedValuesPass => faults.bits() & !LIMITED != 0,

@@ -22,8 +22,6 @@ pub(super) struct Direction {
     pub reach: f32,
     /// `b_k`.
     pub grip: f32,
-    /// `n_k`.
-    pub lean: f32,
     /// Semi-axes of the ellipse, m.
     pub semi_major: f32,
     pub semi_minor: f32,
@@ -80,7 +78,6 @@ impl Path {
             cosine,
             reach: groove_path.path_over_rolling - groove.sign() * self.cos_lead * cosine,
             grip: self.axis_binormal * cosine + self.axis_normal * sine,
-            lean: self.axis_binormal * sine - self.axis_normal * cosine,
             semi_major: contact.semi_major,
             semi_minor: contact.semi_minor,
         }

@@ -16,10 +16,10 @@ use crate::ranges;
 /// | method | pitch angle |
 /// |---|---|
 /// | `Constant(40°)` | 40° |
-/// | `InnerRacewayControl`, as printed | 49.79°, 50.10° |
-/// | `OuterRacewayControl`, as printed | 34.50°, 34.32° |
+/// | `InnerRacewayControl` | 49.79° (50.10° by the printed formula) |
+/// | `OuterRacewayControl` | 34.50° (34.32°) |
 /// | `Mean` | 41° |
-/// | `DAlembert`, as printed | 38.30°, 38.23° |
+/// | `DAlembert` | 38.30° (38.23°) |
 /// | `BalancedSpin` | 42.2° |
 /// | `LeastPower` | 41.2° |
 ///
@@ -61,13 +61,9 @@ pub enum PitchMethod {
     /// exact for a helix. **Corrected:** Table 1 leaves out `cos^2 psi`, and section 2.8 exchanges
     /// the two contacts (Table 1 and section 4.3.3 do not).
     InnerRacewayControl,
-    /// IRC as Table 1 prints it, exact for a bearing: `tan beta = sin alpha_i / (cos alpha_i - D / d_m)`.
-    InnerRacewayControlPrinted,
     /// ORC: no spin at the nut. `tan beta = cos beta' sin alpha_o / (cos alpha_o + r'_o cos^2 psi / r_m)`,
     /// exact for a helix; corrected as [`InnerRacewayControl`](Self::InnerRacewayControl).
     OuterRacewayControl,
-    /// ORC as Table 1 prints it, exact for a bearing: `tan beta = sin alpha_o / (cos alpha_o + D / d_m)`.
-    OuterRacewayControlPrinted,
     /// GEO: mean of the two contact angles.
     Mean,
     /// DAL: no power of all forces on the ball (d'Alembert). **Unverified**, since the paper's source
@@ -75,8 +71,6 @@ pub enum PitchMethod {
     /// term of the denominator, and `C` turned over, so that the nut's control is reached where its
     /// spin moment rules.
     DAlembert,
-    /// DAL as Table 1 prints it. **Unverified.**
-    DAlembertPrinted,
     /// The spin powers `mu W 3/8 a E |spin|` of both contacts are equal. Closed form; raceway control
     /// is its limit where one contact's spin moment `W a E` rules.
     BalancedSpin,
@@ -125,24 +119,10 @@ impl PitchMethod {
                 let (screw, nut) = spin_moments(p, load_screw, load_nut);
                 zero_spin_moment(p, screw, nut)
             }
-            Self::InnerRacewayControlPrinted => {
-                let (sine, cosine) = math::sin_cos(p.contact_angle_screw);
-                libm::atan2f(sine, cosine - ball_ratio(p))
-            }
-            Self::OuterRacewayControlPrinted => {
-                let (sine, cosine) = math::sin_cos(p.contact_angle_nut);
-                libm::atan2f(sine, cosine + ball_ratio(p))
-            }
             Self::Mean => 0.5 * (p.contact_angle_screw + p.contact_angle_nut),
             Self::DAlembert => {
                 let (screw, nut) = spin_moments(p, load_screw, load_nut);
-                let (_, cosine_nut) = math::sin_cos(p.contact_angle_nut);
-                d_alembert(p, screw, nut, cosine_nut)
-            }
-            Self::DAlembertPrinted => {
-                let (screw, nut) = spin_moments(p, load_screw, load_nut);
-                let (_, cosine_screw) = math::sin_cos(p.contact_angle_screw);
-                d_alembert(p, nut, screw, cosine_screw)
+                d_alembert(p, screw, nut)
             }
             Self::LeastPower => least_power(p, load_screw, load_nut)?,
         };
@@ -193,14 +173,9 @@ fn zero_spin_moment(p: &KinematicsParameters, moment_screw: f32, moment_nut: f32
     )
 }
 
-/// Table 1, DAL, with `C = moment_screw / moment_nut` and the cosine of the second term given;
-/// numerator and denominator multiplied by `moment_nut`.
-fn d_alembert(
-    p: &KinematicsParameters,
-    moment_screw: f32,
-    moment_nut: f32,
-    cosine_second: f32,
-) -> f32 {
+/// Table 1, DAL, corrected: `C = moment_screw / moment_nut`, and `cos alpha_o` in the second term of the
+/// denominator; numerator and denominator multiplied by `moment_nut`.
+fn d_alembert(p: &KinematicsParameters, moment_screw: f32, moment_nut: f32) -> f32 {
     let ratio = ball_ratio(p);
     let (sine_i, cosine_i) = math::sin_cos(p.contact_angle_screw);
     let (sine_o, cosine_o) = math::sin_cos(p.contact_angle_nut);
@@ -209,7 +184,7 @@ fn d_alembert(
     libm::atan2f(
         moment_screw * (b + 1.0) * sine_i + moment_nut * 2.0 * sine_o,
         moment_screw * ((b + 1.0) * cosine_i + ratio * (cosine_difference - b))
-            + moment_nut * 2.0 * (cosine_second + ratio),
+            + moment_nut * 2.0 * (cosine_o + ratio),
     )
 }
 

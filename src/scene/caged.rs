@@ -2,13 +2,18 @@
 
 use core::f32::consts::TAU;
 
-use super::faults::answered;
-use super::{Faults, Inputs, Limits, Outputs, Regime, Scene, efficiency};
+use super::contract::{Admitted, Inputs, Limits, Regime, Reversal, Scene};
+use super::faults::Faults;
+use super::outputs::{Outputs, efficiency};
+use crate::ball::PreloadSum;
 use crate::efficiency::{Drive, EfficiencyGeometry};
 use crate::error::{Error, attempt, in_range};
 use crate::geometry::BallScrew;
-use crate::math;
 use crate::ranges;
+
+/// Friction torque over load and pitch radius from which on a direction counts as locked: no motor of a steering gear
+/// has a thousandth of that.
+const LOCKED_RADII: f32 = 1e3;
 
 /// Which state of the ball the friction torque is computed for (see [`efficiency`](crate::efficiency)).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -57,81 +62,19 @@ pub struct CagedConstants {
     half_backdrive: f32,
     /// Torque per axial load without friction, `lead / 2 pi`, m.
     reduced_lead: f32,
-    /// Square of the reversal speed.
-    reversal_squared: f32,
-    /// The reversal speed.
-    reversal_speed: f32,
+    reversal: Reversal,
     /// Whether no torque drives a load.
     drive_locked: bool,
-    preload: Preload,
+    /// Sum of both flanks' axial loads under the load between them.
+    flanks: PreloadSum,
     limits: Limits,
-}
-
-/// Sum of the two flanks' axial loads as a function of their difference, the load.
-///
-/// Two Hertzian flanks pressed together by `Fp`: `F1^(2/3) + F2^(2/3) = 2 Fp^(2/3)`, `F1 - F2 = F`.
-/// The sum is `Fp (2 + y²/12 + ...)` with `y = F / Fp`, up to `y = 2 sqrt(2)` where the light flank
-/// lifts off, and `F` from there on. The next coefficient is chosen so that both meet at lift-off; the
-/// largest error between is 0.8 %.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-struct Preload {
-    /// `2 sqrt(2) Fp`.
-    lift_off: f32,
-    /// `2 Fp`.
-    constant: f32,
-    /// `1 / (12 Fp)`.
-    square: f32,
-    /// `QUARTIC / Fp²`.
-    quartic: f32,
-}
-
-impl Preload {
-    /// `(12 (2 sqrt(2) - 2) / 8 - 1) / 8`: the sum is continuous at lift-off.
-    const QUARTIC: f32 = 0.030330086;
-
-    const fn new(preload: f32) -> Self {
-        if preload > 0.0 {
-            Self {
-                lift_off: 2.0 * core::f32::consts::SQRT_2 * preload,
-                constant: 2.0 * preload,
-                square: 1.0 / (12.0 * preload),
-                quartic: Self::QUARTIC / (preload * preload),
-            }
-        } else {
-            Self {
-                lift_off: 0.0,
-                constant: 0.0,
-                square: 0.0,
-                quartic: 0.0,
-            }
-        }
-    }
-
-    #[inline]
-    fn flank_sum(&self, load: f32) -> f32 {
-        let magnitude = load.abs();
-        if magnitude < self.lift_off {
-            let squared = load * load;
-            self.constant + squared * self.square * (1.0 + squared * self.quartic)
-        } else {
-            magnitude
-        }
-    }
-}
-
-/// State of a caged ball screw: only a diagnostic counter.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct CagedState {
-    /// Consecutive ticks whose outputs were flagged, up to `u32::MAX`; 0 after a sound tick.
-    pub faulted_ticks: u32,
 }
 
 impl Scene for CagedBallScrew {
     type Configuration = CagedBallScrewConfiguration;
     type Constants = CagedConstants;
-    type State = CagedState;
+    /// Friction of grooves alone has no state.
+    type State = ();
     type Inputs = Inputs;
     type Outputs = Outputs;
 
@@ -139,19 +82,21 @@ impl Scene for CagedBallScrew {
         CagedConstants::new(configuration)
     }
 
-    fn initial_state(_: &CagedConstants) -> CagedState {
-        CagedState::default()
+    fn initial_state(_: &CagedConstants) {}
+
+    #[inline(always)]
+    fn admit(constants: &CagedConstants, inputs: Inputs) -> Admitted<Inputs> {
+        constants.limits.admit(inputs)
     }
 
-    #[inline]
-    fn step(constants: &CagedConstants, state: &mut CagedState, inputs: Inputs) -> Outputs {
-        let (outputs, ticks) = answered(
-            constants.limits.admit(inputs),
-            state.faulted_ticks,
-            |inputs, faults| constants.outputs(inputs, faults),
-        );
-        state.faulted_ticks = ticks;
-        outputs
+    #[inline(always)]
+    fn outputs(constants: &CagedConstants, (): &mut (), inputs: Inputs) -> Outputs {
+        constants.outputs(inputs)
+    }
+
+    #[inline(always)]
+    fn largest_friction(constants: &CagedConstants) -> f32 {
+        constants.limits.friction_torque
     }
 }
 
@@ -176,24 +121,14 @@ impl CagedConstants {
         if preload != 0.0 {
             attempt!(in_range("preload", preload, 1e-3, 1e6));
         }
-        attempt!(in_range("reversal_speed", reversal_speed, 1e-6, 1e3));
+        let reversal = attempt!(Reversal::new(reversal_speed, 1e-6, 1e3));
         let limits = attempt!(limits.checked());
 
-        let geometry = EfficiencyGeometry::of(design);
-        let radius = design.pitch_radius();
-        let (drive, backdrive) = match branch {
-            FrictionBranch::Rolling => (
-                geometry.rolling_torque_per_load(Drive::Driving, radius, friction, rolling),
-                geometry.rolling_torque_per_load(Drive::BackDriving, radius, friction, rolling),
-            ),
-            FrictionBranch::Sliding => (
-                geometry.sliding_torque_per_load(Drive::Driving, radius, friction),
-                geometry.sliding_torque_per_load(Drive::BackDriving, radius, friction),
-            ),
-        };
-        // Beyond its lock the formula turns infinite or negative; a torque that would be a thousand
-        // pitch radii times the load is as good as locked.
-        let drive_locked = !(drive >= 0.0 && drive < 1e3 * radius);
+        let drive = torque_per_load(design, branch, Drive::Driving, friction, rolling);
+        let backdrive = torque_per_load(design, branch, Drive::BackDriving, friction, rolling);
+        // Beyond its lock the formula turns infinite or negative.
+        let lock = LOCKED_RADII * design.pitch_radius();
+        let drive_locked = !(drive >= 0.0 && drive < lock);
 
         Ok(Self {
             half_drive: if drive_locked {
@@ -203,10 +138,9 @@ impl CagedConstants {
             },
             half_backdrive: 0.5 * backdrive,
             reduced_lead: design.lead() / TAU,
-            reversal_squared: reversal_speed * reversal_speed,
-            reversal_speed,
+            reversal,
             drive_locked,
-            preload: Preload::new(preload),
+            flanks: PreloadSum::new(preload),
             limits,
         })
     }
@@ -215,50 +149,69 @@ impl CagedConstants {
     /// w_s²)`, the flanks' sum `S` and difference `F`: `c_d |F|` driving and `c_b |F|` back-driving
     /// away from the reversal, zero at standstill, smooth between, odd under reversal of speed and
     /// load together, and never of the sign that would make friction a source of power.
-    #[inline]
-    fn outputs(&self, inputs: Inputs, faults: Faults) -> Outputs {
+    #[inline(always)]
+    fn outputs(&self, inputs: Inputs) -> Outputs {
         let Inputs {
             nut_speed: speed,
             axial_load: load,
         } = inputs;
-        let direction = speed / math::sqrt(speed * speed + self.reversal_squared);
-        let sum = self.preload.flank_sum(load);
+        let direction = self.reversal.direction(speed);
+        let sum = self.flanks.under(load);
         let load_torque = load * self.reduced_lead;
 
         // Full friction in the direction of motion, for the efficiency; standstill counts as forward.
         let opposing = if speed < 0.0 { -load } else { load };
-        let full = self.half_drive * (sum + opposing) + self.half_backdrive * (sum - opposing);
+        let full = self.friction_torque(sum, opposing);
         let load_work = opposing * self.reduced_lead;
 
         let locks_driving = self.drive_locked && opposing > 0.0;
-        let torque = if locks_driving {
+        let friction_torque = if locks_driving {
             direction * self.limits.friction_torque
         } else {
-            let blended = direction * load;
-            direction * (self.half_drive * (sum + blended) + self.half_backdrive * (sum - blended))
+            direction * self.friction_torque(sum, direction * load)
         };
-        let (friction_torque, limited) = self.limits.limit_torque(torque);
-
         let efficiency = if locks_driving {
             0.0
         } else {
             efficiency(load_work > 0.0, load_work, full)
         };
-        let regime = if speed.abs() < self.reversal_speed {
-            Regime::Standing
-        } else if locks_driving || (load_work < 0.0 && efficiency <= 0.0) {
-            Regime::Locked
-        } else if load_work < 0.0 {
-            Regime::BackDriving
+        let load_opposes = !(load_work < 0.0);
+        let moves = if load_opposes {
+            !locks_driving
         } else {
-            Regime::Driving
+            efficiency > 0.0
         };
         Outputs {
             friction_torque,
             load_torque,
             efficiency,
-            regime,
-            faults: (faults | limited).with(locks_driving, Faults::TORQUE_LIMIT),
+            regime: Regime::of(self.reversal.stands(speed), load_opposes, moves),
+            faults: Faults::NONE.with(locks_driving, Faults::FRICTION_LIMIT),
         }
+    }
+
+    /// Size of the friction torque, N m, from the flanks' sum of loads and their difference, N, positive where it
+    /// opposes the motion: `[c_d (S + F) + c_b (S - F)] / 2`.
+    #[inline(always)]
+    fn friction_torque(&self, sum: f32, difference: f32) -> f32 {
+        self.half_drive * (sum + difference) + self.half_backdrive * (sum - difference)
+    }
+}
+
+/// Friction torque over the axial load in one direction of motion, m.
+const fn torque_per_load(
+    design: &BallScrew,
+    branch: FrictionBranch,
+    drive: Drive,
+    friction: f32,
+    rolling: f32,
+) -> f32 {
+    let geometry = EfficiencyGeometry::of(design);
+    let radius = design.pitch_radius();
+    match branch {
+        FrictionBranch::Rolling => {
+            geometry.rolling_torque_per_load(drive, radius, friction, rolling)
+        }
+        FrictionBranch::Sliding => geometry.sliding_torque_per_load(drive, radius, friction),
     }
 }

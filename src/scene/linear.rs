@@ -1,23 +1,24 @@
 //! A linear bearing with four-point contact and balls that press on each other.
 
-use super::deviation::DeviationMap;
-use super::faults::{admit, answered, limit};
-use super::uncaged::TrainOutputs;
-use super::zone::{LARGEST_ADVANCE, LONGEST_RETURN, LONGEST_TRACK, LoadedZone, Phase};
-use super::{Faults, Regime, Scene};
-use crate::ball::{LoadShare, largest_deviation};
+use super::circuit::{
+    Circuit, CircuitConfiguration, CircuitState, DeviationMap, LONGEST_TRACK, UNLOADED,
+    per_loaded_ball,
+};
+use super::contract::{Admitted, Regime, Reversal, Scene};
+use super::faults::{Faults, bounded};
+use super::outputs::LinearOutputs;
+use crate::ball::{AnalyticLinearBall, LoadShare, largest_deviation};
 use crate::contact::FrictionMap;
 use crate::error::{Error, attempt, in_range};
 use crate::geometry::LinearBearing;
 use crate::hertz::HertzContact;
 use crate::math;
-use crate::train::{LARGEST_TRAVEL, Track, Train};
 
-/// Impedance of a ball that no load presses into its grooves, N: it goes along with its neighbours.
-const UNLOADED: f32 = 1e-6;
+/// Force of a diagonal below which it does not count, N.
+const SMALLEST_FORCE: f32 = 2e-6;
 
-/// Force on a diagonal below which it does not count, N.
-const SMALLEST_FORCE: f32 = 1e-6;
+/// `2^(-4/3)`: a diagonal's force to the power of 4/3 is that of its sum of two equal contact forces, times this.
+const HALF_TO_FOUR_THIRDS: f32 = 0.396_850_26;
 
 /// A linear bearing without cage, with `N` balls in one circuit, in four-point contact: the published
 /// closed form for every ball ([`AnalyticLinearBall`](crate::ball::AnalyticLinearBall)), with its corrections.
@@ -98,98 +99,121 @@ pub struct LinearBearingConfiguration {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LinearConstants<const N: usize> {
-    zone: LoadedZone,
-    track: Track,
-    /// Loads over the diagonals' forces: `1/(2 n cos beta)` and `1/(2 n sin beta)` for `n` loaded balls.
+    circuit: Circuit,
+    ball: AnalyticLinearBall,
+    /// Half the sum of both diagonals' forces over the normal load, `1/(n cos beta)` for `n` loaded balls.
     normal: f32,
+    /// Half the difference of both diagonals' forces over the side load, `1/(n sin beta)`.
     side: f32,
-    /// `tan(beta)/2`.
-    half_tangent: f32,
-    /// Impedance of a ball over `F_U^(2/3) + F_D^(2/3)`, N^(1/3).
-    impedance: f32,
-    /// Drag of a ball over `F_U^(4/3) + F_D^(4/3)`, N^(-1/3).
+    /// Drag of a ball over `F_U^(4/3) + F_D^(4/3)` of the diagonals' forces, N^(-1/3).
     drag: f32,
     /// Friction force of two balls over the force between them.
     rubbing: f32,
-    travel: f32,
-    phase: f32,
-    /// Periods of the rail's deviations per metre.
-    periods: f32,
-    reversal_speed: f32,
-    reversal_squared: f32,
+    /// Length that counts as one turn of the deviation maps, m.
+    wavelength: f32,
+    reversal: Reversal,
     limits: LinearLimits,
 }
 
-/// State of a linear bearing.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct LinearState<const N: usize> {
-    /// The balls.
-    pub train: Train<N>,
-    phase: Phase,
-    /// Consecutive ticks whose outputs were flagged, up to `u32::MAX`; 0 after a sound tick.
-    pub faulted_ticks: u32,
-}
-
 impl LinearLimits {
-    const fn checked(self) -> Result<Self, Error> {
+    /// The limits, checked.
+    ///
+    /// # Errors
+    /// [`Error`] naming `speed`, `load` or `friction_force`.
+    pub const fn checked(self) -> Result<Self, Error> {
         attempt!(in_range("speed", self.speed, 1e-6, 1e3));
         attempt!(in_range("load", self.load, 1e-3, 1e7));
         attempt!(in_range("friction_force", self.friction_force, 1e-6, 1e6));
         Ok(self)
     }
 
-    /// The inputs within their limits, with what was wrong; `None` beside the flags where no number can
-    /// stand in.
-    #[inline]
-    fn admit(&self, inputs: LinearInputs) -> (Option<LinearInputs>, Faults) {
-        let (admitted, faults) = admit(
-            inputs.speed,
-            self.speed,
-            [inputs.normal_load, inputs.side_load],
-            self.load,
-        );
-        let admitted = admitted.map(|(speed, [normal_load, side_load])| LinearInputs {
+    /// The inputs within these limits, with what was wrong.
+    #[inline(always)]
+    fn admit(&self, inputs: LinearInputs) -> Admitted<LinearInputs> {
+        let LinearInputs {
             speed,
             normal_load,
             side_load,
-        });
-        (admitted, faults)
+        } = inputs;
+        let finite = speed.is_finite() && normal_load.is_finite() && side_load.is_finite();
+        Admitted {
+            inputs: finite.then_some(LinearInputs {
+                speed: bounded(speed, self.speed),
+                normal_load: bounded(normal_load, self.load),
+                side_load: bounded(side_load, self.load),
+            }),
+            faults: Faults::of_inputs(speed, self.speed, [normal_load, side_load], self.load),
+        }
     }
 }
 
 impl<const N: usize> Scene for LinearBearingTrain<N> {
     type Configuration = LinearBearingConfiguration;
     type Constants = LinearConstants<N>;
-    type State = LinearState<N>;
+    type State = CircuitState<N>;
     type Inputs = LinearInputs;
-    type Outputs = TrainOutputs;
+    type Outputs = LinearOutputs;
 
     fn constants(configuration: &LinearBearingConfiguration) -> Result<LinearConstants<N>, Error> {
         LinearConstants::new(configuration)
     }
 
-    fn initial_state(constants: &LinearConstants<N>) -> LinearState<N> {
-        LinearState {
-            train: Train::spread(constants.track),
-            phase: Phase::default(),
-            faulted_ticks: 0,
-        }
+    fn initial_state(constants: &LinearConstants<N>) -> CircuitState<N> {
+        CircuitState::new(&constants.circuit)
     }
 
-    #[inline]
-    fn step(
+    #[inline(always)]
+    fn admit(constants: &LinearConstants<N>, inputs: LinearInputs) -> Admitted<LinearInputs> {
+        constants.limits.admit(inputs)
+    }
+
+    #[inline(always)]
+    fn outputs(
         constants: &LinearConstants<N>,
-        state: &mut LinearState<N>,
+        state: &mut CircuitState<N>,
         inputs: LinearInputs,
-    ) -> TrainOutputs {
-        let (outputs, ticks) = answered(
-            constants.limits.admit(inputs),
-            state.faulted_ticks,
-            |inputs, faults| constants.outputs(state, inputs, faults),
-        );
-        state.faulted_ticks = ticks;
-        outputs
+    ) -> LinearOutputs {
+        constants.outputs(state, inputs)
+    }
+
+    #[inline(always)]
+    fn largest_friction(constants: &LinearConstants<N>) -> f32 {
+        constants.limits.friction_force
+    }
+}
+
+impl LinearBearingConfiguration {
+    /// The circuit's part, checked and folded for so many balls.
+    const fn circuit(&self, limits: &LinearLimits, balls: usize) -> Result<Circuit, Error> {
+        let Self {
+            loaded_length,
+            return_length,
+            wavelength,
+            tick,
+            ..
+        } = *self;
+        attempt!(in_range("loaded_length", loaded_length, 1e-4, 100.0));
+        attempt!(in_range("return_length", return_length, 0.0, 100.0));
+        attempt!(in_range("tick", tick, 1e-6, 1.0));
+        let shortest = (loaded_length + return_length) / LONGEST_TRACK;
+        let shortest = if shortest > 1e-4 { shortest } else { 1e-4 };
+        attempt!(in_range("wavelength", wavelength, shortest, 100.0));
+        CircuitConfiguration {
+            loaded_length,
+            loaded_turns: loaded_length / wavelength,
+            return_length,
+            turn_length: wavelength,
+            pitch: 2.0 * self.bearing.ball_radius(),
+            // A ball that rolls gets on half as far as the carriage.
+            travel_per_motion: 0.5,
+            motion_per_turn: wavelength,
+            passing_deviation: self.rail_deviation,
+            recirculating_deviation: self.carriage_deviation,
+            load_shares: self.load_shares,
+            tick,
+            largest_speed: limits.speed,
+        }
+        .folded(balls)
     }
 }
 
@@ -200,184 +224,115 @@ impl<const N: usize> LinearConstants<N> {
     /// # Errors
     /// [`Error`] naming the field out of range.
     pub const fn new(configuration: &LinearBearingConfiguration) -> Result<Self, Error> {
-        let bearing = &configuration.bearing;
-        let friction = attempt!(in_range("friction", configuration.friction, 1e-3, 1.0));
-        let ball_friction = attempt!(in_range(
-            "ball_friction",
-            configuration.ball_friction,
-            0.0,
-            1.0
-        ));
-        let loaded = attempt!(in_range(
-            "loaded_length",
-            configuration.loaded_length,
-            1e-4,
-            100.0
-        ));
-        let return_length = attempt!(in_range(
-            "return_length",
-            configuration.return_length,
-            0.0,
-            100.0
-        ));
-        let wavelength = attempt!(in_range(
-            "wavelength",
-            configuration.wavelength,
-            1e-4,
-            100.0
-        ));
-        let reversal_speed = attempt!(in_range(
-            "reversal_speed",
-            configuration.reversal_speed,
-            1e-9,
-            10.0
-        ));
-        let tick = attempt!(in_range("tick", configuration.tick, 1e-6, 1.0));
-        let limits = attempt!(configuration.limits.checked());
-
-        attempt!(in_range(
-            "return_length",
-            return_length,
-            0.0,
-            LONGEST_RETURN * loaded
-        ));
-        let length = loaded + return_length;
-        let radius = bearing.ball_radius();
-        let track = attempt!(Track::new(length, 2.0 * radius, N));
-        attempt!(in_range(
-            "wavelength",
-            wavelength,
-            length / LONGEST_TRACK,
-            100.0
-        ));
-        let zone = attempt!(LoadedZone::new(
-            loaded / wavelength,
-            length / wavelength,
-            configuration.rail_deviation,
-            configuration.carriage_deviation,
-            configuration.load_shares,
-        ));
-        attempt!(in_range(
-            "tick",
-            tick,
-            0.0,
-            2.0 * LARGEST_TRAVEL * length / limits.speed,
-        ));
-        let period = wavelength * zone.passing_turns() as f32;
-        attempt!(in_range(
-            "tick",
-            tick,
-            0.0,
-            LARGEST_ADVANCE * period / limits.speed
-        ));
+        let LinearBearingConfiguration {
+            ref bearing,
+            friction,
+            ball_friction,
+            rail_deviation,
+            carriage_deviation,
+            reversal_speed,
+            limits,
+            ..
+        } = *configuration;
+        attempt!(in_range("friction", friction, 1e-3, 1.0));
+        attempt!(in_range("ball_friction", ball_friction, 0.0, 1.0));
+        let reversal = attempt!(Reversal::new(reversal_speed, 1e-9, 10.0));
+        let limits = attempt!(limits.checked());
+        let circuit = attempt!(configuration.circuit(&limits, N));
 
         // The deviations' sum times half the tangent is a ball's speed deviation: no more than a half.
         let nominal = bearing.parameters().contact_angle;
         let angle = bearing.contact_angle();
         let largest = largest_deviation(nominal, angle.sin / angle.cos);
-        attempt!(
-            configuration
-                .rail_deviation
-                .checked("rail_deviation", largest)
-        );
-        attempt!(
-            configuration
-                .carriage_deviation
-                .checked("carriage_deviation", largest)
-        );
+        attempt!(rail_deviation.checked("rail_deviation", largest));
+        attempt!(carriage_deviation.checked("carriage_deviation", largest));
 
         let contact = HertzContact::of_linear(bearing);
         let map = attempt!(FrictionMap::new(contact.axis_ratio()));
-        let per_ball = length / (loaded * N as f32);
-        let half_tangent = 0.5 * angle.sin / angle.cos;
+        let radius = bearing.ball_radius();
         let semi_major = contact.semi_major_coefficient();
-        Ok(Self {
-            zone,
-            track,
-            normal: 0.5 * per_ball / angle.cos,
-            side: 0.5 * per_ball / angle.sin,
+        let half_tangent = 0.5 * angle.sin / angle.cos;
+        // Four contacts that spin with v tan(beta)/(2 R_B) each.
+        let drag = 2.0 * map.spin_moment() * friction * semi_major * half_tangent / radius;
+        let ball = AnalyticLinearBall::folded(
             half_tangent,
-            // (3.43), (3.49) with tan(beta) for 1 - cos(2 beta), in units of v/2.
-            impedance: map.slope() * friction * radius / (half_tangent * semi_major),
-            // Four contacts that spin with v tan(beta)/(2 R_B) each.
-            drag: 2.0 * map.spin_moment() * friction * semi_major * half_tangent / radius,
+            semi_major / (map.slope() * friction * radius),
+        );
+        let per_ball = per_loaded_ball(configuration.loaded_length, configuration.return_length, N);
+        Ok(Self {
+            circuit,
+            ball,
+            normal: per_ball / angle.cos,
+            side: per_ball / angle.sin,
+            drag: HALF_TO_FOUR_THIRDS * drag,
             // (3.52): balls that roll alike rub with v/cos(beta).
             rubbing: ball_friction / angle.cos,
-            travel: -0.5 * tick,
-            phase: zone.phase_per_turn() * tick / wavelength,
-            periods: 1.0 / (wavelength * zone.passing_turns() as f32),
-            reversal_speed,
-            reversal_squared: reversal_speed * reversal_speed,
+            wavelength: configuration.wavelength,
+            reversal,
             limits,
         })
     }
 
     #[inline(always)]
-    fn outputs(
-        &self,
-        state: &mut LinearState<N>,
-        inputs: LinearInputs,
-        faults: Faults,
-    ) -> TrainOutputs {
+    fn outputs(&self, state: &mut CircuitState<N>, inputs: LinearInputs) -> LinearOutputs {
         let LinearInputs {
             speed,
             normal_load,
             side_load,
         } = inputs;
-        let direction = speed / math::sqrt(speed * speed + self.reversal_squared);
+        let direction = self.reversal.direction(speed);
         let (normal, side) = (normal_load * self.normal, side_load * self.side);
         let up = at_least(normal + side, SMALLEST_FORCE);
         let down = at_least(normal - side, SMALLEST_FORCE);
         let (up_root, up_squared) = math::cbrt_and_squared(up);
         let (down_root, down_squared) = math::cbrt_and_squared(down);
-        let sum = up_squared + down_squared;
 
-        // epsilon = tan(beta) ((dTR - dBL) A_U + (dTL - dBR) A_D)/(2 (A_U + A_D)).
-        let turn = self.half_tangent * (up_squared - down_squared) / sum;
-        let turn = if speed < 0.0 { -turn } else { turn };
-        let impedance = self.impedance * sum;
+        // A radian by which the angles at TR and BR grow and those at TL and BL shrink: (3.43) is linear in it.
+        let mean = self
+            .ball
+            .closed_form([up_squared, down_squared], [1.0, -1.0]);
+        let turn = if speed < 0.0 {
+            -mean.speed_deviation
+        } else {
+            mean.speed_deviation
+        };
+        let impedance = 1.0 / mean.compliance;
         let drag = self.drag * (up * up_root + down * down_root);
 
-        let phase = state.phase.units();
-        let (passing, own) = self.zone.units();
-        let (passing, own) = (turn * passing, turn * own);
-        let mut drags = 0.0;
-        let pressing = state.train.run(speed * self.travel, |position| {
-            match self.zone.at(position, phase) {
+        let phase = state.phase();
+        let (passing, recirculating) = self.circuit.deviation_units();
+        let (passing, recirculating) = (turn * passing, turn * recirculating);
+        let mut shares = 0.0;
+        let mut balls = state.train.intake(self.circuit.travel(speed));
+        while let Some(next) = balls.next_ball() {
+            match self.circuit.place(next.position(), phase) {
                 Some(place) => {
-                    drags += place.share.four_thirds();
-                    let free = own * place.own + passing * place.passing;
-                    (free, impedance * place.share.two_thirds())
+                    shares += place.share.four_thirds();
+                    let free = recirculating * place.recirculating + passing * place.passing;
+                    next.put(free, impedance * place.share.two_thirds());
                 }
-                None => (0.0, UNLOADED),
+                None => next.put(0.0, UNLOADED),
             }
-        });
-        state.phase.advance(speed * self.phase);
+        }
+        let pressing = balls.press();
+        state.advance(&self.circuit, speed);
 
-        let groove_friction = direction * (drag * drags);
-        let ball_friction = direction * (self.rubbing * pressing.force);
-        let (friction, limited) =
-            limit(groove_friction + ball_friction, self.limits.friction_force);
-        TrainOutputs {
-            friction,
-            groove_friction,
-            ball_friction,
-            load_torque: 0.0,
+        let groove_force = direction * (drag * shares);
+        let ball_force = direction * (self.rubbing * pressing.force);
+        LinearOutputs {
+            friction_force: groove_force + ball_force,
+            groove_force,
+            ball_force,
             contacts: pressing.contacts,
             largest_contact_force: pressing.largest,
-            regime: if speed.abs() < self.reversal_speed {
-                Regime::Standing
-            } else {
-                Regime::Driving
-            },
-            faults: faults | limited,
+            regime: Regime::of(self.reversal.stands(speed), true, true),
+            faults: Faults::NONE,
         }
     }
-}
 
-impl<const N: usize> LinearState<N> {
-    pub(crate) fn set_carriage_position(&mut self, constants: &LinearConstants<N>, position: f32) {
-        self.phase.set(position * constants.periods);
+    /// See [`FrictionModel::set_carriage_position`](crate::FrictionModel::set_carriage_position).
+    pub(crate) fn set_carriage_position(&self, state: &mut CircuitState<N>, position: f32) {
+        state.set_turns(&self.circuit, position / self.wavelength);
     }
 }
 

@@ -1,76 +1,282 @@
-//! What scenes with a train of balls have in common.
+//! A ball screw without cage: its balls press on each other.
 
-use super::faults::Flagged;
-use super::{Faults, Outputs, Regime, efficiency};
+use core::f32::consts::TAU;
 
-/// What a scene with balls that press on each other returns.
+use super::circuit::{
+    Circuit, CircuitConfiguration, CircuitState, DeviationMap, LONGEST_TRACK, UNLOADED,
+    per_loaded_ball,
+};
+use super::contract::{Admitted, Inputs, Limits, Regime, Reversal, Scene};
+use super::faults::Faults;
+use super::outputs::UncagedOutputs;
+use crate::ball::{GrooveFit, LoadShare, LoopSums, ScrewRow};
+use crate::error::{Error, attempt, in_range};
+use crate::geometry::BallScrew;
+use crate::math::elliptic::arc_sine;
+use crate::train::LARGEST_FREE_SPEED;
+
+/// A ball screw without cage, with `N` balls in one circuit: friction of the grooves and between balls.
+///
+/// A tick whose speed or load is no number is flagged in that tick, puts out no torque, and leaves the state as
+/// it is; the next sound tick is unflagged. Balls, and the phase of the screw's deviations, then stand behind by
+/// the travel of the missed ticks, and friction is that of this position: sound, but that of an earlier angle.
+/// [`FrictionModel::set_nut_angle`](crate::FrictionModel::set_nut_angle) brings the phase back; the balls, whose places no sensor knows, stay behind.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct UncagedBallScrew<const N: usize>;
+
+/// What the engineer sets for a ball screw without cage; unchecked.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct TrainOutputs {
-    /// Torque about the nut's axis that the motor has to add to overcome friction, N m (in a linear
-    /// bearing the force along the track, N): the sum of the next two, within its limit. It has the sign
-    /// of the speed; friction itself acts with the opposite sign.
+pub struct UncagedBallScrewConfiguration {
+    /// The validated design.
+    pub design: BallScrew,
+    /// Coulomb friction coefficient of ball and groove, 1e-3 to 0.5.
     pub friction: f32,
-    /// Its part from the grooves.
-    pub groove_friction: f32,
-    /// Its part from balls that rub against each other.
+    /// Coulomb friction coefficient of ball and ball, 0 to 1.
     pub ball_friction: f32,
-    /// Torque about the nut's axis that holds the load without friction, N m; 0 in a linear bearing.
-    pub load_torque: f32,
-    /// Pairs of balls that press on each other.
-    pub contacts: u8,
-    /// Largest force between two balls, N.
-    pub largest_contact_force: f32,
-    /// What the mechanism does.
-    pub regime: Regime,
-    /// What was wrong with this tick's inputs, or limited in its outputs.
-    pub faults: Faults,
+    /// How balls fit between the grooves.
+    pub fit: GrooveFit,
+    /// Turns of the loaded track, 0.1 to 100.
+    pub turns: f32,
+    /// Length of the return, m, 0 to 10, up to 250 times the loaded track, and 1000 turns with it: there
+    /// balls carry no load.
+    pub return_length: f32,
+    /// Deviation of the contact angles along the screw's groove, at most
+    /// [`ScrewRow::largest_deviation`].
+    pub screw_deviation: &'static DeviationMap,
+    /// Deviation of the contact angles along the nut's groove, from the start of the loaded track, at
+    /// most [`ScrewRow::largest_deviation`].
+    pub nut_deviation: &'static DeviationMap,
+    /// Load of a ball over the mean load, in equal parts of the loaded track from its start; 1 to 256.
+    pub load_shares: &'static [LoadShare],
+    /// Nut speed over which friction changes its direction, rad/s, 1e-6 to 1e3: at this speed it has
+    /// 71 % of its full value.
+    pub reversal_speed: f32,
+    /// Time between two ticks, s, 1e-6 to 1; at the largest nut speed the balls may move by 3 % of the
+    /// track in it, and the screw by half a period of its deviation map.
+    pub tick: f32,
+    /// Bounds that are kept whatever comes in.
+    pub limits: Limits,
 }
 
-impl Flagged for TrainOutputs {
-    #[inline]
-    fn safe(faults: Faults) -> Self {
-        Self {
-            friction: 0.0,
-            groove_friction: 0.0,
-            ball_friction: 0.0,
-            load_torque: 0.0,
-            contacts: 0,
-            largest_contact_force: 0.0,
-            regime: Regime::Standing,
-            faults,
-        }
+/// Constants of a ball screw without cage, with `N` balls.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct UncagedConstants<const N: usize> {
+    row: ScrewRow,
+    circuit: Circuit,
+    ball_friction: f32,
+    /// 1 / number of loaded balls.
+    per_ball: f32,
+    /// Speed of the balls against the nut, m per unit of nut speed.
+    speed: f32,
+    /// 1 / that speed, 1/m.
+    per_speed: f32,
+    /// Torque per axial load without friction, `lead / 2 pi`, m.
+    reduced_lead: f32,
+    reversal: Reversal,
+    limits: Limits,
+}
+
+impl<const N: usize> Scene for UncagedBallScrew<N> {
+    type Configuration = UncagedBallScrewConfiguration;
+    type Constants = UncagedConstants<N>;
+    type State = CircuitState<N>;
+    type Inputs = Inputs;
+    type Outputs = UncagedOutputs;
+
+    fn constants(
+        configuration: &UncagedBallScrewConfiguration,
+    ) -> Result<UncagedConstants<N>, Error> {
+        UncagedConstants::new(configuration)
     }
 
-    #[inline]
-    fn faults(&self) -> Faults {
-        self.faults
+    fn initial_state(constants: &UncagedConstants<N>) -> CircuitState<N> {
+        CircuitState::new(&constants.circuit)
+    }
+
+    #[inline(always)]
+    fn admit(constants: &UncagedConstants<N>, inputs: Inputs) -> Admitted<Inputs> {
+        constants.limits.admit(inputs)
+    }
+
+    #[inline(always)]
+    fn outputs(
+        constants: &UncagedConstants<N>,
+        state: &mut CircuitState<N>,
+        inputs: Inputs,
+    ) -> UncagedOutputs {
+        constants.outputs(state, inputs)
+    }
+
+    #[inline(always)]
+    fn largest_friction(constants: &UncagedConstants<N>) -> f32 {
+        constants.limits.friction_torque
     }
 }
 
-impl From<TrainOutputs> for Outputs {
-    /// The outputs that every scene of a ball screw has.
-    fn from(outputs: TrainOutputs) -> Self {
-        let TrainOutputs {
-            friction,
-            load_torque,
-            regime,
-            faults,
+impl UncagedBallScrewConfiguration {
+    /// The circuit's part, checked and folded for so many balls that move against the nut with `speed`, m per unit of
+    /// nut speed.
+    const fn circuit(&self, speed: f32, limits: &Limits, balls: usize) -> Result<Circuit, Error> {
+        let Self {
+            ref design,
+            turns,
+            return_length,
+            tick,
             ..
-        } = outputs;
-        let efficiency = if matches!(regime, Regime::Standing) {
-            0.0
-        } else {
-            // Signs, because the product of two small torques would vanish.
-            let driving = (load_torque < 0.0) == (friction < 0.0);
-            efficiency(driving, load_torque, friction)
-        };
-        Self {
-            friction_torque: friction,
-            load_torque,
-            efficiency,
-            regime,
-            faults,
+        } = *self;
+        attempt!(in_range("turns", turns, 0.1, 100.0));
+        attempt!(in_range("return_length", return_length, 0.0, 10.0));
+        attempt!(in_range("tick", tick, 1e-6, 1.0));
+        let path = design.pitch_radius() / design.cos_lead_angle();
+        let per_turn = TAU * path;
+        let loaded_length = self.loaded_length();
+        let longest = LONGEST_TRACK * per_turn - loaded_length;
+        attempt!(in_range("return_length", return_length, 0.0, longest));
+        CircuitConfiguration {
+            loaded_length,
+            loaded_turns: turns,
+            return_length,
+            turn_length: per_turn,
+            pitch: 2.0 * path * arc_sine(design.ball_radius() / path),
+            travel_per_motion: speed,
+            motion_per_turn: TAU,
+            passing_deviation: self.screw_deviation,
+            recirculating_deviation: self.nut_deviation,
+            load_shares: self.load_shares,
+            tick,
+            largest_speed: limits.nut_speed,
         }
+        .folded(balls)
+    }
+
+    /// Length of the loaded track, m.
+    const fn loaded_length(&self) -> f32 {
+        let path = self.design.pitch_radius() / self.design.cos_lead_angle();
+        self.turns * (TAU * path)
+    }
+
+    /// Checks the deviations of both grooves: what the row's formula holds for, and what keeps every ball within
+    /// [`LARGEST_FREE_SPEED`] of the balls' `speed` against the nut, m per unit of nut speed.
+    const fn check_deviations(&self, row: &ScrewRow, speed: f32) -> Result<(), Error> {
+        let largest = row.largest_deviation();
+        let on_screw = attempt!(self.screw_deviation.checked("screw_deviation", largest));
+        let in_nut = attempt!(self.nut_deviation.checked("nut_deviation", largest));
+        // Where balls hardly move against the nut, deviations that are small against the pitch radius
+        // are large against that.
+        let relative = row.fastest_deviation(on_screw, in_nut) / speed;
+        if relative > LARGEST_FREE_SPEED {
+            let part = LARGEST_FREE_SPEED / relative;
+            attempt!(in_range("screw_deviation", on_screw, 0.0, on_screw * part));
+            attempt!(in_range("nut_deviation", in_nut, 0.0, in_nut * part));
+        }
+        Ok(())
+    }
+}
+
+impl<const N: usize> UncagedConstants<N> {
+    /// Checks a configuration and folds its constants: at set-up, or in a constant when firmware is compiled (see
+    /// [`FrictionModel`](crate::FrictionModel)).
+    ///
+    /// # Errors
+    /// [`Error`] naming the field out of range.
+    pub const fn new(configuration: &UncagedBallScrewConfiguration) -> Result<Self, Error> {
+        let UncagedBallScrewConfiguration {
+            ref design,
+            friction,
+            ball_friction,
+            fit,
+            return_length,
+            reversal_speed,
+            limits,
+            ..
+        } = *configuration;
+        attempt!(in_range("friction", friction, 1e-3, 0.5));
+        attempt!(in_range("ball_friction", ball_friction, 0.0, 1.0));
+        let reversal = attempt!(Reversal::new(reversal_speed, 1e-6, 1e3));
+        let limits = attempt!(limits.checked());
+        let row = attempt!(ScrewRow::new(design, friction, fit));
+        let speed = design.pitch_radius() / design.cos_lead_angle() - row.nominal_speed();
+        attempt!(configuration.check_deviations(&row, speed));
+        Ok(Self {
+            row,
+            circuit: attempt!(configuration.circuit(speed, &limits, N)),
+            ball_friction,
+            per_ball: per_loaded_ball(configuration.loaded_length(), return_length, N),
+            speed,
+            per_speed: 1.0 / speed,
+            reduced_lead: design.lead() / TAU,
+            reversal,
+            limits,
+        })
+    }
+
+    #[inline(always)]
+    fn outputs(&self, state: &mut CircuitState<N>, inputs: Inputs) -> UncagedOutputs {
+        let Inputs {
+            nut_speed,
+            axial_load,
+        } = inputs;
+        let direction = self.reversal.direction(nut_speed);
+        let tick = self.row.at(nut_speed, axial_load * self.per_ball);
+        // Speeds are along the track, over the size of the nominal speed against the nut.
+        let (reference, per_reference) = if nut_speed < 0.0 {
+            (-self.speed, -self.per_speed)
+        } else {
+            (self.speed, self.per_speed)
+        };
+
+        let units = self.circuit.deviation_units();
+        let row = tick.per_speed(reference, per_reference, units);
+        let phase = state.phase();
+        let mut sums = LoopSums::NONE;
+        let mut balls = state.train.intake(self.circuit.travel(nut_speed));
+        while let Some(next) = balls.next_ball() {
+            match self.circuit.place(next.position(), phase) {
+                Some(place) => {
+                    let ball = row.ball(place.passing, place.recirculating, place.share, &mut sums);
+                    next.put(ball.speed, ball.impedance);
+                }
+                None => next.put(0.0, UNLOADED),
+            }
+        }
+        let pressing = balls.press();
+        state.advance(&self.circuit, nut_speed);
+
+        // Both balls of a pair turn alike; the sign of the speeds is that of the nut speed.
+        let rubbing =
+            tick.rubbing() * pressing.force + tick.rubbing_slope() * reference * pressing.power;
+        let groove_torque = direction * row.groove_torque(&sums);
+        let ball_torque = direction * (2.0 * self.ball_friction * rubbing);
+        let friction_torque = groove_torque + ball_torque;
+
+        let load_torque = axial_load * self.reduced_lead;
+        let opposing = if nut_speed < 0.0 {
+            -load_torque
+        } else {
+            load_torque
+        };
+        let load_opposes = opposing >= 0.0;
+        UncagedOutputs {
+            friction_torque,
+            groove_torque,
+            ball_torque,
+            load_torque,
+            contacts: pressing.contacts,
+            largest_contact_force: pressing.largest,
+            regime: Regime::of(
+                self.reversal.stands(nut_speed),
+                load_opposes,
+                load_opposes || friction_torque.abs() < -opposing,
+            ),
+            faults: Faults::NONE,
+        }
+    }
+
+    /// See [`FrictionModel::set_nut_angle`](crate::FrictionModel::set_nut_angle).
+    pub(crate) fn set_nut_angle(&self, state: &mut CircuitState<N>, angle: f32) {
+        state.set_turns(&self.circuit, angle / TAU);
     }
 }

@@ -1,46 +1,208 @@
-//! One ball of a train.
+//! What a train keeps of one ball.
 
-/// What a train keeps of a ball and of the distance in front of it, and a place for half a cluster.
+/// One ball of a train: 28 bytes, of which two words hold one thing after the other in the phases of a tick.
+///
+/// | | taken in | at the end of a cluster | settled |
+/// |---|---|---|---|
+/// | `speed` | free speed | free speed | actual speed |
+/// | `slack` | slack | slack | rear ball of a cluster: the cluster's remainder |
+/// | `force` | - | front ball: push; rear ball: inner slack | force on the ball in front |
+/// | `cluster_impedance`, `others` | - | sum and count over the cluster | the same |
+///
+/// A dash is what the last tick left, which nothing reads. Only the methods here touch the fields, each under the
+/// name that its phase gives it; the other files read methods alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Ball {
-    /// Free speed, then actual speed.
-    pub(super) speed: f32,
-    pub(super) impedance: f32,
-    /// How fast the distance in front may close beyond what the free speeds make of it: negative where the
-    /// ball would run into the one in front. Then, at the rear ball of a cluster, the sum of its impedances.
-    pub(super) slack: f32,
-    /// Force between the ball and the one in front. Until it is known, the sum of the impedances of the
-    /// cluster whose front ball this is, or the sum of the slacks of the cluster whose rear ball it is.
-    pub(super) force: f32,
-    /// The sum of the cluster whose front ball this is, or the sum of the impedances of the cluster whose rear ball
-    /// it is. Then, at the rear ball, what is left of the cluster's pushes.
-    pub(super) sum: f32,
-    /// Place on the track.
-    pub(super) position: u32,
-    /// Sixteenths of a unit.
-    pub(super) fraction: u8,
-    /// Balls of the cluster besides this one, at the cluster's two ends.
-    pub(super) extent: u8,
+    speed: f32,
+    impedance: f32,
+    slack: f32,
+    force: f32,
+    cluster_impedance: f32,
+    /// Place on the track, as a part of its length in units of 2^-32.
+    position: u32,
+    /// Sixteenths of a unit beyond the position, 0 to 15.
+    sixteenths: u8,
+    others: u8,
 }
 
+const _: () = assert!(size_of::<Ball>() == 28);
+
+/// Taken in: what the ball would do on its own.
 impl Ball {
-    pub(super) const REST: Self = Self {
+    /// At the nominal speed, without any force.
+    pub(super) const IDLE: Self = Self {
         speed: 0.0,
         impedance: 1.0,
         slack: 0.0,
         force: 0.0,
-        sum: 0.0,
+        cluster_impedance: 0.0,
         position: 0,
-        fraction: 0,
-        extent: 0,
+        sixteenths: 0,
+        others: 0,
     };
 
-    /// What the ball would do on its own.
+    /// Free speed, impedance and [`slack`](Self::slack).
     #[inline(always)]
-    pub(super) fn set(&mut self, speed: f32, impedance: f32, slack: f32) {
-        self.speed = speed;
+    pub(super) fn take_in(&mut self, free_speed: f32, impedance: f32, slack: f32) {
+        self.speed = free_speed;
         self.impedance = impedance;
         self.slack = slack;
+    }
+
+    /// Puts in the slack alone, where the ball in front was not known when the ball was taken in.
+    #[inline(always)]
+    pub(super) fn set_slack(&mut self, slack: f32) {
+        self.slack = slack;
+    }
+
+    /// Speed at which the ball would run on its own.
+    #[inline(always)]
+    pub(super) fn free_speed(&self) -> f32 {
+        self.speed
+    }
+
+    /// Force that changes the ball's speed by one.
+    #[inline(always)]
+    pub(super) fn impedance(&self) -> f32 {
+        self.impedance
+    }
+
+    /// How much faster the ball could be, against the one in front, before the two meet within the tick: the free
+    /// speed of the one in front less its own, and the room between them. Negative where the ball would run into
+    /// the one in front.
+    #[inline(always)]
+    pub(super) fn slack(&self) -> f32 {
+        self.slack
+    }
+
+    /// Whether the ball would run into the one in front if both ran at their free speeds: the sign bit of the
+    /// slack, which costs no floating-point comparison. It is set for -0 and may be for NaN as well; a cluster
+    /// that begins with either takes in no ball (see `Cluster::reached_by`).
+    #[inline(always)]
+    pub(super) fn may_run_into_next(&self) -> bool {
+        (self.slack.to_bits() as i32) < 0
+    }
+}
+
+/// At the end of a cluster: what the two end balls hold for all.
+impl Ball {
+    /// Makes the ball a cluster of its own.
+    #[inline(always)]
+    pub(super) fn stand_alone(&mut self) {
+        self.others = 0;
+    }
+
+    /// Makes the ball the rear one of a cluster with `others` more balls.
+    #[inline(always)]
+    pub(super) fn set_rear(&mut self, others: usize, impedance: f32, inner_slack: f32) {
+        self.force = inner_slack;
+        self.cluster_impedance = impedance;
+        self.others = others as u8;
+    }
+
+    /// Makes the ball the front one of a cluster with `others` more balls.
+    #[inline(always)]
+    pub(super) fn set_front(&mut self, others: usize, impedance: f32, push: f32) {
+        self.force = push;
+        self.cluster_impedance = impedance;
+        self.others = others as u8;
+    }
+
+    /// Balls of the cluster besides this one, of which this is the rear or the front ball.
+    #[inline(always)]
+    pub(super) fn others(&self) -> usize {
+        usize::from(self.others)
+    }
+
+    /// Sum of the impedances of the cluster of which this is the rear or the front ball, two balls or more.
+    #[inline(always)]
+    pub(super) fn cluster_impedance(&self) -> f32 {
+        self.cluster_impedance
+    }
+
+    /// Push of the cluster of which this is the front ball, two balls or more.
+    #[inline(always)]
+    pub(super) fn push(&self) -> f32 {
+        self.force
+    }
+
+    /// Sum of the slacks between the balls of the cluster of which this is the rear ball, two balls or more.
+    #[inline(always)]
+    pub(super) fn inner_slack(&self) -> f32 {
+        self.force
+    }
+}
+
+/// Settled: what the ball does in this tick.
+impl Ball {
+    /// Leaves speed and force.
+    #[inline(always)]
+    pub(super) fn settle(&mut self, speed: f32, force: f32) {
+        self.speed = speed;
+        self.force = force;
+    }
+
+    /// A ball alone at its free speed, which presses on none.
+    #[inline(always)]
+    pub(super) fn settle_alone(&mut self) {
+        self.force = 0.0;
+    }
+
+    /// Actual speed.
+    #[inline(always)]
+    pub(super) fn speed(&self) -> f32 {
+        self.speed
+    }
+
+    /// Force between the ball and the one in front.
+    #[inline(always)]
+    pub(super) fn force(&self) -> f32 {
+        self.force
+    }
+
+    /// Corrects the force.
+    #[inline(always)]
+    pub(super) fn set_force(&mut self, force: f32) {
+        self.force = force;
+    }
+
+    /// Leaves in a rear ball what rounding made of the sum of all net pushes on its cluster, exactly zero.
+    #[inline(always)]
+    pub(super) fn leave_remainder(&mut self, remainder: f32) {
+        self.slack = remainder;
+    }
+
+    /// What [`Ball::leave_remainder`] left.
+    #[inline(always)]
+    pub(super) fn remainder(&self) -> f32 {
+        self.slack
+    }
+}
+
+/// Where the ball is: kept from tick to tick.
+impl Ball {
+    /// Place on the track, as a part of its length in units of 2^-32.
+    #[inline(always)]
+    pub(super) fn position(&self) -> u32 {
+        self.position
+    }
+
+    /// Puts the ball at a place; sixteenths of a unit stay.
+    #[inline(always)]
+    pub(super) fn set_position(&mut self, position: u32) {
+        self.position = position;
+    }
+
+    /// Sixteenths of a unit beyond the position, 0 to 15.
+    #[inline(always)]
+    pub(super) fn sixteenths(&self) -> i32 {
+        i32::from(self.sixteenths)
+    }
+
+    /// Keeps the part of a number of sixteenths that is no whole unit.
+    #[inline(always)]
+    pub(super) fn keep_sixteenths(&mut self, sixteenths: i32) {
+        self.sixteenths = (sixteenths & 15) as u8;
     }
 }

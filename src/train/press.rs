@@ -1,7 +1,9 @@
 //! Which balls of a train press on each other, and how hard: one exact pass, without iteration.
 
 use super::ball::Ball;
-use super::pool::{Moves, Pressing, pool, settle};
+use super::motion::Motion;
+use super::pool::pool;
+use super::settle::{Pressing, settle};
 
 /// Largest free speed that counts, a relative deviation.
 pub const LARGEST_FREE_SPEED: f32 = 1.0;
@@ -9,17 +11,35 @@ pub const LARGEST_FREE_SPEED: f32 = 1.0;
 /// Least and largest impedance that count.
 pub const IMPEDANCE_RANGE: (f32, f32) = (1e-9, 1e9);
 
-/// The sign bit is set where a free speed or an impedance does not count. Numbers without a sign are in the order
-/// of their bits, and no impedance passes both of its differences.
-#[inline(always)]
-const fn beyond(speed: f32, impedance: f32) -> u32 {
-    const FASTEST: u32 = LARGEST_FREE_SPEED.to_bits();
-    const LEAST: u32 = IMPEDANCE_RANGE.0.to_bits();
-    const MOST: u32 = IMPEDANCE_RANGE.1.to_bits();
-    let impedance = impedance.to_bits();
-    FASTEST.wrapping_sub(speed.abs().to_bits())
-        | impedance.wrapping_sub(LEAST)
-        | MOST.wrapping_sub(impedance)
+/// Whether all free speeds and impedances count, in integers and without a branch for each.
+#[derive(Clone, Copy, Default)]
+pub(super) struct InputCheck {
+    /// The sign bit is set where a number does not count.
+    outside: u32,
+}
+
+impl InputCheck {
+    /// Takes in the numbers of one ball.
+    ///
+    /// Numbers without a sign are in the order of their bits, NaN beyond all, so that a difference of bits is
+    /// negative where the bound is passed. Impedances with a sign, which have the top bit, fail the first or the
+    /// second of theirs.
+    #[inline(always)]
+    pub(super) fn add(&mut self, speed: f32, impedance: f32) {
+        const FASTEST: u32 = LARGEST_FREE_SPEED.to_bits();
+        const LEAST: u32 = IMPEDANCE_RANGE.0.to_bits();
+        const MOST: u32 = IMPEDANCE_RANGE.1.to_bits();
+        let impedance = impedance.to_bits();
+        self.outside |= FASTEST.wrapping_sub(speed.abs().to_bits())
+            | impedance.wrapping_sub(LEAST)
+            | MOST.wrapping_sub(impedance);
+    }
+
+    /// Whether all that was taken in counts.
+    #[inline(always)]
+    pub(super) fn passed(self) -> bool {
+        self.outside as i32 >= 0
+    }
 }
 
 /// Speeds and forces of a train of `N` balls, 1 to 255, which touch or may touch.
@@ -60,7 +80,7 @@ impl<const N: usize> Press<N> {
     pub const fn new() -> Self {
         let () = Self::BALLS_FIT;
         Self {
-            balls: [Ball::REST; N],
+            balls: [Ball::IDLE; N],
             foremost: (N - 1) as u8,
         }
     }
@@ -68,15 +88,16 @@ impl<const N: usize> Press<N> {
     /// Force between ball `j` and the ball in front of it, in the unit of speed times impedance; zero
     /// where they do not press. The last one acts between the last ball and the first.
     pub fn forces(&self) -> impl DoubleEndedIterator<Item = f32> + ExactSizeIterator + '_ {
-        self.balls.iter().map(|ball| ball.force)
+        self.balls.iter().map(Ball::force)
     }
 
     /// Actual speed of each ball.
     pub fn speeds(&self) -> impl DoubleEndedIterator<Item = f32> + ExactSizeIterator + '_ {
-        self.balls.iter().map(|ball| ball.speed)
+        self.balls.iter().map(Ball::speed)
     }
 
-    /// A ball that does not press on the one in front of it.
+    /// Index of a ball that does not press on the one in front of it: the last one unless that does, as it can on a
+    /// ring. Walks around the ring begin there.
     #[must_use]
     pub const fn foremost(&self) -> usize {
         self.foremost as usize
@@ -89,9 +110,9 @@ impl<const N: usize> Press<N> {
         let mut front = self.foremost();
         let mut left = N;
         while left > 0 {
-            let extent = self.balls.get(front).map_or(0, |ball| ball.extent);
-            joins += usize::from(extent);
-            for _ in 0..=extent {
+            let others = self.balls.get(front).map_or(0, Ball::others);
+            joins += others;
+            for _ in 0..=others {
                 front = if front == 0 { N - 1 } else { front - 1 };
                 left = left.saturating_sub(1);
             }
@@ -116,61 +137,46 @@ impl<const N: usize> Press<N> {
     /// more). Exact otherwise: no iteration, at most `N - 1` joins, one division for each cluster of two or
     /// more balls. Cost for 37 balls: 4,000 to 7,200 modelled cycles on a Cortex-M4F.
     pub fn solve(&mut self, free: &[f32; N], impedance: &[f32; N], room: &[f32; N]) -> bool {
-        let sound = self.take(free, impedance, |index, _| match room.get(index) {
-            Some(&room) if room < 0.0 => 0.0,
-            Some(&room) => room,
-            None => 0.0,
-        });
-        self.join(sound);
-        self.settle(Moves::NONE);
-        sound
-    }
-
-    /// Takes in free speeds, impedances and rooms, these from the last ball on; whether all of them count.
-    #[inline(always)]
-    pub(super) fn take(
-        &mut self,
-        free: &[f32; N],
-        impedance: &[f32; N],
-        mut room: impl FnMut(usize, &Ball) -> f32,
-    ) -> bool {
-        let mut beyond_any = 0;
+        let mut check = InputCheck::default();
         let mut ahead = free.first().copied().unwrap_or(0.0);
-        let inputs = free.iter().zip(impedance).enumerate();
-        for (ball, (index, (&speed, &impedance))) in self.balls.iter_mut().zip(inputs).rev() {
-            beyond_any |= beyond(speed, impedance);
-            ball.set(speed, impedance, room(index, ball) + (ahead - speed));
+        let inputs = free.iter().zip(impedance).zip(room);
+        for (ball, ((&speed, &impedance), &room)) in self.balls.iter_mut().zip(inputs).rev() {
+            check.add(speed, impedance);
+            let room = if room < 0.0 { 0.0 } else { room };
+            ball.take_in(speed, impedance, room + (ahead - speed));
             ahead = speed;
         }
-        beyond_any as i32 >= 0
+        self.join(check.passed());
+        self.settle(Motion::NONE);
+        check.passed()
     }
 
-    /// Joins balls to clusters, or leaves them at rest where not all that was taken in counts.
+    /// Joins balls to clusters, or leaves all at the nominal speed where not all that was taken in counts.
     #[inline(always)]
-    pub(super) fn join(&mut self, sound: bool) {
-        self.foremost = pool(&mut self.balls) as u8;
-        if !sound {
-            self.rest();
+    pub(super) fn join(&mut self, valid: bool) {
+        if valid {
+            self.foremost = pool(&mut self.balls) as u8;
+        } else {
+            self.let_go();
         }
     }
 
-    /// Balls at rest that press on none.
+    /// Balls at the nominal speed that press on none.
     #[cold]
     #[inline(never)]
-    fn rest(&mut self) {
+    fn let_go(&mut self) {
         for ball in &mut self.balls {
-            ball.speed = 0.0;
-            ball.impedance = 1.0;
-            ball.extent = 0;
+            ball.take_in(0.0, 1.0, 0.0);
+            ball.stand_alone();
         }
         self.foremost = (N - 1) as u8;
     }
 
     /// Speeds and forces of the clusters, and where the balls go.
     #[inline(always)]
-    pub(super) fn settle(&mut self, moves: Moves) -> Pressing {
+    pub(super) fn settle(&mut self, motion: Motion) -> Pressing {
         let foremost = self.foremost();
-        settle(&mut self.balls, foremost, moves)
+        settle(&mut self.balls, foremost, motion)
     }
 }
 

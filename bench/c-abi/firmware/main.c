@@ -23,11 +23,12 @@ static void set_up_screw(void) { (void)test_setup_screw(&screw); }
 static void set_up_linear(void) { (void)test_setup_linear(&linear); }
 
 static epas_outputs_t outputs;
-static epas_train_outputs_t train_outputs;
+static epas_screw_outputs_t screw_outputs;
+static epas_linear_outputs_t linear_outputs;
 
 static void step_caged(void) { (void)epas_caged_step(&caged, &inputs, &outputs); }
-static void step_screw(void) { (void)epas_screw_step(&screw, &inputs, &train_outputs); }
-static void step_linear(void) { (void)epas_linear_step(&linear, &linear_inputs, &train_outputs); }
+static void step_screw(void) { (void)epas_screw_step(&screw, &inputs, &screw_outputs); }
+static void step_linear(void) { (void)epas_linear_step(&linear, &linear_inputs, &linear_outputs); }
 
 /* Bytes of stack that a function takes, its caller's return address included. */
 __attribute__((noinline)) static uint32_t stack_of(void (*function)(void))

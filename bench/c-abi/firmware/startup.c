@@ -1,4 +1,4 @@
-/* Start-up of a Cortex-M4F in C: vectors, memory, floating-point unit, SysTick. */
+/* Start-up of a Cortex-M4F in C: vectors, memory, floating-point unit. */
 #include "board.h"
 #include "epas_test.h"
 
@@ -10,9 +10,6 @@ extern uint32_t __bss_start[];
 extern uint32_t __bss_end[];
 
 #define CPACR (*(volatile uint32_t *)0xE000ED88u)
-#define SYST_CSR (*(volatile uint32_t *)0xE000E010u)
-#define SYST_RVR (*(volatile uint32_t *)0xE000E014u)
-#define SYST_CVR (*(volatile uint32_t *)0xE000E018u)
 
 void reset_handler(void) __attribute__((noreturn));
 static void fault_handler(void);
@@ -55,17 +52,4 @@ static void fault_handler(void)
 {
     test_put("fault\n");
     board_exit(0u);
-}
-
-void board_start_sys_tick(uint32_t cycles)
-{
-    SYST_RVR = cycles - 1u;
-    SYST_CVR = 0u;
-    SYST_CSR = 7u;
-}
-
-void board_stop_sys_tick(void)
-{
-    SYST_CSR = 0u;
-    __asm volatile("dsb\n\tisb" ::: "memory");
 }

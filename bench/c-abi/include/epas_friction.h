@@ -14,6 +14,16 @@ extern "C" {
 #endif
 
 /**
+ * Groove of the screw shaft.
+ */
+#define EPAS_GROOVE_SCREW 0u
+
+/**
+ * Groove of the nut.
+ */
+#define EPAS_GROOVE_NUT 1u
+
+/**
  * Everything went well.
  */
 #define EPAS_OK 0u
@@ -191,7 +201,7 @@ extern "C" {
 /**
  * `nut_deviation`, in a linear bearing `carriage_deviation`
  */
-#define EPAS_FIELD_OWN_DEVIATION 28u
+#define EPAS_FIELD_RECIRCULATING_DEVIATION 28u
 
 /**
  * `reversal_speed`
@@ -319,11 +329,6 @@ extern "C" {
 #define EPAS_DEVIATION_WORDS 67
 
 /**
- * Version of the structures and functions of this header; `epas_abi_version` returns the library's.
- */
-#define EPAS_ABI_VERSION 1u
-
-/**
  * The ball rolls and slips across the groove at the screw: the expected value.
  */
 #define EPAS_BRANCH_ROLLING 0u
@@ -334,17 +339,7 @@ extern "C" {
 #define EPAS_BRANCH_SLIDING 1u
 
 /**
- * Groove of the screw shaft.
- */
-#define EPAS_GROOVE_SCREW 0u
-
-/**
- * Groove of the nut.
- */
-#define EPAS_GROOVE_NUT 1u
-
-/**
- * The nut is slower than the reversal speed: friction is between its two directions.
+ * The mechanism is slower than the reversal speed: friction is between its two directions.
  */
 #define EPAS_REGIME_STANDING 0u
 
@@ -364,32 +359,32 @@ extern "C" {
 #define EPAS_REGIME_LOCKED 3u
 
 /**
- * The nut speed is NaN or infinite: no torque is put out.
+ * The speed is NaN or infinite: no friction is put out.
  */
 #define EPAS_FAULT_SPEED_NOT_FINITE 1u
 
 /**
- * The axial load is NaN or infinite: no torque is put out.
+ * A load is NaN or infinite: no friction is put out.
  */
 #define EPAS_FAULT_LOAD_NOT_FINITE 2u
 
 /**
- * The nut speed is beyond its limit: the limit stands in for it.
+ * The speed is beyond its limit: the limit stands in for it.
  */
 #define EPAS_FAULT_SPEED_RANGE 4u
 
 /**
- * The axial load is beyond its limit: the limit stands in for it.
+ * A load is beyond its limit: the limit stands in for it.
  */
 #define EPAS_FAULT_LOAD_RANGE 8u
 
 /**
- * The friction torque was cut to its limit.
+ * The friction torque of a screw, or the friction force of a bearing, was cut to its limit.
  */
-#define EPAS_FAULT_TORQUE_LIMIT 16u
+#define EPAS_FAULT_FRICTION_LIMIT 16u
 
 /**
- * The call itself was refused (its status says why): no torque is put out.
+ * The call itself was refused (its status says why): no friction is put out.
  */
 #define EPAS_FAULT_CALL 2147483648u
 
@@ -422,7 +417,7 @@ extern "C" {
 /**
  * Size of `epas_screw_t` in words of eight bytes.
  */
-#define EPAS_SCREW_WORDS 212
+#define EPAS_SCREW_WORDS 214
 
 /**
  * Balls in the circuit of `epas_linear_t`, return included. A bearing with another number needs the
@@ -433,78 +428,13 @@ extern "C" {
 /**
  * Size of `epas_linear_t` in words of eight bytes.
  */
-#define EPAS_LINEAR_WORDS 131
+#define EPAS_LINEAR_WORDS 132
 
 /**
- * Place for the deviation of a groove's contact angles, periodic along the track: where it is positive the
- * right flank's contact angle is larger by it and the left flank's smaller. The caller provides it, and
- * leaves it where and as it is for as long as a model is used that was given it. Models may share it.
+ * Version of the structures and functions of this header; `epas_abi_version` returns the library's. It rises
+ * whenever a structure, a function or what a place holds changes.
  */
-typedef struct epas_deviation_t {
-    /**
-     * Not for the caller.
-     */
-    uint32_t words[EPAS_DEVIATION_WORDS];
-} epas_deviation_t;
-
-/**
- * One wave of a deviation along a groove: `cosine cos(order p) + sine sin(order p)` at the phase `p` of
- * its period.
- */
-typedef struct epas_harmonic_t {
-    /**
-     * Waves in a period, 0 (a constant) to 8.
-     */
-    uint32_t order;
-    /**
-     * Amplitude of the cosine, rad, -0.2 to 0.2.
-     */
-    float cosine;
-    /**
-     * Amplitude of the sine, rad, -0.2 to 0.2.
-     */
-    float sine;
-} epas_harmonic_t;
-
-/**
- * What was wrong with a configuration, a table or a request.
- */
-typedef struct epas_failure_t {
-    /**
-     * What was wrong, one of the status codes; the function returned it too.
-     */
-    uint32_t status;
-    /**
-     * Which field, one of `EPAS_FIELD_...`; `epas_field_name` gives its name.
-     */
-    uint32_t field;
-    /**
-     * Which element, where the field is in an array; 0 elsewhere.
-     */
-    uint32_t index;
-    /**
-     * The value found, in the field's own unit.
-     */
-    float value;
-    /**
-     * Smallest value allowed beside the other fields.
-     */
-    float minimum;
-    /**
-     * Largest value allowed beside the other fields.
-     */
-    float maximum;
-} epas_failure_t;
-
-/**
- * Place for the load of a ball over the mean load; provided, left alone and shared as `epas_deviation_t`.
- */
-typedef struct epas_load_share_t {
-    /**
-     * Not for the caller.
-     */
-    uint32_t words[2];
-} epas_load_share_t;
+#define EPAS_ABI_VERSION 2u
 
 /**
  * Place for the constants and the state of a caged ball screw. The caller provides it, in memory of
@@ -628,6 +558,36 @@ typedef struct epas_caged_configuration_t {
 } epas_caged_configuration_t;
 
 /**
+ * What was wrong with a configuration, a table or a request.
+ */
+typedef struct epas_failure_t {
+    /**
+     * What was wrong, one of the status codes; the function returned it too.
+     */
+    uint32_t status;
+    /**
+     * Which field, one of `EPAS_FIELD_...`; `epas_field_name` gives its name.
+     */
+    uint32_t field;
+    /**
+     * Which element, where the field is in an array; 0 elsewhere.
+     */
+    uint32_t index;
+    /**
+     * The value found, in the field's own unit.
+     */
+    float value;
+    /**
+     * Smallest value allowed beside the other fields.
+     */
+    float minimum;
+    /**
+     * Largest value allowed beside the other fields.
+     */
+    float maximum;
+} epas_failure_t;
+
+/**
  * What the control interrupt knows at a tick.
  */
 typedef struct epas_inputs_t {
@@ -643,7 +603,7 @@ typedef struct epas_inputs_t {
 } epas_inputs_t;
 
 /**
- * What a ball screw returns at a tick; every number is finite.
+ * What a ball screw whose balls do not touch returns at a tick; every number is finite.
  */
 typedef struct epas_outputs_t {
     /**
@@ -680,6 +640,28 @@ typedef struct epas_screw_t {
      */
     uint64_t words[EPAS_SCREW_WORDS];
 } epas_screw_t;
+
+/**
+ * Place for the deviation of a groove's contact angles, periodic along the track: where it is positive the
+ * right flank's contact angle is larger by it and the left flank's smaller. The caller provides it, and
+ * leaves it where and as it is for as long as a model is used that was given it. Models may share it.
+ */
+typedef struct epas_deviation_t {
+    /**
+     * Not for the caller.
+     */
+    uint32_t words[EPAS_DEVIATION_WORDS];
+} epas_deviation_t;
+
+/**
+ * Place for the load of a ball over the mean load; provided, left alone and shared as `epas_deviation_t`.
+ */
+typedef struct epas_load_share_t {
+    /**
+     * Not for the caller.
+     */
+    uint32_t words[2];
+} epas_load_share_t;
 
 /**
  * What the engineer sets for a ball screw whose balls press on each other.
@@ -749,24 +731,24 @@ typedef struct epas_screw_configuration_t {
 } epas_screw_configuration_t;
 
 /**
- * What a mechanism whose balls press on each other returns at a tick; every number is finite.
+ * What a ball screw whose balls press on each other returns at a tick; every number is finite.
  */
-typedef struct epas_train_outputs_t {
+typedef struct epas_screw_outputs_t {
     /**
-     * Torque about the nut's axis that the motor has to add to overcome friction, N m (in a linear bearing
-     * the force along the track, N), with the sign of the speed: the sum of the next two, within its limit.
+     * Torque about the nut's axis that the motor has to add to overcome friction, N m, with the sign of the
+     * nut speed: the sum of the next two, within its limit.
      */
-    float friction;
+    float friction_torque;
     /**
-     * Its part from the grooves.
+     * Its part from the grooves, N m.
      */
-    float groove_friction;
+    float groove_torque;
     /**
-     * Its part from balls that rub against each other.
+     * Its part from balls that rub against each other, N m.
      */
-    float ball_friction;
+    float ball_torque;
     /**
-     * Torque about the nut's axis that holds the load without friction, N m; 0 in a linear bearing.
+     * Torque about the nut's axis that holds the load without friction, N m.
      */
     float load_torque;
     /**
@@ -785,7 +767,7 @@ typedef struct epas_train_outputs_t {
      * What was wrong with this tick, a sum of `EPAS_FAULT_...`; 0 for nothing.
      */
     uint32_t faults;
-} epas_train_outputs_t;
+} epas_screw_outputs_t;
 
 /**
  * Place for the constants and the state of a linear bearing; as `epas_caged_t`.
@@ -921,6 +903,41 @@ typedef struct epas_linear_inputs_t {
 } epas_linear_inputs_t;
 
 /**
+ * What a linear bearing returns at a tick; every number is finite.
+ */
+typedef struct epas_linear_outputs_t {
+    /**
+     * Force along the rail that has to be added to overcome friction, N, with the sign of the speed: the sum
+     * of the next two, within its limit.
+     */
+    float friction_force;
+    /**
+     * Its part from the grooves, N.
+     */
+    float groove_force;
+    /**
+     * Its part from balls that rub against each other, N.
+     */
+    float ball_force;
+    /**
+     * Largest force between two balls, N.
+     */
+    float largest_contact_force;
+    /**
+     * Pairs of balls that press on each other.
+     */
+    uint32_t contacts;
+    /**
+     * What the mechanism does: `EPAS_REGIME_STANDING` or `EPAS_REGIME_DRIVING`.
+     */
+    uint32_t regime;
+    /**
+     * What was wrong with this tick, a sum of `EPAS_FAULT_...`; 0 for nothing.
+     */
+    uint32_t faults;
+} epas_linear_outputs_t;
+
+/**
  * What the closed-form efficiency depends on.
  */
 typedef struct epas_efficiency_request_t {
@@ -1018,47 +1035,23 @@ typedef struct epas_curvature_t {
 } epas_curvature_t;
 
 /**
- * Version of the library: the header's where it equals `EPAS_ABI_VERSION`.
+ * One wave of a deviation along a groove: `cosine cos(order p) + sine sin(order p)` at the phase `p` of
+ * its period.
  */
-uint32_t epas_abi_version(void);
-
-/**
- * Name of a field as it is written in C, for a diagnostic message; empty for no field. Never NULL.
- */
-const char *epas_field_name(uint32_t field);
-
-/**
- * Name of a status, for a diagnostic message. Never NULL.
- */
-const char *epas_status_name(uint32_t status);
-
-/**
- * Makes a deviation, with a period of `turns` turns (1 to 100), of `count` waves (0 to
- * `EPAS_LARGEST_HARMONIC_COUNT`). Set-up only. `failure` may be NULL.
- */
-uint32_t epas_deviation_from_harmonics(struct epas_deviation_t *place,
-                                       uint32_t turns,
-                                       const struct epas_harmonic_t *harmonics,
-                                       uint32_t count,
-                                       struct epas_failure_t *failure);
-
-/**
- * Makes a deviation, with a period of `turns` turns (1 to 100), of `EPAS_DEVIATION_SAMPLES` samples at equal
- * distances from its start, rad, -0.2 to 0.2. Set-up only. `failure` may be NULL.
- */
-uint32_t epas_deviation_from_samples(struct epas_deviation_t *place,
-                                     uint32_t turns,
-                                     const float *samples,
-                                     struct epas_failure_t *failure);
-
-/**
- * Folds `count` shares of the load (1 to `EPAS_LARGEST_SHARE_COUNT`), each a ball's load over the mean load,
- * 0.01 to 100. Set-up only. `failure` may be NULL.
- */
-uint32_t epas_load_shares_init(struct epas_load_share_t *places,
-                               const float *shares,
-                               uint32_t count,
-                               struct epas_failure_t *failure);
+typedef struct epas_harmonic_t {
+    /**
+     * Waves in a period, 0 (a constant) to 8.
+     */
+    uint32_t order;
+    /**
+     * Amplitude of the cosine, rad, -0.2 to 0.2.
+     */
+    float cosine;
+    /**
+     * Amplitude of the sine, rad, -0.2 to 0.2.
+     */
+    float sine;
+} epas_harmonic_t;
 
 /**
  * Makes a caged ball screw in the place. Set-up only. Where it fails, every step is refused until it
@@ -1099,7 +1092,7 @@ uint32_t epas_screw_init(struct epas_screw_t *place,
  */
 uint32_t epas_screw_step(struct epas_screw_t *place,
                          const struct epas_inputs_t *inputs,
-                         struct epas_train_outputs_t *outputs);
+                         struct epas_screw_outputs_t *outputs);
 
 /**
  * Sets the angle of the nut against the screw, rad, from which the screw's deviations are counted: once after
@@ -1130,7 +1123,7 @@ uint32_t epas_linear_init(struct epas_linear_t *place,
  */
 uint32_t epas_linear_step(struct epas_linear_t *place,
                           const struct epas_linear_inputs_t *inputs,
-                          struct epas_train_outputs_t *outputs);
+                          struct epas_linear_outputs_t *outputs);
 
 /**
  * Sets the carriage's place along the rail, m, from which the rail's deviations are counted: once after start-up, and
@@ -1150,6 +1143,21 @@ uint32_t epas_linear_reset(struct epas_linear_t *place);
 uint32_t epas_linear_faulted_ticks(const struct epas_linear_t *place, uint32_t *ticks);
 
 /**
+ * Version of the library: the header's where it equals `EPAS_ABI_VERSION`.
+ */
+uint32_t epas_abi_version(void);
+
+/**
+ * Name of a field as it is written in C, for a diagnostic message; empty for no field. Never NULL.
+ */
+const char *epas_field_name(uint32_t field);
+
+/**
+ * Name of a status, for a diagnostic message. Never NULL.
+ */
+const char *epas_status_name(uint32_t status);
+
+/**
  * Efficiency of a ball screw in closed form. No state: safe from any context. `failure` may be NULL.
  */
 uint32_t epas_efficiency(const struct epas_efficiency_request_t *request,
@@ -1163,6 +1171,34 @@ uint32_t epas_efficiency(const struct epas_efficiency_request_t *request,
 uint32_t epas_curvature(const struct epas_curvature_request_t *request,
                         struct epas_curvature_t *answer,
                         struct epas_failure_t *failure);
+
+/**
+ * Makes a deviation, with a period of `turns` turns (1 to 100), of `count` waves (0 to
+ * `EPAS_LARGEST_HARMONIC_COUNT`). Set-up only. `failure` may be NULL.
+ */
+uint32_t epas_deviation_from_harmonics(struct epas_deviation_t *place,
+                                       uint32_t turns,
+                                       const struct epas_harmonic_t *harmonics,
+                                       uint32_t count,
+                                       struct epas_failure_t *failure);
+
+/**
+ * Makes a deviation, with a period of `turns` turns (1 to 100), of `EPAS_DEVIATION_SAMPLES` samples at equal
+ * distances from its start, rad, -0.2 to 0.2. Set-up only. `failure` may be NULL.
+ */
+uint32_t epas_deviation_from_samples(struct epas_deviation_t *place,
+                                     uint32_t turns,
+                                     const float *samples,
+                                     struct epas_failure_t *failure);
+
+/**
+ * Folds `count` shares of the load (1 to `EPAS_LARGEST_SHARE_COUNT`), each a ball's load over the mean load,
+ * 0.01 to 100. Set-up only. `failure` may be NULL.
+ */
+uint32_t epas_load_shares_init(struct epas_load_share_t *places,
+                               const float *shares,
+                               uint32_t count,
+                               struct epas_failure_t *failure);
 
 #ifdef __cplusplus
 }

@@ -1,14 +1,15 @@
 //! A ball screw whose balls do not touch.
 
-use epas_friction::{CagedBallScrew, CagedBallScrewConfiguration, FrictionBranch, Limits as L};
+use epas_friction::{CagedBallScrew, CagedBallScrewConfiguration, FrictionBranch};
 
 use crate::design::ball_screw;
-use crate::scene::{CScene, TablePointers, Tables, regime};
+use crate::scene::{CScene, TablePointers, Tables, limits, regime, screw_inputs};
 use crate::status::{EPAS_FIELD_BRANCH, Failure};
 use crate::types::{
     CagedConfiguration, CagedPlace, EPAS_BRANCH_ROLLING, EPAS_BRANCH_SLIDING, EPAS_FAULT_CALL,
-    EPAS_REGIME_STANDING, Inputs, Limits, Outputs,
+    EPAS_REGIME_STANDING, Inputs, Outputs,
 };
+use crate::version::mark;
 
 /// `epas_caged_t`
 pub(crate) struct Caged;
@@ -20,7 +21,7 @@ impl CScene for Caged {
     type Inputs = Inputs;
     type Outputs = Outputs;
 
-    const MARK: u32 = 0xE9A5_0101;
+    const MARK: u32 = mark(1);
     const REFUSED: Outputs = Outputs {
         friction_torque: 0.0,
         load_torque: 0.0,
@@ -66,21 +67,5 @@ impl CScene for Caged {
             regime: regime(outputs.regime),
             faults: u32::from(outputs.faults.bits()),
         }
-    }
-}
-
-pub(crate) const fn limits(limits: &Limits) -> L {
-    L {
-        nut_speed: limits.nut_speed,
-        axial_load: limits.axial_load,
-        friction_torque: limits.friction_torque,
-    }
-}
-
-#[inline]
-pub(crate) const fn screw_inputs(inputs: Inputs) -> epas_friction::Inputs {
-    epas_friction::Inputs {
-        nut_speed: inputs.nut_speed,
-        axial_load: inputs.axial_load,
     }
 }

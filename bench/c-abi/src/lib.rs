@@ -1,14 +1,14 @@
 //! `epas-friction` from C: a static library without allocator, panic or global state.
 //!
-//! `types`, `tables` and `status` are what the header shows; `caged`, `screw`, `linear` and
-//! `one_shot` translate between them and the crate; `boundary` is the one file with pointers: every
+//! `types`, `requests`, `tables`, `status` and `version` are what the header shows; `caged`, `screw`, `linear` and
+//! `one_shot` translate between them and the crate; `boundary` is the one folder with pointers: every
 //! exported function.
 //!
 //! # A further scene
 //!
 //! 1. `types.rs`: its configuration, outputs and the place for its state.
 //! 2. A file like `caged.rs`: `impl CScene`, which translates configuration, inputs and outputs.
-//! 3. `boundary.rs`: its exported functions, each one line that calls the generic one.
+//! 3. `boundary/scenes.rs`: its exported functions, each one line that calls the generic one.
 //!
 //! `cargo run -p epas-c-check -- --write` then writes the header.
 
@@ -19,13 +19,17 @@ mod caged;
 mod design;
 mod linear;
 mod one_shot;
+mod requests;
 mod scene;
 mod screw;
 mod status;
 mod tables;
 mod types;
+mod version;
 
 pub use boundary::*;
+pub use requests::*;
 pub use status::*;
 pub use tables::*;
 pub use types::*;
+pub use version::*;

@@ -3,12 +3,13 @@
 use epas_friction::{LinearBearingConfiguration, LinearBearingTrain, LinearLimits};
 
 use crate::design::linear_bearing;
-use crate::scene::{CScene, TablePointers, Tables};
-use crate::screw::{REFUSED, train_outputs};
+use crate::scene::{CScene, TablePointers, Tables, regime};
 use crate::status::Failure;
 use crate::types::{
-    EPAS_LINEAR_BALLS, LinearConfiguration, LinearInputs, LinearPlace, TrainOutputs,
+    EPAS_FAULT_CALL, EPAS_LINEAR_BALLS, EPAS_REGIME_STANDING, LinearConfiguration, LinearInputs,
+    LinearOutputs, LinearPlace,
 };
+use crate::version::mark;
 
 /// `epas_linear_t`
 pub(crate) struct Linear;
@@ -18,15 +19,23 @@ impl CScene for Linear {
     type Place = LinearPlace;
     type Configuration = LinearConfiguration;
     type Inputs = LinearInputs;
-    type Outputs = TrainOutputs;
+    type Outputs = LinearOutputs;
 
-    const MARK: u32 = 0xE9A5_0103;
-    const REFUSED: TrainOutputs = REFUSED;
+    const MARK: u32 = mark(3);
+    const REFUSED: LinearOutputs = LinearOutputs {
+        friction_force: 0.0,
+        groove_force: 0.0,
+        ball_force: 0.0,
+        largest_contact_force: 0.0,
+        contacts: 0,
+        regime: EPAS_REGIME_STANDING,
+        faults: EPAS_FAULT_CALL,
+    };
 
     fn tables(configuration: &LinearConfiguration) -> TablePointers {
         TablePointers {
             passing: configuration.rail_deviation,
-            own: configuration.carriage_deviation,
+            recirculating: configuration.carriage_deviation,
             load_shares: configuration.load_shares,
             load_share_count: configuration.load_share_count,
         }
@@ -44,7 +53,7 @@ impl CScene for Linear {
             return_length: configuration.return_length,
             wavelength: configuration.wavelength,
             rail_deviation: tables.passing,
-            carriage_deviation: tables.own,
+            carriage_deviation: tables.recirculating,
             load_shares: tables.load_shares,
             reversal_speed: configuration.reversal_speed,
             tick: configuration.tick,
@@ -66,7 +75,15 @@ impl CScene for Linear {
     }
 
     #[inline]
-    fn outputs(outputs: epas_friction::TrainOutputs) -> TrainOutputs {
-        train_outputs(outputs)
+    fn outputs(outputs: epas_friction::LinearOutputs) -> LinearOutputs {
+        LinearOutputs {
+            friction_force: outputs.friction_force,
+            groove_force: outputs.groove_force,
+            ball_force: outputs.ball_force,
+            largest_contact_force: outputs.largest_contact_force,
+            contacts: u32::from(outputs.contacts),
+            regime: regime(outputs.regime),
+            faults: u32::from(outputs.faults.bits()),
+        }
     }
 }

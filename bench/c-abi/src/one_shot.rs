@@ -7,12 +7,12 @@ use epas_friction::geometry::{ContactAngle, Groove};
 use epas_friction::{Error, Range};
 
 use crate::design::ball_screw;
+use crate::requests::{
+    Curvature, CurvatureRequest, EPAS_GROOVE_NUT, EPAS_GROOVE_SCREW, Efficiency, EfficiencyRequest,
+};
 use crate::status::{
     EPAS_FIELD_CONTACT_ANGLE, EPAS_FIELD_FRICTION, EPAS_FIELD_GROOVE, EPAS_FIELD_ROLLING_TANGENT,
     Failure,
-};
-use crate::types::{
-    Curvature, CurvatureRequest, EPAS_GROOVE_NUT, EPAS_GROOVE_SCREW, Efficiency, EfficiencyRequest,
 };
 
 /// A number that the crate takes unchecked.

@@ -1,12 +1,15 @@
 //! What a scene of the crate needs to be one in C.
 
 use epas_friction::scene::Scene;
-use epas_friction::{DeviationMap, FrictionModel, LoadShare as CrateLoadShare, Regime};
+use epas_friction::{
+    DeviationMap, FrictionModel, Limits as CrateLimits, LoadShare as CrateLoadShare, Regime,
+};
 
 use crate::status::Failure;
 use crate::tables::{Deviation, LoadShare};
 use crate::types::{
     EPAS_REGIME_BACK_DRIVING, EPAS_REGIME_DRIVING, EPAS_REGIME_LOCKED, EPAS_REGIME_STANDING,
+    Inputs, Limits,
 };
 
 /// A model in its place, with the mark that says that there is one.
@@ -21,7 +24,7 @@ pub(crate) struct TablePointers {
     /// Deviation of the groove that passes by (screw, rail).
     pub(crate) passing: *const Deviation,
     /// Deviation of the groove of the body in which balls recirculate (nut, carriage).
-    pub(crate) own: *const Deviation,
+    pub(crate) recirculating: *const Deviation,
     pub(crate) load_shares: *const LoadShare,
     pub(crate) load_share_count: u32,
 }
@@ -29,21 +32,21 @@ pub(crate) struct TablePointers {
 impl TablePointers {
     pub(crate) const NONE: Self = Self {
         passing: core::ptr::null(),
-        own: core::ptr::null(),
+        recirculating: core::ptr::null(),
         load_shares: core::ptr::null(),
         load_share_count: 0,
     };
 
     #[inline(always)]
     pub(crate) const fn are_null(&self) -> bool {
-        self.passing.is_null() && self.own.is_null() && self.load_shares.is_null()
+        self.passing.is_null() && self.recirculating.is_null() && self.load_shares.is_null()
     }
 }
 
 /// Tables that have been found initialised.
 pub(crate) struct Tables {
     pub(crate) passing: &'static DeviationMap,
-    pub(crate) own: &'static DeviationMap,
+    pub(crate) recirculating: &'static DeviationMap,
     pub(crate) load_shares: &'static [CrateLoadShare],
 }
 
@@ -51,7 +54,7 @@ impl Tables {
     /// What stands in for no table.
     pub(crate) const NONE: Self = Self {
         passing: &DeviationMap::NONE,
-        own: &DeviationMap::NONE,
+        recirculating: &DeviationMap::NONE,
         load_shares: &[CrateLoadShare::MEAN],
     };
 }
@@ -71,7 +74,7 @@ pub(crate) trait CScene {
 
     /// Says that a place holds this scene, as this version of the library has it.
     const MARK: u32;
-    /// What a refused call puts out: no torque, flagged.
+    /// What a refused call puts out: no friction, flagged.
     const REFUSED: Self::Outputs;
 
     /// The place is large enough; that it is no larger than it has to be is checked from outside.
@@ -99,11 +102,30 @@ pub(crate) fn model<C: CScene>(
     FrictionModel::new(&configuration).map_err(Failure::of)
 }
 
+/// Regime by its number.
 pub(crate) const fn regime(regime: Regime) -> u32 {
     match regime {
         Regime::Standing => EPAS_REGIME_STANDING,
         Regime::Driving => EPAS_REGIME_DRIVING,
         Regime::BackDriving => EPAS_REGIME_BACK_DRIVING,
         Regime::Locked => EPAS_REGIME_LOCKED,
+    }
+}
+
+/// Limits of a ball screw.
+pub(crate) const fn limits(limits: &Limits) -> CrateLimits {
+    CrateLimits {
+        nut_speed: limits.nut_speed,
+        axial_load: limits.axial_load,
+        friction_torque: limits.friction_torque,
+    }
+}
+
+/// Inputs of a ball screw.
+#[inline]
+pub(crate) const fn screw_inputs(inputs: Inputs) -> epas_friction::Inputs {
+    epas_friction::Inputs {
+        nut_speed: inputs.nut_speed,
+        axial_load: inputs.axial_load,
     }
 }

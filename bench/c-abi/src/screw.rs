@@ -2,14 +2,14 @@
 
 use epas_friction::{GrooveFit, UncagedBallScrew, UncagedBallScrewConfiguration};
 
-use crate::caged::{limits, screw_inputs};
 use crate::design::ball_screw;
-use crate::scene::{CScene, TablePointers, Tables, regime};
+use crate::scene::{CScene, TablePointers, Tables, limits, regime, screw_inputs};
 use crate::status::{EPAS_FIELD_FIT, Failure};
 use crate::types::{
     EPAS_FAULT_CALL, EPAS_FIT_PLAY, EPAS_FIT_PRELOAD, EPAS_FIT_ZERO, EPAS_REGIME_STANDING,
-    EPAS_SCREW_BALLS, Inputs, ScrewConfiguration, ScrewPlace, TrainOutputs,
+    EPAS_SCREW_BALLS, Inputs, ScrewConfiguration, ScrewOutputs, ScrewPlace,
 };
+use crate::version::mark;
 
 /// `epas_screw_t`
 pub(crate) struct Screw;
@@ -19,15 +19,24 @@ impl CScene for Screw {
     type Place = ScrewPlace;
     type Configuration = ScrewConfiguration;
     type Inputs = Inputs;
-    type Outputs = TrainOutputs;
+    type Outputs = ScrewOutputs;
 
-    const MARK: u32 = 0xE9A5_0102;
-    const REFUSED: TrainOutputs = REFUSED;
+    const MARK: u32 = mark(2);
+    const REFUSED: ScrewOutputs = ScrewOutputs {
+        friction_torque: 0.0,
+        groove_torque: 0.0,
+        ball_torque: 0.0,
+        load_torque: 0.0,
+        largest_contact_force: 0.0,
+        contacts: 0,
+        regime: EPAS_REGIME_STANDING,
+        faults: EPAS_FAULT_CALL,
+    };
 
     fn tables(configuration: &ScrewConfiguration) -> TablePointers {
         TablePointers {
             passing: configuration.screw_deviation,
-            own: configuration.nut_deviation,
+            recirculating: configuration.nut_deviation,
             load_shares: configuration.load_shares,
             load_share_count: configuration.load_share_count,
         }
@@ -52,7 +61,7 @@ impl CScene for Screw {
             turns: configuration.turns,
             return_length: configuration.return_length,
             screw_deviation: tables.passing,
-            nut_deviation: tables.own,
+            nut_deviation: tables.recirculating,
             load_shares: tables.load_shares,
             reversal_speed: configuration.reversal_speed,
             tick: configuration.tick,
@@ -66,33 +75,16 @@ impl CScene for Screw {
     }
 
     #[inline]
-    fn outputs(outputs: epas_friction::TrainOutputs) -> TrainOutputs {
-        train_outputs(outputs)
-    }
-}
-
-/// What a refused call puts out.
-pub(crate) const REFUSED: TrainOutputs = TrainOutputs {
-    friction: 0.0,
-    groove_friction: 0.0,
-    ball_friction: 0.0,
-    load_torque: 0.0,
-    largest_contact_force: 0.0,
-    contacts: 0,
-    regime: EPAS_REGIME_STANDING,
-    faults: EPAS_FAULT_CALL,
-};
-
-#[inline]
-pub(crate) fn train_outputs(outputs: epas_friction::TrainOutputs) -> TrainOutputs {
-    TrainOutputs {
-        friction: outputs.friction,
-        groove_friction: outputs.groove_friction,
-        ball_friction: outputs.ball_friction,
-        load_torque: outputs.load_torque,
-        largest_contact_force: outputs.largest_contact_force,
-        contacts: u32::from(outputs.contacts),
-        regime: regime(outputs.regime),
-        faults: u32::from(outputs.faults.bits()),
+    fn outputs(outputs: epas_friction::UncagedOutputs) -> ScrewOutputs {
+        ScrewOutputs {
+            friction_torque: outputs.friction_torque,
+            groove_torque: outputs.groove_torque,
+            ball_torque: outputs.ball_torque,
+            load_torque: outputs.load_torque,
+            largest_contact_force: outputs.largest_contact_force,
+            contacts: u32::from(outputs.contacts),
+            regime: regime(outputs.regime),
+            faults: u32::from(outputs.faults.bits()),
+        }
     }
 }

@@ -76,7 +76,7 @@ pub const EPAS_FIELD_LOAD_SHARES: u32 = 26u32;
 /// `screw_deviation`, in a linear bearing `rail_deviation`
 pub const EPAS_FIELD_PASSING_DEVIATION: u32 = 27u32;
 /// `nut_deviation`, in a linear bearing `carriage_deviation`
-pub const EPAS_FIELD_OWN_DEVIATION: u32 = 28u32;
+pub const EPAS_FIELD_RECIRCULATING_DEVIATION: u32 = 28u32;
 /// `reversal_speed`
 pub const EPAS_FIELD_REVERSAL_SPEED: u32 = 29u32;
 /// `tick`
@@ -120,8 +120,9 @@ pub const EPAS_FIELD_GROOVE: u32 = 48u32;
 /// A field that this header does not know; a newer library would.
 pub const EPAS_FIELD_OTHER: u32 = 49u32;
 
-/// Number, name in C, and the crate's name, empty where only this layer names the field.
-const FIELDS: [(u32, &CStr, &str); 49] = [
+/// Number, name in C, and the crate's name: empty where only this layer names the field. A field to which the crate
+/// gives a name of its own in each scene has a row for each.
+const FIELDS: [(u32, &CStr, &str); 51] = [
     (EPAS_FIELD_PITCH_RADIUS, c"pitch_radius", "pitch_radius"),
     (EPAS_FIELD_LEAD, c"lead", "lead"),
     (EPAS_FIELD_BALL_RADIUS, c"ball_radius", "ball_radius"),
@@ -176,8 +177,26 @@ const FIELDS: [(u32, &CStr, &str); 49] = [
         "load_shares",
     ),
     (EPAS_FIELD_LOAD_SHARES, c"load_shares", ""),
-    (EPAS_FIELD_PASSING_DEVIATION, c"passing deviation", ""),
-    (EPAS_FIELD_OWN_DEVIATION, c"own deviation", ""),
+    (
+        EPAS_FIELD_PASSING_DEVIATION,
+        c"passing deviation",
+        "screw_deviation",
+    ),
+    (
+        EPAS_FIELD_PASSING_DEVIATION,
+        c"passing deviation",
+        "rail_deviation",
+    ),
+    (
+        EPAS_FIELD_RECIRCULATING_DEVIATION,
+        c"recirculating deviation",
+        "nut_deviation",
+    ),
+    (
+        EPAS_FIELD_RECIRCULATING_DEVIATION,
+        c"recirculating deviation",
+        "carriage_deviation",
+    ),
     (
         EPAS_FIELD_REVERSAL_SPEED,
         c"reversal_speed",

@@ -7,6 +7,7 @@ use crate::status::{
     EPAS_FIELD_COSINE, EPAS_FIELD_DEVIATION, EPAS_FIELD_HARMONIC_COUNT, EPAS_FIELD_ORDER,
     EPAS_FIELD_SHARE, EPAS_FIELD_SINE, EPAS_FIELD_TURNS, Failure,
 };
+use crate::version::mark;
 
 /// Samples in a period of a deviation.
 pub const EPAS_DEVIATION_SAMPLES: usize = 64;
@@ -61,7 +62,7 @@ pub(crate) struct PlacedDeviation {
 }
 
 impl PlacedDeviation {
-    pub(crate) const MARK: u32 = 0xE9A5_01D0;
+    pub(crate) const MARK: u32 = mark(0xD0);
 }
 
 const _: () = assert!(

@@ -3,20 +3,12 @@
 
 use crate::tables::{Deviation, LoadShare};
 
-/// Version of the structures and functions of this header; `epas_abi_version` returns the library's.
-pub const EPAS_ABI_VERSION: u32 = 1u32;
-
 /// The ball rolls and slips across the groove at the screw: the expected value.
 pub const EPAS_BRANCH_ROLLING: u32 = 0u32;
 /// The ball slides along the path at both contacts: the pessimistic bound.
 pub const EPAS_BRANCH_SLIDING: u32 = 1u32;
 
-/// Groove of the screw shaft.
-pub const EPAS_GROOVE_SCREW: u32 = 0u32;
-/// Groove of the nut.
-pub const EPAS_GROOVE_NUT: u32 = 1u32;
-
-/// The nut is slower than the reversal speed: friction is between its two directions.
+/// The mechanism is slower than the reversal speed: friction is between its two directions.
 pub const EPAS_REGIME_STANDING: u32 = 0u32;
 /// The motor moves the load.
 pub const EPAS_REGIME_DRIVING: u32 = 1u32;
@@ -25,17 +17,17 @@ pub const EPAS_REGIME_BACK_DRIVING: u32 = 2u32;
 /// No torque moves the load, or the load alone does not sustain the motion.
 pub const EPAS_REGIME_LOCKED: u32 = 3u32;
 
-/// The nut speed is NaN or infinite: no torque is put out.
+/// The speed is NaN or infinite: no friction is put out.
 pub const EPAS_FAULT_SPEED_NOT_FINITE: u32 = 1u32;
-/// The axial load is NaN or infinite: no torque is put out.
+/// A load is NaN or infinite: no friction is put out.
 pub const EPAS_FAULT_LOAD_NOT_FINITE: u32 = 2u32;
-/// The nut speed is beyond its limit: the limit stands in for it.
+/// The speed is beyond its limit: the limit stands in for it.
 pub const EPAS_FAULT_SPEED_RANGE: u32 = 4u32;
-/// The axial load is beyond its limit: the limit stands in for it.
+/// A load is beyond its limit: the limit stands in for it.
 pub const EPAS_FAULT_LOAD_RANGE: u32 = 8u32;
-/// The friction torque was cut to its limit.
-pub const EPAS_FAULT_TORQUE_LIMIT: u32 = 16u32;
-/// The call itself was refused (its status says why): no torque is put out.
+/// The friction torque of a screw, or the friction force of a bearing, was cut to its limit.
+pub const EPAS_FAULT_FRICTION_LIMIT: u32 = 16u32;
+/// The call itself was refused (its status says why): no friction is put out.
 pub const EPAS_FAULT_CALL: u32 = 0x80000000u32;
 
 /// An isotropic elastic material.
@@ -96,7 +88,7 @@ pub struct Inputs {
     pub axial_load: f32,
 }
 
-/// What a ball screw returns at a tick; every number is finite.
+/// What a ball screw whose balls do not touch returns at a tick; every number is finite.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub struct Outputs {
@@ -198,7 +190,7 @@ pub struct ScrewConfiguration {
 }
 
 /// Size of `epas_screw_t` in words of eight bytes.
-pub const EPAS_SCREW_WORDS: usize = 212;
+pub const EPAS_SCREW_WORDS: usize = 214;
 
 /// Place for the constants and the state of a ball screw whose balls press on each other; as
 /// `epas_caged_t`.
@@ -209,18 +201,18 @@ pub struct ScrewPlace {
     pub words: [u64; EPAS_SCREW_WORDS],
 }
 
-/// What a mechanism whose balls press on each other returns at a tick; every number is finite.
+/// What a ball screw whose balls press on each other returns at a tick; every number is finite.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
-pub struct TrainOutputs {
-    /// Torque about the nut's axis that the motor has to add to overcome friction, N m (in a linear bearing
-    /// the force along the track, N), with the sign of the speed: the sum of the next two, within its limit.
-    pub friction: f32,
-    /// Its part from the grooves.
-    pub groove_friction: f32,
-    /// Its part from balls that rub against each other.
-    pub ball_friction: f32,
-    /// Torque about the nut's axis that holds the load without friction, N m; 0 in a linear bearing.
+pub struct ScrewOutputs {
+    /// Torque about the nut's axis that the motor has to add to overcome friction, N m, with the sign of the
+    /// nut speed: the sum of the next two, within its limit.
+    pub friction_torque: f32,
+    /// Its part from the grooves, N m.
+    pub groove_torque: f32,
+    /// Its part from balls that rub against each other, N m.
+    pub ball_torque: f32,
+    /// Torque about the nut's axis that holds the load without friction, N m.
     pub load_torque: f32,
     /// Largest force between two balls, N.
     pub largest_contact_force: f32,
@@ -311,8 +303,29 @@ pub struct LinearInputs {
     pub side_load: f32,
 }
 
+/// What a linear bearing returns at a tick; every number is finite.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+pub struct LinearOutputs {
+    /// Force along the rail that has to be added to overcome friction, N, with the sign of the speed: the sum
+    /// of the next two, within its limit.
+    pub friction_force: f32,
+    /// Its part from the grooves, N.
+    pub groove_force: f32,
+    /// Its part from balls that rub against each other, N.
+    pub ball_force: f32,
+    /// Largest force between two balls, N.
+    pub largest_contact_force: f32,
+    /// Pairs of balls that press on each other.
+    pub contacts: u32,
+    /// What the mechanism does: `EPAS_REGIME_STANDING` or `EPAS_REGIME_DRIVING`.
+    pub regime: u32,
+    /// What was wrong with this tick, a sum of `EPAS_FAULT_...`; 0 for nothing.
+    pub faults: u32,
+}
+
 /// Size of `epas_linear_t` in words of eight bytes.
-pub const EPAS_LINEAR_WORDS: usize = 131;
+pub const EPAS_LINEAR_WORDS: usize = 132;
 
 /// Place for the constants and the state of a linear bearing; as `epas_caged_t`.
 #[derive(Clone, Copy, Debug)]
@@ -320,65 +333,4 @@ pub const EPAS_LINEAR_WORDS: usize = 131;
 pub struct LinearPlace {
     /// Not for the caller. Its type gives the place its alignment.
     pub words: [u64; EPAS_LINEAR_WORDS],
-}
-
-/// What the closed-form efficiency depends on.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[repr(C)]
-pub struct EfficiencyRequest {
-    /// Lead angle, rad, 0 to 1.5.
-    pub lead_angle: f32,
-    /// Contact angle, rad, 0.001 to pi/2.
-    pub contact_angle: f32,
-    /// Ball radius over pitch radius, 0 to 1.
-    pub ball_ratio: f32,
-    /// Coulomb friction coefficient, 0 to 1.
-    pub friction: f32,
-    /// Lever arm of rolling friction over `ball_radius sin(contact_angle)`, 0 to 0.1.
-    pub rolling_tangent: f32,
-}
-
-/// Efficiencies in closed form; each is negative where the screw locks.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[repr(C)]
-pub struct Efficiency {
-    /// Rolling, rotation moves the load: the expected value.
-    pub rolling_drive: f32,
-    /// Rolling, the load turns the screw; -infinity where there is no lead but rolling resistance.
-    pub rolling_backdrive: f32,
-    /// Full sliding, rotation moves the load: the pessimistic bound.
-    pub sliding_drive: f32,
-    /// Full sliding, the load turns the screw.
-    pub sliding_backdrive: f32,
-    /// 1 where full sliding locks the drive, else 0.
-    pub locked_drive: u32,
-    /// 1 where full sliding locks the back-drive, else 0.
-    pub locked_backdrive: u32,
-}
-
-/// Which curvature is asked for.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[repr(C)]
-pub struct CurvatureRequest {
-    /// The design.
-    pub design: BallScrew,
-    /// Which groove, one of `EPAS_GROOVE_...`.
-    pub groove: u32,
-    /// Contact angle, rad, 0 to pi/2.
-    pub contact_angle: f32,
-}
-
-/// Principal curvatures of a groove at a contact point, 1/m; the normal points into the metal: at the
-/// screw the first is positive, at the nut negative.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[repr(C)]
-pub struct Curvature {
-    /// First curvature (along the ball path), exact.
-    pub first: f32,
-    /// Second curvature (across the ball path), exact.
-    pub second: f32,
-    /// First curvature of a circular groove along the helix: within 1 % on catalogue sizes.
-    pub circular_groove: f32,
-    /// First curvature by the formula of the literature, which ignores the lead.
-    pub literature: f32,
 }

@@ -46,7 +46,7 @@ static void pointers(void)
     static epas_screw_t screw;
     const epas_inputs_t inputs = {10.0f, 1000.0f};
     epas_outputs_t outputs = {0};
-    epas_train_outputs_t train = {0};
+    epas_screw_outputs_t screw_outputs = {0};
     epas_failure_t failure;
     uint32_t ticks;
 
@@ -70,10 +70,10 @@ static void pointers(void)
     check(epas_caged_step(&caged, &inputs, NULL) == EPAS_NULL_POINTER, "step without outputs");
 
     /* Another scene's place. */
-    check(epas_screw_step((epas_screw_t *)(void *)&caged, &inputs, &train) == EPAS_NOT_INITIALISED,
+    check(epas_screw_step((epas_screw_t *)(void *)&caged, &inputs, &screw_outputs) == EPAS_NOT_INITIALISED,
           "another scene's place");
-    check(train.faults == EPAS_FAULT_CALL, "another scene's place, flagged");
-    check(epas_screw_step(&screw, &inputs, &train) == EPAS_NOT_INITIALISED, "a screw of zeros");
+    check(screw_outputs.faults == EPAS_FAULT_CALL, "another scene's place, flagged");
+    check(epas_screw_step(&screw, &inputs, &screw_outputs) == EPAS_NOT_INITIALISED, "a screw of zeros");
 
     /* A model that is copied as a whole is one of its own. */
     never = caged;
@@ -86,8 +86,14 @@ static void pointers(void)
 static void inputs(void)
 {
     static epas_caged_t caged;
+    static epas_linear_t linear;
     const epas_inputs_t bad = {not_a_number(), 1000.0f};
+    const epas_inputs_t beyond = {600.0f, 30000.0f};
+    const epas_inputs_t at_limit = {500.0f, 20000.0f};
+    const epas_linear_inputs_t bad_load = {0.5f, 1000.0f, not_a_number()};
     epas_outputs_t outputs;
+    epas_outputs_t of_limit;
+    epas_linear_outputs_t linear_outputs;
     uint32_t ticks = 0u;
 
     (void)test_setup_caged(&caged);
@@ -95,6 +101,20 @@ static void inputs(void)
     check((outputs.faults == EPAS_FAULT_SPEED_NOT_FINITE) && (outputs.friction_torque == 0.0f),
           "but a fault");
     check((epas_caged_faulted_ticks(&caged, &ticks) == EPAS_OK) && (ticks == 1u), "one faulted tick");
+
+    /* Beyond the limits the limits stand in: the torque is theirs. */
+    check(epas_caged_step(&caged, &beyond, &outputs) == EPAS_OK, "inputs beyond their limits");
+    check((outputs.faults & (EPAS_FAULT_SPEED_RANGE | EPAS_FAULT_LOAD_RANGE))
+              == (EPAS_FAULT_SPEED_RANGE | EPAS_FAULT_LOAD_RANGE),
+          "inputs beyond their limits, flagged");
+    check(epas_caged_step(&caged, &at_limit, &of_limit) == EPAS_OK, "inputs at their limits");
+    check((outputs.friction_torque == of_limit.friction_torque) && (outputs.friction_torque > 0.0f),
+          "the torque of the limits");
+
+    (void)test_setup_linear(&linear);
+    check(epas_linear_step(&linear, &bad_load, &linear_outputs) == EPAS_OK, "a load that is no number");
+    check((linear_outputs.faults == EPAS_FAULT_LOAD_NOT_FINITE) && (linear_outputs.friction_force == 0.0f),
+          "no force, flagged");
 }
 
 static void caged_fields(void)
@@ -182,7 +202,7 @@ static void train_fields(void)
     wrong = test_screw_configuration;
     wrong.nut_deviation = &empty;
     status = epas_screw_init(&screw, &wrong, &failure);
-    check_failure(status, &failure, EPAS_NOT_INITIALISED, EPAS_FIELD_OWN_DEVIATION, "own deviation");
+    check_failure(status, &failure, EPAS_NOT_INITIALISED, EPAS_FIELD_RECIRCULATING_DEVIATION, "recirculating deviation");
 
     wrong = test_screw_configuration;
     status = epas_load_shares_init(shares, one_wrong, 2u, &failure);
@@ -202,6 +222,16 @@ static void train_fields(void)
     status = epas_screw_init(&screw, &wrong, &failure);
     check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_BALL_PITCH, "ball pitch");
 
+    /* Near the bottom of the groove no deviation is small against the contact angle. */
+    wrong = test_screw_configuration;
+    wrong.design.contact_angle = 0.05f;
+    status = epas_screw_init(&screw, &wrong, &failure);
+    check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_PASSING_DEVIATION, "passing deviation");
+    wrong.screw_deviation = NULL;
+    status = epas_screw_init(&screw, &wrong, &failure);
+    check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_RECIRCULATING_DEVIATION,
+                  "recirculating deviation");
+
     wrong = test_screw_configuration;
     wrong.fit = EPAS_FIT_PRELOAD;
     status = epas_screw_init(&screw, &wrong, &failure);
@@ -217,6 +247,10 @@ static void train_fields(void)
     wrong_linear.bearing.conformity = 0.5f;
     status = epas_linear_init(&linear, &wrong_linear, &failure);
     check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_CONFORMITY, "conformity");
+    wrong_linear = test_linear_configuration;
+    wrong_linear.bearing.contact_angle = 0.02f;
+    status = epas_linear_init(&linear, &wrong_linear, &failure);
+    check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_PASSING_DEVIATION, "passing deviation");
     wrong_linear = test_linear_configuration;
     wrong_linear.limits.speed = 0.0f;
     status = epas_linear_init(&linear, &wrong_linear, &failure);

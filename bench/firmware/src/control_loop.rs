@@ -15,7 +15,7 @@ use crate::devices::{BIT_LOST, Bridge, GEAR_RATIO, Sensor, TICK};
 use crate::scenes::{
     Digest, ROW, caged_configuration, linear_configuration, uncaged_configuration,
 };
-use crate::subjects::{BALLS, outputs, train_outputs};
+use crate::subjects::{BALLS, linear_outputs, outputs, uncaged_outputs};
 
 /// The recorded manoeuvre: how many ticks, the digest that a host found, and for each tick the nut speed,
 /// rad/s, and the axial load, N; words of 32 bits, little endian.
@@ -96,13 +96,14 @@ impl ControlLoop {
             axial_load,
         };
         self.digest.take(&outputs(&self.caged.step(inputs)));
-        self.digest.take(&train_outputs(&self.uncaged.step(inputs)));
+        self.digest
+            .take(&uncaged_outputs(&self.uncaged.step(inputs)));
         let rack = LinearInputs {
             speed: nut_speed * (20e-3 / core::f32::consts::TAU),
             normal_load: 1500.0,
             side_load: 0.02 * axial_load,
         };
-        self.digest.take(&train_outputs(&self.linear.step(rack)));
+        self.digest.take(&linear_outputs(&self.linear.step(rack)));
         self.drive(axial_load);
         true
     }

@@ -6,7 +6,7 @@
 // Rust calls Rust here: the C calling convention is what passes numbers in floating-point registers.
 #![allow(improper_ctypes_definitions)]
 
-use epas_friction::ball::{AnalyticLinearBall, ScrewBallLoop, ScrewRow, ScrewTick};
+use epas_friction::ball::{AnalyticLinearBall, ScrewRow, ScrewTick, ScrewTickBall};
 use epas_friction::contact::{Dissipation, FrictionMap, NormalizedFriction};
 use epas_friction::curvature::{
     CircularGrooveCurvature, FittedCurvature, GothicArch, LiteratureCurvature, PrincipalCurvatures,
@@ -18,8 +18,8 @@ use epas_friction::kinematics::{BallKinematics, ContactKinematics, EllipticConta
 use epas_friction::refined::{BallChain, BallState, FourPointBall, RotaryBall};
 use epas_friction::train::{Press, Train};
 use epas_friction::{
-    CagedBallScrew, FrictionModel, Inputs, LinearBearingTrain, LinearInputs, LoadShare, Outputs,
-    TrainOutputs, UncagedBallScrew, math,
+    CagedBallScrew, FrictionModel, Inputs, LinearBearingTrain, LinearInputs, LinearOutputs,
+    LoadShare, Outputs, UncagedBallScrew, UncagedOutputs, math,
 };
 
 use crate::peers::{LuGre, Stribeck};
@@ -186,7 +186,7 @@ counted! {
     }
 
     /// One ball of a row.
-    fn count_ball_screw_ball(row: &ScrewTick, screw: f32, nut: f32, share: &LoadShare) -> ScrewBallLoop {
+    fn count_ball_screw_ball(row: &ScrewTick, screw: f32, nut: f32, share: &LoadShare) -> ScrewTickBall {
         row.ball(screw, nut, share)
     }
 
@@ -207,21 +207,21 @@ counted! {
     /// One tick of a ball screw with 37 balls without cage.
     fn count_step_train_37(
         model: &mut FrictionModel<UncagedBallScrew<BALLS>>, nut_speed: f32, axial_load: f32
-    ) -> TrainOutputs {
+    ) -> UncagedOutputs {
         model.step(Inputs { nut_speed, axial_load })
     }
 
     /// The same, where most balls press on each other.
     fn count_step_train_37_pressing(
         model: &mut FrictionModel<UncagedBallScrew<BALLS>>, nut_speed: f32, axial_load: f32
-    ) -> TrainOutputs {
+    ) -> UncagedOutputs {
         model.step(Inputs { nut_speed, axial_load })
     }
 
     /// One tick of a linear bearing.
     fn count_step_linear(
         model: &mut FrictionModel<LinearBearingTrain<ROW>>, speed: f32, normal_load: f32, side_load: f32
-    ) -> TrainOutputs {
+    ) -> LinearOutputs {
         model.step(LinearInputs { speed, normal_load, side_load })
     }
 

@@ -14,7 +14,7 @@ use epas_friction::{
     UncagedBallScrewConfiguration, UncagedConstants,
 };
 
-use crate::subjects::{BALLS, outputs, train_outputs};
+use crate::subjects::{BALLS, linear_outputs, outputs, uncaged_outputs};
 
 /// Balls in the linear bearing's circuit.
 pub const ROW: usize = 24;
@@ -195,7 +195,7 @@ impl Run for Linear {
     }
 
     fn tick(model: &mut Self::Model, nut_speed: f32, axial_load: f32, digest: &mut Digest) {
-        digest.take(&train_outputs(&model.step(LinearInputs {
+        digest.take(&linear_outputs(&model.step(LinearInputs {
             speed: 0.02 * nut_speed,
             normal_load: 1500.0,
             side_load: 0.1 * axial_load,
@@ -215,7 +215,7 @@ impl Run for Uncaged {
     }
 
     fn tick(model: &mut Self::Model, nut_speed: f32, axial_load: f32, digest: &mut Digest) {
-        digest.take(&train_outputs(&model.step(Inputs {
+        digest.take(&uncaged_outputs(&model.step(Inputs {
             nut_speed,
             axial_load,
         })));

@@ -2,9 +2,9 @@
 
 use core::hint::black_box;
 
-use epas_friction::ball::ScrewBallLoop;
+use epas_friction::ball::ScrewTickBall;
 use epas_friction::kinematics::{BallKinematics, ContactSlip, EllipticContact};
-use epas_friction::{Faults, LoadShare, Outputs, Regime, TrainOutputs, math};
+use epas_friction::{Faults, LinearOutputs, LoadShare, Outputs, Regime, UncagedOutputs, math};
 
 use crate::contexts::Contexts;
 use crate::counted::{
@@ -233,13 +233,13 @@ pub fn outputs(outputs: &Outputs) -> [f32; 4] {
     ]
 }
 
-/// What a train puts out, as numbers.
+/// What a ball screw without cage puts out, as numbers.
 #[must_use]
-pub fn train_outputs(outputs: &TrainOutputs) -> [f32; 7] {
+pub fn uncaged_outputs(outputs: &UncagedOutputs) -> [f32; 7] {
     [
-        outputs.friction,
-        outputs.groove_friction,
-        outputs.ball_friction,
+        outputs.friction_torque,
+        outputs.groove_torque,
+        outputs.ball_torque,
         outputs.load_torque,
         f32::from(outputs.contacts),
         outputs.largest_contact_force,
@@ -247,7 +247,21 @@ pub fn train_outputs(outputs: &TrainOutputs) -> [f32; 7] {
     ]
 }
 
-fn screw_ball(ball: &ScrewBallLoop, more: f32) -> [f32; 5] {
+/// What a linear bearing puts out, as numbers.
+#[must_use]
+pub fn linear_outputs(outputs: &LinearOutputs) -> [f32; 7] {
+    [
+        outputs.friction_force,
+        outputs.groove_force,
+        outputs.ball_force,
+        0.0,
+        f32::from(outputs.contacts),
+        outputs.largest_contact_force,
+        condition(outputs.regime, outputs.faults),
+    ]
+}
+
+fn screw_ball(ball: &ScrewTickBall, more: f32) -> [f32; 5] {
     [
         ball.speed_deviation,
         ball.compliance,
@@ -430,18 +444,18 @@ subjects! {
             all(c.train.forces())
         };
     step_train_37: |spread| -> [2] tick(spread),
-        |c, [nut_speed, axial_load]| -> [7] train_outputs(
+        |c, [nut_speed, axial_load]| -> [7] uncaged_outputs(
             &timed!(c, count_step_train_37(black_box(&mut c.uncaged), nut_speed, axial_load))
         );
     step_train_37_pressing: |spread| -> [2] [spread.between(10.0, 30.0), spread.between(4_000.0, 40.0)],
-        |c, [nut_speed, axial_load]| -> [7] train_outputs(
+        |c, [nut_speed, axial_load]| -> [7] uncaged_outputs(
             &timed!(c, count_step_train_37_pressing(black_box(&mut c.pressing), nut_speed, axial_load))
         );
     step_linear: |spread| -> [2] {
             let [speed, load] = tick(spread);
             [0.02 * speed, 0.1 * load]
         },
-        |c, [speed, load]| -> [7] train_outputs(
+        |c, [speed, load]| -> [7] linear_outputs(
             &timed!(c, count_step_linear(black_box(&mut c.carriage), speed, load, 0.2 * load))
         );
 }

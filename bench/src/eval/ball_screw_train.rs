@@ -3,11 +3,11 @@
 use epas_friction::geometry::{LARGEST_CONFORMITY, SMALLEST_CONFORMITY};
 use epas_friction::refined::{ScrewBall, ScrewBallState, ScrewChain};
 use epas_friction::{BallScrew, BallScrewParameters, GrooveSize, Material};
-use epas_reference::curvature::{self, Surface};
+use epas_reference::design::BallScrewDesign;
 use epas_reference::friction::ball_screw_ball::{Groove, ScrewContact, ScrewTrack};
 use epas_reference::friction::ball_screw_train::solve_screw_train;
 use epas_reference::friction::linear_ball::EllipseLaw;
-use epas_reference::hertz::{Hertz, contact_modulus};
+use epas_reference::material::Elastic;
 use serde::Serialize;
 
 use super::Answer;
@@ -310,39 +310,27 @@ impl Request {
     /// Ellipse of a contact, from the principal curvatures of the groove there: its arc meets the ball
     /// at the contact's own angle.
     fn ellipse(&self, contact: &Contact) -> Result<EllipseLaw, BadField> {
-        let clearance = self.groove_radius - self.ball_radius;
-        let (sin, cos) = contact.angle.sin_cos();
-        let surface = Surface {
-            groove: match contact.groove {
-                Groove::ScrewLeft | Groove::ScrewRight => curvature::Groove::Screw,
-                Groove::NutLeft | Groove::NutRight => curvature::Groove::Nut,
-            },
-            pitch_radius: self.pitch_radius,
-            lead_angle: (self.lead / std::f64::consts::TAU).atan2(self.pitch_radius),
-            groove_radius: self.groove_radius,
-            offset_h: clearance * cos,
-            offset_l: clearance * sin,
+        let material = Elastic {
+            youngs_modulus: self.youngs_modulus,
+            poisson_ratio: self.poisson_ratio,
         };
-        surface
-            .check(contact.angle)
-            .map_err(|error| BadField::from(error).renamed("offset_h", "groove_radius"))?;
-        let groove = surface.principal(contact.angle);
-        let material = (self.youngs_modulus, self.poisson_ratio);
-        let ball = 1.0 / self.ball_radius;
-        let hertz = Hertz::new(
-            1.0 / (ball + groove.kappa1),
-            1.0 / (ball + groove.kappa2),
-            contact_modulus(material, material),
-        )
-        .map_err(|error| {
+        let design = BallScrewDesign {
+            pitch_radius: self.pitch_radius,
+            lead: self.lead,
+            ball_radius: self.ball_radius,
+            screw_groove_radius: self.groove_radius,
+            nut_groove_radius: self.groove_radius,
+            contact_angle: contact.angle,
+            ball: material,
+            groove: material,
+        };
+        let hertz = design.contact(contact.groove.part()).map_err(|error| {
             BadField::from(error)
+                .renamed("offset_h", "groove_radius")
                 .renamed("relative_radius_1", "pitch_radius")
                 .renamed("relative_radius_2", "groove_radius")
                 .renamed("contact_modulus", "youngs_modulus")
         })?;
-        Ok(EllipseLaw {
-            semi_major_constant: hertz.semi_major,
-            axis_ratio: hertz.axis_ratio,
-        })
+        Ok(hertz.into())
     }
 }

@@ -1,7 +1,7 @@
 //! `contact_kinematics`: slip, spin and entrainment of the two contacts of a ball, at their centres.
 
 use epas_friction::kinematics::{ContactKinematics, KinematicsParameters};
-use epas_reference::kinematics::{self as reference, InvalidInput, KinematicsInput, Revised};
+use epas_reference::kinematics::{self as reference, KinematicsInput, Revised};
 use serde::Serialize;
 
 use super::Answer;
@@ -113,11 +113,5 @@ impl From<reference::ContactKinematics> for Contact {
             slide_angle: contact.slide_angle,
             spin_to_roll: contact.spin_to_roll,
         }
-    }
-}
-
-impl From<InvalidInput> for BadField {
-    fn from(error: InvalidInput) -> Self {
-        Self::new(error.field, error.to_string())
     }
 }

@@ -60,7 +60,7 @@ impl From<epas_friction::Error> for BadField {
 
 impl From<ReferenceError> for BadField {
     fn from(error: ReferenceError) -> Self {
-        Self::new(error.field, error.to_string())
+        Self::new(error.field().unwrap_or("request"), error.to_string())
     }
 }
 

@@ -1,13 +1,12 @@
 //! `static_load`: how the balls of a ball screw share an axial load.
 
 use epas_reference::statics::cases::CaseStudy;
-use epas_reference::statics::{
-    Contact, Elastic, Geometry, HertzConvention, StaticError, StaticSolution,
-};
+use epas_reference::statics::{Contact, Elastic, Geometry, HertzConvention, StaticSolution};
 use serde::Serialize;
 
 use super::Answer;
 use super::fields::{BadField, Fields, OneOrMany, in_range};
+use super::train::solved;
 
 /// Most balls in a request.
 const LARGEST_TRAIN: f64 = 10_000.0;
@@ -74,11 +73,8 @@ pub fn evaluate(mut fields: Fields) -> Result<Answer, BadField> {
         convention: HertzConvention::Correct,
     };
     fields.finish()?;
-    match case.load()?.solve() {
-        Ok(solution) => Answer::reference_only(&Reference::from(solution)),
-        Err(StaticError::Input(error)) => Err(error.into()),
-        Err(StaticError::NotConverged { .. }) => Answer::reference_only(&Reference::default()),
-    }
+    let solution = solved(case.load()?.solve())?;
+    Answer::reference_only(&solution.map_or_else(Reference::default, Reference::from))
 }
 
 fn whole(field: &str, value: f64) -> Result<usize, BadField> {

@@ -4,7 +4,8 @@ use std::f32::consts::TAU;
 
 use epas_friction::efficiency::{DynamicCorrection, EfficiencyGeometry};
 use epas_friction::ranges::FRICTION_OR_NONE;
-use epas_reference::steady_state::{BallScrewState, NoSteadyState};
+use epas_reference::ReferenceError;
+use epas_reference::steady_state::BallScrewState;
 use serde::Serialize;
 
 use super::Answer;
@@ -82,14 +83,14 @@ pub fn evaluate(mut fields: Fields) -> Result<Answer, BadField> {
             normal_nut_minor: Some(solution.normal_nut_minor),
             exists: Some(true),
         },
-        Err(NoSteadyState::Input(error)) => return Err(error.into()),
-        Err(NoSteadyState::NotConverged(_)) => Reference::default(),
-        Err(NoSteadyState::Frictionless | NoSteadyState::Locked | NoSteadyState::NoSlip) => {
+        Err(error) if error.field().is_some() => return Err(error.into()),
+        Err(ReferenceError::Frictionless | ReferenceError::Locked | ReferenceError::NoSlip) => {
             Reference {
                 exists: Some(false),
                 ..Reference::default()
             }
         }
+        Err(_) => Reference::default(),
     };
     Answer::both(&in_loop, &reference)
 }

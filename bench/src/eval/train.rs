@@ -2,7 +2,7 @@
 
 use epas_friction::train::IMPEDANCE_RANGE;
 use epas_friction::train::Press;
-use epas_reference::friction::FrictionError;
+use epas_reference::ReferenceError;
 
 use super::fields::BadField;
 
@@ -19,12 +19,10 @@ pub fn room_of_a_row(count: usize) -> [f32; LARGEST_TRAIN] {
 }
 
 /// The solution, `None` where there is none; an input out of range is a bad request.
-pub fn solved<T>(result: Result<T, FrictionError>) -> Result<Option<T>, BadField> {
+pub fn solved<T>(result: Result<T, ReferenceError>) -> Result<Option<T>, BadField> {
     match result {
         Ok(solution) => Ok(Some(solution)),
-        Err(error @ FrictionError::OutOfRange { field, .. }) => {
-            Err(BadField::new(field, error.to_string()))
-        }
+        Err(error) if error.field().is_some() => Err(error.into()),
         Err(_) => Ok(None),
     }
 }

@@ -1,7 +1,7 @@
 //! Bearings: Figures 3.7, 3.14, 3.15 and 4.7 of Lin 2019.
 
+use epas_reference::ReferenceError;
 use epas_reference::bearing_study::{TurningLoad, variation};
-use epas_reference::friction::FrictionError;
 use epas_reference::friction::chain::solve_chain;
 use epas_reference::friction::linear_ball::{LinearBall, analytic_ball_slip};
 use epas_reference::friction::rotary_ball::RotaryConvention;
@@ -94,7 +94,7 @@ fn map(
     quantity: &str,
     bounds: &[f64],
     cells: usize,
-    value: impl Fn(f64, f64) -> Result<f64, FrictionError>,
+    value: impl Fn(f64, f64) -> Result<f64, ReferenceError>,
 ) -> Result<Panel, Failure> {
     let centre = |cell: usize, limit: f64| limit * (2.0 * (cell as f64 + 0.5) / cells as f64 - 1.0);
     let mut values = Vec::new();
@@ -124,7 +124,7 @@ fn cells(quick: bool) -> usize {
 
 fn figure_3_14(quick: bool) -> Result<Figure, Failure> {
     let bounds = [-2.0, -1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5, 2.0];
-    let difference = |pair: &Pair| -> Result<f64, FrictionError> {
+    let difference = |pair: &Pair| -> Result<f64, ReferenceError> {
         let [rear, front] = pair;
         Ok(100.0 * (rear.solve(0.01)?.speed_deviation - front.solve(0.01)?.speed_deviation))
     };
@@ -155,7 +155,7 @@ fn figure_3_14(quick: bool) -> Result<Figure, Failure> {
 fn figure_3_15(quick: bool) -> Result<Figure, Failure> {
     let forces = [0.5, 2.0, 4.0, 6.0, 8.0, 10.0];
     let losses = [101.0, 110.0, 125.0, 150.0, 175.0, 185.0];
-    let baseline = |pair: &Pair| -> Result<f64, FrictionError> {
+    let baseline = |pair: &Pair| -> Result<f64, ReferenceError> {
         Ok(pair[0].solve(0.01)?.power_loss + pair[1].solve(0.01)?.power_loss)
     };
     let slip = analytic_ball_slip(std::f64::consts::FRAC_PI_4, 0.01);

@@ -2,19 +2,13 @@
 //! printed against computed numbers.
 
 use epas_reference::kinematics::figures::{self, ConstraintRow, FieldPoint, Formulation};
-use epas_reference::kinematics::published::{Verdict, table};
-use epas_reference::kinematics::{ContactKinematics, InvalidInput, Raceway, Revised};
+use epas_reference::kinematics::{ContactKinematics, Raceway, Revised};
+use epas_reference::published::kinematics::records;
 
 use super::Context;
 use super::document::{Block, Cell, Figure, Section, Table};
 use crate::failure::Failure;
 use crate::plot::{Axis, Chart, Mark, Panel, Series};
-
-impl From<InvalidInput> for Failure {
-    fn from(error: InvalidInput) -> Self {
-        Self::Data(error.to_string())
-    }
-}
 
 /// The section.
 pub fn section(context: &Context) -> Result<Section, Failure> {
@@ -61,20 +55,21 @@ pub fn section(context: &Context) -> Result<Section, Failure> {
 }
 
 fn published() -> Result<Table, Failure> {
-    let rows = table()?
+    let rows = records()?
         .into_iter()
-        .map(|row| {
-            let verdict = match row.verdict {
-                Verdict::Reproduced => "reproduces".to_owned(),
-                Verdict::Misprint(text) => format!("misprint: {text}"),
-                Verdict::NotReproduced(text) => format!("does not reproduce: {text}"),
+        .map(|record| {
+            let (name, reason) = (record.verdict.name(), record.verdict.reason());
+            let verdict = if reason.is_empty() {
+                name.to_owned()
+            } else {
+                format!("{name}: {reason}")
             };
             vec![
-                Cell::from(row.quantity),
-                row.place.into(),
-                row.unit.into(),
-                Cell::Number(row.printed, row.printed.to_string()),
-                Cell::fixed(row.computed, 4),
+                Cell::from(record.quantity.as_str()),
+                record.place.as_str().into(),
+                record.unit.into(),
+                Cell::Number(record.printed_value(), record.printed.clone()),
+                Cell::fixed(record.computed, 4),
                 verdict.into(),
             ]
         })

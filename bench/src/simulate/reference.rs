@@ -3,15 +3,18 @@
 
 use std::f64::consts::{SQRT_2, TAU};
 
-use epas_friction::{CagedBallScrewConfiguration, FrictionBranch, GrooveFit, GrooveSize, Limits};
-use epas_reference::curvature::{Groove, Surface, profile};
+use epas_friction::{
+    BallScrewParameters, CagedBallScrewConfiguration, FrictionBranch, GrooveFit, GrooveSize,
+    Limits, Material,
+};
+use epas_reference::curvature::Groove;
+use epas_reference::design::BallScrewDesign;
 use epas_reference::efficiency::Screw;
-use epas_reference::friction::ball_screw_ball::ScrewTrack;
 use epas_reference::friction::ball_screw_closed::ThreePointModel;
 use epas_reference::friction::ball_screw_elastic::BallSlip;
-use epas_reference::friction::contact_law::{Eccentricity, HertzLaw};
+use epas_reference::friction::contact_law::HertzLaw;
 use epas_reference::friction::whole_screw::WholeScrew;
-use epas_reference::hertz::contact_modulus;
+use epas_reference::material::Elastic;
 
 use super::subject::Subject;
 use super::trace::{Sample, Trace};
@@ -83,56 +86,18 @@ fn whole_screw(design: &UncagedDesign, trace: &Trace) -> Result<Vec<Friction>, F
 
     let refused = |error: &dyn std::fmt::Display| Failure::Data(format!("--reference: {error}"));
     let parameters = configuration.design.parameters();
-    let [pitch_radius, lead, ball_radius, contact_angle] = [
-        parameters.pitch_radius,
-        parameters.lead,
-        parameters.ball_radius,
-        parameters.contact_angle,
-    ]
-    .map(f64::from);
-    let elastic = |material: &epas_friction::Material| {
-        (
-            f64::from(material.youngs_modulus),
-            f64::from(material.poisson_ratio),
-        )
-    };
-    let modulus = contact_modulus(
-        elastic(&parameters.ball_material),
-        elastic(&parameters.groove_material),
-    );
-    let law = |groove: Groove, size: GrooveSize| -> Result<HertzLaw, Failure> {
-        let conformity = match size {
-            GrooveSize::Conformity(conformity) => f64::from(conformity),
-            GrooveSize::Radius(radius) => 0.5 * f64::from(radius) / ball_radius,
-        };
-        let (groove_radius, offset_h, offset_l) = profile(ball_radius, conformity, contact_angle);
-        let surface = Surface {
-            groove,
-            pitch_radius,
-            lead_angle: (lead / (TAU * pitch_radius)).atan(),
-            groove_radius,
-            offset_h,
-            offset_l,
-        };
-        surface
-            .check(contact_angle)
-            .map_err(|error| refused(&error))?;
-        let curvatures = surface.principal(contact_angle);
-        let along = 1.0 / (1.0 / ball_radius + curvatures.kappa1);
-        let across = 1.0 / (1.0 / ball_radius + curvatures.kappa2);
-        HertzLaw::new(along, across, modulus, Eccentricity::Exact).map_err(|error| refused(&error))
+    let drawing = drawing(parameters);
+    let law = |groove| -> Result<HertzLaw, Failure> {
+        let contact = drawing.contact(groove).map_err(|error| refused(&error))?;
+        Ok(contact.into())
     };
     let screw = WholeScrew {
         model: ThreePointModel {
-            track: ScrewTrack {
-                pitch_radius,
-                lead,
-                ball_radius,
-            },
-            screw: law(Groove::Screw, parameters.screw_groove)?,
-            nut: law(Groove::Nut, parameters.nut_groove)?,
+            track: (&drawing).into(),
+            screw: law(Groove::Screw)?,
+            nut: law(Groove::Nut)?,
             friction: configuration.friction.into(),
-            contact_angle,
+            contact_angle: drawing.contact_angle,
         },
         balls: design.balls.into(),
         turns: configuration.turns.into(),
@@ -147,7 +112,7 @@ fn whole_screw(design: &UncagedDesign, trace: &Trace) -> Result<Vec<Friction>, F
     let states = screw
         .simulate(angle, trace.samples.len() - 1, 1)
         .map_err(|error| refused(&error))?;
-    let load_torque = first.axial_load * lead / TAU;
+    let load_torque = first.axial_load * drawing.lead / TAU;
     Ok(states
         .iter()
         .map(|state| {
@@ -159,6 +124,29 @@ fn whole_screw(design: &UncagedDesign, trace: &Trace) -> Result<Vec<Friction>, F
             }
         })
         .collect())
+}
+
+/// The numbers that the design was made from, for the reference.
+fn drawing(parameters: &BallScrewParameters) -> BallScrewDesign {
+    let ball_radius = f64::from(parameters.ball_radius);
+    let groove_radius = |size: GrooveSize| match size {
+        GrooveSize::Conformity(conformity) => 2.0 * f64::from(conformity) * ball_radius,
+        GrooveSize::Radius(radius) => radius.into(),
+    };
+    let elastic = |material: &Material| Elastic {
+        youngs_modulus: material.youngs_modulus.into(),
+        poisson_ratio: material.poisson_ratio.into(),
+    };
+    BallScrewDesign {
+        pitch_radius: parameters.pitch_radius.into(),
+        lead: parameters.lead.into(),
+        ball_radius,
+        screw_groove_radius: groove_radius(parameters.screw_groove),
+        nut_groove_radius: groove_radius(parameters.nut_groove),
+        contact_angle: parameters.contact_angle.into(),
+        ball: elastic(&parameters.ball_material),
+        groove: elastic(&parameters.groove_material),
+    }
 }
 
 /// Friction of one sample.

@@ -148,7 +148,7 @@ impl Model {
             }
             Self::Train(train) => {
                 let row = train.step(sample);
-                (row.outputs.into(), Some(row))
+                (row.outputs.common, Some(row))
             }
         }
     }

@@ -67,7 +67,7 @@ const FAULTS: [(Faults, &str); 5] = [
     (Faults::LOAD_NOT_FINITE, "load not finite"),
     (Faults::SPEED_RANGE, "speed limit"),
     (Faults::LOAD_RANGE, "load limit"),
-    (Faults::TORQUE_LIMIT, "torque limit"),
+    (Faults::FRICTION_LIMIT, "torque limit"),
 ];
 
 const REGIMES: [Regime; 4] = [
@@ -151,7 +151,7 @@ impl Summary {
         }
         if let Some(TrainRow { outputs, .. }) = train {
             let pressing = self.train.get_or_insert_default();
-            let friction = f64::from(outputs.ball_friction);
+            let friction = f64::from(outputs.ball);
             pressing.energy += friction * rotation;
             pressing.peak = pressing.peak.max(friction.abs());
             pressing.most_contacts = pressing.most_contacts.max(outputs.contacts);

@@ -2,7 +2,7 @@
 
 use epas_friction::{
     Error, FrictionModel, Inputs, LinearBearingConfiguration, LinearBearingTrain, LinearInputs,
-    TrainOutputs, UncagedBallScrew, UncagedBallScrewConfiguration,
+    Outputs, UncagedBallScrew, UncagedBallScrewConfiguration,
 };
 
 use super::trace::{Sample, Trace};
@@ -14,6 +14,21 @@ const MOST_BALLS: u8 = 64;
 
 /// Most ticks for each sample of a trace.
 const MOST_TICKS: u32 = 1 << 16;
+
+/// Outputs of a train as the table and the picture show them: N m of a screw, N of a bearing.
+#[derive(Clone, Copy, Debug)]
+pub struct TrainOutputs {
+    /// What every scene has; of a bearing the friction torque is the force along the rail.
+    pub common: Outputs,
+    /// Friction from the grooves.
+    pub groove: f32,
+    /// Friction from balls that rub against each other.
+    pub ball: f32,
+    /// Pairs of balls that press on each other.
+    pub contacts: u8,
+    /// Largest force between two balls, N.
+    pub largest_contact_force: f32,
+}
 
 /// What a train does at a sample.
 #[derive(Clone, Copy, Debug)]
@@ -50,13 +65,20 @@ fn pressing<const N: usize>(train: &epas_friction::train::Train<N>) -> u64 {
 
 impl<const N: usize> Model for FrictionModel<UncagedBallScrew<N>> {
     fn step(&mut self, sample: &Sample) -> TrainOutputs {
-        FrictionModel::step(
+        let outputs = FrictionModel::step(
             self,
             Inputs {
                 nut_speed: sample.nut_speed as f32,
                 axial_load: sample.axial_load as f32,
             },
-        )
+        );
+        TrainOutputs {
+            common: outputs.into(),
+            groove: outputs.groove_torque,
+            ball: outputs.ball_torque,
+            contacts: outputs.contacts,
+            largest_contact_force: outputs.largest_contact_force,
+        }
     }
 
     fn pressing(&self) -> u64 {
@@ -66,14 +88,27 @@ impl<const N: usize> Model for FrictionModel<UncagedBallScrew<N>> {
 
 impl<const N: usize> Model for FrictionModel<LinearBearingTrain<N>> {
     fn step(&mut self, sample: &Sample) -> TrainOutputs {
-        FrictionModel::step(
+        let outputs = FrictionModel::step(
             self,
             LinearInputs {
                 speed: sample.nut_speed as f32,
                 normal_load: sample.axial_load as f32,
                 side_load: sample.side_load as f32,
             },
-        )
+        );
+        TrainOutputs {
+            common: Outputs {
+                friction_torque: outputs.friction_force,
+                load_torque: 0.0,
+                efficiency: 0.0,
+                regime: outputs.regime,
+                faults: outputs.faults,
+            },
+            groove: outputs.groove_force,
+            ball: outputs.ball_force,
+            contacts: outputs.contacts,
+            largest_contact_force: outputs.largest_contact_force,
+        }
     }
 
     fn pressing(&self) -> u64 {

@@ -32,24 +32,19 @@ pub fn draw(trace: &Trace, subject: &Subject, rows: &[Row]) -> Result<String, Fa
     });
     let curve = |value: &dyn Fn(&Row) -> f64| thin(rows, &place, value);
     let outputs = |row: &Row| row.train.map(|train| train.outputs);
-    let of = |value: fn(&epas_friction::TrainOutputs) -> f32| {
+    let of = |value: fn(&super::train::TrainOutputs) -> f32| {
         curve(&|row| outputs(row).map_or(f64::NAN, |outputs| f64::from(value(&outputs))))
     };
 
     let mut friction = vec![
+        Series::new("grooves", 0, Mark::Line, of(|outputs| outputs.groove)),
+        Series::new("ball to ball", 1, Mark::Line, of(|outputs| outputs.ball)),
         Series::new(
-            "grooves",
-            0,
+            "sum",
+            6,
             Mark::Line,
-            of(|outputs| outputs.groove_friction),
+            of(|outputs| outputs.common.friction_torque),
         ),
-        Series::new(
-            "ball to ball",
-            1,
-            Mark::Line,
-            of(|outputs| outputs.ball_friction),
-        ),
-        Series::new("sum", 6, Mark::Line, of(|outputs| outputs.friction)),
     ];
     if rows.first().is_some_and(|row| row.reference.is_some()) {
         friction.push(Series::new(

@@ -8,7 +8,7 @@ use epas_friction::ball::{AnalyticLinearBall, PUBLISHED_SLOPE, ScrewRow, SpeedDe
 use epas_friction::refined::{BallChain, BallState, FourPointBall, ScrewBall, ScrewChain};
 use epas_friction::train::Press;
 use epas_friction::train::Train;
-use epas_friction::{GrooveFit, Inputs, LoadShare, TrainOutputs};
+use epas_friction::{GrooveFit, Inputs, LoadShare, UncagedOutputs};
 
 use super::competitors::{Group, List};
 use super::{Feed, Race, Taken};
@@ -62,9 +62,9 @@ impl Taken for SpeedDeviation {
     }
 }
 
-impl Taken for TrainOutputs {
+impl Taken for UncagedOutputs {
     fn value(&self) -> f32 {
-        self.friction
+        self.friction_torque
     }
 }
 

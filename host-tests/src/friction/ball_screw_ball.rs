@@ -8,7 +8,9 @@ use nalgebra::{Matrix4, SMatrix, Vector3, Vector4};
 use super::linear_ball::EllipseLaw;
 use super::newton::{Local, Minimum, minimise, sharpen};
 use super::patch::{Patch, PatchVelocity};
-use super::{FrictionError, within};
+use crate::curvature;
+use crate::design::BallScrewDesign;
+use crate::error::{ReferenceError, within};
 
 /// The four groove flanks, screw or nut, left (towards -z) or right.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,6 +39,15 @@ impl Groove {
         matches!(self, Self::NutLeft | Self::NutRight)
     }
 
+    /// The groove that the flank belongs to.
+    pub const fn part(self) -> curvature::Groove {
+        if self.on_nut() {
+            curvature::Groove::Nut
+        } else {
+            curvature::Groove::Screw
+        }
+    }
+
     /// Signs of the x and z component of the direction from ball centre to contact.
     pub(crate) const fn signs(self) -> (f64, f64) {
         match self {
@@ -59,12 +70,22 @@ pub struct ScrewTrack {
     pub ball_radius: f64,
 }
 
+impl From<&BallScrewDesign> for ScrewTrack {
+    fn from(design: &BallScrewDesign) -> Self {
+        Self {
+            pitch_radius: design.pitch_radius,
+            lead: design.lead,
+            ball_radius: design.ball_radius,
+        }
+    }
+}
+
 impl ScrewTrack {
     /// Checks the design.
     ///
     /// # Errors
     /// When a value is outside its range.
-    pub fn check(&self) -> Result<(), FrictionError> {
+    pub fn check(&self) -> Result<(), ReferenceError> {
         within("ball_radius", self.ball_radius, 1e-6, 1.0)?;
         within(
             "pitch_radius",
@@ -156,7 +177,7 @@ pub(crate) struct ScrewRow {
 impl ScrewRow {
     /// (3.65) to (3.68) and (F.4) to (F.6) in one form: `V = (w_B - w_k) L/2pi y + (Om - w_k z_g) x q`, spin `(Om - w_k z_g) . n`,
     /// `z_g = (0, sin a, cos a)`, `w_k = 0` on the screw and `w_N` on the nut.
-    pub fn new(track: &ScrewTrack, contact: ScrewContact) -> Result<Self, FrictionError> {
+    pub fn new(track: &ScrewTrack, contact: ScrewContact) -> Result<Self, ReferenceError> {
         let angle = within("contact_angle", contact.contact_angle, 1e-3, 1.57)?;
         let load = within("load", contact.load, -1e9, 1e9)?.max(0.0);
         within("axis_ratio", contact.ellipse.axis_ratio, 1e-3, 1.0)?;
@@ -284,7 +305,7 @@ pub(crate) fn ball_dissipation(rows: &[ScrewRow], y: &Vector4<f64>, rest_spin: f
 pub(crate) fn ball_rows(
     track: &ScrewTrack,
     contacts: &[ScrewContact],
-) -> Result<Vec<ScrewRow>, FrictionError> {
+) -> Result<Vec<ScrewRow>, ReferenceError> {
     track.check()?;
     let rows = contacts
         .iter()
@@ -297,7 +318,7 @@ pub(crate) fn ball_rows(
     if loaded(false) && loaded(true) {
         Ok(rows)
     } else {
-        Err(FrictionError::Undriven)
+        Err(ReferenceError::Undriven)
     }
 }
 
@@ -311,7 +332,8 @@ pub(crate) fn rolling(track: &ScrewTrack) -> Vector4<f64> {
     )
 }
 
-/// Motion of least dissipation for given rows; `None` start means a cold one. Returns the smoothing left.
+/// Motion of least dissipation for given rows, and the spin over which friction is still smoothed (0 where every contact moves).
+/// A `warm` start lies near the end and is tried without smoothing first.
 pub(crate) fn ball_minimum(
     rows: &[ScrewRow],
     start: Vector4<f64>,
@@ -391,7 +413,7 @@ pub fn motion_with_contacts(
     contacts: &[ScrewContact],
     friction: f64,
     nut_speed: f64,
-) -> Result<ScrewMotion, FrictionError> {
+) -> Result<ScrewMotion, ReferenceError> {
     track.check()?;
     let start = rolling(track);
     motion_from(
@@ -413,11 +435,11 @@ pub fn motion_from(
     friction: f64,
     nut_speed: f64,
     start: [f64; 4],
-) -> Result<ScrewMotion, FrictionError> {
+) -> Result<ScrewMotion, ReferenceError> {
     let mu = within("friction", friction, 0.0, 1.0)?;
     within("nut_speed", nut_speed, -1e6, 1e6)?;
     if nut_speed == 0.0 {
-        return Err(FrictionError::Standstill);
+        return Err(ReferenceError::Standstill);
     }
     for value in start {
         within("start", value, -1e9, 1e9)?;
@@ -431,9 +453,7 @@ pub fn motion_from(
     if end.residual.is_nan()
         || end.residual > 1e-6 * largest * track.path_radius() / track.ball_radius
     {
-        return Err(FrictionError::NotConverged {
-            residual: mu * end.residual,
-        });
+        return Err(ReferenceError::unbalanced(mu * end.residual));
     }
     Ok(dimensional(
         track,

@@ -10,7 +10,7 @@ use super::ball_screw_ball::ScrewTrack;
 use super::contact_law::HertzLaw;
 use super::linear_ball::EllipseLaw;
 use super::patch::{Patch, PatchVelocity};
-use super::{FrictionError, within};
+use crate::error::{ReferenceError, within};
 
 /// Which contacts carry the ball.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -117,8 +117,9 @@ pub struct ThreePointModel {
 impl ThreePointModel {
     /// Speed, loads, compliance and loss of a ball.
     ///
-    /// The slip across the track is `V_1 = R_B w_N sin a/2` in each main contact. Spin from the third contact's pinning:
-    /// `Om_z = w_B L/(2 pi R_B cos b)` for one on the screw, and its mirror image on the nut. Loads:
+    /// The slip across the track is `V_1 = R_B w_N sin a/2` in each main contact. The third contact does not slip along the track,
+    /// which gives the ball's spin: `Om_z = w_B L/(2 pi R_B cos b)` with that contact on the screw, and the mirror image on the nut.
+    /// Loads:
     /// `N = F/(sin b cos a)/(1 - phi mu)`, `N_3 = 2 phi mu N` with `phi` the mean of the two main contacts' share of sliding
     /// friction. Compliance: `Y = (1/kappa_S + 1/kappa_N)/4` with `kappa` the slope of the friction force along the track by the slip.
     /// `phi`, `kappa` and the loss come from the exact integrals of [`Patch::friction`].
@@ -131,7 +132,7 @@ impl ThreePointModel {
         angles: ContactAngles,
         axial_load: f64,
         nut_speed: f64,
-    ) -> Result<ThreePointBall, FrictionError> {
+    ) -> Result<ThreePointBall, ReferenceError> {
         self.track.check()?;
         let mu = within("friction", self.friction, 1e-6, 0.5)?;
         let load = within("axial_load", axial_load.abs(), 1e-9, 1e9)?;
@@ -141,10 +142,10 @@ impl ThreePointModel {
             within("angles", value, 0.05, 1.5)?;
         }
         if nut_speed == 0.0 {
-            return Err(FrictionError::Standstill);
+            return Err(ReferenceError::Standstill);
         }
         if support == Support::TwoPoint {
-            return Err(FrictionError::Undriven);
+            return Err(ReferenceError::Undriven);
         }
         let track = &self.track;
         let (sin_a, cos_a) = track.lead_angle();

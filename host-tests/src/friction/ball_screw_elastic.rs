@@ -12,7 +12,7 @@ use super::ball_screw_ball::{
 };
 use super::ball_screw_grooves::ElasticGrooves;
 use super::newton::{Local, minimise};
-use super::{FrictionError, within};
+use crate::error::{ReferenceError, within};
 
 /// Which angular velocity enters the slip between two balls, (3.73).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -74,9 +74,11 @@ impl ElasticMotion {
     }
 }
 
-/// Last smoothing of a contact that sticks, over the nut's speed: with finer ones rounding moves the contact through it.
+/// Finest smoothing spin of a contact that sticks, over the nut's speed. With a finer one the rounding of the motion is larger
+/// than the spin over which friction reverses.
 const FINEST: f64 = 1e-5;
-/// Coarsest smoothing that still counts as a solution, where rounding stops the sharpening (loads of millinewtons with play).
+/// Coarsest smoothing spin whose solution is accepted, where rounding stops finer ones from converging (loads of millinewtons with
+/// play).
 const COARSEST: f64 = 1e-3;
 
 /// Unknowns of one ball: place in units of the approach, and motion in units of the nut's speed.
@@ -96,7 +98,7 @@ impl Problem<'_> {
         PER_BALL * self.balls.grooves.len() + 1 + usize::from(self.touching)
     }
 
-    fn rows_of(&self, ball: usize, q: &DVector<f64>) -> Result<Vec<ScrewRow>, FrictionError> {
+    fn rows_of(&self, ball: usize, q: &DVector<f64>) -> Result<Vec<ScrewRow>, ReferenceError> {
         let grooves = &self.balls.grooves[ball];
         let at = PER_BALL * ball;
         let displacement = q[PER_BALL * self.balls.grooves.len()] * self.unit;
@@ -183,7 +185,7 @@ impl Problem<'_> {
         r.iter().all(|x| x.is_finite()).then_some(r)
     }
 
-    /// Force per unit of displacement, to weigh displacements against forces.
+    /// Force per unit of displacement, N: makes the terms of displacements as large as those of forces.
     fn stiffness(&self) -> f64 {
         let grooves = &self.balls.grooves[0];
         (self.unit / (grooves.screw.compliance + grooves.nut.compliance)).powf(1.5)
@@ -282,7 +284,7 @@ impl Problem<'_> {
         let Some(mut r) = self.residual(&q) else {
             return (q, f64::INFINITY);
         };
-        // With play and a light load the ball follows a curved valley in short steps; a few steps are the rule.
+        // A few steps are the rule. With play and a light load the way to the balance is curved and takes many short ones.
         for _ in 0..400 {
             if r.amax() <= tolerance {
                 break;
@@ -317,13 +319,13 @@ impl Problem<'_> {
 }
 
 impl ElasticBalls {
-    fn check(&self) -> Result<(), FrictionError> {
+    fn check(&self) -> Result<(), ReferenceError> {
         within("grooves", self.grooves.len() as f64, 1.0, 2.0)?;
         within("friction", self.friction, 1e-3, 1.0)?;
         within("ball_friction", self.ball_friction, 0.0, 1.0)?;
         within("nut_speed", self.nut_speed, -1e6, 1e6)?;
         if self.nut_speed == 0.0 {
-            return Err(FrictionError::Standstill);
+            return Err(ReferenceError::Standstill);
         }
         self.grooves.iter().try_for_each(ElasticGrooves::check)
     }
@@ -332,7 +334,7 @@ impl ElasticBalls {
     ///
     /// # Errors
     /// When an input is out of range or the energy cannot be balanced.
-    pub fn frictionless(&self, axial_load: f64) -> Result<(Vec<[f64; 2]>, f64), FrictionError> {
+    pub fn frictionless(&self, axial_load: f64) -> Result<(Vec<[f64; 2]>, f64), ReferenceError> {
         self.check()?;
         let load = within("axial_load", axial_load, -1e9, 1e9)?;
         let (positions, displacement, _) = self.elastic_start(load, [0.0; 2])?;
@@ -345,9 +347,9 @@ impl ElasticBalls {
         &self,
         load: f64,
         push: [f64; 2],
-    ) -> Result<(Vec<[f64; 2]>, f64, f64), FrictionError> {
+    ) -> Result<(Vec<[f64; 2]>, f64, f64), ReferenceError> {
         let n = self.grooves.len() as f64;
-        let first = self.grooves.first().ok_or(FrictionError::Undriven)?;
+        let first = self.grooves.first().ok_or(ReferenceError::Undriven)?;
         let (travel, reach) =
             first.two_point_start(within("axial_load", load.abs(), 1e-9, 1e9)? / n * load.signum());
         let unit = reach;
@@ -380,7 +382,7 @@ impl ElasticBalls {
         let end = minimise(start, 1e-13 * load.abs() * unit, energy);
         let (y, residual) = (end.point, end.residual / unit);
         if residual.is_nan() || residual > 1e-4 * (load.abs() + push[0].hypot(push[1])) {
-            return Err(FrictionError::NotConverged { residual });
+            return Err(ReferenceError::unbalanced(residual));
         }
         let positions = (0..self.grooves.len())
             .map(|b| [y[2 * b] * unit, y[2 * b + 1] * unit])
@@ -392,7 +394,7 @@ impl ElasticBalls {
     ///
     /// # Errors
     /// When an input is out of range, or without convergence: see [`Self::solve`].
-    pub fn solve_apart(&self, support: ScrewSupport) -> Result<ElasticMotion, FrictionError> {
+    pub fn solve_apart(&self, support: ScrewSupport) -> Result<ElasticMotion, ReferenceError> {
         self.run(support, false)
     }
 
@@ -408,7 +410,7 @@ impl ElasticBalls {
     ///
     /// # Errors
     /// When an input is out of range, at `nut_speed = 0`, or when the residual stays above 1e-6 of the load.
-    pub fn solve(&self, support: ScrewSupport) -> Result<ElasticMotion, FrictionError> {
+    pub fn solve(&self, support: ScrewSupport) -> Result<ElasticMotion, ReferenceError> {
         let apart = self.run(support, false)?;
         let [rear, front] = apart.balls.as_slice() else {
             return Ok(apart);
@@ -419,7 +421,7 @@ impl ElasticBalls {
         self.run(support, true)
     }
 
-    fn run(&self, support: ScrewSupport, touching: bool) -> Result<ElasticMotion, FrictionError> {
+    fn run(&self, support: ScrewSupport, touching: bool) -> Result<ElasticMotion, ReferenceError> {
         self.check()?;
         let n = self.grooves.len();
         let load = match support {
@@ -427,7 +429,7 @@ impl ElasticBalls {
             ScrewSupport::Displacement(u) => self.load_at(u)?,
         };
         if load == 0.0 {
-            return Err(FrictionError::Undriven);
+            return Err(ReferenceError::Undriven);
         }
         let tolerance = 1e-12 * load.abs();
         let accept = 1e-7 * load.abs();
@@ -443,7 +445,8 @@ impl ElasticBalls {
         let (mut q, mut residual) = problem(false, 0.0).solve(cold.clone(), tolerance);
         let mut rest_spin = 0.0;
         if residual > accept {
-            // A contact sticks in the solution or on the way: from smooth friction, sharpened as fast as Newton's method bears.
+            // A contact sticks in the solution or in between: start with friction smoothed over a wide spin, and narrow it in steps from
+            // which Newton's method still converges.
             rest_spin = 3.0;
             (q, residual) = problem(false, rest_spin).solve(cold, tolerance);
             let mut factor = 0.3;
@@ -478,11 +481,11 @@ impl ElasticBalls {
         if residual <= accept {
             return Ok(self.result(&problem(touching, rest_spin), &q, residual, n));
         }
-        Err(FrictionError::NotConverged { residual: best })
+        Err(ReferenceError::unbalanced(best))
     }
 
     /// Axial load without friction at a displacement of the screw, by bisection.
-    fn load_at(&self, displacement: f64) -> Result<f64, FrictionError> {
+    fn load_at(&self, displacement: f64) -> Result<f64, ReferenceError> {
         within("support", displacement, -0.01, 0.01)?;
         let (mut low, mut high) = (1e-6_f64, 1e6_f64);
         for _ in 0..60 {
@@ -497,9 +500,9 @@ impl ElasticBalls {
         Ok((low * high).sqrt() * displacement.signum())
     }
 
-    fn cold_start(&self, load: f64) -> Result<(DVector<f64>, f64), FrictionError> {
+    fn cold_start(&self, load: f64) -> Result<(DVector<f64>, f64), ReferenceError> {
         let n = self.grooves.len();
-        let first = self.grooves.first().ok_or(FrictionError::Undriven)?;
+        let first = self.grooves.first().ok_or(ReferenceError::Undriven)?;
         let angle = first.arc_angles.iter().sum::<f64>() / 4.0;
         let normal = load.abs() / n as f64 / (angle.sin() * first.track.lead_angle().1);
         // Both main contacts push the ball across towards the third contact: SL for SR-NL loads and a nut turning

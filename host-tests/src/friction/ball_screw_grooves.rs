@@ -5,7 +5,7 @@ use nalgebra::{SMatrix, Vector3};
 use super::ball_screw_ball::{Groove, ScrewContact, ScrewTrack};
 use super::contact_law::HertzLaw;
 use super::newton::Local;
-use super::{FrictionError, within};
+use crate::error::{ReferenceError, within};
 
 /// Grooves with their elasticity: four arcs of one radius around the ball.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,7 +29,7 @@ impl ElasticGrooves {
     ///
     /// # Errors
     /// When a value is outside its range.
-    pub fn check(&self) -> Result<(), FrictionError> {
+    pub fn check(&self) -> Result<(), ReferenceError> {
         self.track.check()?;
         let r = self.track.ball_radius;
         within("groove_radius", self.groove_radius, 1.001 * r, 2.0 * r)?;

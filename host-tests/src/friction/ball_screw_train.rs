@@ -12,7 +12,7 @@ use super::ball_screw_ball::{
 };
 use super::newton::Local;
 use super::train_newton::{Train, solve_train};
-use super::{FrictionError, within};
+use crate::error::{ReferenceError, within};
 
 /// Motion of a train of balls, all neighbours close enough to touch.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,9 +43,10 @@ impl ScrewTrain {
 struct Rows<'a> {
     track: &'a ScrewTrack,
     balls: &'a [Vec<ScrewRow>],
-    /// Per multiplier: the force is the multiplier over `cos b L/(2 pi R_B)`.
+    /// Friction coefficient between balls, per unit of the train's multiplier: the force between two balls is the multiplier over
+    /// `cos b L/(2 pi R_B)`.
     ball_friction: f64,
-    /// Direction of orbiting along +y.
+    /// 1 where the balls orbit along +y, -1 where they orbit along -y.
     way: f64,
 }
 
@@ -118,13 +119,13 @@ pub fn solve_screw_train(
     friction: f64,
     ball_friction: f64,
     nut_speed: f64,
-) -> Result<ScrewTrain, FrictionError> {
+) -> Result<ScrewTrain, ReferenceError> {
     let mu = within("friction", friction, 0.0, 1.0)?;
     let between = within("ball_friction", ball_friction, 0.0, 1.0)?;
     within("nut_speed", nut_speed, -1e6, 1e6)?;
     within("balls", balls.len() as f64, 1.0, 1e4)?;
     if nut_speed == 0.0 {
-        return Err(FrictionError::Standstill);
+        return Err(ReferenceError::Standstill);
     }
     let rows = balls
         .iter()
@@ -142,12 +143,7 @@ pub fn solve_screw_train(
         ball_friction: between / arm,
         way: nut_speed.signum(),
     };
-    let (solution, rest_spin) = solve_train(&train).map_err(|error| match error {
-        FrictionError::NotConverged { residual } => FrictionError::NotConverged {
-            residual: mu * residual,
-        },
-        other => other,
-    })?;
+    let (solution, rest_spin) = solve_train(&train).map_err(|error| error.scaled(mu))?;
     let motions: Vec<_> = rows
         .iter()
         .zip(&solution.points)

@@ -4,7 +4,7 @@
 
 use super::maps::FrictionMap;
 use super::planar::{ContactFriction, PlanarContact, least_dissipation};
-use super::{FrictionError, within};
+use crate::error::{ReferenceError, within};
 
 /// Contact ellipse as a function of the load: `a = semi_major_constant F^(1/3)`, `b = axis_ratio a`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,7 +58,7 @@ impl LinearBall {
     ///
     /// # Errors
     /// When a value is outside its range, or when no bottom or no top contact is loaded.
-    pub fn check(&self) -> Result<(), FrictionError> {
+    pub fn check(&self) -> Result<(), ReferenceError> {
         within("ball_radius", self.ball_radius, 1e-6, 1.0)?;
         within("friction", self.friction, 0.0, 1.0)?;
         for angle in self.contact_angles {
@@ -82,7 +82,7 @@ impl LinearBall {
         if (bl || br) && (tr || tl) {
             Ok(())
         } else {
-            Err(FrictionError::Undriven)
+            Err(ReferenceError::Undriven)
         }
     }
 
@@ -90,7 +90,7 @@ impl LinearBall {
     ///
     /// Kinematics (3.22), (3.23) and (F.1) to (F.3). Speeds in units of `v`, lengths of `R_B`; the
     /// friction coefficient only scales all forces of a ball alike, so that the motion for `mu = 0` is the limit.
-    pub(crate) fn contacts(&self) -> Result<[PlanarContact; 4], FrictionError> {
+    pub(crate) fn contacts(&self) -> Result<[PlanarContact; 4], ReferenceError> {
         let map = FrictionMap::new(self.ellipse.axis_ratio)?;
         // (sign of x, sign of y) of the contact direction: BL, BR below, TR, TL above.
         let signs = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
@@ -124,7 +124,7 @@ impl LinearBall {
     ///
     /// # Errors
     /// As [`Self::check`]; at `speed = 0`; and when the residual stays above 1e-6 of the largest load.
-    pub fn solve(&self, speed: f64) -> Result<LinearMotion, FrictionError> {
+    pub fn solve(&self, speed: f64) -> Result<LinearMotion, ReferenceError> {
         // Pure rolling about the x axis at the mean contact angle.
         self.solve_from(speed, [0.5, 0.7, 0.0])
     }
@@ -133,11 +133,11 @@ impl LinearBall {
     ///
     /// # Errors
     /// As [`Self::solve`].
-    pub fn solve_from(&self, speed: f64, start: [f64; 3]) -> Result<LinearMotion, FrictionError> {
+    pub fn solve_from(&self, speed: f64, start: [f64; 3]) -> Result<LinearMotion, ReferenceError> {
         self.check()?;
         within("speed", speed, -1e6, 1e6)?;
         if speed == 0.0 {
-            return Err(FrictionError::Standstill);
+            return Err(ReferenceError::Standstill);
         }
         for value in start {
             within("start", value, -1e6, 1e6)?;
@@ -146,9 +146,7 @@ impl LinearBall {
         let motion = least_dissipation(&contacts, start);
         let largest = self.contact_forces.iter().fold(0.0_f64, |m, f| m.max(*f));
         if motion.residual.is_nan() || motion.residual > 1e-6 * largest {
-            return Err(FrictionError::NotConverged {
-                residual: self.friction * motion.residual,
-            });
+            return Err(ReferenceError::unbalanced(self.friction * motion.residual));
         }
         let mut friction = [ContactFriction::default(); 4];
         for (to, from) in friction.iter_mut().zip(&motion.contacts) {

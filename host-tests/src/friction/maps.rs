@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 use ellip::{elliprd, elliprf, elliprg};
 use gauss_quad::GaussLegendre;
 
-use super::{FrictionError, within};
+use crate::error::{ReferenceError, within};
 
 /// Nodes of the fixed rule. The integrand has a branch point at a distance of about the axis ratio
 /// from the end of the interval, so that 160 nodes give full precision down to an axis ratio of 0.02.
@@ -68,12 +68,12 @@ impl FrictionMap {
     ///
     /// # Errors
     /// When the axis ratio is outside its range.
-    pub fn new(axis_ratio: f64) -> Result<Self, FrictionError> {
+    pub fn new(axis_ratio: f64) -> Result<Self, ReferenceError> {
         let k = within("axis_ratio", axis_ratio, Self::MIN_AXIS_RATIO, 1.0)?;
         let m = (1.0 - k) * (1.0 + k);
         // Carlson's forms: complete_d = (K - E)/m and complete_b = (E - (1 - m) K)/m do not cancel for a circle.
         let kc2 = k * k;
-        let out_of_range = |_| FrictionError::OutOfRange {
+        let out_of_range = |_| ReferenceError::OutOfRange {
             field: "axis_ratio",
             value: axis_ratio,
             min: Self::MIN_AXIS_RATIO,

@@ -17,6 +17,7 @@
 //! | [`contact_law`] | size and stiffness of a Hertzian contact, exact and as the dissertation takes it |
 //! | [`planar`] | equilibrium of a ball whose contacts slip along the track only |
 //! | [`linear_ball`] | ball of a linear bearing, statics, the published analytical formulas |
+//! | [`isotonic`] | rows of balls that push each other, each answering a force in proportion, three ways |
 //! | [`chain`] | chains of touching balls in a linear bearing, with and without ball-to-ball friction |
 //! | [`rotary_ball`] | four-point rotary bearing, statics and friction (Tables 3.1 and 3.2) |
 //! | [`rotary_bearing`] | whole rotary bearing: load distribution and friction (section 4.3.1) |
@@ -30,8 +31,6 @@
 //! Units: m, rad, s, N, W, Pa. Signs: the velocity of a contact is that of the ball minus that of
 //! the groove; forces and moments are those on the ball.
 
-use std::fmt;
-
 pub mod area;
 pub mod ball_screw_ball;
 pub mod ball_screw_closed;
@@ -40,6 +39,7 @@ pub mod ball_screw_grooves;
 pub mod ball_screw_train;
 pub mod chain;
 pub mod contact_law;
+pub mod isotonic;
 pub mod linear_ball;
 pub mod maps;
 mod newton;
@@ -49,74 +49,3 @@ pub mod rotary_ball;
 pub mod rotary_bearing;
 mod train_newton;
 pub mod whole_screw;
-
-/// Why a friction model could not answer.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum FrictionError {
-    /// An input outside the range in which the model means something.
-    OutOfRange {
-        /// Name of the input, as spelled in the structure or argument list.
-        field: &'static str,
-        /// The value given.
-        value: f64,
-        /// Smallest value allowed.
-        min: f64,
-        /// Largest value allowed.
-        max: f64,
-    },
-    /// Coulomb friction does not depend on the magnitude of the speed, and has no direction at rest.
-    Standstill,
-    /// The loaded contacts leave the speed of the ball open (a loaded contact is missing on one side).
-    Undriven,
-    /// No contact takes up the load: it points out of the grooves, or play is larger than the model allows.
-    Unsupported,
-    /// The iteration stopped before the residual came under its tolerance.
-    NotConverged {
-        /// Largest residual left, in N.
-        residual: f64,
-    },
-}
-
-impl fmt::Display for FrictionError {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::OutOfRange {
-                field,
-                value,
-                min,
-                max,
-            } => {
-                write!(out, "{field} = {value} is outside {min} to {max}")
-            }
-            Self::Standstill => write!(
-                out,
-                "speed is zero: Coulomb friction has no direction at rest"
-            ),
-            Self::Undriven => write!(out, "the loaded contacts leave the speed of the ball open"),
-            Self::Unsupported => write!(out, "no contact takes up the load"),
-            Self::NotConverged { residual } => write!(out, "no convergence, {residual} N left"),
-        }
-    }
-}
-
-impl std::error::Error for FrictionError {}
-
-/// Passes `value` when it is finite and lies in `min..=max`.
-pub(crate) fn within(
-    field: &'static str,
-    value: f64,
-    min: f64,
-    max: f64,
-) -> Result<f64, FrictionError> {
-    if value.is_finite() && value >= min && value <= max {
-        Ok(value)
-    } else {
-        Err(FrictionError::OutOfRange {
-            field,
-            value,
-            min,
-            max,
-        })
-    }
-}

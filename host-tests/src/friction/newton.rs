@@ -83,8 +83,8 @@ pub(crate) fn minimise<const N: usize>(
     }
 }
 
-/// Stages of the smoothing at rest, each ten times finer: from 0.1 to 1e-8 of the spin scale, which is one. Finer ones drown in
-/// rounding: a contact at rest has a stiffness of the friction limit over the rest speed.
+/// Stages of the smoothing at rest, each ten times finer: from 0.1 to 1e-8 of the spin scale, which is one. A finer one has no use:
+/// the stiffness of a contact at rest, its friction limit over the rest speed, would amplify rounding above the tolerance.
 pub(crate) const STAGES: usize = 8;
 
 /// Minimises a power that has kinks at rest: smoothed with a spin at rest that falls tenfold from 0.1 to 1e-8, each stage from the

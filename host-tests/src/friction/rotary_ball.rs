@@ -8,7 +8,7 @@ use super::contact_law::{Eccentricity, HertzLaw};
 use super::maps::FrictionMap;
 use super::newton::{Local, minimise};
 use super::planar::{ContactFriction, PlanarContact, dissipation, least_dissipation};
-use super::{FrictionError, within};
+use crate::error::{ReferenceError, within};
 
 /// Direction of each contact from the ball centre: signs of the axial (x) and radial (y) component.
 pub(super) const SIGNS: [(f64, f64); 4] = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
@@ -75,7 +75,7 @@ impl RotaryBearing {
     ///
     /// # Errors
     /// When the design is not one.
-    pub fn contact_law(&self, outer: bool) -> Result<HertzLaw, FrictionError> {
+    pub fn contact_law(&self, outer: bool) -> Result<HertzLaw, ReferenceError> {
         let r = within("ball_radius", self.ball_radius, 1e-6, 1.0)?;
         let pitch = within("pitch_radius", self.pitch_radius, 1.5 * r, 100.0)?;
         let conformity = within("conformity", self.conformity, 0.501, 1.0)?;
@@ -113,7 +113,7 @@ impl RotaryBearing {
         &self,
         axial_load: f64,
         radial_displacement: f64,
-    ) -> Result<RotaryContacts, FrictionError> {
+    ) -> Result<RotaryContacts, ReferenceError> {
         let load = within("axial_load", axial_load, 1e-9, 1e9)?;
         let lift = within(
             "radial_displacement",
@@ -181,13 +181,13 @@ impl RotaryBearing {
         let residual = end.residual / unit;
         let largest = contacts.contact_forces.iter().fold(load, |m, f| m.max(*f));
         if residual.is_nan() || residual > 1e-8 * largest {
-            return Err(FrictionError::NotConverged { residual });
+            return Err(ReferenceError::unbalanced(residual));
         }
         Ok(contacts)
     }
 
     /// Rows for the unknowns `(w_B, w_x, w_y)/w_I`, friction coefficient one; lengths in ball radii. (3.10) to (3.14).
-    fn rows(&self, contacts: &RotaryContacts) -> Result<[PlanarContact; 4], FrictionError> {
+    fn rows(&self, contacts: &RotaryContacts) -> Result<[PlanarContact; 4], ReferenceError> {
         let laws = [self.contact_law(false)?, self.contact_law(true)?];
         let maps = [
             FrictionMap::new(laws[0].ellipse.axis_ratio)?,
@@ -216,14 +216,14 @@ impl RotaryBearing {
             });
         }
         let [Some(il), Some(ir), Some(or), Some(ol)] = rows else {
-            return Err(FrictionError::Undriven);
+            return Err(ReferenceError::Undriven);
         };
         let rows = [il, ir, or, ol];
         let loaded = |i: usize| rows[i].friction_limit > 0.0;
         if (loaded(0) || loaded(1)) && (loaded(2) || loaded(3)) {
             Ok(rows)
         } else {
-            Err(FrictionError::Undriven)
+            Err(ReferenceError::Undriven)
         }
     }
 
@@ -236,11 +236,11 @@ impl RotaryBearing {
         contacts: &RotaryContacts,
         friction: f64,
         inner_speed: f64,
-    ) -> Result<RotaryMotion, FrictionError> {
+    ) -> Result<RotaryMotion, ReferenceError> {
         let mu = within("friction", friction, 0.0, 1.0)?;
         let speed = within("inner_speed", inner_speed, -1e6, 1e6)?;
         if speed == 0.0 {
-            return Err(FrictionError::Standstill);
+            return Err(ReferenceError::Standstill);
         }
         let rows = self.rows(contacts)?;
         let solution = least_dissipation(&rows, self.rolling_start());
@@ -251,9 +251,7 @@ impl RotaryBearing {
         if solution.residual.is_nan()
             || solution.residual > 1e-6 * largest * self.pitch_radius / self.ball_radius
         {
-            return Err(FrictionError::NotConverged {
-                residual: mu * solution.residual,
-            });
+            return Err(ReferenceError::unbalanced(mu * solution.residual));
         }
         let mut frictions = [ContactFriction::default(); 4];
         for (to, from) in frictions.iter_mut().zip(&solution.contacts) {
@@ -278,12 +276,12 @@ impl RotaryBearing {
         friction: f64,
         inner_speed: f64,
         sigmoid_slope: f64,
-    ) -> Result<RotaryMotion, FrictionError> {
+    ) -> Result<RotaryMotion, ReferenceError> {
         let mu = within("friction", friction, 0.0, 1.0)?;
         let speed = within("inner_speed", inner_speed, -1e6, 1e6)?;
         let final_slope = within("sigmoid_slope", sigmoid_slope, 1e-3, 1e6)?;
         if speed == 0.0 {
-            return Err(FrictionError::Standstill);
+            return Err(ReferenceError::Standstill);
         }
         let rows = self.rows(contacts)?;
         let width = self.contact_angle.sin();
@@ -309,7 +307,8 @@ impl RotaryBearing {
         };
         let total: f64 = rows.iter().map(|row| row.friction_limit).sum();
         let mut best: Option<(Vector3<f64>, f64)> = None;
-        // Sharpened from a broad sigmoid, and from both rolling starts: the equations have no merit function of their own.
+        // The equations have no potential whose fall would guide Newton's method: it starts with a broad sigmoid that is made
+        // steeper in steps, from plain rolling and, where that fails, from the motion of least dissipation.
         let starts = [
             Vector3::from(self.rolling_start()),
             Vector3::from(least_dissipation(&rows, self.rolling_start()).motion),
@@ -332,13 +331,9 @@ impl RotaryBearing {
                 break;
             }
         }
-        let (y, residual) = best.ok_or(FrictionError::NotConverged {
-            residual: f64::INFINITY,
-        })?;
+        let (y, residual) = best.ok_or(ReferenceError::unbalanced(f64::INFINITY))?;
         if residual > 1e-8 * total {
-            return Err(FrictionError::NotConverged {
-                residual: mu * residual,
-            });
+            return Err(ReferenceError::unbalanced(mu * residual));
         }
         let motion = [y.x, y.y, y.z];
         let frictions = rows.map(|row| {

@@ -8,9 +8,9 @@
 
 use nalgebra::{Matrix2, Matrix2x5, SMatrix, SVector, Vector2};
 
-use super::newton::{Local, minimise};
+use super::newton::{Local, Minimum, minimise};
 use super::rotary_ball::{RotaryBearing, RotaryContacts, SIGNS};
-use super::{FrictionError, within};
+use crate::error::{ReferenceError, within};
 
 /// Which contacts the balls of a row can make.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -110,7 +110,7 @@ pub struct BearingFriction {
 
 type Ring = SVector<f64, 5>;
 
-/// Position and laws of one ball.
+/// Place of one ball, and stiffness and geometry of its contacts.
 struct Place<'a> {
     row: &'a BallRow,
     index: usize,
@@ -154,8 +154,8 @@ impl Place<'_> {
         )
     }
 
-    /// The ball's energy for displaced rings, at the least of the ball's position, with its derivatives by the ring; the
-    /// Hessian is the Schur complement of the ball's own.
+    /// Energy of the ball where it lies between displaced rings, which is where its energy is least, with the derivatives by the
+    /// ring's displacements. The ball's own position is eliminated, so that the Hessian is a Schur complement.
     fn relax(&self, ring: &Ring, unit: f64, tolerance: f64) -> Relaxed {
         let (sin, cos) = self.row.bearing.contact_angle.sin_cos();
         let moves = [0, 1, 2, 3].map(|contact| self.motion_of(contact));
@@ -163,7 +163,7 @@ impl Place<'_> {
         let rest = SIGNS.map(|(sx, sy)| Vector2::new(sx * sin, sy * cos) * self.offset);
         let arms = |y: &Vector2<f64>| [0, 1, 2, 3].map(|i| y * unit - shift[i] + rest[i]);
         let force = |y: &Vector2<f64>, i: usize, arm: &Vector2<f64>| {
-            // |rest + moved| - |rest|, without the difference that takes the digits of a small load.
+            // |rest + moved| - |rest|, as a quotient: the difference would lose the digits of a small load.
             let moved = y * unit - shift[i];
             let longer = moved.dot(&(arm + rest[i])) / (arm.norm() + self.offset);
             let deflection = longer + self.row.oversize;
@@ -233,9 +233,9 @@ impl Place<'_> {
     }
 }
 
-fn check(rows: &[BallRow]) -> Result<(), FrictionError> {
+fn check(rows: &[BallRow]) -> Result<(), ReferenceError> {
     if rows.is_empty() {
-        return Err(FrictionError::Unsupported);
+        return Err(ReferenceError::Unsupported);
     }
     for row in rows {
         within("balls", row.balls as f64, 1.0, 1000.0)?;
@@ -248,7 +248,7 @@ fn check(rows: &[BallRow]) -> Result<(), FrictionError> {
     Ok(())
 }
 
-fn places(rows: &[BallRow]) -> Result<Vec<Place<'_>>, FrictionError> {
+fn places(rows: &[BallRow]) -> Result<Vec<Place<'_>>, ReferenceError> {
     let mut places = Vec::new();
     for (index, row) in rows.iter().enumerate() {
         let compliances = [
@@ -273,172 +273,242 @@ fn places(rows: &[BallRow]) -> Result<Vec<Place<'_>>, FrictionError> {
 /// Loads up to 1e6 N, moments up to 1e5 N m. Without load and without preload there is nothing to share: forces are zero.
 ///
 /// # Errors
-/// [`FrictionError`]: an input out of range; `Unsupported` if no displacement up to a quarter of the ball radius makes the balls
+/// [`ReferenceError`]: an input out of range; `Unsupported` if no displacement up to a quarter of the ball radius makes the balls
 /// take up the load, or only by contacts beyond the ends of the groove arcs; no convergence to 1e-7 of the largest
 /// force and the rounding of a deflection in the play.
 pub fn distribute(
     rows: &[BallRow],
     load: &RingLoad,
     tilt: Tilt,
-) -> Result<LoadedBearing, FrictionError> {
+) -> Result<LoadedBearing, ReferenceError> {
     check(rows)?;
-    for (field, value) in [
-        ("axial", load.axial),
-        ("radial", load.radial[0]),
-        ("radial", load.radial[1]),
-    ] {
-        within(field, value, -1e6, 1e6)?;
-    }
-    for moment in load.moment {
-        within("moment", moment, -1e5, 1e5)?;
-    }
-    let places = places(rows)?;
+    load.check()?;
     let pitch_radius = rows[0].bearing.pitch_radius;
-    // Rotations in displacements at the pitch circle.
+    // Rotations count as displacements at the pitch circle, and moments as forces there.
     let widths = Ring::new(1.0, 1.0, 1.0, 1.0 / pitch_radius, 1.0 / pitch_radius);
-    let held = |i: usize| tilt == Tilt::Held && i >= 3;
-    let mut push = Ring::new(
-        load.axial,
-        load.radial[0],
-        load.radial[1],
-        load.moment[0],
-        load.moment[1],
-    )
-    .component_mul(&widths);
-    for i in 3..5 {
-        if held(i) {
-            push[i] = 0.0;
-        }
+    let mut push = load.generalised().component_mul(&widths);
+    if tilt == Tilt::Held {
+        push[3] = 0.0;
+        push[4] = 0.0;
     }
-    let total = push.norm();
-    let compliance: f64 = places[0].compliances.iter().sum();
-    let preload = rows
-        .iter()
-        .map(|row| (row.oversize.max(0.0) / compliance).powf(1.5))
-        .fold(0.0, f64::max);
-    let scale = total.max(preload).max(1e-12);
-    let unit = compliance * scale.powf(2.0 / 3.0);
-    // Rounding of a deflection that is a small difference of play and way.
-    let play = rows
-        .iter()
-        .fold(0.0, |most: f64, row| most.max(row.oversize.abs()));
-    let tolerance = scale * (1e-14 + 1e-15 * play / unit);
-    let energy = |y: &Ring, push: &Ring| {
-        let ring = y.component_mul(&widths) * unit;
+    let problem = Distribution::new(rows, push, widths, tilt)?;
+    let end = problem.solve()?;
+    problem.loaded(&end, load)
+}
+
+impl RingLoad {
+    fn check(&self) -> Result<(), ReferenceError> {
+        for (field, value) in [
+            ("axial", self.axial),
+            ("radial", self.radial[0]),
+            ("radial", self.radial[1]),
+        ] {
+            within(field, value, -1e6, 1e6)?;
+        }
+        for moment in self.moment {
+            within("moment", moment, -1e5, 1e5)?;
+        }
+        Ok(())
+    }
+
+    /// Forces along x, y, z and moments about y and z.
+    fn generalised(&self) -> Ring {
+        let ([y, z], [about_y, about_z]) = (self.radial, self.moment);
+        Ring::new(self.axial, y, z, about_y, about_z)
+    }
+}
+
+/// The search for the displacements of the inner ring; unknowns in units of `unit`, rotations at the pitch circle.
+struct Distribution<'a> {
+    places: Vec<Place<'a>>,
+    tilt: Tilt,
+    /// Displacement and rotation per unknown.
+    widths: Ring,
+    /// Load on the unknowns, N.
+    push: Ring,
+    /// Magnitude of the load, N.
+    total: f64,
+    /// The larger of load and preload, N.
+    scale: f64,
+    /// Approach of a ball under that force, m.
+    unit: f64,
+    /// Rounding of the balls' forces, N.
+    tolerance: f64,
+    /// Largest displacement that is tried, in units of `unit`.
+    limit: f64,
+}
+
+impl<'a> Distribution<'a> {
+    fn new(
+        rows: &'a [BallRow],
+        push: Ring,
+        widths: Ring,
+        tilt: Tilt,
+    ) -> Result<Self, ReferenceError> {
+        let places = places(rows)?;
+        let total = push.norm();
+        let compliance: f64 = places[0].compliances.iter().sum();
+        let preload = rows
+            .iter()
+            .map(|row| (row.oversize.max(0.0) / compliance).powf(1.5))
+            .fold(0.0, f64::max);
+        let scale = total.max(preload).max(1e-12);
+        let unit = compliance * scale.powf(2.0 / 3.0);
+        // Rounding of a deflection where it is the small difference of the ring's displacement and the play.
+        let play = rows
+            .iter()
+            .fold(0.0, |most: f64, row| most.max(row.oversize.abs()));
+        Ok(Self {
+            places,
+            tilt,
+            widths,
+            push,
+            total,
+            scale,
+            unit,
+            tolerance: scale * (1e-14 + 1e-15 * play / unit),
+            limit: 0.25 * rows[0].bearing.ball_radius / unit,
+        })
+    }
+
+    /// Displacements and rotations of the ring at the unknowns `y`.
+    fn ring(&self, y: &Ring) -> Ring {
+        y.component_mul(&self.widths) * self.unit
+    }
+
+    /// Elastic energy of all balls less the work of the load `push`.
+    fn energy(&self, y: &Ring, push: &Ring) -> Local<5> {
+        let (ring, unit, widths) = (self.ring(y), self.unit, &self.widths);
         let mut sum = Local {
             value: -push.dot(y) * unit,
             gradient: -push * unit,
             hessian: SMatrix::<f64, 5, 5>::zeros(),
         };
-        for place in &places {
-            let ball = place.relax(&ring, unit, tolerance).ring;
+        for place in &self.places {
+            let ball = place.relax(&ring, unit, self.tolerance).ring;
             sum.value += ball.value;
-            sum.gradient += ball.gradient.component_mul(&widths) * unit;
+            sum.gradient += ball.gradient.component_mul(widths) * unit;
             let widened =
                 SMatrix::<f64, 5, 5>::from_fn(|i, j| ball.hessian[(i, j)] * widths[i] * widths[j]);
             sum.hessian += widened * (unit * unit);
         }
-        let mean = sum.hessian.trace() / 5.0;
-        for i in (0..5).filter(|i| held(*i)) {
-            sum.gradient[i] = 0.0;
-            sum.hessian.row_mut(i).fill(0.0);
-            sum.hessian.column_mut(i).fill(0.0);
-            sum.hessian[(i, i)] = mean;
+        if self.tilt == Tilt::Held {
+            let mean = sum.hessian.trace() / 5.0;
+            for i in 3..5 {
+                sum.gradient[i] = 0.0;
+                sum.hessian.row_mut(i).fill(0.0);
+                sum.hessian.column_mut(i).fill(0.0);
+                sum.hessian[(i, i)] = mean;
+            }
         }
         sum
-    };
-    let along = push / total.max(f64::MIN_POSITIVE);
-    let limit = 0.25 * rows[0].bearing.ball_radius / unit;
-    let from = |push: &Ring| {
-        if total > 0.0 {
-            take_up(limit, |reach| {
-                energy(&(along * reach), push).gradient.dot(&along)
+    }
+
+    /// A displacement along the load at which the balls take it up; none where they never do.
+    fn start(&self, push: &Ring) -> Option<Ring> {
+        if self.total > 0.0 {
+            let along = self.push / self.total.max(f64::MIN_POSITIVE);
+            take_up(self.limit, |reach| {
+                self.energy(&(along * reach), push).gradient.dot(&along)
             })
             .map(|reach| along * reach)
         } else {
             Some(Ring::zeros())
         }
-    };
-    let solve = |start: Ring, push: &Ring| {
-        minimise(start, (1e-12 * scale + 10.0 * tolerance) * unit, |y| {
-            energy(y, push)
-        })
-    };
-    let start = from(&push).ok_or(FrictionError::Unsupported)?;
-    let mut end = solve(start, &push);
-    if end.residual > (1e-9 * scale + 100.0 * tolerance) * unit {
-        // A light load in much play touches few balls, and most directions have no stiffness: come down from a load that closes
-        // the play on more of them.
-        let mut lift = (1e3 / scale).max(1e3);
-        let mut descent = from(&(push * lift));
-        while let Some(start) = descent {
-            end = solve(start, &(push * lift));
-            if lift <= 1.0 {
-                break;
-            }
-            lift = (0.1 * lift).max(1.0);
-            descent = Some(end.point);
-        }
     }
-    let ring = end.point.component_mul(&widths) * unit;
-    let mut residual = end.residual / unit;
-    let mut largest = total;
-    let mut taken = Ring::zeros();
-    let balls: Vec<_> = places
-        .iter()
-        .map(|place| {
-            let ball = place.relax(&ring, unit, tolerance);
+
+    fn minimise(&self, start: Ring, push: &Ring) -> Minimum<5> {
+        let tolerance = (1e-12 * self.scale + 10.0 * self.tolerance) * self.unit;
+        minimise(start, tolerance, |y| self.energy(y, push))
+    }
+
+    fn solve(&self) -> Result<Minimum<5>, ReferenceError> {
+        let start = self.start(&self.push).ok_or(ReferenceError::Unsupported)?;
+        let mut end = self.minimise(start, &self.push);
+        if end.residual > (1e-9 * self.scale + 100.0 * self.tolerance) * self.unit {
+            // A light load in much play touches few balls, and most directions have no stiffness: come down from a load that closes
+            // the play on more of them.
+            let mut lift = (1e3 / self.scale).max(1e3);
+            let mut descent = self.start(&(self.push * lift));
+            while let Some(start) = descent {
+                end = self.minimise(start, &(self.push * lift));
+                if lift <= 1.0 {
+                    break;
+                }
+                lift = (0.1 * lift).max(1.0);
+                descent = Some(end.point);
+            }
+        }
+        Ok(end)
+    }
+
+    /// The bearing at the end of the search, where it is in balance and no contact has left its arc.
+    fn loaded(&self, end: &Minimum<5>, load: &RingLoad) -> Result<LoadedBearing, ReferenceError> {
+        let ring = self.ring(&end.point);
+        let mut residual = end.residual / self.unit;
+        let mut largest = self.total;
+        let mut taken = Ring::zeros();
+        let mut balls = Vec::with_capacity(self.places.len());
+        for place in &self.places {
+            let ball = place.relax(&ring, self.unit, self.tolerance);
             residual = residual.max(ball.residual);
             taken += ball.ring.gradient;
-            largest = ball
-                .forces
-                .iter()
-                .fold(largest, |most, force| most.max(*force));
-            let mut angles = [0.0; 4];
-            for ((angle, arm), (sx, sy)) in angles.iter_mut().zip(&ball.arms).zip(SIGNS) {
-                *angle = (arm.x * sx).atan2(arm.y * sy);
-            }
-            LoadedBall {
-                row: place.index,
-                azimuth: place.azimuth,
-                contacts: RotaryContacts {
-                    contact_angles: angles,
-                    contact_forces: ball.forces,
-                },
-            }
+            largest = ball.forces.into_iter().fold(largest, f64::max);
+            balls.push(place.loaded(&ball));
+        }
+        if residual.is_nan() || residual > 1e-7 * largest.max(1e-9) + 10.0 * self.tolerance {
+            return Err(ReferenceError::unbalanced(residual));
+        }
+        if !balls.iter().all(LoadedBall::lies_on_its_arcs) {
+            return Err(ReferenceError::Unsupported);
+        }
+        Ok(LoadedBearing {
+            displacement: [ring[0], ring[1], ring[2]],
+            rotation: [ring[3], ring[4]],
+            balls,
+            shaft_moment: match self.tilt {
+                Tilt::Free => [0.0; 2],
+                Tilt::Held => [taken[3] - load.moment[0], taken[4] - load.moment[1]],
+            },
+            residual,
+            steps: end.iterations,
         })
-        .collect();
-    if residual.is_nan() || residual > 1e-7 * largest.max(1e-9) + 10.0 * tolerance {
-        return Err(FrictionError::NotConverged { residual });
     }
-    // The arcs end in the groove's bottom and at its edge.
-    let on_arc = |angle: f64| (0.0..=std::f64::consts::FRAC_PI_2).contains(&angle);
-    let beyond = balls.iter().any(|ball: &LoadedBall| {
+}
+
+impl Place<'_> {
+    /// Contact angles and loads of the ball as it lies.
+    fn loaded(&self, ball: &Relaxed) -> LoadedBall {
+        let mut angles = [0.0; 4];
+        for ((angle, arm), (sx, sy)) in angles.iter_mut().zip(&ball.arms).zip(SIGNS) {
+            *angle = (arm.x * sx).atan2(arm.y * sy);
+        }
+        LoadedBall {
+            row: self.index,
+            azimuth: self.azimuth,
+            contacts: RotaryContacts {
+                contact_angles: angles,
+                contact_forces: ball.forces,
+            },
+        }
+    }
+}
+
+impl LoadedBall {
+    /// Whether every loaded contact lies between the groove's bottom and its edge, where the arcs end.
+    fn lies_on_its_arcs(&self) -> bool {
+        let on_arc = |angle: f64| (0.0..=std::f64::consts::FRAC_PI_2).contains(&angle);
         let RotaryContacts {
             contact_angles,
             contact_forces,
-        } = ball.contacts;
+        } = self.contacts;
         let mut contacts = contact_angles.into_iter().zip(contact_forces);
-        contacts.any(|(angle, force)| force > 0.0 && !on_arc(angle))
-    });
-    if beyond {
-        return Err(FrictionError::Unsupported);
+        !contacts.any(|(angle, force)| force > 0.0 && !on_arc(angle))
     }
-    Ok(LoadedBearing {
-        displacement: [ring[0], ring[1], ring[2]],
-        rotation: [ring[3], ring[4]],
-        balls,
-        shaft_moment: match tilt {
-            Tilt::Free => [0.0; 2],
-            Tilt::Held => [taken[3] - load.moment[0], taken[4] - load.moment[1]],
-        },
-        residual,
-        steps: end.iterations,
-    })
 }
 
-/// The reach along the load, at most `limit`, from which the balls push back more than the load pushes: the start of Newton's
-/// method. In a bearing with play there is no stiffness before.
+/// The displacement along the load, at most `limit`, at which the balls push back more than the load pushes: Newton's method
+/// starts there. With less displacement a bearing with play has no stiffness.
 fn take_up(limit: f64, excess: impl Fn(f64) -> f64) -> Option<f64> {
     let mut low = 0.0;
     let mut high = f64::min(1.0, limit);
@@ -474,10 +544,10 @@ impl LoadedBearing {
         rows: &[BallRow],
         friction: f64,
         inner_speed: f64,
-    ) -> Result<BearingFriction, FrictionError> {
+    ) -> Result<BearingFriction, ReferenceError> {
         let mut ball_torques = Vec::with_capacity(self.balls.len());
         for ball in &self.balls {
-            let row = rows.get(ball.row).ok_or(FrictionError::Unsupported)?;
+            let row = rows.get(ball.row).ok_or(ReferenceError::Unsupported)?;
             let [il, ir, or, ol] = ball.contacts.contact_forces;
             let torque = if il.max(ir) > 0.0 && or.max(ol) > 0.0 {
                 let mut contacts = ball.contacts;

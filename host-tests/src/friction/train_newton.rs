@@ -2,9 +2,9 @@
 
 use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 
-use super::FrictionError;
-use super::chain::pool_adjacent_violators;
+use super::isotonic::pool_adjacent_violators;
 use super::newton::{Local, STAGES};
+use crate::error::ReferenceError;
 
 /// A train of balls whose first unknown is the speed along the track, rear to front.
 pub(crate) trait Train<const N: usize> {
@@ -29,7 +29,7 @@ pub(crate) trait Train<const N: usize> {
 /// Returns motions, multipliers and residual, and the smoothing they belong to.
 pub(crate) fn solve_train<const N: usize>(
     train: &impl Train<N>,
-) -> Result<(TrainMinimum<N>, f64), FrictionError> {
+) -> Result<(TrainMinimum<N>, f64), ReferenceError> {
     let cold: Vec<_> = (0..train.balls()).map(|j| train.start(j)).collect();
     let tolerance = 4e-14 * train.largest();
     let minimum_at = |start: &[SVector<f64, N>], rest_spin: f64| {
@@ -81,14 +81,12 @@ pub(crate) fn solve_train<const N: usize>(
                 let accept = f64::max(1e-8, 1e-14 / spin) * train.largest();
                 path = (next.residual <= accept).then_some(next);
             }
-            solution = path.ok_or(FrictionError::NotConverged { residual })?;
+            solution = path.ok_or(ReferenceError::unbalanced(residual))?;
             rest_spin = spin;
         }
     }
     if solution.residual.is_nan() || solution.residual > 1e-6 * train.largest() {
-        return Err(FrictionError::NotConverged {
-            residual: solution.residual,
-        });
+        return Err(ReferenceError::unbalanced(solution.residual));
     }
     solution.iterations += iterations;
     Ok((solution, rest_spin))
@@ -137,90 +135,139 @@ fn minimise_train<const N: usize>(
     let mut stalled = 0;
     while result.iterations < 200 && stalled < 4 {
         result.iterations += 1;
-        let mut free = Vec::with_capacity(n);
-        let mut compliance = Vec::with_capacity(n);
-        let mut steps = Vec::with_capacity(n);
-        for (y, local) in points.iter().zip(&locals) {
-            let mean = (local.hessian.trace() / N as f64).max(1e-300);
-            let mut shifted = local.hessian + nalgebra::SMatrix::identity() * (shift * mean);
-            let factor = loop {
-                if let Some(factor) = shifted.cholesky() {
-                    break factor;
-                }
-                shift = (shift * 100.0).max(1e-12);
-                shifted = local.hessian + nalgebra::SMatrix::identity() * (shift * mean);
-                if shift > 1e6 || !shift.is_finite() {
-                    return result;
-                }
-            };
-            let newton = factor.solve(&local.gradient);
-            let mut unit = SVector::<f64, N>::zeros();
-            unit[0] = 1.0;
-            let column = factor.solve(&unit);
-            free.push(y[0] - newton[0]);
-            compliance.push(column[0]);
-            steps.push((newton, column));
-        }
-        let (speeds, multipliers) = pool_adjacent_violators(&free, &compliance);
-        let mut slope = 0.0;
-        let mut residual = 0.0_f64;
-        let mut directions = Vec::with_capacity(n);
-        for (j, ((newton, column), local)) in steps.iter().zip(&locals).enumerate() {
-            let behind = if j > 0 { multipliers[j - 1] } else { 0.0 };
-            let net = multipliers.get(j).copied().unwrap_or(0.0) - behind;
-            let mut step = -newton - column * net;
-            // The speed as pooled, so that touching balls are exactly equally fast.
-            step[0] = speeds[j] - points[j][0];
-            let mut balance = local.gradient;
-            balance[0] += net;
-            residual = residual.max(balance.amax());
-            slope += local.gradient.dot(&step);
-            directions.push(step);
-        }
-        if residual < result.residual {
+        let Some(step) = quadratic_step(&points, &locals, &mut shift) else {
+            return result;
+        };
+        if step.residual < result.residual {
             result.points.clone_from(&points);
-            result.multipliers = multipliers;
-            result.residual = residual;
+            result.multipliers.clone_from(&step.multipliers);
+            result.residual = step.residual;
             stalled = 0;
         } else {
             stalled += 1;
         }
-        if residual <= tolerance {
+        if step.residual <= tolerance {
             break;
         }
-        let total: f64 = locals.iter().map(|l| l.value).sum();
-        let rounding = 1e-13 * total.abs();
-        let mut fraction = 1.0;
-        let mut moved = false;
-        while fraction > 1e-10 {
-            let there: Vec<_> = points
-                .iter()
-                .zip(&directions)
-                .map(|(y, d)| y + d * fraction)
-                .collect();
-            let new = evaluate(&there);
-            let value: f64 = new.iter().map(|l| l.value).sum();
-            if value <= total + 1e-4 * fraction * slope || (value - total).abs() <= rounding {
-                if (value - total).abs() > rounding {
-                    stalled = 0;
-                }
-                points = there;
-                locals = new;
-                moved = true;
-                break;
+        if let Some(there) = shortened(&points, &locals, &step, evaluate) {
+            if there.falls {
+                stalled = 0;
             }
-            fraction *= 0.5;
-        }
-        shift = if moved {
-            (shift * 0.1).max(1e-14)
+            (points, locals) = (there.points, there.locals);
+            shift = (shift * 0.1).max(1e-14);
         } else {
-            (shift * 100.0).max(1e-12)
-        };
+            shift = (shift * 100.0).max(1e-12);
+        }
         if shift > 1e3 {
             break;
         }
     }
     result
+}
+
+/// Solution of the quadratic model at a point.
+struct QuadraticStep<const N: usize> {
+    directions: Vec<SVector<f64, N>>,
+    multipliers: Vec<f64>,
+    /// Largest unbalanced force at the point, with these multipliers.
+    residual: f64,
+    /// Derivative of the total along the step.
+    slope: f64,
+}
+
+/// The step to the minimum of the quadratic model; each Hessian is shifted by `shift` of its mean, and by more until it is positive
+/// definite. None where no shift makes it so.
+fn quadratic_step<const N: usize>(
+    points: &[SVector<f64, N>],
+    locals: &[Local<N>],
+    shift: &mut f64,
+) -> Option<QuadraticStep<N>> {
+    let n = points.len();
+    let mut free = Vec::with_capacity(n);
+    let mut compliance = Vec::with_capacity(n);
+    let mut steps = Vec::with_capacity(n);
+    for (y, local) in points.iter().zip(locals) {
+        let mean = (local.hessian.trace() / N as f64).max(1e-300);
+        let mut shifted = local.hessian + nalgebra::SMatrix::identity() * (*shift * mean);
+        let factor = loop {
+            if let Some(factor) = shifted.cholesky() {
+                break factor;
+            }
+            *shift = (*shift * 100.0).max(1e-12);
+            shifted = local.hessian + nalgebra::SMatrix::identity() * (*shift * mean);
+            if *shift > 1e6 || !shift.is_finite() {
+                return None;
+            }
+        };
+        let newton = factor.solve(&local.gradient);
+        let mut unit = SVector::<f64, N>::zeros();
+        unit[0] = 1.0;
+        let column = factor.solve(&unit);
+        free.push(y[0] - newton[0]);
+        compliance.push(column[0]);
+        steps.push((newton, column));
+    }
+    let (speeds, multipliers) = pool_adjacent_violators(&free, &compliance);
+    let mut slope = 0.0;
+    let mut residual = 0.0_f64;
+    let mut directions = Vec::with_capacity(n);
+    for (j, ((newton, column), local)) in steps.iter().zip(locals).enumerate() {
+        let behind = if j > 0 { multipliers[j - 1] } else { 0.0 };
+        let net = multipliers.get(j).copied().unwrap_or(0.0) - behind;
+        let mut step = -newton - column * net;
+        // The speed as pooled, so that touching balls are exactly equally fast.
+        step[0] = speeds[j] - points[j][0];
+        let mut balance = local.gradient;
+        balance[0] += net;
+        residual = residual.max(balance.amax());
+        slope += local.gradient.dot(&step);
+        directions.push(step);
+    }
+    Some(QuadraticStep {
+        directions,
+        multipliers,
+        residual,
+        slope,
+    })
+}
+
+/// Where a shortened step leads.
+struct Reached<const N: usize> {
+    points: Vec<SVector<f64, N>>,
+    locals: Vec<Local<N>>,
+    /// Whether the total changed by more than its rounding.
+    falls: bool,
+}
+
+/// The step, halved until the total falls or changes no more than by rounding; None where it never does.
+fn shortened<const N: usize>(
+    points: &[SVector<f64, N>],
+    locals: &[Local<N>],
+    step: &QuadraticStep<N>,
+    evaluate: impl Fn(&[SVector<f64, N>]) -> Vec<Local<N>>,
+) -> Option<Reached<N>> {
+    let total: f64 = locals.iter().map(|l| l.value).sum();
+    let rounding = 1e-13 * total.abs();
+    let mut fraction = 1.0;
+    while fraction > 1e-10 {
+        let there: Vec<_> = points
+            .iter()
+            .zip(&step.directions)
+            .map(|(y, d)| y + d * fraction)
+            .collect();
+        let new = evaluate(&there);
+        let value: f64 = new.iter().map(|l| l.value).sum();
+        let within_rounding = (value - total).abs() <= rounding;
+        if value <= total + 1e-4 * fraction * step.slope || within_rounding {
+            return Some(Reached {
+                points: there,
+                locals: new,
+                falls: (value - total).abs() > rounding,
+            });
+        }
+        fraction *= 0.5;
+    }
+    None
 }
 
 /// The full system at given motions and forces: unbalanced forces, moments and contact conditions, with the Jacobian.
@@ -337,7 +384,7 @@ fn solve_full_system<const N: usize>(
             fraction *= 0.5;
         }
     }
-    // Rounding may leave open contacts with a trace of force.
+    // Rounding may leave a small negative force in an open contact.
     TrainMinimum {
         points,
         multipliers: forces.iter().map(|f| f.max(0.0)).collect(),
@@ -346,8 +393,8 @@ fn solve_full_system<const N: usize>(
     }
 }
 
-/// Follows the solution of the full system from no friction between balls to the train's, in strides as long as Newton's
-/// method bears.
+/// Follows the solution of the full system while the friction between balls rises from nothing to the train's. A step of the
+/// coefficient from which Newton's method does not converge is halved.
 fn raise_ball_friction<const N: usize>(
     train: &impl Train<N>,
     start: &TrainMinimum<N>,

@@ -1,10 +1,14 @@
 //! A whole ball screw without cage: balls that recirculate and press on each other (Lin 2019, section 3.4.4).
+//!
+//! Each ball moves by the closed form of [`super::ball_screw_closed`], which the tests hold against the exact balls of
+//! [`super::ball_screw_elastic`]. The library's scene rests on the same closed form: what is compared with this module proves
+//! the scene's implementation and its contacts between balls, not the closed form.
 
 use nalgebra::{DMatrix, DVector};
 
 use super::ball_screw_closed::{ContactAngles, Support, ThreePointBall, ThreePointModel};
 use super::ball_screw_elastic::BallSlip;
-use super::{FrictionError, within};
+use crate::error::{ReferenceError, within};
 
 /// Ball screw with a contact-angle deviation on the screw that varies along the track, evenly loaded balls, and a closed return.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -70,7 +74,7 @@ impl WholeScrewState {
 const TABLE: usize = 512;
 
 impl WholeScrew {
-    fn ball(&self, deviation: f64) -> Result<ThreePointBall, FrictionError> {
+    fn ball(&self, deviation: f64) -> Result<ThreePointBall, ReferenceError> {
         let support = Support::of(self.axial_load, self.nut_speed);
         let angle = self.model.contact_angle;
         // The load is carried by SR-NL when negative along z: then the main contact on the screw is SR.
@@ -121,7 +125,7 @@ impl WholeScrew {
         nut_angle: f64,
         steps: usize,
         substeps: usize,
-    ) -> Result<Vec<WholeScrewState>, FrictionError> {
+    ) -> Result<Vec<WholeScrewState>, ReferenceError> {
         within("balls", self.balls as f64, 2.0, 1000.0)?;
         within("turns", self.turns, 0.1, 100.0)?;
         within("deviation", self.deviation, -0.2, 0.2)?;

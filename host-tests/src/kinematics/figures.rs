@@ -3,11 +3,14 @@
 //! Each function returns what one figure draws, for the screw of the paper's Table 2 under the
 //! paper's load. Angles in radians, lengths in metres, speeds in m/s and rad/s.
 
+use super::input::{KinematicsInput, Raceway};
 use super::operating::{self, LoadedBall};
 use super::pitch_angle;
-use super::{
-    ContactKinematics, HertzMean, InvalidInput, KinematicsInput, Raceway, Revised, Traditional,
-};
+use super::power::HertzMean;
+use super::revised::Revised;
+use super::slip::ContactKinematics;
+use super::traditional::Traditional;
+use crate::error::ReferenceError;
 
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
 
@@ -86,7 +89,7 @@ fn traditional_values(revised: &Revised) -> [FormulationValues; 2] {
 ///
 /// # Errors
 /// None for the paper's screw; the type of the model's constructor.
-pub fn helix_sweep(steps: usize) -> Result<Vec<HelixRow>, InvalidInput> {
+pub fn helix_sweep(steps: usize) -> Result<Vec<HelixRow>, ReferenceError> {
     range(0.0, 40.0 * DEGREE, steps)
         .filter_map(|lead_angle| {
             let helical = operating::case_one(lead_angle, true)?;
@@ -185,11 +188,12 @@ pub fn slip_field(
 ///
 /// # Errors
 /// The field that the model refuses; `lead_angle` for one without a contact ellipse.
-pub fn case_one(lead_angle: f64) -> Result<Revised, InvalidInput> {
-    let input = operating::case_one(lead_angle, true).ok_or(InvalidInput {
-        field: "lead_angle",
-        value: lead_angle,
-        requirement: "one for which the contact ellipse exists",
+pub fn case_one(lead_angle: f64) -> Result<Revised, ReferenceError> {
+    let input = operating::case_one(lead_angle, true).ok_or_else(|| {
+        ReferenceError::input(
+            "lead_angle",
+            format!("no contact ellipse exists at {lead_angle}"),
+        )
     })?;
     Revised::new(&input)
 }
@@ -211,7 +215,7 @@ pub struct SameSlideToRoll {
 ///
 /// # Errors
 /// None for the paper's screw; the type of the model's constructor.
-pub fn same_slide_to_roll(steps: usize) -> Result<SameSlideToRoll, InvalidInput> {
+pub fn same_slide_to_roll(steps: usize) -> Result<SameSlideToRoll, ReferenceError> {
     let revised = case_one(operating::LEAD_ANGLE)?;
     let slip = revised.evaluate().screw;
     let reference = slip_field(&revised, Formulation::Revised, Raceway::Screw, steps);
@@ -253,7 +257,7 @@ fn constraint_sweep(
     high: f64,
     steps: usize,
     set: impl Fn(KinematicsInput, f64) -> KinematicsInput,
-) -> Result<Vec<ConstraintRow>, InvalidInput> {
+) -> Result<Vec<ConstraintRow>, ReferenceError> {
     let reference = case_two()?;
     range(low, high, steps)
         .map(|value| {
@@ -272,7 +276,7 @@ fn constraint_sweep(
 ///
 /// # Errors
 /// None for the paper's screw; the type of the model's constructor.
-pub fn case_two() -> Result<KinematicsInput, InvalidInput> {
+pub fn case_two() -> Result<KinematicsInput, ReferenceError> {
     let reference = case_one(operating::LEAD_ANGLE)?;
     Ok(KinematicsInput {
         yaw_angle: DEGREE,
@@ -284,7 +288,7 @@ pub fn case_two() -> Result<KinematicsInput, InvalidInput> {
 ///
 /// # Errors
 /// None for the paper's screw; the type of the model's constructor.
-pub fn rolling_radius_sweep(steps: usize) -> Result<Vec<ConstraintRow>, InvalidInput> {
+pub fn rolling_radius_sweep(steps: usize) -> Result<Vec<ConstraintRow>, ReferenceError> {
     constraint_sweep(3.92e-3, 4.02e-3, steps, |input, radius| KinematicsInput {
         rolling_radius_screw: radius,
         rolling_radius_nut: radius,
@@ -296,7 +300,7 @@ pub fn rolling_radius_sweep(steps: usize) -> Result<Vec<ConstraintRow>, InvalidI
 ///
 /// # Errors
 /// None for the paper's screw; the type of the model's constructor.
-pub fn yaw_sweep(steps: usize) -> Result<Vec<ConstraintRow>, InvalidInput> {
+pub fn yaw_sweep(steps: usize) -> Result<Vec<ConstraintRow>, ReferenceError> {
     constraint_sweep(-3.0 * DEGREE, 3.0 * DEGREE, steps, |input, yaw_angle| {
         KinematicsInput { yaw_angle, ..input }
     })
@@ -306,7 +310,7 @@ pub fn yaw_sweep(steps: usize) -> Result<Vec<ConstraintRow>, InvalidInput> {
 ///
 /// # Errors
 /// None for the paper's screw; the type of the model's constructor.
-pub fn pitch_sweep(steps: usize) -> Result<Vec<ConstraintRow>, InvalidInput> {
+pub fn pitch_sweep(steps: usize) -> Result<Vec<ConstraintRow>, ReferenceError> {
     constraint_sweep(28.0 * DEGREE, 52.0 * DEGREE, steps, |input, pitch_angle| {
         KinematicsInput {
             pitch_angle,

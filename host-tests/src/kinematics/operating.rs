@@ -3,7 +3,8 @@
 //! Only what the paper's figures need: a single-arc groove with two-point contact, every ball under
 //! the same load.
 
-use super::{KinematicsInput, Raceway, Revised};
+use super::input::{KinematicsInput, Raceway};
+use super::revised::Revised;
 use ellip::{ellipe, ellipk};
 use roots::{SimpleConvergency, find_root_brent};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};

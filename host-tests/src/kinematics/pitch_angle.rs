@@ -5,7 +5,9 @@
 //!
 //! Table 1's iterative method (ITE) is not defined in the paper and its 44° cannot be reconstructed.
 
-use super::{HertzMean, KinematicsInput, Raceway, Revised, mean_slip};
+use super::input::{KinematicsInput, Raceway};
+use super::power::{HertzMean, mean_slip};
+use super::revised::Revised;
 use ellip::ellipe;
 use roots::{SimpleConvergency, find_root_brent};
 use std::f64::consts::FRAC_PI_2;
@@ -73,7 +75,7 @@ pub fn mean_contact_angle(input: &KinematicsInput) -> f64 {
     0.5 * (input.contact_angle_screw + input.contact_angle_nut)
 }
 
-/// Spin moment of a contact but for `3/8 mu`: `W a E(1 - b^2/a^2)`; `None` for an ellipse without
+/// Spin moment of a contact over `3/8 mu`: `W a E(1 - b^2/a^2)`; `None` for an ellipse without
 /// extent.
 fn spin_moment(input: &KinematicsInput, raceway: Raceway, load: f64) -> Option<f64> {
     let contact = input.contact(raceway);
@@ -130,7 +132,7 @@ pub fn least_power(
     load_screw: f64,
     load_nut: f64,
 ) -> Option<f64> {
-    // At standstill every power is zero: the angle is that of any speed.
+    // The angle does not depend on the speed, and at standstill every power is zero: take 1 rad/s.
     let input = KinematicsInput {
         speed: 1.0,
         ..*input

@@ -1,6 +1,7 @@
 //! Friction power by quadrature over the contact ellipse.
 
-use super::{Raceway, Revised};
+use super::input::Raceway;
+use super::revised::Revised;
 use gauss_quad::GaussLegendre;
 use std::f64::consts::TAU;
 use std::num::NonZeroUsize;

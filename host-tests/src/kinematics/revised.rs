@@ -1,22 +1,8 @@
 //! Alberdi et al., eqs. (12) to (40).
 
-use super::{BallKinematics, ContactKinematics, InvalidInput, KinematicsInput, Raceway};
-
-/// `cos beta cos beta' cos alpha_k + sin beta sin alpha_k`, the last factor of (22).
-pub(super) fn surface_speed_factor(input: &KinematicsInput, raceway: Raceway) -> f64 {
-    let alpha = input.contact(raceway).contact_angle;
-    let (sin_beta, cos_beta) = input.pitch_angle.sin_cos();
-    cos_beta * input.yaw_angle.cos() * alpha.cos() + sin_beta * alpha.sin()
-}
-
-/// `(r_m -+ r'_k cos alpha_k) cos psi + L / (2 pi) sin psi`, the other factor of (22), m.
-pub(super) fn rolling_path(input: &KinematicsInput, raceway: Raceway) -> f64 {
-    let contact = input.contact(raceway);
-    let (sin_psi, cos_psi) = input.lead_angle.sin_cos();
-    (input.pitch_radius - raceway.sign() * contact.rolling_radius * contact.contact_angle.cos())
-        * cos_psi
-        + input.advance() * sin_psi
-}
+use super::input::{KinematicsInput, Raceway};
+use super::slip::{BallKinematics, ContactKinematics};
+use crate::error::ReferenceError;
 
 /// The revised formulation for one input.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,10 +23,10 @@ impl Revised {
     ///
     /// # Errors
     /// The field of the input that the model cannot take.
-    pub fn new(input: &KinematicsInput) -> Result<Self, InvalidInput> {
+    pub fn new(input: &KinematicsInput) -> Result<Self, ReferenceError> {
         input.validate()?;
-        let path = |raceway| rolling_path(input, raceway);
-        let factor = |raceway| surface_speed_factor(input, raceway);
+        let path = |raceway| input.rolling_path(raceway);
+        let factor = |raceway| input.surface_speed_factor(raceway);
         let (inner, outer) = (Raceway::Screw, Raceway::Nut);
         let orbital_ratio = 1.0
             / (1.0
@@ -77,8 +63,8 @@ impl Revised {
     #[must_use]
     pub fn spin_ratio_as_printed(&self) -> f64 {
         let inner = Raceway::Screw;
-        self.orbital_ratio * rolling_path(&self.input, inner)
-            / (self.input.rolling_radius_screw * surface_speed_factor(&self.input, inner))
+        self.orbital_ratio * self.input.rolling_path(inner)
+            / (self.input.rolling_radius_screw * self.input.surface_speed_factor(inner))
     }
 
     /// The ball's rotation relative to the orbiting frame, in (tangent, normal, binormal), per rad/s
@@ -102,7 +88,7 @@ impl Revised {
         }
     }
 
-    /// `D/2 - S_k(y)`, m: (14) and (15), each difference of roots multiplied out by its conjugate.
+    /// `D/2 - S_k(y)`, m: (14) and (15), each difference of roots as a quotient that does not cancel.
     fn deficit(&self, raceway: Raceway, y: f64) -> f64 {
         let contact = self.input.contact(raceway);
         let diameter = self.input.ball_diameter;
@@ -249,7 +235,7 @@ impl Revised {
             entrainment_speed: speed.abs() * entrainment,
             entrainment_angle: (-v_y).atan2(-v_x),
             slide_to_roll: sliding / entrainment,
-            // Adding zero turns -0 into +0: slip straight back is pi.
+            // Adding zero turns -0 into +0, so that the angle of slip straight back is pi, not -pi.
             slide_angle: (sliding > 0.0).then(|| (side + 0.0).atan2(rolling)),
             spin_to_roll: spin * (contact.semi_major * contact.semi_minor).sqrt() / entrainment,
         }

@@ -1,6 +1,7 @@
 //! Slip from first principles: velocities of material points as derivatives of their positions.
 
-use super::{InvalidInput, KinematicsInput, Raceway};
+use super::input::{KinematicsInput, Raceway};
+use crate::error::ReferenceError;
 use num_dual::{Dual64, DualNum};
 
 type Vector<T> = [T; 3];
@@ -70,7 +71,7 @@ impl RigidBody {
     ///
     /// # Errors
     /// The field of the input that the model cannot take.
-    pub fn new(input: &KinematicsInput) -> Result<Self, InvalidInput> {
+    pub fn new(input: &KinematicsInput) -> Result<Self, ReferenceError> {
         input.validate()?;
         let unit = KinematicsInput {
             speed: 1.0,

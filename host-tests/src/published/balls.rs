@@ -3,17 +3,19 @@
 use std::error::Error;
 use std::f64::consts::{FRAC_PI_4, PI, SQRT_2, TAU};
 
-use crate::curvature::{Groove, Surface, profile};
-use crate::friction::FrictionError;
+use crate::curvature::Groove;
+use crate::design::{BallScrewDesign, LinearBearingDesign};
+use crate::error::ReferenceError;
 use crate::friction::ball_screw_ball::ScrewTrack;
 use crate::friction::ball_screw_closed::ThreePointModel;
 use crate::friction::ball_screw_elastic::{BallSlip, ElasticBalls, ScrewSupport};
 use crate::friction::ball_screw_grooves::ElasticGrooves;
 use crate::friction::chain::solve_chain;
-use crate::friction::contact_law::{Eccentricity, HertzLaw};
+use crate::friction::contact_law::HertzLaw;
 use crate::friction::linear_ball::{LinearBall, analytic_contact_force, contact_forces};
 use crate::friction::maps::FrictionMap;
 use crate::friction::whole_screw::{WholeScrew, WholeScrewState};
+use crate::material::Elastic;
 use crate::record::{Page, Verdict};
 
 /// Slope of the friction force in (3.35) as the dissertation picks it from a plot.
@@ -22,31 +24,29 @@ pub const FORCE_SLOPE: f64 = 1.38;
 /// Ball radius of Table 3.3, m.
 const LINEAR_BALL_RADIUS: f64 = 5e-3;
 
-/// Contact modulus of two bodies of Tables 3.3 and 3.6, Pa.
-const MODULUS: f64 = 2.1e11 / (2.0 * (1.0 - 0.28 * 0.28));
-
 /// Contact law of the linear bearing, by conformity: relative radii `R_B` and `R_B / (1 - 1/(2 conf))`.
 ///
 /// # Errors
-/// As [`HertzLaw::new`].
-pub fn linear_law(conformity: f64) -> Result<HertzLaw, FrictionError> {
-    HertzLaw::new(
-        LINEAR_BALL_RADIUS,
-        LINEAR_BALL_RADIUS / (1.0 - 0.5 / conformity),
-        MODULUS,
-        Eccentricity::Exact,
-    )
+/// As [`BallScrewDesign::contact`].
+pub fn linear_law(conformity: f64) -> Result<HertzLaw, ReferenceError> {
+    let design = LinearBearingDesign {
+        ball_radius: LINEAR_BALL_RADIUS,
+        groove_radius: 2.0 * conformity * LINEAR_BALL_RADIUS,
+        ball: Elastic::STEEL,
+        groove: Elastic::STEEL,
+    };
+    Ok(design.contact()?.into())
 }
 
 /// Ball of Table 3.3 with contact angles BL, BR, TR, TL deviating from 45 degrees, rad, under 100 N and a side force of
 /// `side_force_ratio` times that; loads from statics.
 ///
 /// # Errors
-/// As [`HertzLaw::new`].
+/// As [`BallScrewDesign::contact`].
 pub fn linear_ball(
     deviations: [f64; 4],
     side_force_ratio: f64,
-) -> Result<LinearBall, FrictionError> {
+) -> Result<LinearBall, ReferenceError> {
     let contact_angles = deviations.map(|deviation| FRAC_PI_4 + deviation);
     Ok(LinearBall {
         ball_radius: LINEAR_BALL_RADIUS,
@@ -61,8 +61,8 @@ pub fn linear_ball(
 /// `-rho` on the front one, as the two-ball module carries a yaw moment.
 ///
 /// # Errors
-/// As [`HertzLaw::new`].
-pub fn linear_pair(theta: f64, rho: f64) -> Result<[LinearBall; 2], FrictionError> {
+/// As [`BallScrewDesign::contact`].
+pub fn linear_pair(theta: f64, rho: f64) -> Result<[LinearBall; 2], ReferenceError> {
     Ok([
         linear_ball([-theta, theta, 0.0, 0.0], rho)?,
         linear_ball([-theta, theta, 0.0, 0.0], -rho)?,
@@ -72,8 +72,8 @@ pub fn linear_pair(theta: f64, rho: f64) -> Result<[LinearBall; 2], FrictionErro
 /// The same pair as the closed form takes it: two diagonals of equal loads.
 ///
 /// # Errors
-/// As [`HertzLaw::new`].
-pub fn symmetric_pair(theta: f64, rho: f64) -> Result<[LinearBall; 2], FrictionError> {
+/// As [`BallScrewDesign::contact`].
+pub fn symmetric_pair(theta: f64, rho: f64) -> Result<[LinearBall; 2], ReferenceError> {
     let with = |ball: LinearBall, rho: f64| {
         let (up, down) = (100.0 * (1.0 - rho) / SQRT_2, 100.0 * (1.0 + rho) / SQRT_2);
         LinearBall {
@@ -106,36 +106,31 @@ pub const TRACK: ScrewTrack = ScrewTrack {
 /// Groove radius of Table 2.1, m: that of Table 3.6, 0.56 ball diameters, is 4 % less.
 pub const GROOVE_RADIUS: f64 = 3.254e-3;
 
+/// The ball screw of Tables 2.1 and 3.6.
+pub const SCREW: BallScrewDesign = BallScrewDesign {
+    pitch_radius: TRACK.pitch_radius,
+    lead: TRACK.lead,
+    ball_radius: TRACK.ball_radius,
+    screw_groove_radius: GROOVE_RADIUS,
+    nut_groove_radius: GROOVE_RADIUS,
+    contact_angle: FRAC_PI_4,
+    ball: Elastic::STEEL,
+    groove: Elastic::STEEL,
+};
+
 /// Contact law of the ball screw of Tables 2.1 and 3.6 with its right curvatures.
 ///
 /// # Errors
-/// As [`HertzLaw::new`].
-pub fn screw_law(groove: Groove) -> Result<HertzLaw, FrictionError> {
-    let conformity = GROOVE_RADIUS / (2.0 * TRACK.ball_radius);
-    let (groove_radius, offset_h, offset_l) = profile(TRACK.ball_radius, conformity, FRAC_PI_4);
-    let curvatures = Surface {
-        groove,
-        pitch_radius: TRACK.pitch_radius,
-        lead_angle: (TRACK.lead / (TAU * TRACK.pitch_radius)).atan(),
-        groove_radius,
-        offset_h,
-        offset_l,
-    }
-    .principal(FRAC_PI_4);
-    let relative = |curvature: f64| 1.0 / (1.0 / TRACK.ball_radius + curvature);
-    HertzLaw::new(
-        relative(curvatures.kappa1),
-        relative(curvatures.kappa2),
-        MODULUS,
-        Eccentricity::Exact,
-    )
+/// As [`BallScrewDesign::contact`].
+pub fn screw_law(groove: Groove) -> Result<HertzLaw, ReferenceError> {
+    Ok(SCREW.contact(groove)?.into())
 }
 
 /// The two balls of Table 3.7: deviations 0 and `theta` (rad) of the contact angles on the screw.
 ///
 /// # Errors
-/// As [`HertzLaw::new`].
-pub fn screw_pair(theta: f64) -> Result<ElasticBalls, FrictionError> {
+/// As [`BallScrewDesign::contact`].
+pub fn screw_pair(theta: f64) -> Result<ElasticBalls, ReferenceError> {
     let (screw, nut) = (screw_law(Groove::Screw)?, screw_law(Groove::Nut)?);
     let grooves = |theta: f64| ElasticGrooves {
         track: TRACK,
@@ -157,8 +152,8 @@ pub fn screw_pair(theta: f64) -> Result<ElasticBalls, FrictionError> {
 /// The screw of section 3.4.4: 37 balls on two turns under 1500 N, with an amplitude of the contact-angle deviation, rad.
 ///
 /// # Errors
-/// As [`HertzLaw::new`].
-pub fn whole_screw(deviation: f64) -> Result<WholeScrew, FrictionError> {
+/// As [`BallScrewDesign::contact`].
+pub fn whole_screw(deviation: f64) -> Result<WholeScrew, ReferenceError> {
     Ok(WholeScrew {
         model: ThreePointModel {
             track: TRACK,
@@ -196,12 +191,16 @@ fn peak_and_release(run: &[WholeScrewState]) -> [f64; 3] {
 
 /// Appends the records.
 pub(super) fn append(page: &mut Page<'_>) -> Result<(), Box<dyn Error>> {
-    linear(page)?;
+    contact_of_table_3_3(page)?;
+    largest_deviation(page)?;
+    two_linear_balls(page)?;
+    friction_over_the_baseline(page)?;
     screw(page)?;
     Ok(())
 }
 
-fn linear(page: &mut Page<'_>) -> Result<(), FrictionError> {
+/// Contact constant and slope of the friction force of the ball of Table 3.3.
+fn contact_of_table_3_3(page: &mut Page<'_>) -> Result<(), ReferenceError> {
     let law = linear_law(0.56)?;
     page.turn("Table 3.3").roughly(
         "Psi",
@@ -220,6 +219,11 @@ fn linear(page: &mut Page<'_>) -> Result<(), FrictionError> {
         map.initial_slope() - 0.15 * cubic,
         Verdict::Convention("least squares over |c/a| < 0.5; the slope itself is 1.4419"),
     );
+    Ok(())
+}
+
+/// Size of the contact at the pressure that limits the load, and the angle that it subtends (appendix G).
+fn largest_deviation(page: &mut Page<'_>) -> Result<(), ReferenceError> {
     // Pressure 3 F / (2 pi a b): F^(1/3) = 2 pi k Ca² sigma / 3.
     let ellipse = linear_law(0.52)?.ellipse;
     let root = 2.0 * PI * ellipse.axis_ratio * ellipse.semi_major_constant.powi(2) * 1554e6 / 3.0;
@@ -248,12 +252,34 @@ fn linear(page: &mut Page<'_>) -> Result<(), FrictionError> {
         (0.5 * ratio).to_degrees(),
         Verdict::Convention("0.109 rad, rounded before"),
     );
+    Ok(())
+}
 
+/// The two balls of Figure 3.13: only the bottom groove turned, case (a), or both alike, case (b).
+fn two_linear_balls(page: &mut Page<'_>) -> Result<(), ReferenceError> {
     let theta = 2_f64.to_radians();
     let pair = linear_pair(theta, -0.6)?;
     let symmetric = symmetric_pair(theta, -0.6)?;
-    let mated = [-0.6, 0.6].map(|rho| linear_ball([-theta, theta, -theta, theta], rho));
-    let mut table = page.turn("Table 3.4");
+    let mated_ball = |rho| linear_ball([-theta, theta, -theta, theta], rho);
+    let mated = [mated_ball(-0.6)?, mated_ball(0.6)?];
+    speed_deviations(&mut page.turn("Table 3.4"), &pair, &symmetric, &mated)?;
+    contact_forces_of_pairs(&mut page.turn("Table 3.5"), &pair, &symmetric, &mated)?;
+    page.turn("section 3.3.5").add(
+        "numerical model over finite elements, less one, from the printed forces",
+        "%",
+        "1.26",
+        100.0 * (4.01 / 3.96 - 1.0),
+        Verdict::Reproduces,
+    );
+    Ok(())
+}
+
+fn speed_deviations(
+    table: &mut Page<'_>,
+    pair: &[LinearBall; 2],
+    symmetric: &[LinearBall; 2],
+    mated: &[LinearBall; 2],
+) -> Result<(), ReferenceError> {
     for (index, (numerical, analytic)) in [("0.87", "0.75"), ("-0.79", "-0.75")]
         .into_iter()
         .enumerate()
@@ -273,7 +299,7 @@ fn linear(page: &mut Page<'_>) -> Result<(), FrictionError> {
             100.0 * symmetric[index].analytic_speed_deviation(FRAC_PI_4),
             Verdict::Reproduces,
         );
-        let ball = mated[index]?;
+        let ball = &mated[index];
         table.roughly(
             format!("speed deviation of ball {name}, case (b), numerical"),
             "%",
@@ -289,8 +315,16 @@ fn linear(page: &mut Page<'_>) -> Result<(), FrictionError> {
             Verdict::Reproduces,
         );
     }
-    let without = solve_chain(&pair, 0.0, 0.01)?.contact_forces[0];
-    let mut table = page.turn("Table 3.5");
+    Ok(())
+}
+
+fn contact_forces_of_pairs(
+    table: &mut Page<'_>,
+    pair: &[LinearBall; 2],
+    symmetric: &[LinearBall; 2],
+    mated: &[LinearBall; 2],
+) -> Result<(), ReferenceError> {
+    let without = solve_chain(pair, 0.0, 0.01)?.contact_forces[0];
     table.add(
         "ball-to-ball force, case (a), numerical",
         "N",
@@ -304,33 +338,28 @@ fn linear(page: &mut Page<'_>) -> Result<(), FrictionError> {
         "ball-to-ball force, case (a), analytical",
         "N",
         ("3.74", 0.006),
-        analytic_force(&symmetric),
+        analytic_force(symmetric),
         Verdict::Convention("exponents of (3.51) +2/3, printed -2/3"),
     );
-    let [rear, front] = mated;
-    let mated = [rear?, front?];
     table.roughly(
         "ball-to-ball force, case (b), numerical",
         "N",
         ("0", 1e-9),
-        solve_chain(&mated, 0.0, 0.01)?.contact_forces[0],
+        solve_chain(mated, 0.0, 0.01)?.contact_forces[0],
         Verdict::Reproduces,
     );
     table.roughly(
         "ball-to-ball force, case (b), analytical",
         "N",
         ("0", 1e-9),
-        analytic_force(&mated),
+        analytic_force(mated),
         Verdict::Reproduces,
     );
-    page.turn("section 3.3.5").add(
-        "numerical model over finite elements, less one, from the printed forces",
-        "%",
-        "1.26",
-        100.0 * (4.01 / 3.96 - 1.0),
-        Verdict::Reproduces,
-    );
-    // The edge of Figure 3.15.
+    Ok(())
+}
+
+/// The edge of Figure 3.15.
+fn friction_over_the_baseline(page: &mut Page<'_>) -> Result<(), ReferenceError> {
     let edge = linear_pair(3_f64.to_radians(), -0.6)?;
     let mut baseline = 0.0;
     for ball in &edge {
@@ -347,7 +376,7 @@ fn linear(page: &mut Page<'_>) -> Result<(), FrictionError> {
     Ok(())
 }
 
-fn screw(page: &mut Page<'_>) -> Result<(), FrictionError> {
+fn screw(page: &mut Page<'_>) -> Result<(), ReferenceError> {
     let load = ScrewSupport::Load(-100.0);
     for (case, degrees, force, growth, share, elements) in [
         ("(a)", 2.0_f64, "1.92", "39.2", "6.67", 1.80),

@@ -1,7 +1,7 @@
 //! The computable numbers of Lin 2019 on rotary bearings: section 3.2 and section 4.3.1.
 
 use crate::bearing_study::{TurningLoad, variation};
-use crate::friction::FrictionError;
+use crate::error::ReferenceError;
 use crate::friction::rotary_ball::{RotaryBearing, RotaryConvention, RotaryMotion};
 use crate::record::{Page, Verdict};
 
@@ -35,7 +35,7 @@ pub fn table_3_1(convention: RotaryConvention) -> RotaryBearing {
 ///
 /// # Errors
 /// As [`RotaryBearing::contacts_under_load`] and [`RotaryBearing::motion_with_sigmoid`].
-pub fn table_3_2(displacement: f64) -> Result<([f64; 4], RotaryMotion), FrictionError> {
+pub fn table_3_2(displacement: f64) -> Result<([f64; 4], RotaryMotion), ReferenceError> {
     let bearing = table_3_1(RotaryConvention::Dissertation);
     let contacts = bearing.contacts_under_load(100.0, displacement)?;
     let speed = 20.0 * std::f64::consts::PI;
@@ -87,7 +87,7 @@ const CASES: [Case; 3] = [
 ];
 
 /// Appends the records.
-pub(super) fn append(page: &mut Page<'_>) -> Result<(), FrictionError> {
+pub(super) fn append(page: &mut Page<'_>) -> Result<(), ReferenceError> {
     let mut sums = [0.0; 3];
     let mut torques = [0.0; 3];
     for (index, (case, displacement)) in CASES.iter().zip(DISPLACEMENTS).enumerate() {

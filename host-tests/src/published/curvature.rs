@@ -1,6 +1,6 @@
 //! Every computable number of Bertolino et al. 2023.
 
-use super::{CONFORMITY, Row, TABLE_A1, TABLE_A2, computed_errors};
+use super::radius_tables::{CONFORMITY, Row, TABLE_A1, TABLE_A2, computed_errors};
 use crate::curvature::{Groove, Surface};
 use crate::error::ReferenceError;
 use crate::record::{Page, Verdict};

@@ -5,12 +5,48 @@ use std::sync::Arc;
 use nalgebra::{Matrix2, SMatrix, Vector2, Vector3};
 
 use super::geometry::{Contact, Geometry};
-use super::problem::{Ball, NutPose};
 use super::shaft::Shaft;
 use super::surface::{Deviation, SurfaceError};
 
 /// A surface's errors.
 pub type Errors = Vec<Arc<dyn SurfaceError>>;
+
+/// One ball.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ball {
+    /// Azimuth on the ball path, rad.
+    pub azimuth: f64,
+    /// Nominal axial position of its centre, m.
+    pub position: f64,
+    /// Oversize of its radius, m; negative where it is small.
+    pub oversize: f64,
+    /// Which of the four arcs (SL, SR, NL, NR) exist for it: an angular-contact row has two.
+    pub arcs: [bool; 4],
+}
+
+impl Ball {
+    /// A ball of nominal size that can touch all four arcs.
+    #[must_use]
+    pub const fn new(azimuth: f64, position: f64) -> Self {
+        Self {
+            azimuth,
+            position,
+            oversize: 0.0,
+            arcs: [true; 4],
+        }
+    }
+}
+
+/// Where the rigid nut stands: a small motion off its nominal place.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct NutPose {
+    /// Place on the axis that it turns about, m.
+    pub position: f64,
+    /// Displacement, m.
+    pub displacement: [f64; 3],
+    /// Rotation, rad.
+    pub rotation: [f64; 3],
+}
 
 /// One contact of one ball, with everything that does not change while the loads are found.
 #[derive(Clone, Debug)]
@@ -52,7 +88,7 @@ pub struct Touch {
     pub stiffness: Matrix2<f64>,
 }
 
-/// What the arms of all balls are made from.
+/// What the contacts of all balls have in common.
 pub struct ArmInput<'a> {
     /// Nominal geometry.
     pub geometry: &'a Geometry,
@@ -67,7 +103,7 @@ pub struct ArmInput<'a> {
 }
 
 impl Arm {
-    /// The contact of a ball with one arc, which is the one of this index.
+    /// The contact of a ball with one arc; `index` is the arc's place in [`Contact::ALL`].
     pub fn new(
         contact: Contact,
         index: usize,

@@ -5,38 +5,8 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use nalgebra::SMatrix;
 
 use super::geometry::Geometry;
-use crate::error::{ReferenceError, within};
-
-/// Elastic constants of one body.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Elastic {
-    /// Young's modulus, Pa.
-    pub youngs_modulus: f64,
-    /// Poisson's ratio.
-    pub poisson_ratio: f64,
-}
-
-impl Elastic {
-    /// Steel of the dissertation: 210 GPa (its tables print N/mm² by mistake) and 0.28.
-    pub const STEEL: Self = Self {
-        youngs_modulus: 210e9,
-        poisson_ratio: 0.28,
-    };
-
-    /// Refuses what is no elastic body.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] naming `youngs_modulus` or `poisson_ratio`.
-    pub fn check(&self) -> Result<(), ReferenceError> {
-        within("youngs_modulus", self.youngs_modulus, 1e6, 1e13)?;
-        within("poisson_ratio", self.poisson_ratio, 0.0, 0.49)?;
-        Ok(())
-    }
-
-    fn shear_modulus(&self) -> f64 {
-        self.youngs_modulus / (2.0 * (1.0 + self.poisson_ratio))
-    }
-}
+use crate::error::ReferenceError;
+use crate::material::Elastic;
 
 /// Stiffnesses of a circular cross-section.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,14 +35,14 @@ pub fn groove_reduction(geometry: &Geometry, outer_diameter: f64) -> Result<f64,
     let across = geometry.excess() * sin;
     let depth = geometry.excess() * cos + geometry.pitch_radius - 0.5 * outer_diameter;
     if depth < 0.0 {
-        return Err(ReferenceError::new(
+        return Err(ReferenceError::input(
             "screw_diameter",
             "the screw encloses the ball path",
         ));
     }
     let contact = geometry.pitch_radius - geometry.ball_radius * cos;
     if 0.5 * outer_diameter < contact || depth >= radius {
-        return Err(ReferenceError::new(
+        return Err(ReferenceError::input(
             "screw_diameter",
             format!("{outer_diameter}: the balls touch the screw at a radius of {contact}"),
         ));
@@ -89,7 +59,7 @@ pub fn groove_reduction(geometry: &Geometry, outer_diameter: f64) -> Result<f64,
     let whole = PI * (0.5 * outer_diameter).powi(2) * geometry.lead;
     let square = 1.0 - removed / whole;
     if square < 0.25 {
-        return Err(ReferenceError::new(
+        return Err(ReferenceError::input(
             "screw_diameter",
             "the groove takes half of the diameter or more",
         ));

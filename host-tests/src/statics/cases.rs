@@ -1,11 +1,12 @@
 //! The load cases of the dissertation, and the one of the program's interface.
 
-use super::beam::Elastic;
+use super::ball::NutPose;
 use super::contact::{ContactConstants, HertzConvention};
 use super::geometry::Geometry;
-use super::problem::{Load, NutPose, Setup, StaticLoad, Support, even_train};
+use super::problem::{Load, Setup, StaticLoad, Support, even_train};
 use super::shaft::Shaft;
 use crate::error::{ReferenceError, within};
+use crate::material::Elastic;
 
 /// A ball screw with a held nut, loaded at its left end, which is guided along the axis: the case
 /// studies of Lin 2019, section 2.4.
@@ -96,7 +97,7 @@ impl CaseStudy {
     pub fn setup(&self) -> Result<Setup, ReferenceError> {
         self.geometry.check()?;
         if !(1..=super::problem::LARGEST_TRAIN).contains(&self.balls) {
-            return Err(ReferenceError::new(
+            return Err(ReferenceError::input(
                 "balls",
                 format!(
                     "{} is not within 1 to {}",
@@ -125,7 +126,7 @@ impl CaseStudy {
                 }
             }
             each => {
-                return Err(ReferenceError::new(
+                return Err(ReferenceError::input(
                     "ball_oversize",
                     format!("has {} entries for {} balls", each.len(), balls.len()),
                 ));

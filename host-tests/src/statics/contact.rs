@@ -2,11 +2,11 @@
 
 use nalgebra::{Matrix2, Vector3};
 
-use super::beam::Elastic;
 use super::geometry::Geometry;
 use crate::curvature::{Groove, PrincipalCurvatures, Surface, profile};
 use crate::error::ReferenceError;
-use crate::hertz::{Hertz, axis_ratio, contact_modulus};
+use crate::hertz::{Hertz, axis_ratio};
+use crate::material::Elastic;
 
 /// How principal radii and Hertzian constants are computed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -110,10 +110,7 @@ fn contact(
 ) -> Result<GrooveContact, ReferenceError> {
     metal.check()?;
     ball.check()?;
-    let modulus = contact_modulus(
-        (metal.youngs_modulus, metal.poisson_ratio),
-        (ball.youngs_modulus, ball.poisson_ratio),
-    );
+    let modulus = metal.contact_modulus(&ball);
     match convention {
         HertzConvention::Correct => {
             let curvatures = nominal_curvatures(geometry, groove)?;
@@ -135,7 +132,7 @@ pub fn exact(
     let relative = [curvatures.kappa1, curvatures.kappa2]
         .map(|curvature| 1.0 / (1.0 / ball_radius + curvature));
     if relative.iter().any(|radius| *radius <= 0.0) {
-        return Err(ReferenceError::new(
+        return Err(ReferenceError::input(
             "groove_radius",
             "the ball does not fit into the groove",
         ));
@@ -178,7 +175,7 @@ fn as_printed(
     let relative = [across, along].map(|radius| 1.0 / (1.0 / geometry.ball_radius + 1.0 / radius));
     let [small, large] = sorted(relative);
     if small <= 0.0 {
-        return Err(ReferenceError::new(
+        return Err(ReferenceError::input(
             "groove_radius",
             "the ball does not fit into the groove by the printed radii",
         ));

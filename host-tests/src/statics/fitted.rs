@@ -96,7 +96,7 @@ impl FittedSurface {
         table: impl Read,
         along: Along,
     ) -> Result<Self, ReferenceError> {
-        let bad = |error: csv::Error| ReferenceError::new("profile", error.to_string());
+        let bad = |error: csv::Error| ReferenceError::input("profile", error.to_string());
         let mut reader = csv::ReaderBuilder::new()
             .comment(Some(b'#'))
             .trim(csv::Trim::All)
@@ -141,7 +141,7 @@ impl FittedSurface {
         along: Along,
     ) -> Result<Self, ReferenceError> {
         if points.is_empty() || points.len() > MOST_POINTS {
-            return Err(ReferenceError::new(
+            return Err(ReferenceError::input(
                 "profile",
                 format!("{} points; allowed: 1 to {MOST_POINTS}", points.len()),
             ));
@@ -167,7 +167,7 @@ impl FittedSurface {
             sections.push(Spline::new("profile", knots, values)?);
         }
         if sections.len() > MOST_SECTIONS {
-            return Err(ReferenceError::new(
+            return Err(ReferenceError::input(
                 "profile",
                 format!("{} sections; allowed: 1 to {MOST_SECTIONS}", sections.len()),
             ));

@@ -18,7 +18,7 @@
 //!
 //! Lengths in m, forces in N, angles in rad.
 
-mod ball;
+pub mod ball;
 pub mod beam;
 pub mod cases;
 pub mod contact;
@@ -33,11 +33,13 @@ pub mod studies;
 pub mod surface;
 mod system;
 
-pub use beam::{Elastic, Section};
+pub use crate::material::Elastic;
+pub use ball::{Ball, NutPose};
+pub use beam::Section;
 pub use contact::{ContactConstants, HertzConvention};
 pub use fitted::FittedSurface;
 pub use geometry::{Contact, Geometry};
-pub use problem::{Ball, Load, NutPose, State, StaticLoad, Support};
+pub use problem::{Load, State, StaticLoad, Support};
 pub use shaft::{Shaft, ShaftModel};
-pub use solution::{Outcome, StaticError, StaticSolution};
+pub use solution::{Outcome, StaticSolution};
 pub use surface::{Deviation, SurfaceError};

@@ -4,27 +4,27 @@ use super::ball::Touch;
 use super::contact::ContactConstants;
 use super::problem::{State, StaticLoad};
 use super::shaft::ShaftModel;
-use super::solution::{StaticError, StaticSolution};
+use super::solution::{LEAST_FORCE, StaticSolution};
 use super::system::{Evaluation, System};
+use crate::error::ReferenceError;
 use nalgebra::Vector2;
 
 const LARGEST_ITERATIONS: usize = 300;
-/// Smallest Levenberg term: next to nothing in contact, where only a load pushes, steps grow up to it.
+/// Smallest Levenberg term, relative to the stiffness. With hardly any contact closed the load alone decides the step, and this
+/// term bounds it.
 const LEAST_LEVENBERG: f64 = 1e-13;
 /// Residual relative to the largest force at which the search ends.
 const TOLERANCE: f64 = 1e-11;
-/// Force, N, that residuals and lost contacts are measured against where nothing larger is loaded: the
-/// forces of an unloaded screw that was disturbed fall towards zero without end.
-pub(super) const LEAST_FORCE: f64 = 1e-9;
-/// Residual relative to the largest force below which a search that rounding has stopped has converged.
+/// A search that can improve no further because of rounding has converged where its residual, relative to the largest force, is
+/// below this.
 const ROUNDING: f64 = 1e-7;
 
 impl StaticLoad {
     /// Finds the loads from a start that suits the axial load, in three to ten steps.
     ///
     /// # Errors
-    /// [`StaticError::NotConverged`] with the residual left.
-    pub fn solve(&self) -> Result<StaticSolution, StaticError> {
+    /// [`ReferenceError::NotConverged`] with the residual left.
+    pub fn solve(&self) -> Result<StaticSolution, ReferenceError> {
         self.solve_from(self.start())
     }
 
@@ -100,9 +100,9 @@ impl StaticLoad {
     /// Finds the loads from any start. Held displacements take their values whatever the start says.
     ///
     /// # Errors
-    /// [`StaticError::Input`] where the start does not fit the case, [`StaticError::NotConverged`] with
+    /// [`ReferenceError::Input`] where the start does not fit the case, [`ReferenceError::NotConverged`] with
     /// the residual left.
-    pub fn solve_from(&self, mut state: State) -> Result<StaticSolution, StaticError> {
+    pub fn solve_from(&self, mut state: State) -> Result<StaticSolution, ReferenceError> {
         self.fits(&state)?;
         for (value, held) in state.nodes.iter_mut().zip(self.held()) {
             if let Some(held) = held {
@@ -126,7 +126,7 @@ impl StaticLoad {
                     [1.0, 0.5, 0.25, 0.1, 0.02].into_iter().find_map(|share| {
                         let trial = state.moved(&step.nodes, &step.balls, share);
                         let there = system.evaluate(&trial);
-                        // Near the minimum the energy no longer tells; there the residual does.
+                        // Near the minimum the energy changes by less than its rounding; there the residual decides.
                         let better = there.energy < at.energy
                             || (there.energy <= at.energy + 1e-12 * at.magnitude
                                 && self.residual(&there, &held) < residual);
@@ -141,10 +141,7 @@ impl StaticLoad {
                 if residual <= ROUNDING || self.at_rounding(&system, &state, &at, &held) {
                     return Ok(StaticSolution::new(self, &state, &at, iteration, residual));
                 }
-                return Err(StaticError::NotConverged {
-                    iterations: iteration,
-                    residual,
-                });
+                return Err(not_converged(residual));
             };
             (state, at) = (trial, there);
             if share == 1.0 {
@@ -164,13 +161,10 @@ impl StaticLoad {
                 residual,
             ));
         }
-        Err(StaticError::NotConverged {
-            iterations: LARGEST_ITERATIONS,
-            residual,
-        })
+        Err(not_converged(residual))
     }
 
-    fn fits(&self, state: &State) -> Result<(), StaticError> {
+    fn fits(&self, state: &State) -> Result<(), ReferenceError> {
         let right_size =
             state.nodes.len() == self.loads.len() && state.balls.len() == self.arms.len();
         let finite = state.nodes.iter().all(|value| value.is_finite())
@@ -182,7 +176,7 @@ impl StaticLoad {
         if right_size && finite {
             Ok(())
         } else {
-            Err(crate::ReferenceError::new("start", "does not fit the load case").into())
+            Err(ReferenceError::input("start", "does not fit the load case"))
         }
     }
 
@@ -264,6 +258,14 @@ impl StaticLoad {
             scale = scale.max(as_force(dof, *load));
         }
         worst / scale
+    }
+}
+
+/// The search ended with this residual, see [`StaticLoad::residual`].
+fn not_converged(residual: f64) -> ReferenceError {
+    ReferenceError::NotConverged {
+        residual,
+        unit: "of the largest force",
     }
 }
 

@@ -4,41 +4,14 @@ use std::sync::Arc;
 
 use nalgebra::Vector2;
 
-use super::ball::{Arm, ArmInput, Errors};
-use super::beam::Elastic;
+use super::ball::{Arm, ArmInput, Ball, Errors, NutPose};
 use super::contact::{ContactConstants, exact, nominal_curvatures};
 use super::geometry::{Contact, Geometry};
 use super::shaft::{Shaft, ShaftModel};
 use super::surface::SurfaceError;
 use crate::curvature::Groove;
 use crate::error::{ReferenceError, within};
-use crate::hertz::contact_modulus;
-
-/// One ball.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Ball {
-    /// Azimuth on the ball path, rad.
-    pub azimuth: f64,
-    /// Nominal axial position of its centre, m.
-    pub position: f64,
-    /// Oversize of its radius, m; negative where it is small.
-    pub oversize: f64,
-    /// Which of the four arcs (SL, SR, NL, NR) exist for it: an angular-contact row has two.
-    pub arcs: [bool; 4],
-}
-
-impl Ball {
-    /// A ball of nominal size that can touch all four arcs.
-    #[must_use]
-    pub const fn new(azimuth: f64, position: f64) -> Self {
-        Self {
-            azimuth,
-            position,
-            oversize: 0.0,
-            arcs: [true; 4],
-        }
-    }
-}
+use crate::material::Elastic;
 
 /// Balls evenly along the helix, `spacing` rad apart and centred at `position`, m, the first at
 /// `first_azimuth`, rad.
@@ -102,17 +75,6 @@ impl Load {
             moment: [0.0; 3],
         }
     }
-}
-
-/// Where the rigid nut stands: a small motion off its nominal place.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct NutPose {
-    /// Place on the axis that it turns about, m.
-    pub position: f64,
-    /// Displacement, m.
-    pub displacement: [f64; 3],
-    /// Rotation, rad.
-    pub rotation: [f64; 3],
 }
 
 /// Unknowns of the problem.
@@ -185,7 +147,7 @@ impl StaticLoad {
         } = setup;
         geometry.check()?;
         if balls.is_empty() || balls.len() > LARGEST_TRAIN {
-            return Err(ReferenceError::new(
+            return Err(ReferenceError::input(
                 "balls",
                 format!("{} is not within 1 to {LARGEST_TRAIN}", balls.len()),
             ));
@@ -372,9 +334,6 @@ fn local_deflection(
         / (step * step);
     let arc = geometry.pitch_radius.hypot(geometry.advance());
     curvatures.kappa1 -= wave / (arc * arc);
-    let modulus = contact_modulus(
-        (metal.youngs_modulus, metal.poisson_ratio),
-        (sphere.youngs_modulus, sphere.poisson_ratio),
-    );
+    let modulus = metal.contact_modulus(&sphere);
     exact(geometry.ball_radius, curvatures, modulus).map(|contact| contact.deflection)
 }

@@ -2,9 +2,10 @@
 
 use nalgebra::{SMatrix, Vector3};
 
-use super::beam::{Elastic, Section, groove_reduction};
+use super::beam::{Section, groove_reduction};
 use super::geometry::Geometry;
 use crate::error::{ReferenceError, within};
+use crate::material::Elastic;
 
 /// What the shaft can do.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -55,13 +56,13 @@ impl Shaft {
         within("screw_length", length, 1e-3, 100.0)?;
         within("screw_diameter", outer_diameter, 0.05 * largest, largest)?;
         if !(1..=64).contains(&refinement) {
-            return Err(ReferenceError::new(
+            return Err(ReferenceError::input(
                 "refinement",
                 format!("{refinement} is not within 1 to 64"),
             ));
         }
         if !(train[0] >= 0.0 && train[1] <= length) {
-            return Err(ReferenceError::new(
+            return Err(ReferenceError::input(
                 "nut_position",
                 format!(
                     "the balls from {} to {} m are not on a screw of {length} m",
@@ -168,7 +169,7 @@ fn mesh(
         ((length - centre - half) / pitch_diameter).ceil(),
     ];
     if counts.iter().sum::<f64>() * refinement as f64 > LARGEST_MESH as f64 {
-        return Err(ReferenceError::new(
+        return Err(ReferenceError::input(
             "screw_length",
             "the screw is too slender for a mesh of 20000 elements",
         ));

@@ -1,49 +1,8 @@
 //! What a load case gives.
 
-use std::fmt;
-
 use super::geometry::Contact;
-use super::newton::LEAST_FORCE;
 use super::problem::{State, StaticLoad};
 use super::system::Evaluation;
-use crate::error::ReferenceError;
-
-/// Why there is no solution.
-#[derive(Clone, Debug, PartialEq)]
-pub enum StaticError {
-    /// An input is wrong.
-    Input(ReferenceError),
-    /// The search ended before the forces balanced.
-    NotConverged {
-        /// Steps taken.
-        iterations: usize,
-        /// Largest unbalanced force over the largest force.
-        residual: f64,
-    },
-}
-
-impl From<ReferenceError> for StaticError {
-    fn from(error: ReferenceError) -> Self {
-        Self::Input(error)
-    }
-}
-
-impl fmt::Display for StaticError {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Input(error) => error.fmt(formatter),
-            Self::NotConverged {
-                iterations,
-                residual,
-            } => write!(
-                formatter,
-                "the loads do not balance after {iterations} steps; largest relative residual {residual:e}"
-            ),
-        }
-    }
-}
-
-impl std::error::Error for StaticError {}
 
 /// Whether the balls carry anything.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -83,7 +42,10 @@ pub struct StaticSolution {
     pub state: State,
 }
 
-/// Force relative to the largest one below which a ball counts as lost: the residual's reach.
+/// Least force, N, that residuals and lost contacts are measured against. In a screw without load all
+/// forces go to zero, and relative to them no residual would ever be small.
+pub const LEAST_FORCE: f64 = 1e-9;
+/// Force relative to the largest one below which a ball counts as lost; smaller forces are within the residual.
 const LOST: f64 = 1e-9;
 
 impl StaticSolution {

@@ -36,10 +36,10 @@ impl Knots {
             .windows(2)
             .all(|pair| pair[1] - pair[0] > 1e-12 * (pair[0].abs() + pair[1].abs()));
         let (Some(first), Some(last)) = (places.first(), places.last()) else {
-            return Err(ReferenceError::new(field, "there are none"));
+            return Err(ReferenceError::input(field, "there are none"));
         };
         if !rising || !first.is_finite() || !last.is_finite() {
-            return Err(ReferenceError::new(
+            return Err(ReferenceError::input(
                 field,
                 "must rise from one to the next without repetition",
             ));
@@ -47,7 +47,7 @@ impl Knots {
         if let Ends::Periodic(period) = ends
             && !(period.is_finite() && last - first < period * (1.0 - 1e-9))
         {
-            return Err(ReferenceError::new(
+            return Err(ReferenceError::input(
                 field,
                 format!("from {first} to {last} is not within one period of {period}"),
             ));
@@ -61,7 +61,7 @@ impl Knots {
             .equations()
             .map(|matrix| {
                 CscCholesky::factor(&matrix)
-                    .map_err(|error| ReferenceError::new(field, error.to_string()))
+                    .map_err(|error| ReferenceError::input(field, error.to_string()))
             })
             .transpose()?;
         Ok(knots)
@@ -263,7 +263,7 @@ impl Spline {
         values: Vec<f64>,
     ) -> Result<Self, ReferenceError> {
         if values.len() != knots.count() || !values.iter().all(|value| value.is_finite()) {
-            return Err(ReferenceError::new(
+            return Err(ReferenceError::input(
                 field,
                 "must be a finite value for each knot",
             ));

@@ -27,8 +27,7 @@ pub struct System<'a> {
 pub struct Evaluation {
     /// Total energy, J.
     pub energy: f64,
-    /// Energy of the shaft and of each part of the sum with its sign dropped, J: what rounding is
-    /// relative to.
+    /// Sum of the magnitudes of all parts of the energy, J: its rounding error is relative to this.
     pub magnitude: f64,
     /// Gradient over all node displacements.
     pub nodes: Vec<f64>,

@@ -3,7 +3,8 @@
 use nalgebra::SMatrix;
 use num_dual::jacobian;
 
-use super::{BallScrewState, SteadyState};
+use super::ball::BallScrewState;
+use super::equilibrium::SteadyState;
 use crate::ball_motion::{Motion, Speeds};
 use crate::curvature::Groove;
 

@@ -9,8 +9,8 @@ use epas_friction::{
     BallScrew, BallScrewParameters, CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration,
     DeviationMap, Faults, FrictionBranch, FrictionModel, GrooveFit, GrooveSize, Inputs, Limits,
     LinearBearing, LinearBearingConfiguration, LinearBearingParameters, LinearBearingTrain,
-    LinearInputs, LinearLimits, LoadShare, Material, Outputs, Scene, TrainOutputs,
-    UncagedBallScrew, UncagedBallScrewConfiguration,
+    LinearInputs, LinearLimits, LinearOutputs, LoadShare, Material, Outputs, Regime, Scene,
+    UncagedBallScrew, UncagedBallScrewConfiguration, UncagedOutputs,
 };
 
 /// Deterministic numbers (splitmix64).
@@ -266,7 +266,7 @@ fn flags(
             expected |= Faults::LOAD_RANGE;
         }
     }
-    let beside_torque = faults.bits() & !Faults::TORQUE_LIMIT.bits();
+    let beside_torque = faults.bits() & !Faults::FRICTION_LIMIT.bits();
     if beside_torque == expected.bits() {
         Ok(lost)
     } else {
@@ -374,54 +374,83 @@ impl Trial for CagedBallScrew {
     }
 }
 
-fn check_train_outputs(
-    balls: usize,
-    outputs: &TrainOutputs,
-    speed: f32,
-    limit: f32,
-    lost: bool,
-) -> Result<(), String> {
-    friction(outputs.friction, limit, speed, lost)?;
-    for (name, value) in [
-        ("groove_friction", outputs.groove_friction),
-        ("ball_friction", outputs.ball_friction),
-        ("load_torque", outputs.load_torque),
-        ("largest_contact_force", outputs.largest_contact_force),
-    ] {
-        finite(name, value)?;
-    }
-    if !lost {
-        friction(outputs.groove_friction, f32::MAX, speed, false)
-            .map_err(|error| format!("grooves: {error}"))?;
-        friction(outputs.ball_friction, f32::MAX, speed, false)
-            .map_err(|error| format!("balls: {error}"))?;
-    }
-    if usize::from(outputs.contacts) > balls || outputs.largest_contact_force < 0.0 {
-        return Err(format!(
-            "{} contacts, largest force {}",
-            outputs.contacts, outputs.largest_contact_force
-        ));
-    }
-    if (outputs.contacts == 0) != (outputs.largest_contact_force == 0.0) {
-        return Err(format!(
-            "{} contacts with a largest force of {}",
-            outputs.contacts, outputs.largest_contact_force
-        ));
-    }
-    Ok(())
+/// What both trains put out, without their units.
+struct TrainNumbers {
+    friction: f32,
+    groove: f32,
+    ball: f32,
+    contacts: u8,
+    largest_contact_force: f32,
 }
 
-fn numbers(outputs: &TrainOutputs) -> Vec<u32> {
-    vec![
-        outputs.friction.to_bits(),
-        outputs.groove_friction.to_bits(),
-        outputs.ball_friction.to_bits(),
-        outputs.load_torque.to_bits(),
-        u32::from(outputs.contacts),
-        outputs.largest_contact_force.to_bits(),
-        outputs.regime as u32,
-        u32::from(outputs.faults.bits()),
-    ]
+impl From<&UncagedOutputs> for TrainNumbers {
+    fn from(outputs: &UncagedOutputs) -> Self {
+        Self {
+            friction: outputs.friction_torque,
+            groove: outputs.groove_torque,
+            ball: outputs.ball_torque,
+            contacts: outputs.contacts,
+            largest_contact_force: outputs.largest_contact_force,
+        }
+    }
+}
+
+impl From<&LinearOutputs> for TrainNumbers {
+    fn from(outputs: &LinearOutputs) -> Self {
+        Self {
+            friction: outputs.friction_force,
+            groove: outputs.groove_force,
+            ball: outputs.ball_force,
+            contacts: outputs.contacts,
+            largest_contact_force: outputs.largest_contact_force,
+        }
+    }
+}
+
+impl TrainNumbers {
+    fn check(&self, balls: usize, speed: f32, limit: f32, lost: bool) -> Result<(), String> {
+        friction(self.friction, limit, speed, lost)?;
+        for (name, value) in [
+            ("groove", self.groove),
+            ("ball", self.ball),
+            ("largest_contact_force", self.largest_contact_force),
+        ] {
+            finite(name, value)?;
+        }
+        if !lost {
+            friction(self.groove, f32::MAX, speed, false)
+                .map_err(|error| format!("grooves: {error}"))?;
+            friction(self.ball, f32::MAX, speed, false)
+                .map_err(|error| format!("balls: {error}"))?;
+        }
+        if usize::from(self.contacts) > balls || self.largest_contact_force < 0.0 {
+            return Err(format!(
+                "{} contacts, largest force {}",
+                self.contacts, self.largest_contact_force
+            ));
+        }
+        if (self.contacts == 0) != (self.largest_contact_force == 0.0) {
+            return Err(format!(
+                "{} contacts with a largest force of {}",
+                self.contacts, self.largest_contact_force
+            ));
+        }
+        Ok(())
+    }
+
+    /// Bits, with the torque of the load, which a bearing does not have.
+    fn bits(&self, load_torque: f32, regime: Regime, faults: Faults) -> Vec<u32> {
+        vec![
+            self.friction.to_bits(),
+            self.groove.to_bits(),
+            self.ball.to_bits(),
+            load_torque.to_bits(),
+            u32::from(self.contacts),
+            self.largest_contact_force.to_bits(),
+            regime as u32,
+            u32::from(faults.bits()),
+        ]
+    }
 }
 
 /// No ball lost, none through another: from ball to ball once around the track and no more, gaps not
@@ -521,7 +550,7 @@ impl<const N: usize> Trial for UncagedBallScrew<N> {
     fn check(
         configuration: &UncagedBallScrewConfiguration,
         [speed, load, _]: [f32; 3],
-        outputs: &TrainOutputs,
+        outputs: &UncagedOutputs,
     ) -> Result<(), String> {
         let limits = &configuration.limits;
         let lost = flags(
@@ -530,7 +559,8 @@ impl<const N: usize> Trial for UncagedBallScrew<N> {
             &[load],
             limits.axial_load,
         )?;
-        check_train_outputs(N, outputs, speed, limits.friction_torque, lost)?;
+        TrainNumbers::from(outputs).check(N, speed, limits.friction_torque, lost)?;
+        finite("load_torque", outputs.load_torque)?;
         let outputs = Outputs::from(*outputs);
         if (-1e6..=1.0).contains(&outputs.efficiency) {
             Ok(())
@@ -543,8 +573,8 @@ impl<const N: usize> Trial for UncagedBallScrew<N> {
         sound_train(&model.state().train)
     }
 
-    fn numbers(outputs: &TrainOutputs) -> Vec<u32> {
-        numbers(outputs)
+    fn numbers(outputs: &UncagedOutputs) -> Vec<u32> {
+        TrainNumbers::from(outputs).bits(outputs.load_torque, outputs.regime, outputs.faults)
     }
 }
 
@@ -629,7 +659,7 @@ impl<const N: usize> Trial for LinearBearingTrain<N> {
     fn check(
         configuration: &LinearBearingConfiguration,
         [speed, normal, side]: [f32; 3],
-        outputs: &TrainOutputs,
+        outputs: &LinearOutputs,
     ) -> Result<(), String> {
         let limits = &configuration.limits;
         let lost = flags(
@@ -638,15 +668,15 @@ impl<const N: usize> Trial for LinearBearingTrain<N> {
             &[normal, side],
             limits.load,
         )?;
-        check_train_outputs(N, outputs, speed, limits.friction_force, lost)
+        TrainNumbers::from(outputs).check(N, speed, limits.friction_force, lost)
     }
 
     fn check_state(model: &FrictionModel<Self>) -> Result<(), String> {
         sound_train(&model.state().train)
     }
 
-    fn numbers(outputs: &TrainOutputs) -> Vec<u32> {
-        numbers(outputs)
+    fn numbers(outputs: &LinearOutputs) -> Vec<u32> {
+        TrainNumbers::from(outputs).bits(0.0, outputs.regime, outputs.faults)
     }
 }
 

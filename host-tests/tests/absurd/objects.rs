@@ -10,7 +10,7 @@ use epas_friction::efficiency::{
 use epas_friction::geometry::{ContactAngle, Groove, GrooveProfile, HelixPath};
 use epas_friction::hertz::HertzContact;
 use epas_friction::kinematics::{
-    ContactKinematics, EllipticContact, FrictionPower, KinematicsParameters, TraditionalKinematics,
+    ContactKinematics, EllipticContact, FrictionPower, KinematicsParameters,
 };
 use epas_friction::refined::{FourPointBall, RotaryBall, RotaryBallParameters};
 use epas_friction::train::{Press, Train};
@@ -323,7 +323,6 @@ fn kinematics(numbers: &mut Numbers) -> Result<(), String> {
         semi_major_nut,
         semi_minor_nut: semi_major_nut * numbers.within(0.0, 1.0),
     };
-    let traditional = TraditionalKinematics::new(&parameters);
     let mut kinematics = match ContactKinematics::new(&parameters) {
         Ok(kinematics) => kinematics,
         Err(error) => return refused("ContactKinematics", &error),
@@ -373,13 +372,6 @@ fn kinematics(numbers: &mut Numbers) -> Result<(), String> {
         return Err(format!("a refused update changed {before:?}"));
     }
     answers(&kinematics)?;
-    if let Ok(traditional) = traditional {
-        let tick = traditional.tick(speed);
-        all_finite(
-            &format!("TraditionalKinematics {parameters:?} at {speed}"),
-            &[tick.orbital_speed, tick.spin_speed, tick.screw.spin],
-        )?;
-    }
     Ok(())
 }
 

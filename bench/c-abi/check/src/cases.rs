@@ -1,21 +1,13 @@
 //! The stored cases: inputs, and what the crate makes of them on the host, called from Rust.
-//!
-//! The set-ups are written twice: here, and in `test/setups.c` as a user would.
 
 use std::fmt::Write as _;
 
 use epas_friction::curvature::{CircularGrooveCurvature, GothicArch, LiteratureCurvature};
 use epas_friction::efficiency::{Drive, EfficiencyGeometry};
 use epas_friction::geometry::{ContactAngle, Groove};
-use epas_friction::{
-    BallScrew, BallScrewParameters, CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration,
-    DeviationMap, Error, FrictionBranch, FrictionModel, GrooveFit, GrooveSize, Harmonic, Inputs,
-    Limits, LinearBearing, LinearBearingConfiguration, LinearBearingParameters, LinearBearingTrain,
-    LinearInputs, LinearLimits, LoadShare, Material, Regime, TrainOutputs, UncagedBallScrew,
-    UncagedBallScrewConfiguration,
-};
+use epas_friction::{CATALOGUE, Error, Inputs, LinearInputs, Regime};
 
-use crate::Outcome;
+use crate::{Outcome, setups};
 
 /// Ticks of each scene.
 const TICKS: u32 = 256;
@@ -72,30 +64,8 @@ const fn regime(regime: Regime) -> u32 {
     }
 }
 
-/// The rack-assist gear of Lin 2019, chapter 4.
 fn caged() -> Result<Vec<Vec<u32>>, Error> {
-    let mut model = FrictionModel::<CagedBallScrew>::new(&CagedBallScrewConfiguration {
-        design: BallScrew::new(BallScrewParameters {
-            pitch_radius: 14.5e-3,
-            lead: 7e-3,
-            ball_radius: 2e-3,
-            screw_groove: GrooveSize::Conformity(0.54),
-            nut_groove: GrooveSize::Conformity(0.54),
-            contact_angle: std::f32::consts::FRAC_PI_4,
-            ball_material: Material::STEEL,
-            groove_material: Material::STEEL,
-        })?,
-        friction: 0.075,
-        rolling_tangent: 0.002,
-        branch: FrictionBranch::Rolling,
-        preload: 100.0,
-        reversal_speed: 0.5,
-        limits: Limits {
-            nut_speed: 500.0,
-            axial_load: 20_000.0,
-            friction_torque: 2.0,
-        },
-    })?;
+    let mut model = setups::caged()?;
     let mut numbers = Numbers(0x1994_2019);
     let mut speed = Wander {
         value: 0.0,
@@ -125,78 +95,8 @@ fn caged() -> Result<Vec<Vec<u32>>, Error> {
         .collect())
 }
 
-fn train_outputs(outputs: &TrainOutputs) -> [u32; 8] {
-    [
-        outputs.friction.to_bits(),
-        outputs.groove_friction.to_bits(),
-        outputs.ball_friction.to_bits(),
-        outputs.load_torque.to_bits(),
-        outputs.largest_contact_force.to_bits(),
-        outputs.contacts.into(),
-        regime(outputs.regime),
-        outputs.faults.bits().into(),
-    ]
-}
-
-/// A table that lives as long as the program.
-fn kept<T>(value: T) -> &'static T {
-    Box::leak(Box::new(value))
-}
-
-/// The ball screw of Lin 2019, Table 3.6, with two waves of deviation a turn on the screw and a triangle on
-/// the nut.
 fn screw() -> Result<Vec<Vec<u32>>, Error> {
-    let triangle = std::array::from_fn(|sample: usize| {
-        let sample = sample as f32;
-        let rise = if sample < 32.0 { sample } else { 64.0 - sample };
-        (rise - 16.0) * 0.00125
-    });
-    let shares = [1.4_f32, 1.2, 1.1, 0.9, 0.8, 0.6]
-        .into_iter()
-        .map(LoadShare::new)
-        .collect::<Result<Vec<_>, _>>()?;
-    let mut model = FrictionModel::<UncagedBallScrew<37>>::new(&UncagedBallScrewConfiguration {
-        design: BallScrew::new(BallScrewParameters {
-            pitch_radius: 16.5e-3,
-            lead: 20e-3,
-            ball_radius: 2.778e-3,
-            screw_groove: GrooveSize::Conformity(0.56),
-            nut_groove: GrooveSize::Conformity(0.56),
-            contact_angle: std::f32::consts::FRAC_PI_4,
-            ball_material: Material::STEEL,
-            groove_material: Material::STEEL,
-        })?,
-        friction: 0.1,
-        ball_friction: 0.12,
-        fit: GrooveFit::Zero,
-        turns: 1.8,
-        return_length: 20e-3,
-        screw_deviation: kept(DeviationMap::from_harmonics(
-            1,
-            &[
-                Harmonic {
-                    order: 1,
-                    cosine: 0.005,
-                    sine: 0.0,
-                },
-                Harmonic {
-                    order: 2,
-                    cosine: 0.0,
-                    sine: 0.04014,
-                },
-            ],
-        )?),
-        nut_deviation: kept(DeviationMap::from_samples(2, &triangle)?),
-        load_shares: kept(shares),
-        reversal_speed: 0.5,
-        tick: 0.5e-3,
-        limits: Limits {
-            nut_speed: 500.0,
-            axial_load: 20_000.0,
-            friction_torque: 5.0,
-        },
-    })?;
-    model.set_nut_angle(1.25);
+    let mut model = setups::screw()?;
     let mut numbers = Numbers(0x0037_0037);
     let mut speed = Wander {
         value: 0.0,
@@ -213,47 +113,24 @@ fn screw() -> Result<Vec<Vec<u32>>, Error> {
                 axial_load: load.next(&mut numbers, tick, 30),
             };
             let outputs = model.step(inputs);
-            let mut words = vec![inputs.nut_speed.to_bits(), inputs.axial_load.to_bits()];
-            words.extend(train_outputs(&outputs));
-            words
+            vec![
+                inputs.nut_speed.to_bits(),
+                inputs.axial_load.to_bits(),
+                outputs.friction_torque.to_bits(),
+                outputs.groove_torque.to_bits(),
+                outputs.ball_torque.to_bits(),
+                outputs.load_torque.to_bits(),
+                outputs.largest_contact_force.to_bits(),
+                outputs.contacts.into(),
+                regime(outputs.regime),
+                outputs.faults.bits().into(),
+            ]
         })
         .collect())
 }
 
-/// A linear bearing with balls of 10 mm.
 fn linear() -> Result<Vec<Vec<u32>>, Error> {
-    let mut model = FrictionModel::<LinearBearingTrain<32>>::new(&LinearBearingConfiguration {
-        bearing: LinearBearing::new(LinearBearingParameters {
-            ball_radius: 5e-3,
-            groove: GrooveSize::Conformity(0.52),
-            contact_angle: std::f32::consts::FRAC_PI_4,
-            ball_material: Material::STEEL,
-            groove_material: Material::STEEL,
-        })?,
-        friction: 0.1,
-        ball_friction: 0.12,
-        loaded_length: 0.2,
-        return_length: 0.13,
-        wavelength: 0.05,
-        rail_deviation: kept(DeviationMap::from_harmonics(
-            1,
-            &[Harmonic {
-                order: 1,
-                cosine: 0.01,
-                sine: 0.02,
-            }],
-        )?),
-        carriage_deviation: &DeviationMap::NONE,
-        load_shares: &[LoadShare::MEAN],
-        reversal_speed: 1e-3,
-        tick: 1e-3,
-        limits: LinearLimits {
-            speed: 2.0,
-            load: 5_000.0,
-            friction_force: 50.0,
-        },
-    })?;
-    model.set_carriage_position(0.0125);
+    let mut model = setups::linear()?;
     let mut numbers = Numbers(0x0343_0349);
     let mut speed = Wander {
         value: 0.0,
@@ -275,13 +152,18 @@ fn linear() -> Result<Vec<Vec<u32>>, Error> {
                 side_load: side.next(&mut numbers, tick, 40),
             };
             let outputs = model.step(inputs);
-            let mut words = vec![
+            vec![
                 inputs.speed.to_bits(),
                 inputs.normal_load.to_bits(),
                 inputs.side_load.to_bits(),
-            ];
-            words.extend(train_outputs(&outputs));
-            words
+                outputs.friction_force.to_bits(),
+                outputs.groove_force.to_bits(),
+                outputs.ball_force.to_bits(),
+                outputs.largest_contact_force.to_bits(),
+                outputs.contacts.into(),
+                regime(outputs.regime),
+                outputs.faults.bits().into(),
+            ]
         })
         .collect())
 }
@@ -371,8 +253,6 @@ fn table(text: &mut String, name: &str, columns: &str, rows: &[Vec<u32>]) -> Out
 
 /// The file of stored cases.
 pub fn generated() -> Outcome<String> {
-    const TRAIN: &str = "friction, groove_friction, ball_friction, load_torque, largest_contact_force, \
-                         contacts, regime, faults";
     let mut text = String::from(
         "/* Written by `cargo run -p epas-c-check -- --write`; do not edit. Inputs and what the crate makes of\n\
          \x20* them on the host, called from Rust: floats by their bits. */\n",
@@ -386,13 +266,15 @@ pub fn generated() -> Outcome<String> {
     table(
         &mut text,
         "stored_screw",
-        &format!("nut_speed, axial_load; {TRAIN}"),
+        "nut_speed, axial_load; friction_torque, groove_torque, ball_torque, load_torque, \
+         largest_contact_force, contacts, regime, faults",
         &screw()?,
     )?;
     table(
         &mut text,
         "stored_linear",
-        &format!("speed, normal_load, side_load; {TRAIN}"),
+        "speed, normal_load, side_load; friction_force, groove_force, ball_force, \
+         largest_contact_force, contacts, regime, faults",
         &linear()?,
     )?;
     table(

@@ -11,6 +11,7 @@ mod cases;
 mod header;
 mod host;
 mod places;
+mod setups;
 mod target;
 mod tools;
 

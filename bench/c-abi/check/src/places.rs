@@ -4,7 +4,9 @@ use std::fs;
 use std::path::Path;
 
 use epas_friction::scene::Scene;
-use epas_friction::{CagedBallScrew, FrictionModel, LinearBearingTrain, UncagedBallScrew};
+use epas_friction::{
+    CagedBallScrew, DeviationMap, FrictionModel, LinearBearingTrain, LoadShare, UncagedBallScrew,
+};
 
 use crate::Outcome;
 
@@ -41,6 +43,16 @@ fn needed() -> [(&'static str, &'static str, usize); 3] {
     ]
 }
 
+/// The tables that models share, by the README's line of each, and their bytes.
+const TABLES: [(&str, usize); 2] = [
+    // A mark before the map.
+    (
+        "`epas_deviation_t` | ",
+        size_of::<u32>() + size_of::<DeviationMap>(),
+    ),
+    ("`epas_load_share_t` | ", size_of::<LoadShare>()),
+];
+
 /// Sees that the constants are what they have to be, or writes them.
 pub fn check(root: &Path, write: bool) -> Outcome<()> {
     let file = root.join("src/types.rs");
@@ -65,12 +77,23 @@ pub fn check(root: &Path, write: bool) -> Outcome<()> {
             fs::write(&file, &types)?;
             println!("wrote {name} in src/types.rs");
         }
-        let line = format!("| {object} | {} |", with_comma(8 * words));
-        if !readme.contains(&line) {
-            return Err(format!("README.md has to say {line}").into());
-        }
+        says(
+            &readme,
+            &format!("| {object} | {} |", with_comma(8 * words)),
+        )?;
+    }
+    for (line, bytes) in TABLES {
+        says(&readme, &format!("| {line}{bytes} "))?;
     }
     Ok(())
+}
+
+fn says(readme: &str, line: &str) -> Outcome<()> {
+    if readme.contains(line) {
+        Ok(())
+    } else {
+        Err(format!("README.md has to say {line}").into())
+    }
 }
 
 /// A number that a constant has.

@@ -156,6 +156,7 @@ fn firmware(
     let sources = [
         "firmware/startup.c",
         "firmware/semihosting.c",
+        "firmware/sys_tick.c",
         "firmware/main.c",
         "test/cases.c",
         "test/setups.c",

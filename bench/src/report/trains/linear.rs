@@ -4,7 +4,6 @@ use std::f64::consts::TAU;
 
 use epas_friction::ball::{AnalyticLinearBall, PUBLISHED_SLOPE, SpeedDeviation};
 use epas_friction::refined::{BallChain, BallState, FourPointBall, FourPointContacts};
-use epas_reference::friction::FrictionError;
 use epas_reference::friction::chain::solve_chain;
 use epas_reference::friction::linear_ball::LinearBall;
 
@@ -54,12 +53,6 @@ const FORCE_BANDS: [(f64, &str); 6] = [
     (1.0, "1"),
     (3.0, "3"),
 ];
-
-impl From<FrictionError> for Failure {
-    fn from(error: FrictionError) -> Self {
-        Self::Data(error.to_string())
-    }
-}
 
 struct Models {
     analytic: AnalyticLinearBall,

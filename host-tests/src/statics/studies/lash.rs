@@ -4,11 +4,12 @@ use std::f64::consts::TAU;
 
 use rayon::prelude::*;
 
-use super::{StudyError, Tick, told};
+use super::{Tick, told};
 use crate::error::{ReferenceError, within};
+use crate::statics::ball::Ball;
 use crate::statics::cases::CaseStudy;
 use crate::statics::geometry::Geometry;
-use crate::statics::problem::{Ball, Load, StaticLoad, Support};
+use crate::statics::problem::{Load, StaticLoad, Support};
 
 /// Where the balls lie on a track that they do not fill (Figure 4.2; the text shows but does not define
 /// them).
@@ -55,7 +56,7 @@ impl Pattern {
         let ball =
             2.0 * (geometry.ball_radius / geometry.pitch_radius.hypot(geometry.advance())).asin();
         if balls == 0 || balls as f64 * ball > length {
-            return Err(ReferenceError::new(
+            return Err(ReferenceError::input(
                 "balls",
                 format!("{balls} touching balls do not fit on {turns} turns"),
             ));
@@ -166,8 +167,8 @@ impl LashTest {
     /// Axial displacement, m, of the left end under an axial force, N. Only the balls hold the screw aside.
     ///
     /// # Errors
-    /// [`StudyError`] of the static model.
-    pub fn axial(&self, pattern: Pattern, force: f64) -> Result<f64, StudyError> {
+    /// [`ReferenceError`] of the static model.
+    pub fn axial(&self, pattern: Pattern, force: f64) -> Result<f64, ReferenceError> {
         let load = Load::axial(0.0, force);
         let case = self.load(pattern, load)?;
         Ok(case.solve()?.axial_displacement())
@@ -177,8 +178,8 @@ impl LashTest {
     /// it from turning. Larger balls in an uneven pattern push the screw aside without any force.
     ///
     /// # Errors
-    /// [`StudyError`] of the static model.
-    pub fn conical(&self, pattern: Pattern, force: f64) -> Result<f64, StudyError> {
+    /// [`ReferenceError`] of the static model.
+    pub fn conical(&self, pattern: Pattern, force: f64) -> Result<f64, ReferenceError> {
         let load = Load {
             position: self.lateral_position,
             force: [force, 0.0, 0.0],
@@ -197,10 +198,10 @@ impl LashTest {
     /// Both curves of all patterns.
     ///
     /// # Errors
-    /// [`StudyError`] of the static model, or cancelled.
-    pub fn curves(&self, tick: Tick<'_>) -> Result<Vec<LashCurves>, StudyError> {
+    /// [`ReferenceError`] of the static model, or cancelled.
+    pub fn curves(&self, tick: Tick<'_>) -> Result<Vec<LashCurves>, ReferenceError> {
         if !(2..=10_000).contains(&self.steps) {
-            return Err(ReferenceError::new("steps", "must be 2 to 10000").into());
+            return Err(ReferenceError::input("steps", "must be 2 to 10000"));
         }
         let last = self.steps as f64 - 1.0;
         let points: Vec<(usize, f64)> = (0..Pattern::ALL.len())
@@ -220,7 +221,7 @@ impl LashTest {
                 told(tick)?;
                 Ok(point)
             })
-            .collect::<Result<_, StudyError>>()?;
+            .collect::<Result<_, ReferenceError>>()?;
         Ok(Pattern::ALL
             .into_iter()
             .zip(found.chunks_exact(self.steps))

@@ -4,16 +4,13 @@
 //! to be compared with the text in kind.
 //!
 //! Each study computes its points on all cores and calls `tick` after each point; where that returns false,
-//! the study ends with [`StudyError::Cancelled`].
+//! the study ends with [`ReferenceError::Cancelled`].
 
 pub mod lash;
 pub mod scaling;
 pub mod tie_rod;
 pub mod waviness;
 
-use std::fmt;
-
-use super::solution::StaticError;
 use crate::error::ReferenceError;
 
 /// Told of each point that is done; false ends the study.
@@ -25,42 +22,10 @@ pub fn quietly() -> bool {
     true
 }
 
-/// Why a study has no result.
-#[derive(Clone, Debug, PartialEq)]
-pub enum StudyError {
-    /// A point has no solution.
-    Static(StaticError),
-    /// It was told to stop.
-    Cancelled,
-}
-
-impl From<StaticError> for StudyError {
-    fn from(error: StaticError) -> Self {
-        Self::Static(error)
-    }
-}
-
-impl From<ReferenceError> for StudyError {
-    fn from(error: ReferenceError) -> Self {
-        Self::Static(error.into())
-    }
-}
-
-impl fmt::Display for StudyError {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Static(error) => error.fmt(formatter),
-            Self::Cancelled => formatter.write_str("cancelled"),
-        }
-    }
-}
-
-impl std::error::Error for StudyError {}
-
-fn told(tick: Tick<'_>) -> Result<(), StudyError> {
+fn told(tick: Tick<'_>) -> Result<(), ReferenceError> {
     if tick() {
         Ok(())
     } else {
-        Err(StudyError::Cancelled)
+        Err(ReferenceError::Cancelled)
     }
 }

@@ -8,13 +8,15 @@ use std::f64::consts::{FRAC_PI_4, TAU};
 use nalgebra::{SMatrix, SVector};
 use rayon::prelude::*;
 
-use super::{StudyError, Tick, told};
+use super::{Tick, told};
+use crate::error::ReferenceError;
+use crate::statics::ball::NutPose;
 use crate::statics::cases::CaseStudy;
 use crate::statics::contact::ContactConstants;
 use crate::statics::geometry::Geometry;
-use crate::statics::problem::{Load, NutPose, Setup, State, StaticLoad, Support, even_train};
+use crate::statics::problem::{Load, Setup, State, StaticLoad, Support, even_train};
 use crate::statics::shaft::Shaft;
-use crate::statics::solution::{StaticError, StaticSolution};
+use crate::statics::solution::StaticSolution;
 
 /// A rack with ball screw and bearing under tie-rod forces.
 #[derive(Clone, Debug, PartialEq)]
@@ -100,7 +102,7 @@ struct Sides {
 }
 
 impl TieRodLoad {
-    fn screw_setup(&self, angle: f64) -> Result<Setup, StudyError> {
+    fn screw_setup(&self, angle: f64) -> Result<Setup, ReferenceError> {
         let mut setup = self.rack.setup()?;
         let half = 0.5 * self.rack_load;
         let (sin, cos) = angle.sin_cos();
@@ -120,7 +122,7 @@ impl TieRodLoad {
         Ok(setup)
     }
 
-    fn bearing_setup(&self) -> Result<Setup, StudyError> {
+    fn bearing_setup(&self) -> Result<Setup, ReferenceError> {
         let spacing = TAU / self.bearing_balls.max(1) as f64;
         let mut balls = even_train(
             &self.bearing,
@@ -155,7 +157,7 @@ impl TieRodLoad {
         bearing: &Setup,
         pose: &Pose,
         start: Option<&State>,
-    ) -> Result<Sides, StudyError> {
+    ) -> Result<Sides, ReferenceError> {
         let mut screw = screw.clone();
         screw.nut = NutPose {
             position: self.rack.nut_position,
@@ -193,8 +195,8 @@ impl TieRodLoad {
     /// Balances the nut at one tie-rod angle, rad, by Newton's method with differences of forces.
     ///
     /// # Errors
-    /// [`StudyError`] of the static model.
-    pub fn at(&self, angle: f64) -> Result<TieRodLoads, StudyError> {
+    /// [`ReferenceError`] of the static model.
+    pub fn at(&self, angle: f64) -> Result<TieRodLoads, ReferenceError> {
         let (screw, bearing) = (self.screw_setup(angle)?, self.bearing_setup()?);
         let radius = self.bearing.pitch_radius;
         let scale = Pose::new(1.0, 1.0, 1.0, 1.0 / radius, 1.0 / radius);
@@ -264,26 +266,18 @@ impl TieRodLoad {
                 };
             }
             let Some((trial, there)) = moved else {
-                return Err(StaticError::NotConverged {
-                    iterations: iteration,
-                    residual: residual / self.rack_load.abs().max(1.0),
-                }
-                .into());
+                return Err(ReferenceError::unbalanced(residual));
             };
             (pose, here) = (trial, there);
         }
-        Err(StaticError::NotConverged {
-            iterations: 100,
-            residual: measure(&here.gradient) / self.rack_load.abs().max(1.0),
-        }
-        .into())
+        Err(ReferenceError::unbalanced(measure(&here.gradient)))
     }
 
     /// All of some tie-rod angles, rad.
     ///
     /// # Errors
-    /// [`StudyError`] of the static model, or cancelled.
-    pub fn over(&self, angles: &[f64], tick: Tick<'_>) -> Result<Vec<TieRodLoads>, StudyError> {
+    /// [`ReferenceError`] of the static model, or cancelled.
+    pub fn over(&self, angles: &[f64], tick: Tick<'_>) -> Result<Vec<TieRodLoads>, ReferenceError> {
         angles
             .par_iter()
             .map(|angle| {

@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use super::{StudyError, Tick, told};
+use super::{Tick, told};
+use crate::error::ReferenceError;
 use crate::statics::cases::CaseStudy;
 use crate::statics::problem::StaticLoad;
 use crate::statics::solution::StaticSolution;
@@ -38,8 +39,8 @@ impl Waviness {
     /// The loads of a ball screw whose groove has this error with an amplitude, m.
     ///
     /// # Errors
-    /// [`StudyError`] of the static model.
-    pub fn loads(self, case: &CaseStudy, amplitude: f64) -> Result<StaticSolution, StudyError> {
+    /// [`ReferenceError`] of the static model.
+    pub fn loads(self, case: &CaseStudy, amplitude: f64) -> Result<StaticSolution, ReferenceError> {
         let mut setup = case.setup()?;
         let error = match self {
             Self::Nominal => None,
@@ -51,7 +52,7 @@ impl Waviness {
                 surface.push(Arc::new(error));
             }
         }
-        Ok(StaticLoad::new(setup)?.solve()?)
+        StaticLoad::new(setup)?.solve()
     }
 }
 
@@ -60,12 +61,12 @@ impl Waviness {
 /// none with that of Table 2.1.
 ///
 /// # Errors
-/// [`StudyError`] of the static model, or cancelled.
+/// [`ReferenceError`] of the static model, or cancelled.
 pub fn compare(
     case: &CaseStudy,
     amplitude: f64,
     tick: Tick<'_>,
-) -> Result<Vec<(Waviness, StaticSolution)>, StudyError> {
+) -> Result<Vec<(Waviness, StaticSolution)>, ReferenceError> {
     Waviness::ALL
         .into_par_iter()
         .map(|error| {

@@ -172,7 +172,7 @@ impl DeviationMap {
     }
 
     /// Its largest sample, rad, where that is not beyond `largest`.
-    pub(super) const fn checked(&self, field: &'static str, largest: f32) -> Result<f32, Error> {
+    pub(crate) const fn checked(&self, field: &'static str, largest: f32) -> Result<f32, Error> {
         // A map keeps its largest sample within a rounding.
         let margin = 1.0 + 4.0 * f32::EPSILON;
         in_range(

@@ -1,24 +1,12 @@
 //! Where on the track balls carry load, and what they find there.
 
 use super::deviation::{DeviationMap, PHASE_BITS};
+use super::phase::UNITS;
 use crate::ball::LoadShare;
 use crate::error::{Error, attempt, in_range};
 
-/// Units of length on the track.
-const UNITS: f32 = 4_294_967_296.0;
-
 /// Fraction bits of the ratio of the load table's entries.
 const FRACTION_BITS: u32 = 16;
-
-/// Longest track, in turns or wavelengths of the maps: ratios of phases fit into 32 bits.
-pub(super) const LONGEST_TRACK: f32 = 1000.0;
-
-/// Longest return over the loaded part: positions in the load table fit into 32 bits.
-pub(super) const LONGEST_RETURN: f32 = 250.0;
-
-/// Largest part of a map's period by which the passing groove may advance in a tick: its sense would be
-/// lost beyond.
-pub(super) const LARGEST_ADVANCE: f32 = 0.499;
 
 /// Deviation maps of both grooves and the shares of the load, in integers along the track.
 ///
@@ -30,19 +18,19 @@ pub(super) struct LoadedZone {
     /// Entries of the load table along the whole track: balls are loaded as long as the table lasts.
     entries: u32,
     passing_ratio: u32,
-    own_ratio: u32,
+    recirculating_ratio: u32,
     passing: &'static DeviationMap,
-    own: &'static DeviationMap,
+    recirculating: &'static DeviationMap,
     shares: &'static [LoadShare],
 }
 
 /// What a loaded ball finds.
-pub(super) struct Place {
+pub(crate) struct Place {
     /// Deviation of the groove that passes by, as a multiple of the first of [`LoadedZone::units`].
-    pub(super) passing: f32,
+    pub(crate) passing: f32,
     /// Deviation of the groove of the body in which balls recirculate, as a multiple of the second.
-    pub(super) own: f32,
-    pub(super) share: &'static LoadShare,
+    pub(crate) recirculating: f32,
+    pub(crate) share: &'static LoadShare,
 }
 
 impl LoadedZone {
@@ -51,7 +39,7 @@ impl LoadedZone {
         loaded: f32,
         length: f32,
         passing: &'static DeviationMap,
-        own: &'static DeviationMap,
+        recirculating: &'static DeviationMap,
         shares: &'static [LoadShare],
     ) -> Result<Self, Error> {
         attempt!(in_range("load_shares", shares.len() as f32, 1.0, 256.0));
@@ -62,9 +50,9 @@ impl LoadedZone {
         Ok(Self {
             entries,
             passing_ratio: phase_ratio(passing, length),
-            own_ratio: phase_ratio(own, length),
+            recirculating_ratio: phase_ratio(recirculating, length),
             passing,
-            own,
+            recirculating,
             shares,
         })
     }
@@ -79,20 +67,21 @@ impl LoadedZone {
         let passing = scaled(self.passing_ratio).wrapping_add(phase >> (32 - PHASE_BITS));
         Some(Place {
             passing: self.passing.units(passing) as f32,
-            own: self.own.units(scaled(self.own_ratio)) as f32,
+            recirculating: self.recirculating.units(scaled(self.recirculating_ratio)) as f32,
             share,
         })
     }
 
-    /// Units of the deviations of the passing groove and of the own one, rad.
+    /// Units of the deviations of the passing groove and of the recirculating one, rad.
     #[inline(always)]
     pub(super) const fn units(&self) -> (f32, f32) {
-        (self.passing.unit(), self.own.unit())
+        (self.passing.unit(), self.recirculating.unit())
     }
 
-    /// Turns in a period of the passing groove.
-    pub(super) const fn passing_turns(&self) -> u16 {
-        self.passing.turns()
+    /// Turns of the maps in a period of the passing groove.
+    #[inline]
+    pub(super) fn passing_turns(&self) -> f32 {
+        f32::from(self.passing.turns())
     }
 
     /// Phase of the passing groove, in units of 2^-32, per turn or wavelength.
@@ -105,41 +94,4 @@ impl LoadedZone {
 const fn phase_ratio(map: &DeviationMap, length: f32) -> u32 {
     let ratio = length / map.turns() as f32;
     (ratio * (1_u32 << PHASE_BITS) as f32) as u32
-}
-
-/// A phase that advances by parts of a unit and wraps around.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub(super) struct Phase {
-    units: u32,
-    rest: f32,
-}
-
-impl Phase {
-    #[inline(always)]
-    pub(super) const fn units(&self) -> u32 {
-        self.units
-    }
-
-    #[inline(always)]
-    pub(super) fn advance(&mut self, units: f32) {
-        let units = units + self.rest;
-        let whole = units as i32;
-        self.units = self.units.wrapping_add_signed(whole);
-        self.rest = units - whole as f32;
-    }
-
-    /// Sets the phase to a number of periods, of which only the fraction counts.
-    pub(super) fn set(&mut self, periods: f32) {
-        let periods = if periods.abs() < 8_388_608.0 {
-            periods
-        } else {
-            0.0
-        };
-        let fraction = periods - periods as i32 as f32;
-        // Twice a half, because a whole period does not fit into 31 bits.
-        let half = (fraction * (0.5 * UNITS)) as i32;
-        self.units = (half as u32).wrapping_mul(2);
-        self.rest = 0.0;
-    }
 }

@@ -1,0 +1,133 @@
+//! The three scenes of the stored cases, set up in Rust; `test/setups.c` sets the same up in C, as a user would.
+
+use epas_friction::{
+    BallScrew, BallScrewParameters, CagedBallScrew, CagedBallScrewConfiguration, DeviationMap,
+    Error, FrictionBranch, FrictionModel, GrooveFit, GrooveSize, Harmonic, Limits, LinearBearing,
+    LinearBearingConfiguration, LinearBearingParameters, LinearBearingTrain, LinearLimits,
+    LoadShare, Material, UncagedBallScrew, UncagedBallScrewConfiguration,
+};
+
+/// The rack-assist gear of Lin 2019, chapter 4.
+pub fn caged() -> Result<FrictionModel<CagedBallScrew>, Error> {
+    FrictionModel::<CagedBallScrew>::new(&CagedBallScrewConfiguration {
+        design: BallScrew::new(BallScrewParameters {
+            pitch_radius: 14.5e-3,
+            lead: 7e-3,
+            ball_radius: 2e-3,
+            screw_groove: GrooveSize::Conformity(0.54),
+            nut_groove: GrooveSize::Conformity(0.54),
+            contact_angle: std::f32::consts::FRAC_PI_4,
+            ball_material: Material::STEEL,
+            groove_material: Material::STEEL,
+        })?,
+        friction: 0.075,
+        rolling_tangent: 0.002,
+        branch: FrictionBranch::Rolling,
+        preload: 100.0,
+        reversal_speed: 0.5,
+        limits: Limits {
+            nut_speed: 500.0,
+            axial_load: 20_000.0,
+            friction_torque: 2.0,
+        },
+    })
+}
+
+/// A table that lives as long as the program.
+fn kept<T>(value: T) -> &'static T {
+    Box::leak(Box::new(value))
+}
+
+/// The ball screw of Lin 2019, Table 3.6, with two waves of deviation a turn on the screw and a triangle on
+/// the nut.
+pub fn screw() -> Result<FrictionModel<UncagedBallScrew<37>>, Error> {
+    let triangle = std::array::from_fn(|sample: usize| {
+        let sample = sample as f32;
+        let rise = if sample < 32.0 { sample } else { 64.0 - sample };
+        (rise - 16.0) * 0.00125
+    });
+    let shares = [1.4_f32, 1.2, 1.1, 0.9, 0.8, 0.6]
+        .into_iter()
+        .map(LoadShare::new)
+        .collect::<Result<Vec<_>, _>>()?;
+    let mut model = FrictionModel::<UncagedBallScrew<37>>::new(&UncagedBallScrewConfiguration {
+        design: BallScrew::new(BallScrewParameters {
+            pitch_radius: 16.5e-3,
+            lead: 20e-3,
+            ball_radius: 2.778e-3,
+            screw_groove: GrooveSize::Conformity(0.56),
+            nut_groove: GrooveSize::Conformity(0.56),
+            contact_angle: std::f32::consts::FRAC_PI_4,
+            ball_material: Material::STEEL,
+            groove_material: Material::STEEL,
+        })?,
+        friction: 0.1,
+        ball_friction: 0.12,
+        fit: GrooveFit::Zero,
+        turns: 1.8,
+        return_length: 20e-3,
+        screw_deviation: kept(DeviationMap::from_harmonics(
+            1,
+            &[
+                Harmonic {
+                    order: 1,
+                    cosine: 0.005,
+                    sine: 0.0,
+                },
+                Harmonic {
+                    order: 2,
+                    cosine: 0.0,
+                    sine: 0.04014,
+                },
+            ],
+        )?),
+        nut_deviation: kept(DeviationMap::from_samples(2, &triangle)?),
+        load_shares: kept(shares),
+        reversal_speed: 0.5,
+        tick: 0.5e-3,
+        limits: Limits {
+            nut_speed: 500.0,
+            axial_load: 20_000.0,
+            friction_torque: 5.0,
+        },
+    })?;
+    model.set_nut_angle(1.25);
+    Ok(model)
+}
+
+/// A linear bearing with balls of 10 mm.
+pub fn linear() -> Result<FrictionModel<LinearBearingTrain<32>>, Error> {
+    let mut model = FrictionModel::<LinearBearingTrain<32>>::new(&LinearBearingConfiguration {
+        bearing: LinearBearing::new(LinearBearingParameters {
+            ball_radius: 5e-3,
+            groove: GrooveSize::Conformity(0.52),
+            contact_angle: std::f32::consts::FRAC_PI_4,
+            ball_material: Material::STEEL,
+            groove_material: Material::STEEL,
+        })?,
+        friction: 0.1,
+        ball_friction: 0.12,
+        loaded_length: 0.2,
+        return_length: 0.13,
+        wavelength: 0.05,
+        rail_deviation: kept(DeviationMap::from_harmonics(
+            1,
+            &[Harmonic {
+                order: 1,
+                cosine: 0.01,
+                sine: 0.02,
+            }],
+        )?),
+        carriage_deviation: &DeviationMap::NONE,
+        load_shares: &[LoadShare::MEAN],
+        reversal_speed: 1e-3,
+        tick: 1e-3,
+        limits: LinearLimits {
+            speed: 2.0,
+            load: 5_000.0,
+            friction_force: 50.0,
+        },
+    })?;
+    model.set_carriage_position(0.0125);
+    Ok(model)
+}

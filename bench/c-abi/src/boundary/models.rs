@@ -1,0 +1,88 @@
+//! What the exported functions of every scene do to a model in its place.
+
+use super::pointers::{bare, read, report, usable};
+use super::tables::tables;
+use crate::scene::{CScene, Placed, model};
+use crate::status::{EPAS_NOT_INITIALISED, EPAS_OK, Failure};
+
+/// The model in a place, if it is this scene's.
+pub(super) unsafe fn placed<'a, C: CScene>(
+    place: *mut C::Place,
+) -> Result<&'a mut Placed<C::Scene>, u32> {
+    let () = C::FITS;
+    usable(place)?;
+    let place = place.cast::<Placed<C::Scene>>();
+    if unsafe { (&raw const (*place).mark).read() } == C::MARK {
+        Ok(unsafe { &mut *place })
+    } else {
+        Err(EPAS_NOT_INITIALISED)
+    }
+}
+
+/// Sets a model up in a place; where that fails, the place holds none.
+pub(super) unsafe fn init<C: CScene>(
+    place: *mut C::Place,
+    configuration: *const C::Configuration,
+    failure: *mut Failure,
+) -> u32 {
+    let () = C::FITS;
+    let outcome = usable(place).map_err(bare).and_then(|()| {
+        let place = place.cast::<Placed<C::Scene>>();
+        // A place whose configuration is refused holds no model.
+        unsafe { (&raw mut (*place).mark).write(0) };
+        usable(configuration).map_err(bare)?;
+        let configuration = unsafe { &*configuration };
+        let tables = unsafe { tables(&C::tables(configuration)) }?;
+        let model = model::<C>(configuration, tables)?;
+        unsafe { (&raw mut (*place).model).write(model) };
+        unsafe { (&raw mut (*place).mark).write(C::MARK) };
+        Ok(())
+    });
+    unsafe { report(outcome, failure) }
+}
+
+/// One tick, or the refused outputs where there is no model or there are no inputs.
+#[inline(always)]
+pub(super) unsafe fn step<C: CScene>(
+    place: *mut C::Place,
+    inputs: *const C::Inputs,
+    outputs: *mut C::Outputs,
+) -> u32 {
+    if let Err(status) = usable(outputs) {
+        return status;
+    }
+    let ready = unsafe { placed::<C>(place) }
+        .and_then(|placed| Ok((&mut placed.model, unsafe { read(inputs) }?)));
+    let (answer, status) = match ready {
+        Ok((model, inputs)) => (C::outputs(model.step(C::inputs(inputs))), EPAS_OK),
+        Err(status) => (C::REFUSED, status),
+    };
+    unsafe { outputs.write(answer) };
+    status
+}
+
+/// The state before the first tick.
+pub(super) unsafe fn reset<C: CScene>(place: *mut C::Place) -> u32 {
+    match unsafe { placed::<C>(place) } {
+        Ok(placed) => {
+            placed.model.reset();
+            EPAS_OK
+        }
+        Err(status) => status,
+    }
+}
+
+/// The counter of ticks whose outputs were flagged.
+pub(super) unsafe fn faulted_ticks<C: CScene>(place: *const C::Place, ticks: *mut u32) -> u32 {
+    if let Err(status) = usable(ticks) {
+        return status;
+    }
+    // Only read.
+    match unsafe { placed::<C>(place.cast_mut()) } {
+        Ok(placed) => {
+            unsafe { ticks.write(placed.model.faulted_ticks()) };
+            EPAS_OK
+        }
+        Err(status) => status,
+    }
+}

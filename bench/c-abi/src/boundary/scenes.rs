@@ -1,0 +1,149 @@
+//! The exported functions of the scenes, each one line that calls the generic one.
+
+use super::models::{faulted_ticks, init, placed, reset, step};
+use crate::caged::Caged;
+use crate::linear::Linear;
+use crate::screw::Screw;
+use crate::status::{EPAS_OK, Failure};
+use crate::types::{
+    CagedConfiguration, CagedPlace, Inputs, LinearConfiguration, LinearInputs, LinearOutputs,
+    LinearPlace, Outputs, ScrewConfiguration, ScrewOutputs, ScrewPlace,
+};
+
+/// Makes a caged ball screw in the place. Set-up only. Where it fails, every step is refused until it
+/// succeeds. `failure` may be NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn epas_caged_init(
+    place: *mut CagedPlace,
+    configuration: *const CagedConfiguration,
+    failure: *mut Failure,
+) -> u32 {
+    unsafe { init::<Caged>(place, configuration, failure) }
+}
+
+/// One tick: bounded time, finite outputs whatever the inputs are. Where the call is refused the outputs are
+/// no torque and `EPAS_FAULT_CALL`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn epas_caged_step(
+    place: *mut CagedPlace,
+    inputs: *const Inputs,
+    outputs: *mut Outputs,
+) -> u32 {
+    unsafe { step::<Caged>(place, inputs, outputs) }
+}
+
+/// Back to the state before the first tick.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn epas_caged_reset(place: *mut CagedPlace) -> u32 {
+    unsafe { reset::<Caged>(place) }
+}
+
+/// Consecutive ticks whose outputs were flagged; 0 after a sound tick.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn epas_caged_faulted_ticks(
+    place: *const CagedPlace,
+    ticks: *mut u32,
+) -> u32 {
+    unsafe { faulted_ticks::<Caged>(place, ticks) }
+}
+
+/// Makes a ball screw of `EPAS_SCREW_BALLS` balls in the place. Set-up only. Where it fails, every step is
+/// refused until it succeeds. `failure` may be NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn epas_screw_init(
+    place: *mut ScrewPlace,
+    configuration: *const ScrewConfiguration,
+    failure: *mut Failure,
+) -> u32 {
+    unsafe { init::<Screw>(place, configuration, failure) }
+}
+
+/// One tick; as `epas_caged_step`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn epas_screw_step(
+    place: *mut ScrewPlace,
+    inputs: *const Inputs,
+    outputs: *mut ScrewOutputs,
+) -> u32 {
+    unsafe { step::<Screw>(place, inputs, outputs) }
+}
+
+/// Sets the angle of the nut against the screw, rad, from which the screw's deviations are counted: once after
+/// start-up, and again whenever an absolute sensor has it; between, the model integrates the speed.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn epas_screw_set_nut_angle(place: *mut ScrewPlace, angle: f32) -> u32 {
+    match unsafe { placed::<Screw>(place) } {
+        Ok(placed) => {
+            placed.model.set_nut_angle(angle);
+            EPAS_OK
+        }
+        Err(status) => status,
+    }
+}
+
+/// Back to the state before the first tick.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn epas_screw_reset(place: *mut ScrewPlace) -> u32 {
+    unsafe { reset::<Screw>(place) }
+}
+
+/// Consecutive ticks whose outputs were flagged; 0 after a sound tick.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn epas_screw_faulted_ticks(
+    place: *const ScrewPlace,
+    ticks: *mut u32,
+) -> u32 {
+    unsafe { faulted_ticks::<Screw>(place, ticks) }
+}
+
+/// Makes a linear bearing of `EPAS_LINEAR_BALLS` balls in the place. Set-up only. Where it fails, every step is
+/// refused until it succeeds. `failure` may be NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn epas_linear_init(
+    place: *mut LinearPlace,
+    configuration: *const LinearConfiguration,
+    failure: *mut Failure,
+) -> u32 {
+    unsafe { init::<Linear>(place, configuration, failure) }
+}
+
+/// One tick; as `epas_caged_step`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn epas_linear_step(
+    place: *mut LinearPlace,
+    inputs: *const LinearInputs,
+    outputs: *mut LinearOutputs,
+) -> u32 {
+    unsafe { step::<Linear>(place, inputs, outputs) }
+}
+
+/// Sets the carriage's place along the rail, m, from which the rail's deviations are counted: once after start-up, and
+/// again whenever an absolute sensor has it; between, the model integrates the speed.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn epas_linear_set_carriage_position(
+    place: *mut LinearPlace,
+    position: f32,
+) -> u32 {
+    match unsafe { placed::<Linear>(place) } {
+        Ok(placed) => {
+            placed.model.set_carriage_position(position);
+            EPAS_OK
+        }
+        Err(status) => status,
+    }
+}
+
+/// Back to the state before the first tick.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn epas_linear_reset(place: *mut LinearPlace) -> u32 {
+    unsafe { reset::<Linear>(place) }
+}
+
+/// Consecutive ticks whose outputs were flagged; 0 after a sound tick.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn epas_linear_faulted_ticks(
+    place: *const LinearPlace,
+    ticks: *mut u32,
+) -> u32 {
+    unsafe { faulted_ticks::<Linear>(place, ticks) }
+}

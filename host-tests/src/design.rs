@@ -1,0 +1,114 @@
+//! Designs by the numbers on their drawings, and the Hertzian contacts that follow from them.
+//!
+//! The way from a drawing to a contact ellipse: groove surface, its principal curvatures at the contact
+//! point, relative curvatures of ball and groove, contact modulus of their materials, exact ellipse.
+//! Whatever is compared with the reference starts from here, so that an error in any of these steps shows.
+
+use std::f64::consts::TAU;
+
+use crate::curvature::{Groove, Surface};
+use crate::error::{ReferenceError, within};
+use crate::hertz::Hertz;
+use crate::material::Elastic;
+
+/// A ball screw.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BallScrewDesign {
+    /// Radius of the ball centres' helix, m.
+    pub pitch_radius: f64,
+    /// Advance of the nut per turn, m; 0 for a ring.
+    pub lead: f64,
+    /// Ball radius, m.
+    pub ball_radius: f64,
+    /// Radius of the screw's groove arcs, m, more than the ball's.
+    pub screw_groove_radius: f64,
+    /// Radius of the nut's groove arcs, m, more than the ball's.
+    pub nut_groove_radius: f64,
+    /// Contact angle at which a ball without play lies in its grooves, rad, 0 to pi/2.
+    pub contact_angle: f64,
+    /// Material of the balls.
+    pub ball: Elastic,
+    /// Material of screw and nut.
+    pub groove: Elastic,
+}
+
+impl BallScrewDesign {
+    /// Lead angle, rad.
+    #[must_use]
+    pub fn lead_angle(&self) -> f64 {
+        (self.lead / TAU).atan2(self.pitch_radius)
+    }
+
+    /// Surface of one groove, whose arc meets the ball at the nominal contact angle.
+    #[must_use]
+    pub fn surface(&self, groove: Groove) -> Surface {
+        let groove_radius = match groove {
+            Groove::Screw => self.screw_groove_radius,
+            Groove::Nut => self.nut_groove_radius,
+        };
+        let excess = groove_radius - self.ball_radius;
+        Surface {
+            groove,
+            pitch_radius: self.pitch_radius,
+            lead_angle: self.lead_angle(),
+            groove_radius,
+            offset_h: excess * self.contact_angle.cos(),
+            offset_l: excess * self.contact_angle.sin(),
+        }
+    }
+
+    /// Contact of a ball with one groove at the nominal contact angle.
+    ///
+    /// # Errors
+    /// As [`Self::contact_at`].
+    pub fn contact(&self, groove: Groove) -> Result<Hertz, ReferenceError> {
+        self.contact_at(groove, self.contact_angle)
+    }
+
+    /// Contact of a ball that touches the same groove surface at another contact angle, rad.
+    ///
+    /// # Errors
+    /// [`ReferenceError`] naming the number that describes no contact.
+    pub fn contact_at(&self, groove: Groove, contact_angle: f64) -> Result<Hertz, ReferenceError> {
+        within("ball_radius", self.ball_radius, 1e-9, 1e9)?;
+        let surface = self.surface(groove);
+        surface.check(contact_angle)?;
+        let curvatures = surface.principal(contact_angle);
+        let ball = 1.0 / self.ball_radius;
+        Hertz::new(
+            1.0 / (ball + curvatures.kappa1),
+            1.0 / (ball + curvatures.kappa2),
+            self.ball.contact_modulus(&self.groove),
+        )
+    }
+}
+
+/// A linear bearing: straight grooves with circular arcs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LinearBearingDesign {
+    /// Ball radius, m.
+    pub ball_radius: f64,
+    /// Radius of the groove arcs, m, more than the ball's.
+    pub groove_radius: f64,
+    /// Material of the balls.
+    pub ball: Elastic,
+    /// Material of rail and carriage.
+    pub groove: Elastic,
+}
+
+impl LinearBearingDesign {
+    /// Contact of a ball with any of its four arcs: relative radii `r_B` along the straight track and
+    /// `r_B r_G / (r_G - r_B)` across it.
+    ///
+    /// # Errors
+    /// [`ReferenceError`] naming the number that describes no contact.
+    pub fn contact(&self) -> Result<Hertz, ReferenceError> {
+        let (ball, groove) = (self.ball_radius, self.groove_radius);
+        within("ball_radius", ball, 1e-9, 1e9)?;
+        Hertz::new(
+            ball,
+            ball * groove / (groove - ball),
+            self.ball.contact_modulus(&self.groove),
+        )
+    }
+}

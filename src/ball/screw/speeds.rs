@@ -1,0 +1,179 @@
+//! How a ball's speed follows its contact angles.
+
+use crate::geometry::BallScrew;
+use crate::math::constant;
+
+/// Largest deviation of a contact angle from the nominal one, rad.
+const LARGEST_DEVIATION: f32 = 0.2;
+
+/// How the speed of balls follows their contact angles, by which contacts carry them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(super) struct Speeds {
+    /// Speed along the track of a ball with nominal contact angles, m per unit of nut speed.
+    pub(super) nominal: f32,
+    /// Coefficients of `2 cos b/(cos b + cos(b - u)) - 1` from `u` on.
+    pub(super) turn: [f32; 5],
+    /// Largest deviation of a contact angle that counts, rad.
+    pub(super) largest_deviation: f32,
+    third_on_screw: Branch,
+    third_on_nut: Branch,
+    two_point: Branch,
+}
+
+/// How a ball's speed follows its contact angles, and how it rubs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(super) struct Branch {
+    /// Speed, m, that the relative deviation multiplies; negative where it is that of the nut against the ball.
+    pub(super) scale: f32,
+    /// `r sin b` over `1 + r cos b` (third contact on the screw) or `1 - r cos b` (on the nut).
+    pub(super) sine: f32,
+    /// `-r cos b` or `r cos b` over the same.
+    pub(super) versine: f32,
+    /// Rubbing speed at the nominal speed, m per unit of nut speed.
+    pub(super) rubbing: f32,
+    /// Its change with the ball's speed.
+    pub(super) rubbing_slope: f32,
+    /// Relative change of the contacts' spin with the ball's speed, 1/m.
+    pub(super) spin: f32,
+}
+
+/// Signs and weights with which the deviations of both grooves count.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(super) struct Weights {
+    /// Of their sum, in what turns the ball.
+    pub(super) both: f32,
+    /// Of the screw's, in what tilts its contact with the other groove.
+    pub(super) screw: f32,
+    /// Of the nut's.
+    pub(super) nut: f32,
+}
+
+impl Speeds {
+    /// Of a design, and of a ball in two contacts that sticks to the screw, or else to the nut.
+    pub(super) const fn new(design: &BallScrew, sticks_to_screw: bool) -> Self {
+        let angle = design.contact_angle();
+        let (sin, cos) = (angle.sin, angle.cos);
+        let path = design.pitch_radius() / design.cos_lead_angle();
+        // R_B R_P/(L/2 pi)², and the ball's rotation that the path's curvature makes.
+        let ratio = design.ball_radius() * design.cos_lead_angle() / path;
+        let (plus, minus) = (1.0 + ratio * cos, 1.0 - ratio * cos);
+        let speed = 0.5 * path * plus;
+        let against_nut = 0.5 * path * minus;
+        let third_on_screw = Branch {
+            scale: speed,
+            sine: ratio * sin / plus,
+            versine: -ratio * cos / plus,
+            rubbing: speed * (1.0 / cos - ratio),
+            rubbing_slope: 1.0 / cos - ratio,
+            spin: 2.0 / path,
+        };
+        let third_on_nut = Branch {
+            scale: -against_nut,
+            sine: ratio * sin / minus,
+            versine: ratio * cos / minus,
+            rubbing: against_nut * (1.0 / cos + ratio),
+            rubbing_slope: -(1.0 / cos + ratio),
+            spin: -2.0 / path,
+        };
+        let tumbling = tumbling(design, ratio, sticks_to_screw);
+        let (rubbing, rubbing_slope) = if sticks_to_screw {
+            (speed * tumbling, tumbling)
+        } else {
+            (against_nut * tumbling, -tumbling)
+        };
+        Self {
+            nominal: speed,
+            turn: turn_series(sin / cos),
+            largest_deviation: largest_deviation(design.parameters().contact_angle, sin / cos),
+            third_on_screw,
+            third_on_nut,
+            two_point: Branch {
+                rubbing,
+                rubbing_slope,
+                spin: 0.0,
+                ..third_on_screw
+            },
+        }
+    }
+
+    /// With two contacts, under a load on the left (`side` = 1, an axial load below 0) or right diagonal (-1).
+    #[inline]
+    pub(super) const fn in_two_points(&self, side: f32) -> (&Branch, Weights) {
+        let weights = Weights {
+            both: 0.0,
+            screw: -0.5 * side,
+            nut: 0.5 * side,
+        };
+        (&self.two_point, weights)
+    }
+
+    /// The same with the third contact on the screw or on the nut.
+    #[inline]
+    pub(super) const fn in_more_points(&self, side: f32, on_screw: bool) -> (&Branch, Weights) {
+        if on_screw {
+            let weights = Weights {
+                both: side,
+                screw: 0.0,
+                nut: side,
+            };
+            (&self.third_on_screw, weights)
+        } else {
+            let weights = Weights {
+                both: -side,
+                screw: side,
+                nut: 0.0,
+            };
+            (&self.third_on_nut, weights)
+        }
+    }
+}
+
+/// Size of the angular velocity of a ball in two contacts relative to its orbit, over that of a ball that rolls on its
+/// equator: the speed with which balls alike rub, over the orbital speed against the groove to which they stick.
+const fn tumbling(design: &BallScrew, ratio: f32, sticks_to_screw: bool) -> f32 {
+    let angle = design.contact_angle();
+    let (sin, cos) = (angle.sin, angle.cos);
+    let radius = design.ball_radius();
+    let path = design.pitch_radius() / design.cos_lead_angle();
+    let chord = 1.0 - (radius / path) * (radius / path);
+    let cosine = if sticks_to_screw {
+        cos - ratio
+    } else {
+        cos + ratio
+    };
+    constant::sqrt(sin * sin * chord + cosine * cosine)
+}
+
+/// Series of `1/(1 + x) - 1` with `x = (tan b sin u - (1 - cos u))/2`, from the power of one on.
+const fn turn_series(tangent: f32) -> [f32; 5] {
+    let x1 = 0.5 * tangent;
+    let x2 = -0.25;
+    let x3 = -tangent / 12.0;
+    let x4 = 1.0 / 48.0;
+    let x5 = tangent / 240.0;
+    let c1 = -x1;
+    let c2 = -(x1 * c1 + x2);
+    let c3 = -(x1 * c2 + x2 * c1 + x3);
+    let c4 = -(x1 * c3 + x2 * c2 + x3 * c1 + x4);
+    let c5 = -(x1 * c4 + x2 * c3 + x3 * c2 + x4 * c1 + x5);
+    [c1, c2, c3, c4, c5]
+}
+
+/// Largest deviation of a contact angle: 0.2 rad, less where the deviations of both grooves together
+/// would turn a contact through the plane across the axis, or where the series in them, which converges
+/// like the powers of `tan(b) u/2`, would need more terms.
+pub(crate) const fn largest_deviation(contact_angle: f32, tangent: f32) -> f32 {
+    let both = if contact_angle * tangent < 1.0 {
+        contact_angle
+    } else {
+        1.0 / tangent
+    };
+    if 0.5 * both < LARGEST_DEVIATION {
+        0.5 * both
+    } else {
+        LARGEST_DEVIATION
+    }
+}

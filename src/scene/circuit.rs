@@ -1,0 +1,13 @@
+//! The circuit of balls that both trains have: its track, the loaded zone, the phase of the groove that passes by, and
+//! their checks.
+
+mod configuration;
+mod deviation;
+mod phase;
+mod zone;
+
+pub use configuration::CircuitState;
+pub(super) use configuration::{
+    Circuit, CircuitConfiguration, LONGEST_TRACK, UNLOADED, per_loaded_ball,
+};
+pub use deviation::{DeviationMap, HIGHEST_ORDER, Harmonic, LARGEST_DEVIATION};

@@ -1,0 +1,155 @@
+//! The circuit, checked and folded once.
+
+use super::deviation::DeviationMap;
+use super::phase::Phase;
+use super::zone::{LoadedZone, Place};
+use crate::ball::LoadShare;
+use crate::error::{Error, attempt, in_range};
+use crate::train::{IMPEDANCE_RANGE, LARGEST_TRAVEL, Track, Train};
+
+/// Impedance of a ball that no load presses into its grooves, N: it goes along with its neighbours.
+pub(crate) const UNLOADED: f32 = 1e-6;
+const _: () = assert!(UNLOADED >= IMPEDANCE_RANGE.0);
+
+/// Longest track, in turns of the maps: ratios of phases fit into 32 bits.
+pub(crate) const LONGEST_TRACK: f32 = 1000.0;
+
+/// Longest return over the loaded part: positions in the load table fit into 32 bits.
+const LONGEST_RETURN: f32 = 250.0;
+
+/// Largest part of a map's period by which the passing groove may advance in a tick: its sense would be
+/// lost beyond.
+const LARGEST_ADVANCE: f32 = 0.499;
+
+/// What a scene knows of its circuit. "Motion" is the nut's angle, rad, or the carriage's travel, m.
+pub(crate) struct CircuitConfiguration {
+    /// Loaded part of the track, m.
+    pub(crate) loaded_length: f32,
+    /// The same in turns of the maps.
+    pub(crate) loaded_turns: f32,
+    /// Return, m: there balls carry no load.
+    pub(crate) return_length: f32,
+    /// Length of the track in one turn of the maps, m.
+    pub(crate) turn_length: f32,
+    /// Distance of the centres of two balls in contact, along the track, m.
+    pub(crate) pitch: f32,
+    /// Travel of a nominal ball along the track, m per unit of motion; above zero.
+    pub(crate) travel_per_motion: f32,
+    /// Motion in which the passing groove advances by one turn of the maps.
+    pub(crate) motion_per_turn: f32,
+    /// Deviation of the groove that passes by: screw, rail.
+    pub(crate) passing_deviation: &'static DeviationMap,
+    /// Deviation of the groove of the body in which balls recirculate: nut, carriage.
+    pub(crate) recirculating_deviation: &'static DeviationMap,
+    /// Load of a ball over the mean load, along the loaded part.
+    pub(crate) load_shares: &'static [LoadShare],
+    /// Time between two ticks, s.
+    pub(crate) tick: f32,
+    /// Largest speed of the motion.
+    pub(crate) largest_speed: f32,
+}
+
+/// A closed track of balls with its loaded zone: constants.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(crate) struct Circuit {
+    zone: LoadedZone,
+    track: Track,
+    /// Travel of the balls along the track in a tick, over the speed of the motion: negative, because the track runs
+    /// along with the body that moves.
+    travel: f32,
+    /// Advance of the passing groove's phase in a tick, in units of it, over the speed of the motion.
+    advance: f32,
+}
+
+/// What a tick changes in a circuit of `N` balls.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct CircuitState<const N: usize> {
+    /// The balls.
+    pub train: Train<N>,
+    phase: Phase,
+}
+
+impl CircuitConfiguration {
+    /// Checks and folds a circuit of so many balls.
+    ///
+    /// # Errors
+    /// [`Error`] naming `return_length`, `length`, `pitch`, `load_shares`, `wavelength` or `tick`.
+    pub(crate) const fn folded(&self, balls: usize) -> Result<Circuit, Error> {
+        let longest = LONGEST_RETURN * self.loaded_length;
+        attempt!(in_range("return_length", self.return_length, 0.0, longest));
+        let length = self.loaded_length + self.return_length;
+        let track = attempt!(Track::new(length, self.pitch, balls));
+        let zone = attempt!(LoadedZone::new(
+            self.loaded_turns,
+            length / self.turn_length,
+            self.passing_deviation,
+            self.recirculating_deviation,
+            self.load_shares,
+        ));
+        let fastest = LARGEST_TRAVEL * length / (self.travel_per_motion * self.largest_speed);
+        let tick = attempt!(in_range("tick", self.tick, 0.0, fastest));
+        let period = self.motion_per_turn * self.passing_deviation.turns() as f32;
+        let sensed = LARGEST_ADVANCE * period / self.largest_speed;
+        attempt!(in_range("tick", tick, 0.0, sensed));
+        Ok(Circuit {
+            zone,
+            track,
+            travel: -self.travel_per_motion * tick,
+            advance: zone.phase_per_turn() * tick / self.motion_per_turn,
+        })
+    }
+}
+
+/// 1 / number of loaded balls, where so many fill the whole circuit.
+pub(crate) const fn per_loaded_ball(loaded_length: f32, return_length: f32, balls: usize) -> f32 {
+    (loaded_length + return_length) / (loaded_length * balls as f32)
+}
+
+impl Circuit {
+    /// Units of the deviations of the passing groove and of the recirculating one, rad.
+    #[inline(always)]
+    pub(crate) const fn deviation_units(&self) -> (f32, f32) {
+        self.zone.units()
+    }
+
+    /// Travel of a nominal ball along the track in a tick at a speed of the motion, m.
+    #[inline(always)]
+    pub(crate) fn travel(&self, speed: f32) -> f32 {
+        speed * self.travel
+    }
+
+    /// What a ball at a position of the track finds there, where it is loaded.
+    #[inline(always)]
+    pub(crate) fn place(&self, position: u32, phase: u32) -> Option<Place> {
+        self.zone.at(position, phase)
+    }
+}
+
+impl<const N: usize> CircuitState<N> {
+    /// Balls at equal distances, before the first tick.
+    pub(crate) fn new(circuit: &Circuit) -> Self {
+        Self {
+            train: Train::spread(circuit.track),
+            phase: Phase::default(),
+        }
+    }
+
+    /// Phase of the passing groove, in units of 2^-32 of its period.
+    #[inline(always)]
+    pub(crate) const fn phase(&self) -> u32 {
+        self.phase.units()
+    }
+
+    /// The passing groove gets on by a tick.
+    #[inline(always)]
+    pub(crate) fn advance(&mut self, circuit: &Circuit, speed: f32) {
+        self.phase.advance(speed * circuit.advance);
+    }
+
+    /// Sets the motion from which the passing groove's deviations are counted, in turns of the maps.
+    pub(crate) fn set_turns(&mut self, circuit: &Circuit, turns: f32) {
+        self.phase.set(turns / circuit.zone.passing_turns());
+    }
+}

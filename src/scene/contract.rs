@@ -1,0 +1,191 @@
+//! What a scene owes [`FrictionModel`](crate::FrictionModel), and what scenes have in common: inputs, limits, regimes,
+//! the passage of friction through the reversal.
+
+use super::faults::{Faults, bounded};
+use crate::error::{Error, attempt, in_range};
+use crate::math;
+
+/// A mechanism with its configuration, its constants, its state and its outputs.
+///
+/// Constants are folded once and never change; the state is small and is all that a tick changes. A scene gives its
+/// checks ([`Scene::admit`]) and its physics ([`Scene::outputs`]) as plain functions; what happens to faults stands in
+/// one place, [`FrictionModel::step`](crate::FrictionModel::step).
+pub trait Scene {
+    /// What the engineer sets.
+    type Configuration;
+    /// What follows from it and never changes.
+    type Constants;
+    /// What a tick changes.
+    type State;
+    /// What the control interrupt knows.
+    type Inputs;
+    /// What a tick returns.
+    type Outputs: SceneOutputs;
+
+    /// Checks the configuration and folds the constants.
+    ///
+    /// # Errors
+    /// [`Error`] naming the field out of range.
+    fn constants(configuration: &Self::Configuration) -> Result<Self::Constants, Error>;
+
+    /// The state before the first tick.
+    fn initial_state(constants: &Self::Constants) -> Self::State;
+
+    /// The inputs within their limits, with what was wrong with them.
+    fn admit(constants: &Self::Constants, inputs: Self::Inputs) -> Admitted<Self::Inputs>;
+
+    /// What the mechanism does under admitted inputs, before its friction is limited: bounded time, no panic.
+    fn outputs(
+        constants: &Self::Constants,
+        state: &mut Self::State,
+        inputs: Self::Inputs,
+    ) -> Self::Outputs;
+
+    /// Largest friction that is put out: N m of a screw, N of a bearing.
+    fn largest_friction(constants: &Self::Constants) -> f32;
+}
+
+/// A scene's outputs, as far as faults decide them.
+pub trait SceneOutputs: Copy {
+    /// The safe output: no friction, nothing pressing, standing.
+    #[must_use]
+    fn safe(faults: Faults) -> Self;
+
+    /// These outputs with their friction within plus and minus `largest`, and with `faults` added.
+    #[must_use]
+    fn limited(self, largest: f32, faults: Faults) -> Self;
+
+    /// What was wrong.
+    fn faults(&self) -> Faults;
+}
+
+/// Inputs within their limits, with what was wrong with them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Admitted<I> {
+    /// The inputs; `None` where no number can stand in for one that is NaN or infinite.
+    pub inputs: Option<I>,
+    /// What was wrong.
+    pub faults: Faults,
+}
+
+/// What the control interrupt knows of a ball screw at a tick.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Inputs {
+    /// Angular speed of the nut relative to the screw, rad/s.
+    pub nut_speed: f32,
+    /// Axial force of the load, N; positive where it opposes the travel that a positive nut speed
+    /// makes. `nut_speed * axial_load > 0` is driving, `< 0` back-driving.
+    pub axial_load: f32,
+}
+
+/// Bounds that a ball screw keeps whatever comes in.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Limits {
+    /// Largest nut speed that is believed, rad/s, 1e-3 to 1e6.
+    pub nut_speed: f32,
+    /// Largest axial load that is believed, N, 1e-3 to 1e7.
+    pub axial_load: f32,
+    /// Largest friction torque that is put out, N m, 1e-6 to 1e6.
+    pub friction_torque: f32,
+}
+
+impl Limits {
+    /// The limits, checked.
+    ///
+    /// # Errors
+    /// [`Error`] naming `nut_speed`, `axial_load` or `friction_torque`.
+    pub const fn checked(self) -> Result<Self, Error> {
+        attempt!(in_range("nut_speed", self.nut_speed, 1e-3, 1e6));
+        attempt!(in_range("axial_load", self.axial_load, 1e-3, 1e7));
+        attempt!(in_range("friction_torque", self.friction_torque, 1e-6, 1e6));
+        Ok(self)
+    }
+
+    /// The inputs within these limits, with what was wrong.
+    #[inline(always)]
+    pub(super) fn admit(&self, inputs: Inputs) -> Admitted<Inputs> {
+        let Inputs {
+            nut_speed,
+            axial_load,
+        } = inputs;
+        Admitted {
+            inputs: (nut_speed.is_finite() && axial_load.is_finite()).then_some(Inputs {
+                nut_speed: bounded(nut_speed, self.nut_speed),
+                axial_load: bounded(axial_load, self.axial_load),
+            }),
+            faults: Faults::of_inputs(nut_speed, self.nut_speed, [axial_load], self.axial_load),
+        }
+    }
+}
+
+/// What the mechanism does at a tick.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Regime {
+    /// The mechanism is slower than the reversal speed: friction is between its two directions.
+    Standing,
+    /// The motor moves the load (or turns against friction alone).
+    Driving,
+    /// The load turns the nut.
+    BackDriving,
+    /// The efficiency of the present direction is not positive: driving, no torque moves the load;
+    /// back-driving, the load alone does not sustain the motion and the motor has to push.
+    Locked,
+}
+
+impl Regime {
+    /// From what is known of a tick: whether the mechanism stands, whether the load opposes the motion, and whether
+    /// what drives (motor or load) keeps it in motion.
+    #[inline(always)]
+    pub(super) const fn of(standing: bool, load_opposes: bool, moves: bool) -> Self {
+        if standing {
+            Self::Standing
+        } else if !moves {
+            Self::Locked
+        } else if load_opposes {
+            Self::Driving
+        } else {
+            Self::BackDriving
+        }
+    }
+}
+
+/// How friction passes through zero with the speed: as `w / sqrt(w^2 + w_s^2)`, 71 % at the reversal speed `w_s`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(super) struct Reversal {
+    speed: f32,
+    squared: f32,
+}
+
+impl Reversal {
+    /// With a reversal speed in the unit of the scene's speed.
+    ///
+    /// # Errors
+    /// [`Error`] naming `reversal_speed`.
+    pub(super) const fn new(
+        reversal_speed: f32,
+        minimum: f32,
+        maximum: f32,
+    ) -> Result<Self, Error> {
+        let speed = attempt!(in_range("reversal_speed", reversal_speed, minimum, maximum));
+        Ok(Self {
+            speed,
+            squared: speed * speed,
+        })
+    }
+
+    /// Part of full friction at a speed, -1 to 1, with the speed's sign.
+    #[inline(always)]
+    pub(super) fn direction(&self, speed: f32) -> f32 {
+        speed / math::sqrt(speed * speed + self.squared)
+    }
+
+    /// Whether a speed is below the reversal speed, either way.
+    #[inline(always)]
+    pub(super) const fn stands(&self, speed: f32) -> bool {
+        speed.abs() < self.speed
+    }
+}

@@ -1,0 +1,202 @@
+//! What scenes return: torques of a ball screw and forces of a bearing, in types of their own that nothing converts
+//! one into the other.
+
+use super::contract::{Regime, SceneOutputs};
+use super::faults::{Faults, bounded};
+
+/// A preload's friction beside a vanishing load would make the efficiency of back-driving infinite.
+const LEAST_EFFICIENCY: f32 = -1e6;
+
+/// What every ball screw returns.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Outputs {
+    /// Torque about the nut's axis that the motor has to add to overcome friction, N m. It has the
+    /// sign of the nut speed; friction itself acts on the nut with the opposite sign.
+    pub friction_torque: f32,
+    /// Torque about the nut's axis that holds the load without friction, N m: `axial_load lead / 2
+    /// pi`. The motor's torque at constant speed is the sum of the two.
+    pub load_torque: f32,
+    /// Efficiency of motion in the present direction under the present load, away from the reversal:
+    /// work out over work in. 0 without load, negative where the direction is locked (not below -1e6),
+    /// 0 in a fault.
+    pub efficiency: f32,
+    /// What the mechanism does.
+    pub regime: Regime,
+    /// What was wrong with this tick's inputs, or limited in its outputs.
+    pub faults: Faults,
+}
+
+/// What a ball screw returns whose balls press on each other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct UncagedOutputs {
+    /// Torque about the nut's axis that the motor has to add to overcome friction, N m: the sum of the next two,
+    /// within its limit. It has the sign of the nut speed; friction itself acts on the nut with the opposite sign.
+    pub friction_torque: f32,
+    /// Its part from the grooves, N m.
+    pub groove_torque: f32,
+    /// Its part from balls that rub against each other, N m.
+    pub ball_torque: f32,
+    /// Torque about the nut's axis that holds the load without friction, N m: `axial_load lead / 2 pi`.
+    pub load_torque: f32,
+    /// Pairs of balls that press on each other.
+    pub contacts: u8,
+    /// Largest force between two balls, N.
+    pub largest_contact_force: f32,
+    /// What the mechanism does.
+    pub regime: Regime,
+    /// What was wrong with this tick's inputs, or limited in its outputs.
+    pub faults: Faults,
+}
+
+/// What a linear bearing returns.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct LinearOutputs {
+    /// Force along the rail that has to be added to overcome friction, N: the sum of the next two, within its limit.
+    /// It has the sign of the speed; friction itself acts on the carriage with the opposite sign.
+    pub friction_force: f32,
+    /// Its part from the grooves, N.
+    pub groove_force: f32,
+    /// Its part from balls that rub against each other, N.
+    pub ball_force: f32,
+    /// Pairs of balls that press on each other.
+    pub contacts: u8,
+    /// Largest force between two balls, N.
+    pub largest_contact_force: f32,
+    /// What the mechanism does: [`Regime::Standing`] or [`Regime::Driving`].
+    pub regime: Regime,
+    /// What was wrong with this tick's inputs, or limited in its outputs.
+    pub faults: Faults,
+}
+
+impl SceneOutputs for Outputs {
+    #[inline]
+    fn safe(faults: Faults) -> Self {
+        Self {
+            friction_torque: 0.0,
+            load_torque: 0.0,
+            efficiency: 0.0,
+            regime: Regime::Standing,
+            faults,
+        }
+    }
+
+    #[inline(always)]
+    fn limited(self, largest: f32, faults: Faults) -> Self {
+        Self {
+            friction_torque: bounded(self.friction_torque, largest),
+            faults: (self.faults | faults).with_friction_limit(self.friction_torque, largest),
+            ..self
+        }
+    }
+
+    #[inline(always)]
+    fn faults(&self) -> Faults {
+        self.faults
+    }
+}
+
+impl SceneOutputs for UncagedOutputs {
+    #[inline]
+    fn safe(faults: Faults) -> Self {
+        Self {
+            friction_torque: 0.0,
+            groove_torque: 0.0,
+            ball_torque: 0.0,
+            load_torque: 0.0,
+            contacts: 0,
+            largest_contact_force: 0.0,
+            regime: Regime::Standing,
+            faults,
+        }
+    }
+
+    #[inline(always)]
+    fn limited(self, largest: f32, faults: Faults) -> Self {
+        Self {
+            friction_torque: bounded(self.friction_torque, largest),
+            faults: (self.faults | faults).with_friction_limit(self.friction_torque, largest),
+            ..self
+        }
+    }
+
+    #[inline(always)]
+    fn faults(&self) -> Faults {
+        self.faults
+    }
+}
+
+impl SceneOutputs for LinearOutputs {
+    #[inline]
+    fn safe(faults: Faults) -> Self {
+        Self {
+            friction_force: 0.0,
+            groove_force: 0.0,
+            ball_force: 0.0,
+            contacts: 0,
+            largest_contact_force: 0.0,
+            regime: Regime::Standing,
+            faults,
+        }
+    }
+
+    #[inline(always)]
+    fn limited(self, largest: f32, faults: Faults) -> Self {
+        Self {
+            friction_force: bounded(self.friction_force, largest),
+            faults: (self.faults | faults).with_friction_limit(self.friction_force, largest),
+            ..self
+        }
+    }
+
+    #[inline(always)]
+    fn faults(&self) -> Faults {
+        self.faults
+    }
+}
+
+/// Work out over work in, from the torques of load and friction with their signs; 0 without load.
+#[inline(always)]
+pub(super) fn efficiency(driving: bool, load_torque: f32, friction_torque: f32) -> f32 {
+    if load_torque == 0.0 {
+        0.0
+    } else if driving {
+        load_torque / (load_torque + friction_torque)
+    } else {
+        let efficiency = 1.0 + friction_torque / load_torque;
+        if efficiency > LEAST_EFFICIENCY {
+            efficiency
+        } else {
+            LEAST_EFFICIENCY
+        }
+    }
+}
+
+impl From<UncagedOutputs> for Outputs {
+    /// The outputs that every scene of a ball screw has: torques from torques.
+    fn from(outputs: UncagedOutputs) -> Self {
+        let UncagedOutputs {
+            friction_torque,
+            load_torque,
+            regime,
+            faults,
+            ..
+        } = outputs;
+        let efficiency = if matches!(regime, Regime::Standing) {
+            0.0
+        } else {
+            // Signs, because the product of two small torques would vanish.
+            let driving = (load_torque < 0.0) == (friction_torque < 0.0);
+            efficiency(driving, load_torque, friction_torque)
+        };
+        Self {
+            friction_torque,
+            load_torque,
+            efficiency,
+            regime,
+            faults,
+        }
+    }
+}

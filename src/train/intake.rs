@@ -1,0 +1,257 @@
+//! A tick of a train: each ball is taken in once, from the front backwards, then all are joined, settled and moved.
+
+use super::ball::Ball;
+use super::motion::{Motion, SIXTEENTHS};
+use super::positions::Train;
+use super::press::{IMPEDANCE_RANGE, InputCheck};
+use super::settle::Pressing;
+use super::track::Rooms;
+
+/// Impedance of a ball of which nobody said what it would do: the least that counts, so that it goes along with its
+/// neighbours.
+const UNSAID: f32 = IMPEDANCE_RANGE.0;
+
+/// A tick of a train that has begun: the balls that are still to come, from the last one (the front of the row)
+/// backwards to the first.
+///
+/// [`Intake::press`] ends the tick. An intake that is dropped before leaves all positions and forces as they were,
+/// and the next tick takes all balls in anew; only the speeds of the last tick are lost.
+#[must_use = "balls move when `press` is called"]
+pub(crate) struct Intake<'train, const N: usize> {
+    train: &'train mut Train<N>,
+    /// Balls still to come: those with an index below this.
+    left: usize,
+    /// Travel of the nominal speed in this tick, in units.
+    travel: f32,
+    ahead: Ahead,
+}
+
+/// What a ball has to know of the one in front of it.
+struct Ahead {
+    rooms: Rooms,
+    free_speed: f32,
+}
+
+/// One ball that is to be taken in: it asks for its free speed and impedance. Dropped without an answer it runs at
+/// the nominal speed and hardly pushes.
+#[must_use = "a ball needs its free speed and impedance"]
+pub(crate) struct FreeBall<'intake> {
+    ball: &'intake mut Ball,
+    ahead: &'intake mut Ahead,
+}
+
+impl<const N: usize> Train<N> {
+    /// Moves the train by one tick.
+    ///
+    /// `travel`, m, is the nominal travel of a ball in this tick, signed along the track. `free[j]` is the
+    /// speed ball `j` would take on its own, less the nominal one, over the size of the nominal one;
+    /// `impedance[j]` the force that takes all of the nominal speed from it, N. Speeds are signed along
+    /// the track: of a train that runs backwards, a ball that is faster than the nominal one has a negative
+    /// speed.
+    ///
+    /// Without travel the forces are those with which motion sets in; what the free speeds' signs say
+    /// then is up to the caller. A travel that is NaN counts as zero, one beyond
+    /// [`LARGEST_TRAVEL`](super::LARGEST_TRAVEL) of the track as that. Speeds and impedances as in
+    /// [`Press::solve`](super::Press::solve), whose answer is returned: where it is false, all balls move with the
+    /// nominal speed and press on none.
+    pub fn step(&mut self, free: &[f32; N], impedance: &[f32; N], travel: f32) -> bool {
+        let mut check = InputCheck::default();
+        let mut balls = self.intake(travel);
+        for (&speed, &impedance) in free.iter().zip(impedance).rev() {
+            check.add(speed, impedance);
+            if let Some(ball) = balls.next_ball() {
+                ball.put(speed, impedance);
+            }
+        }
+        balls.finish(check.passed());
+        check.passed()
+    }
+
+    /// Begins a tick; `travel`, m, as in [`Train::step`].
+    #[inline(always)]
+    pub(crate) fn intake(&mut self, travel: f32) -> Intake<'_, N> {
+        let travel = self.track.in_units(travel);
+        let first = self.press.balls.first().map_or(0, Ball::position);
+        Intake {
+            left: N,
+            travel,
+            ahead: Ahead {
+                rooms: Rooms::behind(first, self.track, travel),
+                // Of the first ball, which comes last: `complete` puts it in.
+                free_speed: 0.0,
+            },
+            train: self,
+        }
+    }
+
+    /// What this tick makes of the balls' speeds, with a nominal travel in units.
+    #[inline(always)]
+    fn motion(&mut self, travel: f32) -> Motion {
+        let distance = travel.abs();
+        let travel = travel + self.carried;
+        let nominal = travel as i32;
+        self.carried = travel - nominal as f32;
+        Motion {
+            nominal: nominal as u32,
+            sixteenths_per_speed: distance * SIXTEENTHS,
+            pitch: self.track.pitch(),
+        }
+    }
+}
+
+impl<const N: usize> Intake<'_, N> {
+    /// The next ball, backwards from the last one; none when all have come.
+    #[inline(always)]
+    pub(crate) fn next_ball(&mut self) -> Option<FreeBall<'_>> {
+        self.left = self.left.checked_sub(1)?;
+        let ball = self.train.press.balls.get_mut(self.left)?;
+        Some(FreeBall {
+            ball,
+            ahead: &mut self.ahead,
+        })
+    }
+
+    /// Which balls press on each other, and how hard; moves all balls. Balls that have not come are taken as dropped.
+    #[inline(always)]
+    pub(crate) fn press(self) -> Pressing {
+        self.finish(true)
+    }
+
+    /// [`Intake::press`]; where some input does not count, all balls move at the nominal speed.
+    #[inline(always)]
+    fn finish(mut self, valid: bool) -> Pressing {
+        while let Some(ball) = self.next_ball() {
+            drop(ball);
+        }
+        self.complete();
+        let motion = self.train.motion(self.travel);
+        self.train.press.join(valid);
+        self.train.press.settle(motion)
+    }
+
+    /// Puts in the two slacks that the way from the front backwards leaves open: that of the last ball, whose ball
+    /// in front comes at the end, and that of the ball that was foremost in the last tick. That tick moved it first,
+    /// and the ball in front of it last, so that these two alone may overlap by rounding.
+    #[inline(always)]
+    fn complete(&mut self) {
+        let last = N - 1;
+        let press = &mut self.train.press;
+        for index in [last, press.foremost()] {
+            let ahead = if index == last { 0 } else { index + 1 };
+            let Some(&ahead) = press.balls.get(ahead) else {
+                continue;
+            };
+            if let Some(ball) = press.balls.get_mut(index) {
+                let room = self
+                    .ahead
+                    .rooms
+                    .without_overlap(ball.position(), ahead.position());
+                ball.set_slack(room + (ahead.free_speed() - ball.free_speed()));
+            }
+        }
+    }
+}
+
+impl FreeBall<'_> {
+    /// Position of the ball, as a part of the track's length in units of 2^-32.
+    #[inline(always)]
+    pub(crate) fn position(&self) -> u32 {
+        self.ball.position()
+    }
+
+    /// What the ball would do on its own: its free speed, a deviation from the nominal one over the size of that, within
+    /// [`LARGEST_FREE_SPEED`](super::LARGEST_FREE_SPEED), and its impedance, N, within [`IMPEDANCE_RANGE`]. Neither is
+    /// checked here: the scene's set-up has to see to it.
+    #[inline(always)]
+    pub(crate) fn put(mut self, speed: f32, impedance: f32) {
+        self.take_in(speed, impedance);
+        // It has its answer.
+        core::mem::forget(self);
+    }
+
+    #[inline(always)]
+    fn take_in(&mut self, speed: f32, impedance: f32) {
+        let room = self.ahead.rooms.next(self.ball.position());
+        let slack = room + (self.ahead.free_speed - speed);
+        self.ball.take_in(speed, impedance, slack);
+        self.ahead.free_speed = speed;
+    }
+}
+
+impl Drop for FreeBall<'_> {
+    #[inline(always)]
+    fn drop(&mut self) {
+        self.take_in(0.0, UNSAID);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::positions::Train;
+
+    /// Five balls in contact, the fastest at the rear.
+    fn train() -> Train<5> {
+        Train::new(1.0, 0.01, &[0.0; 5]).unwrap()
+    }
+
+    const FREE: [f32; 5] = [0.02, 0.01, 0.0, 0.0, -0.01];
+
+    /// What `step` makes of two lists is what an intake makes of the same numbers, and the sums are those of the forces.
+    #[test]
+    fn each_ball_comes_once_from_the_front_backwards() {
+        let (mut listed, mut asked) = (train(), train());
+        for travel in [1e-4, 0.0, -2e-4] {
+            assert!(listed.step(&FREE, &[1e3; 5], travel));
+            let positions: [u32; 5] = core::array::from_fn(|j| asked.positions().nth(j).unwrap());
+            let mut count = 0;
+            let mut balls = asked.intake(travel);
+            while let Some(ball) = balls.next_ball() {
+                count += 1;
+                assert_eq!(ball.position(), positions[5 - count]);
+                ball.put(FREE[5 - count], 1e3);
+            }
+            let pressing = balls.press();
+            assert_eq!(count, 5);
+            assert_eq!(listed, asked);
+            let forces = || asked.forces().filter(|&force| force > 0.0);
+            assert_eq!(usize::from(pressing.contacts), forces().count());
+            assert_eq!(pressing.largest, forces().fold(0.0, f32::max));
+        }
+    }
+
+    /// Balls without an answer, and balls that were never asked for, run at the nominal speed and hardly push.
+    #[test]
+    fn forgotten_balls_run_at_the_nominal_speed() {
+        let (mut listed, mut asked) = (train(), train());
+        assert!(listed.step(
+            &[0.0, 0.0, 0.0, 0.02, 0.0],
+            &[1e-9, 1e-9, 1e-9, 1e3, 1e-9],
+            1e-4
+        ));
+        let mut balls = asked.intake(1e-4);
+        drop(balls.next_ball());
+        if let Some(ball) = balls.next_ball() {
+            ball.put(0.02, 1e3);
+        }
+        let _ = balls.press();
+        assert_eq!(listed, asked);
+    }
+
+    /// A tick that is given up moves nothing, and the next one is whole.
+    #[test]
+    fn a_dropped_intake_leaves_positions_and_forces() {
+        let (mut whole, mut broken) = (train(), train());
+        assert!(whole.step(&FREE, &[1e3; 5], 1e-4));
+        assert!(broken.step(&FREE, &[1e3; 5], 1e-4));
+        let mut balls = broken.intake(1e-4);
+        if let Some(ball) = balls.next_ball() {
+            ball.put(1.0, 1e9);
+        }
+        drop(balls);
+        assert!(whole.positions().eq(broken.positions()));
+        assert!(whole.forces().eq(broken.forces()));
+        assert!(whole.step(&FREE, &[1e3; 5], 1e-4));
+        assert!(broken.step(&FREE, &[1e3; 5], 1e-4));
+        assert_eq!(whole, broken);
+    }
+}

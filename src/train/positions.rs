@@ -1,0 +1,159 @@
+//! A train: where its balls are, and what the last tick made of them.
+
+use super::ball::Ball;
+use super::motion::OVERLAP;
+use super::press::Press;
+use super::track::Track;
+use crate::error::{Error, in_range};
+
+/// Balls on a closed track, which they fill in part: positions, distances, forces, from tick to tick.
+///
+/// Positions are integers, in units of the track's length over 2³² (a tenth of a nanometre on half a
+/// metre): they wrap around where the track closes, and distances that open and close for hours do not
+/// drift. Balls that press on each other are set in contact exactly, the others are within two units of
+/// where their speeds lead, so that no overlap grows.
+///
+/// What the balls would do on their own comes as deviations from a common nominal speed, in units of its
+/// size, and the forces follow from [`Press`]: nothing here depends on the size of the speed, only on the
+/// sense of motion and on the distance travelled.
+///
+/// ```
+/// use epas_friction::train::Train;
+/// // Three balls of 10 mm in contact on a track of 1 m, the fastest at the rear.
+/// let mut train = Train::<3>::new(1.0, 0.01, &[0.0; 3])?;
+/// train.step(&[0.02, 0.01, 0.0], &[1e3; 3], 1e-4);
+/// assert!(train.forces().zip([10.0, 10.0, 0.0]).all(|(force, exact)| (force - exact).abs() < 1e-4));
+/// // They go on as one, at the mean speed.
+/// assert!(train.speeds().all(|speed| (speed - 0.01).abs() < 1e-7));
+/// # Ok::<(), epas_friction::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Train<const N: usize> {
+    /// Nominal travel that was less than a unit and goes over into the next tick, in units.
+    pub(super) carried: f32,
+    pub(super) press: Press<N>,
+    pub(super) track: Track,
+}
+
+/// Two balls that press on each other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct BallContact {
+    /// Index of the ball behind; the one in front is the next, or ball 0.
+    pub ball: u8,
+    /// Position of the ball behind, as a part of the track's length in units of 2^-32.
+    pub position: u32,
+    /// Force between the two, in the unit of speed times impedance.
+    pub force: f32,
+}
+
+impl<const N: usize> Train<N> {
+    /// Balls on a closed track of `length`, m, that stand `pitch`, m, from centre to centre in contact:
+    /// on a straight track the ball diameter, on a helix the arc over it. Ball 0 starts at 0; `gaps[j]`,
+    /// m, is left in front of ball `j`, in front of the last one whatever is left.
+    ///
+    /// # Errors
+    /// [`Error`] naming `length` (1e-4 to 1e4), `pitch` (1e-6 of the length to its `N`-th part) or
+    /// `gaps` (each zero or more, the last one not counted, all no more than the balls leave).
+    pub fn new(length: f32, pitch: f32, gaps: &[f32; N]) -> Result<Self, Error> {
+        let track = Track::new(length, pitch, N)?;
+        let mut free = (1_u64 << 32) - N as u64 * u64::from(track.pitch());
+        let mut positions = [0; N];
+        let mut next = 0_u32;
+        for (position, &gap) in positions.iter_mut().zip(gaps) {
+            *position = next;
+            let largest = free as f32 / track.units_per_metre();
+            let gap = (in_range("gaps", gap, 0.0, largest)? * track.units_per_metre()) as u64;
+            let gap = if gap > free { free } else { gap };
+            free -= gap;
+            next = next.wrapping_add(track.pitch()).wrapping_add(gap as u32);
+        }
+        Ok(Self::at(positions, track))
+    }
+
+    /// Balls at equal distances.
+    ///
+    /// # Errors
+    /// As [`Train::new`].
+    pub fn evenly_spaced(length: f32, pitch: f32) -> Result<Self, Error> {
+        Ok(Self::spread(Track::new(length, pitch, N)?))
+    }
+
+    /// Balls at equal distances on a track that was checked for this number of balls.
+    pub(crate) fn spread(track: Track) -> Self {
+        let step = (1_u64 << 32) / N as u64;
+        Self::at(
+            core::array::from_fn(|ball| (ball as u64 * step) as u32),
+            track,
+        )
+    }
+
+    fn at(positions: [u32; N], track: Track) -> Self {
+        let mut press = Press::new();
+        for (ball, position) in press.balls.iter_mut().zip(positions) {
+            ball.set_position(position);
+        }
+        Self {
+            carried: 0.0,
+            press,
+            track,
+        }
+    }
+
+    /// Position of each ball, from the rear one to the front one, as a part of the track's length in
+    /// units of 2^-32.
+    #[inline]
+    pub fn positions(&self) -> impl Iterator<Item = u32> + '_ {
+        self.press.balls.iter().map(Ball::position)
+    }
+
+    /// Distance in front of each ball, m: zero in contact, up to a few units below by rounding.
+    pub fn gaps(&self) -> impl Iterator<Item = f32> + '_ {
+        let metres_per_unit = 1.0 / self.track.units_per_metre();
+        let ahead = self.positions().skip(1).chain(self.positions().take(1));
+        self.positions().zip(ahead).map(move |(position, ahead)| {
+            let gap = self.track.gap(position, ahead);
+            if gap > u32::MAX - OVERLAP {
+                (gap as i32) as f32 * metres_per_unit
+            } else {
+                gap as f32 * metres_per_unit
+            }
+        })
+    }
+
+    /// Force between each ball and the one in front of it, in the unit of speed times impedance; the last
+    /// one acts between the last ball and the first.
+    #[inline]
+    pub fn forces(&self) -> impl DoubleEndedIterator<Item = f32> + ExactSizeIterator + '_ {
+        self.press.forces()
+    }
+
+    /// Actual speed of each ball in the last tick, as the free speeds are counted.
+    #[inline]
+    pub fn speeds(&self) -> impl DoubleEndedIterator<Item = f32> + ExactSizeIterator + '_ {
+        self.press.speeds()
+    }
+
+    /// Pairs of balls that press on each other, from the rear of the train on.
+    #[must_use]
+    pub fn contacts(&self) -> heapless::Vec<BallContact, N> {
+        self.positions()
+            .zip(self.forces())
+            .enumerate()
+            .filter(|(_, (_, force))| *force > 0.0)
+            .map(|(ball, (position, force))| BallContact {
+                ball: ball as u8,
+                position,
+                force,
+            })
+            .collect()
+    }
+
+    /// Joins of clusters that the last tick needed, at most `N - 1`.
+    #[inline]
+    #[must_use]
+    pub fn joins(&self) -> usize {
+        self.press.joins()
+    }
+}
