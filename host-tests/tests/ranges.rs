@@ -3,6 +3,8 @@
 //! Where all contacts of a ball have the same coefficient, its motion does not depend on it; losses and the forces between
 //! balls are proportional to it.
 
+use core::f32::consts::FRAC_PI_4;
+
 use epas_friction::ball::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE};
 use epas_friction::efficiency::{
     DesignRequest, Drive, Duty, DynamicCorrection, EfficiencyGeometry, optimum_contact_angle,
@@ -18,6 +20,9 @@ use epas_friction::{BallScrew, CATALOGUE, Error, Material, Range};
 /// The value whose figures those at both ends are compared with.
 const USUAL: f32 = 0.1;
 
+/// Nominal contact angle, rad.
+const NOMINAL: f32 = FRAC_PI_4;
+
 /// Room of two balls that touch on an open track.
 const OPEN: [f32; 2] = [0.0, f32::INFINITY];
 
@@ -28,7 +33,7 @@ fn screw() -> BallScrew {
 fn linear(friction: f32) -> LinearBallParameters {
     LinearBallParameters {
         ball_radius: 0.005,
-        contact_angle: core::f32::consts::FRAC_PI_4,
+        contact_angle: NOMINAL,
         axis_ratio: 0.2321,
         semi_major_coefficient: 9.075e-5,
         friction,
@@ -97,10 +102,11 @@ fn every_constructor_takes_the_whole_range_and_nothing_beyond() {
             |friction| request(friction).figures().map(drop),
         ],
     );
-    // What a row takes, its balls take.
-    assert!(FRICTION.minimum <= FRICTION_OF_A_ROW.minimum);
-    assert!(FRICTION_OF_A_ROW.maximum <= FRICTION.maximum);
-    assert!(FRICTION_OR_NONE.contains(FRICTION.minimum) && !FRICTION.contains(0.0));
+    // What a row takes, its balls take; what they take, an efficiency takes.
+    for (wide, narrow) in [(FRICTION, FRICTION_OF_A_ROW), (FRICTION_OR_NONE, FRICTION)] {
+        assert!(wide.contains(narrow.minimum) && wide.contains(narrow.maximum));
+    }
+    assert!(!FRICTION.contains(0.0));
 }
 
 /// The equations scale with the coefficient but for roundings and floors of 1e-9 N. Measured: 4.2e-7.
@@ -118,7 +124,7 @@ fn close(found: f32, wanted: f32, what: &str) {
 #[test]
 fn a_ball_of_a_linear_or_rotary_bearing_at_both_ends() {
     let (angles, forces) = (
-        [0.7505, 0.8203, 0.7854, 0.7854],
+        [0.7505, 0.8203, NOMINAL, NOMINAL],
         [114.06, 24.32, 113.14, 28.28],
     );
     let usual = FourPointBall::linear(&linear(USUAL)).unwrap();
@@ -218,8 +224,8 @@ fn balls_of_a_linear_bearing_that_press_at_both_ends() {
     let contact_forces = [[113.0, 28.0, 113.0, 28.0], [28.0, 113.0, 28.0, 113.0]];
     let force = |friction: f32, between: f32| {
         let ball = FourPointBall::linear(&linear(friction)).unwrap();
-        let contacts =
-            contact_forces.map(|forces| ball.contacts(&[0.7505, 0.8203, 0.7854, 0.7854], &forces));
+        let contacts = contact_forces
+            .map(|forces| ball.contacts(&[0.7505, 0.8203, NOMINAL, NOMINAL], &forces));
         let mut chain = BallChain::<2>::new();
         chain.balls = contacts.map(|contacts| ball.start(&contacts));
         for _ in 0..8 {
