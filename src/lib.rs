@@ -4,7 +4,7 @@
 //! # Conventions
 //!
 //! SI units and radians everywhere; a field's documentation names its unit and range. Angles: lead
-//! angle `alpha`, contact angle `beta` or `phi` from the plane normal to the axis. The normal of a
+//! angle `alpha`, contact angle `beta` from the plane normal to the axis. The normal of a
 //! groove points into its metal. A right-hand thread; the load is positive where it opposes the travel
 //! that a positive nut speed makes.
 //!
@@ -42,6 +42,8 @@ pub mod contact;
 pub mod curvature;
 pub mod efficiency;
 pub mod error;
+#[doc(hidden)]
+pub mod fits;
 pub mod geometry;
 #[cfg(feature = "embedded-hal")]
 pub mod hal;

@@ -51,7 +51,7 @@ impl BallKinematics {
     #[inline]
     pub(super) fn at_speed(&self, speed: f32) -> Self {
         let magnitude = speed.abs();
-        // False for NaN, too. Only the way of wrong speeds holds a call: the other one needs no stack frame.
+        // False for NaN, too. Only the branch for wrong speeds holds a call: the usual branch needs no stack frame.
         if magnitude <= SPEED_LIMIT {
             self.times(speed, magnitude)
         } else {
@@ -69,9 +69,8 @@ impl BallKinematics {
         }
     }
 
-    /// Every result zero, of the sign of a speed that is none: a zero which is not a constant is stored from a
-    /// register; for a constant the compiler calls the function that clears memory, which takes longer than
-    /// the products.
+    /// Every result zero, with the sign of the refused speed. The sign serves to keep the zero from being a constant:
+    /// for a constant the compiler would call the function that clears memory, which takes longer than the products.
     #[cold]
     #[inline(never)]
     fn still(speed: f32) -> Self {

@@ -19,7 +19,7 @@ use crate::ranges;
 const SMALLEST_FORCE: f32 = 2e-6;
 
 /// `2^(-4/3)`: a diagonal's force to the power of 4/3 is that of its sum of two equal contact forces, times this.
-const HALF_TO_FOUR_THIRDS: f32 = 0.396_850_26;
+pub(crate) const HALF_TO_FOUR_THIRDS: f32 = 0.396_850_26;
 
 /// A linear bearing without cage, with `N` balls in one circuit, in four-point contact: the published
 /// closed form for every ball ([`AnalyticLinearBall`](crate::ball::AnalyticLinearBall)), with its corrections.
@@ -253,7 +253,7 @@ impl<const N: usize> LinearConstants<N> {
         let radius = bearing.ball_radius();
         let semi_major = contact.semi_major_coefficient();
         let half_tangent = 0.5 * angle.sin / angle.cos;
-        // Four contacts that spin with v tan(beta)/(2 R_B) each.
+        // Four contacts that spin with v tan(beta)/(2 r_b) each.
         let drag = 2.0 * map.spin_moment() * friction * semi_major * half_tangent / radius;
         let ball = AnalyticLinearBall::folded(
             half_tangent,

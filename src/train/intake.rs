@@ -129,7 +129,7 @@ impl<const N: usize> Intake<'_, N> {
         self.train.press.settle(motion)
     }
 
-    /// Puts in the two slacks that the way from the front backwards leaves open: that of the last ball, whose ball
+    /// Puts in the two slacks that the pass from the front backwards leaves open: that of the last ball, whose ball
     /// in front comes at the end, and that of the ball that was foremost in the last tick. That tick moved it first,
     /// and the ball in front of it last, so that these two alone may overlap by rounding.
     #[inline(always)]

@@ -171,7 +171,7 @@ subjects! {
         ],
         |c, [slip, spin, semi_major, stick]| -> [8] {
             let at = timed!(c, count_friction_dissipation(black_box(&c.map), slip, spin, semi_major, stick));
-            [at.potential, at.power, at.force, at.moment, at.stiffness, at.tilt, at.stick, at.rim]
+            [at.potential, at.power, at.force, at.moment, at.stiffness, at.tilt, at.stick, at.end_speed]
         };
     sqrt: |spread| -> [1] positive(spread),
         |c, [x]| -> [1] [timed!(c, count_sqrt(x))];
