@@ -36,6 +36,8 @@
 //!
 //! Everything is set up once, with errors that name the field, its value and the allowed range; from
 //! then on nothing returns a `Result`, nothing panics, and every output is finite and flagged.
+//!
+#![doc = include_str!("nomenclature.md")]
 
 pub mod ball;
 pub mod contact;

@@ -306,14 +306,15 @@ impl<const N: usize> LinearConstants<N> {
         let mut shares = 0.0;
         let mut balls = state.train.intake(self.circuit.travel(speed));
         while let Some(next) = balls.next_ball() {
-            match self.circuit.place(next.position(), phase) {
+            let (free, impedance) = match self.circuit.place(next.position(), phase) {
                 Some(place) => {
                     shares += place.share.four_thirds();
                     let free = recirculating * place.recirculating + passing * place.passing;
-                    next.put(free, impedance * place.share.two_thirds());
+                    (free, impedance * place.share.two_thirds())
                 }
-                None => next.put(0.0, UNLOADED),
-            }
+                None => (0.0, UNLOADED),
+            };
+            next.put(free, impedance);
         }
         let pressing = balls.press();
         state.advance(&self.circuit, speed);
