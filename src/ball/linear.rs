@@ -99,7 +99,10 @@ impl LinearBallParameters {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct AnalyticLinearBall {
     half_tangent: f32,
+    /// Compliance times the sum of both diagonals' forces to the power of 2/3, N^(-1/3).
     compliance: f32,
+    /// Its inverse, N^(1/3).
+    impedance: f32,
 }
 
 /// Speed of a ball relative to nominal rolling, and its compliance along the track.
@@ -136,9 +139,11 @@ impl AnalyticLinearBall {
     pub(crate) const fn folded(half_tangent: f32, compliance: f32) -> Self {
         // The loads of a diagonal enter by their sum, the formula by their mean.
         const TWO_TO_TWO_THIRDS: f32 = constant::cbrt_squared(2.0);
+        let compliance = TWO_TO_TWO_THIRDS * half_tangent * compliance;
         Self {
             half_tangent,
-            compliance: TWO_TO_TWO_THIRDS * half_tangent * compliance,
+            compliance,
+            impedance: 1.0 / compliance,
         }
     }
 
@@ -174,6 +179,13 @@ impl AnalyticLinearBall {
             },
             ..ball
         }
+    }
+
+    /// Impedance, N, the inverse of the compliance of (3.51), from the forces of both diagonals as in
+    /// [`AnalyticLinearBall::closed_form`].
+    #[inline(always)]
+    pub(crate) fn impedance(&self, [up, down]: [f32; 2]) -> f32 {
+        self.impedance * (up + down)
     }
 
     /// (3.43) and (3.51) from the forces of both diagonals, each the sum of its two contacts, to the power of 2/3,

@@ -118,6 +118,13 @@ fn set_up<S: Run>(place: &mut MaybeUninit<S::Model>) -> Option<&mut S::Model> {
     S::set_up().ok().map(|model| place.write(model))
 }
 
+/// A tick in a frame of its own, which counts as the tick's stack.
+#[inline(never)]
+fn tick<S: Run>(model: &mut S::Model, number: u32, digest: &mut Digest) {
+    let (nut_speed, axial_load) = course(number);
+    S::tick(model, nut_speed, axial_load, digest);
+}
+
 /// Runs a scene in its own image: set-up, then [`TICKS`] ticks; writes the digest of all results and the
 /// stack that either takes.
 pub fn run<S: Run>(console: &mut Console, place: &mut MaybeUninit<S::Model>) -> bool {
@@ -131,8 +138,7 @@ pub fn run<S: Run>(console: &mut Console, place: &mut MaybeUninit<S::Model>) -> 
     };
     let mut digest = Digest::default();
     let stack = stack_used(TICKS, &mut |number| {
-        let (nut_speed, axial_load) = course(number);
-        S::tick(model, nut_speed, axial_load, &mut digest);
+        tick::<S>(model, number, &mut digest);
         cortex_m::register::msp::read()
     });
     report(console, S::NAME, [digest.0, stack, set_up_stack]);
