@@ -2,8 +2,8 @@
 
 /// Slip of one contact at its centre.
 ///
-/// As a result of [`ContactKinematics::tick`]: m/s, m/s, rad/s, m/s. As a constant per unit of
-/// speed ([`ContactKinematics::per_speed`]): m, m, 1, m.
+/// As a result of [`ContactKinematics::tick`](super::ContactKinematics::tick): m/s, m/s, rad/s, m/s. As a constant per unit of
+/// speed ([`ContactKinematics::per_speed`](super::ContactKinematics::per_speed)): m, m, 1, m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ContactSlip {
@@ -31,7 +31,7 @@ impl ContactSlip {
 
 /// Motion of one ball and its slip at both contacts.
 ///
-/// As a result of [`ContactKinematics::tick`]: speeds. As [`ContactKinematics::per_speed`]: the
+/// As a result of [`ContactKinematics::tick`](super::ContactKinematics::tick): speeds. As [`ContactKinematics::per_speed`](super::ContactKinematics::per_speed): the
 /// same per rad/s of the screw.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
