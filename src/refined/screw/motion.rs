@@ -22,13 +22,17 @@ pub struct ScrewContactMotion {
     pub spin: f32,
 }
 
-/// What is known of a ball, and kept of it from tick to tick.
+/// State of a ball, kept from tick to tick, with the results of the last step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ScrewBallState {
     /// Motion of the ball: where the next step starts.
     pub motion: ScrewBallMotion,
+<<<<<<< HEAD
     /// Relative deviation of the orbital speed from [`ScrewBall::nominal_orbital_speed`](super::ScrewBall::nominal_orbital_speed).
+=======
+    /// Relative deviation of the orbital speed from [`ScrewBall::nominal_orbital_speed`](crate::refined::ScrewBall::nominal_orbital_speed).
+>>>>>>> main
     pub speed_deviation: f32,
     /// Change of that with a force along the track, 1/N.
     pub compliance: f32,
