@@ -96,8 +96,8 @@ impl FourPointBall {
     /// Contacts from their angles, rad, and forces, N, in the order BL, BR, TR, TL.
     ///
     /// An angle further than [`LARGEST_ANGLE_DEVIATION`] from the nominal one is taken at that limit, NaN
-    /// as the nominal one; a force up to zero, above 1e7 N, or NaN is a lost contact. Sine and cosine come from their series about the nominal angle, within 1e-6 at the limit and
-    /// exact in f32 up to 0.15 rad. Cost: 425 modelled cycles.
+    /// as the nominal one; a force up to zero, above 1e7 N, or NaN is a lost contact. Sine and cosine
+    /// come from their series about the nominal angle, within 1e-6 at the limit and exact in f32 up to 0.15 rad. Cost: 425 modelled cycles.
     #[inline(always)]
     #[must_use]
     pub fn contacts(
