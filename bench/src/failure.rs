@@ -25,6 +25,14 @@ impl Failure {
         Self::Data(format!("cannot {verb} {}: {error}", path.display()))
     }
 
+    /// The same failure of something with a name.
+    pub fn of(self, name: &str) -> Self {
+        match self {
+            Self::Data(message) => Self::Data(format!("{name}: {message}")),
+            other => other,
+        }
+    }
+
     /// Prints what is to be said on stderr and gives the exit code.
     pub fn report(&self) -> ExitCode {
         match self {

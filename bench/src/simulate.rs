@@ -1,34 +1,36 @@
 //! `simulate`: the in-loop model over a trace of speed and load.
 
+mod caged;
+mod choice;
+mod curves;
+mod linear;
 mod loads;
 mod manoeuvre;
-mod picture;
+mod progress;
 mod reference;
-mod subject;
+mod samples;
+mod scene;
+mod screw;
 mod summary;
+mod targets;
 mod trace;
 mod train;
 mod train_picture;
+mod uncaged;
 
-use std::cell::Cell;
-use std::fs;
-use std::io::{self, Write};
-use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
-
-use epas_friction::{Outputs, Regime};
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::io::{self, Cursor, Write};
+use std::path::PathBuf;
 
 use crate::designs::train::LinearDesign;
 use crate::designs::{self, DesignSource};
 use crate::failure::Failure;
 use crate::files::{self, Existing, Pending};
+use choice::{Chosen, SceneName, choose};
 pub use manoeuvre::Manoeuvre;
-use reference::Reference;
-use subject::{Scene, Subject};
-use summary::Summary;
-use trace::{Sample, Trace};
-use train::TrainRow;
+use progress::Progress;
+use samples::ScrewSample;
+use scene::Scene;
+use targets::{refuse_same, targets};
 
 /// Runs the in-loop friction model over a trace.
 ///
@@ -69,7 +71,7 @@ pub struct Arguments {
     list: bool,
     /// What is simulated [default: what the design or the manoeuvre is made for, or caged]
     #[arg(long, value_enum)]
-    scene: Option<Scene>,
+    scene: Option<SceneName>,
     /// Built-in design, or design file ending in .toml [default for a manoeuvre: lin-4.1 caged, lin-3.6
     /// uncaged, lin-3.3 linear]
     #[arg(long, value_name = "NAME|FILE.toml", required_unless_present_any = ["list", "manoeuvre"])]
@@ -101,15 +103,6 @@ pub struct Arguments {
     force: bool,
 }
 
-/// One sample with what the models say to it.
-#[derive(Clone, Copy, Debug)]
-pub struct Row {
-    sample: Sample,
-    outputs: Outputs,
-    reference: Option<reference::Friction>,
-    train: Option<TrainRow>,
-}
-
 /// Runs the simulation, or lists the designs.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.list {
@@ -125,18 +118,27 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         refuse_same([source.file()], arguments.output.iter())?;
         return loads::run(&source.load()?, &arguments.loads, output, existing);
     }
-    let subject = Subject::new(
+    match choose(
         arguments.scene,
         arguments.design.as_ref(),
         arguments.manoeuvre,
-    )?;
+    )? {
+        Chosen::Caged(scene) => simulate(&scene, arguments, existing),
+        Chosen::Uncaged(scene) => simulate(&scene, arguments, existing),
+        Chosen::Linear(scene) => simulate(&scene, arguments, existing),
+    }
+}
+
+/// Runs one scene over its trace, and writes what is asked for.
+fn simulate<S: Scene>(scene: &S, arguments: &Arguments, existing: Existing) -> Result<(), Failure> {
     let trace = match (&arguments.input, arguments.manoeuvre) {
-        (Some(path), _) => trace::read(path, subject.columns())?,
-        (None, Some(manoeuvre)) => subject.trace(manoeuvre)?,
+        (Some(path), _) => trace::read(path)?,
+        (None, Some(manoeuvre)) => scene.manoeuvre(manoeuvre)?,
         (None, None) => return Err(Failure::Data("there is no trace".into())),
     };
 
-    let (output, plot) = targets(arguments, &trace, subject.name());
+    let asked = [&arguments.output, &arguments.plot];
+    let [output, plot] = targets(asked, &trace.name, scene.name());
     for path in output.iter().chain(&plot) {
         existing.check(path)?;
     }
@@ -149,23 +151,25 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     // Every sample is computed once and written once.
     let steps = trace.samples.len() * (1 + usize::from(output.is_some()));
     let progress = Progress::new(steps);
-    let (rows, summary) = simulate(&subject, &trace, arguments.reference, &progress)?;
+    let rows = scene.rows(&trace, arguments.reference, &|| progress.step())?;
     let table = output
         .as_deref()
-        .map(|path| write_rows(path, subject.columns(), &rows, existing, &progress))
+        .map(|path| {
+            let mut pending = Pending::new(path, existing)?;
+            write_table::<S>(pending.writer(), arguments.reference, &rows, &progress)
+                .map_err(|error| Failure::file("write", path, &error))?;
+            Ok::<_, Failure>(pending)
+        })
         .transpose()?;
     progress.clear();
     // Nothing takes its place before everything is complete.
     let picture = plot
         .as_deref()
-        .map(|path| -> Result<_, Failure> {
-            let svg = match subject {
-                Subject::Caged(_) => picture::draw(&trace, subject.name(), &rows)?,
-                _ => train_picture::draw(&trace, &subject, &rows)?,
-            };
+        .map(|path| {
+            let svg = scene.picture(&trace, &rows)?;
             let mut pending = Pending::new(path, existing)?;
             files::all(&mut pending, path, &svg)?;
-            Ok(pending)
+            Ok::<_, Failure>(pending)
         })
         .transpose()?;
     for pending in [table, picture].into_iter().flatten() {
@@ -173,16 +177,32 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
 
     let mut stdout = io::stdout().lock();
-    summary.print(&mut stdout, &trace, &subject)?;
+    scene.summary(&trace, &rows).print(&mut stdout)?;
     for path in output.iter().chain(&plot) {
         writeln!(stdout, "wrote {}", path.display())?;
     }
     Ok(())
 }
 
+fn write_table<S: Scene>(
+    writer: &mut impl Write,
+    with_reference: bool,
+    rows: &[S::Row],
+    progress: &Progress,
+) -> Result<(), csv::Error> {
+    let mut table = csv::Writer::from_writer(writer);
+    table.write_record(S::columns(with_reference))?;
+    for row in rows {
+        table.write_record(S::record(row))?;
+        progress.step();
+    }
+    table.flush()?;
+    Ok(())
+}
+
 /// Reads a trace; its number of samples.
 pub fn accepts(text: &[u8]) -> Result<usize, String> {
-    trace::samples(std::io::Cursor::new(text), trace::SCREW).map(|samples| samples.len())
+    trace::samples::<ScrewSample>(Cursor::new(text)).map(|samples| samples.len())
 }
 
 fn list() -> Result<(), Failure> {
@@ -211,219 +231,4 @@ fn list() -> Result<(), Failure> {
         1e3 * configuration.bearing.ball_radius(),
     )?;
     Ok(())
-}
-
-/// Files asked for; both under their default names where none is named.
-fn targets(
-    arguments: &Arguments,
-    trace: &Trace,
-    design: &str,
-) -> (Option<PathBuf>, Option<PathBuf>) {
-    if arguments.output.is_some() || arguments.plot.is_some() {
-        return (arguments.output.clone(), arguments.plot.clone());
-    }
-    // A design's name comes from a file and may hold anything.
-    let stem: String = format!("{}-{design}", trace.name)
-        .chars()
-        .map(|letter| {
-            if letter.is_alphanumeric() || "-_.".contains(letter) {
-                letter
-            } else {
-                '_'
-            }
-        })
-        .collect();
-    let folder = Path::new("target").join("simulate");
-    (
-        Some(folder.join(format!("{stem}.csv"))),
-        Some(folder.join(format!("{stem}.svg"))),
-    )
-}
-
-/// Trace and design are never overwritten, nor one output by the other.
-fn refuse_same<'a, const N: usize>(
-    inputs: [Option<&Path>; N],
-    outputs: impl Iterator<Item = &'a PathBuf>,
-) -> Result<(), Failure> {
-    let mut taken: Vec<PathBuf> = inputs.into_iter().flatten().map(place).collect();
-    for output in outputs {
-        let place = place(output);
-        if taken.contains(&place) {
-            return Err(Failure::Data(format!(
-                "{} is named twice",
-                output.display()
-            )));
-        }
-        taken.push(place);
-    }
-    Ok(())
-}
-
-/// Where a file is or will be, under one name however it is spelled.
-fn place(path: &Path) -> PathBuf {
-    fs::canonicalize(path).unwrap_or_else(|_| {
-        let absolute = std::path::absolute(path).unwrap_or_else(|_| path.into());
-        match (absolute.parent().map(fs::canonicalize), path.file_name()) {
-            (Some(Ok(folder)), Some(name)) => folder.join(name),
-            _ => absolute,
-        }
-    })
-}
-
-fn simulate(
-    subject: &Subject,
-    trace: &Trace,
-    with_reference: bool,
-    progress: &Progress,
-) -> Result<(Vec<Row>, Summary), Failure> {
-    let mut model = subject.model(trace)?;
-    let reference = with_reference
-        .then(|| Reference::new(subject, trace))
-        .transpose()?;
-
-    let mut summary = Summary::new(subject);
-    let mut rows = Vec::with_capacity(trace.samples.len());
-    for (index, &sample) in trace.samples.iter().enumerate() {
-        let (outputs, train) = model.step(&sample);
-        let row = Row {
-            sample,
-            outputs,
-            reference: reference
-                .as_ref()
-                .and_then(|reference| reference.friction(index, &sample)),
-            train,
-        };
-        summary.add(&row);
-        rows.push(row);
-        progress.step();
-    }
-    Ok((rows, summary))
-}
-
-/// A progress bar that appears only when the work takes longer than a second.
-struct Progress {
-    bar: ProgressBar,
-    start: Instant,
-    done: Cell<u64>,
-}
-
-impl Progress {
-    fn new(length: usize) -> Self {
-        let bar = ProgressBar::with_draw_target(Some(length as u64), ProgressDrawTarget::hidden());
-        if let Ok(style) = ProgressStyle::with_template("{bar:40} {percent} % {eta} left") {
-            bar.set_style(style);
-        }
-        Self {
-            bar,
-            start: Instant::now(),
-            done: Cell::new(0),
-        }
-    }
-
-    fn step(&self) {
-        const STRIDE: u64 = 1 << 14;
-        let done = self.done.get() + 1;
-        self.done.set(done);
-        if !done.is_multiple_of(STRIDE) {
-            return;
-        }
-        if self.bar.is_hidden() && self.start.elapsed() > Duration::from_secs(1) {
-            self.bar.set_draw_target(ProgressDrawTarget::stderr());
-        }
-        self.bar.set_position(done);
-    }
-
-    fn clear(&self) {
-        self.bar.finish_and_clear();
-    }
-}
-
-fn write_rows(
-    path: &Path,
-    inputs: &[&str],
-    rows: &[Row],
-    existing: Existing,
-    progress: &Progress,
-) -> Result<Pending, Failure> {
-    let mut pending = Pending::new(path, existing)?;
-    write_table(pending.writer(), inputs, rows, progress)
-        .map_err(|error| Failure::file("write", path, &error))?;
-    Ok(pending)
-}
-
-fn write_table(
-    writer: &mut impl Write,
-    inputs: &[&str],
-    rows: &[Row],
-    progress: &Progress,
-) -> Result<(), csv::Error> {
-    let mut table = csv::Writer::from_writer(writer);
-    let linear = inputs.len() > trace::SCREW.len();
-    let mut columns = inputs.to_vec();
-    if linear {
-        columns.push("friction_force");
-    } else {
-        columns.extend(["friction_torque", "load_torque", "efficiency"]);
-    }
-    columns.extend(["regime", "faults"]);
-    if rows.first().is_some_and(|row| row.train.is_some()) {
-        columns.extend([
-            if linear { "travel" } else { "nut_angle" },
-            "groove_friction",
-            "ball_friction",
-            "contacts",
-            "largest_contact_force",
-        ]);
-    }
-    if rows.first().is_some_and(|row| row.reference.is_some()) {
-        columns.extend(["reference_friction_torque", "reference_efficiency"]);
-    }
-    table.write_record(&columns)?;
-    for Row {
-        sample,
-        outputs,
-        reference,
-        train,
-    } in rows
-    {
-        let mut record = vec![
-            sample.time.to_string(),
-            sample.nut_speed.to_string(),
-            sample.axial_load.to_string(),
-        ];
-        if linear {
-            record.push(sample.side_load.to_string());
-        }
-        record.push(outputs.friction_torque.to_string());
-        if !linear {
-            record.push(outputs.load_torque.to_string());
-            record.push(outputs.efficiency.to_string());
-        }
-        record.push(regime_name(outputs.regime).into());
-        record.push(outputs.faults.bits().to_string());
-        if let Some(TrainRow { outputs, way, .. }) = train {
-            record.push(way.to_string());
-            record.push(outputs.groove.to_string());
-            record.push(outputs.ball.to_string());
-            record.push(outputs.contacts.to_string());
-            record.push(outputs.largest_contact_force.to_string());
-        }
-        if let Some(reference) = reference {
-            record.push(reference.friction_torque.to_string());
-            record.push(reference.efficiency.to_string());
-        }
-        table.write_record(&record)?;
-        progress.step();
-    }
-    table.flush()?;
-    Ok(())
-}
-
-fn regime_name(regime: Regime) -> &'static str {
-    match regime {
-        Regime::Standing => "standing",
-        Regime::Driving => "driving",
-        Regime::BackDriving => "back-driving",
-        Regime::Locked => "locked",
-    }
 }

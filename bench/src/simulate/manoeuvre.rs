@@ -7,6 +7,7 @@ use std::f64::consts::{PI, TAU};
 
 use epas_friction::BallScrew;
 
+use super::samples::{LinearSample, ScrewSample};
 use super::trace::{Sample, Trace};
 use crate::failure::Failure;
 
@@ -83,25 +84,32 @@ impl Manoeuvre {
     }
 
     /// The trace of a linear bearing.
-    pub fn linear_trace(self) -> Result<Trace, Failure> {
+    pub fn linear_trace(self) -> Result<Trace<LinearSample>, Failure> {
         if self != Self::Stroke {
             return Err(Failure::Data(format!(
                 "{} is a manoeuvre of a ball screw; the one of a linear bearing is stroke",
                 self.name()
             )));
         }
-        Ok(self.samples(1.0))
+        Ok(
+            self.samples(|time, Rack { speed, force, side }| LinearSample {
+                time,
+                speed,
+                normal_load: force,
+                side_load: side,
+            }),
+        )
     }
 
     /// The trace for one design.
-    pub fn trace(self, design: &BallScrew) -> Result<Trace, Failure> {
+    pub fn trace(self, design: &BallScrew) -> Result<Trace<ScrewSample>, Failure> {
         match self {
             Self::Stroke => {
                 return Err(Failure::Data(
                     "stroke is the manoeuvre of a linear bearing".into(),
                 ));
             }
-            Self::Turns => return Ok(self.samples(1.0)),
+            Self::Turns => return Ok(self.screw_samples(1.0)),
             _ => {}
         }
         let lead = f64::from(design.lead());
@@ -110,22 +118,25 @@ impl Manoeuvre {
                 "a manoeuvre is rack travel, and a design without lead makes none".into(),
             ));
         }
-        Ok(self.samples(TAU / lead))
+        Ok(self.screw_samples(TAU / lead))
     }
 
-    fn samples(self, speed_ratio: f64) -> Trace {
+    /// With so many rad/s of the nut for a rack speed of one.
+    fn screw_samples(self, speed_ratio: f64) -> Trace<ScrewSample> {
+        self.samples(|time, Rack { speed, force, .. }| ScrewSample {
+            time,
+            nut_speed: speed * speed_ratio,
+            axial_load: force,
+        })
+    }
+
+    fn samples<S: Sample>(self, sample: impl Fn(f64, Rack) -> S) -> Trace<S> {
         let (duration, rate) = self.duration();
         let mut rack = self.rack(1.0 / rate);
         let samples = (0..=(duration * rate).round() as u32)
             .map(|index| {
                 let time = f64::from(index) / rate;
-                let Rack { speed, force, side } = rack(time);
-                Sample {
-                    time,
-                    nut_speed: speed * speed_ratio,
-                    axial_load: force,
-                    side_load: side,
-                }
+                sample(time, rack(time))
             })
             .collect();
         Trace {
@@ -212,12 +223,12 @@ mod tests {
     use super::*;
     use epas_friction::DISSERTATION_DESIGNS;
 
-    fn trace(manoeuvre: Manoeuvre) -> Trace {
+    fn trace(manoeuvre: Manoeuvre) -> Trace<ScrewSample> {
         let design = BallScrew::new(DISSERTATION_DESIGNS[2].parameters).unwrap();
         manoeuvre.trace(&design).unwrap()
     }
 
-    fn peak_load(trace: &Trace) -> f64 {
+    fn peak_load(trace: &Trace<ScrewSample>) -> f64 {
         trace
             .samples
             .iter()
@@ -225,7 +236,7 @@ mod tests {
             .fold(0.0, f64::max)
     }
 
-    fn reversals(trace: &Trace) -> usize {
+    fn reversals(trace: &Trace<ScrewSample>) -> usize {
         trace
             .samples
             .windows(2)

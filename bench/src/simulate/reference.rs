@@ -16,46 +16,16 @@ use epas_reference::friction::contact_law::HertzLaw;
 use epas_reference::friction::whole_screw::WholeScrew;
 use epas_reference::material::Elastic;
 
-use super::subject::Subject;
-use super::trace::{Sample, Trace};
+use super::samples::ScrewSample;
+use super::trace::Trace;
 use crate::designs::train::{UncagedDesign, Wave};
 use crate::failure::Failure;
 
-/// The reference of a run.
-pub enum Reference {
-    /// Balls do not touch.
-    Caged(ReferenceScene),
-    /// Balls press on each other: friction at every sample.
-    Uncaged(Vec<Friction>),
-}
-
-impl Reference {
-    /// The reference of a subject that the in-loop model has accepted.
-    pub fn new(subject: &Subject, trace: &Trace) -> Result<Self, Failure> {
-        match subject {
-            Subject::Caged(design) => {
-                ReferenceScene::new(&design.configuration).map(Self::Caged)
-            }
-            Subject::Uncaged(_, design) => whole_screw(design, trace).map(Self::Uncaged),
-            Subject::Linear(_) => Err(Failure::Data(
-                "--reference follows ball screws; rows of balls in a linear bearing are compared by eval's \
-                 linear_train"
-                    .into(),
-            )),
-        }
-    }
-
-    /// Friction at a sample, the `index`-th.
-    pub fn friction(&self, index: usize, sample: &Sample) -> Option<Friction> {
-        match self {
-            Self::Caged(scene) => Some(scene.friction(sample)),
-            Self::Uncaged(all) => all.get(index).copied(),
-        }
-    }
-}
-
 /// The whole screw of Lin 2019, Section 3.4.4, which knows one speed, one load and one sine.
-fn whole_screw(design: &UncagedDesign, trace: &Trace) -> Result<Vec<Friction>, Failure> {
+pub fn whole_screw(
+    design: &UncagedDesign,
+    trace: &Trace<ScrewSample>,
+) -> Result<Vec<Friction>, Failure> {
     let configuration = &design.configuration;
     let limited = |what: &str| {
         Failure::Data(format!(
@@ -77,7 +47,7 @@ fn whole_screw(design: &UncagedDesign, trace: &Trace) -> Result<Vec<Friction>, F
     let [first, .., last] = trace.samples.as_slice() else {
         return Err(limited("this trace is too short"));
     };
-    let same = |sample: &Sample| {
+    let same = |sample: &ScrewSample| {
         sample.nut_speed == first.nut_speed && sample.axial_load == first.axial_load
     };
     if !trace.samples.iter().all(same) || first.nut_speed == 0.0 {
@@ -171,7 +141,7 @@ fn efficiency(load_torque: f64, friction_torque: f64) -> f64 {
 }
 
 /// A caged ball screw in float64.
-pub struct ReferenceScene {
+pub struct CagedReference {
     /// Friction torque per load of a driven flank, m; none where driving locks.
     drive: Option<f64>,
     /// Friction torque per load of a back-driven flank, m.
@@ -182,7 +152,7 @@ pub struct ReferenceScene {
     limits: Limits,
 }
 
-impl ReferenceScene {
+impl CagedReference {
     /// The scene of a configuration that the in-loop model has accepted.
     pub fn new(configuration: &CagedBallScrewConfiguration) -> Result<Self, Failure> {
         let design = configuration.design.parameters();
@@ -223,7 +193,7 @@ impl ReferenceScene {
     }
 
     /// Friction of one sample, within the same limits as in the loop.
-    pub fn friction(&self, sample: &Sample) -> Friction {
+    pub fn friction(&self, sample: &ScrewSample) -> Friction {
         let within = |value: f64, limit: f32| value.clamp(-f64::from(limit), limit.into());
         let speed = within(sample.nut_speed, self.limits.nut_speed);
         let load = within(sample.axial_load, self.limits.axial_load);

@@ -9,33 +9,48 @@ use csv::{ErrorKind, Position, Reader, ReaderBuilder, StringRecord, Trim};
 use crate::failure::Failure;
 use crate::files::Bounded;
 
-/// One moment of a trace.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sample {
+/// One moment of a trace: what one scene's columns hold.
+pub trait Sample: Copy {
+    /// Columns that a trace must have, time first.
+    const COLUMNS: &'static [&'static str];
+
+    /// From the numbers in its columns.
+    fn read<E>(column: impl FnMut(&'static str) -> Result<f64, E>) -> Result<Self, E>;
+
+    /// The numbers in the order of the columns, for a table.
+    fn record(&self) -> Vec<String>;
+
     /// Time, s.
-    pub time: f64,
-    /// Speed of the nut, rad/s; of a linear bearing's carriage, m/s.
-    pub nut_speed: f64,
-    /// Axial load, N; of a linear bearing the normal load.
-    pub axial_load: f64,
-    /// Load across a linear bearing, N; 0 in a ball screw.
-    pub side_load: f64,
+    fn time(&self) -> f64;
+
+    /// Speed of what moves, rad/s of a nut and m/s of a carriage.
+    fn speed(&self) -> f64;
 }
 
 /// A trace, never empty, its times never going back.
 #[derive(Clone, Debug)]
-pub struct Trace {
+pub struct Trace<S> {
     /// Name, for headings and file names.
     pub name: String,
     /// The samples in order.
-    pub samples: Vec<Sample>,
+    pub samples: Vec<S>,
 }
 
-/// Columns that a trace of a ball screw must have, in the order of [`Sample`].
-pub const SCREW: &[&str] = &["time", "nut_speed", "axial_load"];
+impl<S: Sample> Trace<S> {
+    /// From the first sample to the last, s.
+    pub fn duration(&self) -> f64 {
+        match (self.samples.first(), self.samples.last()) {
+            (Some(first), Some(last)) => last.time() - first.time(),
+            _ => 0.0,
+        }
+    }
 
-/// Columns that a trace of a linear bearing must have.
-pub const LINEAR: &[&str] = &["time", "speed", "normal_load", "side_load"];
+    /// Whether the motion turns back.
+    pub fn reverses(&self) -> bool {
+        self.samples.iter().any(|sample| sample.speed() > 0.0)
+            && self.samples.iter().any(|sample| sample.speed() < 0.0)
+    }
+}
 
 /// Most samples of a trace: more than an hour at 1 kHz, and less than fills a memory.
 const MOST_SAMPLES: usize = 5_000_000;
@@ -45,10 +60,10 @@ const MOST_SAMPLES: usize = 5_000_000;
 const LARGEST_FILE: u64 = 1 << 29;
 
 /// Reads a trace.
-pub fn read(path: &Path, columns: &[&str]) -> Result<Trace, Failure> {
+pub fn read<S: Sample>(path: &Path) -> Result<Trace<S>, Failure> {
     let file = File::open(path).map_err(|error| Failure::file("open", path, &error))?;
     // What is no file, a pipe or a device, does not say its size and may never end.
-    let samples = samples(Bounded::new(file, LARGEST_FILE), columns)
+    let samples = samples(Bounded::new(file, LARGEST_FILE))
         .map_err(|message| Failure::Data(format!("{}, {message}", path.display())))?;
     Ok(Trace {
         name: path
@@ -61,8 +76,8 @@ pub fn read(path: &Path, columns: &[&str]) -> Result<Trace, Failure> {
 }
 
 /// The samples of a trace, or what is wrong in which line.
-pub fn samples(input: impl Read + Seek, columns: &[&str]) -> Result<Vec<Sample>, String> {
-    parse(input, columns).map_err(|Fault { line, message }| format!("line {line}: {message}"))
+pub fn samples<S: Sample>(input: impl Read + Seek) -> Result<Vec<S>, String> {
+    parse(input).map_err(|Fault { line, message }| format!("line {line}: {message}"))
 }
 
 /// What is wrong with a trace, and in which line.
@@ -114,19 +129,19 @@ fn line_of(reader: Reader<impl Read + Seek>, start: &Position) -> u64 {
     start.line() + blank_lines().unwrap_or(0)
 }
 
-fn parse(input: impl Read + Seek, columns: &[&str]) -> Result<Vec<Sample>, Fault> {
+fn parse<S: Sample>(input: impl Read + Seek) -> Result<Vec<S>, Fault> {
     let mut reader = ReaderBuilder::new().trim(Trim::All).from_reader(input);
     let start = reader.position().clone();
     let header = match reader.headers() {
         Ok(header) => header.clone(),
         Err(error) => return Err(Fault::from_csv(&error, reader, &start)),
     };
-    let places = columns
+    let places = S::COLUMNS
         .iter()
         .map(|column| place(&header, column))
         .collect::<Result<Vec<_>, _>>()?;
 
-    let mut samples: Vec<Sample> = Vec::new();
+    let mut samples: Vec<S> = Vec::new();
     let mut record = StringRecord::new();
     loop {
         let start = reader.position().clone();
@@ -135,20 +150,12 @@ fn parse(input: impl Read + Seek, columns: &[&str]) -> Result<Vec<Sample>, Fault
             Ok(false) => break,
             Err(error) => return Err(Fault::from_csv(&error, reader, &start)),
         }
-        let sample = || -> Result<Sample, String> {
-            let mut numbers = [0.0; 4];
-            for ((value, place), column) in numbers.iter_mut().zip(&places).zip(columns) {
-                *value = number(&record, *place, column)?;
-            }
-            let [time, nut_speed, axial_load, side_load] = numbers;
-            Ok(Sample {
-                time,
-                nut_speed,
-                axial_load,
-                side_load,
-            })
-        };
-        match sample().and_then(|sample| follows(&samples, sample)) {
+        let sample = S::read(|column| {
+            let index = S::COLUMNS.iter().position(|known| *known == column);
+            let place = index.and_then(|index| places.get(index));
+            number(&record, place.copied().unwrap_or(usize::MAX), column)
+        });
+        match sample.and_then(|sample| follows(&samples, sample)) {
             Ok(sample) => samples.push(sample),
             Err(message) => return Err(Fault::new(line_of(reader, &start), message)),
         }
@@ -160,14 +167,15 @@ fn parse(input: impl Read + Seek, columns: &[&str]) -> Result<Vec<Sample>, Fault
 }
 
 /// The sample, where it may follow those before it.
-fn follows(samples: &[Sample], sample: Sample) -> Result<Sample, String> {
+fn follows<S: Sample>(samples: &[S], sample: S) -> Result<S, String> {
     if samples.len() == MOST_SAMPLES {
         return Err(format!("a trace has at most {MOST_SAMPLES} samples"));
     }
     match samples.last() {
-        Some(last) if sample.time < last.time => Err(format!(
+        Some(last) if sample.time() < last.time() => Err(format!(
             "time goes back from {} to {}",
-            last.time, sample.time
+            last.time(),
+            sample.time()
         )),
         _ => Ok(sample),
     }
@@ -211,8 +219,41 @@ mod tests {
     use super::*;
     use std::io::Cursor;
 
-    fn parse(text: &[u8]) -> Result<Vec<Sample>, Fault> {
-        super::parse(Cursor::new(text), SCREW)
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    struct Moment {
+        time: f64,
+        speed: f64,
+        load: f64,
+    }
+
+    impl Sample for Moment {
+        const COLUMNS: &'static [&'static str] = &["time", "nut_speed", "axial_load"];
+
+        fn read<E>(mut column: impl FnMut(&'static str) -> Result<f64, E>) -> Result<Self, E> {
+            Ok(Self {
+                time: column("time")?,
+                speed: column("nut_speed")?,
+                load: column("axial_load")?,
+            })
+        }
+
+        fn record(&self) -> Vec<String> {
+            [self.time, self.speed, self.load]
+                .map(|x| x.to_string())
+                .to_vec()
+        }
+
+        fn time(&self) -> f64 {
+            self.time
+        }
+
+        fn speed(&self) -> f64 {
+            self.speed
+        }
+    }
+
+    fn parse(text: &[u8]) -> Result<Vec<Moment>, Fault> {
+        super::parse(Cursor::new(text))
     }
 
     #[test]
@@ -221,11 +262,10 @@ mod tests {
         let samples = parse(text.as_bytes()).unwrap();
         assert_eq!(
             samples,
-            [(0.0, -2.0), (0.5, 2.0)].map(|(time, nut_speed)| Sample {
+            [(0.0, -2.0), (0.5, 2.0)].map(|(time, speed)| Moment {
                 time,
-                nut_speed,
-                axial_load: 1e3,
-                side_load: 0.0,
+                speed,
+                load: 1e3,
             })
         );
     }

@@ -1,12 +1,8 @@
-//! Scenes with a train, for any number of balls.
+//! Models of scenes with a train, for any number of balls, over a trace of equal steps.
 
-use epas_friction::{
-    Error, FrictionModel, Inputs, LinearBearingConfiguration, LinearBearingTrain, LinearInputs,
-    Outputs, UncagedBallScrew, UncagedBallScrewConfiguration,
-};
+use epas_friction::Error;
 
 use super::trace::{Sample, Trace};
-use crate::designs::train::{LinearDesign, UncagedDesign};
 use crate::failure::Failure;
 
 /// Most balls of a train.
@@ -15,113 +11,28 @@ const MOST_BALLS: u8 = 64;
 /// Most ticks for each sample of a trace.
 const MOST_TICKS: u32 = 1 << 16;
 
-/// Outputs of a train as the table and the picture show them: N m of a screw, N of a bearing.
-#[derive(Clone, Copy, Debug)]
-pub struct TrainOutputs {
-    /// What every scene has; of a bearing the friction torque is the force along the rail.
-    pub common: Outputs,
-    /// Friction from the grooves.
-    pub groove: f32,
-    /// Friction from balls that rub against each other.
-    pub ball: f32,
-    /// Pairs of balls that press on each other.
-    pub contacts: u8,
-    /// Largest force between two balls, N.
-    pub largest_contact_force: f32,
-}
-
-/// What a train does at a sample.
-#[derive(Clone, Copy, Debug)]
-pub struct TrainRow {
-    /// Its outputs.
-    pub outputs: TrainOutputs,
+/// The in-loop model of a scene, whatever its number of balls.
+pub trait Balls<S, Outputs> {
+    /// What the model says to a sample.
+    fn step(&mut self, sample: &S) -> Outputs;
     /// Balls that press on the one in front, one bit each.
-    pub pressing: u64,
-    /// Angle that the nut has turned, rad, or way of the carriage, m.
-    pub way: f64,
-}
-
-/// A model of a train over a trace of equal steps.
-pub struct Train {
-    model: Box<dyn Model>,
-    ticks: u32,
-    step: f64,
-    way: f64,
-}
-
-/// The in-loop model, whatever its number of balls.
-trait Model {
-    fn step(&mut self, sample: &Sample) -> TrainOutputs;
     fn pressing(&self) -> u64;
 }
 
 /// Balls that press on the one in front, one bit each.
-fn pressing<const N: usize>(train: &epas_friction::train::Train<N>) -> u64 {
+pub fn pressing<const N: usize>(train: &epas_friction::train::Train<N>) -> u64 {
     train
         .contacts()
         .iter()
         .fold(0, |bits, contact| bits | 1 << contact.ball)
 }
 
-impl<const N: usize> Model for FrictionModel<UncagedBallScrew<N>> {
-    fn step(&mut self, sample: &Sample) -> TrainOutputs {
-        let outputs = FrictionModel::step(
-            self,
-            Inputs {
-                nut_speed: sample.nut_speed as f32,
-                axial_load: sample.axial_load as f32,
-            },
-        );
-        TrainOutputs {
-            common: outputs.into(),
-            groove: outputs.groove_torque,
-            ball: outputs.ball_torque,
-            contacts: outputs.contacts,
-            largest_contact_force: outputs.largest_contact_force,
-        }
-    }
-
-    fn pressing(&self) -> u64 {
-        pressing(&self.state().train)
-    }
-}
-
-impl<const N: usize> Model for FrictionModel<LinearBearingTrain<N>> {
-    fn step(&mut self, sample: &Sample) -> TrainOutputs {
-        let outputs = FrictionModel::step(
-            self,
-            LinearInputs {
-                speed: sample.nut_speed as f32,
-                normal_load: sample.axial_load as f32,
-                side_load: sample.side_load as f32,
-            },
-        );
-        TrainOutputs {
-            common: Outputs {
-                friction_torque: outputs.friction_force,
-                load_torque: 0.0,
-                efficiency: 0.0,
-                regime: outputs.regime,
-                faults: outputs.faults,
-            },
-            groove: outputs.groove_force,
-            ball: outputs.ball_force,
-            contacts: outputs.contacts,
-            largest_contact_force: outputs.largest_contact_force,
-        }
-    }
-
-    fn pressing(&self) -> u64 {
-        pressing(&self.state().train)
-    }
-}
-
-/// The scene with the number of balls that is known only now.
+/// A scene with the number of balls that is known only when the program runs; none where it is out of range.
 macro_rules! with_balls {
     ($scene:ident, $balls:expr, $configuration:expr; $($count:literal)*) => {
         match $balls {
             $($count => FrictionModel::<$scene<$count>>::new($configuration)
-                .map(|model| Some(Box::new(model) as Box<dyn Model>)),)*
+                .map(|model| Some(Box::new(model) as _)),)*
             _ => Ok(None),
         }
     };
@@ -132,38 +43,37 @@ macro_rules! with_balls {
             62 63 64)
     };
 }
+pub(super) use with_balls;
 
-type Built = Result<Option<Box<dyn Model>>, Error>;
+/// A model as it is built, none for a number of balls that is out of range.
+pub type Built<S, Outputs> = Result<Option<Box<dyn Balls<S, Outputs>>>, Error>;
 
-fn uncaged(balls: u8, configuration: &UncagedBallScrewConfiguration) -> Built {
-    with_balls!(UncagedBallScrew, balls, configuration)
+/// What a train does at a sample.
+#[derive(Clone, Copy, Debug)]
+pub struct TrainRow<Outputs> {
+    /// Its outputs.
+    pub outputs: Outputs,
+    /// Balls that press on the one in front, one bit each.
+    pub pressing: u64,
+    /// Motion since the first sample: angle of the nut, rad, or travel of the carriage, m.
+    pub motion: f64,
 }
 
-fn linear(balls: u8, configuration: &LinearBearingConfiguration) -> Built {
-    with_balls!(LinearBearingTrain, balls, configuration)
+/// A model of a train over a trace of equal steps.
+pub struct Train<S, Outputs> {
+    model: Box<dyn Balls<S, Outputs>>,
+    ticks: u32,
+    step: f64,
+    motion: f64,
 }
 
-impl Train {
-    /// The balls of a ball screw.
-    pub fn of_screw(design: &UncagedDesign, trace: &Trace) -> Result<Self, Failure> {
-        Self::new(trace, |tick| {
-            let mut configuration = design.configuration;
-            configuration.tick = tick;
-            uncaged(design.balls, &configuration)
-        })
-    }
-
-    /// The balls of a linear bearing.
-    pub fn of_bearing(design: &LinearDesign, trace: &Trace) -> Result<Self, Failure> {
-        Self::new(trace, |tick| {
-            let mut configuration = design.configuration;
-            configuration.tick = tick;
-            linear(design.balls, &configuration)
-        })
-    }
-
-    /// As many ticks for each sample as the limit of the balls' travel in a tick needs.
-    fn new(trace: &Trace, build: impl Fn(f32) -> Built) -> Result<Self, Failure> {
+impl<S: Sample, Outputs> Train<S, Outputs> {
+    /// The model that `build` makes for a tick, s: as many ticks for each sample as the limit of the balls'
+    /// travel in a tick needs.
+    pub fn new(
+        trace: &Trace<S>,
+        build: impl Fn(f32) -> Built<S, Outputs>,
+    ) -> Result<Self, Failure> {
         let step = equal_step(trace)?;
         let mut ticks = 1;
         loop {
@@ -173,7 +83,7 @@ impl Train {
                         model,
                         ticks,
                         step,
-                        way: 0.0,
+                        motion: 0.0,
                     });
                 }
                 Ok(None) => {
@@ -188,38 +98,38 @@ impl Train {
     }
 
     /// What the train does at a sample, and then until the next one.
-    pub fn step(&mut self, sample: &Sample) -> TrainRow {
+    pub fn step(&mut self, sample: &S) -> TrainRow<Outputs> {
         let outputs = self.model.step(sample);
         let row = TrainRow {
             outputs,
             pressing: self.model.pressing(),
-            way: self.way,
+            motion: self.motion,
         };
         for _ in 1..self.ticks {
             self.model.step(sample);
         }
-        self.way += sample.nut_speed * self.step;
+        self.motion += sample.speed() * self.step;
         row
     }
 }
 
 /// The time between two samples, s, where it is the same all along: positions of balls are integrated.
-fn equal_step(trace: &Trace) -> Result<f64, Failure> {
+fn equal_step<S: Sample>(trace: &Trace<S>) -> Result<f64, Failure> {
     let [first, second, ..] = trace.samples.as_slice() else {
         return Err(Failure::Data(
             "a scene with a train needs a trace of two samples or more".into(),
         ));
     };
-    let step = second.time - first.time;
+    let step = second.time() - first.time();
     for pair in trace.samples.windows(2) {
         if let [one, other] = pair {
-            let this = other.time - one.time;
+            let this = other.time() - one.time();
             // Times in a file are rounded.
             if step <= 0.0 || (this - step).abs() > 0.01 * step + 1e-9 {
                 return Err(Failure::Data(format!(
                     "a scene with a train needs equal steps of time: {step} s at the start, {this} s after \
                      {} s",
-                    one.time
+                    one.time()
                 )));
             }
         }

@@ -7,7 +7,8 @@ use epas_friction::efficiency::{Drive, EfficiencyGeometry};
 use epas_friction::geometry::{ContactAngle, Groove};
 use epas_friction::{CATALOGUE, Error, Inputs, LinearInputs, Regime};
 
-use crate::{Outcome, setups};
+use crate::outcome::Outcome;
+use crate::setups;
 
 /// Ticks of each scene.
 const TICKS: u32 = 256;

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::Outcome;
+use crate::outcome::Outcome;
 
 /// The header that belongs to the library's sources.
 pub fn generated(root: &Path) -> Outcome<String> {

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use crate::Outcome;
+use crate::outcome::Outcome;
 use crate::tools::{PANIC, WARNINGS, library, run, symbols};
 
 /// Builds and runs the C tests, and sees that the header stands on its own.

@@ -10,6 +10,7 @@
 mod cases;
 mod header;
 mod host;
+mod outcome;
 mod places;
 mod setups;
 mod target;
@@ -19,7 +20,7 @@ use std::fs;
 use std::path::Path;
 use std::process::ExitCode;
 
-type Outcome<T> = Result<T, Box<dyn std::error::Error>>;
+use outcome::Outcome;
 
 fn main() -> ExitCode {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");

@@ -8,7 +8,7 @@ use epas_friction::{
     CagedBallScrew, DeviationMap, FrictionModel, LinearBearingTrain, LoadShare, UncagedBallScrew,
 };
 
-use crate::Outcome;
+use crate::outcome::Outcome;
 
 /// As the library keeps a model.
 #[repr(C)]

@@ -1,0 +1,150 @@
+//! A ball screw whose balls do not touch.
+
+use epas_friction::{CagedBallScrew, FrictionModel, Inputs, Outputs};
+
+use super::curves::thin;
+use super::manoeuvre::Manoeuvre;
+use super::reference::{CagedReference, Friction};
+use super::samples::ScrewSample;
+use super::scene::Scene;
+use super::screw::{self, ScrewSummary};
+use super::summary::Lines;
+use super::trace::Trace;
+use crate::designs::Design;
+use crate::failure::Failure;
+use crate::plot::{Axis, Chart, Mark, Panel, Series, render};
+
+/// The scene.
+pub struct Caged {
+    /// Its design.
+    pub design: Design,
+}
+
+/// One sample with what the models say to it.
+pub struct CagedRow {
+    sample: ScrewSample,
+    outputs: Outputs,
+    reference: Option<Friction>,
+}
+
+impl Scene for Caged {
+    type Sample = ScrewSample;
+    type Row = CagedRow;
+
+    fn name(&self) -> &str {
+        &self.design.name
+    }
+
+    fn manoeuvre(&self, manoeuvre: Manoeuvre) -> Result<Trace<ScrewSample>, Failure> {
+        manoeuvre.trace(self.design.screw())
+    }
+
+    fn rows(
+        &self,
+        trace: &Trace<ScrewSample>,
+        with_reference: bool,
+        done: &dyn Fn(),
+    ) -> Result<Vec<CagedRow>, Failure> {
+        let configuration = &self.design.configuration;
+        let mut model = FrictionModel::<CagedBallScrew>::new(configuration)
+            .map_err(|error| Failure::Data(format!("{}: {error}", self.name())))?;
+        let reference = with_reference
+            .then(|| CagedReference::new(configuration))
+            .transpose()?;
+        Ok(trace
+            .samples
+            .iter()
+            .map(|&sample| {
+                let outputs = model.step(Inputs {
+                    nut_speed: sample.nut_speed as f32,
+                    axial_load: sample.axial_load as f32,
+                });
+                done();
+                CagedRow {
+                    sample,
+                    outputs,
+                    reference: reference.as_ref().map(|scene| scene.friction(&sample)),
+                }
+            })
+            .collect())
+    }
+
+    fn columns(with_reference: bool) -> Vec<&'static str> {
+        let mut columns = screw::columns();
+        if with_reference {
+            columns.extend(screw::REFERENCE_COLUMNS);
+        }
+        columns
+    }
+
+    fn record(row: &CagedRow) -> Vec<String> {
+        let mut record = screw::record(&row.sample, &row.outputs);
+        record.extend(row.reference.iter().flat_map(screw::reference_record));
+        record
+    }
+
+    fn summary(&self, trace: &Trace<ScrewSample>, rows: &[CagedRow]) -> Lines {
+        let mut summary = ScrewSummary::new(&self.design);
+        for row in rows {
+            summary.add(&row.sample, &row.outputs, row.reference.as_ref());
+        }
+        summary.lines(trace, &self.design, None)
+    }
+
+    /// Load, speed, friction torque and efficiency against time.
+    fn picture(&self, trace: &Trace<ScrewSample>, rows: &[CagedRow]) -> Result<String, Failure> {
+        let curve = |value: &dyn Fn(&CagedRow) -> f64| thin(rows, &|row| row.sample.time, value);
+        let single =
+            |value: &dyn Fn(&CagedRow) -> f64| vec![Series::new("", 0, Mark::Line, curve(value))];
+        let with_reference = rows.first().is_some_and(|row| row.reference.is_some());
+        let pair = |value: &dyn Fn(&CagedRow) -> f64, reference: fn(&Friction) -> f64| {
+            let mut series = vec![Series::new("in the loop, f32", 0, Mark::Line, curve(value))];
+            if with_reference {
+                let exact = |row: &CagedRow| row.reference.as_ref().map_or(f64::NAN, reference);
+                series.push(Series::new(
+                    "reference, f64",
+                    1,
+                    Mark::Dashed,
+                    curve(&exact),
+                ));
+            }
+            series
+        };
+        let panels = [
+            (
+                format!("{} on {}", trace.name, self.name()),
+                "axial load (N)",
+                single(&|row| row.sample.axial_load),
+            ),
+            (
+                String::new(),
+                "nut speed (rad/s)",
+                single(&|row| row.sample.nut_speed),
+            ),
+            (
+                String::new(),
+                "friction torque (N m)",
+                pair(&|row| row.outputs.friction_torque.into(), |friction| {
+                    friction.friction_torque
+                }),
+            ),
+            (
+                String::new(),
+                "efficiency",
+                pair(&|row| row.outputs.efficiency.into(), |friction| {
+                    friction.efficiency
+                }),
+            ),
+        ]
+        .map(|(title, label, series)| {
+            Panel::Chart(Chart {
+                title,
+                x: Axis::linear("time (s)"),
+                y: Axis::linear(label),
+                series,
+                notes: Vec::new(),
+            })
+        });
+        render(&panels, 1, (1000, 270))
+    }
+}

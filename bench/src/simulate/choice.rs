@@ -1,0 +1,77 @@
+//! Which scene a run has: asked for, or what the design or the manoeuvre is made for.
+
+use super::caged::Caged;
+use super::linear::Linear;
+use super::manoeuvre::Manoeuvre;
+use super::uncaged::Uncaged;
+use crate::designs::DesignSource;
+use crate::designs::train::{LINEAR, LinearDesign};
+use crate::failure::Failure;
+
+/// A scene of the in-loop model, by its name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum SceneName {
+    /// A ball screw whose balls do not touch
+    Caged,
+    /// A ball screw whose balls press on each other
+    Uncaged,
+    /// A linear bearing whose balls press on each other
+    Linear,
+}
+
+/// A scene with its design.
+pub enum Chosen {
+    /// A ball screw whose balls do not touch.
+    Caged(Caged),
+    /// A ball screw whose balls press on each other.
+    Uncaged(Uncaged),
+    /// A linear bearing whose balls press on each other.
+    Linear(Linear),
+}
+
+/// Scene and design that are asked for, or that the manoeuvre is made for.
+pub fn choose(
+    scene: Option<SceneName>,
+    source: Option<&DesignSource>,
+    manoeuvre: Option<Manoeuvre>,
+) -> Result<Chosen, Failure> {
+    let scene = scene.unwrap_or(match (source, manoeuvre) {
+        (Some(DesignSource::LinearBearing), _) | (_, Some(Manoeuvre::Stroke)) => SceneName::Linear,
+        (_, Some(Manoeuvre::Turns)) => SceneName::Uncaged,
+        _ => SceneName::Caged,
+    });
+    let screw = |default: &str| match source {
+        Some(source) => source.load(),
+        None => default
+            .parse::<DesignSource>()
+            .map_err(Failure::Data)?
+            .load(),
+    };
+    match scene {
+        SceneName::Caged => Ok(Chosen::Caged(Caged {
+            design: screw("lin-4.1")?,
+        })),
+        SceneName::Uncaged => {
+            let design = screw("lin-3.6")?;
+            let Some(balls) = design.uncaged else {
+                return Err(Failure::Data(format!(
+                    "{} says nothing of its balls: a design file does in a table [uncaged], and of the \
+                     built-in designs lin-3.6",
+                    design.name
+                )));
+            };
+            Ok(Chosen::Uncaged(Uncaged { design, balls }))
+        }
+        SceneName::Linear => linear(source).map(|design| Chosen::Linear(Linear { design })),
+    }
+}
+
+fn linear(source: Option<&DesignSource>) -> Result<LinearDesign, Failure> {
+    match source {
+        None | Some(DesignSource::LinearBearing) => LinearDesign::built_in(),
+        Some(DesignSource::File(path)) => LinearDesign::read(path),
+        Some(DesignSource::BuiltIn { name, .. }) => Err(Failure::Data(format!(
+            "{name} is a ball screw; the built-in linear bearing is {LINEAR}"
+        ))),
+    }
+}

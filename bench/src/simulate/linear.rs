@@ -1,0 +1,199 @@
+//! A linear bearing whose balls press on each other.
+
+use epas_friction::{FrictionModel, LinearBearingTrain, LinearInputs, LinearOutputs};
+
+use super::manoeuvre::Manoeuvre;
+use super::samples::LinearSample;
+use super::scene::Scene;
+use super::summary::{Course, Lines, Moment, Pressing, Words, regime_name};
+use super::trace::{Sample, Trace};
+use super::train::{Balls, Built, Train, TrainRow, pressing, with_balls};
+use super::train_picture::{Labels, TrainPoint, draw};
+use crate::designs::train::LinearDesign;
+use crate::failure::Failure;
+
+/// The scene.
+pub struct Linear {
+    /// Its design.
+    pub design: LinearDesign,
+}
+
+/// One sample with what the model says to it.
+pub struct LinearRow {
+    sample: LinearSample,
+    train: TrainRow<LinearOutputs>,
+}
+
+/// What a linear bearing's quantities are called.
+const WORDS: Words = Words {
+    load: "normal load",
+    speed: "speed",
+    speed_unit: "m/s",
+    friction: "force",
+    unit: "N",
+};
+
+impl<const N: usize> Balls<LinearSample, LinearOutputs> for FrictionModel<LinearBearingTrain<N>> {
+    fn step(&mut self, sample: &LinearSample) -> LinearOutputs {
+        FrictionModel::step(
+            self,
+            LinearInputs {
+                speed: sample.speed as f32,
+                normal_load: sample.normal_load as f32,
+                side_load: sample.side_load as f32,
+            },
+        )
+    }
+
+    fn pressing(&self) -> u64 {
+        pressing(&self.state().train)
+    }
+}
+
+impl Linear {
+    fn train(
+        &self,
+        trace: &Trace<LinearSample>,
+    ) -> Result<Train<LinearSample, LinearOutputs>, Failure> {
+        let build = |tick| -> Built<LinearSample, LinearOutputs> {
+            let mut configuration = self.design.configuration;
+            configuration.tick = tick;
+            with_balls!(LinearBearingTrain, self.design.balls, &configuration)
+        };
+        Train::new(trace, build).map_err(|failure| failure.of(self.name()))
+    }
+}
+
+impl Scene for Linear {
+    type Sample = LinearSample;
+    type Row = LinearRow;
+
+    fn name(&self) -> &str {
+        &self.design.name
+    }
+
+    fn manoeuvre(&self, manoeuvre: Manoeuvre) -> Result<Trace<LinearSample>, Failure> {
+        manoeuvre.linear_trace()
+    }
+
+    fn rows(
+        &self,
+        trace: &Trace<LinearSample>,
+        with_reference: bool,
+        done: &dyn Fn(),
+    ) -> Result<Vec<LinearRow>, Failure> {
+        let mut train = self.train(trace)?;
+        if with_reference {
+            return Err(Failure::Data(
+                "--reference follows ball screws; rows of balls in a linear bearing are compared by eval's \
+                 linear_train"
+                    .into(),
+            ));
+        }
+        Ok(trace
+            .samples
+            .iter()
+            .map(|&sample| {
+                let row = LinearRow {
+                    sample,
+                    train: train.step(&sample),
+                };
+                done();
+                row
+            })
+            .collect())
+    }
+
+    fn columns(_: bool) -> Vec<&'static str> {
+        let mut columns = LinearSample::COLUMNS.to_vec();
+        columns.extend([
+            "friction_force",
+            "regime",
+            "faults",
+            "travel",
+            "groove_friction",
+            "ball_friction",
+            "contacts",
+            "largest_contact_force",
+        ]);
+        columns
+    }
+
+    fn record(row: &LinearRow) -> Vec<String> {
+        let TrainRow {
+            outputs, motion, ..
+        } = row.train;
+        let mut record = row.sample.record();
+        record.extend([
+            outputs.friction_force.to_string(),
+            regime_name(outputs.regime).into(),
+            outputs.faults.bits().to_string(),
+            motion.to_string(),
+            outputs.groove_force.to_string(),
+            outputs.ball_force.to_string(),
+            outputs.contacts.to_string(),
+            outputs.largest_contact_force.to_string(),
+        ]);
+        record
+    }
+
+    fn summary(&self, trace: &Trace<LinearSample>, rows: &[LinearRow]) -> Lines {
+        // The carriage's motion is its travel.
+        let mut course = Course::new(1.0);
+        let mut pressing = Pressing::default();
+        for LinearRow { sample, train } in rows {
+            let outputs = train.outputs;
+            let travel = course.add(&Moment {
+                time: sample.time,
+                speed: sample.speed,
+                load: sample.normal_load,
+                friction: outputs.friction_force.into(),
+                regime: outputs.regime,
+                faults: outputs.faults,
+            });
+            pressing.add(
+                outputs.ball_force,
+                outputs.contacts,
+                outputs.largest_contact_force,
+                travel,
+            );
+        }
+        let mut lines = course.peaks(trace, self.name(), &WORDS);
+        course.energy(&mut lines);
+        pressing.lines(&mut lines, &WORDS);
+        course.regimes(&mut lines, trace.samples.len());
+        course.flags(&mut lines);
+        lines
+    }
+
+    fn picture(&self, trace: &Trace<LinearSample>, rows: &[LinearRow]) -> Result<String, Failure> {
+        // Where the motion turns back, a place on the rail stands for more than one moment.
+        let reverses = trace.reverses();
+        let points: Vec<_> = rows
+            .iter()
+            .map(|row| {
+                let outputs = row.train.outputs;
+                TrainPoint {
+                    place: if reverses {
+                        row.sample.time
+                    } else {
+                        1e3 * row.train.motion
+                    },
+                    groove: outputs.groove_force,
+                    ball: outputs.ball_force,
+                    friction: outputs.friction_force,
+                    reference: None,
+                    contacts: outputs.contacts,
+                    largest_contact_force: outputs.largest_contact_force,
+                    pressing: row.train.pressing,
+                }
+            })
+            .collect();
+        let labels = Labels {
+            title: format!("{} on {}", trace.name, self.name()),
+            place: if reverses { "time (s)" } else { "travel (mm)" },
+            friction: "friction force (N)",
+        };
+        draw(labels, &points)
+    }
+}

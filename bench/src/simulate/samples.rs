@@ -1,0 +1,80 @@
+//! Moments of traces: one type for screws, one for bearings.
+
+use super::trace::Sample;
+
+/// One moment of a ball screw's trace.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ScrewSample {
+    /// Time, s.
+    pub time: f64,
+    /// Speed of the nut, rad/s.
+    pub nut_speed: f64,
+    /// Axial load, N.
+    pub axial_load: f64,
+}
+
+/// One moment of a linear bearing's trace.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LinearSample {
+    /// Time, s.
+    pub time: f64,
+    /// Speed of the carriage, m/s.
+    pub speed: f64,
+    /// Load that presses the carriage on the rail, N.
+    pub normal_load: f64,
+    /// Load across the rail, N.
+    pub side_load: f64,
+}
+
+impl Sample for ScrewSample {
+    const COLUMNS: &'static [&'static str] = &["time", "nut_speed", "axial_load"];
+
+    fn read<E>(mut column: impl FnMut(&'static str) -> Result<f64, E>) -> Result<Self, E> {
+        Ok(Self {
+            time: column("time")?,
+            nut_speed: column("nut_speed")?,
+            axial_load: column("axial_load")?,
+        })
+    }
+
+    fn record(&self) -> Vec<String> {
+        [self.time, self.nut_speed, self.axial_load]
+            .map(|value| value.to_string())
+            .to_vec()
+    }
+
+    fn time(&self) -> f64 {
+        self.time
+    }
+
+    fn speed(&self) -> f64 {
+        self.nut_speed
+    }
+}
+
+impl Sample for LinearSample {
+    const COLUMNS: &'static [&'static str] = &["time", "speed", "normal_load", "side_load"];
+
+    fn read<E>(mut column: impl FnMut(&'static str) -> Result<f64, E>) -> Result<Self, E> {
+        Ok(Self {
+            time: column("time")?,
+            speed: column("speed")?,
+            normal_load: column("normal_load")?,
+            side_load: column("side_load")?,
+        })
+    }
+
+    fn record(&self) -> Vec<String> {
+        [self.time, self.speed, self.normal_load, self.side_load]
+            .map(|value| value.to_string())
+            .to_vec()
+    }
+
+    fn time(&self) -> f64 {
+        self.time
+    }
+
+    fn speed(&self) -> f64 {
+        self.speed
+    }
+}

@@ -1,0 +1,42 @@
+//! What a scene does with a trace. Each has its own samples, rows, columns and words; which one it is is
+//! decided once, from the design.
+
+use super::manoeuvre::Manoeuvre;
+use super::summary::Lines;
+use super::trace::{Sample, Trace};
+use crate::failure::Failure;
+
+/// A scene with its design.
+pub trait Scene {
+    /// One moment of its traces.
+    type Sample: Sample;
+    /// One sample with what the models say to it.
+    type Row;
+
+    /// Name of the design, for headings and file names.
+    fn name(&self) -> &str;
+
+    /// A manoeuvre for this design.
+    fn manoeuvre(&self, manoeuvre: Manoeuvre) -> Result<Trace<Self::Sample>, Failure>;
+
+    /// Runs the in-loop model over a trace, with the float64 reference where it is wanted; `done` is called
+    /// after each sample.
+    fn rows(
+        &self,
+        trace: &Trace<Self::Sample>,
+        with_reference: bool,
+        done: &dyn Fn(),
+    ) -> Result<Vec<Self::Row>, Failure>;
+
+    /// Columns of the table: those of the trace, then the outputs.
+    fn columns(with_reference: bool) -> Vec<&'static str>;
+
+    /// A row of the table.
+    fn record(row: &Self::Row) -> Vec<String>;
+
+    /// What a run comes to.
+    fn summary(&self, trace: &Trace<Self::Sample>, rows: &[Self::Row]) -> Lines;
+
+    /// The run as a picture, SVG.
+    fn picture(&self, trace: &Trace<Self::Sample>, rows: &[Self::Row]) -> Result<String, Failure>;
+}

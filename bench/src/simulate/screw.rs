@@ -1,0 +1,189 @@
+//! What both scenes of a ball screw have in common: columns of the table, and the summary.
+
+use std::f64::consts::TAU;
+
+use epas_friction::Outputs;
+use epas_friction::efficiency::EfficiencyGeometry;
+use epas_friction::geometry::Groove;
+use epas_friction::hertz::HertzContact;
+
+use super::reference::Friction;
+use super::samples::ScrewSample;
+use super::summary::{Course, Lines, Moment, Pressing, Words, regime_name};
+use super::trace::{Sample, Trace};
+use crate::designs::Design;
+
+/// What a ball screw's quantities are called.
+pub const WORDS: Words = Words {
+    load: "axial load",
+    speed: "nut speed",
+    speed_unit: "rad/s",
+    friction: "torque",
+    unit: "N m",
+};
+
+/// Columns of the trace, and of what every ball screw puts out.
+pub fn columns() -> Vec<&'static str> {
+    let mut columns = ScrewSample::COLUMNS.to_vec();
+    columns.extend([
+        "friction_torque",
+        "load_torque",
+        "efficiency",
+        "regime",
+        "faults",
+    ]);
+    columns
+}
+
+/// Columns of the reference.
+pub const REFERENCE_COLUMNS: [&str; 2] = ["reference_friction_torque", "reference_efficiency"];
+
+/// The values of [`columns`].
+pub fn record(sample: &ScrewSample, outputs: &Outputs) -> Vec<String> {
+    let mut record = sample.record();
+    record.extend([
+        outputs.friction_torque.to_string(),
+        outputs.load_torque.to_string(),
+        outputs.efficiency.to_string(),
+        regime_name(outputs.regime).into(),
+        outputs.faults.bits().to_string(),
+    ]);
+    record
+}
+
+/// The values of [`REFERENCE_COLUMNS`].
+pub fn reference_record(friction: &Friction) -> [String; 2] {
+    [friction.friction_torque, friction.efficiency].map(|value| value.to_string())
+}
+
+/// Sums and peaks of a run of a ball screw.
+#[derive(Clone, Debug)]
+pub struct ScrewSummary {
+    course: Course,
+    peak_motor: f64,
+    /// Work while driving and while back-driving.
+    driving: Work,
+    back_driving: Work,
+    reference: Option<Difference>,
+}
+
+/// Work at the motor and at the load, J.
+#[derive(Clone, Copy, Debug, Default)]
+struct Work {
+    motor: f64,
+    load: f64,
+}
+
+/// Largest difference from the reference.
+#[derive(Clone, Copy, Debug, Default)]
+struct Difference {
+    torque: f64,
+    largest_torque: f64,
+    efficiency: f64,
+}
+
+impl ScrewSummary {
+    /// Nothing yet.
+    pub fn new(design: &Design) -> Self {
+        Self {
+            course: Course::new(f64::from(design.screw().lead()) / TAU),
+            peak_motor: 0.0,
+            driving: Work::default(),
+            back_driving: Work::default(),
+            reference: None,
+        }
+    }
+
+    /// Takes one more row in; the angle that it stands for, rad.
+    pub fn add(
+        &mut self,
+        sample: &ScrewSample,
+        outputs: &Outputs,
+        reference: Option<&Friction>,
+    ) -> f64 {
+        let friction = f64::from(outputs.friction_torque);
+        let load = f64::from(outputs.load_torque);
+        let motor = friction + load;
+        let rotation = self.course.add(&Moment {
+            time: sample.time,
+            speed: sample.nut_speed,
+            load: sample.axial_load,
+            friction,
+            regime: outputs.regime,
+            faults: outputs.faults,
+        });
+        self.peak_motor = self.peak_motor.max(motor.abs());
+        let work = if load * rotation >= 0.0 {
+            &mut self.driving
+        } else {
+            &mut self.back_driving
+        };
+        work.motor += motor * rotation;
+        work.load += load * rotation;
+        if let Some(reference) = reference {
+            let difference = self.reference.get_or_insert_default();
+            difference.torque = difference
+                .torque
+                .max((friction - reference.friction_torque).abs());
+            difference.largest_torque = difference
+                .largest_torque
+                .max(reference.friction_torque.abs());
+            difference.efficiency = difference
+                .efficiency
+                .max((f64::from(outputs.efficiency) - reference.efficiency).abs());
+        }
+        rotation
+    }
+
+    /// The lines, with those of balls that press on each other.
+    pub fn lines(
+        &self,
+        trace: &Trace<ScrewSample>,
+        design: &Design,
+        pressing: Option<&Pressing>,
+    ) -> Lines {
+        let mut lines = self.course.peaks(trace, &design.name, &WORDS);
+        lines.add("peak motor torque", format!("{:.4} N m", self.peak_motor));
+        self.course.energy(&mut lines);
+        if let Some(pressing) = pressing {
+            pressing.lines(&mut lines, &WORDS);
+        }
+        if self.driving.motor > 0.0 {
+            let efficiency = self.driving.load / self.driving.motor;
+            lines.add("mean efficiency, driving", format!("{efficiency:.4}"));
+        }
+        if self.back_driving.load < 0.0 {
+            let efficiency = self.back_driving.motor / self.back_driving.load;
+            lines.add("mean efficiency, back-driving", format!("{efficiency:.4}"));
+        }
+        self.course.regimes(&mut lines, trace.samples.len());
+        if let Some(balls) = design.loaded_balls {
+            let pressure = 1e-9 * self.peak_pressure(design, balls);
+            lines.add(
+                "peak contact pressure",
+                format!("{pressure:.2} GPa at the screw, {balls} loaded balls"),
+            );
+        }
+        self.course.flags(&mut lines);
+        if let Some(difference) = self.reference {
+            lines.add(
+                "largest difference from f64",
+                format!(
+                    "torque {:.1e} N m of {:.3} N m, efficiency {:.1e}",
+                    difference.torque, difference.largest_torque, difference.efficiency
+                ),
+            );
+        }
+        lines
+    }
+
+    /// Pressure at the screw with the peak load shared evenly, Pa.
+    fn peak_pressure(&self, design: &Design, balls: u16) -> f32 {
+        let screw = design.screw();
+        let per_load = EfficiencyGeometry::of(screw).normal_per_axial_load();
+        let contact_force = self.course.peak_load() as f32 / f32::from(balls) * per_load;
+        HertzContact::of(screw, Groove::Screw)
+            .at(contact_force)
+            .max_pressure
+    }
+}

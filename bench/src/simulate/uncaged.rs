@@ -1,0 +1,185 @@
+//! A ball screw whose balls press on each other.
+
+use epas_friction::{FrictionModel, Inputs, Outputs, UncagedBallScrew, UncagedOutputs};
+
+use super::manoeuvre::Manoeuvre;
+use super::reference::{Friction, whole_screw};
+use super::samples::ScrewSample;
+use super::scene::Scene;
+use super::screw::{self, ScrewSummary};
+use super::summary::{Lines, Pressing};
+use super::trace::Trace;
+use super::train::{Balls, Built, Train, TrainRow, pressing, with_balls};
+use super::train_picture::{Labels, TrainPoint, draw};
+use crate::designs::Design;
+use crate::designs::train::UncagedDesign;
+use crate::failure::Failure;
+
+/// The scene.
+pub struct Uncaged {
+    /// Its design.
+    pub design: Design,
+    /// Its balls.
+    pub balls: UncagedDesign,
+}
+
+/// One sample with what the models say to it.
+pub struct UncagedRow {
+    sample: ScrewSample,
+    train: TrainRow<UncagedOutputs>,
+    reference: Option<Friction>,
+}
+
+impl<const N: usize> Balls<ScrewSample, UncagedOutputs> for FrictionModel<UncagedBallScrew<N>> {
+    fn step(&mut self, sample: &ScrewSample) -> UncagedOutputs {
+        FrictionModel::step(
+            self,
+            Inputs {
+                nut_speed: sample.nut_speed as f32,
+                axial_load: sample.axial_load as f32,
+            },
+        )
+    }
+
+    fn pressing(&self) -> u64 {
+        pressing(&self.state().train)
+    }
+}
+
+impl Uncaged {
+    fn train(
+        &self,
+        trace: &Trace<ScrewSample>,
+    ) -> Result<Train<ScrewSample, UncagedOutputs>, Failure> {
+        let build = |tick| -> Built<ScrewSample, UncagedOutputs> {
+            let mut configuration = self.balls.configuration;
+            configuration.tick = tick;
+            with_balls!(UncagedBallScrew, self.balls.balls, &configuration)
+        };
+        Train::new(trace, build).map_err(|failure| failure.of(self.name()))
+    }
+}
+
+impl Scene for Uncaged {
+    type Sample = ScrewSample;
+    type Row = UncagedRow;
+
+    fn name(&self) -> &str {
+        &self.design.name
+    }
+
+    fn manoeuvre(&self, manoeuvre: Manoeuvre) -> Result<Trace<ScrewSample>, Failure> {
+        manoeuvre.trace(self.design.screw())
+    }
+
+    fn rows(
+        &self,
+        trace: &Trace<ScrewSample>,
+        with_reference: bool,
+        done: &dyn Fn(),
+    ) -> Result<Vec<UncagedRow>, Failure> {
+        let mut train = self.train(trace)?;
+        let reference = if with_reference {
+            whole_screw(&self.balls, trace)?
+        } else {
+            Vec::new()
+        };
+        Ok(trace
+            .samples
+            .iter()
+            .enumerate()
+            .map(|(index, &sample)| {
+                let row = UncagedRow {
+                    sample,
+                    train: train.step(&sample),
+                    reference: reference.get(index).copied(),
+                };
+                done();
+                row
+            })
+            .collect())
+    }
+
+    fn columns(with_reference: bool) -> Vec<&'static str> {
+        let mut columns = screw::columns();
+        columns.extend([
+            "nut_angle",
+            "groove_friction",
+            "ball_friction",
+            "contacts",
+            "largest_contact_force",
+        ]);
+        if with_reference {
+            columns.extend(screw::REFERENCE_COLUMNS);
+        }
+        columns
+    }
+
+    fn record(row: &UncagedRow) -> Vec<String> {
+        let TrainRow {
+            outputs, motion, ..
+        } = row.train;
+        let mut record = screw::record(&row.sample, &outputs.into());
+        record.extend([
+            motion.to_string(),
+            outputs.groove_torque.to_string(),
+            outputs.ball_torque.to_string(),
+            outputs.contacts.to_string(),
+            outputs.largest_contact_force.to_string(),
+        ]);
+        record.extend(row.reference.iter().flat_map(screw::reference_record));
+        record
+    }
+
+    fn summary(&self, trace: &Trace<ScrewSample>, rows: &[UncagedRow]) -> Lines {
+        let mut summary = ScrewSummary::new(&self.design);
+        let mut pressing = Pressing::default();
+        for row in rows {
+            let outputs = row.train.outputs;
+            let common = Outputs::from(outputs);
+            let rotation = summary.add(&row.sample, &common, row.reference.as_ref());
+            pressing.add(
+                outputs.ball_torque,
+                outputs.contacts,
+                outputs.largest_contact_force,
+                rotation,
+            );
+        }
+        summary.lines(trace, &self.design, Some(&pressing))
+    }
+
+    fn picture(&self, trace: &Trace<ScrewSample>, rows: &[UncagedRow]) -> Result<String, Failure> {
+        // Where the motion turns back, an angle stands for more than one moment.
+        let reverses = trace.reverses();
+        let points: Vec<_> = rows
+            .iter()
+            .map(|row| {
+                let outputs = row.train.outputs;
+                TrainPoint {
+                    place: if reverses {
+                        row.sample.time
+                    } else {
+                        row.train.motion.to_degrees()
+                    },
+                    groove: outputs.groove_torque,
+                    ball: outputs.ball_torque,
+                    friction: outputs.friction_torque,
+                    reference: row.reference.map(|friction| friction.friction_torque),
+                    contacts: outputs.contacts,
+                    largest_contact_force: outputs.largest_contact_force,
+                    pressing: row.train.pressing,
+                }
+            })
+            .collect();
+        let labels = Labels {
+            title: format!("{} on {}", trace.name, self.name()),
+            place: if reverses {
+                "time (s)"
+            } else {
+                "nut angle (degrees)"
+            },
+            friction: "friction torque (N m)",
+        };
+        draw(labels, &points)
+    }
+}
