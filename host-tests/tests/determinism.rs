@@ -4,11 +4,10 @@
 //! Inputs come from integers by one multiplication, so that nothing but the crate's own arithmetic can
 //! differ.
 
-mod absurd;
-#[path = "absurd/gears.rs"]
-mod gears;
+mod kit;
 
-use absurd::{EDGES, Random, Trial};
+use crate::kit::absurd::{EDGES, Random, Trial};
+use crate::kit::gears;
 use epas_friction::{CagedBallScrew, FrictionModel, LinearBearingTrain, UncagedBallScrew};
 
 const TICKS: u32 = 200_000;

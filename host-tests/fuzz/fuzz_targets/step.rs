@@ -4,7 +4,7 @@
 //! from a sensor, as its bits.
 #![no_main]
 
-#[path = "../../host-tests/tests/absurd/mod.rs"]
+#[path = "../../tests/kit/absurd.rs"]
 mod absurd;
 
 use absurd::{Random, Trial, accepted};

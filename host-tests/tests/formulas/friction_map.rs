@@ -1,11 +1,9 @@
 //! Friction of one contact: the library's maps against quadrature and against tabulated cases.
 
-mod exact_friction;
-mod golden;
-
+use crate::kit::exact_friction::quadrature;
+use crate::kit::golden;
 use epas_friction::contact::FrictionMap;
 use epas_friction::promises::FRICTION_MAP;
-use exact_friction::quadrature;
 
 /// Largest, rms and mean error.
 #[derive(Clone, Copy, Default)]

@@ -1,6 +1,5 @@
 //! The numbers that a design of the crate was made from, widened to float64, for the reference: inputs
 //! only, nothing that the crate has computed.
-#![allow(dead_code, reason = "each test takes what it needs")]
 
 use epas_friction::{BallScrewParameters, GrooveSize, LinearBearingParameters, Material};
 use epas_reference::design::{BallScrewDesign, LinearBearingDesign};

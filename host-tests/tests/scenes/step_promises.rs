@@ -149,7 +149,7 @@ fn screw() -> BallScrew {
 /// The same screw in float64; contact laws from the reference's own curvatures and elliptic integrals.
 fn model(friction: f64) -> ThreePointModel {
     let stored: serde_json::Value =
-        serde_json::from_str(include_str!("../golden/ballscrew.json")).unwrap();
+        serde_json::from_str(include_str!("../../golden/ballscrew.json")).unwrap();
     let law = |side: &str| {
         let stored = &stored["hertz"][format!("{side}_rG3.254")]["correct"];
         let value = |key: &str| stored[key].as_f64().unwrap() * 1e-3;

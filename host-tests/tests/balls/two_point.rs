@@ -1,6 +1,7 @@
 //! Balls near two-point contact: where their speed jumps in the exact model, and what the closed forms and the
 //! refined balls do there.
 
+use crate::kit::given;
 use std::f64::consts::FRAC_PI_4;
 
 use epas_friction::ball::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE, ScrewRow};
@@ -11,8 +12,6 @@ use epas_reference::friction::ball_screw_ball::{
 };
 use epas_reference::friction::linear_ball::{EllipseLaw, LinearBall, contact_forces};
 use epas_reference::friction::maps::FrictionMap;
-
-mod given;
 
 /// The ball of Lin 2019, Table 3.3.
 const BALL_RADIUS: f64 = 0.005;

@@ -1,14 +1,11 @@
 //! One ball and chains of balls in a linear bearing: published tables, tabulated cases, and the least
 //! exact dissipation found by an f64 minimiser.
 
-mod exact_ball;
-mod exact_friction;
-mod golden;
-
+use crate::kit::exact_ball::{ExactBall, ExactMap};
+use crate::kit::golden;
 use epas_friction::ball::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE};
 use epas_friction::promises;
 use epas_friction::refined::{BallChain, FourPointBall, FourPointContacts};
-use exact_ball::{ExactBall, ExactMap};
 use std::f64::consts::FRAC_PI_4;
 use std::sync::OnceLock;
 

@@ -1,7 +1,6 @@
 //! One ball in a rotary four-point contact bearing: Lin 2019, Table 3.2.
 
-mod golden;
-
+use crate::kit::golden;
 use epas_friction::refined::{RotaryBall, RotaryBallParameters, RotaryMotion};
 use serde_json::Value;
 

@@ -1,5 +1,4 @@
 //! Ordinary mechanisms, one of every scene.
-#![allow(dead_code)]
 
 use epas_friction::{
     CATALOGUE, CagedBallScrewConfiguration, DeviationMap, FrictionBranch, GrooveFit, GrooveSize,

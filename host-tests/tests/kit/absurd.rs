@@ -1,5 +1,4 @@
 //! Random mechanisms, random inputs, and what every tick has to keep.
-#![allow(dead_code)]
 
 use std::fmt::Debug;
 use std::sync::LazyLock;

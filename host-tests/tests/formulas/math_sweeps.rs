@@ -2,15 +2,14 @@
 //!
 //! In CI a prime stride and every place where something changes (powers of two, multiples of pi/2,
 //! the largest and smallest numbers); all inputs with
-//! `cargo test --release -p epas-reference --test math_sweeps -- --ignored --nocapture`.
+//! `cargo test --release -p epas-reference --test formulas math_sweeps -- --ignored --nocapture`.
 
-mod recorded;
-
+use crate::kit::recorded;
 use epas_friction::{math, promises};
 
-#[path = "../../src/math/libm.rs"]
+#[path = "../../../src/math/libm.rs"]
 mod with_libm;
-#[path = "../../src/math/micromath.rs"]
+#[path = "../../../src/math/micromath.rs"]
 mod with_micromath;
 
 /// Error of a kernel at an input.
@@ -141,7 +140,7 @@ fn around_powers_of_two(error: impl Fn(f32) -> f64) -> Errors {
 const LARGEST: u32 = 0x7f7f_ffff;
 const STRIDE: usize = 1009;
 const COMMAND: &str =
-    "cargo test --release -p epas-reference --test math_sweeps -- --ignored --nocapture";
+    "cargo test --release -p epas-reference --test formulas math_sweeps -- --ignored --nocapture";
 
 fn check_roots(stride: usize) {
     let kernels: [(&str, f64, ErrorAt); 4] = [

@@ -52,7 +52,7 @@ fn patterns_fit_on_the_track() {
 /// of an uneven pattern push without any force: over the range of the force it is 3 %.
 #[test]
 fn conical_lash_depends_more_on_ball_locations_than_axial_lash() {
-    let golden: Value = serde_json::from_str(include_str!("../golden/ballscrew.json")).unwrap();
+    let golden: Value = serde_json::from_str(include_str!("../../golden/ballscrew.json")).unwrap();
     let golden = &golden["static"]["lash_oversize_0.002"];
     let test = LashTest::table_4_1(2e-6);
     let half = |test: &LashTest, pattern| {

@@ -1,5 +1,6 @@
 //! The ball of a ball screw: closed form and refined variant against the exact models.
 
+use crate::kit::given;
 use epas_friction::ball::ScrewRow;
 use epas_friction::refined::{
     ScrewBall, ScrewBallMotion, ScrewBallState, ScrewChain, ScrewContacts,
@@ -18,8 +19,6 @@ use epas_reference::friction::ball_screw_train::solve_screw_train;
 use epas_reference::friction::contact_law::HertzLaw;
 use serde_json::Value;
 use std::f64::consts::FRAC_PI_4;
-
-mod given;
 
 const TRACK: ScrewTrack = ScrewTrack {
     pitch_radius: 16.5e-3,

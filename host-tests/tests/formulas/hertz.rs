@@ -1,5 +1,6 @@
 //! The contact ellipse: the reference against tabulated values, the crate against the reference.
 
+use crate::kit::given;
 use epas_friction::geometry::Groove;
 use epas_friction::hertz::HertzContact;
 use epas_friction::{
@@ -9,8 +10,6 @@ use epas_friction::{
 use epas_reference::curvature;
 use epas_reference::hertz::{self, Hertz};
 use serde_json::Value;
-
-mod given;
 
 fn golden(name: &str) -> Value {
     let text = match name {

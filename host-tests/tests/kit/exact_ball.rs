@@ -1,6 +1,6 @@
 //! One ball on a straight track in f64: the least exact dissipation, by damped Newton iteration.
 
-use crate::exact_friction::quadrature;
+use crate::kit::exact_friction::quadrature;
 
 /// The maps of one axis ratio: a quartic inside the contact, quadrature outside it.
 #[derive(Clone, Copy)]

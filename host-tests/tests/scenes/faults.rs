@@ -1,17 +1,13 @@
 //! Faults of sensors and of the configuration: flagged within the tick, over within the next, never kept.
 
-mod absurd;
-#[path = "absurd/gears.rs"]
-mod gears;
-mod recorded;
-
-use absurd::{EDGES, Random, Trial, sound_train};
+use crate::kit::absurd::{EDGES, Random, Trial, sound_train};
+use crate::kit::{gears, recorded};
 use epas_friction::{
     BallScrew, CagedBallScrew, DeviationMap, Faults, FrictionModel, Inputs, LinearBearing,
     LinearBearingTrain, LinearInputs, UncagedBallScrew, UncagedBallScrewConfiguration, promises,
 };
 
-const COMMAND: &str = "cargo test -p epas-reference --test faults -- --nocapture";
+const COMMAND: &str = "cargo test -p epas-reference --test scenes faults -- --nocapture";
 
 type Screw = UncagedBallScrew<{ gears::SCREW_BALLS }>;
 type Rail = LinearBearingTrain<{ gears::LINEAR_BALLS }>;

@@ -18,8 +18,11 @@ fn source(command: &str) -> String {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let path = if command.starts_with("cargo test") {
         let (_, test) = command.split_once("--test ").expect(command);
-        let name = test.split_whitespace().next().unwrap();
-        root.join("tests").join(format!("{name}.rs"))
+        let mut names = test.split_whitespace();
+        let (program, module) = (names.next().unwrap(), names.next().unwrap());
+        root.join("tests")
+            .join(program)
+            .join(format!("{module}.rs"))
     } else {
         root.join("..")
             .join(command.split_whitespace().next().unwrap())
@@ -43,7 +46,7 @@ fn every_command_is_there() {
         );
         // What is recorded is what the tests print of themselves.
         assert!(
-            !command.starts_with("cargo test") || source.contains("mod recorded;"),
+            !command.starts_with("cargo test") || source.contains("recorded::"),
             "{command}"
         );
     }

@@ -1,8 +1,6 @@
 //! Laws that hold for every mechanism, on random ones.
 
-mod absurd;
-
-use absurd::{Random, Trial, accepted};
+use crate::kit::absurd::{Random, Trial, accepted};
 use epas_friction::curvature::GothicArch;
 use epas_friction::geometry::{ContactAngle, Groove, GrooveProfile, HelixPath};
 use epas_friction::hertz::HertzContact;

@@ -1,5 +1,4 @@
 //! Lines of `recorded.json`: what the long tests and the counted ones print of themselves.
-#![allow(dead_code)]
 
 use serde_json::json;
 

@@ -1,11 +1,9 @@
 //! The table of promises: measured, and printed where it says.
 
-mod absurd;
-mod given;
-
+use crate::kit::given;
 use std::fmt::Write;
 
-use absurd::Random;
+use crate::kit::absurd::Random;
 use epas_friction::contact::FrictionMap;
 use epas_friction::curvature::{
     CircularGrooveCurvature, FittedCurvature, GothicArch, LiteratureCurvature,

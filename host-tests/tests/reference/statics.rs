@@ -14,7 +14,7 @@ use epas_reference::statics::{
 use serde_json::Value;
 
 fn golden() -> Value {
-    serde_json::from_str(include_str!("../golden/ballscrew.json")).unwrap()
+    serde_json::from_str(include_str!("../../golden/ballscrew.json")).unwrap()
 }
 
 fn list(value: &Value) -> Vec<f64> {

@@ -1,11 +1,7 @@
 //! Stiff cases: impedances that differ by powers of ten, full tracks, long runs.
 
-mod absurd;
-#[path = "absurd/gears.rs"]
-mod gears;
-mod recorded;
-
-use absurd::{Random, Trial, sound_train};
+use crate::kit::absurd::{Random, Trial, sound_train};
+use crate::kit::{gears, recorded};
 use epas_friction::train::{Press, Train};
 use epas_friction::{CagedBallScrew, FrictionModel, Inputs, UncagedBallScrew, promises};
 
@@ -180,14 +176,14 @@ fn a_minute_of_turning_to_and_fro() {
 }
 
 #[test]
-#[ignore = "minutes: cargo test --release -p epas-reference --test stiff -- --ignored --nocapture"]
+#[ignore = "minutes: cargo test --release -p epas-reference --test scenes stiff -- --ignored --nocapture"]
 fn a_thousand_million_ticks() {
     const TICKS: u64 = 1_000_000_000;
     long_run::<8>(TICKS, 1000);
     recorded::print(
         "ticks of one train that turns to and fro: no drift, no overlap, no ball lost",
         TICKS,
-        "cargo test --release -p epas-reference --test stiff -- --ignored --nocapture",
+        "cargo test --release -p epas-reference --test scenes stiff -- --ignored --nocapture",
     );
 }
 

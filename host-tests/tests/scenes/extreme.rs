@@ -1,15 +1,11 @@
 //! Random and extreme inputs through `step` of every scene.
 
-mod absurd;
-#[path = "absurd/objects.rs"]
-mod objects;
-mod recorded;
-
-use absurd::{Random, soak};
+use crate::kit::absurd::{Random, soak};
+use crate::kit::{absurd, objects, recorded};
 use epas_friction::{CagedBallScrew, LinearBearingTrain, UncagedBallScrew};
 
 const COMMAND: &str =
-    "cargo test --release -p epas-reference --test extreme -- --ignored --nocapture";
+    "cargo test --release -p epas-reference --test scenes extreme -- --ignored --nocapture";
 
 /// Every scene, from one ball to 64.
 fn all_scenes(seed: u64, models: u64, ticks: u64) -> u64 {
@@ -61,7 +57,7 @@ fn random_numbers_are_refused_or_give_finite_objects() {
 
 /// The recorded full run.
 #[test]
-#[ignore = "minutes: cargo test --release -p epas-reference --test extreme -- --ignored --nocapture"]
+#[ignore = "minutes: cargo test --release -p epas-reference --test scenes extreme -- --ignored --nocapture"]
 fn a_hundred_million_random_objects() {
     const COUNT: u64 = 100_000_000;
     random_objects(1 << 32, COUNT);
@@ -70,7 +66,7 @@ fn a_hundred_million_random_objects() {
 
 /// The recorded full run.
 #[test]
-#[ignore = "half an hour: cargo test --release -p epas-reference --test extreme -- --ignored --nocapture"]
+#[ignore = "half an hour: cargo test --release -p epas-reference --test scenes extreme -- --ignored --nocapture"]
 fn a_thousand_million_random_inputs() {
     let mut ticks = 0;
     let mut round = 2;

@@ -1,6 +1,7 @@
 //! Scenes whose balls press on each other: against the whole screw in float64, limits, reversal, bad
 //! input.
 
+use crate::kit::given;
 use std::f64::consts::{FRAC_PI_4, TAU};
 
 use epas_friction::{
@@ -15,8 +16,6 @@ use epas_reference::friction::ball_screw_closed::{
 };
 use epas_reference::friction::ball_screw_elastic::BallSlip;
 use epas_reference::friction::whole_screw::{WholeScrew, WholeScrewState};
-
-mod given;
 
 /// Lin 2019, Table 2.1 (radii in m) with 37 balls in two turns.
 fn design() -> BallScrew {

@@ -1,6 +1,7 @@
 //! The scene of a linear bearing against the closed forms in f64, ball by ball, and against the numerical
 //! solution of its two-ball case.
 
+use crate::kit::given;
 use std::f64::consts::{FRAC_PI_4, TAU};
 
 use epas_friction::{
@@ -13,8 +14,6 @@ use epas_reference::friction::linear_ball::{
 };
 use epas_reference::friction::maps::FrictionMap;
 use epas_reference::hertz::Hertz;
-
-mod given;
 
 const BALLS: usize = 12;
 const FRICTION: f64 = 0.1;

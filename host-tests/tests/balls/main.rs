@@ -1,0 +1,11 @@
+//! One ball between its grooves, and rows of balls that push each other, against float64.
+
+#[path = "../kit/mod.rs"]
+mod kit;
+
+mod linear_ball;
+mod rotary_ball;
+mod rotary_bearing;
+mod screw_ball;
+mod train;
+mod two_point;

@@ -1,0 +1,11 @@
+//! What the tests share.
+#![allow(dead_code, reason = "each program of tests takes what it needs")]
+
+pub mod absurd;
+pub mod exact_ball;
+pub mod exact_friction;
+pub mod gears;
+pub mod given;
+pub mod golden;
+pub mod objects;
+pub mod recorded;

@@ -1,0 +1,16 @@
+//! Whole mechanisms: what a step gives, promises, and survives.
+
+#[path = "../kit/mod.rs"]
+mod kit;
+
+mod caged;
+mod extreme;
+mod faults;
+mod hal;
+mod laws;
+mod linear_scene;
+mod promises;
+mod scene_constants;
+mod step_promises;
+mod stiff;
+mod uncaged;
