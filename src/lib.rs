@@ -38,6 +38,8 @@
 //! then on nothing returns a `Result`, nothing panics, and every output is finite and flagged.
 //!
 #![doc = include_str!("nomenclature.md")]
+// Symbols of the papers are no code.
+#![allow(clippy::doc_markdown)]
 
 pub mod ball;
 pub mod contact;

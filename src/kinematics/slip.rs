@@ -2,13 +2,8 @@
 
 /// Slip of one contact at its centre.
 ///
-<<<<<<< HEAD
 /// As a result of [`tick`](super::ContactKinematics::tick): m/s, m/s, rad/s, m/s. As a constant per unit of
 /// speed ([`per_speed`](super::ContactKinematics::per_speed)): m, m, 1, m.
-=======
-/// As a result of [`ContactKinematics::tick`](crate::kinematics::ContactKinematics::tick): m/s, m/s, rad/s, m/s. As a constant per unit of
-/// speed ([`ContactKinematics::per_speed`](crate::kinematics::ContactKinematics::per_speed)): m, m, 1, m.
->>>>>>> main
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ContactSlip {
@@ -36,11 +31,7 @@ impl ContactSlip {
 
 /// Motion of one ball and its slip at both contacts.
 ///
-<<<<<<< HEAD
 /// As a result of [`ContactKinematics::tick`](super::ContactKinematics::tick): speeds. As [`ContactKinematics::per_speed`](super::ContactKinematics::per_speed): the
-=======
-/// As a result of [`ContactKinematics::tick`](crate::kinematics::ContactKinematics::tick): speeds. As [`ContactKinematics::per_speed`](crate::kinematics::ContactKinematics::per_speed): the
->>>>>>> main
 /// same per rad/s of the screw.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]

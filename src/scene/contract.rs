@@ -110,12 +110,22 @@ impl Limits {
             nut_speed,
             axial_load,
         } = inputs;
-        Admitted {
-            inputs: (nut_speed.is_finite() && axial_load.is_finite()).then_some(Inputs {
-                nut_speed: bounded(nut_speed, self.nut_speed),
-                axial_load: bounded(axial_load, self.axial_load),
-            }),
-            faults: Faults::of_inputs(nut_speed, self.nut_speed, [axial_load], self.axial_load),
+        if nut_speed.is_finite() && axial_load.is_finite() {
+            Admitted {
+                inputs: Some(Inputs {
+                    nut_speed: bounded(nut_speed, self.nut_speed),
+                    axial_load: bounded(axial_load, self.axial_load),
+                }),
+                faults: Faults::beyond(
+                    nut_speed.abs() > self.nut_speed,
+                    axial_load.abs() > self.axial_load,
+                ),
+            }
+        } else {
+            Admitted {
+                inputs: None,
+                faults: Faults::not_finite(!nut_speed.is_finite(), !axial_load.is_finite()),
+            }
         }
     }
 }

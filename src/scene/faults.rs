@@ -47,25 +47,20 @@ impl Faults {
         self.0
     }
 
-    /// What is wrong with a speed and loads, each against its largest believed value.
+    /// What is wrong with numbers that are too large: the speed, a load.
     #[inline(always)]
-    pub(super) fn of_inputs<const LOADS: usize>(
-        speed: f32,
-        largest_speed: f32,
-        loads: [f32; LOADS],
-        largest_load: f32,
-    ) -> Self {
-        let finite = loads.iter().all(|load| load.is_finite());
-        if speed.is_finite() && finite {
-            let beyond = loads.iter().any(|load| load.abs() > largest_load);
-            Self::NONE
-                .with(speed.abs() > largest_speed, Self::SPEED_RANGE)
-                .with(beyond, Self::LOAD_RANGE)
-        } else {
-            Self::NONE
-                .with(!speed.is_finite(), Self::SPEED_NOT_FINITE)
-                .with(!finite, Self::LOAD_NOT_FINITE)
-        }
+    pub(super) const fn beyond(speed: bool, load: bool) -> Self {
+        Self::NONE
+            .with(speed, Self::SPEED_RANGE)
+            .with(load, Self::LOAD_RANGE)
+    }
+
+    /// What is wrong with inputs that are no numbers, or infinite: the speed, a load.
+    #[inline(always)]
+    pub(super) const fn not_finite(speed: bool, load: bool) -> Self {
+        Self::NONE
+            .with(speed, Self::SPEED_NOT_FINITE)
+            .with(load, Self::LOAD_NOT_FINITE)
     }
 
     /// This set, with [`Faults::FRICTION_LIMIT`] where a friction torque or force is beyond its limit.

@@ -136,14 +136,24 @@ impl LinearLimits {
             normal_load,
             side_load,
         } = inputs;
-        let finite = speed.is_finite() && normal_load.is_finite() && side_load.is_finite();
-        Admitted {
-            inputs: finite.then_some(LinearInputs {
-                speed: bounded(speed, self.speed),
-                normal_load: bounded(normal_load, self.load),
-                side_load: bounded(side_load, self.load),
-            }),
-            faults: Faults::of_inputs(speed, self.speed, [normal_load, side_load], self.load),
+        let loads_are_finite = normal_load.is_finite() && side_load.is_finite();
+        if speed.is_finite() && loads_are_finite {
+            Admitted {
+                inputs: Some(LinearInputs {
+                    speed: bounded(speed, self.speed),
+                    normal_load: bounded(normal_load, self.load),
+                    side_load: bounded(side_load, self.load),
+                }),
+                faults: Faults::beyond(
+                    speed.abs() > self.speed,
+                    normal_load.abs() > self.load || side_load.abs() > self.load,
+                ),
+            }
+        } else {
+            Admitted {
+                inputs: None,
+                faults: Faults::not_finite(!speed.is_finite(), !loads_are_finite),
+            }
         }
     }
 }
@@ -289,15 +299,14 @@ impl<const N: usize> LinearConstants<N> {
         let (down_root, down_squared) = math::cbrt_and_squared(down);
 
         // A radian by which the angles at TR and BR grow and those at TL and BL shrink: (3.43) is linear in it.
-        let mean = self
-            .ball
-            .closed_form([up_squared, down_squared], [1.0, -1.0]);
+        let diagonals = [up_squared, down_squared];
+        let mean = self.ball.closed_form(diagonals, [1.0, -1.0]);
         let turn = if speed < 0.0 {
             -mean.speed_deviation
         } else {
             mean.speed_deviation
         };
-        let impedance = 1.0 / mean.compliance;
+        let impedance = self.ball.impedance(diagonals);
         let drag = self.drag * (up * up_root + down * down_root);
 
         let phase = state.phase();

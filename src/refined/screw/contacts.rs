@@ -2,11 +2,7 @@
 
 use super::motion::{ScrewBallMotion, ScrewContactMotion};
 
-<<<<<<< HEAD
 /// Angles and forces of a ball's contacts, as the equations take them: made by [`ScrewBall::contacts`](super::ScrewBall::contacts).
-=======
-/// Angles and forces of a ball's contacts, as the equations take them: made by [`ScrewBall::contacts`](crate::refined::ScrewBall::contacts).
->>>>>>> main
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ScrewContacts {

@@ -28,11 +28,7 @@ pub struct ScrewContactMotion {
 pub struct ScrewBallState {
     /// Motion of the ball: where the next step starts.
     pub motion: ScrewBallMotion,
-<<<<<<< HEAD
     /// Relative deviation of the orbital speed from [`ScrewBall::nominal_orbital_speed`](super::ScrewBall::nominal_orbital_speed).
-=======
-    /// Relative deviation of the orbital speed from [`ScrewBall::nominal_orbital_speed`](crate::refined::ScrewBall::nominal_orbital_speed).
->>>>>>> main
     pub speed_deviation: f32,
     /// Change of that with a force along the track, 1/N.
     pub compliance: f32,
