@@ -10,7 +10,7 @@
 
 mod linear;
 mod loads;
-mod preload;
+pub(crate) mod preload;
 mod screw;
 
 pub use linear::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE, SpeedDeviation};

@@ -21,7 +21,7 @@
 mod across;
 mod along;
 mod integrals;
-mod slip_map;
+pub(crate) mod slip_map;
 
 pub(crate) use across::{Across, AcrossTable};
 pub use along::{Dissipation, FrictionMap, NormalizedFriction, SMALLEST_AXIS_RATIO};

@@ -16,7 +16,7 @@
 //! (Machines 11(2):261).
 
 mod circular;
-mod fitted;
+pub(crate) mod fitted;
 mod gothic_arch;
 mod literature;
 

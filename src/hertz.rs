@@ -211,21 +211,39 @@ impl HertzContact {
     }
 }
 
+/// Coefficients of `N(x)`, from the constant on, in [`axis_ratio`].
+pub(crate) const AXIS_RATIO_NUMERATOR: [f32; 6] = [
+    7.79600917,
+    610.73455674,
+    5099.78270213,
+    4178.1987507,
+    7032.48001515,
+    -1288.84940892,
+];
+
+/// Coefficients of `D(x)`, from the constant on.
+pub(crate) const AXIS_RATIO_DENOMINATOR: [f32; 5] = [
+    1.0,
+    268.19154063,
+    4970.99764586,
+    6769.88079708,
+    3630.23062516,
+];
+
 /// Axis ratio `k = b/a` of the contact ellipse from the ratio `R1/R2` of the relative radii, 1e-5 to
 /// 1: `k = x² N(x) / D(x)` with `x = (R1/R2)^(1/3)`.
 ///
 /// `k` behaves as `x²` near the circle and slowly departs from it; the quotient of degrees 5 and 4 is
 /// a minimax fit of `k / x²` to the solution of `(E/k² - K) / (K - E) = R2/R1`, largest relative error
-/// 1.02e-5, in f32 1.1e-5. The coefficients of each polynomial are positive but for one, so that
-/// evaluation does not cancel.
+/// 1.02e-5, in f32 1.1e-5; made again in `host-tests/tests/generators/axis_ratio.rs`. The coefficients of each
+/// polynomial are positive but for one, so that evaluation does not cancel.
 #[inline]
 const fn axis_ratio(radius_ratio: f32) -> f32 {
     let x = constant::cbrt(radius_ratio);
-    let numerator = 7.79600917
-        + x * (610.73455674
-            + x * (5099.78270213 + x * (4178.1987507 + x * (7032.48001515 - x * 1288.84940892))));
-    let denominator =
-        1.0 + x * (268.19154063 + x * (4970.99764586 + x * (6769.88079708 + x * 3630.23062516)));
+    let [n0, n1, n2, n3, n4, n5] = AXIS_RATIO_NUMERATOR;
+    let numerator = n0 + x * (n1 + x * (n2 + x * (n3 + x * (n4 + x * n5))));
+    let [d0, d1, d2, d3, d4] = AXIS_RATIO_DENOMINATOR;
+    let denominator = d0 + x * (d1 + x * (d2 + x * (d3 + x * d4)));
     let ratio = x * x * (numerator / denominator);
     if ratio < 1.0 { ratio } else { 1.0 }
 }

@@ -39,10 +39,10 @@
 mod ball;
 mod coefficients;
 mod direction;
-mod friction_power;
+pub(crate) mod friction_power;
 mod parameters;
-mod path;
-mod pitch_angle;
+pub(crate) mod path;
+pub(crate) mod pitch_angle;
 mod slip;
 
 pub use ball::ContactKinematics;

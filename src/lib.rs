@@ -4,7 +4,7 @@
 //! # Conventions
 //!
 //! SI units and radians everywhere; a field's documentation names its unit and range. Angles: lead
-//! angle `alpha`, contact angle `beta` or `phi` from the plane normal to the axis. The normal of a
+//! angle `alpha`, contact angle `beta` from the plane normal to the axis. The normal of a
 //! groove points into its metal. A right-hand thread; the load is positive where it opposes the travel
 //! that a positive nut speed makes.
 //!
@@ -36,12 +36,16 @@
 //!
 //! Everything is set up once, with errors that name the field, its value and the allowed range; from
 //! then on nothing returns a `Result`, nothing panics, and every output is finite and flagged.
+//!
+#![doc = include_str!("nomenclature.md")]
 
 pub mod ball;
 pub mod contact;
 pub mod curvature;
 pub mod efficiency;
 pub mod error;
+#[doc(hidden)]
+pub mod fits;
 pub mod geometry;
 #[cfg(feature = "embedded-hal")]
 pub mod hal;

@@ -25,7 +25,7 @@ pub mod own;
 mod libm;
 #[cfg(feature = "micromath")]
 mod micromath;
-mod powers;
+pub(crate) mod powers;
 mod sqrt;
 
 #[cfg(all(feature = "libm", feature = "micromath"))]

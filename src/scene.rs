@@ -15,10 +15,10 @@
 //! deviation maps, load shares.
 
 mod caged;
-mod circuit;
+pub(crate) mod circuit;
 mod contract;
 mod faults;
-mod linear;
+pub(crate) mod linear;
 mod outputs;
 mod uncaged;
 

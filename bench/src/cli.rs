@@ -37,3 +37,17 @@ pub fn run() -> Result<(), Failure> {
         None => report::run(&report::Arguments::default()),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn without_a_subcommand_the_report_has_its_defaults() {
+        assert!(Cli::parse_from(["epas-bench"]).command.is_none());
+        let named = Cli::parse_from(["epas-bench", "report"]).command;
+        assert!(
+            matches!(named, Some(Command::Report(named)) if named == report::Arguments::default())
+        );
+    }
+}

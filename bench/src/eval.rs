@@ -1,5 +1,6 @@
 //! `eval`: one JSON object a line in, one a line out, in order.
 
+mod answer;
 mod ball_screw_train;
 mod contact_kinematics;
 mod efficiency;
@@ -18,9 +19,10 @@ use std::io::{self, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
-use serde_json::value::{RawValue, to_raw_value};
+use serde_json::value::RawValue;
 
 use crate::failure::Failure;
+use answer::Answer;
 use fields::{BadField, Fields};
 use lines::{Line, Lines};
 
@@ -73,36 +75,6 @@ use lines::{Line, Lines};
 pub struct Arguments {
     /// File with the requests; stdin without it or for -
     file: Option<PathBuf>,
-}
-
-/// What one model says to one request.
-pub struct Answer {
-    in_loop: Option<Box<RawValue>>,
-    reference: Option<Box<RawValue>>,
-}
-
-impl Answer {
-    /// The answer of a model that both the crate and the reference have.
-    fn both(in_loop: &impl Serialize, reference: &impl Serialize) -> Result<Self, BadField> {
-        Ok(Self {
-            in_loop: Some(json(in_loop)?),
-            reference: Some(json(reference)?),
-        })
-    }
-
-    /// The answer of a model that only the reference has.
-    fn reference_only(reference: &impl Serialize) -> Result<Self, BadField> {
-        Ok(Self {
-            in_loop: Some(json(&())?),
-            reference: Some(json(reference)?),
-        })
-    }
-}
-
-/// Writes numbers with the fewest digits that read back as the same float64, and those that are not
-/// finite as null.
-fn json(value: &impl Serialize) -> Result<Box<RawValue>, BadField> {
-    to_raw_value(value).map_err(|error| BadField::request(error.to_string()))
 }
 
 /// A model: takes the fields it needs, refuses what is left over, and computes.

@@ -9,6 +9,7 @@
 mod chart;
 mod map;
 mod scale;
+mod style;
 
 use plotters::prelude::*;
 
@@ -17,41 +18,7 @@ pub use map::ColourMap;
 pub use scale::Axis;
 
 use crate::failure::Failure;
-
-/// Colours that stay apart for every common kind of colour vision (Okabe and Ito 2008).
-const PALETTE: [RGBColor; 7] = [
-    RGBColor(0, 114, 178),
-    RGBColor(213, 94, 0),
-    RGBColor(0, 158, 115),
-    RGBColor(204, 121, 167),
-    RGBColor(230, 159, 0),
-    RGBColor(86, 180, 233),
-    RGBColor(60, 60, 60),
-];
-
-/// The drawing library rounds to whole pixels: everything is drawn so many times too large, and the
-/// picture scaled down.
-const SCALE: i32 = 8;
-
-/// A length in pixels of the finished picture, as it is drawn.
-const fn px(pixels: i32) -> i32 {
-    pixels * SCALE
-}
-
-const TEXT: RGBColor = RGBColor(40, 40, 40);
-const FONT: &str = "sans-serif";
-const TITLE_SIZE: i32 = px(17);
-const LABEL_SIZE: i32 = px(14);
-const TICK_SIZE: i32 = px(13);
-/// Height of a line of title or legend.
-const LINE_HEIGHT: i32 = px(22);
-/// Width of a line.
-const STROKE: u32 = px(2).unsigned_abs();
-
-/// Width of a text, near enough to set one entry of a legend beside the other.
-fn text_width(text: &str, size: i32) -> i32 {
-    size * 14 / 25 * text.chars().count() as i32
-}
+use style::SCALE;
 
 /// One panel of a figure.
 pub enum Panel {

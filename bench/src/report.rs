@@ -3,6 +3,7 @@
 
 mod applications;
 mod bearings;
+mod context;
 mod cortex_m;
 mod curvature;
 mod document;
@@ -15,26 +16,37 @@ mod published;
 mod stability;
 mod statistics;
 mod summary;
+mod times;
 mod trains;
 
 use std::path::PathBuf;
 
 use crate::failure::Failure;
 use crate::target::TargetFigures;
-use crate::timing::{Competition, compete};
+use crate::timing::compete;
+use context::Context;
 use document::{Document, Section};
+
+/// Rounds whose medians are a measurement.
+const ROUNDS: usize = 1500;
+
+/// Rounds of a look.
+const QUICK_ROUNDS: usize = 40;
 
 /// The error of every formula against its run time, on this machine (the main job).
 ///
 /// Prints tables and writes them, with plots, to a folder: report.md, report.html (one page that
 /// needs nothing else), and every figure as SVG, CSV and JSON.
-#[derive(Debug, clap::Args)]
+#[derive(Debug, PartialEq, Eq, clap::Args)]
 pub struct Arguments {
     /// Folder to write to; reports written there before are replaced
     #[arg(long, default_value = "target/report")]
     output: PathBuf,
-    /// Fewer timing rounds and coarser sweeps: a look, not a measurement
-    #[arg(long)]
+    /// Timing rounds on this machine: a median over a few is a look, not a measurement
+    #[arg(long, default_value_t = ROUNDS)]
+    rounds: usize,
+    /// Few timing rounds, coarser sweeps, stored figures of the target: a look, not a measurement
+    #[arg(long, conflicts_with = "rounds")]
     quick: bool,
 }
 
@@ -42,25 +54,9 @@ impl Default for Arguments {
     fn default() -> Self {
         Self {
             output: "target/report".into(),
+            rounds: ROUNDS,
             quick: false,
         }
-    }
-}
-
-/// What every section works with.
-struct Context {
-    quick: bool,
-    competition: Vec<Competition>,
-    target: TargetFigures,
-}
-
-impl Context {
-    /// The times of a function by its key.
-    fn times(&self, key: &str) -> Result<&Competition, Failure> {
-        self.competition
-            .iter()
-            .find(|entry| entry.key == key)
-            .ok_or_else(|| Failure::Data(format!("nothing was timed as {key}")))
     }
 }
 
@@ -86,7 +82,11 @@ const SECTIONS: [MakeSection; 13] = [
 
 /// Makes the report.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let rounds = if arguments.quick { 40 } else { 1500 };
+    let rounds = if arguments.quick {
+        QUICK_ROUNDS
+    } else {
+        arguments.rounds
+    };
     let context = Context {
         quick: arguments.quick,
         competition: compete(rounds)?,

@@ -2,17 +2,20 @@
 
 mod budgets;
 mod cycles;
+mod figures;
 mod image;
 mod log;
 mod measure;
+mod scenes;
 mod stored;
+mod text;
 mod tools;
 mod trace;
 
 use std::io::{self, Write as _};
 
-pub use budgets::{BUDGETS, figure};
-pub use measure::Figures;
+pub use budgets::{Budget, budgets};
+pub use figures::Figures;
 use measure::measure;
 
 use crate::failure::Failure;
@@ -30,7 +33,8 @@ pub struct Arguments {
     /// Print one JSON object instead of tables
     #[arg(long)]
     json: bool,
-    /// Fail where a function has more than 5 % more instructions than the stored figures say
+    /// Fail where a function or a scene costs more than the crate promises, or a function has more than 5 %
+    /// more instructions than the stored figures say
     #[arg(long)]
     gate: bool,
     /// Store the figures of this run as those to compare with
@@ -96,10 +100,11 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
             .map_err(|error| Failure::Data(format!("cannot write JSON: {error}")))?;
         writeln!(out, "{json}")?;
     } else {
-        out.write_all(figures.text().as_bytes())?;
+        out.write_all(text::text(&figures).as_bytes())?;
     }
     figures.require()?;
     if arguments.gate {
+        budgets::require(&figures)?;
         stored::gate(&figures)?;
     }
     Ok(())

@@ -352,6 +352,7 @@ fn random_geometries() {
     }
     sweep.assert();
     sweep.rolling.hold(&promises::KINEMATICS);
+    sweep.slide_to_roll.hold(&promises::SLIP_RATIOS);
 }
 
 /// Alberdi et al., sections 4.1 and 4.2, and yaw angles of section 4.3.2.

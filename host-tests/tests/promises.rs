@@ -7,12 +7,14 @@ use std::fmt::Write;
 
 use absurd::Random;
 use epas_friction::contact::FrictionMap;
-use epas_friction::curvature::{FittedCurvature, GothicArch};
+use epas_friction::curvature::{
+    CircularGrooveCurvature, FittedCurvature, GothicArch, LiteratureCurvature,
+};
 use epas_friction::efficiency::EfficiencyGeometry;
 use epas_friction::geometry::{ContactAngle, Groove};
 use epas_friction::hertz::HertzContact;
-use epas_friction::promises::{self, Promise};
-use epas_friction::{CATALOGUE, math};
+use epas_friction::promises::{self, Footprint, Promise};
+use epas_friction::{CATALOGUE, DeviationMap, Harmonic, math};
 use epas_reference::curvature;
 use epas_reference::efficiency::Screw;
 use epas_reference::friction::maps;
@@ -72,7 +74,8 @@ const INPUTS: u32 = 400_000;
 #[test]
 fn scalar_kernels() {
     let mut random = Random(21);
-    let (mut sqrt, mut cbrt, mut squared, mut angles) = (
+    let (mut sqrt, mut cbrt, mut squared, mut both, mut angles) = (
+        Errors::default(),
         Errors::default(),
         Errors::default(),
         Errors::default(),
@@ -86,6 +89,9 @@ fn scalar_kernels() {
         cbrt.add(ulps(math::cbrt(x), exact.cbrt()), line);
         // Twice the cube root's rounding in f64 is far below an f32's.
         squared.add(ulps(math::cbrt_squared(x), exact.cbrt().powi(2)), line);
+        let (root, square) = math::cbrt_and_squared(x);
+        both.add(ulps(root, exact.cbrt()), line);
+        both.add(ulps(square, exact.cbrt().powi(2)), line);
         let angle = std::f32::consts::TAU * (2.0 * random.unit() - 1.0);
         let (sin, cos) = math::sin_cos(angle);
         let line = || format!("{angle:e}");
@@ -95,6 +101,7 @@ fn scalar_kernels() {
     sqrt.hold(&promises::SQRT);
     cbrt.hold(&promises::CBRT);
     squared.hold(&promises::CBRT_SQUARED);
+    both.hold(&promises::CBRT_AND_SQUARED);
     angles.hold(&promises::SIN_COS);
 }
 
@@ -102,6 +109,7 @@ fn scalar_kernels() {
 fn curvatures() {
     let mut random = Random(22);
     let (mut exact, mut fitted) = (Errors::default(), Errors::default());
+    let (mut literature, mut circular) = (Errors::default(), Errors::default());
     for _ in 0..INPUTS / 4 {
         let size = random.of(&CATALOGUE);
         let design = size.design().unwrap();
@@ -120,7 +128,15 @@ fn curvatures() {
             let found = FittedCurvature::of(&design, groove).first(at);
             fitted.add(f64::from(found) / truth - 1.0, line);
         }
+        if angle <= 70_f32.to_radians() {
+            let found = LiteratureCurvature::of(&design, groove).first(at);
+            literature.add(f64::from(found) / truth - 1.0, line);
+            let found = CircularGrooveCurvature::of(&design, groove).first(at);
+            circular.add(f64::from(found) / truth - 1.0, line);
+        }
     }
+    literature.hold(&promises::LITERATURE_CURVATURE);
+    circular.hold(&promises::CIRCULAR_CURVATURE);
     exact.hold(&promises::GOTHIC_ARCH);
     fitted.hold(&promises::FITTED_CURVATURE);
 }
@@ -155,46 +171,84 @@ fn contact_ellipses() {
 #[test]
 fn efficiencies() {
     let mut random = Random(24);
-    let mut errors = Errors::default();
+    let mut sliding = Errors::default();
+    let (mut rolling, mut backdrive) = (Errors::default(), Errors::default());
     for _ in 0..INPUTS {
         let lead_angle = random.within(0.5_f32.to_radians(), 60_f32.to_radians());
         let contact_angle = random.within(5_f32.to_radians(), 85_f32.to_radians());
         let friction = random.size(1e-3, 0.3);
-        let found = EfficiencyGeometry::new(lead_angle, contact_angle, 0.2)
-            .unwrap()
-            .sliding_efficiency(friction);
+        let tangent = random.of(&[0.0, 0.01]);
+        let found = EfficiencyGeometry::new(lead_angle, contact_angle, 0.2).unwrap();
         let exact = Screw {
             lead_angle: lead_angle.into(),
             contact_angle: contact_angle.into(),
             friction: friction.into(),
-            ball_ratio: 0.2,
-            rolling_tangent: 0.0,
+            ball_ratio: f64::from(0.2_f32),
+            rolling_tangent: tangent.into(),
         };
-        if exact.locked_drive() {
-            continue;
+        let line = || format!("{lead_angle} {contact_angle} {friction} {tangent}");
+        if !exact.locked_drive() {
+            let error = f64::from(found.sliding_efficiency(friction)) - exact.sliding_drive();
+            sliding.add(error, line);
+            let found = f64::from(found.rolling_efficiency(friction, tangent));
+            rolling.add(found - exact.rolling_screw(), line);
         }
-        errors.add(f64::from(found) - exact.sliding_drive(), || {
-            format!("{lead_angle} {contact_angle} {friction}")
-        });
+        if !exact.locked_backdrive() {
+            let found = f64::from(found.sliding_backdrive_efficiency(friction));
+            backdrive.add(found - exact.sliding_backdrive(), line);
+        }
     }
-    errors.hold(&promises::EFFICIENCY);
+    sliding.hold(&promises::EFFICIENCY);
+    rolling.hold(&promises::ROLLING_EFFICIENCY);
+    backdrive.hold(&promises::BACKDRIVE_EFFICIENCY);
 }
 
 #[test]
 fn friction_maps() {
     let mut random = Random(25);
-    let mut errors = Errors::default();
+    let (mut errors, mut dissipation) = (Errors::default(), Errors::default());
     for _ in 0..300 {
         let axis_ratio = random.within(0.05, 1.0);
         let fast = FrictionMap::new(axis_ratio).unwrap();
         let exact = maps::FrictionMap::new(axis_ratio.into()).unwrap();
         for _ in 0..20 {
             let offset = random.sign() * random.size(1e-2, 1e3);
-            let error = f64::from(fast.force(offset)) - exact.at(offset.into()).force;
-            errors.add(error, || format!("{axis_ratio} {offset}"));
+            let wanted = exact.at(offset.into()).force;
+            let line = || format!("{axis_ratio} {offset}");
+            errors.add(f64::from(fast.force(offset)) - wanted, line);
+            // A contact with a semi-axis of 0.1 m that spins with 0.5 rad/s.
+            let found = fast.dissipation(offset * 0.05, 0.5, 0.1, 0.0).force;
+            dissipation.add(f64::from(found) - wanted, line);
         }
     }
     errors.hold(&promises::FRICTION_MAP);
+    dissipation.hold(&promises::DISSIPATION);
+}
+
+/// One wave in a period, between the table's samples as well as on them.
+#[test]
+fn deviations() {
+    let mut random = Random(26);
+    let mut errors = Errors::default();
+    for _ in 0..300 {
+        let amplitude = random.within(0.001, 0.14);
+        let angle = random.within(0.0, std::f32::consts::TAU);
+        let (sine, cosine) = (amplitude * angle.sin(), amplitude * angle.cos());
+        let wave = Harmonic {
+            order: 1,
+            cosine,
+            sine,
+        };
+        let map = DeviationMap::from_harmonics(1, &[wave]).unwrap();
+        for _ in 0..200 {
+            let phase = random.bits() as u32;
+            let (s, c) = (std::f64::consts::TAU * f64::from(phase) / 2_f64.powi(32)).sin_cos();
+            let exact = f64::from(cosine) * c + f64::from(sine) * s;
+            let error = (f64::from(map.at(phase)) - exact) / f64::from(amplitude);
+            errors.add(error, || format!("{amplitude} {angle} {phase}"));
+        }
+    }
+    errors.hold(&promises::DEVIATION_MAP);
 }
 
 /// A number with an exponent where it is small.
@@ -206,13 +260,14 @@ fn shown(number: f64) -> String {
     }
 }
 
-/// The table as Markdown, as it stands in `src/promises.md`.
-fn table() -> String {
-    let mut text = String::from(
-        "\n| function | domain | error | largest | rms | mean | outside | NaN, infinities | zeros, subnormals | cycles |\n\
-         |---|---|---|---|---|---|---|---|---|---|\n",
+/// A table as Markdown, as it stands in `src/promises.md`.
+fn table(title: &str, promises: &[Promise]) -> String {
+    let mut text = format!(
+        "\n# {title}\n\n\
+         | function | domain | error | largest | rms | mean | outside | NaN, infinities | zeros, subnormals | cycles | \
+         counted as |\n|---|---|---|---|---|---|---|---|---|---|---|\n",
     );
-    for Promise {
+    for &Promise {
         function,
         domain,
         error,
@@ -223,11 +278,17 @@ fn table() -> String {
         not_finite,
         tiny,
         cycles,
-    } in promises::ALL
+        counted,
+    } in promises
     {
+        let counted = counted
+            .iter()
+            .map(|name| format!("`{name}`"))
+            .collect::<Vec<_>>()
+            .join(", ");
         let _ = writeln!(
             text,
-            "| `{function}` | {domain} | {error} | {} | {} | {} | {outside} | {not_finite} | {tiny} | {cycles} |",
+            "| `{function}` | {domain} | {error} | {} | {} | {} | {outside} | {not_finite} | {tiny} | {cycles} | {counted} |",
             shown(largest),
             shown(rms),
             shown(mean),
@@ -236,13 +297,40 @@ fn table() -> String {
     text
 }
 
+/// The size of the programs with one scene each, as it stands there.
+fn sizes() -> String {
+    let mut text = String::from(
+        "\n# Programs with one scene each, bytes\n\n\
+         | scene | flash | flash, built for size | RAM | stack of a step |\n|---|---|---|---|---|\n",
+    );
+    for Footprint {
+        scene,
+        flash,
+        flash_small,
+        ram,
+        stack,
+    } in promises::FOOTPRINTS
+    {
+        let _ = writeln!(
+            text,
+            "| `{scene}` | {flash} | {flash_small} | {ram} | {stack} |"
+        );
+    }
+    text
+}
+
 #[test]
 fn the_page_shows_the_table() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../src/promises.md");
+    let tables = table("Steps, and what they call", &promises::STEPS)
+        + &table(
+            "Functions that firmware calls by their names",
+            &promises::DIRECT,
+        )
+        + &sizes();
     let page = std::fs::read_to_string(path).unwrap();
     assert!(
-        page == table(),
-        "src/promises.md has to hold exactly:\n{}",
-        table()
+        page == tables,
+        "src/promises.md has to hold exactly:\n{tables}"
     );
 }

@@ -11,24 +11,24 @@ use crate::ranges;
 /// [`FrictionMap::slope`](crate::contact::FrictionMap::slope), 1.442 at conformity 0.56.
 pub const PUBLISHED_SLOPE: f32 = 1.38;
 
-/// Added to the sum of the two `F^(2/3)`, `N^(2/3)`: a ball without load is as good as free.
+/// Added to the sum of the two `F^(2/3)`, N^(2/3): keeps the compliance of a ball without load finite.
 const SMALLEST_SUM: f32 = 1e-9;
 
-/// Largest speed deviation that counts: a ball that stands still or runs with the track.
+/// Largest speed deviation that counts: that of a ball which stands still (-1) or moves with the top groove (1).
 const LARGEST_SPEED_DEVIATION: f32 = 1.0;
 
-/// What a four-point contact linear bearing and its contact ellipse give to a ball.
+/// Dimensions of a four-point contact linear bearing and of its contact ellipse.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LinearBallParameters {
-    /// Ball radius `R_B`, m; 1e-5 to 1.
+    /// Ball radius `r_b`, m; 1e-5 to 1.
     pub ball_radius: f32,
     /// Nominal contact angle `beta_0`, rad; 0.05 to 1.5.
     pub contact_angle: f32,
     /// Axis ratio `k = b/a` of the contact ellipse; 0.01 to 1.
     pub axis_ratio: f32,
     /// Semi-major axis `a` over the cube root of the contact force, m/N^(1/3); 1e-8 to 1. In the symbols
-    /// of Lin 2019, eq. (3.36): `Psi R_B^(1/3)`.
+    /// of Lin 2019, eq. (3.36): `Psi r_b^(1/3)`.
     pub semi_major_coefficient: f32,
     /// Coulomb friction coefficient `mu` of ball and groove; 1e-6 to 1.
     pub friction: f32,
@@ -50,12 +50,12 @@ impl LinearBallParameters {
 /// Published closed form of the speed of a ball in a four-point contact linear bearing.
 ///
 /// With nominal contact angle `beta_0`, angle deviations `dBL`, `dBR`, `dTR`, `dTL`, mean loads `F_U` of
-/// BL and TR and `F_D` of BR and TL, `A = F^(2/3)` and `a = Psi R_B^(1/3) F^(1/3)`:
+/// BL and TR and `F_D` of BR and TL, `A = F^(2/3)` and `a = Psi r_b^(1/3) F^(1/3)`:
 ///
 /// ```text
 /// epsilon    = tan(beta_0) ((dTR - dBL) A_U + (dTL - dBR) A_D) / (2 (A_U + A_D))
-/// compliance = tan(beta_0) Psi / (2 k_f mu R_B^(2/3) (A_U + A_D))
-/// F_B2B      = (epsilon_rear - epsilon_front) / (compliance_rear + compliance_front)
+/// compliance = tan(beta_0) Psi / (2 k_f mu r_b^(2/3) (A_U + A_D))
+/// F_BB       = (epsilon_rear - epsilon_front) / (compliance_rear + compliance_front)
 /// ```
 ///
 /// (Lin 2019, eqs. (3.43) and (3.51).) Corrected: the printed factor `1 - cos 2 beta_0` must be
@@ -67,7 +67,7 @@ impl LinearBallParameters {
 /// degrees, in units of `v/2`: 2.3e-3 for side-force ratios up to 0.5, 4.1e-3 up to 0.6, 5.8e-3 up to
 /// 0.8; four independent angles 1.5e-2 (rms 2e-3). Of the force between two balls, up to 10 N: 0.62 N
 /// (rms 0.24 N) up to 0.8. Near two-point rolling, from side-force ratios of 0.88 to 0.98 on, the exact
-/// speed jumps: where the weaker diagonal carries less than `(3/8) E (a/R_B)/sin(2 beta_0)` of the stronger
+/// speed jumps: where the weaker diagonal carries less than `(3/8) E (a/r_b)/sin(2 beta_0)` of the stronger
 /// one (3.7 % in Lin 2019, Table 3.3) it falls from 8.8e-3 per degree of the deviation to 3e-4. This formula
 /// keeps the speed from before, too large by up to 9.5e-3 per degree, never of the wrong sense, and never
 /// beyond `tan(beta_0)/2` times the larger of the two differences of angles.
@@ -80,7 +80,7 @@ impl LinearBallParameters {
 ///     ball_radius: 0.005,
 ///     contact_angle: core::f32::consts::FRAC_PI_4,
 ///     axis_ratio: 0.2321,
-///     semi_major_coefficient: 5.307e-4 * 0.171, // Psi R_B^(1/3)
+///     semi_major_coefficient: 5.307e-4 * 0.171, // Psi r_b^(1/3)
 ///     friction: 0.1,
 /// };
 /// let ball = AnalyticLinearBall::new(&parameters, PUBLISHED_SLOPE)?;
@@ -102,7 +102,7 @@ pub struct AnalyticLinearBall {
     compliance: f32,
 }
 
-/// Speed of a ball relative to nominal rolling and how it gives way.
+/// Speed of a ball relative to nominal rolling, and its compliance along the track.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SpeedDeviation {
@@ -132,7 +132,7 @@ impl AnalyticLinearBall {
         ))
     }
 
-    /// From `tan(beta_0)/2` and `Psi / (k_f mu R_B^(2/3))`, N^(-1/3).
+    /// From `tan(beta_0)/2` and `Psi / (k_f mu r_b^(2/3))`, N^(-1/3).
     pub(crate) const fn folded(half_tangent: f32, compliance: f32) -> Self {
         // The loads of a diagonal enter by their sum, the formula by their mean.
         const TWO_TO_TWO_THIRDS: f32 = constant::cbrt_squared(2.0);

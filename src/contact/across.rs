@@ -13,7 +13,8 @@ const LEAST_SLIP: f32 = 1e-30;
 
 /// A contact of ball and groove that slips across the track by a given speed and spins, under any load.
 ///
-/// With the rim's speed by the spin, `r = a |w|`, and the slip `v`, power loss and give are homogeneous in both.
+/// With the speed `r = a |w|` that the spin gives the end of the major axis, and the slip `v`, power loss and compliance are
+/// homogeneous in both.
 /// Over the sum of `r` and `c v` they are functions of `t = r/(r + c v)` alone, smooth from the lightest contact, which
 /// slides (`t = 0`), to the heaviest, which rolls (`t = 1`):
 ///
@@ -21,14 +22,14 @@ const LEAST_SLIP: f32 = 1e-30;
 /// D = (r + c v) F(t)    dD/d ln r = r (F + (1 - t) F')    dD/dv = c (F - t F')      c = 1/sqrt(k)
 /// ```
 ///
-/// and the give alike. Cubics between eleven places, with values and slopes there by the exact integrals of
+/// and the compliance alike. Cubics between eleven places, with values and slopes there by the exact integrals of
 /// [`SlipMap`](super::SlipMap).
 ///
 /// Input: axis ratio 0.02 to 0.95 at set-up.
 ///
-/// Largest errors against the integrals, axis ratios 0.05 to 0.35 (0.02 to 0.95): power loss 5e-5 (2.1e-4) and give
+/// Largest errors against the integrals, axis ratios 0.05 to 0.35 (0.02 to 0.95): power loss 5e-5 (2.1e-4) and compliance
 /// 3.1e-4 (1.6e-3) of themselves, share of sliding friction 6.7e-4 (2.0e-3); both changes 3.7e-4 (1.7e-3) of the power
-/// loss and 2.7e-3 (1.5e-2) of the give.
+/// loss and 2.7e-3 (1.5e-2) of the compliance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(crate) struct AcrossTable {
@@ -36,9 +37,9 @@ pub(crate) struct AcrossTable {
     slip: f32,
     /// `c`.
     reach: f32,
-    /// Friction force over `mu F` by the ratio of slip and rim's speed, where that is small.
+    /// Friction force over `mu F` by the ratio of slip and the end's speed, where that is small.
     share_slope: f32,
-    /// `F` and its slope by a cell, then those of the give.
+    /// `F` and its slope by a cell, then those of the compliance.
     nodes: [[f32; 4]; CELLS + 1],
 }
 
@@ -48,13 +49,13 @@ pub(crate) struct Across {
     /// Power loss over `mu F`.
     pub(crate) drag: f32,
     /// Slip along the track over the friction force that resists it, times `mu F`.
-    pub(crate) give: f32,
+    pub(crate) compliance: f32,
     /// Friction force across the track over `mu F`.
     pub(crate) share: f32,
     /// Change of the drag with the logarithm of the ellipse's size or of the spin.
     pub(crate) drag_growth: f32,
-    /// Change of the give with it.
-    pub(crate) give_growth: f32,
+    /// Change of the compliance with it.
+    pub(crate) compliance_growth: f32,
 }
 
 impl AcrossTable {
@@ -73,19 +74,24 @@ impl AcrossTable {
         while node <= CELLS {
             let t = node as f32 * cell;
             let slip = (1.0 / t - 1.0) / reach;
-            let [drag, drag_growth, give, give_growth] = spinning(k, slip);
-            let (value, give_value) = (t * drag, t * give);
+            let [drag, drag_growth, compliance, compliance_growth] = spinning(k, slip);
+            let (value, compliance_value) = (t * drag, t * compliance);
             nodes[node] = if node < CELLS {
                 let per_cell = cell / (1.0 - t);
                 [
                     value,
                     (drag_growth - value) * per_cell,
-                    give_value,
-                    (give_growth - give_value) * per_cell,
+                    compliance_value,
+                    (compliance_growth - compliance_value) * per_cell,
                 ]
             } else {
                 // Both are even in the slip.
-                [value, value * cell, give_value, give_value * cell]
+                [
+                    value,
+                    value * cell,
+                    compliance_value,
+                    compliance_value * cell,
+                ]
             };
             node += 1;
         }
@@ -98,40 +104,49 @@ impl AcrossTable {
         })
     }
 
-    /// Friction force over `mu F` by the ratio of slip and rim's speed, where that is small.
+    /// Friction force over `mu F` by the ratio of slip and the end's speed, where that is small.
     pub(crate) const fn share_slope(&self) -> f32 {
         self.share_slope
     }
 
-    /// The contact where the spin moves the rim with `rim = a |w|`, m.
+    /// The contact where the spin gives the end of the major axis the speed `end_speed = a |w|`, m.
     #[inline(never)]
-    pub(crate) fn at(&self, rim: f32) -> Across {
-        let whole = rim + self.slip;
-        let place = rim / whole * CELLS as f32;
+    pub(crate) fn at(&self, end_speed: f32) -> Across {
+        let whole = end_speed + self.slip;
+        let place = end_speed / whole * CELLS as f32;
         let cell = place as usize;
         let cell = if cell < CELLS { cell } else { CELLS - 1 };
         let x = place - cell as f32;
-        let (Some(&[drag, drag_slope, give, give_slope]), Some(&next)) =
+        let (Some(&[drag, drag_slope, compliance, compliance_slope]), Some(&next)) =
             (self.nodes.get(cell), self.nodes.get(cell + 1))
         else {
             return Across {
                 drag: 0.0,
-                give: 0.0,
+                compliance: 0.0,
                 share: 0.0,
                 drag_growth: 0.0,
-                give_growth: 0.0,
+                compliance_growth: 0.0,
             };
         };
-        let [next_drag, next_drag_slope, next_give, next_give_slope] = next;
+        let [
+            next_drag,
+            next_drag_slope,
+            next_compliance,
+            next_compliance_slope,
+        ] = next;
         let (drag, drag_slope) = cubic(x, [drag, drag_slope], [next_drag, next_drag_slope]);
-        let (give, give_slope) = cubic(x, [give, give_slope], [next_give, next_give_slope]);
-        let rest = CELLS as f32 - place;
+        let (compliance, compliance_slope) = cubic(
+            x,
+            [compliance, compliance_slope],
+            [next_compliance, next_compliance_slope],
+        );
+        let remainder = CELLS as f32 - place;
         Across {
             drag: whole * drag,
-            give: whole * give,
+            compliance: whole * compliance,
             share: self.reach * (drag - place * drag_slope),
-            drag_growth: rim * (drag + rest * drag_slope),
-            give_growth: rim * (give + rest * give_slope),
+            drag_growth: end_speed * (drag + remainder * drag_slope),
+            compliance_growth: end_speed * (compliance + remainder * compliance_slope),
         }
     }
 }
@@ -150,7 +165,7 @@ fn cubic(x: f32, [here, slope]: [f32; 2], [there, slope_there]: [f32; 2]) -> (f3
     )
 }
 
-/// Drag and give with their changes by the logarithm of the rim's speed, over that speed, at a slip over it.
+/// Drag and compliance with their changes by the logarithm of the end's speed, over that speed, at a slip over it.
 const fn spinning(k: f32, slip: f32) -> [f32; 4] {
     let (square, place) = (k * k, slip * slip);
     let lambda = if place > square { place - square } else { 0.0 };
@@ -166,12 +181,12 @@ const fn spinning(k: f32, slip: f32) -> [f32; 4] {
     let moment = 0.1875 * (whole + place * (3.0 * cubic - 2.0 * across));
     let bend = both * place;
     let inverse = 1.0 / (along - bend);
-    let give = (4.0 / 3.0) * inverse;
+    let compliance = (4.0 / 3.0) * inverse;
     [
         moment + slip * share,
         moment,
-        give,
-        give - 2.0 * give * (bend * inverse),
+        compliance,
+        compliance - 2.0 * compliance * (bend * inverse),
     ]
 }
 
@@ -181,26 +196,27 @@ mod tests {
     use super::*;
     use crate::contact::SlipMap;
 
-    /// Largest errors of power loss and give over themselves, of the share, and of both changes over power loss and
-    /// give, against the integrals; then the first three against the map.
+    /// Largest errors of power loss and compliance over themselves, of the share, and of both changes over power loss and
+    /// compliance, against the integrals; then the first three against the map.
     fn errors(k: f32) -> [f32; 8] {
         let (Ok(table), Ok(map)) = (AcrossTable::new(k, 1.0), SlipMap::new(k)) else {
             panic!("{k}")
         };
         let mut worst = [0.0_f32; 8];
-        let mut rim = 0.03_f32;
-        while rim < 3e3 {
-            let found = table.at(rim);
-            let [drag, drag_growth, give, give_growth] = spinning(k, 1.0 / rim).map(|x| x * rim);
-            let mapped = map.dissipation(1.0, 0.0, rim, 1.0, 0.0);
+        let mut end_speed = 0.03_f32;
+        while end_speed < 3e3 {
+            let found = table.at(end_speed);
+            let [drag, drag_growth, compliance, compliance_growth] =
+                spinning(k, 1.0 / end_speed).map(|x| x * end_speed);
+            let mapped = map.dissipation(1.0, 0.0, end_speed, 1.0, 0.0);
             let now = [
                 found.drag / drag - 1.0,
-                found.give / give - 1.0,
+                found.compliance / compliance - 1.0,
                 found.share - (drag - drag_growth),
                 (found.drag_growth - drag_growth) / drag,
-                (found.give_growth - give_growth) / give,
+                (found.compliance_growth - compliance_growth) / compliance,
                 found.drag / mapped.power - 1.0,
-                found.give * mapped.stiffness_along - 1.0,
+                found.compliance * mapped.stiffness_along - 1.0,
                 found.share - mapped.across,
             ];
             for (worst, now) in worst.iter_mut().zip(now) {
@@ -210,13 +226,13 @@ mod tests {
                     *worst
                 };
             }
-            rim *= 1.037;
+            end_speed *= 1.037;
         }
         worst
     }
 
     /// The cubics leave `h^4/384` of the fourth derivative. The map itself is within 3.1e-4 of quadrature from an axis
-    /// ratio of 0.05 on, its second derivatives within 3.7e-3 of the sum of both: the give has less of that sum.
+    /// ratio of 0.05 on, its second derivatives within 3.7e-3 of the sum of both: the compliance has less of that sum.
     #[test]
     fn contacts_that_slip_across_are_those_of_the_map() {
         let mut k = 0.02_f32;
@@ -246,7 +262,7 @@ mod tests {
         let (small, large) = (table.at(1e-6), table.at(1e-3));
         assert!((large.drag / small.drag - 1e3).abs() < 1e-2);
         assert!((small.drag_growth / small.drag - 1.0).abs() < 1e-5);
-        assert!((small.give_growth / small.give - 1.0).abs() < 1e-5);
+        assert!((small.compliance_growth / small.compliance - 1.0).abs() < 1e-5);
         assert!(small.share.abs() < 1e-5);
     }
 }

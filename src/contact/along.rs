@@ -26,8 +26,8 @@ const LEAST_STIFFNESS: f32 = 0.05;
 /// |x| > 1:   P = |x| + c1 u + c5 u⁵,  u = 1/|x|,  f = P',  M = P - x f
 /// ```
 ///
-/// `c1` and `c5` follow from `P` and `f` being continuous at the rim of the ellipse. The quartic is the integral (3.16)-(3.18) of Lin 2019 in closed form; that dissertation
-/// interpolates in tables, and uses the straight line `kf = 1.38` where a formula is wanted
+/// `c1` and `c5` follow from `P` and `f` being continuous at the end of the ellipse, `|x| = 1`. The quartic is the integral
+/// (3.16)-(3.18) of Lin 2019 in closed form; that dissertation interpolates in tables, and uses the straight line `kf = 1.38` where a formula is wanted
 /// ([`PUBLISHED_SLOPE`](crate::ball::PUBLISHED_SLOPE)).
 ///
 /// Input: axis ratio 0.01 to 1 at set-up; any offset ratio, signed, in the loop. Offsets beyond ±2^30
@@ -96,8 +96,8 @@ pub struct Dissipation {
     pub tilt: f32,
     /// What the stick treatment adds along the spin, `a M delta²/W³`, m s.
     pub stick: f32,
-    /// Slip that carries the velocity centre to the rim of the ellipse, `a W`, m/s.
-    pub rim: f32,
+    /// Slip that carries the velocity centre to the end of the ellipse, `a W`, m/s.
+    pub end_speed: f32,
 }
 
 impl FrictionMap {
@@ -129,7 +129,7 @@ impl FrictionMap {
         let slope = 1.5 * first_kind * (0.5 - eccentricity2 * tail);
         let cubic = 0.5 * first_kind * (0.5 - (1.0 + k2) * tail);
 
-        // P - 1 and f - 1 at the rim: c1 + c5 = power_gap, c1 + 5 c5 = -force_gap.
+        // P - 1 and f - 1 at the end: c1 + c5 = power_gap, c1 + 5 c5 = -force_gap.
         let power_gap = (spin_moment - 1.0) + 0.5 * slope - 0.25 * cubic;
         let force_gap = (slope - 1.0) - cubic;
         let fifth = 0.25 * (-force_gap - power_gap);
@@ -180,11 +180,11 @@ impl FrictionMap {
     #[must_use]
     pub fn evaluate(&self, offset: f32) -> NormalizedFriction {
         // Twice the bits, without the sign: positive numbers are in their order, and NaN comes last. One comparison
-        // finds the way that takes longest.
-        const RIM: u32 = 1.0_f32.to_bits() << 1;
-        const SPAN: u32 = (LARGEST_OFFSET.to_bits() << 1) - RIM;
+        // finds the branch that takes longest.
+        const END: u32 = 1.0_f32.to_bits() << 1;
+        const SPAN: u32 = (LARGEST_OFFSET.to_bits() << 1) - END;
         let bits = offset.to_bits() << 1;
-        if RIM.wrapping_sub(bits) >= SPAN.wrapping_neg() {
+        if END.wrapping_sub(bits) >= SPAN.wrapping_neg() {
             // In an order that leaves few operations waiting for the one before. With `P = |x| + near` and
             // `M = near + far`, `f = (|x| - far)/x`.
             let [first, fifth] = self.outer;
@@ -198,15 +198,15 @@ impl FrictionMap {
             let fifth = fifth * fourth;
             let near = first + fifth;
             let power = distance + near;
-            let rest = 4.0 * fifth;
-            let far = near + rest;
+            let slope_excess = 4.0 * fifth;
+            let far = near + slope_excess;
             let moment = near + far;
             NormalizedFriction {
                 force: inverse * (distance - far),
                 moment,
                 power,
             }
-        } else if bits <= RIM {
+        } else if bits <= END {
             let (force, moment, _) = self.inside(offset);
             NormalizedFriction {
                 force,
@@ -245,18 +245,18 @@ impl FrictionMap {
         stick_spin: f32,
     ) -> Dissipation {
         // The floor, a billionth of a rad/s, keeps the divisions below finite where both spins are zero, and the product
-        // of rim and speed normal.
+        // of both speeds normal.
         let stick2 = stick_spin * stick_spin + 1e-18;
-        let rim = semi_major * math::sqrt(spin * spin + stick2);
+        let end_speed = semi_major * math::sqrt(spin * spin + stick2);
         let speed = slip.abs();
-        let (force, moment, curvature, inverse_rim) = if speed <= rim {
-            let inverse_rim = 1.0 / rim;
-            let (force, moment, curvature) = self.inside(slip * inverse_rim);
-            (force, moment, curvature, inverse_rim)
+        let (force, moment, curvature, inverse_end_speed) = if speed <= end_speed {
+            let inverse_end_speed = 1.0 / end_speed;
+            let (force, moment, curvature) = self.inside(slip * inverse_end_speed);
+            (force, moment, curvature, inverse_end_speed)
         } else {
             // Both reciprocals by one division.
-            let inverse = 1.0 / (rim * speed);
-            let nearness = rim * (rim * inverse);
+            let inverse = 1.0 / (end_speed * speed);
+            let nearness = end_speed * (end_speed * inverse);
             let outer = self.outside(nearness);
             let force = 1.0 - outer.square * outer.slope;
             let moment = nearness * (outer.sum + outer.slope);
@@ -269,7 +269,7 @@ impl FrictionMap {
                 speed * inverse,
             )
         };
-        let inverse_spin = semi_major * inverse_rim;
+        let inverse_spin = semi_major * inverse_end_speed;
         let inverse_spin2 = inverse_spin * inverse_spin;
 
         let sliding = slip * force;
@@ -277,14 +277,14 @@ impl FrictionMap {
         let spin_moment = arm * spin * inverse_spin;
         let stick = arm * stick2 * inverse_spin * inverse_spin2;
         Dissipation {
-            potential: sliding + rim * moment,
+            potential: sliding + end_speed * moment,
             power: sliding + spin_moment * spin,
             force,
             moment: spin_moment,
-            stiffness: curvature * inverse_rim,
+            stiffness: curvature * inverse_end_speed,
             tilt: slip * spin * inverse_spin2,
             stick,
-            rim,
+            end_speed,
         }
     }
 
@@ -324,8 +324,8 @@ struct Outer {
     curvature: f32,
 }
 
-/// Force of a contact that does nothing but slide. A call, in the way of what is out of range alone, leaves the other
-/// ways without a frame.
+/// Force of a contact that does nothing but slide. A call of its own in the branch for what is out of range, so that the
+/// other branches need no stack frame.
 #[cold]
 #[inline(never)]
 fn full_force(offset: f32) -> f32 {
@@ -346,7 +346,7 @@ mod tests {
     }
 
     #[test]
-    fn friction_is_continuous_and_convex_through_the_rim() {
+    fn friction_is_continuous_and_convex_through_the_end() {
         for step in 1_u8..=100 {
             let map = FrictionMap::new(f32::from(step) / 100.0).unwrap();
             let (inner, outer) = (map.inside(1.0), map.outside(1.0));

@@ -2,7 +2,7 @@
 
 mod far;
 mod map;
-mod near;
+pub(crate) mod near;
 mod potential;
 
 pub use map::{SlipFriction, SlipMap};

@@ -4,7 +4,7 @@ use super::gothic_arch::GothicArch;
 use crate::geometry::{BallScrew, ContactAngle, Groove, HelixPath};
 
 /// First principal curvature of a circular groove (`H = L = 0`):
-/// `kappa1 = cos(phi) cos²(alpha) / (zeta r_m - r_s cos(phi) cos²(alpha))`
+/// `kappa1 = cos(beta) cos²(alpha) / (zeta r_m - r_s cos(beta) cos²(alpha))`
 /// (Bertolino et al. 2023, eq. (25), (26)).
 ///
 /// Exact for a circular groove. For a gothic arch the error is at most 9.5e-3 on the 31 catalogue

@@ -11,10 +11,10 @@ pub const DEFAULT_FIT_RANGE: f32 = 1.256_637_1;
 const NODES: usize = 5;
 
 /// `cos((2 i + 1) pi / 10)`: the Chebyshev nodes on -1 to 1.
-const CHEBYSHEV: [f32; NODES] = [0.95105652, 0.58778525, 0.0, -0.58778525, -0.95105652];
+pub(crate) const CHEBYSHEV: [f32; NODES] = [0.95105652, 0.58778525, 0.0, -0.58778525, -0.95105652];
 
 /// First principal curvature of a gothic-arch groove by a quotient that is exact at five contact
-/// angles: `kappa1 = (n0 + n1 cos(phi) + n2 sin(phi)) / (1 - d1 cos(phi) - d2 sin(phi))`.
+/// angles: `kappa1 = (n0 + n1 cos(beta) + n2 sin(beta)) / (1 - d1 cos(beta) - d2 sin(beta))`.
 ///
 /// Its shape is that of a tube about a helix, to which the exact surface is close; the five
 /// coefficients come from the exact curvatures at Chebyshev nodes of the contact angle, by one 5 x 5
@@ -107,8 +107,8 @@ type Rows = [[f32; NODES + 1]; NODES];
 /// Solves the linear system whose rows hold the coefficients and, last, the right-hand side: Gaussian
 /// elimination with scaled columns and partial pivoting.
 ///
-/// A column that is zero to rounding (a circular groove, a lead of zero) leaves its unknown at zero,
-/// which is then one of the exact solutions.
+/// Where a column vanishes but for rounding (a circular groove, a lead of zero), any value of its unknown solves the
+/// system: zero is taken.
 const fn solve(mut rows: Rows) -> [f32; NODES] {
     let column_scale = scale_columns(&mut rows);
     eliminate(&mut rows);
@@ -154,9 +154,9 @@ const fn scale_columns(rows: &mut Rows) -> [f32; NODES] {
 const fn eliminate(rows: &mut Rows) {
     let mut pivot = 0;
     while pivot < NODES {
-        // Bubbling the largest element up takes the place of an indexed swap, so that every index is
-        // a loop counter and no bounds check can remain; element by element, which needs no copy of
-        // memory. What lies left of the pivot is never read again.
+        // Rows are exchanged one after the other until the largest element is on top. Every index then is a loop
+        // counter, so that no bounds check remains; and element by element, so that no memory is copied. What lies
+        // left of the pivot is never read again.
         let mut below = pivot + 1;
         while below < NODES {
             if rows[below][pivot].abs() > rows[pivot][pivot].abs() {
@@ -196,14 +196,14 @@ const fn substitute_back(rows: &Rows) -> [f32; NODES] {
     while solved < NODES {
         let pivot = NODES - 1 - solved;
         let row = &rows[pivot];
-        let mut rest = row[NODES];
+        let mut remainder = row[NODES];
         let mut column = pivot + 1;
         while column < NODES {
-            rest -= row[column] * solution[column];
+            remainder -= row[column] * solution[column];
             column += 1;
         }
         if row[pivot].abs() > RANK_TOLERANCE {
-            solution[pivot] = rest / row[pivot];
+            solution[pivot] = remainder / row[pivot];
         }
         solved += 1;
     }

@@ -28,8 +28,8 @@ pub struct RelativeCurvatures {
 /// The exact principal curvatures of a gothic-arch groove swept along a helix, with all constants
 /// folded.
 ///
-/// With `zeta` = +1 screw, -1 nut, path curvature `kappa` and torsion `tau`, `c = cos(phi)`,
-/// `s = sin(phi)`, `w = H c + L s`, `p = H s - L c`, `rho = r_s - w`,
+/// With `zeta` = +1 screw, -1 nut, path curvature `kappa` and torsion `tau`, `c = cos(beta)`,
+/// `s = sin(beta)`, `w = H c + L s`, `p = H s - L c`, `rho = r_s - w`,
 /// `A = 1 + zeta kappa (H - r_s c)`, `D² = A² + tau² p²`, the shape operator in orthonormal directions
 /// is
 ///

@@ -3,7 +3,7 @@
 use crate::geometry::{BallScrew, ContactAngle, Groove};
 
 /// Literature formula for the first principal curvature:
-/// `kappa1 = zeta cos(phi) / (r_m - zeta r_b cos(phi))`, `zeta` = +1 screw, -1 nut
+/// `kappa1 = zeta cos(beta) / (r_m - zeta r_b cos(beta))`, `zeta` = +1 screw, -1 nut
 /// (Bertolino et al. 2023, eq. (27), (28)).
 ///
 /// It ignores the lead; at a lead angle of 45 degrees it is wrong by a factor of two. It stands here

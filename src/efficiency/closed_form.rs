@@ -56,8 +56,9 @@ pub struct EfficiencyGeometry {
     rolling: Rolling,
 }
 
-/// What [`EfficiencyGeometry::rolling_loss`] takes, with `ta` at least [`LEAST_TANGENT`]: without lead it cancels
-/// where there is no rolling resistance, and is nothing beside one.
+/// Constants of [`EfficiencyGeometry::rolling_loss`], in which `ta` is at least [`LEAST_TANGENT`]. With a lead of zero
+/// the formula would be 0/0 where there is no rolling resistance: so small a `ta` cancels there, and is lost in rounding
+/// beside any rolling resistance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 struct Rolling {
@@ -71,7 +72,7 @@ struct Rolling {
     gain: f32,
 }
 
-/// Tangent of a lead angle that is none; its products with friction coefficients stay far from underflow.
+/// Stands for the tangent of a lead angle of zero; its products with friction coefficients stay far from underflow.
 const LEAST_TANGENT: f32 = 1e-20;
 
 impl EfficiencyGeometry {
@@ -105,7 +106,7 @@ impl EfficiencyGeometry {
     const fn from_parts(tan_lead: f32, contact_angle: ContactAngle, ball_ratio: f32) -> Self {
         let ContactAngle { cos, sin } = contact_angle;
         let secant_squared = 1.0 + tan_lead * tan_lead;
-        // Never from 1/Ca² - Sb²: that cancels where R is small.
+        // Not from 1/Ca² - Sb², a difference that loses digits where R is small.
         let root = constant::sqrt(cos * cos + tan_lead * tan_lead);
         let tangent = if tan_lead > LEAST_TANGENT {
             tan_lead
@@ -146,7 +147,8 @@ impl EfficiencyGeometry {
     #[inline]
     #[must_use]
     pub const fn rolling_loss(&self, friction: f32, rolling_tangent: f32) -> f32 {
-        // False for NaN. The call, in the way of what is no tangent alone, leaves the other one without a frame.
+        // False for NaN. The branch for a tangent that is no number, or negative, is a call of its own: the usual branch
+        // then needs no stack frame.
         if rolling_tangent >= 0.0 {
             let Rolling {
                 slide,
@@ -173,7 +175,7 @@ impl EfficiencyGeometry {
     /// `1 - eta = [f a ta + t (1 + ta²)] / [ta (Sb + f Cb + t ta)]`, eq. (3) with the friction forces
     /// reversed.
     ///
-    /// Negative infinity where there is no lead but rolling resistance: no load moves it.
+    /// Negative infinity with rolling resistance and without lead: no load moves the screw.
     #[inline]
     #[must_use]
     pub const fn rolling_backdrive_efficiency(&self, friction: f32, rolling_tangent: f32) -> f32 {

@@ -1,4 +1,4 @@
-//! What the ball's own inertia changes in full sliding.
+//! Correction of the full-sliding efficiency for the inertia of the balls.
 
 use super::closed_form::EfficiencyGeometry;
 use crate::math::constant;

@@ -26,7 +26,7 @@ pub struct BallScrewParameters {
     pub screw_groove: GrooveSize,
     /// Size of the nut's groove.
     pub nut_groove: GrooveSize,
-    /// Nominal contact angle `phi0`, rad, 0.01 to [`LARGEST_CONTACT_ANGLE`].
+    /// Nominal contact angle `beta_0`, rad, 0.01 to [`LARGEST_CONTACT_ANGLE`].
     pub contact_angle: f32,
     /// Material of the balls.
     pub ball_material: Material,
@@ -197,7 +197,7 @@ impl BallScrew {
         self.parameters.ball_radius
     }
 
-    /// Ball radius over pitch radius, the papers' `a`.
+    /// Ball radius over pitch radius.
     #[inline]
     #[must_use]
     pub const fn ball_ratio(&self) -> f32 {
@@ -275,8 +275,8 @@ impl BallScrew {
     }
 }
 
-/// The surface is regular while `A = 1 + kappa H - kappa r_s cos(phi) > 0`; the bottom of the groove
-/// (`cos(phi) = 1`) folds first.
+/// The surface is regular while `A = 1 + kappa H - kappa r_s cos(beta) > 0`; the bottom of the groove
+/// (`cos(beta) = 1`) folds first.
 const fn refuse_folded(path: &HelixPath, screw: &GrooveProfile) -> Result<(), Error> {
     let largest = 1.0 / path.curvature + screw.offset_h;
     if screw.groove_radius < largest {

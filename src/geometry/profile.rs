@@ -40,8 +40,8 @@ pub struct HelixPath {
 }
 
 impl HelixPath {
-    /// Curvature and torsion from the lead: `r_m / (r_m² + P²)` and `P / (r_m² + P²)` with
-    /// `P = lead / 2 pi`, m.
+    /// Curvature and torsion from the lead: `r_m / (r_m² + h²)` and `h / (r_m² + h²)` with the
+    /// reduced lead `h = lead / (2 pi)`, m.
     ///
     /// No trigonometry, and no loss of digits at any lead: an error of the lead angle `alpha` would
     /// be magnified by `2 tan(alpha)`. Cost: two divisions, 5 other operations.
@@ -137,7 +137,7 @@ pub struct GrooveProfile {
 }
 
 impl GrooveProfile {
-    /// Offsets for a nominal contact angle: `H = (r_s - r_b) cos(phi0)`, `L = (r_s - r_b) sin(phi0)`
+    /// Offsets for a nominal contact angle: `H = (r_s - r_b) cos(beta_0)`, `L = (r_s - r_b) sin(beta_0)`
     /// (Bertolino et al. 2023, eq. (3), (4)).
     #[must_use]
     pub const fn new(groove_radius: f32, clearance: f32, contact_angle: ContactAngle) -> Self {

@@ -120,7 +120,7 @@ impl ContactKinematics {
         }
         let screw = self.path.direction(&self.path.screw, screw, Groove::Screw);
         let nut = self.path.direction(&self.path.nut, nut, Groove::Nut);
-        // The nut's groove lies outside the path, which it cannot fold whatever the contact angle is.
+        // `reaches` is checked at the screw alone: at the nut `A_k` is never less than `q`.
         if !(screw.grips() && screw.reaches(&self.path.screw) && nut.grips()) {
             return false;
         }
@@ -192,8 +192,8 @@ impl ContactKinematics {
 }
 
 impl ContactKinematics {
-    /// Forms what contact angles and ellipses decide, in place, but for the entrainment speeds at screw and
-    /// nut: it returns their squares.
+    /// Forms in place all constants that depend on contact angles and ellipses, except the entrainment speeds at screw
+    /// and nut: it returns their squares.
     #[inline(always)]
     #[must_use]
     const fn fold(&mut self, screw: &Direction, nut: &Direction) -> (f32, f32) {

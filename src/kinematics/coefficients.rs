@@ -71,7 +71,7 @@ pub struct ContactCoefficients {
 }
 
 impl ContactCoefficients {
-    /// Without contact yet.
+    /// Constants of the groove alone, before a contact is known.
     pub(super) const fn new(groove_path: &GroovePath) -> Self {
         Self {
             slip: ContactSlip {
@@ -112,14 +112,14 @@ impl ContactCoefficients {
         let z = direction.semi_major * direction.semi_major * path.inverse_ball_radius_squared;
         let [c1, c2, c3] = groove_path.deficit;
         let deficit = z * (c1 + z * (c2 + z * c3));
-        // r' - S: two small numbers added, in place of the difference of two speeds in (31).
+        // r' - S as a sum of two small numbers; (31) takes it as the difference of two speeds, which loses digits.
         let inside = groove_path.rolling_excess + deficit;
         let distance = groove_path.rolling_radius - inside;
 
         let rolling_gradient = w * groove_path.path_over_rolling;
-        let climb = w * path.sin_lead;
-        let swerve = sign * rotation.tangent;
-        let side_gradient = climb + swerve;
+        let by_lead = w * path.sin_lead;
+        let by_yaw = sign * rotation.tangent;
+        let side_gradient = by_lead + by_yaw;
         let spin = (w * path.cos_lead - sign * rotation.binormal) * direction.sine
             + (sign * rotation.normal) * direction.cosine;
 
@@ -128,7 +128,7 @@ impl ContactCoefficients {
         let half_distance = 0.5 * distance;
         let entrainment_rolling =
             w * (path.half_radius + half_distance * (direction.reach - across));
-        let entrainment_side = half_distance * (climb - swerve);
+        let entrainment_side = half_distance * (by_lead - by_yaw);
         self.slip = ContactSlip {
             rolling_slip: rolling_gradient * inside,
             side_slip: side_gradient * distance,
@@ -171,7 +171,7 @@ impl ContactCoefficients {
                 + self.slip.side_slip * self.slip.side_slip,
         );
         let slide_angle = if sliding > 0.0 {
-            // Adding zero turns -0 into +0: slip straight back is pi, never -pi.
+            // Adding zero turns -0 into +0, so that slip against the direction of rolling has the angle pi and not -pi.
             libm::atan2f(self.slip.side_slip + 0.0, self.slip.rolling_slip)
         } else {
             0.0

@@ -188,9 +188,11 @@ fn d_alembert(p: &KinematicsParameters, moment_screw: f32, moment_nut: f32) -> f
     )
 }
 
+/// The golden section, `(sqrt(5) - 1)/2`.
+pub(crate) const SECTION: f32 = 0.618_034;
+
 /// Golden-section search between the two raceway controls.
 fn least_power(p: &KinematicsParameters, load_screw: f32, load_nut: f32) -> Result<f32, Error> {
-    const SECTION: f32 = 0.618_034;
     let power = |angle| {
         let kinematics = ContactKinematics::new(&with_pitch_angle(p, angle))?;
         Ok::<f32, Error>(FrictionPower::new(&kinematics).weighted(load_screw, load_nut))

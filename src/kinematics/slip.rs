@@ -2,8 +2,8 @@
 
 /// Slip of one contact at its centre.
 ///
-/// As a result of [`ContactKinematics::tick`](super::ContactKinematics::tick): m/s, m/s, rad/s, m/s. As a constant per unit of
-/// speed ([`ContactKinematics::per_speed`](super::ContactKinematics::per_speed)): m, m, 1, m.
+/// As a result of [`tick`](super::ContactKinematics::tick): m/s, m/s, rad/s, m/s. As a constant per unit of
+/// speed ([`per_speed`](super::ContactKinematics::per_speed)): m, m, 1, m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ContactSlip {
@@ -31,8 +31,8 @@ impl ContactSlip {
 
 /// Motion of one ball and its slip at both contacts.
 ///
-/// As a result of [`ContactKinematics::tick`](super::ContactKinematics::tick): speeds. As [`ContactKinematics::per_speed`](super::ContactKinematics::per_speed): the
-/// same per rad/s of the screw.
+/// As a result of [`tick`](super::ContactKinematics::tick): speeds. As
+/// [`per_speed`](super::ContactKinematics::per_speed): the same per rad/s of the screw.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct BallKinematics {
@@ -51,7 +51,7 @@ impl BallKinematics {
     #[inline]
     pub(super) fn at_speed(&self, speed: f32) -> Self {
         let magnitude = speed.abs();
-        // False for NaN, too. Only the way of wrong speeds holds a call: the other one needs no stack frame.
+        // False for NaN, too. Only the branch for wrong speeds holds a call: the usual branch needs no stack frame.
         if magnitude <= SPEED_LIMIT {
             self.times(speed, magnitude)
         } else {
@@ -69,9 +69,8 @@ impl BallKinematics {
         }
     }
 
-    /// Every result zero, of the sign of a speed that is none: a zero which is not a constant is stored from a
-    /// register; for a constant the compiler calls the function that clears memory, which takes longer than
-    /// the products.
+    /// Every result zero, with the sign of the refused speed. The sign serves to keep the zero from being a constant:
+    /// for a constant the compiler would call the function that clears memory, which takes longer than the products.
     #[cold]
     #[inline(never)]
     fn still(speed: f32) -> Self {

@@ -28,7 +28,7 @@ pub const fn sqrt(x: f32) -> f32 {
 }
 
 /// Root of a positive normal number, a bit at a time: `root` grows as long as its square stays within the
-/// significand, of which `rest` is left.
+/// significand, of which `remainder` is left.
 const fn normal_root(x: f32) -> f32 {
     const SIGNIFICAND_BITS: u32 = 23;
     const BIAS: i32 = 127;
@@ -36,22 +36,22 @@ const fn normal_root(x: f32) -> f32 {
     let exponent = (bits >> SIGNIFICAND_BITS) as i32 - BIAS;
     let one = 1 << SIGNIFICAND_BITS;
     let significand = (bits & (one - 1)) | one;
-    // An odd exponent gives one of its factors of two to the significand. One bit more is found than the
-    // root has: the last one rounds.
-    let mut rest = significand << (1 + (exponent & 1));
+    // Where the exponent is odd, one factor of two goes to the significand, so that the exponent can be halved. One bit
+    // more than the root has is found, for rounding.
+    let mut remainder = significand << (1 + (exponent & 1));
     let (mut root, mut doubled) = (0, 0);
     let mut bit = one << 1;
     while bit != 0 {
         let grown = doubled + bit;
-        if grown <= rest {
+        if grown <= remainder {
             doubled = grown + bit;
-            rest -= grown;
+            remainder -= grown;
             root += bit;
         }
-        rest <<= 1;
+        remainder <<= 1;
         bit >>= 1;
     }
-    // A square root never lies half-way between two numbers, so that what is left decides nothing.
+    // The bit beyond the last decides alone: no square root lies half-way between two numbers.
     let rounded = (root + 1) >> 1;
     f32::from_bits(rounded + (((exponent >> 1) + BIAS - 1) as u32).wrapping_shl(SIGNIFICAND_BITS))
 }

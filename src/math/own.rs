@@ -4,23 +4,25 @@
 /// Largest angle, rad, that [`sin_cos`] reduces.
 pub const LARGEST_ANGLE: f32 = 8192.0;
 
-/// A cube root as the sum of two numbers, the first of eight bits.
+/// A cube root as the sum of two numbers: `short` has eight bits, so that its square is exact in f32; `remainder` is
+/// below 2^-7 of it.
 struct Root {
     short: f32,
-    rest: f32,
+    remainder: f32,
 }
 
 impl Root {
     #[inline]
     const fn value(&self) -> f32 {
-        self.short + self.rest
+        self.short + self.remainder
     }
 
-    /// `short²` is exact (16 bits) and the rest is small, so that only the last sum rounds to a half ulp.
+    /// `short² + remainder (2 short + remainder)`: the first term is exact (16 bits) and the second small, so that
+    /// only the last sum rounds to a half ulp.
     #[inline]
     const fn squared(&self) -> f32 {
-        let Self { short, rest } = *self;
-        short * short + rest * ((short + short) + rest)
+        let Self { short, remainder } = *self;
+        short * short + remainder * ((short + short) + remainder)
     }
 }
 
@@ -56,30 +58,34 @@ const fn root(x: f32) -> Root {
     if x.abs().to_bits().wrapping_sub(SMALLEST_CUBE) < SPAN {
         normal_root(x)
     } else {
-        let (short, rest) = rare_root(x);
-        Root { short, rest }
+        let (short, remainder) = rare_root(x);
+        Root { short, remainder }
     }
 }
 
-/// Cube root of a number from 2^-125 on, either sign, without a division. With `s` for it:
+/// Bits of the seed of [`normal_root`] less a third of the argument's bits.
+pub(crate) const SEED: u32 = 0x5477_9d9d;
+
+/// Its cubic `(ZERO - h) ((h - CENTRE)² + OFFSET)`.
+pub(crate) const ZERO: f32 = 1.448_389_2;
+pub(crate) const CENTRE: f32 = 0.351_304_5;
+pub(crate) const OFFSET: f32 = 0.744_889_5;
+
+/// Cube root of a number from 2^-125 on, either sign, without a division. With `s` for the root:
 ///
-/// 1. `t`, about `1/s`: the exponent divided by -3 in integers. `h = |x| t³` then lies between 0.45 and
-///    0.56, the same for every power of eight.
-/// 2. A cubic in `h` makes it `1/(sqrt(3) s)` within 2e-6. Of all seeds `t`, this one's minimax cubic has
-///    the leading coefficient -1: it takes three constants, and the square of the result is the
-///    derivative of Newton's method, `1/(3 s²)`.
-/// 3. `near = 3 x / (3 s²)`, within 4e-6 and a rounding. Its first eight bits are `short`, so that `short³`
+/// 1. The seed `t`, about `1/s`: the exponent divided by -3 in integers. `h = |x| t³` then lies between 0.45 and
+///    0.56, in the same way for every power of eight.
+/// 2. `t` times a cubic in `h` is `1/(sqrt(3) s)` within 2.2e-6. Another seed stretches the range of `h` and with it the
+///    coefficients of the minimax cubic; this seed makes the leading one -1, which needs no constant and no
+///    multiplication. The factor `sqrt(3)` makes the square of the result the `1/(3 s²)` of Newton's method. Seed and
+///    cubic are made again in `host-tests/tests/generators/cube_roots.rs`.
+/// 3. `near = 3 x / (3 s²)`, within 4.4e-6 and a rounding. Its first eight bits are `short`, so that `short³`
 ///    is exact in 24 bits, and exact too is `short³ - x`, the difference of two neighbours.
 /// 4. Newton's step from `near` by `near³ - x = (near - short)(near² + near short + short²) + short³ - x`.
-///    It leaves 3e-11; the rest of the root, `near - short` less the step, is below 2^-7 of it and so are
+///    It leaves 3e-11; the remainder, `near - short` less the step, is below 2^-7 of the root and so are
 ///    its roundings.
 #[inline(always)]
 const fn normal_root(x: f32) -> Root {
-    const SEED: u32 = 0x5477_9d9d;
-    const ZERO: f32 = 1.448_389_2;
-    const CENTRE: f32 = 0.351_304_5;
-    const OFFSET: f32 = 0.744_889_5;
-
     // In an order that leaves few operations waiting for the one before.
     let magnitude = x.abs();
     let t = f32::from_bits(SEED - magnitude.to_bits() / 3);
@@ -105,12 +111,14 @@ const fn normal_root(x: f32) -> Root {
     let step = difference * derivative;
     Root {
         short,
-        rest: beyond - (beyond * slope + step),
+        remainder: beyond - (beyond * slope + step),
     }
 }
 
-/// The smallest numbers by an exact cube of two; zeros, infinities and NaN are their own roots: twice themselves, squared or
-/// not.
+/// Both parts of the root of what [`normal_root`] does not take.
+///
+/// A number below 2^-125 is multiplied by 2^48, which is exact, and its root divided by 2^16. Zeros, infinities
+/// and NaN stand for both parts: their sum and the square of it are that same zero, infinity or NaN.
 #[cold]
 #[inline(never)]
 const fn rare_root(x: f32) -> (f32, f32) {
@@ -118,8 +126,8 @@ const fn rare_root(x: f32) -> (f32, f32) {
     const ONE_BY_TWO_TO_16: f32 = 1.0 / 65_536.0;
     // Neither zero nor beyond the finite numbers.
     if x.abs().to_bits().wrapping_sub(1) < SMALLEST_CUBE {
-        let Root { short, rest } = normal_root(x * TWO_TO_48);
-        (short * ONE_BY_TWO_TO_16, rest * ONE_BY_TWO_TO_16)
+        let Root { short, remainder } = normal_root(x * TWO_TO_48);
+        (short * ONE_BY_TWO_TO_16, remainder * ONE_BY_TWO_TO_16)
     } else {
         (x, x)
     }
@@ -127,37 +135,49 @@ const fn rare_root(x: f32) -> (f32, f32) {
 
 /// Sine and cosine; see [`math::sin_cos`](super::sin_cos).
 ///
-/// The nearest of 64 directions from a table, turned by the rest of the angle. The rest is at most pi/64: two terms of
-/// each series are enough, and hardly anything of them is added to the numbers of the table, so that there is
-/// little more than the rounding of these and of the last sums.
+/// The nearest of 64 directions from a table, turned by the remainder `r` of the angle, which is at most pi/64:
+/// `sin r = r - 0.166 650 r³`, the minimax fit of relative error 8e-9, and `cos r - 1 = -r²/2 + r⁴/24` of Taylor's
+/// series, which leaves `r⁶/720`, 2e-11. Both are small beside the table's numbers, so that the error is little more
+/// than the rounding of these and of the last sums. Fit and table are made again in
+/// `host-tests/tests/generators/sine.rs`.
 #[inline]
 #[must_use]
 pub const fn sin_cos(x: f32) -> (f32, f32) {
-    let (steps, rest) = reduced(x);
-    // Both results side by side: each operation then finds its operands ready, which saves a core without
-    // reordering a cycle at every second one. No index is out of bounds.
+    let (steps, remainder) = reduced(x);
+    // Both results operation by operation: a core without reordering waits a cycle where an operation needs the
+    // result of the one before. The remainder of a division by STEPS is no index out of bounds.
     let step = (steps as usize) % STEPS;
     let (cos_step, sin_step) = (TURN[step], TURN[step + STEPS / 4]);
-    let square = rest * rest;
-    let (versine, cube) = (4.166_666_8e-2 * square, rest * square);
-    let (versine, sin) = (versine - 0.5, -1.666_500_3e-1 * cube);
-    let (versine, sin) = (versine * square, rest + sin);
-    let (sin_versine, cos_versine) = (sin_step * versine, cos_step * versine);
-    let (sin_change, cos_change) = (sin_versine + cos_step * sin, cos_versine - sin_step * sin);
+    let square = remainder * remainder;
+    let (cos_less_one, cube) = (COS_FOURTH * square, remainder * square);
+    let (cos_less_one, sin) = (cos_less_one - 0.5, SIN_THIRD * cube);
+    let (cos_less_one, sin) = (cos_less_one * square, remainder + sin);
+    let (sin_shrink, cos_shrink) = (sin_step * cos_less_one, cos_step * cos_less_one);
+    let (sin_change, cos_change) = (sin_shrink + cos_step * sin, cos_shrink - sin_step * sin);
     (sin_step + sin_change, cos_step + cos_change)
 }
+
+/// Coefficient of the third power in the sine of up to pi/64.
+pub(crate) const SIN_THIRD: f32 = -1.666_500_3e-1;
+
+/// Coefficient of the fourth power in the cosine: 1/24.
+pub(crate) const COS_FOURTH: f32 = 4.166_666_8e-2;
 
 /// Directions of a turn.
 const STEPS: usize = 64;
 
-/// Cosines of the directions, backwards, which are the sines of those a quarter of a turn further on.
+/// Sines of 0, pi/32, 2 pi/32 and so on to pi/2.
+pub(crate) const SINES: [f32; STEPS / 4 + 1] = [
+    0.0, 0.09801714, 0.19509032, 0.29028466, 0.38268343, 0.47139674, 0.55557024, 0.6343933,
+    0.70710677, 0.77301043, 0.8314696, 0.8819213, 0.9238795, 0.95694035, 0.98078525, 0.9951847,
+    1.0,
+];
+
+/// Cosines of 0, pi/32, 2 pi/32 and so on, through a turn and a quarter.
+///
+/// Of the multiple `n` of pi/32 in an angle, [`reduced`] returns `-n` modulo 64: at that index stands its cosine, 16
+/// further on, `cos(pi/2 - n pi/32)`, its sine.
 const TURN: [f32; STEPS + STEPS / 4] = {
-    // Sines of pi/32, 2 pi/32 and so on.
-    const SINES: [f32; STEPS / 4 + 1] = [
-        0.0, 0.09801714, 0.19509032, 0.29028466, 0.38268343, 0.47139674, 0.55557024, 0.6343933,
-        0.70710677, 0.77301043, 0.8314696, 0.8819213, 0.9238795, 0.95694035, 0.98078525, 0.9951847,
-        1.0,
-    ];
     const QUARTER: usize = STEPS / 4;
     let mut turn = [0.0; STEPS + QUARTER];
     let mut index = 0;
@@ -177,10 +197,10 @@ const TURN: [f32; STEPS + STEPS / 4] = {
 /// The nearest multiple of pi/32 (the last six bits of its negative) and what it leaves of an angle.
 #[inline(always)]
 const fn reduced(x: f32) -> (u32, f32) {
-    let (count, rest) = reduced_from_near(x);
+    let (count, remainder) = reduced_from_near(x);
     // False for NaN too.
     if count <= 2 * LARGEST_MULTIPLE {
-        (count, rest)
+        (count, remainder)
     } else {
         reduced_from_afar(x)
     }
@@ -189,26 +209,38 @@ const fn reduced(x: f32) -> (u32, f32) {
 /// Largest multiple of pi/32 that is taken away at once: four turns.
 const LARGEST_MULTIPLE: u32 = 256;
 
+/// pi/32 as a sum, of which the first two parts have 5 and 20 bits.
+pub(crate) const STEP_PARTS: [f32; 3] = [9.765_625e-2, 5.185_203_6e-4, 6.200_585e-11];
+
+/// pi/2 as a sum, of which the first part has 8 bits.
+pub(crate) const QUARTER_PARTS: [f32; 4] = [
+    1.570_312_5,
+    4.837_512_969_970_703e-4,
+    7.549533620476723e-08,
+    2.5633440682570896e-12,
+];
+
 /// The same for angles of no more than four turns; others give a multiple that is out of range.
 ///
 /// pi/32 is taken away in three parts, the first two of so few bits (5 and 20) that their products and
-/// differences are exact where a sine or cosine vanishes, up to the sixteenth quarter of a turn: the rest keeps full
-/// relative precision there, however small it is.
+/// differences are exact where a sine or cosine vanishes, up to the sixteenth quarter of a turn: the remainder keeps
+/// full relative precision there, however small it is.
 #[inline(always)]
 const fn reduced_from_near(x: f32) -> (u32, f32) {
     // Adding it rounds to the nearest integer, and leaves that integer in the low bits, counted from
     // -LARGEST_MULTIPLE.
     const TWO_TO_23: f32 = 8_388_608.0;
     const ROUND: f32 = TWO_TO_23 + LARGEST_MULTIPLE as f32;
-    const PART_1: f32 = 9.765_625e-2;
-    const PART_2: f32 = 5.185_203_6e-4;
-    const PART_3: f32 = 6.200_585e-11;
+    let [part_1, part_2, part_3] = STEP_PARTS;
 
     // Subtracted twice from the same constant, which is loaded once.
     let shifted = ROUND - x * (16.0 * core::f32::consts::FRAC_2_PI);
     let multiple = ROUND - shifted;
-    let rest = ((x - multiple * PART_1) - multiple * PART_2) - multiple * PART_3;
-    (shifted.to_bits().wrapping_sub(TWO_TO_23.to_bits()), rest)
+    let remainder = ((x - multiple * part_1) - multiple * part_2) - multiple * part_3;
+    (
+        shifted.to_bits().wrapping_sub(TWO_TO_23.to_bits()),
+        remainder,
+    )
 }
 
 /// The same for angles of more than four turns: first multiples of pi/2, in four parts of which the first one has eight
@@ -217,19 +249,16 @@ const fn reduced_from_near(x: f32) -> (u32, f32) {
 #[inline(never)]
 const fn reduced_from_afar(x: f32) -> (u32, f32) {
     const ROUND: f32 = 12_582_912.0; // 1.5 x 2^23
-    const PART_1: f32 = 1.570_312_5;
-    const PART_2: f32 = 4.837_512_969_970_703e-4;
-    const PART_3: f32 = 7.549533620476723e-08;
-    const PART_4: f32 = 2.5633440682570896e-12;
+    let [part_1, part_2, part_3, part_4] = QUARTER_PARTS;
 
     if x.abs() <= LARGEST_ANGLE {
         let shifted = ROUND - x * core::f32::consts::FRAC_2_PI;
         let multiple = ROUND - shifted;
-        let rest =
-            ((x - multiple * PART_1) - multiple * PART_2) - multiple * PART_3 - multiple * PART_4;
-        let (count, rest) = reduced_from_near(rest);
+        let remainder =
+            ((x - multiple * part_1) - multiple * part_2) - multiple * part_3 - multiple * part_4;
+        let (count, remainder) = reduced_from_near(remainder);
         let quarters = shifted.to_bits().wrapping_mul(STEPS as u32 / 4);
-        (count.wrapping_add(quarters), rest)
+        (count.wrapping_add(quarters), remainder)
     } else if x.is_finite() {
         (0, 0.0)
     } else {

@@ -1,26 +1,32 @@
 //! Powers of a contact force, to five digits.
 
+/// Bits of the seed of [`inverse_cube_roots`] less a third of the argument's bits.
+pub(crate) const SEED: u32 = 0x548d_0ddb;
+
+/// The seed's correction `p0 - c (p1 - p2 c)`, a parabola in `c = x y³`.
+pub(crate) const PARABOLA: [f32; 3] = [1.743_091_7, 1.224_815, 0.490_906_86];
+
 /// `x^(-1/3)` of two positive normal numbers, with a relative error of 2.7e-5: `x` times it is
 /// `x^(2/3)`, `x` times its square is `x^(1/3)`. Zero gives a finite number, so that both are zero.
 ///
-/// The exponent divided by -3 in integers gives `y` within 3 % of a multiple of it; the minimax parabola
-/// of `c^(-1/3)` on the range that `c = x y³` then takes (0.653 to 0.774) does the rest. A third of the
-/// price of a cube root, and no division; contact forces are never known to five digits. The two run
-/// side by side: each instruction then has its operands ready, which saves a core without reordering a
-/// cycle at every second one.
+/// The exponent divided by -3 in integers gives a seed `y`, within 3 % of a multiple of the result. `c = x y³` then lies
+/// between 0.653 and 0.774 for every `x`, and the minimax parabola of `c^(-1/3)` on that range does the rest; seed and
+/// parabola are made again in `host-tests/tests/generators/cube_roots.rs`. A third of the price of a cube root, and
+/// no division; contact forces are never known to five digits. Two at once, operation by operation: a core without
+/// reordering waits a cycle where an operation needs the result of the one before.
 #[inline]
 pub(crate) fn inverse_cube_roots(x: [f32; 2]) -> [f32; 2] {
-    const EXPONENT: u32 = 0x548d_0ddb;
+    let [p0, p1, p2] = PARABOLA;
     let [p, q] = x;
-    let y = f32::from_bits(EXPONENT - p.to_bits() / 3);
-    let z = f32::from_bits(EXPONENT - q.to_bits() / 3);
+    let y = f32::from_bits(SEED - p.to_bits() / 3);
+    let z = f32::from_bits(SEED - q.to_bits() / 3);
     let (c, d) = (p * y, q * z);
     let (e, f) = (y * y, z * z);
     let (c, d) = (c * e, d * f);
-    let (e, f) = (0.490_906_86 * c, 0.490_906_86 * d);
-    let (e, f) = (1.224_815 - e, 1.224_815 - f);
+    let (e, f) = (p2 * c, p2 * d);
+    let (e, f) = (p1 - e, p1 - f);
     let (e, f) = (c * e, d * f);
-    let (e, f) = (1.743_091_7 - e, 1.743_091_7 - f);
+    let (e, f) = (p0 - e, p0 - f);
     [y * e, z * f]
 }
 

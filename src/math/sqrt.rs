@@ -10,8 +10,8 @@ pub fn sqrt(x: f32) -> f32 {
     target::sqrt(x)
 }
 
-/// Two square roots. On an Arm core they take fewer cycles together: while one operand is on its way into the
-/// floating-point unit, or one root on its way out, the other one is worked on.
+/// Two square roots. On an Arm core they take fewer cycles together: one operand or root moves between the integer and
+/// the floating-point registers while the other root is computed.
 #[inline]
 #[must_use]
 pub fn sqrt_pair(x: f32, y: f32) -> (f32, f32) {

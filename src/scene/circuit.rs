@@ -2,7 +2,7 @@
 //! their checks.
 
 mod configuration;
-mod deviation;
+pub(crate) mod deviation;
 mod phase;
 mod zone;
 

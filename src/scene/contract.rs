@@ -183,7 +183,7 @@ impl Reversal {
         speed / math::sqrt(speed * speed + self.squared)
     }
 
-    /// Whether a speed is below the reversal speed, either way.
+    /// Whether a speed is below the reversal speed, in either direction.
     #[inline(always)]
     pub(super) const fn stands(&self, speed: f32) -> bool {
         speed.abs() < self.speed

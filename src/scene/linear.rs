@@ -13,12 +13,13 @@ use crate::error::{Error, attempt, in_range};
 use crate::geometry::LinearBearing;
 use crate::hertz::HertzContact;
 use crate::math;
+use crate::ranges;
 
 /// Force of a diagonal below which it does not count, N.
 const SMALLEST_FORCE: f32 = 2e-6;
 
 /// `2^(-4/3)`: a diagonal's force to the power of 4/3 is that of its sum of two equal contact forces, times this.
-const HALF_TO_FOUR_THIRDS: f32 = 0.396_850_26;
+pub(crate) const HALF_TO_FOUR_THIRDS: f32 = 0.396_850_26;
 
 /// A linear bearing without cage, with `N` balls in one circuit, in four-point contact: the published
 /// closed form for every ball ([`AnalyticLinearBall`](crate::ball::AnalyticLinearBall)), with its corrections.
@@ -67,7 +68,7 @@ pub struct LinearLimits {
 pub struct LinearBearingConfiguration {
     /// The validated design.
     pub bearing: LinearBearing,
-    /// Coulomb friction coefficient of ball and groove, 1e-3 to 1.
+    /// Coulomb friction coefficient of ball and groove, 1e-6 to 1.
     pub friction: f32,
     /// Coulomb friction coefficient of ball and ball, 0 to 1.
     pub ball_friction: f32,
@@ -234,8 +235,8 @@ impl<const N: usize> LinearConstants<N> {
             limits,
             ..
         } = *configuration;
-        attempt!(in_range("friction", friction, 1e-3, 1.0));
-        attempt!(in_range("ball_friction", ball_friction, 0.0, 1.0));
+        attempt!(ranges::FRICTION.checked("friction", friction));
+        attempt!(ranges::FRICTION_OR_NONE.checked("ball_friction", ball_friction));
         let reversal = attempt!(Reversal::new(reversal_speed, 1e-9, 10.0));
         let limits = attempt!(limits.checked());
         let circuit = attempt!(configuration.circuit(&limits, N));
@@ -252,7 +253,7 @@ impl<const N: usize> LinearConstants<N> {
         let radius = bearing.ball_radius();
         let semi_major = contact.semi_major_coefficient();
         let half_tangent = 0.5 * angle.sin / angle.cos;
-        // Four contacts that spin with v tan(beta)/(2 R_B) each.
+        // Four contacts that spin with v tan(beta)/(2 r_b) each.
         let drag = 2.0 * map.spin_moment() * friction * semi_major * half_tangent / radius;
         let ball = AnalyticLinearBall::folded(
             half_tangent,
@@ -305,14 +306,15 @@ impl<const N: usize> LinearConstants<N> {
         let mut shares = 0.0;
         let mut balls = state.train.intake(self.circuit.travel(speed));
         while let Some(next) = balls.next_ball() {
-            match self.circuit.place(next.position(), phase) {
+            let (free, impedance) = match self.circuit.place(next.position(), phase) {
                 Some(place) => {
                     shares += place.share.four_thirds();
                     let free = recirculating * place.recirculating + passing * place.passing;
-                    next.put(free, impedance * place.share.two_thirds());
+                    (free, impedance * place.share.two_thirds())
                 }
-                None => next.put(0.0, UNLOADED),
-            }
+                None => (0.0, UNLOADED),
+            };
+            next.put(free, impedance);
         }
         let pressing = balls.press();
         state.advance(&self.circuit, speed);

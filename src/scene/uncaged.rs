@@ -13,6 +13,7 @@ use crate::ball::{GrooveFit, LoadShare, LoopSums, ScrewRow};
 use crate::error::{Error, attempt, in_range};
 use crate::geometry::BallScrew;
 use crate::math::elliptic::arc_sine;
+use crate::ranges;
 use crate::train::LARGEST_FREE_SPEED;
 
 /// A ball screw without cage, with `N` balls in one circuit: friction of the grooves and between balls.
@@ -31,7 +32,7 @@ pub struct UncagedBallScrew<const N: usize>;
 pub struct UncagedBallScrewConfiguration {
     /// The validated design.
     pub design: BallScrew,
-    /// Coulomb friction coefficient of ball and groove, 1e-3 to 0.5.
+    /// Coulomb friction coefficient of ball and groove, 1e-6 to 0.5.
     pub friction: f32,
     /// Coulomb friction coefficient of ball and ball, 0 to 1.
     pub ball_friction: f32,
@@ -193,8 +194,8 @@ impl<const N: usize> UncagedConstants<N> {
             limits,
             ..
         } = *configuration;
-        attempt!(in_range("friction", friction, 1e-3, 0.5));
-        attempt!(in_range("ball_friction", ball_friction, 0.0, 1.0));
+        attempt!(ranges::FRICTION_OF_A_ROW.checked("friction", friction));
+        attempt!(ranges::FRICTION_OR_NONE.checked("ball_friction", ball_friction));
         let reversal = attempt!(Reversal::new(reversal_speed, 1e-6, 1e3));
         let limits = attempt!(limits.checked());
         let row = attempt!(ScrewRow::new(design, friction, fit));

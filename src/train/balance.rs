@@ -91,7 +91,7 @@ pub(super) fn not_negative(force: f32) -> f32 {
 }
 
 /// The bits of a force, or of zero where it is negative. Of forces that are not negative the larger one has the
-/// larger bits, and those of zero are zero: integers compare without the way over the floating-point flags.
+/// larger bits, and those of zero are zero: integers compare without a detour over the floating-point flags.
 #[inline(always)]
 pub(super) fn not_negative_bits(force: f32) -> i32 {
     let bits = force.to_bits() as i32;

@@ -1,5 +1,7 @@
 //! A tick of a train: each ball is taken in once, from the front backwards, then all are joined, settled and moved.
 
+use core::mem::ManuallyDrop;
+
 use super::ball::Ball;
 use super::motion::{Motion, SIXTEENTHS};
 use super::positions::Train;
@@ -56,31 +58,66 @@ impl<const N: usize> Train<N> {
     /// nominal speed and press on none.
     pub fn step(&mut self, free: &[f32; N], impedance: &[f32; N], travel: f32) -> bool {
         let mut check = InputCheck::default();
-        let mut balls = self.intake(travel);
-        for (&speed, &impedance) in free.iter().zip(impedance).rev() {
+        let (travel, mut ahead) = self.begin(travel);
+        let inputs = free.iter().zip(impedance);
+        for (ball, (&speed, &impedance)) in self.press.balls.iter_mut().zip(inputs).rev() {
             check.add(speed, impedance);
-            if let Some(ball) = balls.next_ball() {
-                ball.put(speed, impedance);
-            }
+            ahead.take_in(ball, speed, impedance);
         }
-        balls.finish(check.passed());
+        self.finish(travel, &ahead, check.passed());
         check.passed()
     }
 
     /// Begins a tick; `travel`, m, as in [`Train::step`].
     #[inline(always)]
     pub(crate) fn intake(&mut self, travel: f32) -> Intake<'_, N> {
-        let travel = self.track.in_units(travel);
-        let first = self.press.balls.first().map_or(0, Ball::position);
+        let (travel, ahead) = self.begin(travel);
         Intake {
             left: N,
             travel,
-            ahead: Ahead {
-                rooms: Rooms::behind(first, self.track, travel),
-                // Of the first ball, which comes last: `complete` puts it in.
-                free_speed: 0.0,
-            },
+            ahead,
             train: self,
+        }
+    }
+
+    /// The travel in units, and what the last ball has to know of the first, which is ahead of it on the ring.
+    #[inline(always)]
+    fn begin(&self, travel: f32) -> (f32, Ahead) {
+        let travel = self.track.in_units(travel);
+        let first = self.press.balls.first().map_or(0, Ball::position);
+        let ahead = Ahead {
+            rooms: Rooms::behind(first, self.track, travel),
+            // Not known before the first ball comes, at the end: `complete` puts it in.
+            free_speed: 0.0,
+        };
+        (travel, ahead)
+    }
+
+    /// Joins, settles and moves the balls; where some input does not count, all move at the nominal speed.
+    #[inline(always)]
+    fn finish(&mut self, travel: f32, ahead: &Ahead, valid: bool) -> Pressing {
+        self.complete(&ahead.rooms);
+        let motion = self.motion(travel);
+        self.press.join(valid);
+        self.press.settle(motion)
+    }
+
+    /// Puts in the two slacks that the way from the front backwards leaves open: that of the last ball, whose ball
+    /// in front comes at the end, and that of the ball that was foremost in the last tick. That tick moved it first,
+    /// and the ball in front of it last, so that these two alone may overlap by rounding.
+    #[inline(always)]
+    fn complete(&mut self, rooms: &Rooms) {
+        let last = N - 1;
+        let press = &mut self.press;
+        for index in [last, press.foremost()] {
+            let ahead = if index == last { 0 } else { index + 1 };
+            let Some(&ahead) = press.balls.get(ahead) else {
+                continue;
+            };
+            if let Some(ball) = press.balls.get_mut(index) {
+                let room = rooms.without_overlap(ball.position(), ahead.position());
+                ball.set_slack(room + (ahead.free_speed() - ball.free_speed()));
+            }
         }
     }
 
@@ -113,42 +150,21 @@ impl<const N: usize> Intake<'_, N> {
 
     /// Which balls press on each other, and how hard; moves all balls. Balls that have not come are taken as dropped.
     #[inline(always)]
-    pub(crate) fn press(self) -> Pressing {
-        self.finish(true)
-    }
-
-    /// [`Intake::press`]; where some input does not count, all balls move at the nominal speed.
-    #[inline(always)]
-    fn finish(mut self, valid: bool) -> Pressing {
+    pub(crate) fn press(mut self) -> Pressing {
         while let Some(ball) = self.next_ball() {
             drop(ball);
         }
-        self.complete();
-        let motion = self.train.motion(self.travel);
-        self.train.press.join(valid);
-        self.train.press.settle(motion)
+        self.train.finish(self.travel, &self.ahead, true)
     }
+}
 
-    /// Puts in the two slacks that the way from the front backwards leaves open: that of the last ball, whose ball
-    /// in front comes at the end, and that of the ball that was foremost in the last tick. That tick moved it first,
-    /// and the ball in front of it last, so that these two alone may overlap by rounding.
+impl Ahead {
+    /// Takes in a ball, which then is the one ahead.
     #[inline(always)]
-    fn complete(&mut self) {
-        let last = N - 1;
-        let press = &mut self.train.press;
-        for index in [last, press.foremost()] {
-            let ahead = if index == last { 0 } else { index + 1 };
-            let Some(&ahead) = press.balls.get(ahead) else {
-                continue;
-            };
-            if let Some(ball) = press.balls.get_mut(index) {
-                let room = self
-                    .ahead
-                    .rooms
-                    .without_overlap(ball.position(), ahead.position());
-                ball.set_slack(room + (ahead.free_speed() - ball.free_speed()));
-            }
-        }
+    fn take_in(&mut self, ball: &mut Ball, speed: f32, impedance: f32) {
+        let room = self.rooms.next(ball.position());
+        ball.take_in(speed, impedance, room + (self.free_speed - speed));
+        self.free_speed = speed;
     }
 }
 
@@ -163,25 +179,17 @@ impl FreeBall<'_> {
     /// [`LARGEST_FREE_SPEED`](super::LARGEST_FREE_SPEED), and its impedance, N, within [`IMPEDANCE_RANGE`]. Neither is
     /// checked here: the scene's set-up has to see to it.
     #[inline(always)]
-    pub(crate) fn put(mut self, speed: f32, impedance: f32) {
-        self.take_in(speed, impedance);
-        // It has its answer.
-        core::mem::forget(self);
-    }
-
-    #[inline(always)]
-    fn take_in(&mut self, speed: f32, impedance: f32) {
-        let room = self.ahead.rooms.next(self.ball.position());
-        let slack = room + (self.ahead.free_speed - speed);
-        self.ball.take_in(speed, impedance, slack);
-        self.ahead.free_speed = speed;
+    pub(crate) fn put(self, speed: f32, impedance: f32) {
+        let mut answered = ManuallyDrop::new(self);
+        let Self { ball, ahead } = &mut *answered;
+        ahead.take_in(ball, speed, impedance);
     }
 }
 
 impl Drop for FreeBall<'_> {
     #[inline(always)]
     fn drop(&mut self) {
-        self.take_in(0.0, UNSAID);
+        self.ahead.take_in(self.ball, 0.0, UNSAID);
     }
 }
 

@@ -6,8 +6,9 @@
 use epas_friction::Error;
 
 use crate::contexts::Contexts;
+use crate::inputs::CASES;
 use crate::spread::Spread;
-use crate::subjects::{CASES, SUBJECTS, Subject, WIDEST};
+use crate::subjects::{SUBJECTS, Subject, WIDEST};
 
 /// The stored file.
 pub static STORED: &[u8] = include_bytes!("../cases.bin");

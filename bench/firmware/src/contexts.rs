@@ -18,13 +18,14 @@ use epas_friction::refined::{
 };
 use epas_friction::train::{Press, Train};
 use epas_friction::{
-    BallScrew, CATALOGUE, CagedBallScrew, Error, FrictionModel, GrooveFit, Inputs,
+    BallScrew, CATALOGUE, CagedBallScrew, DeviationMap, Error, FrictionModel, GrooveFit, Inputs,
     LinearBearingTrain, UncagedBallScrew,
 };
 
 use crate::peers::{LuGre, Stribeck};
-use crate::scenes::{ROW, caged_configuration, linear_configuration, uncaged_configuration};
-use crate::subjects::BALLS;
+use crate::scenes::{
+    BALLS, ROW, SCREW_DEVIATION, caged_configuration, linear_configuration, uncaged_configuration,
+};
 
 /// Everything that is set up once.
 pub struct Contexts {
@@ -62,6 +63,8 @@ pub struct Contexts {
     pub rotary_ball: BallState,
     /// Caged ball screw.
     pub caged: FrictionModel<CagedBallScrew>,
+    /// Deviation of contact angles along a groove.
+    pub deviation: &'static DeviationMap,
     /// Balls of a ball screw in closed form.
     pub screw_row: ScrewRow,
     /// The same at a tick.
@@ -153,6 +156,7 @@ impl Contexts {
                 .solve(&rotary.four_point().contacts(&rotary_nominal, &[100.0; 4])),
             rotary,
             caged: FrictionModel::new(&black_box(caged_configuration()?))?,
+            deviation: &SCREW_DEVIATION,
             screw_tick: screw_row.at(10.0, 100.0),
             screw_row,
             press: Press::new(),

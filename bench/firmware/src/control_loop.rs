@@ -12,10 +12,10 @@ use epas_friction::{
 
 use crate::cases::Reader;
 use crate::devices::{BIT_LOST, Bridge, GEAR_RATIO, Sensor, TICK};
+use crate::numbers::{linear_outputs, outputs, uncaged_outputs};
 use crate::scenes::{
-    Digest, ROW, caged_configuration, linear_configuration, uncaged_configuration,
+    BALLS, Digest, ROW, caged_configuration, linear_configuration, uncaged_configuration,
 };
-use crate::subjects::{BALLS, linear_outputs, outputs, uncaged_outputs};
 
 /// The recorded manoeuvre: how many ticks, the digest that a host found, and for each tick the nut speed,
 /// rad/s, and the axial load, N; words of 32 bits, little endian.

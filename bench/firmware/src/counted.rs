@@ -6,7 +6,7 @@
 // Rust calls Rust here: the C calling convention is what passes numbers in floating-point registers.
 #![allow(improper_ctypes_definitions)]
 
-use epas_friction::ball::{AnalyticLinearBall, ScrewRow, ScrewTick, ScrewTickBall};
+use epas_friction::ball::{AnalyticLinearBall, ScrewRow, ScrewTick, ScrewTickBall, SpeedDeviation};
 use epas_friction::contact::{Dissipation, FrictionMap, NormalizedFriction};
 use epas_friction::curvature::{
     CircularGrooveCurvature, FittedCurvature, GothicArch, LiteratureCurvature, PrincipalCurvatures,
@@ -18,13 +18,12 @@ use epas_friction::kinematics::{BallKinematics, ContactKinematics, EllipticConta
 use epas_friction::refined::{BallChain, BallState, FourPointBall, RotaryBall};
 use epas_friction::train::{Press, Train};
 use epas_friction::{
-    CagedBallScrew, FrictionModel, Inputs, LinearBearingTrain, LinearInputs, LinearOutputs,
-    LoadShare, Outputs, UncagedBallScrew, UncagedOutputs, math,
+    CagedBallScrew, DeviationMap, FrictionModel, Inputs, LinearBearingTrain, LinearInputs,
+    LinearOutputs, LoadShare, Outputs, UncagedBallScrew, UncagedOutputs, math,
 };
 
 use crate::peers::{LuGre, Stribeck};
-use crate::scenes::{EfficiencyStep, ROW, efficiency_step};
-use crate::subjects::BALLS;
+use crate::scenes::{BALLS, EfficiencyStep, ROW, efficiency_step};
 
 /// Angles and forces of four contacts.
 #[derive(Clone, Copy, Debug)]
@@ -124,6 +123,11 @@ counted! {
         math::cbrt(x)
     }
 
+    /// Square of the cube root.
+    fn count_cbrt_squared(x: f32) -> f32 {
+        math::cbrt_squared(x)
+    }
+
     /// Cube root and its square.
     fn count_cbrt_and_squared(x: f32) -> (f32, f32) {
         math::cbrt_and_squared(x)
@@ -132,6 +136,11 @@ counted! {
     /// Sine and cosine.
     fn count_sin_cos(x: f32) -> (f32, f32) {
         math::sin_cos(x)
+    }
+
+    /// One ball by the published closed form.
+    fn count_linear_ball_speed(ball: &AnalyticLinearBall, contacts: &FourContacts) -> SpeedDeviation {
+        ball.speed_deviation(&contacts.angles, &contacts.forces)
     }
 
     /// Two balls by the published closed form, and the force between them.
@@ -178,6 +187,11 @@ counted! {
     /// One tick of a caged ball screw.
     fn count_step_caged(model: &mut FrictionModel<CagedBallScrew>, nut_speed: f32, axial_load: f32) -> Outputs {
         model.step(Inputs { nut_speed, axial_load })
+    }
+
+    /// Deviation of a contact angle along a groove.
+    fn count_deviation_map(map: &DeviationMap, phase: u32) -> f32 {
+        map.at(phase)
     }
 
     /// A row of balls under one load.

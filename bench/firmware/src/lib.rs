@@ -10,6 +10,8 @@ pub mod contexts;
 pub mod control_loop;
 pub mod counted;
 pub mod devices;
+pub mod inputs;
+pub mod numbers;
 pub mod peers;
 pub mod scenes;
 pub mod spread;

@@ -14,7 +14,10 @@ use epas_friction::{
     UncagedBallScrewConfiguration, UncagedConstants,
 };
 
-use crate::subjects::{BALLS, linear_outputs, outputs, uncaged_outputs};
+use crate::numbers::{linear_outputs, outputs, uncaged_outputs};
+
+/// Balls in the ball screw's circuit.
+pub const BALLS: usize = 37;
 
 /// Balls in the linear bearing's circuit.
 pub const ROW: usize = 24;
@@ -23,7 +26,7 @@ pub const ROW: usize = 24;
 pub const TICK: f32 = 1e-3;
 
 /// Two waves a turn, Lin 2019, Fig. 3.23.
-static SCREW_DEVIATION: DeviationMap = folded(DeviationMap::from_harmonics(
+pub static SCREW_DEVIATION: DeviationMap = folded(DeviationMap::from_harmonics(
     1,
     &[Harmonic {
         order: 2,

@@ -2,42 +2,30 @@
 
 use core::hint::black_box;
 
-use epas_friction::ball::ScrewTickBall;
-use epas_friction::kinematics::{BallKinematics, ContactSlip, EllipticContact};
-use epas_friction::{Faults, LinearOutputs, LoadShare, Outputs, Regime, UncagedOutputs, math};
+use epas_friction::LoadShare;
+use epas_friction::kinematics::EllipticContact;
 
 use crate::contexts::Contexts;
 use crate::counted::{
     FourContacts, count_ball_screw_ball, count_ball_screw_row, count_cbrt, count_cbrt_and_squared,
-    count_curvature_circular_groove, count_curvature_exact, count_curvature_fitted,
-    count_curvature_literature, count_efficiency_backdrive, count_efficiency_rolling,
-    count_efficiency_sliding, count_friction_dissipation, count_friction_map, count_hertz_ellipse,
-    count_idsp_sin_cos, count_kinematics_ratios, count_kinematics_tick, count_kinematics_update,
-    count_libm_cbrtf, count_libm_cosf, count_libm_powf, count_libm_sincosf, count_libm_sqrtf,
-    count_linear_ball_analytic, count_linear_ball_refined, count_linear_chain_2, count_lugre_step,
-    count_micromath_cos, count_micromath_powf, count_micromath_sqrt, count_press_37,
-    count_rotary_ball_refined, count_sin_cos, count_sqrt, count_step_caged, count_step_efficiency,
-    count_step_linear, count_step_train_37, count_step_train_37_pressing, count_stribeck_curve,
-    count_train_37,
+    count_cbrt_squared, count_curvature_circular_groove, count_curvature_exact,
+    count_curvature_fitted, count_curvature_literature, count_deviation_map,
+    count_efficiency_backdrive, count_efficiency_rolling, count_efficiency_sliding,
+    count_friction_dissipation, count_friction_map, count_hertz_ellipse, count_idsp_sin_cos,
+    count_kinematics_ratios, count_kinematics_tick, count_kinematics_update, count_libm_cbrtf,
+    count_libm_cosf, count_libm_powf, count_libm_sincosf, count_libm_sqrtf,
+    count_linear_ball_analytic, count_linear_ball_refined, count_linear_ball_speed,
+    count_linear_chain_2, count_lugre_step, count_micromath_cos, count_micromath_powf,
+    count_micromath_sqrt, count_press_37, count_rotary_ball_refined, count_sin_cos, count_sqrt,
+    count_step_caged, count_step_efficiency, count_step_linear, count_step_train_37,
+    count_step_train_37_pressing, count_stribeck_curve, count_train_37,
 };
-use crate::scenes::EfficiencyStep;
+use crate::inputs::{
+    SPECIAL, angle, contact_angle, four_contacts, impedances, pair, positive, tick, train, wave,
+};
+use crate::numbers::{all, linear_outputs, motion, outputs, screw_ball, two, uncaged_outputs};
+use crate::scenes::{BALLS, EfficiencyStep};
 use crate::spread::Spread;
-
-/// Cases of each function that are stored and compared.
-pub const CASES: u32 = 128;
-
-/// Cases of each function that are counted: the first ones, the specials from [`SPECIAL`] on included.
-pub const COUNTED: u32 = 64;
-
-/// From this case on come inputs that a range does not reach.
-const SPECIAL: u32 = 48;
-
-/// From this case on come the inputs of a broken sensor. They are checked and not counted: the way that
-/// leads to the safe output is short, and would stand for the least cost of a step.
-const BROKEN: u32 = COUNTED;
-
-/// Balls of a train.
-pub const BALLS: usize = 37;
 
 /// Most inputs and most outputs that a function has.
 pub const WIDEST: usize = 40;
@@ -99,188 +87,11 @@ macro_rules! timed {
     }};
 }
 
-/// Cosine and sine of a contact angle from 0 to 80 degrees.
-fn contact_angle(spread: &mut Spread) -> [f32; 2] {
-    let (sin, cos) = math::sin_cos(spread.between(0.0, 1.4));
-    [cos, sin]
-}
-
-/// Any positive number: every magnitude, zero, and the smallest.
-fn positive(spread: &mut Spread) -> [f32; 1] {
-    let number = spread.magnitude(1e-30, 1e30);
-    [spread
-        .special(&[0.0, 1e-40, f32::MIN_POSITIVE, f32::MAX, 1.0], SPECIAL)
-        .unwrap_or(number)]
-}
-
-/// Angles within two turns, and the multiples of a quarter turn.
-fn angle(spread: &mut Spread) -> [f32; 1] {
-    use core::f32::consts::{FRAC_PI_2, PI, TAU};
-    let angle = spread.between(-TAU, TAU);
-    [spread
-        .special(&[0.0, FRAC_PI_2, PI, -PI, 1e-20], SPECIAL)
-        .unwrap_or(angle)]
-}
-
-/// Angles and forces of a ball in four-point contact under a side force of up to 0.9 of the preload.
-fn four_contacts(spread: &mut Spread) -> [f32; 8] {
-    let side = spread.between(-0.9, 0.9);
-    let load = spread.between(20.0, 200.0);
-    let (strong, weak) = (load * (1.0 + side), load * (1.0 - side));
-    let mut near = || core::f32::consts::FRAC_PI_4 + spread.between(-0.05, 0.05);
-    [near(), near(), near(), near(), strong, weak, strong, weak]
-}
-
-fn pair(rear: [f32; 8], front: [f32; 8]) -> [f32; 16] {
-    let mut both = [0.0; 16];
-    for (place, value) in both.iter_mut().zip(rear.into_iter().chain(front)) {
-        *place = value;
-    }
-    both
-}
-
 fn contacts([a, b, c, d, e, f, g, h]: [f32; 8]) -> FourContacts {
     FourContacts {
         angles: [a, b, c, d],
         forces: [e, f, g, h],
     }
-}
-
-/// An axial load and a nut speed, with the inputs of a broken sensor.
-fn tick(spread: &mut Spread) -> [f32; 2] {
-    let speed = spread.between(-60.0, 60.0);
-    let load = spread.between(-12_000.0, 12_000.0);
-    let extreme = [0.0, 1e9, -0.0, -1e9];
-    let broken = [f32::NAN, f32::INFINITY, -f32::INFINITY];
-    let pick = |extreme_from, broken_from, sound| {
-        spread
-            .special(&extreme, extreme_from)
-            .or(spread.special(&broken, broken_from))
-            .unwrap_or(sound)
-    };
-    [
-        pick(SPECIAL, BROKEN, speed),
-        pick(SPECIAL + 2, BROKEN + 2, load),
-    ]
-}
-
-/// Free speeds of a train as a triangular wave: its amplitude, the waves in the train and where it starts;
-/// every fourth case a ramp on which all balls run into each other or away from each other.
-fn train(spread: &mut Spread) -> [f32; 3] {
-    let amplitude = spread.between(-0.05, 0.05);
-    let waves = spread.between(0.5, 12.0);
-    let start = spread.between(0.0, 1.0);
-    if spread.index() % 4 == 3 {
-        [amplitude, 0.25, 0.0]
-    } else {
-        [amplitude, waves, start]
-    }
-}
-
-/// The free speeds of such a train.
-fn wave([amplitude, waves, start]: [f32; 3]) -> [f32; BALLS] {
-    core::array::from_fn(|ball| {
-        let phase = start + waves * (ball as f32 * (1.0 / BALLS as f32));
-        let fraction = phase - phase as i32 as f32;
-        let triangle = if fraction < 0.5 {
-            fraction
-        } else {
-            1.0 - fraction
-        };
-        amplitude * (4.0 * triangle - 1.0)
-    })
-}
-
-/// Impedances of loaded balls, which differ with their loads.
-fn impedances() -> [f32; BALLS] {
-    core::array::from_fn(|ball| 1e3 + 20.0 * (ball % 7) as f32)
-}
-
-fn slip(slip: &ContactSlip) -> [f32; 4] {
-    [
-        slip.rolling_slip,
-        slip.side_slip,
-        slip.spin,
-        slip.entrainment_speed,
-    ]
-}
-
-fn motion(ball: &BallKinematics) -> [f32; 10] {
-    let [a, b, c, d] = slip(&ball.screw);
-    let [e, f, g, h] = slip(&ball.nut);
-    [ball.orbital_speed, ball.spin_speed, a, b, c, d, e, f, g, h]
-}
-
-/// Regime and flags as one number.
-fn condition(regime: Regime, faults: Faults) -> f32 {
-    let regime = match regime {
-        Regime::Standing => 0,
-        Regime::Driving => 1,
-        Regime::BackDriving => 2,
-        Regime::Locked => 3,
-    };
-    f32::from(regime + 4 * u16::from(faults.bits()))
-}
-
-/// What a caged ball screw puts out, as numbers.
-#[must_use]
-pub fn outputs(outputs: &Outputs) -> [f32; 4] {
-    [
-        outputs.friction_torque,
-        outputs.load_torque,
-        outputs.efficiency,
-        condition(outputs.regime, outputs.faults),
-    ]
-}
-
-/// What a ball screw without cage puts out, as numbers.
-#[must_use]
-pub fn uncaged_outputs(outputs: &UncagedOutputs) -> [f32; 7] {
-    [
-        outputs.friction_torque,
-        outputs.groove_torque,
-        outputs.ball_torque,
-        outputs.load_torque,
-        f32::from(outputs.contacts),
-        outputs.largest_contact_force,
-        condition(outputs.regime, outputs.faults),
-    ]
-}
-
-/// What a linear bearing puts out, as numbers.
-#[must_use]
-pub fn linear_outputs(outputs: &LinearOutputs) -> [f32; 7] {
-    [
-        outputs.friction_force,
-        outputs.groove_force,
-        outputs.ball_force,
-        0.0,
-        f32::from(outputs.contacts),
-        outputs.largest_contact_force,
-        condition(outputs.regime, outputs.faults),
-    ]
-}
-
-fn screw_ball(ball: &ScrewTickBall, more: f32) -> [f32; 5] {
-    [
-        ball.speed_deviation,
-        ball.compliance,
-        ball.groove_torque,
-        ball.rubbing,
-        more,
-    ]
-}
-
-fn all(values: impl Iterator<Item = f32>) -> [f32; BALLS] {
-    let mut all = [0.0; BALLS];
-    for (place, value) in all.iter_mut().zip(values) {
-        *place = value;
-    }
-    all
-}
-
-fn two((first, second): (f32, f32)) -> [f32; 2] {
-    [first, second]
 }
 
 subjects! {
@@ -360,16 +171,24 @@ subjects! {
         ],
         |c, [slip, spin, semi_major, stick]| -> [8] {
             let at = timed!(c, count_friction_dissipation(black_box(&c.map), slip, spin, semi_major, stick));
-            [at.potential, at.power, at.force, at.moment, at.stiffness, at.tilt, at.stick, at.rim]
+            [at.potential, at.power, at.force, at.moment, at.stiffness, at.tilt, at.stick, at.end_speed]
         };
     sqrt: |spread| -> [1] positive(spread),
         |c, [x]| -> [1] [timed!(c, count_sqrt(x))];
     cbrt: |spread| -> [1] positive(spread),
         |c, [x]| -> [1] [timed!(c, count_cbrt(x))];
+    cbrt_squared: |spread| -> [1] positive(spread),
+        |c, [x]| -> [1] [timed!(c, count_cbrt_squared(x))];
     cbrt_and_squared: |spread| -> [1] positive(spread),
         |c, [x]| -> [2] two(timed!(c, count_cbrt_and_squared(x)));
     sin_cos: |spread| -> [1] angle(spread),
         |c, [x]| -> [2] two(timed!(c, count_sin_cos(x)));
+    linear_ball_speed: |spread| -> [8] four_contacts(spread),
+        |c, input| -> [2] {
+            let ball = black_box(contacts(input));
+            let moved = timed!(c, count_linear_ball_speed(black_box(&c.analytic), &ball));
+            [moved.speed_deviation, moved.compliance]
+        };
     linear_ball_analytic: |spread| -> [16] pair(four_contacts(spread), four_contacts(spread)),
         |c, [a, b, d, e, f, g, h, i, j, k, l, m, n, o, p, q]| -> [1] {
             let rear = black_box(contacts([a, b, d, e, f, g, h, i]));
@@ -419,6 +238,11 @@ subjects! {
         |c, [nut_speed, axial_load]| -> [4] outputs(
             &timed!(c, count_step_caged(black_box(&mut c.caged), nut_speed, axial_load))
         );
+    deviation_map: |spread| -> [1] [spread.between(0.0, 1.0)],
+        |c, [period]| -> [1] {
+            let phase = (period * 4_294_967_296.0) as u32;
+            [timed!(c, count_deviation_map(black_box(c.deviation), phase))]
+        };
     ball_screw_row: |spread| -> [2] [spread.between(-60.0, 60.0), spread.between(-400.0, 400.0)],
         |c, [nut_speed, load]| -> [5] {
             c.screw_tick = timed!(c, count_ball_screw_row(black_box(&c.screw_row), nut_speed, load));

@@ -9,7 +9,7 @@ use epas_friction::{
 };
 use serde::Deserialize;
 
-use super::{MaterialTable, groove_size, material, radius, replace};
+use super::tables::{MaterialTable, from_file, groove_size, material, radius, replace};
 use crate::failure::Failure;
 
 /// A ball screw without cage: how many balls, and everything but the tick.
@@ -240,7 +240,7 @@ impl LinearDesign {
 
     /// Reads a design file.
     pub fn read(path: &Path) -> Result<Self, Failure> {
-        super::from_file(path, LinearFile::design)
+        from_file(path, LinearFile::design)
     }
 }
 

@@ -10,7 +10,7 @@ use epas_reference::friction::linear_ball::EllipseLaw;
 use epas_reference::material::Elastic;
 use serde::Serialize;
 
-use super::Answer;
+use super::answer::Answer;
 use super::fields::{BadField, Fields, in_range};
 use super::train::{LARGEST_TRAIN, room_of_a_row, solved};
 

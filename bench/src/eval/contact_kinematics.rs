@@ -4,7 +4,7 @@ use epas_friction::kinematics::{ContactKinematics, KinematicsParameters};
 use epas_reference::kinematics::{self as reference, KinematicsInput, Revised};
 use serde::Serialize;
 
-use super::Answer;
+use super::answer::Answer;
 use super::fields::{BadField, Fields, in_range};
 
 #[derive(Serialize)]

@@ -6,7 +6,7 @@ use epas_friction::ranges::FRICTION_OR_NONE;
 use epas_reference::efficiency::Screw;
 use serde::Serialize;
 
-use super::Answer;
+use super::answer::Answer;
 use super::fields::{BadField, Fields, in_range};
 
 #[derive(Serialize)]

@@ -5,7 +5,7 @@ use epas_friction::contact::SMALLEST_AXIS_RATIO;
 use epas_reference::friction::maps;
 use serde::Serialize;
 
-use super::Answer;
+use super::answer::Answer;
 use super::fields::{BadField, Fields, in_range};
 
 /// Largest offset that is answered: beyond, the contact slides and nothing changes.

@@ -8,7 +8,7 @@ use epas_friction::geometry::{ContactAngle, Groove, GrooveProfile, HelixPath};
 use epas_reference::curvature::{self, Surface};
 use serde::Serialize;
 
-use super::Answer;
+use super::answer::Answer;
 use super::fields::{BadField, Fields, in_range};
 
 #[derive(Serialize)]

@@ -4,7 +4,7 @@ use epas_friction::hertz::HertzContact;
 use epas_reference::hertz::Hertz;
 use serde::Serialize;
 
-use super::Answer;
+use super::answer::Answer;
 use super::fields::{BadField, Fields, in_range};
 
 #[derive(Serialize)]

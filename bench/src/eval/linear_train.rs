@@ -11,7 +11,7 @@ use epas_reference::friction::linear_ball::{EllipseLaw, LinearBall};
 use epas_reference::hertz::{Hertz, contact_modulus};
 use serde::Serialize;
 
-use super::Answer;
+use super::answer::Answer;
 use super::fields::{BadField, Fields, in_range};
 use super::train::{LARGEST_TRAIN, contact_forces, pressed, room_of_a_row, solved};
 

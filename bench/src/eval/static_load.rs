@@ -4,7 +4,7 @@ use epas_reference::statics::cases::CaseStudy;
 use epas_reference::statics::{Contact, Elastic, Geometry, HertzConvention, StaticSolution};
 use serde::Serialize;
 
-use super::Answer;
+use super::answer::Answer;
 use super::fields::{BadField, Fields, OneOrMany, in_range};
 use super::train::solved;
 

@@ -8,7 +8,7 @@ use epas_reference::ReferenceError;
 use epas_reference::steady_state::BallScrewState;
 use serde::Serialize;
 
-use super::Answer;
+use super::answer::Answer;
 use super::fields::{BadField, Fields, in_range};
 
 /// Density of a ball where the request gives none, kg/m³ (Lin, Velinsky, Ravani 1994).

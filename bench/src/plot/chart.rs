@@ -7,9 +7,9 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::{
-    Axis, FONT, LABEL_SIZE, LINE_HEIGHT, PALETTE, STROKE, TEXT, TICK_SIZE, TITLE_SIZE, px,
-    text_width,
+use super::scale::Axis;
+use super::style::{
+    FONT, LABEL_SIZE, LINE_HEIGHT, PALETTE, STROKE, TEXT, TICK_SIZE, TITLE_SIZE, px, text_width,
 };
 
 /// How a series is drawn.

@@ -7,7 +7,8 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::chart::{draw_title, label_style, tick_style};
-use super::{Axis, LINE_HEIGHT, px};
+use super::scale::Axis;
+use super::style::{LINE_HEIGHT, px};
 
 /// Values on a grid of cells, in bands between the given bounds.
 #[derive(Clone, Debug)]

@@ -9,7 +9,7 @@ use epas_reference::friction::rotary_bearing::Tilt;
 use epas_reference::published::balls::{analytic_force, linear_pair, symmetric_pair};
 use epas_reference::published::bearings::{DISPLACEMENTS, table_3_1, table_3_2};
 
-use super::Context;
+use super::context::Context;
 use super::document::{Block, Figure, Section};
 use super::statistics::evenly;
 use crate::failure::Failure;

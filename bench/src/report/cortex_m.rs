@@ -1,4 +1,4 @@
-//! What everything costs on a Cortex-M4F: error against cycles, functions, scenes, budgets.
+//! What everything costs on a Cortex-M4F: error against cycles, functions, scenes, promises.
 
 use std::f64::consts::TAU;
 
@@ -9,13 +9,13 @@ use epas_friction::math;
 use epas_friction::refined::FourPointBall;
 use epas_reference::friction::linear_ball::{EllipseLaw, LinearBall};
 
-use super::Context;
+use super::context::Context;
 use super::curvature::{FORMS, catalogue_errors};
 use super::document::{Block, Cell, Figure, Section, Table};
 use super::statistics::{Errors, evenly};
 use crate::failure::Failure;
 use crate::plot::{Axis, Chart, Mark, Note, Panel, Series};
-use crate::target::{BUDGETS, Figures, figure};
+use crate::target::{Budget, Figures, budgets};
 
 /// A formula or a backend: its error and its cycles.
 struct Point {
@@ -330,43 +330,32 @@ fn scenes(figures: &Figures) -> Table {
     }
 }
 
-fn budgets(figures: &Figures) -> Table {
+fn promised(figures: &Figures) -> Table {
     Table {
         name: "target_budgets",
-        caption: "Budgets: what is allowed, what was found, and by how much it is missed".into(),
-        columns: ["budget", "allowed", "found", "missed by"]
+        caption: "What the crate promises, and what was found".into(),
+        columns: ["promise", "at most", "found", "kept"]
             .map(String::from)
             .to_vec(),
-        rows: BUDGETS
-            .iter()
-            .filter_map(|budget| {
-                let found = figure(figures, budget)?;
+        rows: budgets(figures)
+            .into_iter()
+            .map(|budget| {
                 let decimals = usize::from(budget.most < 10.0);
-                let missed = if found > budget.most {
-                    Cell::Number(
-                        found - budget.most,
-                        format!(
-                            "{:.decimals$} ({:.0} %)",
-                            found - budget.most,
-                            100.0 * (found / budget.most - 1.0)
-                        ),
-                    )
-                } else {
-                    "".into()
-                };
-                Some(vec![
-                    budget.what().into(),
-                    Cell::fixed(budget.most, decimals),
-                    Cell::fixed(found, decimals),
-                    missed,
-                ])
+                let kept = if budget.is_kept() { "yes" } else { "NO" };
+                let Budget { what, most, found } = budget;
+                vec![
+                    what.into(),
+                    Cell::fixed(most, decimals),
+                    found.map_or("none".into(), |found| Cell::fixed(found, decimals)),
+                    kept.into(),
+                ]
             })
             .collect(),
     }
 }
 
-/// Where the cycles of a missed budget go.
-const MISSED: &str = "Where the cycles go that are over a budget. Square root: 14 are the instruction, 9 the frame and \
+/// Where the cycles go.
+const WHERE: &str = "Where the cycles go. Square root: 14 are the instruction, 9 the frame and \
     the return, 6 the way of the operand through a general register and back, which inline assembly of stable Rust \
     prescribes. Cube root: 64 for common numbers, one chain of operations whose results are used at once, to an error of \
     half a unit in the last place; below 2^-125 a second call and two scalings come to it. Kinematics tick: ten loads and \
@@ -425,8 +414,8 @@ pub fn section(context: &Context) -> Result<Section, Failure> {
             }),
             Block::Table(functions(figures)),
             Block::Table(scenes(figures)),
-            Block::Table(budgets(figures)),
-            Block::Text(MISSED.into()),
+            Block::Table(promised(figures)),
+            Block::Text(WHERE.into()),
             Block::Text(figures.proofs()),
         ],
     })

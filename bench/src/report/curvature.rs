@@ -9,7 +9,7 @@ use epas_friction::{BallScrew, CATALOGUE};
 use epas_reference::curvature::{self as reference, Surface};
 use epas_reference::published::{Row, TABLE_A1, TABLE_A2, computed_errors};
 
-use super::Context;
+use super::context::Context;
 use super::document::{Block, Cell, Figure, Section, Table};
 use super::statistics::{Errors, evenly};
 use crate::failure::Failure;

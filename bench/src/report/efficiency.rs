@@ -10,7 +10,7 @@ use epas_reference::efficiency::{self as reference, Screw};
 use epas_reference::rolling_ball::RollingBall;
 use epas_reference::steady_state::BallScrewState;
 
-use super::Context;
+use super::context::Context;
 use super::document::{Block, Cell, Figure, Section, Table};
 use super::statistics::{Errors, evenly};
 use crate::failure::Failure;

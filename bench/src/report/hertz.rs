@@ -3,7 +3,7 @@
 use epas_friction::hertz::HertzContact;
 use epas_reference::hertz::Hertz;
 
-use super::Context;
+use super::context::Context;
 use super::document::{Block, Cell, Figure, Section, Table};
 use super::statistics::{Errors, evenly};
 use crate::failure::Failure;

@@ -2,9 +2,10 @@
 
 use std::f64::consts::TAU;
 
-use super::Context;
+use super::context::Context;
 use super::document::{Block, Cell, Section, Table};
 use super::statistics::{Errors, evenly};
+use super::times::time;
 use crate::failure::Failure;
 use crate::timing::kernels::{libm, micromath, own};
 
@@ -83,8 +84,8 @@ pub fn section(context: &Context) -> Result<Section, Failure> {
             Cell::power(errors.largest),
             Cell::power(errors.rms()),
             Cell::power(errors.mean()),
-            Cell::fixed(times.latency.median, 2),
-            Cell::fixed(times.throughput.median, 2),
+            time(&times.latency, 2),
+            time(&times.throughput, 2),
         ]);
     }
     Ok(Section {

@@ -5,7 +5,7 @@ use epas_reference::kinematics::figures::{self, ConstraintRow, FieldPoint, Formu
 use epas_reference::kinematics::{ContactKinematics, Raceway, Revised};
 use epas_reference::published::kinematics::records;
 
-use super::Context;
+use super::context::Context;
 use super::document::{Block, Cell, Figure, Section, Table};
 use crate::failure::Failure;
 use crate::plot::{Axis, Chart, Mark, Panel, Series};

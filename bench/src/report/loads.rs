@@ -11,7 +11,7 @@ use epas_reference::statics::{
     Contact, ContactConstants, Elastic, HertzConvention, StaticLoad, StaticSolution, SurfaceError,
 };
 
-use super::Context;
+use super::context::Context;
 use super::document::{Block, Cell, Figure, Section, Table};
 use crate::failure::Failure;
 use crate::plot::{Axis, Chart, Mark, Panel, Series};

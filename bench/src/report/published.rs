@@ -3,7 +3,7 @@
 use epas_reference::published::records;
 use epas_reference::record::{Paper, Record, Verdict};
 
-use super::Context;
+use super::context::Context;
 use super::document::{Block, Cell, Section, Table};
 use crate::failure::Failure;
 

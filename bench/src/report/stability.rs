@@ -7,7 +7,7 @@ mod two_point;
 
 use epas_friction::promises;
 
-use super::Context;
+use super::context::Context;
 use super::document::{Block, Cell, Figure, Section, Table};
 use super::statistics::Errors;
 use crate::failure::Failure;

@@ -1,8 +1,10 @@
 //! Error against run time of every formula: the table and the picture.
 
+use super::context::Context;
 use super::document::{Block, Cell, Figure, Section, Table};
 use super::statistics::Errors;
-use super::{Context, curvature, efficiency, hertz};
+use super::times::{quartiles, ratio, time};
+use super::{curvature, efficiency, hertz};
 use crate::failure::Failure;
 use crate::plot::{Axis, Chart, Mark, Note, Panel, Series};
 
@@ -74,7 +76,7 @@ pub fn section(context: &Context) -> Result<Section, Failure> {
             &loss,
         ),
     ];
-    let unit = context.times("literature")?.latency.median;
+    let unit = &context.times("literature")?.latency;
     let mut rows = Vec::new();
     for (key, name, kind, domain, errors) in entries {
         let times = context.times(key)?;
@@ -84,9 +86,9 @@ pub fn section(context: &Context) -> Result<Section, Failure> {
             Cell::power(errors.rms()),
             Cell::power(errors.mean()),
             kind.into(),
-            Cell::fixed(times.latency.median, 2),
-            Cell::fixed(times.latency.median / unit, 2),
-            Cell::fixed(times.throughput.median, 2),
+            time(&times.latency, 2),
+            ratio(times.latency.over(unit), 2),
+            time(&times.throughput, 2),
             domain.into(),
         ]);
     }
@@ -97,9 +99,9 @@ pub fn section(context: &Context) -> Result<Section, Failure> {
         "".into(),
         "".into(),
         "".into(),
-        Cell::fixed(step.latency.median, 2),
-        Cell::fixed(step.latency.median / unit, 2),
-        Cell::fixed(step.throughput.median, 2),
+        time(&step.latency, 2),
+        ratio(step.latency.over(unit), 2),
+        time(&step.throughput, 2),
         "one tick in the interrupt".into(),
     ]);
     Ok(Section {
@@ -108,7 +110,8 @@ pub fn section(context: &Context) -> Result<Section, Failure> {
             Block::Text(
                 "Errors in f32 against the float64 reference; times of one call on this machine, the empty \
                  call taken off, every competitor in the same run. Latency: each call waits for the one before, \
-                 as in a control loop. Throughput: calls are independent."
+                 as in a control loop. Throughput: calls are independent. A time that cannot be told from an \
+                 empty call reads as less than what can be told."
                     .into(),
             ),
             Block::Table(Table {
@@ -174,15 +177,14 @@ fn ratios(context: &Context) -> Result<Table, Failure> {
         ("appendix_b_f64", "Appendix B, f64", "71.5"),
     ] {
         let times = context.times(key)?;
-        let (low, high) = times.latency.quartiles;
         rows.push(vec![
             Cell::from(name),
-            Cell::fixed(times.latency.median, 2),
-            Cell::from(format!("{low:.2}-{high:.2}")),
-            Cell::fixed(times.ratios.0, 3),
+            time(&times.latency, 2),
+            quartiles(&times.latency, 2),
+            ratio(times.ratios.0, 3),
             printed.into(),
-            Cell::fixed(times.throughput.median, 2),
-            Cell::fixed(times.ratios.1, 2),
+            time(&times.throughput, 2),
+            ratio(times.ratios.1, 2),
         ]);
     }
     Ok(Table {
@@ -243,7 +245,7 @@ fn picture(context: &Context, errors: &[Errors; 4]) -> Result<Figure, Failure> {
     for (colour, (name, mark, points)) in groups.into_iter().enumerate() {
         let mut places = Vec::new();
         for (key, text, error) in points {
-            let at = (context.times(key)?.latency.median, error);
+            let at = (context.times(key)?.latency.at_least_resolved(), error);
             places.push(at);
             notes.push(Note {
                 at,

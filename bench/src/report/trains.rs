@@ -4,7 +4,7 @@ mod cost;
 mod linear;
 mod screw;
 
-use super::Context;
+use super::context::Context;
 use super::document::{Block, Section};
 use crate::failure::Failure;
 

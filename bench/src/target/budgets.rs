@@ -1,127 +1,158 @@
-//! What functions and scenes may cost.
+//! What the crate promises to cost, beside what was counted: every number stands in
+//! [`promises`](epas_friction::promises).
 
-use super::measure::Figures;
+use epas_friction::promises::{ALL, FOOTPRINTS, Footprint, STEP_SPREAD};
 
-/// What a budget limits.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Quantity {
-    /// Most cycles of a function.
-    Cycles,
-    /// Most over least cycles of a function.
-    Spread,
-    /// Flash of a scene beyond the empty program, bytes.
-    FlashBeyondEmpty,
-    /// Flash of a scene, bytes.
-    Flash,
-    /// Flash of a scene built for size, bytes.
-    FlashSmall,
-    /// Memory of a scene, bytes.
-    Ram,
-    /// Stack of a scene's step, bytes.
-    Stack,
-}
+use super::figures::{Figures, SceneFigures};
+use crate::failure::Failure;
 
-/// One budget.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// One promise of a cost, and what was found.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Budget {
-    /// Function or scene.
-    pub name: &'static str,
-    /// What is limited.
-    pub quantity: Quantity,
-    /// The limit.
+    /// Function or scene, and what is limited.
+    pub what: String,
+    /// The promise.
     pub most: f64,
+    /// What was counted or measured; none where nothing was.
+    pub found: Option<f64>,
 }
-
-const fn cycles(name: &'static str, most: f64) -> Budget {
-    Budget {
-        name,
-        quantity: Quantity::Cycles,
-        most,
-    }
-}
-
-const fn spread(name: &'static str) -> Budget {
-    Budget {
-        name,
-        quantity: Quantity::Spread,
-        most: 1.5,
-    }
-}
-
-const fn scene(name: &'static str, quantity: Quantity, most: f64) -> Budget {
-    Budget {
-        name,
-        quantity,
-        most,
-    }
-}
-
-/// Every budget. The unit of the first four is the literature formula of the curvature, 31 cycles; 8,400
-/// cycles are one period of a 20 kHz loop at 168 MHz.
-pub const BUDGETS: [Budget; 31] = [
-    cycles("curvature_literature", 31.0),
-    cycles("curvature_circular_groove", 36.0),
-    cycles("curvature_fitted", 45.0),
-    cycles("curvature_exact", 140.0),
-    cycles("sqrt", 20.0),
-    cycles("cbrt", 60.0),
-    cycles("sin_cos", 60.0),
-    cycles("efficiency_rolling", 40.0),
-    cycles("efficiency_sliding", 66.0),
-    cycles("kinematics_update", 450.0),
-    cycles("kinematics_tick", 40.0),
-    cycles("friction_map", 45.0),
-    cycles("linear_ball_analytic", 250.0),
-    cycles("linear_ball_refined", 1500.0),
-    cycles("train_37", 2500.0),
-    cycles("step_caged", 300.0),
-    cycles("step_train_37", 8400.0),
-    cycles("step_train_37_pressing", 8400.0),
-    spread("step_efficiency"),
-    spread("step_caged"),
-    spread("step_linear"),
-    spread("step_train_37"),
-    scene("curvature", Quantity::FlashBeyondEmpty, 1024.0),
-    scene("everything", Quantity::Flash, 16384.0),
-    scene("everything", Quantity::FlashSmall, 16384.0),
-    scene("ball_screw_37", Quantity::Ram, 1536.0),
-    scene("curvature", Quantity::Stack, 512.0),
-    scene("efficiency", Quantity::Stack, 512.0),
-    scene("caged_ball_screw", Quantity::Stack, 512.0),
-    scene("linear_bearing", Quantity::Stack, 512.0),
-    scene("ball_screw_37", Quantity::Stack, 512.0),
-];
 
 impl Budget {
-    /// What it limits, in words.
-    pub fn what(&self) -> String {
-        let quantity = match self.quantity {
-            Quantity::Cycles => "cycles",
-            Quantity::Spread => "most over least cycles",
-            Quantity::FlashBeyondEmpty => "flash beyond empty",
-            Quantity::Flash => "flash",
-            Quantity::FlashSmall => "flash, built for size",
-            Quantity::Ram => "RAM",
-            Quantity::Stack => "stack",
-        };
-        format!("{}: {quantity}", self.name)
+    /// Whether the promise is kept: what was not counted keeps none.
+    pub fn is_kept(&self) -> bool {
+        self.found.is_some_and(|found| found <= self.most)
     }
 }
 
-/// The figure that a budget limits.
-pub fn figure(figures: &Figures, budget: &Budget) -> Option<f64> {
-    let function = || figures.function(budget.name);
-    let scene = || figures.scene(budget.name);
-    Some(match budget.quantity {
-        Quantity::Cycles => f64::from(function()?.cycles_max),
-        Quantity::Spread => {
-            let entry = function()?;
-            f64::from(entry.cycles_max) / f64::from(entry.cycles_min)
+/// Every promise of a cost: cycles of each counted function, how much they differ from step to step, and
+/// the size of each scene.
+pub fn budgets(figures: &Figures) -> Vec<Budget> {
+    let mut budgets = Vec::new();
+    for promise in ALL {
+        for &name in promise.counted {
+            budgets.push(Budget {
+                what: format!("{name}: cycles"),
+                most: f64::from(promise.cycles),
+                found: figures
+                    .function(name)
+                    .map(|entry| f64::from(entry.cycles_max)),
+            });
         }
-        Quantity::FlashBeyondEmpty => scene()?.flash_beyond_empty as f64,
-        Quantity::Flash => scene()?.flash as f64,
-        Quantity::FlashSmall => scene()?.flash_small as f64,
-        Quantity::Ram => scene()?.ram as f64,
-        Quantity::Stack => scene()?.stack as f64,
+    }
+    for entry in &figures.functions {
+        if entry.name.starts_with("step_") {
+            budgets.push(Budget {
+                what: format!("{}: most over least cycles", entry.name),
+                most: STEP_SPREAD,
+                found: Some(f64::from(entry.cycles_max) / f64::from(entry.cycles_min)),
+            });
+        }
+    }
+    for footprint in FOOTPRINTS {
+        budgets.extend(sizes(&footprint, figures.scene(footprint.scene)));
+    }
+    budgets
+}
+
+fn sizes(promised: &Footprint, found: Option<&SceneFigures>) -> [Budget; 4] {
+    type Size = fn(&SceneFigures) -> u64;
+    let sizes: [(&str, u32, Size); 4] = [
+        ("flash", promised.flash, |scene| scene.flash),
+        ("flash, built for size", promised.flash_small, |scene| {
+            scene.flash_small
+        }),
+        ("RAM", promised.ram, |scene| scene.ram),
+        ("stack", promised.stack, |scene| {
+            scene.stack.max(scene.stack_small)
+        }),
+    ];
+    sizes.map(|(quantity, most, size)| Budget {
+        what: format!("{}: {quantity}", promised.scene),
+        most: f64::from(most),
+        found: found.map(|scene| size(scene) as f64),
     })
+}
+
+/// Fails where a promise is broken.
+pub fn require(figures: &Figures) -> Result<(), Failure> {
+    let broken: Vec<String> = budgets(figures)
+        .into_iter()
+        .filter(|budget| !budget.is_kept())
+        .map(|Budget { what, most, found }| match found {
+            Some(found) => format!("  {what}: {found} where {most} is promised"),
+            None => format!("  {what}: promised and not counted"),
+        })
+        .collect();
+    if broken.is_empty() {
+        return Ok(());
+    }
+    Err(Failure::Data(format!(
+        "promises of src/promises.rs that do not hold:\n{}",
+        broken.join("\n")
+    )))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use epas_firmware::subjects::SUBJECTS;
+    use epas_friction::promises::Promise;
+
+    use super::*;
+    use crate::target::stored;
+
+    /// The stored counts are those of the crate's functions, each has one promise, and all promises hold.
+    #[test]
+    fn every_stored_count_keeps_its_promise() {
+        let figures = stored::figures().unwrap();
+        require(&figures).unwrap();
+        let counted: BTreeSet<&str> = SUBJECTS.iter().map(|subject| subject.name).collect();
+        let promised: Vec<&str> = ALL
+            .iter()
+            .flat_map(|promise| promise.counted.iter().copied())
+            .collect();
+        let distinct: BTreeSet<&str> = promised.iter().copied().collect();
+        assert_eq!(distinct.len(), promised.len(), "{promised:?}");
+        assert_eq!(distinct, counted);
+        for subject in SUBJECTS {
+            assert!(figures.function(subject.name).is_some(), "{}", subject.name);
+        }
+        for scene in &figures.scenes {
+            assert!(
+                FOOTPRINTS
+                    .iter()
+                    .any(|footprint| footprint.scene == scene.name),
+                "{}",
+                scene.name
+            );
+        }
+    }
+
+    /// A function of the loop is counted; only what runs at set-up has no cycles.
+    #[test]
+    fn every_promise_of_cycles_is_counted() {
+        for Promise {
+            function,
+            cycles,
+            counted,
+            ..
+        } in ALL
+        {
+            assert_eq!(cycles > 0, !counted.is_empty(), "{function}");
+        }
+    }
+
+    #[test]
+    fn a_broken_promise_fails() {
+        let mut figures = stored::figures().unwrap();
+        figures.functions[0].cycles_max += 1000;
+        figures.functions.pop();
+        let Err(Failure::Data(message)) = require(&figures) else {
+            panic!("a thousand cycles more pass");
+        };
+        assert!(message.contains("curvature_literature"), "{message}");
+        figures.functions.clear();
+        assert!(require(&figures).is_err());
+    }
 }

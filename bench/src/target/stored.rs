@@ -7,7 +7,7 @@ use epas_firmware::cases::{Sink, write};
 use epas_firmware::control_loop::ControlLoop;
 use epas_firmware::scenes::design;
 
-use super::measure::Figures;
+use super::figures::Figures;
 use super::tools::firmware;
 use crate::failure::Failure;
 use crate::files::{self, Existing};

@@ -15,9 +15,10 @@ use epas_friction::{
 use epas_reference::curvature as reference;
 use epas_reference::published::TABLE_A1;
 
+use super::group::{Group, List};
 use super::kernels::{libm, micromath, own};
+use super::race::{Measure, Mode, Race, Ratio};
 use super::trains::trains;
-use super::{Feed, Measure, Mode, Place, Race, Taken};
 use crate::failure::Failure;
 
 /// One function with its times.
@@ -30,59 +31,7 @@ pub struct Competition {
     /// Time where calls are independent.
     pub throughput: Measure,
     /// Latency and throughput over those of the first of its group.
-    pub ratios: (f64, f64),
-}
-
-/// Inputs of a batch.
-const INPUTS: usize = 256;
-
-/// Functions that are measured against one empty call.
-pub(super) struct Group<'a, I> {
-    race: &'a mut Race,
-    list: &'a mut List,
-    inputs: Vec<I>,
-    baseline: Place,
-    unit: Option<Place>,
-}
-
-/// Key, place and unit of each competitor.
-pub(super) type List = Vec<(&'static str, Place, Place)>;
-
-impl<'a, I: Feed + 'static> Group<'a, I> {
-    pub(super) fn new<O: Taken + 'static>(
-        race: &'a mut Race,
-        list: &'a mut List,
-        input: impl Fn(f64) -> I,
-        empty: impl FnMut(I) -> O + Clone + 'static,
-    ) -> Self {
-        let inputs: Vec<I> = shares().map(input).collect();
-        let baseline = race.baseline(&inputs, empty);
-        Self {
-            race,
-            list,
-            inputs,
-            baseline,
-            unit: None,
-        }
-    }
-
-    /// Adds a function; the first is the unit of the others.
-    pub(super) fn time<O: Taken + 'static>(
-        mut self,
-        key: &'static str,
-        function: impl FnMut(I) -> O + Clone + 'static,
-    ) -> Self {
-        let place = self.race.competitor(self.baseline, &self.inputs, function);
-        let unit = *self.unit.get_or_insert(place);
-        self.list.push((key, place, unit));
-        self
-    }
-}
-
-/// Numbers spread evenly over 0 to 1, in an order that no branch predictor learns: multiples of the
-/// golden ratio.
-pub(super) fn shares() -> impl Iterator<Item = f64> {
-    (0..INPUTS).map(|index| (index as f64 * 0.618_033_988_749_894_9).fract())
+    pub ratios: (Ratio, Ratio),
 }
 
 /// Times everything.

@@ -10,8 +10,8 @@ use epas_friction::train::Press;
 use epas_friction::train::Train;
 use epas_friction::{GrooveFit, Inputs, LoadShare, UncagedOutputs};
 
-use super::competitors::{Group, List};
-use super::{Feed, Race, Taken};
+use super::group::{Group, List};
+use super::race::{Feed, Race, Taken};
 use crate::failure::Failure;
 use crate::study;
 

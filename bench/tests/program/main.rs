@@ -22,9 +22,15 @@ struct Run {
 
 /// Runs the program in a folder with some input.
 fn run_in(folder: &Path, arguments: &[&str], input: &str) -> Run {
+    run_with(folder, arguments, input, &[])
+}
+
+/// Runs the program in a folder with some input and some variables of its environment changed.
+fn run_with(folder: &Path, arguments: &[&str], input: &str, variables: &[(&str, &Path)]) -> Run {
     let mut child = Command::new(env!("CARGO_BIN_EXE_epas-bench"))
         .args(arguments)
         .current_dir(folder)
+        .envs(variables.iter().copied())
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())

@@ -2,9 +2,10 @@
 
 use super::run;
 
+use epas_firmware::inputs::CASES;
 use epas_firmware::scenes::{caged_configuration, course};
 use epas_firmware::spread::Spread;
-use epas_firmware::subjects::{CASES, PEERS, SUBJECTS, WIDEST};
+use epas_firmware::subjects::{PEERS, SUBJECTS, WIDEST};
 use epas_friction::{CagedBallScrew, FrictionModel, Inputs};
 
 /// What the debug firmware sends through defmt is what the same ticks give here, number by number.

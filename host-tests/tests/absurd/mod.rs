@@ -495,7 +495,7 @@ impl<const N: usize> Trial for UncagedBallScrew<N> {
         let full = N as f32 * design.ball_ratio() / std::f32::consts::PI;
         let turns = (full * random.of(&[0.3, 0.999, 1.001, 1.05, 1.5, 5.0])).clamp(0.1, 100.0);
         UncagedBallScrewConfiguration {
-            friction: random.size(1e-3, 0.5),
+            friction: random.size(1e-6, 0.5),
             ball_friction: random.within(0.0, 1.0),
             fit: match random.below(3) {
                 0 => GrooveFit::Zero,
@@ -608,7 +608,7 @@ impl<const N: usize> Trial for LinearBearingTrain<N> {
         };
         let speed = random.size(1e-6, 1e3);
         LinearBearingConfiguration {
-            friction: random.size(1e-3, 1.0),
+            friction: random.size(1e-6, 1.0),
             ball_friction: random.within(0.0, 1.0),
             loaded_length: loaded,
             return_length: match random.below(4) {

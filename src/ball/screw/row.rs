@@ -8,6 +8,7 @@ use super::tick::{Mean, ScrewTick, limited};
 use crate::ball::loads::{LoadShare, loaded};
 use crate::error::{Error, attempt, in_range};
 use crate::geometry::BallScrew;
+use crate::ranges;
 
 /// Smallest load per ball, N: below it a ball keeps the motion and the compliance that it has there.
 const SMALLEST_LOAD: f32 = 1e-3;
@@ -19,16 +20,19 @@ const SMALLEST_LOAD: f32 = 1e-3;
 /// polynomials ([`ScrewTick::ball`]). Spin moments are left out:
 ///
 /// ```text
-/// third contact on the screw   w_B/w_N = (1 + r cos b_N)/(1 + cos(b_N - (b_S - b_3)/2)/cos((b_S + b_3)/2))
-/// third contact on the nut     w_B/w_N = (C + r cos b_S)/(1 + C),  C = cos(b_S - (b_N - b_3)/2)/cos((b_N + b_3)/2)
-/// two contacts                 w_B/w_N = (1 + r cos((b_S + b_N)/2))/2
-/// loads                        N = F/(sin b cos alpha)/(1 - phi mu),  N_3 = 2 phi mu N
-/// compliance                   Y = (1/kappa_S + 1/kappa_N)/4;  1/(kappa_U + kappa_D) of two loaded diagonals
-/// force between two balls      F = (v_1 - v_2)/(Y_1 + Y_2)
+/// orbital speed, third contact on the screw
+///     omega_B/omega_N = (1 + r cos beta_N)/(1 + cos(beta_N - (beta_S - beta_3)/2)/cos((beta_S + beta_3)/2))
+/// orbital speed, third contact on the nut
+///     omega_B/omega_N = (C + r cos beta_S)/(1 + C)     C = cos(beta_S - (beta_N - beta_3)/2)/cos((beta_N + beta_3)/2)
+/// orbital speed, two contacts
+///     omega_B/omega_N = (1 + r cos((beta_S + beta_N)/2))/2
+/// loads                     F = F_a/(sin beta cos alpha)/(1 - s_mu mu)     F_3 = 2 s_mu mu F
+/// compliance                Y = (1/Z_S + 1/Z_N)/4;  1/(Z_U + Z_D) of two loaded diagonals
+/// force between two balls   F_BB = (v_1 - v_2)/(Y_1 + Y_2)
 /// ```
 ///
-/// with `r = R_B R_P/(L/2 pi)²`, the mean share `phi` of sliding friction across the track, and the contacts'
-/// impedances `kappa`. A third contact closes where friction across the track pushes the ball, see
+/// with `r = r_b r_m/q²` and the path radius `q`, the mean share `s_mu` of sliding friction across the track, and the
+/// contacts' impedances `Z`. A third contact closes where friction across the track pushes the ball, see
 /// [`ScrewRow::contacts`].
 ///
 /// Input: a validated design, friction 1e-6 to 0.5, axial loads per ball 1e-3 to 1e7 N, deviations up to 0.2 rad.
@@ -80,9 +84,9 @@ impl ScrewRow {
     /// # Errors
     /// [`Error`] naming `friction` (1e-6 to 0.5), `contact_angle` (0.05 to 1.5), `contact_force` or `axis_ratio`.
     pub const fn new(design: &BallScrew, friction: f32, fit: GrooveFit) -> Result<Self, Error> {
-        let friction = attempt!(in_range("friction", friction, 1e-6, 0.5));
+        let friction = attempt!(ranges::FRICTION_OF_A_ROW.checked("friction", friction));
         let contact_angle = design.parameters().contact_angle;
-        attempt!(in_range("contact_angle", contact_angle, 0.05, 1.5));
+        attempt!(ranges::ROLLING_CONTACT_ANGLE.checked("contact_angle", contact_angle));
         let preload = match fit {
             GrooveFit::Preload { contact_force } => {
                 attempt!(in_range("contact_force", contact_force, 1e-3, 1e6))
@@ -128,7 +132,7 @@ impl ScrewRow {
     ///
     /// A positive axial load of the screw on the ball, N, is carried by SL and NR, a negative one by SR and NL.
     /// Friction across the track of that pair pushes the ball along the other diagonal and, in grooves
-    /// without play, closes a third contact of `N_3 = 2 phi mu N`, `phi` being the mean share of sliding friction: SL
+    /// without play, closes a third contact of `F_3 = 2 s_mu mu F`, `s_mu` being the mean share of sliding friction: SL
     /// under SR-NL and NL under SL-NR for a nut that turns forward, NR and SR for one that turns backward. With a
     /// preload the third contact gains and the fourth one loses half of that each.
     ///
@@ -185,8 +189,8 @@ impl ScrewRow {
             self.speeds.in_two_points(side),
             &Mean {
                 gain: 1.0,
-                compliance: contact.give * per_limit,
-                compliance_rolling: contact.give_growth * per_limit,
+                compliance: contact.compliance * per_limit,
+                compliance_rolling: contact.compliance_growth * per_limit,
                 torque: limit * contact.drag,
                 torque_rolling: limit * contact.drag_growth,
                 main_load: normal,
@@ -214,16 +218,16 @@ impl ScrewRow {
         let mut growth =
             main * (screw.drag_growth + nut.drag_growth) + third * third_contact.drag_growth;
 
-        // Force along the track per speed: 4 mu main/give of the loaded diagonal, and 4 mu both/other of the
-        // other one where both of its contacts carry load.
-        let give = screw.give + nut.give;
+        // Impedances: 4 mu main/pair of the loaded diagonal, and of the other one, where both of its contacts carry load,
+        // 4 mu third fourth/other.
+        let pair = screw.compliance + nut.compliance;
         let mut gain = 1.0;
         let compliance = if fourth > 0.0 {
             let contact = fourth_groove.under(cube_root(fourth));
             torque += fourth * contact.drag;
             growth += fourth * contact.drag_growth;
-            let other = third_contact.give * fourth + contact.give * third;
-            let (loaded, unloaded) = (main * other, third * fourth * give);
+            let other = third_contact.compliance * fourth + contact.compliance * third;
+            let (loaded, unloaded) = (main * other, third * fourth * pair);
             let inverse = 1.0 / (loaded + unloaded);
             gain = (loaded - unloaded) * inverse;
             other * inverse
@@ -236,8 +240,8 @@ impl ScrewRow {
             self.speeds.in_more_points(side, on_screw),
             &Mean {
                 gain,
-                compliance: give * compliance,
-                compliance_rolling: (screw.give_growth + nut.give_growth) * compliance,
+                compliance: pair * compliance,
+                compliance_rolling: (screw.compliance_growth + nut.compliance_growth) * compliance,
                 torque: self.contacts.friction * torque,
                 torque_rolling: self.contacts.friction * growth,
                 main_load: main,
@@ -248,7 +252,7 @@ impl ScrewRow {
 
     /// Largest deviation of a ball's speed, m per unit of nut speed, that contact angles make which deviate by up
     /// to this much: at the corners of the deviations, where it is largest, in both directions of load and motion,
-    /// and with a load beyond a preload, which would even it out. For set-up.
+    /// and with one loaded diagonal alone: a preload on the other one makes it smaller. For set-up.
     pub(crate) const fn fastest_deviation(&self, on_screw: f32, in_nut: f32) -> f32 {
         const ONE_DIAGONAL: Mean = Mean {
             gain: 1.0,

@@ -12,7 +12,7 @@ const LARGEST_DEVIATION: f32 = 0.2;
 pub(super) struct Speeds {
     /// Speed along the track of a ball with nominal contact angles, m per unit of nut speed.
     pub(super) nominal: f32,
-    /// Coefficients of `2 cos b/(cos b + cos(b - u)) - 1` from `u` on.
+    /// Coefficients of `2 cos beta/(cos beta + cos(beta - u)) - 1` from `u` on.
     pub(super) turn: [f32; 5],
     /// Largest deviation of a contact angle that counts, rad.
     pub(super) largest_deviation: f32,
@@ -27,9 +27,9 @@ pub(super) struct Speeds {
 pub(super) struct Branch {
     /// Speed, m, that the relative deviation multiplies; negative where it is that of the nut against the ball.
     pub(super) scale: f32,
-    /// `r sin b` over `1 + r cos b` (third contact on the screw) or `1 - r cos b` (on the nut).
+    /// `r sin beta` over `1 + r cos beta` (third contact on the screw) or `1 - r cos beta` (on the nut).
     pub(super) sine: f32,
-    /// `-r cos b` or `r cos b` over the same.
+    /// `-r cos beta` or `r cos beta` over the same.
     pub(super) versine: f32,
     /// Rubbing speed at the nominal speed, m per unit of nut speed.
     pub(super) rubbing: f32,
@@ -57,7 +57,7 @@ impl Speeds {
         let angle = design.contact_angle();
         let (sin, cos) = (angle.sin, angle.cos);
         let path = design.pitch_radius() / design.cos_lead_angle();
-        // R_B R_P/(L/2 pi)², and the ball's rotation that the path's curvature makes.
+        // r = r_b r_m/q².
         let ratio = design.ball_radius() * design.cos_lead_angle() / path;
         let (plus, minus) = (1.0 + ratio * cos, 1.0 - ratio * cos);
         let speed = 0.5 * path * plus;
@@ -147,7 +147,7 @@ const fn tumbling(design: &BallScrew, ratio: f32, sticks_to_screw: bool) -> f32 
     constant::sqrt(sin * sin * chord + cosine * cosine)
 }
 
-/// Series of `1/(1 + x) - 1` with `x = (tan b sin u - (1 - cos u))/2`, from the power of one on.
+/// Series of `1/(1 + x) - 1` with `x = (tan beta sin u - (1 - cos u))/2`, from the power of one on.
 const fn turn_series(tangent: f32) -> [f32; 5] {
     let x1 = 0.5 * tangent;
     let x2 = -0.25;
@@ -164,7 +164,7 @@ const fn turn_series(tangent: f32) -> [f32; 5] {
 
 /// Largest deviation of a contact angle: 0.2 rad, less where the deviations of both grooves together
 /// would turn a contact through the plane across the axis, or where the series in them, which converges
-/// like the powers of `tan(b) u/2`, would need more terms.
+/// like the powers of `tan(beta) u/2`, would need more terms.
 pub(crate) const fn largest_deviation(contact_angle: f32, tangent: f32) -> f32 {
     let both = if contact_angle * tangent < 1.0 {
         contact_angle

@@ -232,8 +232,8 @@ impl ScrewLoop {
     /// with the share `q` of the load and the change `s` of the contacts' spin with the speed. What a step runs for every
     /// ball; [`ScrewTick::ball`] is the same in SI units.
     ///
-    /// Independent lines stand side by side: a core that keeps their order waits a cycle for an operand
-    /// that the line before has made.
+    /// Independent operations stand side by side: a core without reordering waits a cycle where an operation needs the
+    /// result of the one before.
     #[inline(always)]
     pub const fn ball(
         &self,
@@ -249,19 +249,19 @@ impl ScrewLoop {
         let (x, y) = (self.turn_weights.1 * nut, self.tilt_weights.1 * nut);
         let (u, v) = (u + x, v + y);
         let (square, other) = (u * u, v * v);
-        let (low, own) = (t2 * u, o2 * v);
+        let (low, series) = (t2 * u, o2 * v);
         let (high, compliance) = (t4 * u, self.compliance_rolling * root);
-        let (low, own) = (t1 + low, o1 + own);
+        let (low, series) = (t1 + low, o1 + series);
         let (high, top) = (t3 + high, t5 * square);
-        let (rest, spin) = (o3 * other, self.compliance_spin * root);
+        let (cubic, spin) = (o3 * other, self.compliance_spin * root);
         let (high, power) = (high + top, share * root);
-        let (own, compliance) = (own + rest, compliance + self.compliance_sliding);
+        let (series, compliance) = (series + cubic, compliance + self.compliance_sliding);
         let high = high * square;
-        let own = own * v;
+        let series = series * v;
         let turn = (low + high) * u;
-        // Of what turns the ball the coefficients have the scale in them.
+        // The coefficients t1 to t5 hold the scale, so that `turn` is a speed.
         let (all, shares) = (self.scale + turn, sums.share + share);
-        let (tilt, powers) = (own * all, sums.four_thirds + power);
+        let (tilt, powers) = (series * all, sums.four_thirds + power);
         let speed = turn + tilt;
         *sums = LoopSums {
             share: shares,

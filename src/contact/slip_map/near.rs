@@ -11,7 +11,7 @@ use crate::math::{self, constant};
 const POINTS: usize = 10;
 
 /// Chebyshev points in the order of Leja, in which Newton's form loses no digits.
-const CHEBYSHEV: [f32; POINTS] = [
+pub(crate) const CHEBYSHEV: [f32; POINTS] = [
     0.987_688_36,
     -0.987_688_36,
     -0.156_434_46,
@@ -24,7 +24,7 @@ const CHEBYSHEV: [f32; POINTS] = [
     0.156_434_46,
 ];
 
-/// Largest `sqrt(lambda)` next to it.
+/// Largest `sqrt(lambda)` in the near field: two semi-axes away `lambda` is below 4.
 const LARGEST_ROOT: f32 = 2.0;
 
 /// The near field: six coefficients by `lambda`, of which three are interpolated.
@@ -38,7 +38,8 @@ pub(super) struct NearField {
     scale: f32,
     stretch: f32,
     inside: Coefficients,
-    /// Divided differences of `C1`, `C2`, `C5`, each times what keeps it smooth.
+    /// Divided differences of `C1`, `C2` and `C5` at the nodes, times `sqrt(lambda) + sqrt(k)` (`C5` also times
+    /// `k² + lambda`), which leaves smooth functions.
     first: [f32; POINTS],
     second: [f32; POINTS],
     fifth: [f32; POINTS],
@@ -131,13 +132,13 @@ impl NearField {
         (along2, across2): (f32, f32),
         distance2: f32,
     ) -> Potential {
-        // lambda² + excess lambda - rest = 0.
-        let rest = self.square * (along2 - 1.0) + across2;
-        let coefficients = if rest > 0.0 {
+        // lambda² + 2 excess lambda - constant_term = 0.
+        let constant_term = self.square * (along2 - 1.0) + across2;
+        let coefficients = if constant_term > 0.0 {
             let excess = 0.5 * (1.0 + self.square - distance2);
-            let root = math::sqrt(excess * excess + rest);
+            let root = math::sqrt(excess * excess + constant_term);
             let lambda = if excess > 0.0 {
-                rest / (excess + root)
+                constant_term / (excess + root)
             } else {
                 root - excess
             };
@@ -171,6 +172,7 @@ impl NearField {
             across_across: 0.75 * (second - d - 3.0 * c),
         }
     }
+
     /// Coefficients at `lambda` between 0 and 4.
     #[inline]
     fn outside(&self, lambda: f32) -> Coefficients {

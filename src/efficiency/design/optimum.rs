@@ -43,7 +43,7 @@ pub fn optimum_contact_angle(
     let tan_squared = (sin / cos) * (sin / cos);
     let sin_friction_angle = friction / math::sqrt(1.0 + friction * friction);
     let half_friction_angle = 0.5 * libm::atan2f(friction, 1.0);
-    let (lean, largest_lead_angle) = match drive {
+    let (signed_sine, largest_lead_angle) = match drive {
         Drive::Driving => (
             sin_friction_angle,
             core::f32::consts::FRAC_PI_4 - half_friction_angle,
@@ -53,9 +53,9 @@ pub fn optimum_contact_angle(
             core::f32::consts::FRAC_PI_4 + half_friction_angle,
         ),
     };
-    let sin_squared = 0.5 * (1.0 + lean) * (1.0 + tan_squared);
+    let sin_squared = 0.5 * (1.0 + signed_sine) * (1.0 + tan_squared);
     // 1 - Sb², without its cancellation near 90 degrees.
-    let cos_squared = 0.5 * ((1.0 - lean) - tan_squared * (1.0 + lean));
+    let cos_squared = 0.5 * ((1.0 - signed_sine) - tan_squared * (1.0 + signed_sine));
     let contact_angle = (cos_squared >= 0.0)
         .then(|| libm::atan2f(math::sqrt(sin_squared), math::sqrt(cos_squared)));
     Ok(OptimumContactAngle {

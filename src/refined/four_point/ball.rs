@@ -21,7 +21,7 @@ const QUADRANTS: [(f32, f32); 4] = [(-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0), (1.0
 /// has
 ///
 /// ```text
-/// slip V_i = v_B + R_B (n_x omega_x + n_y omega_y) - groove speed
+/// slip V_i = v_B + r_b (n_x omega_x + n_y omega_y) - groove speed
 /// spin w_i = n_y omega_x - n_x omega_y - groove spin
 /// ```
 ///
@@ -85,18 +85,19 @@ impl FourPointBall {
         self.speed
     }
 
-    /// `R_B omega_x` of the ball in nominal rolling, in units of the track speed.
+    /// `r_b omega_x` of the ball in nominal rolling, in units of the track speed.
     #[must_use]
     pub const fn nominal_roll(&self) -> f32 {
-        // The upper groove never turns about the axis across: relative rotation is the ball's own.
+        // The upper groove does not turn about the axis across the track: the ball's rotation against it is its
+        // absolute one.
         self.upper.roll
     }
 
     /// Contacts from their angles, rad, and forces, N, in the order BL, BR, TR, TL.
     ///
     /// An angle further than [`LARGEST_ANGLE_DEVIATION`] from the nominal one is taken at that limit, NaN
-    /// as the nominal one; a force up to zero, above 1e7 N, or NaN is a lost contact. Sine and cosine come from their series about the nominal angle, within 1e-6 at the limit and
-    /// exact in f32 up to 0.15 rad. Cost: 425 modelled cycles.
+    /// as the nominal one; a force up to zero, above 1e7 N, or NaN is a lost contact. Sine and cosine
+    /// come from their series about the nominal angle, within 1e-6 at the limit and exact in f32 up to 0.15 rad. Cost: 425 modelled cycles.
     #[inline(always)]
     #[must_use]
     pub fn contacts(

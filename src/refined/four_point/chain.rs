@@ -68,7 +68,7 @@ impl FourPointBall {
     /// deviations up to 3 degrees, forces up to 10 N: 0.16, 0.017 and 0.0013 N without, 0.45, 0.026 and
     /// 0.003 N with friction between the balls (0.6 N for the published formula). Up to a ratio of 0.9,
     /// next to two-point rolling: 0.4, 0.04, 0.1 N, and 0.8, 0.25, 0.19 N with friction between the
-    /// balls, which there does not settle because it lags. Cost: 1380 modelled cycles a ball and step.
+    /// balls, which does not settle there, because it lags behind. Cost, two balls: 1690 modelled cycles a ball and step.
     ///
     /// `direction` is the sign of the track speed, or a number between -1 and 1 that passes smoothly
     /// through standstill, such as `v/sqrt(v² + v_s²)`: the forces vary with its size, and vanish with
@@ -151,7 +151,7 @@ impl FourPointBall {
         math::sqrt(roll * roll + yaw * yaw)
     }
 
-    /// Sum of two balls' rotations: the velocity of their surfaces against each other.
+    /// Sum of two balls' rotations times the ball radius: the velocity of their touching surfaces against each other.
     #[inline]
     fn rubbing(&self, rear: &BallMotion, front: &BallMotion) -> (f32, f32) {
         (
@@ -174,7 +174,7 @@ impl FourPointBall {
         for (((moment, rear), front), &force) in
             moments.iter_mut().zip(states).zip(fronts).zip(forces)
         {
-            // Both balls feel the same moment: force and arm both reverse from one to the other.
+            // The moment on both balls is the same: from one to the other both the force and its arm change sign.
             let ahead = self.rubbing_moment(&rear.motion, &front.motion, ball_friction * force);
             *moment = (behind.0 + ahead.0, behind.1 + ahead.1);
             behind = ahead;
@@ -188,8 +188,8 @@ impl FourPointBall {
     fn rubbing_moment(&self, rear: &BallMotion, front: &BallMotion, friction: f32) -> (f32, f32) {
         if friction > 0.0 {
             let (roll, yaw) = self.rubbing(rear, front);
-            // Two balls roll against each other with more than the track speed; the floor is for
-            // motions that a caller made up.
+            // Balls that roll rub with more than the track speed. The small number keeps the root from zero for
+            // motions that a caller has set.
             let size = friction / math::sqrt(roll * roll + yaw * yaw + 1e-12);
             (-size * roll, -size * yaw)
         } else {

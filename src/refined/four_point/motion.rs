@@ -9,13 +9,13 @@
 pub struct BallMotion {
     /// Deviation of the ball's speed along the track.
     pub speed: f32,
-    /// Deviation of `R_B omega_x`, the rotation about the axis from left to right.
+    /// Deviation of `r_b omega_x`, the rotation about the axis from left to right.
     pub roll: f32,
-    /// `R_B omega_y`, the rotation about the axis from bottom to top.
+    /// `r_b omega_y`, the rotation about the axis from bottom to top.
     pub yaw: f32,
 }
 
-/// What is kept of a ball from tick to tick, and what is known of it.
+/// State of a ball, kept from tick to tick, with the results of the last step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct BallState {

@@ -42,7 +42,7 @@ impl<const N: usize> ScrewChain<N> {
 
 impl ScrewBall {
     /// Forces between balls that touch, from the speeds and compliances that their states hold: the closed
-    /// form `F = (v_1 - v_2)/(Y_1 + Y_2)` of two balls, and its like for `N`.
+    /// form `F_BB = (v_1 - v_2)/(Y_1 + Y_2)` of two balls, and the corresponding one of `N`.
     ///
     /// `room`, `direction` and what is returned as in [`ScrewBall::refine_chain`], where errors stand; the balls' motions
     /// stay as they are.
@@ -73,8 +73,8 @@ impl ScrewBall {
     ///
     /// Every ball's equations give the speed deviation it would take on its own, and a compliance; [`Press`] turns them
     /// into the contact forces under which no ball overtakes the one in front of it, and with these the balls then take
-    /// their steps. A force acts along the chord between two balls, `cos b` of it along the track,
-    /// `sin b = 1/q` (Lin 2019, eqs. (3.72), (3.75)).
+    /// their steps. A force acts along the chord between two balls, `cos(beta_BB)` of it along the track,
+    /// `sin(beta_BB) = r_b/q` (Lin 2019, eqs. (3.72), (3.75)).
     ///
     /// `room[j]` is the speed deviation, at least zero, at which ball `j` may run up to the one in front: zero where they
     /// touch, infinite where nothing is in front. The last one belongs to the last ball and the first; it is infinite
@@ -180,7 +180,8 @@ impl ScrewBall {
         )
     }
 
-    /// What friction between balls does to each of them, by virtual power of the speed at which they rub.
+    /// Force and moments of the neighbours' friction on each ball: the derivatives of its power loss by the ball's
+    /// motion.
     #[inline]
     fn rub<const N: usize>(
         &self,
@@ -206,7 +207,7 @@ impl ScrewBall {
             *rubbing = self.of_neighbours((behind_x, behind_z), (x, z), drag);
             (behind_x, behind_z) = (x, z);
         }
-        // Ahead of the last ball on a ring is the first.
+        // On a ring the first ball is ahead of the last one.
         if let Some(first) = rubbing.first_mut() {
             let last = self.of_neighbours((behind_x, behind_z), (0.0, 0.0), drag);
             for (of_first, of_last) in first.iter_mut().zip(last) {

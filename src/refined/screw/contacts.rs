@@ -2,7 +2,9 @@
 
 use super::motion::{ScrewBallMotion, ScrewContactMotion};
 
-/// Angles and forces of a ball's contacts, as the equations take them: made by [`ScrewBall::contacts`](super::ScrewBall::contacts).
+/// Angles and forces of a ball's contacts, as the equations take them.
+///
+/// Made by [`ScrewBall::contacts`](super::ScrewBall::contacts).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ScrewContacts {

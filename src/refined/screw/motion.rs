@@ -22,7 +22,7 @@ pub struct ScrewContactMotion {
     pub spin: f32,
 }
 
-/// What is known of a ball, and kept of it from tick to tick.
+/// State of a ball, kept from tick to tick, with the results of the last step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ScrewBallState {

@@ -5,11 +5,11 @@ use crate::error::{Error, attempt, in_range};
 /// Samples of a period.
 const SAMPLES: usize = 64;
 
-/// Bits of a phase that count: 6 for the sample, 14 for the fraction of the way to the next one.
+/// Bits of a phase that count: 6 for the sample, 14 for the fraction of the distance to the next one.
 pub(super) const PHASE_BITS: u32 = 20;
 const FRACTION_BITS: u32 = 14;
 
-/// Largest sample in units of the table: two of them stay within 16 bits.
+/// Largest sample in units of the table: the difference of two stays within 16 bits.
 const LARGEST: f32 = 16383.0;
 
 /// Largest deviation of a contact angle, rad.
@@ -52,7 +52,7 @@ pub struct Harmonic {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct DeviationMap {
-    /// A sample in the upper half, plus its difference to the next one, which is the lower half.
+    /// In the upper 16 bits a sample, in the lower ones its difference to the next sample.
     samples: [i32; SAMPLES],
     /// Angle of one unit of the table and one of the fraction, rad.
     unit: f32,
@@ -198,7 +198,8 @@ impl DeviationMap {
         let index = (phase >> FRACTION_BITS) as usize % SAMPLES;
         let fraction = (phase & ((1 << FRACTION_BITS) - 1)) as i32;
         self.samples.get(index).map_or(0, |&sample| {
-            // What the difference leaves in the first term is a quarter of a fraction's unit.
+            // The shift leaves the sample times 2^14, and of the difference below it a quarter: a 65536th of what the
+            // difference adds over a whole sample.
             (sample >> (16 - FRACTION_BITS)) + i32::from(sample as i16) * fraction
         })
     }
@@ -211,7 +212,7 @@ impl DeviationMap {
 }
 
 /// Sines of the samples' phases, by rotation from one to the next at compile time.
-const SINES: [f32; SAMPLES] = {
+pub(crate) const SINES: [f32; SAMPLES] = {
     // cos and sin of 2 pi/64.
     const STEP: (f64, f64) = (0.995_184_726_672_196_9, 0.098_017_140_329_560_6);
     let mut sines = [0.0; SAMPLES];

@@ -9,7 +9,7 @@ pub(super) const UNITS: f32 = 4_294_967_296.0;
 pub(super) struct Phase {
     /// Units of 2^-32 of a period.
     units: u32,
-    /// What of the advance so far is not a whole unit yet.
+    /// Part of the advance so far that is not yet a whole unit.
     remainder: f32,
 }
 
@@ -36,7 +36,7 @@ impl Phase {
             0.0
         };
         let fraction = periods - periods as i32 as f32;
-        // Twice a half, because a whole period does not fit into 31 bits.
+        // In half periods, because a whole one does not fit into 31 bits and a sign.
         let half = (fraction * (0.5 * UNITS)) as i32;
         self.units = (half as u32).wrapping_mul(2);
         self.remainder = 0.0;

@@ -6,8 +6,9 @@
 use cortex_m_rt::entry;
 use epas_firmware::board::{clock, finish};
 use epas_firmware::contexts::Contexts;
+use epas_firmware::inputs::COUNTED;
 use epas_firmware::spread::Spread;
-use epas_firmware::subjects::{COUNTED, PEERS, SUBJECTS, WIDEST};
+use epas_firmware::subjects::{PEERS, SUBJECTS, WIDEST};
 
 #[entry]
 fn main() -> ! {

@@ -7,9 +7,8 @@ use cortex_m_rt::entry;
 use defmt_semihosting as _;
 use epas_firmware::board::finish;
 use epas_firmware::scenes::{
-    caged_configuration, course, linear_configuration, uncaged_configuration,
+    BALLS, caged_configuration, course, linear_configuration, uncaged_configuration,
 };
-use epas_firmware::subjects::BALLS;
 use epas_friction::{
     BallScrew, BallScrewParameters, CagedBallScrew, Error, FrictionModel, Inputs,
     LinearBearingTrain, LinearInputs, UncagedBallScrew,

@@ -12,7 +12,7 @@ use super::maps;
 use crate::eval;
 use crate::failure::Failure;
 use crate::plot::{Axis, Chart, Mark, Panel, Series};
-use crate::report::Context;
+use crate::report::context::Context;
 use crate::report::document::{Block, Cell, Figure, Table};
 use crate::study::{self, turned_ball};
 

@@ -5,11 +5,13 @@ use std::time::Instant;
 use epas_reference::friction::ball_screw_elastic::ScrewSupport;
 use epas_reference::friction::chain::solve_chain;
 
-use super::Context;
 use crate::failure::Failure;
 use crate::plot::{Axis, Chart, Mark, Panel, Series};
+use crate::report::context::Context;
 use crate::report::document::{Block, Cell, Figure, Table};
+use crate::report::times::{quartiles, time};
 use crate::study::{self, turned_ball};
+use crate::timing::Measure;
 
 /// Balls of each timed train, and the keys of its forces, its tick and the tick of its scene.
 const TRAINS: [(u8, [&str; 3]); 9] = [
@@ -154,12 +156,10 @@ fn train_times(context: &Context) -> Result<Table, Failure> {
         let mut row = vec![Cell::fixed(balls.into(), 0)];
         for key in keys {
             let times = context.times(key)?;
-            let (low, high) = times.latency.quartiles;
-            row.push(Cell::fixed(times.latency.median, 1));
-            row.push(Cell::from(format!("{low:.1}-{high:.1}")));
+            row.push(time(&times.latency, 1));
+            row.push(quartiles(&times.latency, 1));
         }
-        let whole = context.times(keys[2])?.latency.median;
-        row.push(Cell::fixed(whole / f64::from(balls), 1));
+        row.push(share(&context.times(keys[2])?.latency, balls));
         rows.push(row);
     }
     Ok(Table {
@@ -184,6 +184,15 @@ fn train_times(context: &Context) -> Result<Table, Failure> {
     })
 }
 
+/// A ball's part of a time, ns.
+fn share(whole: &Measure, balls: u8) -> Cell {
+    if whole.is_resolved() {
+        Cell::fixed(whole.median / f64::from(balls), 1)
+    } else {
+        "".into()
+    }
+}
+
 fn picture(context: &Context) -> Result<Figure, Failure> {
     let mut series = Vec::new();
     for (colour, part) in PARTS.into_iter().enumerate() {
@@ -191,7 +200,7 @@ fn picture(context: &Context) -> Result<Figure, Failure> {
         for (balls, keys) in TRAINS {
             points.push((
                 f64::from(balls),
-                context.times(keys[colour])?.latency.median,
+                context.times(keys[colour])?.latency.at_least_resolved(),
             ));
         }
         series.push(Series::new("", colour, Mark::Circles, points.clone()));

@@ -7,11 +7,12 @@ use epas_friction::refined::{BallChain, BallState, FourPointBall, FourPointConta
 use epas_reference::friction::chain::solve_chain;
 use epas_reference::friction::linear_ball::LinearBall;
 
-use super::Context;
 use crate::failure::Failure;
 use crate::plot::{Axis, Chart, ColourMap, Mark, Note, Panel, Series};
+use crate::report::context::Context;
 use crate::report::document::{Block, Cell, Figure, Table};
 use crate::report::statistics::{Errors, evenly};
+use crate::report::times::{ratio, time};
 use crate::study::{self, turned_ball};
 
 /// Room of two balls that touch on an open track.
@@ -250,7 +251,7 @@ fn swinging_load(models: &Models) -> Result<Errors, Failure> {
 
 fn summary(context: &Context, grid: &Grid, swing: &Errors) -> Result<Table, Failure> {
     let mut rows = Vec::new();
-    let unit = context.times("ball_analytic")?.latency.median;
+    let unit = &context.times("ball_analytic")?.latency;
     let mut row = |key: &str, name: &str, domain: String, errors: &Errors| {
         let times = context.times(key)?;
         rows.push(vec![
@@ -259,9 +260,9 @@ fn summary(context: &Context, grid: &Grid, swing: &Errors) -> Result<Table, Fail
             Cell::power(errors.largest),
             Cell::power(errors.rms()),
             Cell::power(errors.mean()),
-            Cell::fixed(times.latency.median, 1),
-            Cell::fixed(times.latency.median / unit, 2),
-            Cell::fixed(times.throughput.median, 1),
+            time(&times.latency, 1),
+            ratio(times.latency.over(unit), 2),
+            time(&times.throughput, 1),
         ]);
         Ok::<(), Failure>(())
     };
@@ -310,7 +311,7 @@ fn picture(context: &Context, grid: &Grid, swing: &Errors) -> Result<Figure, Fai
         let mut points = Vec::new();
         for (variant, (key, name)) in VARIANTS.into_iter().enumerate() {
             let at = (
-                context.times(key)?.latency.median,
+                context.times(key)?.latency.at_least_resolved(),
                 grid.up_to(variant, domain).largest,
             );
             points.push(at);
@@ -331,7 +332,7 @@ fn picture(context: &Context, grid: &Grid, swing: &Errors) -> Result<Figure, Fai
         DOMAINS.len(),
         Mark::Triangles,
         vec![(
-            context.times("ball_warm_step")?.latency.median,
+            context.times("ball_warm_step")?.latency.at_least_resolved(),
             swing.largest,
         )],
     ));

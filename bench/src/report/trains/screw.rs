@@ -6,11 +6,12 @@ use epas_friction::{GrooveFit, LoadShare};
 use epas_reference::friction::ball_screw_ball::ScrewMotion;
 use epas_reference::friction::ball_screw_elastic::ScrewSupport;
 
-use super::Context;
 use crate::failure::Failure;
 use crate::plot::{Axis, Chart, Mark, Note, Panel, Series};
+use crate::report::context::Context;
 use crate::report::document::{Block, Cell, Figure, Table};
 use crate::report::statistics::Errors;
+use crate::report::times::time;
 use crate::study;
 
 /// Room of two balls that touch on an open track.
@@ -190,8 +191,8 @@ fn table(context: &Context, cases: &[Case]) -> Result<Table, Failure> {
                     Cell::fixed(errors.rms(), 2),
                     Cell::fixed(errors.mean(), 2),
                     Cell::power(speeds.largest),
-                    Cell::fixed(times.latency.median, 1),
-                    Cell::fixed(times.throughput.median, 1),
+                    time(&times.latency, 1),
+                    time(&times.throughput, 1),
                 ]);
             }
         }
@@ -230,7 +231,10 @@ fn picture(context: &Context, cases: &[Case]) -> Result<Figure, Failure> {
             let mut points = Vec::new();
             for (variant, (key, name)) in VARIANTS.into_iter().enumerate() {
                 let errors = force_errors(cases, variant, sign, load);
-                let at = (context.times(key)?.latency.median, errors.largest);
+                let at = (
+                    context.times(key)?.latency.at_least_resolved(),
+                    errors.largest,
+                );
                 points.push(at);
                 if sign == 1 && load == 50.0 {
                     notes.push(Note {

@@ -1,0 +1,111 @@
+//! What design files of screws and of bearings have in common.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+use epas_friction::{GrooveSize, Material};
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
+
+use crate::failure::Failure;
+use crate::files::Bounded;
+
+/// Elastic constants and density of a body, as they are written.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MaterialTable {
+    /// Young's modulus, Pa.
+    pub youngs_modulus: Option<f32>,
+    /// Poisson's ratio.
+    pub poisson_ratio: Option<f32>,
+    /// Density, kg/m³.
+    pub density: Option<f32>,
+}
+
+/// Largest design file, bytes: a hundred times what one needs.
+const LARGEST_FILE: u64 = 1 << 18;
+
+/// Reads a design file, and makes a design of what it says and of its own name.
+pub fn from_file<Table: DeserializeOwned, Made>(
+    path: &Path,
+    design: impl FnOnce(Table, &str) -> Result<Made, String>,
+) -> Result<Made, Failure> {
+    let failure = |message: String| Failure::Data(format!("{}: {message}", path.display()));
+    let text = read_text(path)?;
+    let file: Table =
+        toml::from_str(&text).map_err(|error| failure(error.to_string().trim_end().into()))?;
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    design(file, &stem).map_err(failure)
+}
+
+fn read_text(path: &Path) -> Result<String, Failure> {
+    let file = File::open(path).map_err(|error| Failure::file("open", path, &error))?;
+    let mut text = String::new();
+    Bounded::new(file, LARGEST_FILE)
+        .read_to_string(&mut text)
+        .map_err(|error| Failure::file("read", path, &error))?;
+    Ok(text)
+}
+
+/// Puts a given value in the place of another one.
+pub fn replace<T>(value: &mut T, given: Option<T>) {
+    if let Some(given) = given {
+        *value = given;
+    }
+}
+
+/// A radius that may be given as a diameter instead.
+pub fn radius(
+    (radius_field, radius): (&str, Option<f32>),
+    (diameter_field, diameter): (&str, Option<f32>),
+) -> Result<f32, String> {
+    match (radius, diameter) {
+        (Some(radius), None) => Ok(radius),
+        (None, Some(diameter)) => Ok(0.5 * diameter),
+        (None, None) => Err(format!("{radius_field} or {diameter_field} is missing")),
+        (Some(_), Some(_)) => Err(format!(
+            "{radius_field} and {diameter_field} are both given; one of them follows from the other"
+        )),
+    }
+}
+
+/// A groove's size by the one or the other number.
+pub fn groove_size(
+    name: &str,
+    conformity: Option<f32>,
+    groove_radius: Option<f32>,
+) -> Result<GrooveSize, String> {
+    match (conformity, groove_radius) {
+        (Some(conformity), None) => Ok(GrooveSize::Conformity(conformity)),
+        (None, Some(radius)) => Ok(GrooveSize::Radius(radius)),
+        (None, None) => Err(format!("{name}: conformity or groove_radius is missing")),
+        (Some(_), Some(_)) => Err(format!(
+            "{name}: conformity and groove_radius are both given; one of them follows from the other"
+        )),
+    }
+}
+
+/// A body's own constants, those given for both, or steel's.
+pub fn material(own: Option<&MaterialTable>, common: &MaterialTable) -> Material {
+    let pick = |own: Option<Option<f32>>, common: Option<f32>, steel: f32| {
+        own.flatten().or(common).unwrap_or(steel)
+    };
+    Material {
+        youngs_modulus: pick(
+            own.map(|table| table.youngs_modulus),
+            common.youngs_modulus,
+            Material::STEEL.youngs_modulus,
+        ),
+        poisson_ratio: pick(
+            own.map(|table| table.poisson_ratio),
+            common.poisson_ratio,
+            Material::STEEL.poisson_ratio,
+        ),
+        density: pick(
+            own.map(|table| table.density),
+            common.density,
+            Material::STEEL.density,
+        ),
+    }
+}

@@ -1,0 +1,43 @@
+//! Colours and sizes of all figures.
+
+use plotters::style::RGBColor;
+
+/// Colours that stay apart for every common kind of colour vision (Okabe and Ito 2008).
+pub const PALETTE: [RGBColor; 7] = [
+    RGBColor(0, 114, 178),
+    RGBColor(213, 94, 0),
+    RGBColor(0, 158, 115),
+    RGBColor(204, 121, 167),
+    RGBColor(230, 159, 0),
+    RGBColor(86, 180, 233),
+    RGBColor(60, 60, 60),
+];
+
+/// The drawing library rounds to whole pixels: everything is drawn so many times too large, and the
+/// picture scaled down.
+pub const SCALE: i32 = 8;
+
+/// A length in pixels of the finished picture, as it is drawn.
+pub const fn px(pixels: i32) -> i32 {
+    pixels * SCALE
+}
+
+/// Colour of texts.
+pub const TEXT: RGBColor = RGBColor(40, 40, 40);
+/// The sans-serif font of whoever looks at the picture.
+pub const FONT: &str = "sans-serif";
+/// Height of letters of a title.
+pub const TITLE_SIZE: i32 = px(17);
+/// Height of letters of the label of an axis, and of a legend.
+pub const LABEL_SIZE: i32 = px(14);
+/// Height of letters of a number at an axis.
+pub const TICK_SIZE: i32 = px(13);
+/// Height of a line of title or legend.
+pub const LINE_HEIGHT: i32 = px(22);
+/// Width of a line.
+pub const STROKE: u32 = px(2).unsigned_abs();
+
+/// Width of a text, near enough to set one entry of a legend beside the other.
+pub fn text_width(text: &str, size: i32) -> i32 {
+    size * 14 / 25 * text.chars().count() as i32
+}

@@ -1,0 +1,25 @@
+//! What every section of the report works with.
+
+use crate::failure::Failure;
+use crate::target::TargetFigures;
+use crate::timing::Competition;
+
+/// What every section works with.
+pub struct Context {
+    /// Whether coarser sweeps are enough.
+    pub quick: bool,
+    /// Times on this machine.
+    pub competition: Vec<Competition>,
+    /// Counts on the target.
+    pub target: TargetFigures,
+}
+
+impl Context {
+    /// The times of a function by its key.
+    pub fn times(&self, key: &str) -> Result<&Competition, Failure> {
+        self.competition
+            .iter()
+            .find(|entry| entry.key == key)
+            .ok_or_else(|| Failure::Data(format!("nothing was timed as {key}")))
+    }
+}

@@ -1,0 +1,41 @@
+//! Times and their ratios in a table: a number, or what it is below where the clock cannot tell.
+
+use super::document::Cell;
+use crate::timing::{Measure, Ratio};
+
+/// The median of a time, ns.
+pub fn time(measure: &Measure, decimals: usize) -> Cell {
+    if measure.is_resolved() {
+        Cell::fixed(measure.median, decimals)
+    } else {
+        below(measure, decimals).into()
+    }
+}
+
+/// The quartiles of a time, ns.
+pub fn quartiles(measure: &Measure, decimals: usize) -> Cell {
+    let (low, high) = measure.quartiles;
+    if low >= measure.resolution {
+        format!("{low:.decimals$}-{high:.decimals$}").into()
+    } else if high >= measure.resolution {
+        format!("{}-{high:.decimals$}", below(measure, decimals)).into()
+    } else {
+        below(measure, decimals).into()
+    }
+}
+
+/// One time over another.
+pub fn ratio(ratio: Ratio, decimals: usize) -> Cell {
+    match ratio {
+        Ratio::Is(ratio) => Cell::fixed(ratio, decimals),
+        Ratio::Below(ratio) => format!("< {ratio:.decimals$}").into(),
+        Ratio::Above(ratio) => format!("> {ratio:.decimals$}").into(),
+        Ratio::Unknown => "not resolved".into(),
+    }
+}
+
+/// Rounded up, or a resolution below the last digit would read as nothing at all.
+fn below(measure: &Measure, decimals: usize) -> String {
+    let unit = 10_f64.powi(decimals as i32);
+    format!("< {:.decimals$}", (measure.resolution * unit).ceil() / unit)
+}

@@ -1,0 +1,148 @@
+//! What a run on the target finds: figures of functions and scenes, and what holds of the images.
+
+use serde::{Deserialize, Serialize};
+
+use crate::failure::Failure;
+
+/// What a run found.
+// Each says by itself whether something holds.
+#[allow(clippy::struct_excessive_bools)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Figures {
+    /// Functions of the crate, then what others offer.
+    pub functions: Vec<FunctionFigures>,
+    /// Scenes.
+    pub scenes: Vec<SceneFigures>,
+    /// The program that computes nothing.
+    pub empty: SceneFigures,
+    /// Whether every image links without any way to the panic handler.
+    pub panic_free: bool,
+    /// Whether any image of the crate's own holds arithmetic in double precision by software.
+    pub soft_double: bool,
+    /// Whether every result on the target has the bits of the host's.
+    pub equal_to_host: bool,
+    /// Whether each scene alone gives what it gives among all the others.
+    pub scenes_equal: bool,
+    /// Names that no image may hold and one does: an allocator, formatting.
+    pub unwanted: Vec<String>,
+    /// Functions that can call themselves, directly or through others.
+    pub recursive: Vec<String>,
+    /// Code of the crate in the image of a scene that leaves it out, inlined code included.
+    pub out_of_place: Vec<String>,
+}
+
+/// What a function takes, from its first instruction to its return.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FunctionFigures {
+    /// Its name.
+    pub name: String,
+    /// Least and most instructions over the inputs, on a Cortex-M4F.
+    pub instructions_min: u32,
+    /// See above.
+    pub instructions_max: u32,
+    /// Least and most cycles over the inputs, by Arm's table for the Cortex-M4F.
+    pub cycles_min: u32,
+    /// See above.
+    pub cycles_max: u32,
+    /// Most cycles of the same function built for size.
+    pub cycles_max_small: u32,
+    /// Most instructions of the same function built for a Cortex-M7.
+    pub instructions_max_cortex_m7: u32,
+    /// How many inputs.
+    pub inputs: u32,
+}
+
+/// What a scene takes.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SceneFigures {
+    /// Its name.
+    pub name: String,
+    /// Bytes of flash of its whole image.
+    pub flash: u64,
+    /// Bytes of flash more than the program that computes nothing.
+    pub flash_beyond_empty: u64,
+    /// Bytes of memory, the stack not counted.
+    pub ram: u64,
+    /// Bytes of stack of a tick, at most.
+    pub stack: u64,
+    /// Bytes of stack of the set-up.
+    pub stack_set_up: u64,
+    /// Bytes of flash of its whole image built for size.
+    pub flash_small: u64,
+    /// Bytes of stack of a tick, at most, built for size.
+    pub stack_small: u64,
+}
+
+impl Figures {
+    /// A function by its name.
+    pub fn function(&self, name: &str) -> Option<&FunctionFigures> {
+        self.functions.iter().find(|entry| entry.name == name)
+    }
+
+    /// A scene by its name.
+    pub fn scene(&self, name: &str) -> Option<&SceneFigures> {
+        self.scenes.iter().find(|entry| entry.name == name)
+    }
+
+    /// What holds of the images, a line each.
+    pub fn proofs(&self) -> String {
+        let yes = |yes: bool| if yes { "yes" } else { "NO" };
+        [
+            (
+                "results equal to the host's bit for bit",
+                self.equal_to_host,
+            ),
+            ("no way to a panic", self.panic_free),
+            ("no double precision by software", !self.soft_double),
+            ("scenes alone equal to all in one", self.scenes_equal),
+            ("no allocator, no formatting", self.unwanted.is_empty()),
+            ("no recursion", self.recursive.is_empty()),
+            (
+                "every scene without what it leaves out",
+                self.out_of_place.is_empty(),
+            ),
+        ]
+        .map(|(what, holds)| format!("{what}: {}", yes(holds)))
+        .join("\n")
+    }
+
+    /// Fails where something does not hold that must hold whatever it costs.
+    pub fn require(&self) -> Result<(), Failure> {
+        let mut broken = Vec::new();
+        let mut require = |holds: bool, what: String| {
+            if !holds {
+                broken.push(what);
+            }
+        };
+        require(
+            self.equal_to_host,
+            "results on the target differ from the host's".into(),
+        );
+        require(self.panic_free, "a way to the panic handler is left".into());
+        require(
+            !self.soft_double,
+            "double precision by software is linked".into(),
+        );
+        require(
+            self.scenes_equal,
+            "a scene gives other numbers alone than among the others".into(),
+        );
+        require(
+            self.unwanted.is_empty(),
+            format!("unwanted in an image: {}", self.unwanted.join(", ")),
+        );
+        require(
+            self.recursive.is_empty(),
+            format!("recursive: {}", self.recursive.join(", ")),
+        );
+        require(
+            self.out_of_place.is_empty(),
+            format!("not left out: {}", self.out_of_place.join(", ")),
+        );
+        if broken.is_empty() {
+            Ok(())
+        } else {
+            Err(Failure::Data(broken.join("\n")))
+        }
+    }
+}

@@ -1,0 +1,24 @@
+//! Makes every fitted coefficient of the crate again, from its definition and in float64, and compares it with the
+//! stored one; and shows, for every constant that was chosen and not derived, that the chosen value lies where nothing
+//! is gained by another one.
+//!
+//! | module | stored in |
+//! |---|---|
+//! | `axis_ratio` | `hertz` |
+//! | `cube_roots` | `math::own`, `math::powers` |
+//! | `sine` | `math::own` |
+//! | `nodes` | nodes of interpolation and quadrature, tables of sines, numbers with a name |
+//! | `lines` | `kinematics::friction_power` |
+//! | `sagitta` | `kinematics::parameters` |
+//! | `preload` | `ball::preload` |
+//! | `refined_balls` | chosen constants of `refined` |
+
+mod axis_ratio;
+mod cube_roots;
+mod lines;
+mod nodes;
+mod preload;
+mod refined_balls;
+mod remez;
+mod sagitta;
+mod sine;

@@ -1,0 +1,108 @@
+//! Nodes of interpolation and quadrature, tables of sines, and numbers with a name: from their definitions.
+
+use std::f64::consts::PI;
+
+use epas_friction::fits::{curvature, friction_power, pitch_angle, scene, slip_map};
+use gauss_quad::{GaussJacobi, GaussLegendre};
+
+/// Rounded to nearest from a number that is itself within some ulp of float64.
+fn is_rounded(stored: f32, exact: f64) {
+    let error = (f64::from(stored) - exact).abs();
+    assert!(
+        error <= 0.51 * f64::from(f32::EPSILON) * exact.abs(),
+        "{stored} {exact}"
+    );
+}
+
+#[test]
+fn the_curvature_is_fitted_at_chebyshev_nodes() {
+    for (index, &node) in curvature::CHEBYSHEV.iter().enumerate() {
+        if index == 2 {
+            assert_eq!(node, 0.0);
+        } else {
+            is_rounded(node, ((2 * index + 1) as f64 * PI / 10.0).cos());
+        }
+    }
+}
+
+#[test]
+fn friction_power_is_summed_over_the_lines_of_gauss() {
+    let number = |value: f64| value.try_into().unwrap();
+    // The weight (1 - y)(1 + y), whose integral is 4/3.
+    let rule = GaussJacobi::new(8.try_into().unwrap(), number(1.0), number(1.0));
+    let positive = rule
+        .as_node_weight_pairs()
+        .iter()
+        .filter(|line| line.0 > 0.0);
+    let mut lines: Vec<_> = positive.collect();
+    lines.sort_by(|first, second| first.0.total_cmp(&second.0));
+    assert_eq!(lines.len(), friction_power::LINES.len());
+    for (&(node, weight), (stored_node, stored_weight)) in
+        lines.into_iter().zip(friction_power::LINES)
+    {
+        // The rule's own eigenvalues are good to some 1e-15.
+        is_rounded(stored_node, node);
+        is_rounded(stored_weight, 0.75 * weight);
+    }
+}
+
+#[test]
+fn numbers_with_a_name() {
+    is_rounded(friction_power::KINK, (4.0 / (3.0 * PI)).powi(2));
+    is_rounded(pitch_angle::SECTION, 0.5 * (5.0_f64.sqrt() - 1.0));
+    is_rounded(scene::HALF_TO_FOUR_THIRDS, 0.5_f64.powf(4.0 / 3.0));
+}
+
+/// Newton's form keeps its digits where each node is the one whose distances to those before it have the largest product
+/// (Leja); from the right end on, and of two that are alike either.
+#[test]
+fn elliptic_integrals_are_interpolated_at_chebyshev_nodes_in_the_order_of_leja() {
+    let mut left: Vec<f64> = (0..10)
+        .map(|i| (f64::from(2 * i + 1) * PI / 20.0).cos())
+        .collect();
+    let mut before: Vec<f64> = Vec::new();
+    for stored in slip_map::CHEBYSHEV {
+        let product = |node: f64| {
+            before
+                .iter()
+                .map(|other| (node - other).abs())
+                .product::<f64>()
+        };
+        let index = left
+            .iter()
+            .position(|node| (node - f64::from(stored)).abs() < 1e-7)
+            .expect("a Chebyshev node");
+        let node = left.swap_remove(index);
+        is_rounded(stored, node);
+        let largest = left.iter().map(|other| product(*other)).fold(0.0, f64::max);
+        assert!(product(node) > largest * (1.0 - 1e-9), "{node}");
+        before.push(node);
+    }
+}
+
+#[test]
+fn the_narrow_integral_is_summed_by_gauss() {
+    let rule = GaussLegendre::new(5.try_into().unwrap());
+    let mut nodes = rule.as_node_weight_pairs().to_vec();
+    nodes.sort_by(|first, second| first.0.total_cmp(&second.0));
+    for ((node, weight), (stored_node, stored_weight)) in nodes.into_iter().zip(slip_map::GAUSS) {
+        if stored_node == 0.0 {
+            assert!(node.abs() < 1e-15);
+        } else {
+            is_rounded(stored_node, node);
+        }
+        is_rounded(stored_weight, weight);
+    }
+}
+
+/// 63 rotations in float64 leave 1e-14: rounded to f32 each sine is right, and a zero is within that.
+#[test]
+fn deviation_maps_are_made_of_sines() {
+    for (sample, &sine) in scene::SINES.iter().enumerate() {
+        let exact = (PI * sample as f64 / 32.0).sin();
+        assert!(
+            (f64::from(sine) - exact).abs() < 6.1e-8 * exact.abs() + 1e-14,
+            "{sample}"
+        );
+    }
+}

@@ -1,0 +1,451 @@
+//! What a step promises, and what it calls: measured against the float64 reference.
+
+use std::f64::consts::{FRAC_PI_4, TAU};
+
+use epas_friction::ball::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE, ScrewRow};
+use epas_friction::promises::{self, Promise};
+use epas_friction::refined::{BallChain, FourPointBall};
+use epas_friction::train::Train;
+use epas_friction::{
+    BallScrew, BallScrewParameters, CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration,
+    DISSERTATION_DESIGNS, DeviationMap, FrictionBranch, FrictionModel, GrooveFit, GrooveSize,
+    Harmonic, Inputs, Limits, LinearBearing, LinearBearingConfiguration, LinearBearingParameters,
+    LinearBearingTrain, LinearInputs, LinearLimits, LoadShare, Material, UncagedBallScrew,
+    UncagedBallScrewConfiguration,
+};
+use epas_reference::efficiency::Screw;
+use epas_reference::friction::ball_screw_ball::ScrewTrack;
+use epas_reference::friction::ball_screw_closed::{ContactAngles, Support, ThreePointModel};
+use epas_reference::friction::ball_screw_elastic::BallSlip;
+use epas_reference::friction::chain::solve_chain;
+use epas_reference::friction::contact_law::HertzLaw;
+use epas_reference::friction::isotonic::isotonic_by_min_max;
+use epas_reference::friction::linear_ball::{EllipseLaw, LinearBall, contact_forces};
+use epas_reference::friction::whole_screw::WholeScrew;
+use epas_reference::hertz::{Hertz, contact_modulus};
+
+/// Measured errors of one function.
+#[derive(Default)]
+struct Errors {
+    largest: f64,
+    squares: f64,
+    sum: f64,
+    count: u32,
+    worst: String,
+}
+
+impl Errors {
+    fn add(&mut self, error: f64, line: impl FnOnce() -> String) {
+        if error.is_nan() || error.abs() > self.largest {
+            self.largest = error.abs();
+            self.worst = line();
+        }
+        self.squares += error * error;
+        self.sum += error;
+        self.count += 1;
+    }
+
+    fn hold(&self, promise: &Promise) {
+        let rms = (self.squares / f64::from(self.count)).sqrt();
+        let mean = self.sum / f64::from(self.count);
+        let line = format!(
+            "{}: {} inputs, largest {:.2e} ({:.2e} promised), rms {rms:.1e} ({:.1e}), mean {mean:+.1e} ({:.1e}); worst {}",
+            promise.function,
+            self.count,
+            self.largest,
+            promise.largest,
+            promise.rms,
+            promise.mean,
+            self.worst,
+        );
+        println!("{line}");
+        assert!(
+            self.largest <= promise.largest && rms <= promise.rms && mean.abs() <= promise.mean,
+            "{line}"
+        );
+    }
+}
+
+/// Torque of both branches in all four quadrants by the reference's efficiencies, with the direction that
+/// the scene takes near a reversal.
+#[test]
+fn caged_step() {
+    let mut errors = Errors::default();
+    let designs = DISSERTATION_DESIGNS.map(|design| design.parameters);
+    let sizes = CATALOGUE.map(|size| size.parameters());
+    for parameters in designs.into_iter().chain(sizes) {
+        for branch in [FrictionBranch::Rolling, FrictionBranch::Sliding] {
+            let mut model = FrictionModel::<CagedBallScrew>::new(&CagedBallScrewConfiguration {
+                design: BallScrew::new(parameters).unwrap(),
+                friction: 0.075,
+                rolling_tangent: 0.0,
+                branch,
+                preload: 0.0,
+                reversal_speed: 0.5,
+                limits: Limits {
+                    nut_speed: 500.0,
+                    axial_load: 20_000.0,
+                    friction_torque: 1e3,
+                },
+            })
+            .unwrap();
+            let arm = f64::from(parameters.lead) / TAU;
+            let pitch_radius = f64::from(parameters.pitch_radius);
+            let screw = Screw {
+                lead_angle: (arm / pitch_radius).atan(),
+                contact_angle: parameters.contact_angle.into(),
+                friction: f64::from(0.075_f32),
+                ball_ratio: f64::from(parameters.ball_radius) / pitch_radius,
+                rolling_tangent: 0.0,
+            };
+            let (drive, backdrive) = match branch {
+                FrictionBranch::Rolling => (screw.rolling_screw(), screw.rolling_backdrive()),
+                FrictionBranch::Sliding => (screw.sliding_drive(), screw.sliding_backdrive()),
+            };
+            // Torque per load in both directions of power.
+            let (drive, backdrive) = (arm * (1.0 / drive - 1.0), arm * (1.0 - backdrive));
+            for speed in [-200.0_f32, -3.0, -0.3, 0.3, 3.0, 200.0] {
+                for load in [-15_000.0_f32, -900.0, -1.0, 1.0, 900.0, 15_000.0] {
+                    let (w, force) = (f64::from(speed), f64::from(load));
+                    let direction = w / (w * w + 0.25).sqrt();
+                    let (sum, blended) = (force.abs(), direction * force);
+                    let exact =
+                        0.5 * direction * (drive * (sum + blended) + backdrive * (sum - blended));
+                    let found = model.step(Inputs {
+                        nut_speed: speed,
+                        axial_load: load,
+                    });
+                    errors.add(f64::from(found.friction_torque) / exact - 1.0, || {
+                        format!("{parameters:?} {branch:?} {speed} {load}")
+                    });
+                }
+            }
+        }
+    }
+    errors.hold(&promises::STEP_CAGED);
+}
+
+/// Lin 2019, Table 2.1 (radii in m).
+const TRACK: ScrewTrack = ScrewTrack {
+    pitch_radius: 16.5e-3,
+    lead: 20e-3,
+    ball_radius: 2.778e-3,
+};
+
+fn screw() -> BallScrew {
+    BallScrew::new(BallScrewParameters {
+        pitch_radius: 16.5e-3,
+        lead: 20e-3,
+        ball_radius: 2.778e-3,
+        screw_groove: GrooveSize::Radius(3.254e-3),
+        nut_groove: GrooveSize::Radius(3.254e-3),
+        contact_angle: std::f32::consts::FRAC_PI_4,
+        ball_material: Material::STEEL,
+        groove_material: Material::STEEL,
+    })
+    .unwrap()
+}
+
+/// The same screw in float64; contact laws from the reference's own curvatures and elliptic integrals.
+fn model(friction: f64) -> ThreePointModel {
+    let stored: serde_json::Value =
+        serde_json::from_str(include_str!("../golden/ballscrew.json")).unwrap();
+    let law = |side: &str| {
+        let stored = &stored["hertz"][format!("{side}_rG3.254")]["correct"];
+        let value = |key: &str| stored[key].as_f64().unwrap() * 1e-3;
+        HertzLaw {
+            ellipse: EllipseLaw {
+                semi_major_constant: value("Ca"),
+                axis_ratio: value("Cb") / value("Ca"),
+            },
+            compliance: value("C"),
+        }
+    };
+    ThreePointModel {
+        track: TRACK,
+        screw: law("S"),
+        nut: law("N"),
+        friction,
+        contact_angle: FRAC_PI_4,
+    }
+}
+
+/// Balls of one screw against the closed form with exact contact integrals.
+#[test]
+fn balls_of_a_screw() {
+    let (mut row_errors, mut ball_errors) = (Errors::default(), Errors::default());
+    for friction in [0.05, 0.12] {
+        let row = ScrewRow::new(&screw(), friction as f32, GrooveFit::Zero).unwrap();
+        let model = model(friction);
+        for load in [
+            -1000.0, -100.0, -10.0, -1.0, -0.1, 0.1, 1.0, 10.0, 100.0, 1000.0_f64,
+        ] {
+            for speed in [1.0, -1.0] {
+                let tick = row.at(speed as f32, load as f32);
+                for (theta, eta) in [-3.0, -1.0, 0.0, 2.0, 3.0_f64]
+                    .into_iter()
+                    .flat_map(|theta| [-3.0, 0.0, 1.0, 3.0_f64].map(|eta| (theta, eta)))
+                {
+                    let (t, e) = (theta.to_radians(), eta.to_radians());
+                    let support = Support::of(load, speed);
+                    let side = if load < 0.0 { 1.0 } else { -1.0 };
+                    let angles = ContactAngles {
+                        screw: FRAC_PI_4 + side * t,
+                        nut: FRAC_PI_4 - side * e,
+                        third: if support == Support::ThirdOnScrew {
+                            FRAC_PI_4 - side * t
+                        } else {
+                            FRAC_PI_4 + side * e
+                        },
+                    };
+                    let exact = model.ball(support, angles, load, speed).unwrap();
+                    let ball = tick.ball(t as f32, e as f32, &LoadShare::MEAN);
+                    let line = || format!("{friction} {load} {speed} {theta} {eta}");
+                    let error = f64::from(ball.groove_torque) / exact.groove_loss() - 1.0;
+                    row_errors.add(error, line);
+                    let found = f64::from(ball.speed_deviation + tick.nominal_speed());
+                    let error = found / TRACK.path_radius() - exact.orbital_speed / speed;
+                    ball_errors.add(error, line);
+                }
+            }
+        }
+    }
+    row_errors.hold(&promises::SCREW_ROW);
+    ball_errors.hold(&promises::SCREW_BALL);
+}
+
+/// Friction torque over its mean, two turns of the nut, a state every 10 ticks.
+#[test]
+fn uncaged_step() {
+    let mut errors = Errors::default();
+    for (degrees, load, speed) in [
+        (2.0, -1500.0, TAU),
+        (3.0, -1500.0, TAU),
+        (2.5, 1500.0, TAU),
+        (2.5, 1500.0, -TAU),
+    ] {
+        let states = WholeScrew {
+            model: model(0.1),
+            balls: 37,
+            turns: 2.0,
+            axial_load: load,
+            nut_speed: speed,
+            deviation: f64::to_radians(degrees),
+            cycles: 2.0,
+            ball_friction: 0.1,
+            ball_slip: BallSlip::Orbiting,
+        }
+        .simulate(2.0 * TAU, 200, 10)
+        .unwrap();
+        let wave = Harmonic {
+            order: 2,
+            cosine: 0.0,
+            sine: degrees.to_radians() as f32,
+        };
+        let map: &'static DeviationMap =
+            Box::leak(Box::new(DeviationMap::from_harmonics(1, &[wave]).unwrap()));
+        let mut model =
+            FrictionModel::<UncagedBallScrew<37>>::new(&UncagedBallScrewConfiguration {
+                design: screw(),
+                friction: 0.1,
+                ball_friction: 0.1,
+                fit: GrooveFit::Zero,
+                turns: 2.0,
+                return_length: 0.0,
+                screw_deviation: map,
+                nut_deviation: &DeviationMap::NONE,
+                load_shares: &[LoadShare::MEAN],
+                reversal_speed: 1e-3,
+                tick: 1e-3,
+                limits: Limits {
+                    nut_speed: 300.0,
+                    axial_load: 20_000.0,
+                    friction_torque: 10.0,
+                },
+            })
+            .unwrap();
+        let torque: Vec<f64> = states
+            .iter()
+            .map(|state| state.groove_torque().abs() + state.ball_torque.abs())
+            .collect();
+        let mean = torque.iter().sum::<f64>() / torque.len() as f64;
+        for (tick, exact) in torque.into_iter().enumerate() {
+            for _ in 1..10 {
+                if tick > 0 {
+                    let _ = model.step(Inputs {
+                        nut_speed: speed as f32,
+                        axial_load: load as f32,
+                    });
+                }
+            }
+            let found = model.step(Inputs {
+                nut_speed: speed as f32,
+                axial_load: load as f32,
+            });
+            let error = (speed.signum() * f64::from(found.friction_torque) - exact) / mean;
+            errors.add(error, || {
+                format!("{degrees} deg {load} {speed} state {tick}")
+            });
+        }
+    }
+    errors.hold(&promises::STEP_UNCAGED);
+}
+
+/// Forces of a row of touching balls on a track that is long enough for an open end.
+#[test]
+fn train() {
+    let mut random = random();
+    let mut errors = Errors::default();
+    for _ in 0..300 {
+        let free: [f32; 37] = std::array::from_fn(|_| (0.02 * random()) as f32);
+        let impedance: [f32; 37] = std::array::from_fn(|_| 10_f64.powf(3.0 * random()) as f32);
+        let mut train = Train::new(1.0, 0.005, &[0.0; 37]).unwrap();
+        train.step(&free, &impedance, 1e-6);
+        let exact = |numbers: &[f32]| numbers.iter().map(|&x| f64::from(x)).collect::<Vec<_>>();
+        let compliance: Vec<f64> = exact(&impedance).iter().map(|x| 1.0 / x).collect();
+        let (_, forces) = isotonic_by_min_max(&exact(&free), &compliance);
+        let largest = forces
+            .iter()
+            .fold(1e-30, |most: f64, force| most.max(*force));
+        for (found, exact) in train.forces().zip(&forces) {
+            let error = (f64::from(found) - exact) / largest;
+            errors.add(error, || format!("{free:?} {impedance:?}"));
+        }
+    }
+    errors.hold(&promises::TRAIN);
+}
+
+/// A repeatable sequence of numbers between -1 and 1.
+fn random() -> impl FnMut() -> f64 {
+    let mut state = 0x9e37_79b9_7f4a_7c15_u64;
+    move || {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) as f64 / f64::from(1_u32 << 30) - 1.0
+    }
+}
+
+const BALL_RADIUS: f64 = 0.005;
+const CONFORMITY: f64 = 0.56;
+
+/// The ellipse between ball and straight groove, from the reference's own Hertz theory.
+fn ellipse() -> EllipseLaw {
+    let steel = (206e9, 0.3);
+    let across = 1.0 / BALL_RADIUS - 1.0 / (2.0 * CONFORMITY * BALL_RADIUS);
+    let hertz = Hertz::new(BALL_RADIUS, 1.0 / across, contact_modulus(steel, steel)).unwrap();
+    EllipseLaw {
+        semi_major_constant: hertz.semi_major,
+        axis_ratio: hertz.axis_ratio,
+    }
+}
+
+/// The ball of a carriage under 100 N across the row and a share of it to the side.
+fn ball(turn: f64, side: f64) -> LinearBall {
+    let contact_angles = [FRAC_PI_4 - turn, FRAC_PI_4 + turn, FRAC_PI_4, FRAC_PI_4];
+    LinearBall {
+        ball_radius: BALL_RADIUS,
+        friction: 0.1,
+        contact_angles,
+        contact_forces: contact_forces(contact_angles, 100.0 * side, 100.0),
+        ellipse: ellipse(),
+    }
+}
+
+/// The force between two balls that a yaw moment loads.
+#[test]
+fn pairs_in_a_linear_bearing() {
+    let ellipse = ellipse();
+    let parameters = LinearBallParameters {
+        ball_radius: BALL_RADIUS as f32,
+        contact_angle: FRAC_PI_4 as f32,
+        axis_ratio: ellipse.axis_ratio as f32,
+        semi_major_coefficient: ellipse.semi_major_constant as f32,
+        friction: 0.1,
+    };
+    let analytic = AnalyticLinearBall::new(&parameters, PUBLISHED_SLOPE).unwrap();
+    let refined = FourPointBall::linear(&parameters).unwrap();
+    let (mut closed, mut chained) = (Errors::default(), Errors::default());
+    for degrees in [-2.0, -1.0, 0.5, 1.0, 2.0_f64] {
+        for side in [-0.8, -0.6, -0.3, 0.1, 0.4, 0.7, 0.8] {
+            let balls = [-side, side].map(|side| ball(degrees.to_radians(), side));
+            let exact = solve_chain(&balls, 0.0, 1.0).unwrap().contact_forces[0];
+            if exact == 0.0 {
+                continue;
+            }
+            let given = balls.map(|ball| {
+                (
+                    ball.contact_angles.map(|angle| angle as f32),
+                    ball.contact_forces.map(|force| force as f32),
+                )
+            });
+            let line = || format!("{degrees} {side}: {exact} N");
+            let [rear, front] =
+                given.map(|(angles, forces)| analytic.speed_deviation(&angles, &forces));
+            closed.add(f64::from(rear.contact_force(&front)) - exact, line);
+            let contacts = given.map(|(angles, forces)| refined.contacts(&angles, &forces));
+            let mut chain = BallChain::<2>::new();
+            chain.balls = contacts.map(|contacts| refined.start(&contacts));
+            for _ in 0..3 {
+                let touching = [0.0, f32::INFINITY];
+                assert!(refined.refine_chain(&contacts, &mut chain, &touching, 1.0, 0.0));
+            }
+            chained.add(f64::from(chain.forces[0]) - exact, line);
+        }
+    }
+    closed.hold(&promises::ANALYTIC_PAIR);
+    chained.hold(&promises::BALL_CHAIN);
+}
+
+/// Straight grooves: friction of the grooves is the power that all balls lose over the speed.
+#[test]
+fn linear_step() {
+    let mut model = FrictionModel::<LinearBearingTrain<24>>::new(&LinearBearingConfiguration {
+        bearing: LinearBearing::new(LinearBearingParameters {
+            ball_radius: BALL_RADIUS as f32,
+            groove: GrooveSize::Conformity(CONFORMITY as f32),
+            contact_angle: FRAC_PI_4 as f32,
+            ball_material: Material::STEEL,
+            groove_material: Material::STEEL,
+        })
+        .unwrap(),
+        friction: 0.1,
+        ball_friction: 0.1,
+        loaded_length: 0.26,
+        return_length: 0.0,
+        wavelength: 0.1,
+        rail_deviation: &DeviationMap::NONE,
+        carriage_deviation: &DeviationMap::NONE,
+        load_shares: &[LoadShare::MEAN],
+        reversal_speed: 1e-3,
+        tick: 1e-3,
+        limits: LinearLimits {
+            speed: 2.0,
+            load: 1e5,
+            friction_force: 1e3,
+        },
+    })
+    .unwrap();
+    let mut errors = Errors::default();
+    for per_ball in [1.0, 10.0, 100.0, 300.0] {
+        for side in [-0.5, -0.3, -0.1, 0.0, 0.2, 0.4, 0.5] {
+            for speed in [-1.0, 1.0] {
+                let exact = LinearBall {
+                    contact_forces: contact_forces([FRAC_PI_4; 4], per_ball * side, per_ball),
+                    ..ball(0.0, 0.0)
+                }
+                .solve(1.0)
+                .unwrap()
+                .power_loss;
+                let found = model.step(LinearInputs {
+                    speed: speed as f32,
+                    normal_load: (24.0 * per_ball) as f32,
+                    side_load: (24.0 * per_ball * side) as f32,
+                });
+                let error = speed * f64::from(found.groove_force) / (24.0 * exact) - 1.0;
+                errors.add(error, || format!("{per_ball} {side} {speed}"));
+            }
+        }
+    }
+    errors.hold(&promises::STEP_LINEAR);
+}

@@ -1,0 +1,52 @@
+//! Sizes of programs with one scene each.
+
+use super::promise::Footprint;
+
+/// Most cycles of a step over its least ones, whatever sound inputs come.
+pub const STEP_SPREAD: f64 = 1.5;
+
+/// Sizes of programs with one scene each, and of one with all of them, on the reference board.
+pub const FOOTPRINTS: [Footprint; 6] = [
+    Footprint {
+        scene: "curvature",
+        flash: 2500,
+        flash_small: 2200,
+        ram: 16,
+        stack: 64,
+    },
+    Footprint {
+        scene: "efficiency",
+        flash: 2700,
+        flash_small: 2300,
+        ram: 16,
+        stack: 64,
+    },
+    Footprint {
+        scene: "caged_ball_screw",
+        flash: 3300,
+        flash_small: 2900,
+        ram: 16,
+        stack: 64,
+    },
+    Footprint {
+        scene: "linear_bearing",
+        flash: 7800,
+        flash_small: 7700,
+        ram: 720,
+        stack: 128,
+    },
+    Footprint {
+        scene: "ball_screw_37",
+        flash: 10_200,
+        flash_small: 10_000,
+        ram: 1536,
+        stack: 256,
+    },
+    Footprint {
+        scene: "everything",
+        flash: 16_000,
+        flash_small: 15_400,
+        ram: 2048,
+        stack: 256,
+    },
+];

@@ -1,0 +1,132 @@
+//! Every `step()`, and every function that a step calls beside the scalar kernels.
+
+use super::promise::Promise;
+
+/// [`FrictionModel::step`](crate::FrictionModel::step) of a [`CagedBallScrew`](crate::CagedBallScrew).
+pub const STEP_CAGED: Promise = Promise {
+    function: "CagedBallScrew: step",
+    domain: "34 built-in sizes, both branches, no preload, all four quadrants",
+    error: "friction torque, relative",
+    largest: 4e-7,
+    rms: 1.4e-7,
+    mean: 3e-8,
+    outside: "beyond a limit: the limit, flagged; with a preload 8e-3",
+    not_finite: "no torque, flagged",
+    tiny: "no torque at standstill; without load that of the preload",
+    cycles: 260,
+    counted: &["step_caged"],
+};
+
+/// [`FrictionModel::step`](crate::FrictionModel::step) of an [`UncagedBallScrew`](crate::UncagedBallScrew).
+pub const STEP_UNCAGED: Promise = Promise {
+    function: "UncagedBallScrew: step",
+    domain: "screw of Lin 2019, Section 3.4.4, deviations of 2 to 3 deg; cycles for 37 balls",
+    error: "friction torque over its mean",
+    largest: 7e-2,
+    rms: 5e-3,
+    mean: 2e-3,
+    outside: "beyond a limit: the limit, flagged",
+    not_finite: "no torque, flagged; balls stay where they are",
+    tiny: "no torque at standstill; loads to 1e-3 N a ball as 1e-3 N",
+    cycles: 8700,
+    counted: &["step_train_37", "step_train_37_pressing"],
+};
+
+/// [`FrictionModel::step`](crate::FrictionModel::step) of a [`LinearBearingTrain`](crate::LinearBearingTrain).
+pub const STEP_LINEAR: Promise = Promise {
+    function: "LinearBearingTrain: step",
+    domain: "bearing of Lin 2019, Table 3.3, side loads to 0.5 of the normal load, straight grooves; cycles for 24 balls",
+    error: "groove friction force, relative",
+    largest: 2.2e-3,
+    rms: 1.7e-3,
+    mean: 1.3e-3,
+    outside: "beyond a limit: the limit, flagged; near two-point rolling too large",
+    not_finite: "no force, flagged; balls stay where they are",
+    tiny: "no force at standstill",
+    cycles: 3300,
+    counted: &["step_linear"],
+};
+
+/// [`DeviationMap::at`](crate::DeviationMap::at), which a step calls twice for each loaded ball, in integers.
+pub const DEVIATION_MAP: Promise = Promise {
+    function: "DeviationMap::at",
+    domain: "one wave in a period",
+    error: "over its amplitude",
+    largest: 1.3e-3,
+    rms: 6.5e-4,
+    mean: 1e-5,
+    outside: "every phase is inside; 5e-3 for two waves, 0.08 for eight",
+    not_finite: "phases are integers",
+    tiny: "no deviation: 0",
+    cycles: 21,
+    counted: &["deviation_map"],
+};
+
+/// [`AnalyticLinearBall::speed_deviation`](crate::ball::AnalyticLinearBall::speed_deviation).
+pub const ANALYTIC_BALL: Promise = Promise {
+    function: "AnalyticLinearBall::speed_deviation",
+    domain: "side-force ratios to 0.8, contact angles within 3 deg of each other",
+    error: "speed deviation over v/2",
+    largest: 1.5e-2,
+    rms: 2e-3,
+    mean: 1e-3,
+    outside: "beyond a ratio of 0.85 it misses two-point rolling",
+    not_finite: "angles: deviation 0; forces: no load",
+    tiny: "no load: the compliance of 3e-14 N",
+    cycles: 122,
+    counted: &["linear_ball_speed"],
+};
+
+/// [`ScrewRow::at`](crate::ball::ScrewRow::at): what all balls have in common at a tick.
+pub const SCREW_ROW: Promise = Promise {
+    function: "ScrewRow::at",
+    domain: "screw of Lin 2019, Table 2.1, 0.1 to 1000 N a ball, friction 0.05 to 0.12",
+    error: "groove torque of a ball under the mean load, relative",
+    largest: 6.5e-3,
+    rms: 1.5e-3,
+    mean: 4e-4,
+    outside: "loads to 1e-3 N a ball as 1e-3 N",
+    not_finite: "no load",
+    tiny: "as 1e-3 N",
+    cycles: 900,
+    counted: &["ball_screw_row"],
+};
+
+/// [`ScrewTick::ball`](crate::ball::ScrewTick::ball): one ball in the loop.
+pub const SCREW_BALL: Promise = Promise {
+    function: "ScrewTick::ball",
+    error: "speed over that of the pitch circle, deviations to 3 deg",
+    largest: 2e-7,
+    rms: 5e-8,
+    mean: 4e-8,
+    outside: "deviations beyond the largest one: as that; impedance of shares 0.1 to 3: 6 %",
+    not_finite: "NaN: no deviation; infinity: the largest one",
+    tiny: "no deviation: the nominal speed",
+    cycles: 143,
+    counted: &["ball_screw_ball"],
+    ..SCREW_ROW
+};
+
+/// [`Train::step`](crate::train::Train::step): forces between balls and their positions, as every step of a train finds them.
+pub const TRAIN: Promise = Promise {
+    function: "Train::step",
+    domain: "rows of touching balls; cycles for 37 balls",
+    cycles: 4500,
+    counted: &["train_37"],
+    ..PRESS
+};
+
+/// [`Press::solve`](crate::train::Press::solve).
+pub const PRESS: Promise = Promise {
+    function: "Press::solve",
+    domain: "2 to 64 balls, impedances that differ by up to 1e6; cycles for 37 balls",
+    error: "force over the largest force",
+    largest: 2e-6,
+    rms: 4e-7,
+    mean: 1e-7,
+    outside: "1e-5 for impedances up to 1e12; free speeds beyond 1 or impedances beyond 1e-9 to 1e9: no forces, and it says so",
+    not_finite: "free speeds and impedances as outside; rooms that are NaN: no contact",
+    tiny: "rooms up to 0: contact",
+    cycles: 7200,
+    counted: &["press_37"],
+};
