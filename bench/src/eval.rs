@@ -10,6 +10,7 @@ mod groove_curvature;
 mod hertz;
 mod linear_train;
 mod lines;
+mod screw_scene;
 mod static_load;
 mod steady_state;
 mod train;
@@ -56,7 +57,10 @@ use lines::{Line, Lines};
 /// linear_train: ball_radius, conformity, nominal_contact_angle, youngs_modulus, poisson_ratio,
 /// friction, [ball_friction], speed, balls: a list, rear to front, of 1 to 64 {"contact_angles": [BL, BR,
 /// TR, TL], "contact_forces": [BL, BR, TR, TL]}; a force of 0 is a lost contact. Answers with actual
-/// speeds, under the forces between the balls; at standstill the reference has none of them.
+/// speeds, under the forces between the balls; at standstill the reference has none of them. `in_loop` has
+/// them twice: `analytic` by the closed form that the scene of a linear bearing runs, with the printed slope
+/// 1.38 where the scene has the exact one of its contact, and `refined` by Newton steps on the balls'
+/// dissipation, which no scene runs.
 ///
 /// static_load: pitch_radius, lead, ball_radius, groove_radius, contact_angle, youngs_modulus,
 /// poisson_ratio, screw_length, screw_diameter (outer), balls (their number), ball_spacing (angle),
@@ -70,7 +74,13 @@ use lines::{Line, Lines};
 /// {"load", "contact_angle"}, ...}} with two to four of SL, SR, NL, NR (screw or nut, left or right); a load of
 /// 0 is a lost contact. Answers with the speeds of free balls, the forces between touching ones (none at
 /// standstill), and the power lost in grooves and between balls; nothing where a ball is not loaded on both
-/// screw and nut.
+/// screw and nut. `in_loop` has them for just these contacts, by the refined form that no scene runs, and in an
+/// object `scene` what the scene of a ball screw without cage runs: it knows a ball's axial load and how far
+/// the contact angles deviate in either groove, and finds the contacts itself. They are read off the given
+/// ones; load_mismatch (over the main load) and angle_mismatch say how far the given contacts are from those
+/// that the scene finds. `scene` is null at standstill, where a ball has four loaded contacts, where balls
+/// are loaded in different directions, and where a load is further than 0.1 of the main load, or an angle
+/// further than 0.01, from the scene's.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// File with the requests; stdin without it or for -

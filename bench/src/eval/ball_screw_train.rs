@@ -2,7 +2,7 @@
 
 use epas_friction::geometry::{LARGEST_CONFORMITY, SMALLEST_CONFORMITY};
 use epas_friction::refined::{ScrewBall, ScrewBallState, ScrewChain};
-use epas_friction::{BallScrew, BallScrewParameters, GrooveSize, Material};
+use epas_friction::{BallScrew, BallScrewParameters, Error, GrooveSize, Material};
 use epas_reference::design::BallScrewDesign;
 use epas_reference::friction::ball_screw_ball::{Groove, ScrewContact, ScrewTrack};
 use epas_reference::friction::ball_screw_train::solve_screw_train;
@@ -12,6 +12,7 @@ use serde::Serialize;
 
 use super::answer::Answer;
 use super::fields::{BadField, Fields, in_range};
+use super::screw_scene::{Given, SceneRow, scene};
 use super::train::{LARGEST_TRAIN, room_of_a_row, solved};
 
 /// Names of the grooves' flanks: screw or nut, left or right.
@@ -39,6 +40,16 @@ struct Row {
     orbital_speed: Option<Vec<f64>>,
     contact_force: Option<Vec<f64>>,
     power_loss: Option<f64>,
+}
+
+/// What the crate computes.
+#[derive(Serialize)]
+struct InLoop {
+    /// Balls with just these contacts: the refined form, which no scene runs.
+    #[serde(flatten)]
+    given: Row,
+    /// What the scene runs for the axial loads and deviations that the contacts follow from.
+    scene: Option<SceneRow>,
 }
 
 struct Request {
@@ -79,7 +90,11 @@ pub fn evaluate(mut fields: Fields) -> Result<Answer, BadField> {
     };
     fields.finish()?;
     request.check()?;
-    Answer::both(&request.in_loop()?, &request.reference()?)
+    let in_loop = InLoop {
+        given: request.refined()?,
+        scene: request.scene(),
+    };
+    Answer::both(&in_loop, &request.reference()?)
 }
 
 fn contacts(mut ball: Fields) -> Result<Vec<Contact>, BadField> {
@@ -145,8 +160,29 @@ impl Request {
         Ok(())
     }
 
+    /// What the scene computes in f32.
+    fn scene(&self) -> Option<SceneRow> {
+        if self.nut_speed == 0.0 {
+            return None;
+        }
+        let balls: Vec<Given> = self
+            .balls
+            .iter()
+            .map(|ball| {
+                let mut given = [None; 4];
+                for contact in ball {
+                    given[contact.groove as usize] =
+                        Some((contact.load as f32, contact.angle as f32));
+                }
+                given
+            })
+            .collect();
+        let (friction, nut_speed) = (self.friction as f32, self.nut_speed as f32);
+        scene(&balls, friction, nut_speed, |angle| self.design(angle))
+    }
+
     /// The impedance iteration, in f32.
-    fn in_loop(&self) -> Result<Row, BadField> {
+    fn refined(&self) -> Result<Row, BadField> {
         let ball = self.ball()?;
         if self.nut_speed == 0.0 {
             return Ok(self.standstill());
@@ -235,24 +271,28 @@ impl Request {
     fn ball(&self) -> Result<ScrewBall, BadField> {
         let angles = || self.balls.iter().flatten().map(|contact| contact.angle);
         let mean = angles().sum::<f64>() / angles().count() as f64;
+        ScrewBall::new(&self.design(mean as f32)?, self.friction as f32)
+            .map_err(|error| BadField::from(error).renamed("axis_ratio", "groove_radius"))
+    }
+
+    /// The screw with a nominal contact angle.
+    fn design(&self, contact_angle: f32) -> Result<BallScrew, Error> {
         let material = Material {
             youngs_modulus: self.youngs_modulus as f32,
             poisson_ratio: self.poisson_ratio as f32,
             ..Material::STEEL
         };
         let groove = GrooveSize::Radius(self.groove_radius as f32);
-        let design = BallScrew::new(BallScrewParameters {
+        BallScrew::new(BallScrewParameters {
             pitch_radius: self.pitch_radius as f32,
             lead: self.lead as f32,
             ball_radius: self.ball_radius as f32,
             screw_groove: groove,
             nut_groove: groove,
-            contact_angle: mean as f32,
+            contact_angle,
             ball_material: material,
             groove_material: material,
-        })?;
-        ScrewBall::new(&design, self.friction as f32)
-            .map_err(|error| BadField::from(error).renamed("axis_ratio", "groove_radius"))
+        })
     }
 
     /// Nothing moves; forces between balls are undefined.
