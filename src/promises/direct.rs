@@ -213,7 +213,7 @@ pub const BALL_CHAIN: Promise = Promise {
     outside: "follows the change to two-point rolling within some ticks",
     not_finite: "angles: nominal; forces: lost contact; a spoilt state: nominal rolling",
     tiny: "a contact without load is lost",
-    cycles: 3600,
+    cycles: 4200,
     counted: &["linear_chain_2"],
     ..ANALYTIC_PAIR
 };

@@ -13,7 +13,7 @@ pub const STEP_CAGED: Promise = Promise {
     outside: "beyond a limit: the limit, flagged; with a preload 8e-3",
     not_finite: "no torque, flagged",
     tiny: "no torque at standstill; without load that of the preload",
-    cycles: 260,
+    cycles: 250,
     counted: &["step_caged"],
 };
 
@@ -28,7 +28,7 @@ pub const STEP_UNCAGED: Promise = Promise {
     outside: "beyond a limit: the limit, flagged",
     not_finite: "no torque, flagged; balls stay where they are",
     tiny: "no torque at standstill; loads to 1e-3 N a ball as 1e-3 N",
-    cycles: 8700,
+    cycles: 8600,
     counted: &["step_train_37", "step_train_37_pressing"],
 };
 
@@ -43,7 +43,7 @@ pub const STEP_LINEAR: Promise = Promise {
     outside: "beyond a limit: the limit, flagged; near two-point rolling too large",
     not_finite: "no force, flagged; balls stay where they are",
     tiny: "no force at standstill",
-    cycles: 3300,
+    cycles: 3200,
     counted: &["step_linear"],
 };
 
@@ -92,9 +92,10 @@ pub const SCREW_ROW: Promise = Promise {
     counted: &["ball_screw_row"],
 };
 
-/// [`ScrewTick::ball`](crate::ball::ScrewTick::ball): one ball in the loop.
+/// [`ScrewLoop::ball`](crate::ball::ScrewLoop::ball): one ball in the loop; [`ScrewTick::ball`](crate::ball::ScrewTick::ball)
+/// is the same in SI units.
 pub const SCREW_BALL: Promise = Promise {
-    function: "ScrewTick::ball",
+    function: "ScrewLoop::ball",
     error: "speed over that of the pitch circle, deviations to 3 deg",
     largest: 2e-7,
     rms: 5e-8,
@@ -102,7 +103,7 @@ pub const SCREW_BALL: Promise = Promise {
     outside: "deviations beyond the largest one: as that; impedance of shares 0.1 to 3: 6 %",
     not_finite: "NaN: no deviation; infinity: the largest one",
     tiny: "no deviation: the nominal speed",
-    cycles: 143,
+    cycles: 118,
     counted: &["ball_screw_ball"],
     ..SCREW_ROW
 };
@@ -127,6 +128,6 @@ pub const PRESS: Promise = Promise {
     outside: "1e-5 for impedances up to 1e12; free speeds beyond 1 or impedances beyond 1e-9 to 1e9: no forces, and it says so",
     not_finite: "free speeds and impedances as outside; rooms that are NaN: no contact",
     tiny: "rooms up to 0: contact",
-    cycles: 7200,
+    cycles: 7100,
     counted: &["press_37"],
 };

@@ -3,7 +3,7 @@
 use core::hint::black_box;
 
 use epas_friction::ball::{
-    AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE, ScrewRow, ScrewTick,
+    AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE, ScrewLoop, ScrewRow,
 };
 use epas_friction::contact::FrictionMap;
 use epas_friction::curvature::{
@@ -67,8 +67,8 @@ pub struct Contexts {
     pub deviation: &'static DeviationMap,
     /// Balls of a ball screw in closed form.
     pub screw_row: ScrewRow,
-    /// The same at a tick.
-    pub screw_tick: ScrewTick,
+    /// The same at a tick, for deviations in radians.
+    pub screw_loop: ScrewLoop,
     /// Forces between balls.
     pub press: Press<BALLS>,
     /// Forces between balls and their positions.
@@ -157,7 +157,7 @@ impl Contexts {
             rotary,
             caged: FrictionModel::new(&black_box(caged_configuration()?))?,
             deviation: &SCREW_DEVIATION,
-            screw_tick: screw_row.at(10.0, 100.0),
+            screw_loop: screw_row.at(10.0, 100.0).per_speed(0.5, 2.0, (1.0, 1.0)),
             screw_row,
             press: Press::new(),
             train: Train::evenly_spaced(0.2248, 0.00594)?,

@@ -6,7 +6,9 @@
 // Rust calls Rust here: the C calling convention is what passes numbers in floating-point registers.
 #![allow(improper_ctypes_definitions)]
 
-use epas_friction::ball::{AnalyticLinearBall, ScrewRow, ScrewTick, ScrewTickBall, SpeedDeviation};
+use epas_friction::ball::{
+    AnalyticLinearBall, LoopBall, LoopSums, ScrewLoop, ScrewRow, ScrewTick, SpeedDeviation,
+};
 use epas_friction::contact::{Dissipation, FrictionMap, NormalizedFriction};
 use epas_friction::curvature::{
     CircularGrooveCurvature, FittedCurvature, GothicArch, LiteratureCurvature, PrincipalCurvatures,
@@ -199,9 +201,11 @@ counted! {
         row.at(nut_speed, load)
     }
 
-    /// One ball of a row.
-    fn count_ball_screw_ball(row: &ScrewTick, screw: f32, nut: f32, share: &LoadShare) -> ScrewTickBall {
-        row.ball(screw, nut, share)
+    /// One ball of a row, as a step finds it.
+    fn count_ball_screw_ball(
+        row: &ScrewLoop, screw: f32, nut: f32, share: &LoadShare, sums: &mut LoopSums
+    ) -> LoopBall {
+        row.ball(screw, nut, share, sums)
     }
 
     /// Forces between balls that all touch, from given speeds and impedances.

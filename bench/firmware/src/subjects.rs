@@ -3,6 +3,7 @@
 use core::hint::black_box;
 
 use epas_friction::LoadShare;
+use epas_friction::ball::LoopSums;
 use epas_friction::kinematics::EllipticContact;
 
 use crate::contexts::Contexts;
@@ -245,13 +246,16 @@ subjects! {
         };
     ball_screw_row: |spread| -> [2] [spread.between(-60.0, 60.0), spread.between(-400.0, 400.0)],
         |c, [nut_speed, load]| -> [5] {
-            c.screw_tick = timed!(c, count_ball_screw_row(black_box(&c.screw_row), nut_speed, load));
-            screw_ball(&c.screw_tick.ball(0.03, -0.02, &LoadShare::MEAN), c.screw_tick.nominal_speed())
+            let row = timed!(c, count_ball_screw_row(black_box(&c.screw_row), nut_speed, load));
+            c.screw_loop = row.per_speed(0.5, 2.0, (1.0, 1.0));
+            screw_ball(&row.ball(0.03, -0.02, &LoadShare::MEAN), row.nominal_speed())
         };
-    ball_screw_ball: |spread| -> [2] [spread.between(-0.21, 0.21), spread.between(-0.21, 0.21)],
-        |c, [screw, nut]| -> [5] {
-            let ball = timed!(c, count_ball_screw_ball(black_box(&c.screw_tick), screw, nut, &LoadShare::MEAN));
-            screw_ball(&ball, 0.0)
+    ball_screw_ball: |spread| -> [2] [spread.between(-0.2, 0.2), spread.between(-0.2, 0.2)],
+        |c, [screw, nut]| -> [3] {
+            let mut sums = LoopSums::NONE;
+            let row = black_box(&c.screw_loop);
+            let ball = timed!(c, count_ball_screw_ball(row, screw, nut, &LoadShare::MEAN, &mut sums));
+            [ball.speed, ball.impedance, c.screw_loop.groove_torque(&sums)]
         };
     press_37: |spread| -> [3] train(spread),
         |c, input| -> [37] {
