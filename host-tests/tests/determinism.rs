@@ -6,8 +6,9 @@
 
 mod kit;
 
-use crate::kit::absurd::{EDGES, Random, Trial};
+use crate::kit::absurd::{EDGES, Trial};
 use crate::kit::gears;
+use crate::kit::random::Random;
 use epas_friction::{CagedBallScrew, FrictionModel, LinearBearingTrain, UncagedBallScrew};
 
 const TICKS: u32 = 200_000;

@@ -4,12 +4,17 @@
 //! from a sensor, as its bits.
 #![no_main]
 
+#[allow(dead_code)]
 #[path = "../../tests/kit/absurd.rs"]
 mod absurd;
+#[allow(dead_code)]
+#[path = "../../tests/kit/random.rs"]
+mod random;
 
-use absurd::{Random, Trial, accepted};
+use absurd::{Trial, accepted};
 use epas_friction::{CagedBallScrew, LinearBearingTrain, UncagedBallScrew};
 use libfuzzer_sys::fuzz_target;
+use random::Random;
 
 fuzz_target!(|data: &[u8]| {
     let Some((seed, signals)) = data.split_first_chunk::<8>() else {

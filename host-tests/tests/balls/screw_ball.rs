@@ -1,6 +1,7 @@
 //! The ball of a ball screw: closed form and refined variant against the exact models.
 
 use crate::kit::given;
+use crate::kit::random::Congruential;
 use epas_friction::ball::ScrewRow;
 use epas_friction::refined::{
     ScrewBall, ScrewBallMotion, ScrewBallState, ScrewChain, ScrewContacts,
@@ -192,19 +193,7 @@ impl Errors {
     }
 }
 
-/// Numbers between two limits, the same in every run.
-struct Random(u64);
-
-impl Random {
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        let unit = (self.0 >> 11) as f64 / (1_u64 << 53) as f64;
-        low + (high - low) * unit
-    }
-
+impl Congruential {
     fn design(&mut self) -> BallScrew {
         let pitch_radius = self.between(5e-3, 40e-3);
         let ball_radius = pitch_radius * self.between(0.1, 0.3);
@@ -343,7 +332,7 @@ struct Case {
     name: String,
 }
 
-impl Random {
+impl Congruential {
     /// `others` are the shares of the other diagonal's contacts, `friction` times them for a third contact.
     fn case(&mut self, deviation: f64, first: (f64, f64), second: (f64, f64)) -> Case {
         let design = self.design();
@@ -426,7 +415,7 @@ fn four_given_contacts() {
             },
         ),
     ] {
-        let mut random = Random(7);
+        let mut random = Congruential(7);
         let mut steps = Steps::new(&bounds);
         for _ in 0..40 {
             let case = random.case(degrees.to_radians(), (0.1, 1.0), (0.1, 1.0));
@@ -498,7 +487,7 @@ fn three_given_contacts() {
         ],
         torque: sliding_torque,
     });
-    let mut random = Random(7);
+    let mut random = Congruential(7);
     for _ in 0..120 {
         let case = random.case(3_f64.to_radians(), (0.05, 1.5), (0.0, 0.0));
         let kind = usize::from(!is_pinned(&case.exact));
@@ -522,7 +511,7 @@ fn three_given_contacts() {
 /// Steps only add here what the smooth treatment of the race that sticks takes from the closed form.
 #[test]
 fn two_given_contacts() {
-    let mut random = Random(7);
+    let mut random = Congruential(7);
     let mut steps = Steps::new(&Bounds {
         name: "two contacts",
         speed: [(4e-4, 3e-5); 6].map(|(max, _)| (max, 7e-5)),
@@ -621,7 +610,7 @@ fn stored_pairs_with_given_contacts() {
 /// Pairs with contacts of any kind against the exact model with the same contacts, friction between the balls included.
 #[test]
 fn pairs_with_given_contacts() {
-    let mut random = Random(11);
+    let mut random = Congruential(11);
     // Of the largest force that friction lets a ball hold along the track.
     let mut forces = [
         Errors::within(6e-2, "contact force, closed form"),
@@ -673,7 +662,7 @@ fn pairs_with_given_contacts() {
 /// Where loads vanish so do contact ellipses, and with them what spin moments do to the speed.
 #[test]
 fn closed_forms_are_the_geometry_of_contacts_that_do_not_slip() {
-    let mut random = Random(3);
+    let mut random = Congruential(3);
     let mut three = Errors::within(1e-4, "third contact");
     let mut two = Errors::within(1e-6, "two contacts");
     for _ in 0..300 {
@@ -959,7 +948,7 @@ fn hostile_input_gives_finite_motions() {
         f32::NEG_INFINITY,
         f32::NAN,
     ];
-    let mut random = Random(5);
+    let mut random = Congruential(5);
     let row = ScrewRow::new(&design, 0.1, GrooveFit::Zero).unwrap();
     for _ in 0..3000 {
         let mut pick = || odd[random.between(0.0, odd.len() as f64) as usize % odd.len()];

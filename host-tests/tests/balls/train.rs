@@ -1,24 +1,9 @@
 //! The train of balls: the pooling pass against exhaustive search, a general complementarity solver
 //! and stored chains; positions over many ticks.
 
+use crate::kit::random::Random;
 use epas_friction::train::{Press, Train};
 use epas_reference::friction::isotonic::isotonic_by_min_max;
-
-/// Deterministic numbers in 0..1 (splitmix64).
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-    fn within(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.next()
-    }
-}
 
 /// A train in float64, read from exactly what the pass was given.
 #[derive(Debug)]
@@ -159,16 +144,16 @@ fn random_train<const N: usize>(
     ring: bool,
     spread: f64,
 ) -> ([f32; N], [f32; N], [f32; N]) {
-    let free = std::array::from_fn(|_| random.within(-1e-2, 1e-2) as f32);
-    let impedance = std::array::from_fn(|_| (4e3 * spread.powf(random.within(-1.0, 1.0))) as f32);
+    let free = std::array::from_fn(|_| random.between(-1e-2, 1e-2) as f32);
+    let impedance = std::array::from_fn(|_| (4e3 * spread.powf(random.between(-1.0, 1.0))) as f32);
     let room = std::array::from_fn(|j| {
         if j + 1 == N && !ring {
             f32::INFINITY
-        } else if random.next() < touching {
+        } else if random.between(0.0, 1.0) < touching {
             0.0
         } else {
             // From contact to far out of reach.
-            (1e-2 * random.next() * 10.0_f64.powf(random.within(-2.0, 4.0))) as f32
+            (1e-2 * random.between(0.0, 1.0) * 10.0_f64.powf(random.between(-2.0, 4.0))) as f32
         }
     });
     (free, impedance, room)
@@ -530,7 +515,7 @@ fn absurd_inputs_do_no_harm() {
     let random = &mut Random(3);
     let mut train = Train::<7>::new(0.1, 0.01, &[0.0, 0.0, 1e-4, 0.0, 1e-3, 0.0, 0.0]).unwrap();
     for _ in 0..20_000 {
-        let mut pick = || wild[(random.next() * wild.len() as f64) as usize];
+        let mut pick = || wild[(random.between(0.0, 1.0) * wild.len() as f64) as usize];
         let free = std::array::from_fn(|_| pick());
         let impedance = std::array::from_fn(|_| pick());
         let travel = pick();

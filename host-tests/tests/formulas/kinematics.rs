@@ -1,5 +1,6 @@
 //! The in-loop kinematics (f32) against the float64 reference.
 
+use crate::kit::random::Random;
 use epas_friction::geometry::Groove;
 use epas_friction::hertz::HertzContact;
 use epas_friction::kinematics::{
@@ -52,47 +53,33 @@ fn golden_cases() -> Vec<(String, KinematicsInput)> {
         .collect()
 }
 
-/// xorshift64*, so that a printed seed reproduces a case.
-struct Random(u64);
-
 impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 ^= self.0 >> 12;
-        self.0 ^= self.0 << 25;
-        self.0 ^= self.0 >> 27;
-        (self.0.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn within(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.unit()
-    }
-
     /// The domain that the documentation of `ContactKinematics` states.
     fn input(&mut self) -> KinematicsInput {
-        let pitch_radius = self.within(2e-3, 80e-3);
-        let ball_diameter = 2.0 * pitch_radius * self.within(0.04, 0.29);
+        let pitch_radius = self.between(2e-3, 80e-3);
+        let ball_diameter = 2.0 * pitch_radius * self.between(0.04, 0.29);
         let half = 0.5 * ball_diameter;
-        let contact_angle = self.within(10.0, 80.0) * DEGREE;
-        let [major_screw, major_nut] = [(); 2].map(|()| half * self.within(0.005, 0.3 - 1e-6));
+        let contact_angle = self.between(10.0, 80.0) * DEGREE;
+        let [major_screw, major_nut] = [(); 2].map(|()| half * self.between(0.005, 0.3 - 1e-6));
         // One in eight each: no lead; the customary axis and radii.
-        let special = self.within(0.0, 8.0);
+        let special = self.between(0.0, 8.0);
         let mut input = KinematicsInput {
             ball_diameter,
             pitch_radius,
-            lead_angle: self.within(0.0, 40.0) * DEGREE,
-            groove_radius_screw: ball_diameter * self.within(0.505, 0.58),
-            groove_radius_nut: ball_diameter * self.within(0.505, 0.58),
+            lead_angle: self.between(0.0, 40.0) * DEGREE,
+            groove_radius_screw: ball_diameter * self.between(0.505, 0.58),
+            groove_radius_nut: ball_diameter * self.between(0.505, 0.58),
             contact_angle_screw: contact_angle,
-            contact_angle_nut: contact_angle + self.within(-0.1, 0.1),
-            pitch_angle: contact_angle + self.within(-0.17, 0.17),
-            yaw_angle: self.within(-0.1, 0.1),
-            rolling_radius_screw: half * self.within(0.99, 1.01),
-            rolling_radius_nut: half * self.within(0.99, 1.01),
-            speed: self.within(-1000.0, 1000.0),
+            contact_angle_nut: contact_angle + self.between(-0.1, 0.1),
+            pitch_angle: contact_angle + self.between(-0.17, 0.17),
+            yaw_angle: self.between(-0.1, 0.1),
+            rolling_radius_screw: half * self.between(0.99, 1.01),
+            rolling_radius_nut: half * self.between(0.99, 1.01),
+            speed: self.between(-1000.0, 1000.0),
             semi_major_screw: major_screw,
-            semi_minor_screw: major_screw * self.within(0.05, 0.3),
+            semi_minor_screw: major_screw * self.between(0.05, 0.3),
             semi_major_nut: major_nut,
-            semi_minor_nut: major_nut * self.within(0.05, 0.3),
+            semi_minor_nut: major_nut * self.between(0.05, 0.3),
         };
         if special < 1.0 {
             input.lead_angle = 0.0;
@@ -396,7 +383,7 @@ fn pitch_angles() {
         .chain((0..500).map(|_| {
             (
                 random.input(),
-                [random.within(10.0, 500.0), random.within(10.0, 500.0)],
+                [random.between(10.0, 500.0), random.between(10.0, 500.0)],
             )
         }))
         .collect::<Vec<_>>();
@@ -623,10 +610,10 @@ fn friction_power_of_linear_fields_within_3_1_percent() {
         let half = 0.5 * input.ball_diameter;
         // A small ellipse is a linear field: the parabola is a / D of the spin's share.
         input.semi_major_screw = half * 0.02;
-        input.semi_minor_screw = input.semi_major_screw * random.within(0.03, 1.0);
+        input.semi_minor_screw = input.semi_major_screw * random.between(0.03, 1.0);
         // Slip of the size of spin times semi-axis, in any direction.
-        let moment = random.within(0.0, 3.0) * 0.02;
-        let direction = random.within(0.0, TAU);
+        let moment = random.between(0.0, 3.0) * 0.02;
+        let direction = random.between(0.0, TAU);
         let revised = Revised::new(&input).unwrap();
         let spin = revised.spin(Raceway::Screw).abs();
         input.rolling_radius_screw = half

@@ -13,6 +13,9 @@
 //! | `preload` | `ball::preload` |
 //! | `refined_balls` | chosen constants of `refined` |
 
+#[path = "../kit/mod.rs"]
+mod kit;
+
 mod axis_ratio;
 mod cube_roots;
 mod lines;

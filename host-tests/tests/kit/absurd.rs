@@ -3,6 +3,7 @@
 use std::fmt::Debug;
 use std::sync::LazyLock;
 
+use super::random::Random;
 use epas_friction::train::Train;
 use epas_friction::{
     BallScrew, BallScrewParameters, CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration,
@@ -11,10 +12,6 @@ use epas_friction::{
     LinearInputs, LinearLimits, LinearOutputs, LoadShare, Material, Outputs, Regime, Scene,
     UncagedBallScrew, UncagedBallScrewConfiguration, UncagedOutputs,
 };
-
-/// Deterministic numbers (splitmix64).
-#[derive(Clone, Debug)]
-pub struct Random(pub u64);
 
 /// Numbers at which formulas break.
 pub const EDGES: [f32; 24] = [
@@ -45,35 +42,6 @@ pub const EDGES: [f32; 24] = [
 ];
 
 impl Random {
-    pub fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    /// 0 to 1.
-    pub fn unit(&mut self) -> f32 {
-        (self.bits() >> 40) as f32 * (1.0 / 16_777_216.0)
-    }
-
-    pub fn below(&mut self, count: usize) -> usize {
-        ((u128::from(self.bits()) * count as u128) >> 64) as usize
-    }
-
-    pub fn one_in(&mut self, count: usize) -> bool {
-        self.below(count) == 0
-    }
-
-    pub fn sign(&mut self) -> f32 {
-        if self.one_in(2) { -1.0 } else { 1.0 }
-    }
-
-    pub fn of<T: Copy>(&mut self, values: &[T]) -> T {
-        values[self.below(values.len())]
-    }
-
     /// Uniform; the ends more often than by chance.
     pub fn within(&mut self, low: f32, high: f32) -> f32 {
         match self.below(32) {

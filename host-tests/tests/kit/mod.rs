@@ -8,4 +8,5 @@ pub mod gears;
 pub mod given;
 pub mod golden;
 pub mod objects;
+pub mod random;
 pub mod recorded;

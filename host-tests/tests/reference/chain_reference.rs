@@ -1,5 +1,6 @@
 //! Chains of touching balls: stored chains, Table 3.5, the linear model by three methods, and the laws of contact.
 
+use crate::kit::random::Random;
 use std::f64::consts::FRAC_PI_4;
 
 use epas_reference::ReferenceError;
@@ -43,14 +44,6 @@ fn ball(deviations: [f64; 4], side_force_ratio: f64) -> LinearBall {
 fn tilted(theta_degrees: f64, side_force_ratio: f64) -> LinearBall {
     let theta = theta_degrees.to_radians();
     ball([-theta, theta, 0.0, 0.0], side_force_ratio)
-}
-
-/// xorshift numbers in -1 to 1.
-fn random(state: &mut u64) -> f64 {
-    *state ^= *state << 13;
-    *state ^= *state >> 7;
-    *state ^= *state << 17;
-    (*state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
 }
 
 /// Equations (3.29) to (3.31) row by row from the forces of the solution, and the energy: power in = power lost.
@@ -281,12 +274,12 @@ fn reversal_swaps_rear_and_front() {
 
 #[test]
 fn linear_model_three_ways() {
-    let mut state = 88172645463325252;
+    let mut random = Random(88172645463325252);
     let mut worst = [0.0_f64; 2];
     for n in 1..=9 {
         for _ in 0..30 {
-            let free: Vec<_> = (0..n).map(|_| random(&mut state)).collect();
-            let compliance: Vec<_> = (0..n).map(|_| 10_f64.powf(random(&mut state))).collect();
+            let free: Vec<_> = (0..n).map(|_| random.signed()).collect();
+            let compliance: Vec<_> = (0..n).map(|_| 10_f64.powf(random.signed())).collect();
             let (x, f) = pool_adjacent_violators(&free, &compliance);
             let (x2, f2) = isotonic_by_min_max(&free, &compliance);
             let (x3, f3) = exhaustive_contacts(&free, &compliance).unwrap();
@@ -299,8 +292,8 @@ fn linear_model_three_ways() {
         }
     }
     for n in [37, 64, 200] {
-        let free: Vec<_> = (0..n).map(|_| random(&mut state)).collect();
-        let compliance: Vec<_> = (0..n).map(|_| 10_f64.powf(random(&mut state))).collect();
+        let free: Vec<_> = (0..n).map(|_| random.signed()).collect();
+        let compliance: Vec<_> = (0..n).map(|_| 10_f64.powf(random.signed())).collect();
         let (x, f) = pool_adjacent_violators(&free, &compliance);
         let (x2, f2) = isotonic_by_min_max(&free, &compliance);
         let scale = f.iter().fold(0.0_f64, |m, f| m.max(*f));
@@ -331,11 +324,11 @@ fn linear_model_three_ways() {
 /// a set of contacts leaves, and comparing the total power: the accepted set minimises it among the feasible ones.
 #[test]
 fn long_chain_is_solved_and_balanced() {
-    let mut state = 42;
+    let mut random = Random(42);
     let balls: Vec<_> = (0..64)
         .map(|_| {
-            let deviations = [0; 4].map(|_| 0.05 * random(&mut state));
-            ball(deviations, 0.6 * random(&mut state))
+            let deviations = [0; 4].map(|_| 0.05 * random.signed());
+            ball(deviations, 0.6 * random.signed())
         })
         .collect();
     for ball_friction in [0.0, 0.1] {

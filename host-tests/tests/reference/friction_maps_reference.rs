@@ -1,5 +1,6 @@
 //! Force, moment and power of one contact: three evaluations of the same integrals, and the laws they obey.
 
+use crate::kit::random::Random;
 use epas_reference::friction::area::friction_over_area;
 use epas_reference::friction::maps::FrictionMap;
 use epas_reference::friction::patch::{Patch, PatchVelocity};
@@ -247,16 +248,14 @@ fn power_is_convex_and_homogeneous() {
         friction_limit: 5.0,
     };
     let a = patch.semi_major;
-    let mut state = 1_u64;
-    let mut random = || {
-        state = state
-            .wrapping_mul(6364136223846793005)
-            .wrapping_add(1442695040888963407);
-        (state >> 11) as f64 / (1_u64 << 53) as f64 * 2.0 - 1.0
-    };
+    let mut random = Random(1);
     for _ in 0..200 {
-        let scale = 10_f64.powf(2.0 * random());
-        let v = [scale * a * random(), scale * a * random(), random()];
+        let scale = 10_f64.powf(2.0 * random.signed());
+        let v = [
+            scale * a * random.signed(),
+            scale * a * random.signed(),
+            random.signed(),
+        ];
         let velocity = |v: [f64; 3]| PatchVelocity {
             slip_major: v[0],
             slip_minor: v[1],

@@ -1,5 +1,6 @@
 //! The reference kinematics against first principles, the published numbers and golden cases.
 
+use crate::kit::random::Random;
 use epas_reference::kinematics::{
     HertzMean, KinematicsInput, MeanSlip, Raceway, Revised, RigidBody, Traditional, figures,
     friction_power, least_friction_power, mean_slip, operating, pitch_angle,
@@ -62,45 +63,30 @@ fn turn(left: f64, right: f64) -> f64 {
     (left - right + PI).rem_euclid(TAU) - PI
 }
 
-/// A generator of its own so that a printed seed reproduces a case.
-struct Random(u64);
-
 impl Random {
-    fn unit(&mut self) -> f64 {
-        // xorshift64*
-        self.0 ^= self.0 >> 12;
-        self.0 ^= self.0 << 25;
-        self.0 ^= self.0 >> 27;
-        (self.0.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn within(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.unit()
-    }
-
     fn input(&mut self) -> KinematicsInput {
-        let pitch_radius = self.within(5e-3, 60e-3);
-        let ball_diameter = 2.0 * pitch_radius * self.within(0.04, 0.29);
+        let pitch_radius = self.between(5e-3, 60e-3);
+        let ball_diameter = 2.0 * pitch_radius * self.between(0.04, 0.29);
         let half = 0.5 * ball_diameter;
-        let contact_angle = self.within(10.0, 80.0) * DEGREE;
-        let [major_screw, major_nut] = [(); 2].map(|()| half * self.within(0.01, 0.3));
+        let contact_angle = self.between(10.0, 80.0) * DEGREE;
+        let [major_screw, major_nut] = [(); 2].map(|()| half * self.between(0.01, 0.3));
         KinematicsInput {
             ball_diameter,
             pitch_radius,
-            lead_angle: self.within(-40.0, 40.0) * DEGREE,
-            groove_radius_screw: ball_diameter * self.within(0.505, 0.58),
-            groove_radius_nut: ball_diameter * self.within(0.505, 0.58),
+            lead_angle: self.between(-40.0, 40.0) * DEGREE,
+            groove_radius_screw: ball_diameter * self.between(0.505, 0.58),
+            groove_radius_nut: ball_diameter * self.between(0.505, 0.58),
             contact_angle_screw: contact_angle,
-            contact_angle_nut: contact_angle + self.within(-0.1, 0.1),
-            pitch_angle: contact_angle + self.within(-0.15, 0.15),
-            yaw_angle: self.within(-0.1, 0.1),
-            rolling_radius_screw: half * self.within(0.99, 1.01),
-            rolling_radius_nut: half * self.within(0.99, 1.01),
-            speed: self.within(-400.0, 400.0),
+            contact_angle_nut: contact_angle + self.between(-0.1, 0.1),
+            pitch_angle: contact_angle + self.between(-0.15, 0.15),
+            yaw_angle: self.between(-0.1, 0.1),
+            rolling_radius_screw: half * self.between(0.99, 1.01),
+            rolling_radius_nut: half * self.between(0.99, 1.01),
+            speed: self.between(-400.0, 400.0),
             semi_major_screw: major_screw,
-            semi_minor_screw: major_screw * self.within(0.05, 0.3),
+            semi_minor_screw: major_screw * self.between(0.05, 0.3),
             semi_major_nut: major_nut,
-            semi_minor_nut: major_nut * self.within(0.05, 0.3),
+            semi_minor_nut: major_nut * self.between(0.05, 0.3),
         }
     }
 }

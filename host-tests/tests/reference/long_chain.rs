@@ -1,6 +1,7 @@
 //! Balls in a row in a linear bearing, up to 64 of them: the in-loop steps with the pooling pass against
 //! the exact chain, and where the power goes.
 
+use crate::kit::random::Congruential;
 use std::f64::consts::FRAC_PI_4;
 
 use epas_friction::ball::LinearBallParameters;
@@ -35,24 +36,17 @@ fn ball() -> FourPointBall {
     .unwrap()
 }
 
-/// Numbers in -1 to 1.
-fn random(state: &mut u64) -> f64 {
-    *state ^= *state << 13;
-    *state ^= *state >> 7;
-    *state ^= *state << 17;
-    (*state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-}
-
 /// Balls whose four contact angles deviate by up to 3 degrees each, 100 N across the track and up to 60 N
 /// along the other axis.
-fn random_row<const N: usize>(state: &mut u64) -> [LinearBall; N] {
+fn random_row<const N: usize>(random: &mut Congruential) -> [LinearBall; N] {
     std::array::from_fn(|_| {
-        let contact_angles = [0; 4].map(|_| FRAC_PI_4 + 3_f64.to_radians() * random(state));
+        let contact_angles =
+            [0; 4].map(|_| FRAC_PI_4 + 3_f64.to_radians() * random.between(-1.0, 1.0));
         LinearBall {
             ball_radius: BALL_RADIUS,
             friction: FRICTION,
             contact_angles,
-            contact_forces: contact_forces(contact_angles, 60.0 * random(state), 100.0),
+            contact_forces: contact_forces(contact_angles, 60.0 * random.between(-1.0, 1.0), 100.0),
             ellipse: ELLIPSE,
         }
     })
@@ -117,11 +111,11 @@ fn settled<const N: usize>(row: &[LinearBall; N], ball_friction: f64) -> Settled
 /// moves the velocity centre by 1e-7 of a semi-axis, and what the last step leaves out of balance is of
 /// that order too. The stick treatment makes the loss small by (delta/w)² of the spin's share.
 fn check<const N: usize>(seed: u64, rows: usize) {
-    let mut state = seed;
+    let mut random = Congruential(seed);
     let mut worst = [0.0_f64; 4];
     let (mut pressing, mut largest) = (0, 0.0_f64);
     for trial in 0..rows {
-        let row = random_row::<N>(&mut state);
+        let row = random_row::<N>(&mut random);
         for ball_friction in [0.0, 0.1] {
             let exact = solve_chain(&row, ball_friction, 1.0).unwrap();
             let Settled {

@@ -1,5 +1,6 @@
 //! Static load distribution: the case studies of Lin 2019, laws, and hostile starts.
 
+use crate::kit::random::Random;
 use std::sync::Arc;
 
 use epas_reference::ReferenceError;
@@ -425,13 +426,7 @@ fn forces_are_the_gradient_of_the_energy() {
 /// all of them.
 #[test]
 fn energy_is_convex() {
-    let mut seed = 7_u64;
-    let mut random = move || {
-        seed = seed
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        (seed >> 11) as f64 / (1_u64 << 53) as f64 * 2.0 - 1.0
-    };
+    let mut random = Random(7);
     for case in [case_1(), case_3()] {
         let case = case.load().unwrap();
         let minimum = case.solve().unwrap().energy;
@@ -441,12 +436,12 @@ fn energy_is_convex() {
                     let mut state = case.rest();
                     for (dof, value) in state.nodes.iter_mut().enumerate() {
                         if dof >= 6 || dof == 2 {
-                            *value += size * random() * if dof % 6 < 3 { 1.0 } else { 10.0 };
+                            *value += size * random.signed() * if dof % 6 < 3 { 1.0 } else { 10.0 };
                         }
                     }
                     for ball in &mut state.balls {
-                        ball.x += size * random();
-                        ball.y += size * random();
+                        ball.x += size * random.signed();
+                        ball.y += size * random.signed();
                     }
                     state
                 };

@@ -1,6 +1,7 @@
 //! Random and extreme inputs through `step` of every scene.
 
-use crate::kit::absurd::{Random, soak};
+use crate::kit::absurd::soak;
+use crate::kit::random::Random;
 use crate::kit::{absurd, objects, recorded};
 use epas_friction::{CagedBallScrew, LinearBearingTrain, UncagedBallScrew};
 

@@ -1,6 +1,7 @@
 //! Faults of sensors and of the configuration: flagged within the tick, over within the next, never kept.
 
-use crate::kit::absurd::{EDGES, Random, Trial, sound_train};
+use crate::kit::absurd::{EDGES, Trial, sound_train};
+use crate::kit::random::Random;
 use crate::kit::{gears, recorded};
 use epas_friction::{
     BallScrew, CagedBallScrew, DeviationMap, Faults, FrictionModel, Inputs, LinearBearing,

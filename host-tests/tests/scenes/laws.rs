@@ -1,6 +1,7 @@
 //! Laws that hold for every mechanism, on random ones.
 
-use crate::kit::absurd::{Random, Trial, accepted};
+use crate::kit::absurd::{Trial, accepted};
+use crate::kit::random::Random;
 use epas_friction::curvature::GothicArch;
 use epas_friction::geometry::{ContactAngle, Groove, GrooveProfile, HelixPath};
 use epas_friction::hertz::HertzContact;

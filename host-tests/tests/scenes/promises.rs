@@ -3,7 +3,7 @@
 use crate::kit::given;
 use std::fmt::Write;
 
-use crate::kit::absurd::Random;
+use crate::kit::random::Random;
 use epas_friction::contact::FrictionMap;
 use epas_friction::curvature::{
     CircularGrooveCurvature, FittedCurvature, GothicArch, LiteratureCurvature,

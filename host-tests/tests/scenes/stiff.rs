@@ -1,6 +1,7 @@
 //! Stiff cases: impedances that differ by powers of ten, full tracks, long runs.
 
-use crate::kit::absurd::{Random, Trial, sound_train};
+use crate::kit::absurd::{Trial, sound_train};
+use crate::kit::random::Random;
 use crate::kit::{gears, recorded};
 use epas_friction::train::{Press, Train};
 use epas_friction::{CagedBallScrew, FrictionModel, Inputs, UncagedBallScrew, promises};
