@@ -1,4 +1,4 @@
-//! How a run ends when it does not end well.
+//! Errors that end a run, and their exit codes.
 
 use std::fmt;
 use std::io;
@@ -13,9 +13,9 @@ use epas_reference::ReferenceError;
 pub enum Failure {
     /// Wrong data, or a file that cannot be read or written: exit code 1.
     Data(String),
-    /// Each wrong request has been answered in its place: exit code 1, nothing more to say.
+    /// Some requests were wrong, and their answers say so: exit code 1, no message.
     Answered,
-    /// Whoever read the output has gone: no fault of this program.
+    /// The reader of the output has closed it: exit code 0.
     BrokenPipe,
 }
 
@@ -46,7 +46,7 @@ impl Failure {
     }
 }
 
-/// A message that may quote a file: no longer than a screen holds, and nothing in it that a terminal obeys.
+/// A message that may quote a file, cut to 2000 letters, its control characters replaced.
 fn printable(message: &str) -> String {
     const LONGEST: usize = 2000;
     let mut letters = message.chars();

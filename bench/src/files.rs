@@ -21,7 +21,7 @@ impl Existing {
     /// Fails before any work is done where something would be in the way: any file, or with
     /// [`Existing::Replace`] what is none, such as a device or a pipe.
     pub fn check(self, path: &Path) -> Result<(), Failure> {
-        // Of a link what it leads to; where that is nothing, the link itself.
+        // A link counts as its target, or as itself where the target is missing.
         let Ok(there) = fs::metadata(path).or_else(|_| fs::symlink_metadata(path)) else {
             return Ok(());
         };
@@ -40,7 +40,7 @@ fn in_the_way(path: &Path) -> Failure {
     Failure::Data(format!("{} exists; --force replaces it", path.display()))
 }
 
-/// A file beside its place, which takes it only when it is complete; dropped before, it leaves nothing.
+/// A temporary file beside its final place: moved there when it is complete, deleted when dropped before.
 pub struct Pending {
     path: PathBuf,
     existing: Existing,

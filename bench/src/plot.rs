@@ -1,6 +1,6 @@
 //! Plots as SVG text: charts of lines, points and areas, and maps of colour bands.
 //!
-//! Nothing is asked of the machine: text is SVG text in the viewer's sans-serif font. A logarithmic
+//! No fonts of this machine are needed: text is SVG text in the viewer's sans-serif font. A logarithmic
 //! axis is a linear one over the decimal logarithm.
 
 // Counts of pixels, lines and bands are far below the largest i32, which the drawing library counts in.

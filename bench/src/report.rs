@@ -100,7 +100,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         title: "epas-friction: error against run time".into(),
         sections,
     };
-    // Files first: whoever reads only the head of the output gets the whole report all the same.
+    // Files first: a reader that closes the output early still gets the whole report in files.
     document.write(&arguments.output)?;
     document.print(&arguments.output)
 }

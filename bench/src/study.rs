@@ -146,7 +146,7 @@ static SCREW_DEVIATION: DeviationMap = match DeviationMap::from_harmonics(
     }],
 ) {
     Ok(map) => map,
-    Err(_) => DeviationMap::NONE,
+    Err(_) => panic!("a deviation is out of range"),
 };
 
 /// The screw of Section 3.4.4 in the loop, its 37 balls or as many as are asked for at the same occupation.

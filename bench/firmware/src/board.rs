@@ -53,7 +53,7 @@ impl Console {
     #[inline(never)]
     fn bytes(&mut self, bytes: &[u8]) {
         if let Some(stream) = &mut self.stream {
-            // Nobody may be listening, and nothing can be done about it here.
+            // Without a debugger the text is lost: a program on the target has no other way to say so.
             let _ = stream.write_all(bytes);
         }
     }
@@ -87,8 +87,8 @@ const PAINT: u32 = 0xA5A5_5A5A;
 /// How much of it is painted, in words.
 const PAINTED: usize = 2048;
 
-/// Bytes of stack that some work, done some times with its number, takes below its caller, at most; 8192 where
-/// it takes all that is painted. The work says where its caller's stack ends.
+/// Most bytes of stack that a call takes below its caller, over so many calls, each with its number; 8192 where
+/// all that was painted is used. The call returns the stack pointer of its caller.
 #[inline(never)]
 pub fn stack_used(times: u32, work: &mut dyn FnMut(u32) -> u32) -> u32 {
     let top = cortex_m::register::msp::read() as *mut u32;

@@ -1,9 +1,9 @@
 //! Each function once as a call of its own, with the arguments in registers as the compiler passes them:
 //! what a count finds between the call and the return is the function and nothing else.
 
-// Names that the linker keeps are what the count is found by.
+// The counts find functions by their symbols, which the linker must keep.
 #![allow(unsafe_code)]
-// Rust calls Rust here: the C calling convention is what passes numbers in floating-point registers.
+// Rust calls Rust here; the C calling convention passes f32 in floating-point registers.
 #![allow(improper_ctypes_definitions)]
 
 use epas_friction::ball::{

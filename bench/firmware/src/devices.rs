@@ -14,7 +14,7 @@ pub const TICK: f32 = 1e-3;
 /// Turns of the rotor in a turn of the nut.
 pub const GEAR_RATIO: f32 = 2.0;
 
-/// Every so many ticks a bit of a frame is lost.
+/// Ticks from one frame with a flipped bit to the next.
 pub const BIT_LOST: u32 = 97;
 
 const ANGLE: u16 = 0x3FFF;

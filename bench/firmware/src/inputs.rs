@@ -11,7 +11,7 @@ pub const CASES: u32 = 128;
 /// Cases of each function that are counted: the first ones, the specials from [`SPECIAL`] on included.
 pub const COUNTED: u32 = 64;
 
-/// From this case on come inputs that a range does not reach.
+/// From this case on inputs are special values: zeros, limits, not numbers.
 pub const SPECIAL: u32 = 48;
 
 /// From this case on come the inputs of a broken sensor. They are checked and not counted: the way that

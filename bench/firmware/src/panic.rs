@@ -4,7 +4,7 @@
 
 use core::panic::PanicInfo;
 
-/// Calls what nobody defines: the program links only where no way leads here.
+/// Calls a function that is not defined: the program links only where no path leads to a panic.
 #[cfg(not(feature = "halt"))]
 #[panic_handler]
 fn panic(_: &PanicInfo) -> ! {

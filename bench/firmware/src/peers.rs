@@ -1,4 +1,4 @@
-//! What is in use today, to be compared with: a friction model with a bristle state, and a curve.
+//! Friction models in use today, for comparison: LuGre, whose state is the deflection of bristles, and a Stribeck curve.
 
 /// Friction of one joint by the LuGre model (Canudas de Wit, Olsson, Åström, Lischinsky 1995), one
 /// explicit step: `dz/dt = v - s0 |v| z / g(v)`, `F = s0 z + s1 dz/dt + s2 v`,

@@ -1,7 +1,7 @@
 //! The scenes that the firmware runs, each with the constants of one gear.
 //!
-//! An image of a scene has them from the compiler, in flash. What is counted sets them up when it runs, or the
-//! compiler would fold them into the functions.
+//! In the image of a scene the compiler has folded them: they stand in flash. Functions that are counted have
+//! theirs set up at run time, or the compiler would fold them into the functions.
 
 use epas_friction::curvature::FittedCurvature;
 use epas_friction::efficiency::{Drive, EfficiencyGeometry};
@@ -65,7 +65,7 @@ static LINEAR: LinearConstants<ROW> = folded(LinearConstants::new(&folded(linear
 static UNCAGED: UncagedConstants<BALLS> =
     folded(UncagedConstants::new(&folded(uncaged_configuration())));
 
-/// What a set-up gives; what it refuses does not compile.
+/// The constants of a set-up at compile time; a field out of range is an error of the compiler.
 const fn folded<T: Copy>(set_up: Result<T, Error>) -> T {
     match set_up {
         Ok(folded) => folded,
@@ -96,7 +96,7 @@ pub trait Run {
     fn tick(model: &mut Self::Model, nut_speed: f32, axial_load: f32, digest: &mut Digest);
 }
 
-/// A number that stands for many: FNV-1a over their bits.
+/// A checksum of many results: FNV-1a over their bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Digest(pub u32);
 
@@ -250,7 +250,7 @@ pub const fn caged_configuration() -> Result<CagedBallScrewConfiguration, Error>
     })
 }
 
-/// Its form without a cage: all 37 balls under load, as in the dissertation, which is also the dearest.
+/// Its form without a cage: all 37 balls under load, as in the dissertation; this takes the most cycles.
 ///
 /// # Errors
 /// None.
@@ -334,7 +334,7 @@ pub fn efficiency_step(
     }
 }
 
-/// Nothing but what runs every scene.
+/// No scene: what start-up and the loop around a scene take alone.
 pub struct Empty;
 
 impl Run for Empty {

@@ -46,7 +46,7 @@ impl Spread {
         f32::from_bits(start + ((span * u64::from(self.share())) >> 24) as u32)
     }
 
-    /// One of the numbers given, as long as they last: the cases that a range does not reach.
+    /// The special value of this case, where there is one: values are taken in turn from case `from` on.
     #[must_use]
     pub fn special(&self, numbers: &[f32], from: u32) -> Option<f32> {
         let place = self.index.checked_sub(from)?;

@@ -78,7 +78,7 @@ macro_rules! subjects {
     };
 }
 
-/// Runs a call between two looks at the cycle counter, behind the compiler's back.
+/// Reads the cycle counter before and after a call; `black_box` keeps the compiler from moving the call.
 macro_rules! timed {
     ($contexts:ident, $call:expr) => {{
         let start = ($contexts.clock)();
@@ -289,7 +289,7 @@ subjects! {
 }
 
 subjects! {
-    /// What others offer for the same, to be counted beside it.
+    /// Functions of other crates for the same purposes, counted for comparison.
     PEERS;
     libm_sqrtf: |spread| -> [1] positive(spread),
         |c, [x]| -> [1] [timed!(c, count_libm_sqrtf(x))];

@@ -26,14 +26,14 @@ const FLANKS: [(&str, Groove); 4] = [
 /// Most impedance steps of the whole row: friction between the balls lags one step behind.
 const STEPS: usize = 24;
 
-/// Change of a force in a step over the largest force, below which steps end, and below which the row
-/// counts as settled all the same. Forces are the means of two steps: where a third contact is about to
-/// slide, they swing by some per cent about what they should be. Where many contacts slide they do not
-/// settle: friction between the balls then changes the forces by more than it was changed by them.
+/// Change of a force in a step, over the largest force: below the first, steps end; below the second, the row
+/// counts as settled after the last step. Forces are the means of two steps: where a third contact is about to
+/// slide, single steps swing about the solution by some per cent. Where many contacts slide the steps diverge:
+/// friction between the balls then changes the forces by more than the forces changed it.
 const UNCHANGED: f32 = 1e-5;
 const SETTLED: f32 = 2e-3;
 
-/// What cannot be found is none.
+/// A quantity that was not found is none.
 #[derive(Default, Serialize)]
 struct Row {
     /// Free speeds.

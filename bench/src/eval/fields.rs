@@ -227,7 +227,7 @@ impl<'a> Fields<'a> {
             })
     }
 
-    /// Refuses every field that no one has taken.
+    /// Refuses every field that is left.
     pub fn finish(self) -> Result<(), BadField> {
         match self.values.into_keys().next() {
             Some(field) => Err(BadField::new(beginning(&field), "is unknown to this model")),
@@ -261,7 +261,7 @@ fn number(field: &str, raw: &RawValue) -> Result<f64, BadField> {
     }
 }
 
-/// Deepest nesting of an id: that to which readers of JSON commonly go.
+/// Deepest nesting of an id: the limit of common readers of JSON.
 const DEEPEST: usize = 100;
 
 /// How deep lists and objects of a JSON value are nested.

@@ -36,7 +36,7 @@ pub fn pressed(
     room: &[f32; LARGEST_TRAIN],
 ) -> bool {
     let (least, most) = IMPEDANCE_RANGE;
-    // Balls that hardly anything holds are as good as free.
+    // A compliance beyond the range counts as the largest one: such a ball carries hardly any force.
     let impedance = compliance.map(|compliance| compliance.recip().clamp(least, most));
     press.solve(free, &impedance, room)
 }

@@ -24,7 +24,7 @@ pub const fn px(pixels: i32) -> i32 {
 
 /// Colour of texts.
 pub const TEXT: RGBColor = RGBColor(40, 40, 40);
-/// The sans-serif font of whoever looks at the picture.
+/// The viewer's sans-serif font.
 pub const FONT: &str = "sans-serif";
 /// Height of letters of a title.
 pub const TITLE_SIZE: i32 = px(17);

@@ -98,47 +98,62 @@ fn ball_errors() -> Result<[f64; 2], Failure> {
     Ok([closed.largest, stepped.largest])
 }
 
-fn rivals(context: &Context) -> Result<Vec<Rivals>, Failure> {
-    let cycles = |name: &str| -> Result<f64, Failure> {
-        context
-            .target
-            .figures
+/// Cycles by the name of a count.
+struct Counts<'a>(&'a Figures);
+
+impl Counts<'_> {
+    fn cycles(&self, name: &str) -> Result<f64, Failure> {
+        self.0
             .function(name)
             .map(|entry| f64::from(entry.cycles_max))
             .ok_or_else(|| Failure::Data(format!("nothing was counted as {name}")))
-    };
-    let point = |name: &str, key: &str, error: f64| -> Result<Point, Failure> {
+    }
+
+    fn point(&self, name: &str, count: &str, error: f64) -> Result<Point, Failure> {
         Ok(Point {
             name: name.into(),
             error,
-            cycles: cycles(key)?,
+            cycles: self.cycles(count)?,
         })
-    };
-    let two_thirds = |x: f64| x.cbrt().powi(2);
-    let curvature = catalogue_errors(context.quick)?;
-    let [closed, newton] = ball_errors()?;
-    let keys = [
+    }
+}
+
+fn rivals(context: &Context) -> Result<Vec<Rivals>, Failure> {
+    let counts = Counts(&context.target.figures);
+    let mut all = vec![curvature_rivals(&counts, context.quick)?];
+    all.extend(root_rivals(&counts)?);
+    all.push(angle_rivals(&counts)?);
+    all.push(ball_rivals(&counts)?);
+    Ok(all)
+}
+
+fn curvature_rivals(counts: &Counts, quick: bool) -> Result<Rivals, Failure> {
+    let names = [
         "curvature_literature",
         "curvature_circular_groove",
         "curvature_fitted",
         "curvature_exact",
     ];
-    Ok(vec![
-        Rivals {
-            title: "First curvature, relative error",
-            points: FORMS
-                .iter()
-                .zip(keys)
-                .zip(curvature)
-                .map(|((form, key), errors)| point(form, key, errors.largest))
-                .collect::<Result<_, _>>()?,
-        },
+    Ok(Rivals {
+        title: "First curvature, relative error",
+        points: FORMS
+            .iter()
+            .zip(names)
+            .zip(catalogue_errors(quick)?)
+            .map(|((form, name), errors)| counts.point(form, name, errors.largest))
+            .collect::<Result<_, _>>()?,
+    })
+}
+
+fn root_rivals(counts: &Counts) -> Result<[Rivals; 3], Failure> {
+    let two_thirds = |x: f64| x.cbrt().powi(2);
+    Ok([
         Rivals {
             title: "Square root, relative error",
             points: vec![
-                point("own", "sqrt", relative(math::sqrt, f64::sqrt))?,
-                point("libm", "libm_sqrtf", relative(libm::sqrtf, f64::sqrt))?,
-                point(
+                counts.point("own", "sqrt", relative(math::sqrt, f64::sqrt))?,
+                counts.point("libm", "libm_sqrtf", relative(libm::sqrtf, f64::sqrt))?,
+                counts.point(
                     "micromath",
                     "micromath_sqrt",
                     relative(micromath::F32Ext::sqrt, f64::sqrt),
@@ -148,61 +163,63 @@ fn rivals(context: &Context) -> Result<Vec<Rivals>, Failure> {
         Rivals {
             title: "Cube root, relative error",
             points: vec![
-                point("own", "cbrt", relative(math::cbrt, f64::cbrt))?,
-                point("libm", "libm_cbrtf", relative(libm::cbrtf, f64::cbrt))?,
+                counts.point("own", "cbrt", relative(math::cbrt, f64::cbrt))?,
+                counts.point("libm", "libm_cbrtf", relative(libm::cbrtf, f64::cbrt))?,
             ],
         },
         Rivals {
             title: "Power of 2/3, relative error",
             points: vec![
-                point(
+                counts.point(
                     "own",
                     "cbrt_and_squared",
                     relative(|x| math::cbrt_and_squared(x).1, two_thirds),
                 )?,
-                point(
+                counts.point(
                     "libm",
                     "libm_powf",
                     relative(|x| libm::powf(x, 2.0 / 3.0), two_thirds),
                 )?,
-                point(
+                counts.point(
                     "micromath",
                     "micromath_powf",
                     relative(|x| micromath::F32Ext::powf(x, 2.0 / 3.0), two_thirds),
                 )?,
             ],
         },
-        Rivals {
-            title: "Sine and cosine, absolute error",
-            points: vec![
-                point("own", "sin_cos", absolute(math::sin_cos))?,
-                point("libm", "libm_sincosf", absolute(libm::sincosf))?,
-                Point {
-                    name: "micromath".into(),
-                    error: absolute(micromath::F32Ext::sin_cos),
-                    // It computes the two one after the other.
-                    cycles: 2.0 * cycles("micromath_cos")?,
-                },
-                point(
-                    "idsp (table)",
-                    "idsp_sin_cos",
-                    absolute(|x| count_idsp_sin_cos(x)),
-                )?,
-            ],
-        },
-        Rivals {
-            title: "Ball in a linear bearing, error of its speed over v/2",
-            points: vec![
-                Point {
-                    name: "closed form".into(),
-                    error: closed,
-                    // Counted for two balls and the force between them.
-                    cycles: 0.5 * cycles("linear_ball_analytic")?,
-                },
-                point("Newton step", "linear_ball_refined", newton)?,
-            ],
-        },
     ])
+}
+
+fn angle_rivals(counts: &Counts) -> Result<Rivals, Failure> {
+    Ok(Rivals {
+        title: "Sine and cosine, absolute error",
+        points: vec![
+            counts.point("own", "sin_cos", absolute(math::sin_cos))?,
+            counts.point("libm", "libm_sincosf", absolute(libm::sincosf))?,
+            Point {
+                name: "micromath".into(),
+                error: absolute(micromath::F32Ext::sin_cos),
+                // It computes the two one after the other.
+                cycles: 2.0 * counts.cycles("micromath_cos")?,
+            },
+            counts.point(
+                "idsp (table)",
+                "idsp_sin_cos",
+                absolute(|x| count_idsp_sin_cos(x)),
+            )?,
+        ],
+    })
+}
+
+fn ball_rivals(counts: &Counts) -> Result<Rivals, Failure> {
+    let [closed, newton] = ball_errors()?;
+    Ok(Rivals {
+        title: "Ball in a linear bearing, error of its speed over v/2",
+        points: vec![
+            counts.point("closed form", "linear_ball_speed", closed)?,
+            counts.point("Newton step", "linear_ball_refined", newton)?,
+        ],
+    })
 }
 
 impl Rivals {

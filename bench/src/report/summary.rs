@@ -11,74 +11,102 @@ use crate::plot::{Axis, Chart, Mark, Note, Panel, Series};
 /// Key of the time, name and error of a formula.
 type Point = (&'static str, &'static str, f64);
 
+const CURVATURE: &str = "31 sizes, both grooves, contact angles 0-70 deg";
+const EFFICIENCY: &str = "friction to 0.3, lead to 60, contact 10-80 deg";
+
+/// Key of the time, name, kind of error and domain of each formula.
+const FORMULAS: [[&str; 4]; 8] = [
+    [
+        "literature",
+        "curvature: literature (27),(28)",
+        "relative",
+        CURVATURE,
+    ],
+    [
+        "circular_groove",
+        "curvature: circular groove (25),(26)",
+        "relative",
+        CURVATURE,
+    ],
+    ["fitted", "curvature: fitted", "relative", CURVATURE],
+    [
+        "exact",
+        "curvature: exact, both curvatures",
+        "relative",
+        CURVATURE,
+    ],
+    [
+        "hertz_ellipse",
+        "contact ellipse under a load",
+        "relative",
+        "radius ratios 1 to 1e5",
+    ],
+    [
+        "efficiency_rolling",
+        "efficiency: rolling (3)",
+        "absolute",
+        EFFICIENCY,
+    ],
+    [
+        "efficiency_sliding",
+        "efficiency: full sliding (14)",
+        "absolute",
+        EFFICIENCY,
+    ],
+    [
+        "efficiency_sliding",
+        "loss of full sliding",
+        "relative",
+        EFFICIENCY,
+    ],
+];
+
 /// The section.
 pub fn section(context: &Context) -> Result<Section, Failure> {
     let [literature, circular, fitted, exact] = curvature::catalogue_errors(context.quick)?;
     let [rolling, sliding, loss] = efficiency::form_errors(context.quick)?;
     let ellipse = hertz::largest_error(context.quick)?;
-    let curvature_domain = "31 sizes, both grooves, contact angles 0-70 deg";
-    let efficiency_domain = "friction to 0.3, lead to 60, contact 10-80 deg";
-    let entries: [(&str, &str, &str, &str, &Errors); 8] = [
-        (
-            "literature",
-            "curvature: literature (27),(28)",
-            "relative",
-            curvature_domain,
-            &literature,
-        ),
-        (
-            "circular_groove",
-            "curvature: circular groove (25),(26)",
-            "relative",
-            curvature_domain,
-            &circular,
-        ),
-        (
-            "fitted",
-            "curvature: fitted",
-            "relative",
-            curvature_domain,
-            &fitted,
-        ),
-        (
-            "exact",
-            "curvature: exact, both curvatures",
-            "relative",
-            curvature_domain,
-            &exact,
-        ),
-        (
-            "hertz_ellipse",
-            "contact ellipse under a load",
-            "relative",
-            "radius ratios 1 to 1e5",
-            &ellipse,
-        ),
-        (
-            "efficiency_rolling",
-            "efficiency: rolling (3)",
-            "absolute",
-            efficiency_domain,
-            &rolling,
-        ),
-        (
-            "efficiency_sliding",
-            "efficiency: full sliding (14)",
-            "absolute",
-            efficiency_domain,
-            &sliding,
-        ),
-        (
-            "efficiency_sliding",
-            "loss of full sliding",
-            "relative",
-            efficiency_domain,
-            &loss,
-        ),
+    let errors = [
+        &literature,
+        &circular,
+        &fitted,
+        &exact,
+        &ellipse,
+        &rolling,
+        &sliding,
+        &loss,
     ];
+    Ok(Section {
+        title: "Error against run time",
+        blocks: vec![
+            Block::Text(
+                "Errors in f32 against the float64 reference; times of one call on this machine, the empty \
+                 call taken off, every competitor in the same run. Latency: each call waits for the one before, \
+                 as in a control loop. Throughput: calls are independent. A time that cannot be told from an \
+                 empty call reads as less than what can be told."
+                    .into(),
+            ),
+            Block::Table(errors_and_times(context, errors)?),
+            Block::Table(ratios(context)?),
+            Block::Text(
+                "Why the exact form costs five times the literature formula and not the paper's 71 times: the \
+                 paper times Appendix B, some 730 operations with powers taken again and again, in an \
+                 interpreter whose call costs more than the short formulas themselves (its own circular-groove \
+                 form is 1.32 times the literature's there, and the same operations here). In orthonormal \
+                 directions the shape operator takes 44 operations, two roots and one division, and one of the \
+                 roots does not wait for the other."
+                    .into(),
+            ),
+            Block::Figure(picture(context, &[literature, circular, fitted, exact])?),
+        ],
+    })
+}
+
+/// Errors of every formula beside its times; the last row is the tick of a whole scene.
+fn errors_and_times(context: &Context, errors: [&Errors; 8]) -> Result<Table, Failure> {
     let unit = &context.times("literature")?.latency;
     let mut rows = Vec::new();
-    for (key, name, kind, domain, errors) in entries {
+    for ([key, name, kind, domain], errors) in FORMULAS.into_iter().zip(errors) {
         let times = context.times(key)?;
         rows.push(vec![
             Cell::from(name),
@@ -104,46 +132,23 @@ pub fn section(context: &Context) -> Result<Section, Failure> {
         time(&step.throughput, 2),
         "one tick in the interrupt".into(),
     ]);
-    Ok(Section {
-        title: "Error against run time",
-        blocks: vec![
-            Block::Text(
-                "Errors in f32 against the float64 reference; times of one call on this machine, the empty \
-                 call taken off, every competitor in the same run. Latency: each call waits for the one before, \
-                 as in a control loop. Throughput: calls are independent. A time that cannot be told from an \
-                 empty call reads as less than what can be told."
-                    .into(),
-            ),
-            Block::Table(Table {
-                name: "summary",
-                caption: "Error and run time".into(),
-                columns: [
-                    "formula",
-                    "largest error",
-                    "rms",
-                    "mean",
-                    "kind",
-                    "latency (ns)",
-                    "to literature",
-                    "throughput (ns)",
-                    "domain",
-                ]
-                .map(String::from)
-                .to_vec(),
-                rows,
-            }),
-            Block::Table(ratios(context)?),
-            Block::Text(
-                "Why the exact form costs five times the literature formula and not the paper's 71 times: the \
-                 paper times Appendix B, some 730 operations with powers taken again and again, in an \
-                 interpreter whose call costs more than the short formulas themselves (its own circular-groove \
-                 form is 1.32 times the literature's there, and the same operations here). In orthonormal \
-                 directions the shape operator takes 44 operations, two roots and two divisions, of which one \
-                 root and one division wait for nothing."
-                    .into(),
-            ),
-            Block::Figure(picture(context, &[literature, circular, fitted, exact])?),
-        ],
+    Ok(Table {
+        name: "summary",
+        caption: "Error and run time".into(),
+        columns: [
+            "formula",
+            "largest error",
+            "rms",
+            "mean",
+            "kind",
+            "latency (ns)",
+            "to literature",
+            "throughput (ns)",
+            "domain",
+        ]
+        .map(String::from)
+        .to_vec(),
+        rows,
     })
 }
 

@@ -1,4 +1,4 @@
-//! Times and their ratios in a table: a number, or what it is below where the clock cannot tell.
+//! Times and their ratios in a table: a number, or an upper limit where the time is below the resolution.
 
 use super::document::Cell;
 use crate::timing::{Measure, Ratio};

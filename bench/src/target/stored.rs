@@ -50,7 +50,7 @@ fn manoeuvre() -> Result<Vec<u8>, Failure> {
             .flat_map(u32::to_le_bytes)
             .collect()
     };
-    // The loop reads what stands in flash for good.
+    // The loop takes a reference that is valid for ever, as to flash.
     let recorded = record(0).leak();
     let mut control = ControlLoop::new(recorded).map_err(refused)?;
     while control.tick() {}

@@ -9,8 +9,8 @@ use epas_friction::efficiency::{DynamicCorrection, EfficiencyGeometry};
 use epas_friction::geometry::{ContactAngle, Groove};
 use epas_friction::hertz::HertzContact;
 use epas_friction::{
-    CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, FrictionBranch, FrictionModel, Inputs,
-    Limits, math,
+    BallScrew, CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, FrictionBranch,
+    FrictionModel, Inputs, Limits, math,
 };
 use epas_reference::curvature as reference;
 use epas_reference::published::TABLE_A1;
@@ -36,122 +36,15 @@ pub struct Competition {
 
 /// Times everything.
 pub fn compete(rounds: usize) -> Result<Vec<Competition>, Failure> {
-    let failure = |error: epas_friction::Error| Failure::Data(error.to_string());
     // Through `black_box`, or the constants would be folded into the loops.
-    let design = black_box(CATALOGUE[15].design().map_err(failure)?);
-    let literature = LiteratureCurvature::of(&design, Groove::Screw);
-    let circular = CircularGrooveCurvature::of(&design, Groove::Screw);
-    let fitted = FittedCurvature::of(&design, Groove::Screw);
-    let exact = GothicArch::of(&design, Groove::Screw);
-
+    let design = black_box(CATALOGUE[15].design().map_err(refused)?);
     let mut race = Race::default();
     let mut list = List::new();
-    let angle = |share: f64| (70.0 * share).to_radians();
-
-    Group::new(
-        &mut race,
-        &mut list,
-        |share| ContactAngle::new(angle(share) as f32),
-        |angle: ContactAngle| angle.cos,
-    )
-    .time("literature", move |a| literature.first(a))
-    .time("circular_groove", move |a| circular.first(a))
-    .time("fitted", move |a| fitted.first(a))
-    .time("exact", move |a| exact.principal(a));
-
-    Group::new(
-        &mut race,
-        &mut list,
-        |share| angle(share) as f32,
-        |angle: f32| angle,
-    )
-    .time("literature_angle", move |a| {
-        literature.first(ContactAngle::new(a))
-    })
-    .time("circular_groove_angle", move |a| {
-        circular.first(ContactAngle::new(a))
-    })
-    .time("fitted_angle", move |a| fitted.first(ContactAngle::new(a)))
-    .time("exact_angle", move |a| {
-        exact.principal(ContactAngle::new(a))
-    });
-
-    let row = black_box(TABLE_A1[15]);
-    let surface = black_box(row.surface(reference::Groove::Screw));
-    let ball_radius = black_box(0.5 * row.ball_diameter);
-    Group::new(&mut race, &mut list, angle, |angle: f64| angle)
-        .time("literature_f64", move |a| {
-            reference::literature(surface.groove, surface.pitch_radius, ball_radius, a)
-        })
-        .time("circular_groove_f64", move |a| surface.circular_groove(a))
-        .time("weingarten_f64", move |a| surface.principal(a))
-        .time("weingarten_printed_f64", move |a| {
-            surface.principal_cartesian(a)
-        })
-        .time("appendix_b_f64", move |a| surface.appendix_b(a));
-
-    let screw = EfficiencyGeometry::of(&design);
-    let correction = DynamicCorrection::new(&screw, black_box(0.075));
-    Group::new(
-        &mut race,
-        &mut list,
-        |share| (0.02 + 0.2 * share) as f32,
-        |friction: f32| friction,
-    )
-    .time("efficiency_rolling", move |f| {
-        screw.rolling_efficiency(f, 0.0)
-    })
-    .time("efficiency_sliding", move |f| screw.sliding_efficiency(f))
-    .time("efficiency_sliding_backdrive", move |f| {
-        screw.sliding_backdrive_efficiency(f)
-    })
-    .time("efficiency_dynamic", move |number| {
-        correction.efficiency(number)
-    });
-
-    let contact = HertzContact::of(&design, Groove::Screw);
-    let modulus = black_box(113.9e9);
-    let clearance = design.clearance(Groove::Screw);
-    Group::new(
-        &mut race,
-        &mut list,
-        |share| (10.0 + 500.0 * share) as f32,
-        |load: f32| load,
-    )
-    .time("hertz_ellipse", move |load| contact.at(load))
-    .time("hertz_setup", move |load| {
-        let angle = ContactAngle {
-            cos: 0.7 + 1e-4 * load,
-            sin: 0.7 - 1e-4 * load,
-        };
-        HertzContact::new(exact.relative(angle, clearance), modulus)
-    });
-
-    let mut model = FrictionModel::<CagedBallScrew>::new(&CagedBallScrewConfiguration {
-        design,
-        friction: 0.075,
-        rolling_tangent: 0.0,
-        branch: FrictionBranch::Rolling,
-        preload: black_box(100.0),
-        reversal_speed: 0.5,
-        limits: Limits {
-            nut_speed: 500.0,
-            axial_load: 20e3,
-            friction_torque: 10.0,
-        },
-    })
-    .map_err(failure)?;
-    Group::new(
-        &mut race,
-        &mut list,
-        |share| Inputs {
-            nut_speed: (80.0 * share - 40.0) as f32,
-            axial_load: (8e3 * (7.0 * share).fract() - 4e3) as f32,
-        },
-        |inputs: Inputs| inputs.nut_speed,
-    )
-    .time("step_caged", move |inputs| model.step(inputs));
-
+    curvatures(&mut race, &mut list, &design);
+    curvatures_in_double(&mut race, &mut list);
+    efficiencies(&mut race, &mut list, &design);
+    ellipses(&mut race, &mut list, &design);
+    caged_step(&mut race, &mut list, design)?;
     trains(&mut race, &mut list)?;
     kernels(&mut race, &mut list);
 
@@ -168,6 +61,132 @@ pub fn compete(rounds: usize) -> Result<Vec<Competition>, Failure> {
             ),
         })
         .collect())
+}
+
+fn refused(error: epas_friction::Error) -> Failure {
+    Failure::Data(error.to_string())
+}
+
+/// A contact angle up to 70 degrees.
+fn angle(share: f64) -> f64 {
+    (70.0 * share).to_radians()
+}
+
+fn curvatures(race: &mut Race, list: &mut List, design: &BallScrew) {
+    let literature = LiteratureCurvature::of(design, Groove::Screw);
+    let circular = CircularGrooveCurvature::of(design, Groove::Screw);
+    let fitted = FittedCurvature::of(design, Groove::Screw);
+    let exact = GothicArch::of(design, Groove::Screw);
+
+    Group::new(
+        race,
+        list,
+        |share| ContactAngle::new(angle(share) as f32),
+        |angle: ContactAngle| angle.cos,
+    )
+    .time("literature", move |a| literature.first(a))
+    .time("circular_groove", move |a| circular.first(a))
+    .time("fitted", move |a| fitted.first(a))
+    .time("exact", move |a| exact.principal(a));
+
+    Group::new(race, list, |share| angle(share) as f32, |angle: f32| angle)
+        .time("literature_angle", move |a| {
+            literature.first(ContactAngle::new(a))
+        })
+        .time("circular_groove_angle", move |a| {
+            circular.first(ContactAngle::new(a))
+        })
+        .time("fitted_angle", move |a| fitted.first(ContactAngle::new(a)))
+        .time("exact_angle", move |a| {
+            exact.principal(ContactAngle::new(a))
+        });
+}
+
+/// The same by the reference.
+fn curvatures_in_double(race: &mut Race, list: &mut List) {
+    let row = black_box(TABLE_A1[15]);
+    let surface = black_box(row.surface(reference::Groove::Screw));
+    let ball_radius = black_box(0.5 * row.ball_diameter);
+    Group::new(race, list, angle, |angle: f64| angle)
+        .time("literature_f64", move |a| {
+            reference::literature(surface.groove, surface.pitch_radius, ball_radius, a)
+        })
+        .time("circular_groove_f64", move |a| surface.circular_groove(a))
+        .time("weingarten_f64", move |a| surface.principal(a))
+        .time("weingarten_printed_f64", move |a| {
+            surface.principal_cartesian(a)
+        })
+        .time("appendix_b_f64", move |a| surface.appendix_b(a));
+}
+
+fn efficiencies(race: &mut Race, list: &mut List, design: &BallScrew) {
+    let screw = EfficiencyGeometry::of(design);
+    let correction = DynamicCorrection::new(&screw, black_box(0.075));
+    Group::new(
+        race,
+        list,
+        |share| (0.02 + 0.2 * share) as f32,
+        |friction: f32| friction,
+    )
+    .time("efficiency_rolling", move |f| {
+        screw.rolling_efficiency(f, 0.0)
+    })
+    .time("efficiency_sliding", move |f| screw.sliding_efficiency(f))
+    .time("efficiency_sliding_backdrive", move |f| {
+        screw.sliding_backdrive_efficiency(f)
+    })
+    .time("efficiency_dynamic", move |number| {
+        correction.efficiency(number)
+    });
+}
+
+fn ellipses(race: &mut Race, list: &mut List, design: &BallScrew) {
+    let exact = GothicArch::of(design, Groove::Screw);
+    let contact = HertzContact::of(design, Groove::Screw);
+    let modulus = black_box(113.9e9);
+    let clearance = design.clearance(Groove::Screw);
+    Group::new(
+        race,
+        list,
+        |share| (10.0 + 500.0 * share) as f32,
+        |load: f32| load,
+    )
+    .time("hertz_ellipse", move |load| contact.at(load))
+    .time("hertz_setup", move |load| {
+        let angle = ContactAngle {
+            cos: 0.7 + 1e-4 * load,
+            sin: 0.7 - 1e-4 * load,
+        };
+        HertzContact::new(exact.relative(angle, clearance), modulus)
+    });
+}
+
+fn caged_step(race: &mut Race, list: &mut List, design: BallScrew) -> Result<(), Failure> {
+    let mut model = FrictionModel::<CagedBallScrew>::new(&CagedBallScrewConfiguration {
+        design,
+        friction: 0.075,
+        rolling_tangent: 0.0,
+        branch: FrictionBranch::Rolling,
+        preload: black_box(100.0),
+        reversal_speed: 0.5,
+        limits: Limits {
+            nut_speed: 500.0,
+            axial_load: 20e3,
+            friction_torque: 10.0,
+        },
+    })
+    .map_err(refused)?;
+    Group::new(
+        race,
+        list,
+        |share| Inputs {
+            nut_speed: (80.0 * share - 40.0) as f32,
+            axial_load: (8e3 * (7.0 * share).fract() - 4e3) as f32,
+        },
+        |inputs: Inputs| inputs.nut_speed,
+    )
+    .time("step_caged", move |inputs| model.step(inputs));
+    Ok(())
 }
 
 fn kernels(race: &mut Race, list: &mut List) {
