@@ -190,7 +190,7 @@ pub struct ScrewConfiguration {
 }
 
 /// Size of `epas_screw_t` in words of eight bytes.
-pub const EPAS_SCREW_WORDS: usize = 214;
+pub const EPAS_SCREW_WORDS: usize = 212;
 
 /// Place for the constants and the state of a ball screw whose balls press on each other; as
 /// `epas_caged_t`.
