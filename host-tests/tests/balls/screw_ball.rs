@@ -1,5 +1,6 @@
 //! The ball of a ball screw: closed form and refined variant against the exact models.
 
+use crate::kit::errors::Errors;
 use crate::kit::given;
 use crate::kit::random::Congruential;
 use epas_friction::ball::ScrewRow;
@@ -50,15 +51,17 @@ fn law(design: &BallScrew, groove: curvature::Groove) -> HertzLaw {
 #[test]
 fn row_is_the_closed_form_with_a_third_contact() {
     let design = design();
-    let mut speeds = Errors::within(4e-7, "row, orbital speed");
+    let mut speeds = Errors::of("row, orbital speed");
     // A ball's share of the load enters through powers that fit the mean one.
-    let mut compliances = [("mean load", 1e-2), ("shares 0.1 to 3", 0.08)]
-        .map(|(name, bound)| Errors::within(bound, format!("row, compliance, {name}")));
-    let mut torques = [("mean load", 1e-2), ("shares 0.1 to 3", 0.15)]
-        .map(|(name, bound)| Errors::within(bound, format!("row, groove torque, {name}")));
-    let mut mains = Errors::within(5e-3, "row, main load");
-    let mut thirds = Errors::within(8e-2, "row, third load");
-    let mut rubbings = Errors::within(4e-7, "row, rubbing");
+    let of = |quantity: &str| {
+        ["mean load", "shares 0.1 to 3"]
+            .map(|shares| Errors::of(format!("row, {quantity}, {shares}")))
+    };
+    let mut compliances = of("compliance");
+    let mut torques = of("groove torque");
+    let mut mains = Errors::of("row, main load");
+    let mut thirds = Errors::of("row, third load");
+    let mut rubbings = Errors::of("row, rubbing");
     for friction in [0.05, 0.12] {
         let row = ScrewRow::new(&design, friction as f32, GrooveFit::Zero).unwrap();
         let model = ThreePointModel {
@@ -107,89 +110,26 @@ fn row_is_the_closed_form_with_a_third_contact() {
                             let case = format!(
                                 "friction {friction}, {load} N, nut speed {speed}, share {share}, {theta}, {eta} degrees"
                             );
-                            speeds.add(dev, &case);
-                            compliances[usize::from(share != 1.0)].add(y, &case);
-                            torques[usize::from(share != 1.0)].add(p, &case);
+                            speeds.add_at(dev, &case);
+                            compliances[usize::from(share != 1.0)].add_at(y, &case);
+                            torques[usize::from(share != 1.0)].add_at(p, &case);
                             if share == 1.0 {
-                                mains.add(n, &case);
-                                thirds.add(n3, &case);
+                                mains.add_at(n, &case);
+                                thirds.add_at(n3, &case);
                             }
-                            rubbings.add(rub, &case);
+                            rubbings.add_at(rub, &case);
                         }
                     }
                 }
             }
         }
     }
-    speeds.finish(1e-7, 1e-7);
-    for (errors, rms) in compliances
-        .into_iter()
-        .chain(torques)
-        .zip([3e-3, 3e-2, 3e-3, 5e-2])
+    for errors in [speeds, mains, thirds, rubbings]
+        .iter()
+        .chain(&compliances)
+        .chain(&torques)
     {
-        errors.finish(rms, rms);
-    }
-    mains.finish(2e-3, 2e-4);
-    thirds.finish(3e-2, 3e-3);
-    rubbings.finish(2e-7, 1e-7);
-}
-
-/// Errors of a sweep: no case above `bound`; largest, rms and mean are printed for the documentation.
-struct Errors {
-    name: String,
-    bound: f64,
-    max: f64,
-    squares: f64,
-    sum: f64,
-    count: f64,
-}
-
-impl Errors {
-    fn within(bound: f64, name: impl Into<String>) -> Self {
-        Self {
-            name: name.into(),
-            bound,
-            max: 0.0,
-            squares: 0.0,
-            sum: 0.0,
-            count: 0.0,
-        }
-    }
-
-    fn add(&mut self, error: f64, case: &str) {
-        assert!(
-            error.abs() <= self.bound,
-            "{}: {error:.2e} above {:.1e} in {case}",
-            self.name,
-            self.bound
-        );
-        self.max = self.max.max(error.abs());
-        self.squares += error * error;
-        self.sum += error;
-        self.count += 1.0;
-    }
-
-    fn rms(&self) -> f64 {
-        (self.squares / self.count).sqrt()
-    }
-
-    /// Largest rms and mean that are accepted.
-    fn finish(self, rms: f64, bias: f64) {
-        println!(
-            "{}: max {:.1e} rms {:.1e} mean {:+.1e} of {}",
-            self.name,
-            self.max,
-            self.rms(),
-            self.sum / self.count,
-            self.count
-        );
-        assert!(self.rms() <= rms, "{}: rms {:.2e}", self.name, self.rms());
-        assert!(
-            (self.sum / self.count).abs() <= bias,
-            "{}: mean {:.2e}",
-            self.name,
-            self.sum / self.count
-        );
+        errors.assert_measured();
     }
 }
 
@@ -267,33 +207,24 @@ fn open<const N: usize>() -> [f32; N] {
     room
 }
 
-/// Largest and rms error that are accepted after 0, 1, 2, ... impedance steps.
-struct Bounds {
-    name: &'static str,
-    /// Orbital speed, of the nut's.
-    speed: [(f64, f64); 6],
-    /// Groove torque, relative.
-    torque: [(f64, f64); 6],
-}
-
-/// Errors of one kind of ball after every number of steps.
+/// Errors of one kind of ball after 0, 1, 2, ... impedance steps.
 struct Steps {
-    speed: Vec<(Errors, f64)>,
-    torque: Vec<(Errors, f64)>,
+    /// Orbital speed, of the nut's.
+    speed: [Errors; 6],
+    /// Groove torque, relative.
+    torque: [Errors; 6],
 }
 
 impl Steps {
-    fn new(bounds: &Bounds) -> Self {
-        let errors = |quantity: &str, bounds_of: &[(f64, f64); 6]| {
-            let step = |(steps, (max, rms)): (usize, &(f64, f64))| {
-                let name = format!("{}, {quantity} after {steps} steps", bounds.name);
-                (Errors::within(*max, name), *rms)
-            };
-            bounds_of.iter().enumerate().map(step).collect()
+    fn new(name: &str) -> Self {
+        let errors = |quantity: &str| {
+            std::array::from_fn(|steps| {
+                Errors::of(format!("{name}, {quantity} after {steps} steps"))
+            })
         };
         Self {
-            speed: errors("orbital speed", &bounds.speed),
-            torque: errors("groove torque", &bounds.torque),
+            speed: errors("orbital speed"),
+            torque: errors("groove torque"),
         }
     }
 
@@ -306,10 +237,10 @@ impl Steps {
         case: &str,
     ) {
         let mut state = start;
-        for ((speed, _), (torque, _)) in self.speed.iter_mut().zip(&mut self.torque) {
+        for (speed, torque) in self.speed.iter_mut().zip(&mut self.torque) {
             let found = f64::from(ball.orbital_speed(&state.motion));
-            speed.add(found - exact.orbital_speed, case);
-            torque.add(
+            speed.add_at(found - exact.orbital_speed, case);
+            torque.add_at(
                 f64::from(state.groove_torque) / exact.power_loss - 1.0,
                 case,
             );
@@ -317,9 +248,9 @@ impl Steps {
         }
     }
 
-    fn finish(self) {
-        for (errors, rms) in self.speed.into_iter().chain(self.torque) {
-            errors.finish(rms, 0.7 * rms);
+    fn assert_measured(&self) {
+        for errors in self.speed.iter().chain(&self.torque) {
+            errors.assert_measured();
         }
     }
 }
@@ -369,60 +300,18 @@ impl Congruential {
 
 #[test]
 fn four_given_contacts() {
-    for (degrees, bounds) in [
-        (
-            1.0_f64,
-            Bounds {
-                name: "four contacts, 1 degree",
-                speed: [
-                    (9e-4, 2e-4),
-                    (1e-4, 3e-5),
-                    (1e-4, 3e-5),
-                    (2e-5, 3e-6),
-                    (3e-6, 6e-7),
-                    (2e-6, 5e-7),
-                ],
-                torque: [
-                    (7e-2, 2e-2),
-                    (5e-2, 8e-3),
-                    (5e-2, 7e-3),
-                    (2e-3, 3e-4),
-                    (3e-4, 1e-4),
-                    (3e-4, 1e-4),
-                ],
-            },
-        ),
-        (
-            3.0,
-            Bounds {
-                name: "four contacts, 3 degrees",
-                speed: [
-                    (7e-3, 2e-3),
-                    (8e-4, 2e-4),
-                    (1e-4, 3e-5),
-                    (3e-5, 5e-6),
-                    (1e-5, 2e-6),
-                    (1e-5, 2e-6),
-                ],
-                torque: [
-                    (0.11, 3e-2),
-                    (5e-2, 1e-2),
-                    (5e-2, 8e-3),
-                    (2e-3, 5e-4),
-                    (6e-4, 2e-4),
-                    (6e-4, 2e-4),
-                ],
-            },
-        ),
+    for (degrees, name) in [
+        (1.0_f64, "four contacts, 1 degree"),
+        (3.0, "four contacts, 3 degrees"),
     ] {
         let mut random = Congruential(7);
-        let mut steps = Steps::new(&bounds);
+        let mut steps = Steps::new(name);
         for _ in 0..40 {
             let case = random.case(degrees.to_radians(), (0.1, 1.0), (0.1, 1.0));
             let start = case.ball.closed_form(&case.contacts);
             steps.add(&case.ball, &case.contacts, start, &case.exact, &case.name);
         }
-        steps.finish();
+        steps.assert_measured();
     }
 }
 
@@ -438,55 +327,15 @@ fn is_pinned(exact: &ScrewMotion) -> bool {
     third.velocity.slip_minor.abs() < semi_major * third.velocity.spin.abs()
 }
 
+/// Where the third contact slides, one of the main contacts all but sticks, and steps out of that are short.
 #[test]
 fn three_given_contacts() {
-    // Where it slides, one of the main contacts all but sticks, and steps out of that are short.
-    let sliding_torque = [
-        (2e-2, 4e-3),
-        (1e-2, 3e-3),
-        (1e-2, 2e-3),
-        (1e-2, 2e-3),
-        (1e-2, 1e-3),
-        (1e-2, 1e-3),
-    ];
     let mut closed = [
-        Steps::new(&Bounds {
-            name: "third contact pinned",
-            speed: [
-                (7e-4, 1e-4),
-                (2e-4, 2e-5),
-                (1e-4, 2e-5),
-                (1e-4, 2e-5),
-                (3e-5, 5e-6),
-                (1e-5, 2e-6),
-            ],
-            torque: [
-                (5e-2, 1e-2),
-                (4e-2, 5e-3),
-                (4e-2, 6e-3),
-                (2e-2, 3e-3),
-                (4e-3, 6e-4),
-                (6e-4, 2e-4),
-            ],
-        }),
-        Steps::new(&Bounds {
-            name: "third contact slides, from the closed form",
-            speed: [(1.2e-2, 3e-3); 6],
-            torque: [(8e-2, 2e-2); 6],
-        }),
-    ];
-    let mut started = Steps::new(&Bounds {
-        name: "third contact slides, from the start",
-        speed: [
-            (2e-3, 7e-4),
-            (2e-3, 3e-4),
-            (2e-3, 3e-4),
-            (2e-3, 3e-4),
-            (2e-3, 2e-4),
-            (2e-3, 2e-4),
-        ],
-        torque: sliding_torque,
-    });
+        "third contact pinned",
+        "third contact slides, from the closed form",
+    ]
+    .map(Steps::new);
+    let mut started = Steps::new("third contact slides, from the start");
     let mut random = Congruential(7);
     for _ in 0..120 {
         let case = random.case(3_f64.to_radians(), (0.05, 1.5), (0.0, 0.0));
@@ -502,9 +351,8 @@ fn three_given_contacts() {
             started.add(ball, contacts, ball.start(contacts), exact, name);
         }
     }
-    started.finish();
-    for steps in closed {
-        steps.finish();
+    for steps in closed.iter().chain([&started]) {
+        steps.assert_measured();
     }
 }
 
@@ -512,24 +360,13 @@ fn three_given_contacts() {
 #[test]
 fn two_given_contacts() {
     let mut random = Congruential(7);
-    let mut steps = Steps::new(&Bounds {
-        name: "two contacts",
-        speed: [(4e-4, 3e-5); 6].map(|(max, _)| (max, 7e-5)),
-        torque: [
-            (6e-4, 1e-4),
-            (1e-2, 3e-3),
-            (1e-2, 3e-3),
-            (1e-2, 3e-3),
-            (1e-2, 3e-3),
-            (1e-2, 3e-3),
-        ],
-    });
+    let mut steps = Steps::new("two contacts");
     for _ in 0..40 {
         let case = random.case(3_f64.to_radians(), (0.0, 0.0), (0.0, 0.0));
         let start = case.ball.closed_form(&case.contacts);
         steps.add(&case.ball, &case.contacts, start, &case.exact, &case.name);
     }
-    steps.finish();
+    steps.assert_measured();
 }
 
 fn stored() -> Value {
@@ -563,13 +400,13 @@ fn forces_of_pair(
 fn stored_pairs_with_given_contacts() {
     let design = design();
     let ball = ScrewBall::new(&design, 0.1).unwrap();
-    let mut closed_speed = Errors::within(1.4e-3, "orbital speed, closed form");
-    let mut refined_speed = Errors::within(3e-7, "orbital speed after 3 steps");
+    let mut closed_speed = Errors::of("stored pairs, orbital speed, closed form");
+    let mut refined_speed = Errors::of("stored pairs, orbital speed after 3 steps");
     let mut forces = [
-        Errors::within(0.19, "contact force, closed form"),
-        Errors::within(0.023, "contact force after 1 step"),
-        Errors::within(0.005, "contact force after 2 steps"),
-        Errors::within(0.005, "contact force after 3 steps"),
+        Errors::of("stored pairs, contact force, closed form"),
+        Errors::of("stored pairs, contact force after 1 step"),
+        Errors::of("stored pairs, contact force after 2 steps"),
+        Errors::of("stored pairs, contact force after 3 steps"),
     ];
     for case in stored()["impedance"].as_array().unwrap() {
         let name = format!(
@@ -592,18 +429,16 @@ fn stored_pairs_with_given_contacts() {
             let closed = ball.closed_form(contacts);
             let refined = ball.refine(contacts, &closed, 0.0, 3);
             let speed = |state: &ScrewBallState| f64::from(ball.orbital_speed(&state.motion));
-            closed_speed.add(speed(&closed) - number(&case[key]), &name);
-            refined_speed.add(speed(&refined) - number(&case[key]), &name);
+            closed_speed.add_at(speed(&closed) - number(&case[key]), &name);
+            refined_speed.add_at(speed(&refined) - number(&case[key]), &name);
         }
         let (found, _) = forces_of_pair(&ball, &contacts, 0.1, 3);
         for (errors, force) in forces.iter_mut().zip(found) {
-            errors.add(force / number(&case["F"]) - 1.0, &name);
+            errors.add_at(force / number(&case["F"]) - 1.0, &name);
         }
     }
-    closed_speed.finish(5e-4, 2e-4);
-    refined_speed.finish(2e-7, 2e-7);
-    for (errors, rms) in forces.into_iter().zip([0.09, 0.012, 0.003, 0.003]) {
-        errors.finish(rms, rms);
+    for errors in forces.iter().chain([&closed_speed, &refined_speed]) {
+        errors.assert_measured();
     }
 }
 
@@ -613,14 +448,14 @@ fn pairs_with_given_contacts() {
     let mut random = Congruential(11);
     // Of the largest force that friction lets a ball hold along the track.
     let mut forces = [
-        Errors::within(6e-2, "contact force, closed form"),
-        Errors::within(3e-2, "contact force after 1 step"),
-        Errors::within(4e-3, "contact force after 2 steps"),
-        Errors::within(2e-4, "contact force after 3 steps"),
-        Errors::within(1e-4, "contact force after 4 steps"),
-        Errors::within(1e-4, "contact force after 5 steps"),
+        Errors::of("given pairs, contact force, closed form"),
+        Errors::of("given pairs, contact force after 1 step"),
+        Errors::of("given pairs, contact force after 2 steps"),
+        Errors::of("given pairs, contact force after 3 steps"),
+        Errors::of("given pairs, contact force after 4 steps"),
+        Errors::of("given pairs, contact force after 5 steps"),
     ];
-    let mut loss = Errors::within(3e-4, "power loss after 5 steps");
+    let mut loss = Errors::of("given pairs, power loss after 5 steps");
     for _ in 0..40 {
         let design = random.design();
         let friction = random.between(0.05, 0.15) as f32;
@@ -640,7 +475,7 @@ fn pairs_with_given_contacts() {
         let total: f32 = loads.iter().sum();
         let scale = mu * f64::from(total);
         for (errors, force) in forces.iter_mut().zip(found) {
-            errors.add((force - exact.contact_forces[0]) / scale, &case);
+            errors.add_at((force - exact.contact_forces[0]) / scale, &case);
         }
         let torque = ball.ball_torque(&chain, friction)
             + chain
@@ -648,23 +483,19 @@ fn pairs_with_given_contacts() {
                 .iter()
                 .map(|state| state.groove_torque)
                 .sum::<f32>();
-        loss.add(f64::from(torque) / exact.power_loss() - 1.0, &case);
+        loss.add_at(f64::from(torque) / exact.power_loss() - 1.0, &case);
     }
-    for (errors, rms) in forces
-        .into_iter()
-        .zip([1.5e-2, 5e-3, 6e-4, 3e-5, 2e-5, 2e-5])
-    {
-        errors.finish(rms, 0.7 * rms);
+    for errors in forces.iter().chain([&loss]) {
+        errors.assert_measured();
     }
-    loss.finish(1e-4, 2e-5);
 }
 
 /// Where loads vanish so do contact ellipses, and with them what spin moments do to the speed.
 #[test]
 fn closed_forms_are_the_geometry_of_contacts_that_do_not_slip() {
     let mut random = Congruential(3);
-    let mut three = Errors::within(1e-4, "third contact");
-    let mut two = Errors::within(1e-6, "two contacts");
+    let mut three = Errors::of("vanishing loads, third contact");
+    let mut two = Errors::of("vanishing loads, two contacts");
     for _ in 0..300 {
         let design = random.design();
         let ball = ScrewBall::new(&design, 0.1).unwrap();
@@ -709,11 +540,11 @@ fn closed_forms_are_the_geometry_of_contacts_that_do_not_slip() {
             } else {
                 &mut three
             };
-            errors.add(found - expected, &case);
+            errors.add_at(found - expected, &case);
         }
     }
-    three.finish(3e-5, 3e-6);
-    two.finish(3e-7, 2e-7);
+    three.assert_measured();
+    two.assert_measured();
 }
 
 /// Balls in grooves without play that give way, the second one in a screw groove that deviates by `theta`.
@@ -744,8 +575,8 @@ fn elastic(deviations: &[f64], nut_speed: f64) -> ElasticBalls {
 #[test]
 fn the_third_contact_follows_load_and_direction() {
     let row = ScrewRow::new(&design(), 0.1, GrooveFit::Zero).unwrap();
-    let mut main = Errors::within(0.03, "load of the main contacts");
-    let mut third = Errors::within(0.3, "load of the third contact");
+    let mut main = Errors::of("load of the main contacts");
+    let mut third = Errors::of("load of the third contact");
     for load in [-100.0_f64, -50.0, -10.0, 10.0, 50.0, 100.0] {
         for speed in [1.0_f64, -1.0] {
             let case = format!("{load} N, {speed} rad/s");
@@ -768,15 +599,15 @@ fn the_third_contact_follows_load_and_direction() {
                     None => assert!(force == 0.0, "{case}: {flank:?}"),
                     Some(exact) => {
                         let errors = if exact > least { &mut main } else { &mut third };
-                        errors.add(f64::from(force) / exact - 1.0, &case);
+                        errors.add_at(f64::from(force) / exact - 1.0, &case);
                     }
                 }
             }
         }
     }
     // The third contact takes part of its force from friction along its own track; friction also shifts all angles.
-    main.finish(0.02, 0.02);
-    third.finish(0.2, 0.2);
+    main.assert_measured();
+    third.assert_measured();
 }
 
 /// Force between two balls, loads and all, against the exact model of balls in elastic grooves.
@@ -796,17 +627,8 @@ fn force_between_two_balls_in_elastic_grooves() {
                     if sign < 0.0 { "SR-NL" } else { "SL-NR" },
                     if pinning { "pinning" } else { "opposite" }
                 );
-                let (of_closed, of_refined) = match (per_ball, pinning) {
-                    (10.0 | 25.0, true) => (0.035, 0.03),
-                    (50.0, true) => (0.03, 0.04),
-                    (_, true) => (0.08, 0.09),
-                    (10.0, false) => (0.13, 0.06),
-                    (25.0, false) => (0.25, 0.18),
-                    (50.0, false) => (0.5, 0.45),
-                    (_, false) => (1.1, 1.0),
-                };
-                let mut closed = Errors::within(of_closed, format!("{name}: closed form"));
-                let mut refined = Errors::within(of_refined, format!("{name}: refined"));
+                let mut closed = Errors::of(format!("{name}: closed form"));
+                let mut refined = Errors::of(format!("{name}: refined"));
                 for degrees in [0.5_f64, 1.0, 2.0, 3.0] {
                     let theta = degrees.to_radians() * if pinning { 1.0 } else { -1.0 };
                     let load = sign * per_ball;
@@ -825,16 +647,16 @@ fn force_between_two_balls_in_elastic_grooves() {
                         .unwrap()
                         .contact_force;
                     let force = difference.abs() / (states[0].compliance + states[1].compliance);
-                    closed.add(f64::from(force) / exact - 1.0, &name);
+                    closed.add_at(f64::from(force) / exact - 1.0, &name);
                     let contacts = order.map(|theta| {
                         let (angles, forces) = row.contacts(1.0, load as f32, theta as f32, 0.0);
                         ball.contacts(&angles, &forces)
                     });
                     let (found, _) = forces_of_pair(&ball, &contacts, 0.1, 4);
-                    refined.add(found[4] / exact - 1.0, &name);
+                    refined.add_at(found[4] / exact - 1.0, &name);
                 }
-                closed.finish(0.8 * of_closed, 0.7 * of_closed);
-                refined.finish(0.9 * of_refined, 0.8 * of_refined);
+                closed.assert_measured();
+                refined.assert_measured();
             }
         }
     }

@@ -1,57 +1,9 @@
 //! Friction of a contact that slips in any direction and spins, against quadrature.
 
+use crate::kit::errors::Errors;
 use epas_friction::contact::SlipMap;
 use epas_reference::friction::patch::{Patch, PatchFriction, PatchVelocity};
 use std::f64::consts::TAU;
-
-/// Errors of a sweep: no case above `bound`; largest, rms and mean are printed for the documentation.
-struct Errors {
-    name: String,
-    bound: f64,
-    max: f64,
-    squares: f64,
-    sum: f64,
-    count: f64,
-}
-
-impl Errors {
-    fn within(bound: f64, name: &str) -> Self {
-        Self {
-            name: name.to_owned(),
-            bound,
-            max: 0.0,
-            squares: 0.0,
-            sum: 0.0,
-            count: 0.0,
-        }
-    }
-
-    fn add(&mut self, error: f64, case: &str) {
-        assert!(
-            error.abs() <= self.bound,
-            "{}: {error:.2e} above {:.1e} at {case}",
-            self.name,
-            self.bound
-        );
-        self.max = self.max.max(error.abs());
-        self.squares += error * error;
-        self.sum += error;
-        self.count += 1.0;
-    }
-
-    fn finish(&self, rms: f64, bias: f64) {
-        let (found, mean) = ((self.squares / self.count).sqrt(), self.sum / self.count);
-        println!(
-            "{}: max {:.1e} rms {found:.1e} mean {mean:+.1e} of {}",
-            self.name, self.max, self.count
-        );
-        assert!(
-            found <= rms && mean.abs() <= bias,
-            "{}: {found:e} {mean:e}",
-            self.name
-        );
-    }
-}
 
 /// Patches with semi-major axis and friction one; slips over the spin from 1e-4 to 1e4 semi-major axes.
 fn sweep(axis_ratio: f32, mut check: impl FnMut([f32; 3], &PatchFriction, &str)) {
@@ -81,21 +33,20 @@ fn sweep(axis_ratio: f32, mut check: impl FnMut([f32; 3], &PatchFriction, &str))
 
 #[test]
 fn forces_moment_power_and_stiffness_are_those_of_the_contact_integral() {
-    let mut power = Errors::within(3e-4, "power, relative");
-    let mut force = Errors::within(5e-4, "force over its limit");
-    let mut moment = Errors::within(5e-4, "moment over that of sliding at the semi-major axis");
-    // Two terms of the far field are off by this much where it takes over.
-    let mut stiffness = Errors::within(6e-3, "stiffness over the sum of both");
+    let mut power = Errors::of("slip map, power, relative");
+    let mut force = Errors::of("slip map, force over its limit");
+    let mut moment = Errors::of("slip map, moment over that of sliding at the semi-major axis");
+    let mut stiffness = Errors::of("slip map, stiffness over the sum of both");
     for axis_ratio in [0.05_f32, 0.1, 0.2321, 0.35, 0.5, 0.8, 0.95] {
         let map = SlipMap::new(axis_ratio).unwrap();
         sweep(axis_ratio, |[across, along, spin], exact, case| {
             let fast = map.dissipation(across, along, spin, 1.0, 0.0);
-            power.add(f64::from(fast.power) / exact.power - 1.0, case);
-            power.add(f64::from(fast.potential) / exact.power - 1.0, case);
+            power.add_at(f64::from(fast.power) / exact.power - 1.0, case);
+            power.add_at(f64::from(fast.potential) / exact.power - 1.0, case);
             let [by_across, by_along, by_spin] = exact.gradient;
-            force.add(f64::from(fast.across) - by_across, case);
-            force.add(f64::from(fast.along) - by_along, case);
-            moment.add(f64::from(fast.moment) - by_spin, case);
+            force.add_at(f64::from(fast.across) - by_across, case);
+            force.add_at(f64::from(fast.along) - by_along, case);
+            moment.add_at(f64::from(fast.moment) - by_spin, case);
 
             let exact = &exact.hessian;
             let size = exact[0][0] + exact[1][1];
@@ -104,20 +55,19 @@ fn forces_moment_power_and_stiffness_are_those_of_the_contact_integral() {
                 (fast.stiffness_mixed, exact[0][1]),
                 (fast.stiffness_along, exact[1][1]),
             ] {
-                stiffness.add((f64::from(fast) - exact) / size, case);
+                stiffness.add_at((f64::from(fast) - exact) / size, case);
             }
             // The column of the spin follows from the tilts.
             let distance = 1.0 + f64::from(across.hypot(along) / spin.abs());
             let (first, second) = (f64::from(fast.tilt_across), f64::from(fast.tilt_along));
             let by_spin = -f64::from(fast.stiffness_across) * first
                 - f64::from(fast.stiffness_mixed) * second;
-            stiffness.add((by_spin - exact[0][2]) / (size * distance), case);
+            stiffness.add_at((by_spin - exact[0][2]) / (size * distance), case);
         });
     }
-    power.finish(3e-5, 1e-6);
-    force.finish(3e-5, 1e-6);
-    moment.finish(3e-5, 1e-6);
-    stiffness.finish(3e-4, 1e-5);
+    for errors in [power, force, moment, stiffness] {
+        errors.assert_measured();
+    }
 }
 
 /// Forces are the slopes of the potential, with the stick treatment too: one convex function.
