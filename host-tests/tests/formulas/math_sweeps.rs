@@ -4,6 +4,7 @@
 //! the largest and smallest numbers); all inputs with
 //! `cargo test --release -p epas-reference --test formulas math_sweeps -- --ignored --nocapture`.
 
+use crate::kit::errors::Errors;
 use crate::kit::recorded;
 use epas_friction::{math, promises};
 
@@ -15,69 +16,22 @@ mod with_micromath;
 /// Error of a kernel at an input.
 type ErrorAt = fn(f32) -> f64;
 
-/// Errors of one kernel over a sweep: in ulps of the result, or absolute.
-#[derive(Clone, Copy, Default)]
-struct Errors {
-    count: f64,
-    max: f64,
-    at: f32,
-    sum: f64,
-    squares: f64,
+/// The line of a sweep over all inputs: errors in ulps of the result, or absolute.
+fn record(errors: &Errors, name: &str) {
+    recorded::Sweep {
+        quantity: name,
+        inputs: errors.count,
+        largest: errors.largest,
+        rms: errors.rms(),
+        mean: errors.mean(),
+        command: COMMAND,
+    }
+    .print();
 }
 
-impl Errors {
-    fn add(&mut self, input: f32, error: f64) {
-        self.count += 1.0;
-        self.sum += error;
-        self.squares += error * error;
-        if error.is_nan() || error.abs() > self.max {
-            self.max = error.abs();
-            self.at = input;
-        }
-    }
-
-    fn join(&mut self, other: &Self) {
-        self.count += other.count;
-        self.sum += other.sum;
-        self.squares += other.squares;
-        if other.max.is_nan() || other.max > self.max {
-            self.max = other.max;
-            self.at = other.at;
-        }
-    }
-
-    fn mean(&self) -> f64 {
-        self.sum / self.count
-    }
-
-    fn rms(&self) -> f64 {
-        (self.squares / self.count).sqrt()
-    }
-
-    /// The line of a sweep over all inputs.
-    fn record(&self, name: &str) {
-        recorded::Sweep {
-            quantity: name,
-            inputs: self.count,
-            largest: self.max,
-            rms: self.rms(),
-            mean: self.mean(),
-            command: COMMAND,
-        }
-        .print();
-    }
-
-    fn report(&self, name: &str) {
-        println!(
-            "{name}: {} inputs, max {:.4e} at {:e} ({:#010x}), rms {:.4e}, mean {:+.2e}",
-            self.count,
-            self.max,
-            self.at,
-            self.at.to_bits(),
-            self.rms(),
-            self.mean()
-        );
-    }
+/// An error at an input.
+fn add(errors: &mut Errors, input: f32, error: f64) {
+    errors.add_case(error, || format!("{input:e} ({:#010x})", input.to_bits()));
 }
 
 /// Distance of `computed` from `exact` in units of the last place of the f32 nearest to `exact`.
@@ -109,7 +63,7 @@ fn sweep(first: u32, last: u32, stride: usize, error: impl Fn(f32) -> f64 + Sync
                     let start = u64::from(first) + (thread * stride) as u64;
                     for bits in (start..=u64::from(last)).step_by(stride * threads) {
                         let input = f32::from_bits(bits as u32);
-                        errors.add(input, error(input));
+                        add(&mut errors, input, error(input));
                     }
                     errors
                 })
@@ -130,7 +84,7 @@ fn around_powers_of_two(error: impl Fn(f32) -> f64) -> Errors {
             let bits = (exponent << 23).wrapping_add_signed(offset);
             if (1..=LARGEST).contains(&bits) {
                 let input = f32::from_bits(bits);
-                errors.add(input, error(input));
+                add(&mut errors, input, error(input));
             }
         }
     }
@@ -159,14 +113,14 @@ fn check_roots(stride: usize) {
     ];
     for (name, bound, error) in kernels {
         let errors = sweep(1, LARGEST, stride, error);
-        errors.report(name);
+        println!("{name}{errors}");
         if stride == 1 {
-            errors.record(&format!("math::{name}, ulp"));
+            record(&errors, &format!("math::{name}, ulp"));
         }
         let corners = around_powers_of_two(error);
-        corners.report("  around powers of two");
-        assert!(errors.max <= bound, "{name} at {:e}", errors.at);
-        assert!(corners.max <= bound, "{name} at {:e}", corners.at);
+        println!("  around powers of two{corners}");
+        assert!(errors.largest <= bound, "{name} at {}", errors.worst);
+        assert!(corners.largest <= bound, "{name} at {}", corners.worst);
         // A rounding error is spread evenly over a unit in the last place: 1/sqrt(12) rms.
         assert!((errors.rms() - 0.288_7).abs() < 0.005, "{name}");
         assert!(errors.mean().abs() < 5e-3, "{name} is biased");
@@ -203,22 +157,15 @@ fn check_angles(stride: usize) {
                 let near = zero.to_bits().wrapping_add_signed(offset);
                 if near <= bits {
                     let input = f32::from_bits(near);
-                    errors.add(input, error(input));
+                    add(&mut errors, input, error(input));
                 }
             }
         }
-        println!(
-            "{name}: {} inputs, max {:.3e} at {:e}, rms {:.2e}, mean {:+.1e}",
-            errors.count,
-            errors.max,
-            errors.at,
-            errors.rms(),
-            errors.mean()
-        );
+        println!("{name}{errors}");
         if stride == 1 {
-            errors.record(&format!("math::sin_cos: {name}"));
+            record(&errors, &format!("math::sin_cos: {name}"));
         }
-        assert!(errors.max <= bound, "{name} at {:e}", errors.at);
+        assert!(errors.largest <= bound, "{name} at {}", errors.worst);
         assert!(
             errors.rms() < 0.5 * bound && errors.mean().abs() < 0.1 * bound,
             "{name}"
@@ -337,19 +284,19 @@ fn other_backends_err_as_documented() {
     ];
     for (name, least, most, first, last, error) in cases {
         let errors = sweep(first, last, STRIDE, error);
-        errors.report(name);
+        println!("{name}{errors}");
         assert!(
-            (least..=most).contains(&errors.max),
+            (least..=most).contains(&errors.largest),
             "{name}: {:e}",
-            errors.max
+            errors.largest
         );
     }
     let cbrt = sweep(normal, LARGEST, STRIDE, |x| {
         relative(with_micromath::cbrt(x), f64::from(x).cbrt())
     });
-    println!("micromath cbrt, relative: max {:.3e}", cbrt.max);
+    println!("micromath cbrt, relative: max {:.3e}", cbrt.largest);
     assert!(
-        cbrt.max > 0.01,
+        cbrt.largest > 0.01,
         "micromath has become accurate: say so in the documentation"
     );
     let _ = with_libm::cbrt_squared(1.0) + with_micromath::cbrt_squared(1.0);

@@ -13,7 +13,7 @@ pub struct Errors {
     pub name: String,
     /// How many were added.
     pub count: f64,
-    /// The largest size; not a number once one error was none.
+    /// The largest size.
     pub largest: f64,
     /// The case of the largest.
     pub worst: String,
@@ -35,9 +35,20 @@ impl Errors {
 
     /// The case is written down only where the error is the largest.
     pub fn add_at(&mut self, error: f64, case: impl Display) {
-        if error.is_nan() || error.abs() > self.largest {
+        self.add_case(error, || case.to_string());
+    }
+
+    /// The same, of a case that is made where it is needed.
+    ///
+    /// # Panics
+    /// Where the error is not a finite number.
+    pub fn add_case(&mut self, error: f64, case: impl FnOnce() -> String) {
+        if !error.is_finite() {
+            panic!("{}: an error of {error} at {}", self.name, case());
+        }
+        if error.abs() > self.largest {
             self.largest = error.abs();
-            self.worst = case.to_string();
+            self.worst = case();
         }
         self.squares += error * error;
         self.sum += error;
@@ -46,7 +57,7 @@ impl Errors {
 
     /// Adds what another thread found.
     pub fn join(&mut self, other: &Self) {
-        if other.largest.is_nan() || other.largest > self.largest {
+        if other.largest > self.largest {
             self.largest = other.largest;
             self.worst.clone_from(&other.worst);
         }

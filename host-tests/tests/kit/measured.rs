@@ -37,7 +37,7 @@ pub fn of(name: &str) -> &'static Measured {
     row
 }
 
-const TABLES: [&[Measured]; 2] = [SCREW_BALL, SLIP_MAP];
+const TABLES: &[&[Measured]] = &[SCREW_BALL, SLIP_MAP, FRICTION_MAP];
 
 /// `balls/screw_ball.rs`: orbital speeds over the nut's, the rest relative; forces of given pairs over the largest force
 /// that friction lets a ball hold along the track.
@@ -181,4 +181,13 @@ const SLIP_MAP: &[Measured] = &[
     row("slip map, force over its limit", [5e-4, 3e-5, 1e-6], [3.1e-4, 1.2e-5, 1e-8]),
     row("slip map, moment over that of sliding at the semi-major axis", [5e-4, 3e-5, 1e-6], [3.1e-4, 1.5e-5, 1.4e-8]),
     row("slip map, stiffness over the sum of both", [6e-3, 3e-4, 1e-5], [3.7e-3, 1.8e-4, 2.2e-6]),
+];
+
+/// `formulas/friction_map.rs`: force over its limit, moment over that of spin alone, power over the largest of offset and
+/// semi-major axis.
+#[rustfmt::skip]
+const FRICTION_MAP: &[Measured] = &[
+    row("friction map, force", [8.2e-4, 1.4e-4, 1e-6], [7.8e-4, 1.3e-4, 0.0]),
+    row("friction map, moment", [1.8e-3, 3.5e-4, 8e-5], [1.7e-3, 3.5e-4, 5.6e-5]),
+    row("friction map, power", [2.5e-4, 3.1e-5, 1e-5], [2.4e-4, 3.0e-5, 2.5e-6]),
 ];

@@ -1,5 +1,6 @@
 //! The table of promises: measured, and printed where it says.
 
+use crate::kit::errors::Errors;
 use crate::kit::given;
 use std::fmt::Write;
 
@@ -17,48 +18,6 @@ use epas_reference::curvature;
 use epas_reference::efficiency::Screw;
 use epas_reference::friction::maps;
 use epas_reference::hertz::Hertz;
-
-/// Measured errors of one function.
-#[derive(Default)]
-struct Errors {
-    largest: f64,
-    squares: f64,
-    sum: f64,
-    count: u32,
-    worst: String,
-}
-
-impl Errors {
-    fn add(&mut self, error: f64, line: impl FnOnce() -> String) {
-        if error.is_nan() || error.abs() > self.largest {
-            self.largest = error.abs();
-            self.worst = line();
-        }
-        self.squares += error * error;
-        self.sum += error;
-        self.count += 1;
-    }
-
-    fn hold(&self, promise: &Promise) {
-        let rms = (self.squares / f64::from(self.count)).sqrt();
-        let mean = self.sum / f64::from(self.count);
-        let line = format!(
-            "{}: {} inputs, largest {:.2e} ({:.2e} promised), rms {rms:.1e} ({:.1e}), mean {mean:+.1e} ({:.1e}); worst {}",
-            promise.function,
-            self.count,
-            self.largest,
-            promise.largest,
-            promise.rms,
-            promise.mean,
-            self.worst,
-        );
-        println!("{line}");
-        assert!(
-            self.largest <= promise.largest && rms <= promise.rms && mean.abs() <= promise.mean,
-            "{line}"
-        );
-    }
-}
 
 /// Error of `found` in units of the last place of the exact value.
 fn ulps(found: f32, exact: f64) -> f64 {
@@ -83,24 +42,24 @@ fn scalar_kernels() {
         let x = f32::from_bits(random.below(0x7f80_0000) as u32);
         let exact = f64::from(x);
         let line = || format!("{x:e}");
-        sqrt.add(ulps(math::sqrt(x), exact.sqrt()), line);
-        cbrt.add(ulps(math::cbrt(x), exact.cbrt()), line);
+        sqrt.add_case(ulps(math::sqrt(x), exact.sqrt()), line);
+        cbrt.add_case(ulps(math::cbrt(x), exact.cbrt()), line);
         // Twice the cube root's rounding in f64 is far below an f32's.
-        squared.add(ulps(math::cbrt_squared(x), exact.cbrt().powi(2)), line);
+        squared.add_case(ulps(math::cbrt_squared(x), exact.cbrt().powi(2)), line);
         let (root, square) = math::cbrt_and_squared(x);
-        both.add(ulps(root, exact.cbrt()), line);
-        both.add(ulps(square, exact.cbrt().powi(2)), line);
+        both.add_case(ulps(root, exact.cbrt()), line);
+        both.add_case(ulps(square, exact.cbrt().powi(2)), line);
         let angle = std::f32::consts::TAU * (2.0 * random.unit() - 1.0);
         let (sin, cos) = math::sin_cos(angle);
         let line = || format!("{angle:e}");
-        angles.add(f64::from(sin) - f64::from(angle).sin(), line);
-        angles.add(f64::from(cos) - f64::from(angle).cos(), line);
+        angles.add_case(f64::from(sin) - f64::from(angle).sin(), line);
+        angles.add_case(f64::from(cos) - f64::from(angle).cos(), line);
     }
-    sqrt.hold(&promises::SQRT);
-    cbrt.hold(&promises::CBRT);
-    squared.hold(&promises::CBRT_SQUARED);
-    both.hold(&promises::CBRT_AND_SQUARED);
-    angles.hold(&promises::SIN_COS);
+    sqrt.assert_promised(&promises::SQRT);
+    cbrt.assert_promised(&promises::CBRT);
+    squared.assert_promised(&promises::CBRT_SQUARED);
+    both.assert_promised(&promises::CBRT_AND_SQUARED);
+    angles.assert_promised(&promises::SIN_COS);
 }
 
 #[test]
@@ -121,22 +80,22 @@ fn curvatures() {
         let at = ContactAngle::new(angle);
         let line = || format!("{} {groove:?} {angle}", size.name);
         let found = GothicArch::of(&design, groove).principal(at).kappa1;
-        exact.add(f64::from(found) / truth - 1.0, line);
+        exact.add_case(f64::from(found) / truth - 1.0, line);
         if angle <= 1.256 {
             let found = FittedCurvature::of(&design, groove).first(at);
-            fitted.add(f64::from(found) / truth - 1.0, line);
+            fitted.add_case(f64::from(found) / truth - 1.0, line);
         }
         if angle <= 70_f32.to_radians() {
             let found = LiteratureCurvature::of(&design, groove).first(at);
-            literature.add(f64::from(found) / truth - 1.0, line);
+            literature.add_case(f64::from(found) / truth - 1.0, line);
             let found = CircularGrooveCurvature::of(&design, groove).first(at);
-            circular.add(f64::from(found) / truth - 1.0, line);
+            circular.add_case(f64::from(found) / truth - 1.0, line);
         }
     }
-    literature.hold(&promises::LITERATURE_CURVATURE);
-    circular.hold(&promises::CIRCULAR_CURVATURE);
-    exact.hold(&promises::GOTHIC_ARCH);
-    fitted.hold(&promises::FITTED_CURVATURE);
+    literature.assert_promised(&promises::LITERATURE_CURVATURE);
+    circular.assert_promised(&promises::CIRCULAR_CURVATURE);
+    exact.assert_promised(&promises::GOTHIC_ARCH);
+    fitted.assert_promised(&promises::FITTED_CURVATURE);
 }
 
 #[test]
@@ -160,10 +119,10 @@ fn contact_ellipses() {
             (found.max_pressure, exact.max_pressure),
         ] {
             let error = f64::from(found) / exact - 1.0;
-            errors.add(error, || format!("{first} {second} {modulus} {load}"));
+            errors.add_case(error, || format!("{first} {second} {modulus} {load}"));
         }
     }
-    errors.hold(&promises::HERTZ);
+    errors.assert_promised(&promises::HERTZ);
 }
 
 #[test]
@@ -187,18 +146,18 @@ fn efficiencies() {
         let line = || format!("{lead_angle} {contact_angle} {friction} {tangent}");
         if !exact.locked_drive() {
             let error = f64::from(found.sliding_efficiency(friction)) - exact.sliding_drive();
-            sliding.add(error, line);
+            sliding.add_case(error, line);
             let found = f64::from(found.rolling_efficiency(friction, tangent));
-            rolling.add(found - exact.rolling_screw(), line);
+            rolling.add_case(found - exact.rolling_screw(), line);
         }
         if !exact.locked_backdrive() {
             let found = f64::from(found.sliding_backdrive_efficiency(friction));
-            backdrive.add(found - exact.sliding_backdrive(), line);
+            backdrive.add_case(found - exact.sliding_backdrive(), line);
         }
     }
-    sliding.hold(&promises::EFFICIENCY);
-    rolling.hold(&promises::ROLLING_EFFICIENCY);
-    backdrive.hold(&promises::BACKDRIVE_EFFICIENCY);
+    sliding.assert_promised(&promises::EFFICIENCY);
+    rolling.assert_promised(&promises::ROLLING_EFFICIENCY);
+    backdrive.assert_promised(&promises::BACKDRIVE_EFFICIENCY);
 }
 
 #[test]
@@ -213,14 +172,14 @@ fn friction_maps() {
             let offset = random.sign() * random.size(1e-2, 1e3);
             let wanted = exact.at(offset.into()).force;
             let line = || format!("{axis_ratio} {offset}");
-            errors.add(f64::from(fast.force(offset)) - wanted, line);
+            errors.add_case(f64::from(fast.force(offset)) - wanted, line);
             // A contact with a semi-axis of 0.1 m that spins with 0.5 rad/s.
             let found = fast.dissipation(offset * 0.05, 0.5, 0.1, 0.0).force;
-            dissipation.add(f64::from(found) - wanted, line);
+            dissipation.add_case(f64::from(found) - wanted, line);
         }
     }
-    errors.hold(&promises::FRICTION_MAP);
-    dissipation.hold(&promises::DISSIPATION);
+    errors.assert_promised(&promises::FRICTION_MAP);
+    dissipation.assert_promised(&promises::DISSIPATION);
 }
 
 /// One wave in a period, between the table's samples as well as on them.
@@ -243,10 +202,10 @@ fn deviations() {
             let (s, c) = (std::f64::consts::TAU * f64::from(phase) / 2_f64.powi(32)).sin_cos();
             let exact = f64::from(cosine) * c + f64::from(sine) * s;
             let error = (f64::from(map.at(phase)) - exact) / f64::from(amplitude);
-            errors.add(error, || format!("{amplitude} {angle} {phase}"));
+            errors.add_case(error, || format!("{amplitude} {angle} {phase}"));
         }
     }
-    errors.hold(&promises::DEVIATION_MAP);
+    errors.assert_promised(&promises::DEVIATION_MAP);
 }
 
 /// A number with an exponent where it is small.

@@ -1,10 +1,11 @@
 //! What a step promises, and what it calls: measured against the float64 reference.
 
+use crate::kit::errors::Errors;
 use crate::kit::random::Random;
 use std::f64::consts::{FRAC_PI_4, TAU};
 
 use epas_friction::ball::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE, ScrewRow};
-use epas_friction::promises::{self, Promise};
+use epas_friction::promises;
 use epas_friction::refined::{BallChain, FourPointBall};
 use epas_friction::train::Train;
 use epas_friction::{
@@ -24,48 +25,6 @@ use epas_reference::friction::isotonic::isotonic_by_min_max;
 use epas_reference::friction::linear_ball::{EllipseLaw, LinearBall, contact_forces};
 use epas_reference::friction::whole_screw::WholeScrew;
 use epas_reference::hertz::{Hertz, contact_modulus};
-
-/// Measured errors of one function.
-#[derive(Default)]
-struct Errors {
-    largest: f64,
-    squares: f64,
-    sum: f64,
-    count: u32,
-    worst: String,
-}
-
-impl Errors {
-    fn add(&mut self, error: f64, line: impl FnOnce() -> String) {
-        if error.is_nan() || error.abs() > self.largest {
-            self.largest = error.abs();
-            self.worst = line();
-        }
-        self.squares += error * error;
-        self.sum += error;
-        self.count += 1;
-    }
-
-    fn hold(&self, promise: &Promise) {
-        let rms = (self.squares / f64::from(self.count)).sqrt();
-        let mean = self.sum / f64::from(self.count);
-        let line = format!(
-            "{}: {} inputs, largest {:.2e} ({:.2e} promised), rms {rms:.1e} ({:.1e}), mean {mean:+.1e} ({:.1e}); worst {}",
-            promise.function,
-            self.count,
-            self.largest,
-            promise.largest,
-            promise.rms,
-            promise.mean,
-            self.worst,
-        );
-        println!("{line}");
-        assert!(
-            self.largest <= promise.largest && rms <= promise.rms && mean.abs() <= promise.mean,
-            "{line}"
-        );
-    }
-}
 
 /// Torque of both branches in all four quadrants by the reference's efficiencies, with the direction that
 /// the scene takes near a reversal.
@@ -116,14 +75,14 @@ fn caged_step() {
                         nut_speed: speed,
                         axial_load: load,
                     });
-                    errors.add(f64::from(found.friction_torque) / exact - 1.0, || {
+                    errors.add_case(f64::from(found.friction_torque) / exact - 1.0, || {
                         format!("{parameters:?} {branch:?} {speed} {load}")
                     });
                 }
             }
         }
     }
-    errors.hold(&promises::STEP_CAGED);
+    errors.assert_promised(&promises::STEP_CAGED);
 }
 
 /// Lin 2019, Table 2.1 (radii in m).
@@ -203,16 +162,16 @@ fn balls_of_a_screw() {
                     let ball = tick.ball(t as f32, e as f32, &LoadShare::MEAN);
                     let line = || format!("{friction} {load} {speed} {theta} {eta}");
                     let error = f64::from(ball.groove_torque) / exact.groove_loss() - 1.0;
-                    row_errors.add(error, line);
+                    row_errors.add_case(error, line);
                     let found = f64::from(ball.speed_deviation + tick.nominal_speed());
                     let error = found / TRACK.path_radius() - exact.orbital_speed / speed;
-                    ball_errors.add(error, line);
+                    ball_errors.add_case(error, line);
                 }
             }
         }
     }
-    row_errors.hold(&promises::SCREW_ROW);
-    ball_errors.hold(&promises::SCREW_BALL);
+    row_errors.assert_promised(&promises::SCREW_ROW);
+    ball_errors.assert_promised(&promises::SCREW_BALL);
 }
 
 /// Friction torque over its mean, two turns of the nut, a state every 10 ticks.
@@ -284,12 +243,12 @@ fn uncaged_step() {
                 axial_load: load as f32,
             });
             let error = (speed.signum() * f64::from(found.friction_torque) - exact) / mean;
-            errors.add(error, || {
+            errors.add_case(error, || {
                 format!("{degrees} deg {load} {speed} state {tick}")
             });
         }
     }
-    errors.hold(&promises::STEP_UNCAGED);
+    errors.assert_promised(&promises::STEP_UNCAGED);
 }
 
 /// Forces of a row of touching balls on a track that is long enough for an open end.
@@ -311,10 +270,10 @@ fn train() {
             .fold(1e-30, |most: f64, force| most.max(*force));
         for (found, exact) in train.forces().zip(&forces) {
             let error = (f64::from(found) - exact) / largest;
-            errors.add(error, || format!("{free:?} {impedance:?}"));
+            errors.add_case(error, || format!("{free:?} {impedance:?}"));
         }
     }
-    errors.hold(&promises::TRAIN);
+    errors.assert_promised(&promises::TRAIN);
 }
 
 const BALL_RADIUS: f64 = 0.005;
@@ -373,7 +332,7 @@ fn pairs_in_a_linear_bearing() {
             let line = || format!("{degrees} {side}: {exact} N");
             let [rear, front] =
                 given.map(|(angles, forces)| analytic.speed_deviation(&angles, &forces));
-            closed.add(f64::from(rear.contact_force(&front)) - exact, line);
+            closed.add_case(f64::from(rear.contact_force(&front)) - exact, line);
             let contacts = given.map(|(angles, forces)| refined.contacts(&angles, &forces));
             let mut chain = BallChain::<2>::new();
             chain.balls = contacts.map(|contacts| refined.start(&contacts));
@@ -381,11 +340,11 @@ fn pairs_in_a_linear_bearing() {
                 let touching = [0.0, f32::INFINITY];
                 assert!(refined.refine_chain(&contacts, &mut chain, &touching, 1.0, 0.0));
             }
-            chained.add(f64::from(chain.forces[0]) - exact, line);
+            chained.add_case(f64::from(chain.forces[0]) - exact, line);
         }
     }
-    closed.hold(&promises::ANALYTIC_PAIR);
-    chained.hold(&promises::BALL_CHAIN);
+    closed.assert_promised(&promises::ANALYTIC_PAIR);
+    chained.assert_promised(&promises::BALL_CHAIN);
 }
 
 /// Straight grooves: friction of the grooves is the power that all balls lose over the speed.
@@ -434,9 +393,9 @@ fn linear_step() {
                     side_load: (24.0 * per_ball * side) as f32,
                 });
                 let error = speed * f64::from(found.groove_force) / (24.0 * exact) - 1.0;
-                errors.add(error, || format!("{per_ball} {side} {speed}"));
+                errors.add_case(error, || format!("{per_ball} {side} {speed}"));
             }
         }
     }
-    errors.hold(&promises::STEP_LINEAR);
+    errors.assert_promised(&promises::STEP_LINEAR);
 }

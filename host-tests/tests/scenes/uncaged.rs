@@ -118,7 +118,7 @@ fn run(
 
 /// Largest deviations from the reference; torques over the reference's largest ball-to-ball torque.
 #[derive(Debug, Default)]
-struct Errors {
+struct Differences {
     groove: f64,
     ball: f64,
     ball_rms: f64,
@@ -130,14 +130,14 @@ struct Errors {
     force: f64,
 }
 
-fn compare(outputs: &[UncagedOutputs], states: &[WholeScrewState], sign: f64) -> Errors {
+fn compare(outputs: &[UncagedOutputs], states: &[WholeScrewState], sign: f64) -> Differences {
     let largest =
         |state: &WholeScrewState| state.contact_forces.iter().fold(0.0, |m: f64, &f| m.max(f));
     let peak = states
         .iter()
         .fold(0.0, |m: f64, s| m.max(s.ball_torque.abs()));
     let peak_force = states.iter().map(largest).fold(0.0, f64::max);
-    let mut errors = Errors::default();
+    let mut errors = Differences::default();
     // In the first state nothing has touched yet.
     for (output, state) in outputs.iter().zip(states) {
         let groove = sign * f64::from(output.groove_torque) / state.groove_torque().abs() - 1.0;
@@ -569,7 +569,7 @@ fn bad_configurations_are_refused_by_name() {
     assert_eq!(with(&|c| c.tick = 0.05), "tick");
     assert_eq!(with(&|c| c.load_shares = &[]), "load_shares");
     // 37 balls do not go into one turn.
-    println!("{:?}", with(&|c| c.turns = 1.0));
+    assert_eq!(with(&|c| c.turns = 1.0), "pitch");
 }
 
 #[test]
