@@ -193,6 +193,9 @@ fn table_3_5_ball_to_ball_force() {
     assert_eq!(front.contact_force(&rear), 0.0);
 }
 
+/// The closed form, and the states after 0 to 3 impedance steps.
+const LABELS: [&str; 5] = ["(3.43)", "start", "+1", "+2", "+3"];
+
 #[test]
 fn tabulated_single_balls() {
     println!("speed deviation, in units of v/2");
@@ -200,8 +203,8 @@ fn tabulated_single_balls() {
         ("four-point", false),
         ("next to the two-point switch", true),
     ] {
-        let mut errors = <[Errors; 5]>::default();
-        let mut loss = Errors::default();
+        let mut errors = LABELS.map(|label| Errors::of(format!("{name}, {label}")));
+        let mut loss = Errors::of(format!("{name}, loss"));
         for case in golden::list("single") {
             if case["near_two_point"].as_bool().unwrap() != near {
                 continue;
@@ -221,23 +224,11 @@ fn tabulated_single_balls() {
                 if steps == 3 {
                     let power = golden::number(&case, "P_over_v");
                     loss.add(f64::from(state.friction_force) / power - 1.0);
-                    if !near {
-                        assert!(
-                            (f64::from(state.speed_deviation) - eps).abs() < 2e-5,
-                            "{case}"
-                        );
-                    }
                 }
             }
         }
-        for (label, errors) in ["(3.43)", "start", "+1", "+2", "+3"].iter().zip(&errors) {
-            println!("{name}, {label}: {errors}");
-        }
-        println!("{name}, loss relative: {loss}");
-        if !near {
-            assert!(errors[0].largest < 4.2e-3 && errors[1].largest < 4.1e-3);
-            assert!(errors[2].largest < 1.5e-3 && errors[3].largest < 1.5e-4);
-            assert!(loss.largest < 1e-3, "{loss}");
+        for errors in errors.iter().chain([&loss]) {
+            errors.assert_measured();
         }
     }
 }
@@ -245,8 +236,8 @@ fn tabulated_single_balls() {
 #[test]
 fn random_contact_angles_and_side_forces() {
     let mut random = Random(1);
-    let mut errors = <[Errors; 5]>::default();
-    let mut loss = Errors::default();
+    let mut errors = LABELS.map(|label| Errors::of(format!("random linear ball, {label}")));
+    let mut loss = Errors::of("random linear ball, loss");
     for _ in 0..400 {
         let deviations = [0; 4].map(|_| 3_f64.to_radians() * random.signed());
         let rho = 0.8 * random.signed();
@@ -260,29 +251,20 @@ fn random_contact_angles_and_side_forces() {
         for (steps, errors) in (0..4).zip(&mut errors[1..]) {
             let state = ball().refine(&contacts, &start, 0.0, steps);
             let error = f64::from(state.speed_deviation) - eps;
-            errors.add(error);
+            errors.add_at(error, format_args!("deviations {deviations:?} rho {rho}"));
             if steps == 3 {
                 loss.add(f64::from(state.friction_force) / dissipation - 1.0);
-                assert!(
-                    error.abs() < 5e-4,
-                    "deviations {deviations:?} rho {rho}: {error:e}"
-                );
             }
         }
     }
-    println!("400 random sets, in units of v/2");
-    for (label, errors) in ["(3.43)", "start", "+1", "+2", "+3"].iter().zip(&errors) {
-        println!("{label}: {errors}");
-    }
-    println!("loss relative: {loss}");
     for (errors, promise) in [
         (&errors[0], &promises::ANALYTIC_BALL),
         (&errors[3], &promises::FOUR_POINT_BALL),
     ] {
         errors.assert_promised(promise);
     }
-    assert!(errors[4].largest < 5e-5 && errors[4].rms() < 3e-6 && errors[4].mean().abs() < 1e-6);
-    assert!(loss.largest < 1e-3);
+    errors[4].assert_measured();
+    loss.assert_measured();
 }
 
 /// Other contact angles, and loads down to where contact angle deviations move the contacts by several
@@ -490,22 +472,21 @@ fn reversal_swaps_rear_and_front() {
 #[test]
 fn one_warm_step_a_tick_follows_a_swinging_load() {
     println!("one step a tick, side force in a sine of 100 ticks, theta 2 degrees");
-    for (amplitude, bound) in [(0.6, 5e-5), (0.8, 3e-4), (0.85, 3e-4), (0.9, 2.5e-2)] {
+    for amplitude in [0.6, 0.8, 0.85, 0.9] {
         let at = |tick: i32| {
             let phase = f64::from(tick) * std::f64::consts::TAU / 100.0;
             turned(2.0, amplitude * phase.sin())
         };
         let ball = ball();
         let mut state = ball.solve(&contacts(at(0)));
-        let mut errors = Errors::default();
+        let mut errors = Errors::of(format!("swinging load, amplitude {amplitude}"));
         for tick in 1..=100 {
             let (angles, forces) = at(tick);
             state = ball.refine(&contacts((angles, forces)), &state, 0.0, 1);
             let (motion, _) = exact(angles, forces).solve(0.0);
             errors.add(f64::from(state.speed_deviation) - (2.0 * motion[0] - 1.0));
         }
-        println!("amplitude {amplitude}: {errors}");
-        assert!(errors.largest < bound, "amplitude {amplitude}: {errors}");
+        errors.assert_measured();
     }
 }
 

@@ -1,5 +1,6 @@
 //! The ball of a ball screw: closed form and refined variant against the exact models.
 
+use crate::kit::designs::{SCREW_GROOVE_RADIUS, SCREW_TRACK as TRACK, screw as design};
 use crate::kit::errors::Errors;
 use crate::kit::given;
 use crate::kit::random::Congruential;
@@ -21,26 +22,6 @@ use epas_reference::friction::ball_screw_train::solve_screw_train;
 use epas_reference::friction::contact_law::HertzLaw;
 use serde_json::Value;
 use std::f64::consts::FRAC_PI_4;
-
-const TRACK: ScrewTrack = ScrewTrack {
-    pitch_radius: 16.5e-3,
-    lead: 20e-3,
-    ball_radius: 2.778e-3,
-};
-
-fn design() -> BallScrew {
-    BallScrew::new(BallScrewParameters {
-        pitch_radius: 16.5e-3,
-        lead: 20e-3,
-        ball_radius: 2.778e-3,
-        screw_groove: GrooveSize::Radius(3.254e-3),
-        nut_groove: GrooveSize::Radius(3.254e-3),
-        contact_angle: std::f32::consts::FRAC_PI_4,
-        ball_material: Material::STEEL,
-        groove_material: Material::STEEL,
-    })
-    .unwrap()
-}
 
 /// The reference's own contact law of one groove.
 fn law(design: &BallScrew, groove: curvature::Groove) -> HertzLaw {
@@ -555,7 +536,7 @@ fn elastic(deviations: &[f64], nut_speed: f64) -> ElasticBalls {
         .iter()
         .map(|theta| ElasticGrooves {
             track: TRACK,
-            groove_radius: 3.254e-3,
+            groove_radius: SCREW_GROOVE_RADIUS,
             arc_angles: [FRAC_PI_4 - theta, FRAC_PI_4 + theta, FRAC_PI_4, FRAC_PI_4],
             screw,
             nut,

@@ -1,14 +1,15 @@
 //! Balls near two-point contact: where their speed jumps in the exact model, and what the closed forms and the
 //! refined balls do there.
 
+use crate::kit::designs::{SCREW_TRACK as TRACK, screw};
 use crate::kit::given;
 use std::f64::consts::FRAC_PI_4;
 
 use epas_friction::ball::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE, ScrewRow};
 use epas_friction::refined::{FourPointBall, ScrewBall};
-use epas_friction::{BallScrew, BallScrewParameters, GrooveFit, GrooveSize, LoadShare, Material};
+use epas_friction::{BallScrew, GrooveFit, LoadShare};
 use epas_reference::friction::ball_screw_ball::{
-    Groove as Flank, ScrewContact, ScrewTrack, motion_with_contacts,
+    Groove as Flank, ScrewContact, motion_with_contacts,
 };
 use epas_reference::friction::linear_ball::{EllipseLaw, LinearBall, contact_forces};
 use epas_reference::friction::maps::FrictionMap;
@@ -143,27 +144,6 @@ fn the_speed_of_a_linear_ball_jumps_where_a_diagonal_is_weak() {
             step += 0.003;
         }
     }
-}
-
-const TRACK: ScrewTrack = ScrewTrack {
-    pitch_radius: 16.5e-3,
-    lead: 20e-3,
-    ball_radius: 2.778e-3,
-};
-
-/// The ball screw of Lin 2019, Table 3.6.
-fn screw() -> BallScrew {
-    BallScrew::new(BallScrewParameters {
-        pitch_radius: 16.5e-3,
-        lead: 20e-3,
-        ball_radius: 2.778e-3,
-        screw_groove: GrooveSize::Radius(3.254e-3),
-        nut_groove: GrooveSize::Radius(3.254e-3),
-        contact_angle: std::f32::consts::FRAC_PI_4,
-        ball_material: Material::STEEL,
-        groove_material: Material::STEEL,
-    })
-    .unwrap()
 }
 
 /// Orbital speed over the nut's in equilibrium of Coulomb friction.

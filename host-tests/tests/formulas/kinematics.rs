@@ -145,7 +145,7 @@ fn slip_of(ball: &epas_friction::kinematics::BallKinematics, raceway: Raceway) -
 /// A bias would show as a mean beside which the scatter is small. Tabulated cases share a few angles, and with
 /// them the rounding of their sines and cosines, 3e-8.
 fn assert_scattered(errors: &Errors, name: &str, bound: f64) {
-    println!("{name}:");
+    print!("{name}: ");
     errors.assert(bound, 0.4 * bound, 0.12 * bound);
 }
 

@@ -113,12 +113,12 @@ fn check_roots(stride: usize) {
     ];
     for (name, bound, error) in kernels {
         let errors = sweep(1, LARGEST, stride, error);
-        println!("{name}{errors}");
+        println!("{name}: {errors}");
         if stride == 1 {
             record(&errors, &format!("math::{name}, ulp"));
         }
         let corners = around_powers_of_two(error);
-        println!("  around powers of two{corners}");
+        println!("  around powers of two: {corners}");
         assert!(errors.largest <= bound, "{name} at {}", errors.worst);
         assert!(corners.largest <= bound, "{name} at {}", corners.worst);
         // A rounding error is spread evenly over a unit in the last place: 1/sqrt(12) rms.
@@ -161,7 +161,7 @@ fn check_angles(stride: usize) {
                 }
             }
         }
-        println!("{name}{errors}");
+        println!("{name}: {errors}");
         if stride == 1 {
             record(&errors, &format!("math::sin_cos: {name}"));
         }
@@ -284,7 +284,7 @@ fn other_backends_err_as_documented() {
     ];
     for (name, least, most, first, last, error) in cases {
         let errors = sweep(first, last, STRIDE, error);
-        println!("{name}{errors}");
+        println!("{name}: {errors}");
         assert!(
             (least..=most).contains(&errors.largest),
             "{name}: {:e}",

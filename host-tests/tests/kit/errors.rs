@@ -43,9 +43,12 @@ impl Errors {
     /// # Panics
     /// Where the error is not a finite number.
     pub fn add_case(&mut self, error: f64, case: impl FnOnce() -> String) {
-        if !error.is_finite() {
-            panic!("{}: an error of {error} at {}", self.name, case());
-        }
+        assert!(
+            error.is_finite(),
+            "{}: an error of {error} at {}",
+            self.name,
+            case()
+        );
         if error.abs() > self.largest {
             self.largest = error.abs();
             self.worst = case();
@@ -85,7 +88,7 @@ impl Errors {
 
     /// Within what the table of promises says.
     pub fn assert_promised(&self, promise: &Promise) {
-        println!("{}:", promise.function);
+        print!("{}: ", promise.function);
         self.assert(promise.largest, promise.rms, promise.mean);
     }
 
@@ -100,13 +103,17 @@ impl Display for Errors {
     fn fmt(&self, formatter: &mut Formatter<'_>) -> Result {
         write!(
             formatter,
-            "{}: largest {:.1e}, rms {:.1e}, mean {:+.1e} of {}; worst {}",
+            "{}{}largest {:.1e}, rms {:.1e}, mean {:+.1e} of {}",
             self.name,
+            if self.name.is_empty() { "" } else { ": " },
             self.largest,
             self.rms(),
             self.mean(),
-            self.count,
-            self.worst
-        )
+            self.count
+        )?;
+        if self.worst.is_empty() {
+            return Ok(());
+        }
+        write!(formatter, "; worst {}", self.worst)
     }
 }

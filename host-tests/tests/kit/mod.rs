@@ -2,6 +2,7 @@
 #![allow(dead_code, reason = "each program of tests takes what it needs")]
 
 pub mod absurd;
+pub mod designs;
 pub mod errors;
 pub mod exact_ball;
 pub mod exact_friction;

@@ -1,5 +1,6 @@
 //! Ball of a ball screw: stored single balls and pairs, Table 3.7, given contacts, and the laws of the model.
 
+use crate::kit::designs::SCREW_TRACK as TRACK;
 use epas_reference::ReferenceError;
 use epas_reference::friction::ball_screw_ball::{
     Groove, ScrewContact, ScrewMotion, ScrewTrack, motion_from, motion_with_contacts,
@@ -21,13 +22,6 @@ fn golden(name: &str) -> Value {
     let path = format!("{}/golden/{name}.json", env!("CARGO_MANIFEST_DIR"));
     serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
 }
-
-/// Table 3.6.
-const TRACK: ScrewTrack = ScrewTrack {
-    pitch_radius: 16.5e-3,
-    lead: 20e-3,
-    ball_radius: 2.778e-3,
-};
 
 /// Hertz constants with the right curvatures, as stored for the two groove radii (mm).
 fn law(side: &str, groove_radius: &str) -> HertzLaw {

@@ -1,6 +1,6 @@
 //! Whole ball screw with recirculation: stored runs, the features of Figures 3.24 and 3.25, and the laws of contact.
 
-use epas_reference::friction::ball_screw_ball::ScrewTrack;
+use crate::kit::designs::SCREW_TRACK;
 use epas_reference::friction::ball_screw_closed::ThreePointModel;
 use epas_reference::friction::ball_screw_elastic::BallSlip;
 use epas_reference::friction::contact_law::HertzLaw;
@@ -39,11 +39,7 @@ fn law(side: &str, groove_radius: &str) -> HertzLaw {
 fn screw(groove_radius: &str, theta_degrees: f64, ball_slip: BallSlip) -> WholeScrew {
     WholeScrew {
         model: ThreePointModel {
-            track: ScrewTrack {
-                pitch_radius: 16.5e-3,
-                lead: 20e-3,
-                ball_radius: 2.778e-3,
-            },
+            track: SCREW_TRACK,
             screw: law("S", groove_radius),
             nut: law("N", groove_radius),
             friction: 0.1,

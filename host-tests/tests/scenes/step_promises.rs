@@ -1,5 +1,6 @@
 //! What a step promises, and what it calls: measured against the float64 reference.
 
+use crate::kit::designs::{SCREW_TRACK as TRACK, screw};
 use crate::kit::errors::Errors;
 use crate::kit::random::Random;
 use std::f64::consts::{FRAC_PI_4, TAU};
@@ -9,14 +10,13 @@ use epas_friction::promises;
 use epas_friction::refined::{BallChain, FourPointBall};
 use epas_friction::train::Train;
 use epas_friction::{
-    BallScrew, BallScrewParameters, CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration,
-    DISSERTATION_DESIGNS, DeviationMap, FrictionBranch, FrictionModel, GrooveFit, GrooveSize,
-    Harmonic, Inputs, Limits, LinearBearing, LinearBearingConfiguration, LinearBearingParameters,
-    LinearBearingTrain, LinearInputs, LinearLimits, LoadShare, Material, UncagedBallScrew,
+    BallScrew, CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, DISSERTATION_DESIGNS,
+    DeviationMap, FrictionBranch, FrictionModel, GrooveFit, GrooveSize, Harmonic, Inputs, Limits,
+    LinearBearing, LinearBearingConfiguration, LinearBearingParameters, LinearBearingTrain,
+    LinearInputs, LinearLimits, LoadShare, Material, UncagedBallScrew,
     UncagedBallScrewConfiguration,
 };
 use epas_reference::efficiency::Screw;
-use epas_reference::friction::ball_screw_ball::ScrewTrack;
 use epas_reference::friction::ball_screw_closed::{ContactAngles, Support, ThreePointModel};
 use epas_reference::friction::ball_screw_elastic::BallSlip;
 use epas_reference::friction::chain::solve_chain;
@@ -83,27 +83,6 @@ fn caged_step() {
         }
     }
     errors.assert_promised(&promises::STEP_CAGED);
-}
-
-/// Lin 2019, Table 2.1 (radii in m).
-const TRACK: ScrewTrack = ScrewTrack {
-    pitch_radius: 16.5e-3,
-    lead: 20e-3,
-    ball_radius: 2.778e-3,
-};
-
-fn screw() -> BallScrew {
-    BallScrew::new(BallScrewParameters {
-        pitch_radius: 16.5e-3,
-        lead: 20e-3,
-        ball_radius: 2.778e-3,
-        screw_groove: GrooveSize::Radius(3.254e-3),
-        nut_groove: GrooveSize::Radius(3.254e-3),
-        contact_angle: std::f32::consts::FRAC_PI_4,
-        ball_material: Material::STEEL,
-        groove_material: Material::STEEL,
-    })
-    .unwrap()
 }
 
 /// The same screw in float64; contact laws from the reference's own curvatures and elliptic integrals.
