@@ -5,10 +5,10 @@
 #![no_main]
 
 #[allow(dead_code)]
-#[path = "../../tests/kit/absurd.rs"]
+#[path = "../../../host-tests/tests/kit/absurd.rs"]
 mod absurd;
 #[allow(dead_code)]
-#[path = "../../tests/kit/random.rs"]
+#[path = "../../../host-tests/tests/kit/random.rs"]
 mod random;
 
 use absurd::{Trial, accepted};
