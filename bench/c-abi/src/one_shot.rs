@@ -2,8 +2,8 @@
 
 use epas_friction::curvature::{CircularGrooveCurvature, GothicArch, LiteratureCurvature};
 use epas_friction::efficiency::{Drive, EfficiencyGeometry};
-use epas_friction::ranges::FRICTION_OR_NONE;
 use epas_friction::geometry::{ContactAngle, Groove};
+use epas_friction::ranges::FRICTION_OR_NONE;
 use epas_friction::{Error, Range};
 
 use crate::design::ball_screw;
