@@ -3,6 +3,7 @@
 #[path = "../kit/mod.rs"]
 mod kit;
 
+mod borders;
 mod caged;
 mod extreme;
 mod faults;
