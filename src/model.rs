@@ -131,10 +131,10 @@ impl<S: Scene, C: Borrow<S::Constants>> FrictionModel<S, C> {
         let constants = self.constants.borrow();
         let admitted = S::admit(constants, inputs);
         let outputs = match admitted.inputs {
-            Some(inputs) => S::outputs(constants, &mut self.state, inputs)
-                .limited(S::largest_friction(constants), admitted.faults),
-            None => S::Outputs::safe(admitted.faults),
+            Some(inputs) => S::outputs(constants, &mut self.state, inputs),
+            None => S::Outputs::SAFE,
         };
+        let outputs = outputs.limited(S::largest_friction(constants), admitted.faults);
         self.faulted_ticks = if outputs.faults() == Faults::NONE {
             0
         } else {

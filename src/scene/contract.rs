@@ -48,15 +48,24 @@ pub trait Scene {
 /// A scene's outputs, as far as faults decide them.
 pub trait SceneOutputs: Copy {
     /// The safe output: no friction, nothing pressing, standing.
-    #[must_use]
-    fn safe(faults: Faults) -> Self;
+    const SAFE: Self;
 
-    /// These outputs with their friction within plus and minus `largest`, and with `faults` added.
-    #[must_use]
-    fn limited(self, largest: f32, faults: Faults) -> Self;
+    /// The friction that is put out (torque of a screw, N m; force of a bearing, N), and the flags beside it.
+    fn friction_and_faults(&mut self) -> (&mut f32, &mut Faults);
 
     /// What was wrong.
     fn faults(&self) -> Faults;
+
+    /// These outputs with `faults` added, and with their friction within plus and minus `largest`, which is flagged where
+    /// it cuts.
+    #[must_use]
+    #[inline(always)]
+    fn limited(mut self, largest: f32, faults: Faults) -> Self {
+        let (friction, flags) = self.friction_and_faults();
+        *flags = (*flags | faults).with_friction_limit(*friction, largest);
+        *friction = bounded(*friction, largest);
+        self
+    }
 }
 
 /// Inputs within their limits, with what was wrong with them.

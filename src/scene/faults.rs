@@ -111,3 +111,17 @@ pub(super) const fn bounded(value: f32, bound: f32) -> f32 {
         value
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_flag_that_stands_stays() {
+        let cut = Faults::NONE.with_friction_limit(2.0, 1.0);
+        assert_eq!(cut, Faults::FRICTION_LIMIT);
+        assert_eq!(cut.with_friction_limit(-2.0, 1.0), cut);
+        assert_eq!(cut.with_friction_limit(1.0, 1.0), cut);
+        assert_eq!(Faults::NONE.with_friction_limit(1.0, 1.0), Faults::NONE);
+    }
+}

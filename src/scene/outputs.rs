@@ -2,7 +2,7 @@
 //! one into the other.
 
 use super::contract::{Regime, SceneOutputs};
-use super::faults::{Faults, bounded};
+use super::faults::Faults;
 
 /// A preload's friction beside a vanishing load would make the efficiency of back-driving infinite.
 const LEAST_EFFICIENCY: f32 = -1e6;
@@ -72,24 +72,17 @@ pub struct LinearOutputs {
 }
 
 impl SceneOutputs for Outputs {
-    #[inline]
-    fn safe(faults: Faults) -> Self {
-        Self {
-            friction_torque: 0.0,
-            load_torque: 0.0,
-            efficiency: 0.0,
-            regime: Regime::Standing,
-            faults,
-        }
-    }
+    const SAFE: Self = Self {
+        friction_torque: 0.0,
+        load_torque: 0.0,
+        efficiency: 0.0,
+        regime: Regime::Standing,
+        faults: Faults::NONE,
+    };
 
     #[inline(always)]
-    fn limited(self, largest: f32, faults: Faults) -> Self {
-        Self {
-            friction_torque: bounded(self.friction_torque, largest),
-            faults: (self.faults | faults).with_friction_limit(self.friction_torque, largest),
-            ..self
-        }
+    fn friction_and_faults(&mut self) -> (&mut f32, &mut Faults) {
+        (&mut self.friction_torque, &mut self.faults)
     }
 
     #[inline(always)]
@@ -99,27 +92,20 @@ impl SceneOutputs for Outputs {
 }
 
 impl SceneOutputs for UncagedOutputs {
-    #[inline]
-    fn safe(faults: Faults) -> Self {
-        Self {
-            friction_torque: 0.0,
-            groove_torque: 0.0,
-            ball_torque: 0.0,
-            load_torque: 0.0,
-            contacts: 0,
-            largest_contact_force: 0.0,
-            regime: Regime::Standing,
-            faults,
-        }
-    }
+    const SAFE: Self = Self {
+        friction_torque: 0.0,
+        groove_torque: 0.0,
+        ball_torque: 0.0,
+        load_torque: 0.0,
+        contacts: 0,
+        largest_contact_force: 0.0,
+        regime: Regime::Standing,
+        faults: Faults::NONE,
+    };
 
     #[inline(always)]
-    fn limited(self, largest: f32, faults: Faults) -> Self {
-        Self {
-            friction_torque: bounded(self.friction_torque, largest),
-            faults: (self.faults | faults).with_friction_limit(self.friction_torque, largest),
-            ..self
-        }
+    fn friction_and_faults(&mut self) -> (&mut f32, &mut Faults) {
+        (&mut self.friction_torque, &mut self.faults)
     }
 
     #[inline(always)]
@@ -129,26 +115,19 @@ impl SceneOutputs for UncagedOutputs {
 }
 
 impl SceneOutputs for LinearOutputs {
-    #[inline]
-    fn safe(faults: Faults) -> Self {
-        Self {
-            friction_force: 0.0,
-            groove_force: 0.0,
-            ball_force: 0.0,
-            contacts: 0,
-            largest_contact_force: 0.0,
-            regime: Regime::Standing,
-            faults,
-        }
-    }
+    const SAFE: Self = Self {
+        friction_force: 0.0,
+        groove_force: 0.0,
+        ball_force: 0.0,
+        contacts: 0,
+        largest_contact_force: 0.0,
+        regime: Regime::Standing,
+        faults: Faults::NONE,
+    };
 
     #[inline(always)]
-    fn limited(self, largest: f32, faults: Faults) -> Self {
-        Self {
-            friction_force: bounded(self.friction_force, largest),
-            faults: (self.faults | faults).with_friction_limit(self.friction_force, largest),
-            ..self
-        }
+    fn friction_and_faults(&mut self) -> (&mut f32, &mut Faults) {
+        (&mut self.friction_force, &mut self.faults)
     }
 
     #[inline(always)]
