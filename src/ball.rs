@@ -5,6 +5,7 @@
 //! | [`AnalyticLinearBall`] | ball of a linear bearing, the published closed form (Lin 2019, eqs. (3.43), (3.51)) | `LinearBearingTrain` |
 //! | [`ScrewRow`], [`ScrewTick`] | balls of a ball screw under one load | `UncagedBallScrew` |
 //! | [`LoadShare`] | a ball's share of the load | both |
+//! | `preload` | two springs pressed against each other, and what a load leaves of it | `CagedBallScrew`, `UncagedBallScrew` |
 //!
 //! Refined forms, which a step does not run, stand in [`refined`](crate::refined).
 
