@@ -3,6 +3,7 @@
 use crate::kit::designs::{SCREW_GROOVE_RADIUS, SCREW_TRACK as TRACK, screw as design};
 use crate::kit::errors::Errors;
 use crate::kit::given;
+use crate::kit::measured;
 use crate::kit::random::Congruential;
 use epas_friction::ball::ScrewRow;
 use epas_friction::refined::{
@@ -668,8 +669,8 @@ fn table_3_7() {
             100.0 * (refined[4] / published - 1.0)
         );
         // Speeds and compliances in closed form are a few per cent off, equilibrium of the given contacts one.
-        assert!((force / published - 1.0).abs() < 0.035);
-        assert!((refined[4] / published - 1.0).abs() < 0.015);
+        measured::assert("Table 3.7, row", force / published - 1.0);
+        measured::assert("Table 3.7, refined", refined[4] / published - 1.0);
     }
 }
 
@@ -691,11 +692,15 @@ fn reversal_reverses_the_order_of_the_balls() {
     let (forward, chain) = force([fast, slow], 1.0);
     assert!(forward > 1.0, "{forward}");
     let [rear, front] = chain.balls;
-    assert!((rear.motion.speed - front.motion.speed).abs() < 1e-6);
+    measured::assert(
+        "touching balls of a screw in step",
+        rear.motion.speed - front.motion.speed,
+    );
     let (backward, _) = force([slow, fast], -1.0);
-    assert!(
-        (backward / forward - 1.0).abs() < 1e-2,
-        "{backward} {forward}"
+    measured::assert_at(
+        "reversed pair of a screw",
+        backward / forward - 1.0,
+        format_args!("{backward} {forward}"),
     );
     assert_eq!(force([slow, fast], 1.0).0, 0.0);
     assert_eq!(force([fast, slow], -1.0).0, 0.0);
@@ -715,13 +720,20 @@ fn balls_on_a_ring() {
     }
     let speeds = chain.balls.map(|state| state.motion.speed);
     for speed in speeds {
-        assert!((speed - speeds[0]).abs() < 1e-6, "{speeds:?}");
+        measured::assert_at(
+            "touching balls of a screw in step",
+            speed - speeds[0],
+            format_args!("{speeds:?}"),
+        );
     }
     // Friction in the grooves takes what the pushes of the neighbours leave.
     let motions = contacts.iter().zip(&chain.balls);
     for (contacts, state) in motions {
         let moved = ball.groove_torque(contacts, &state.motion);
-        assert!((state.groove_torque / moved - 1.0).abs() < 1e-3);
+        measured::assert(
+            "balls on a ring, groove torque",
+            state.groove_torque / moved - 1.0,
+        );
     }
     assert!(chain.forces.iter().all(|force| *force >= 0.0));
     assert!(chain.forces.contains(&0.0));

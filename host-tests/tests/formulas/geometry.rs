@@ -252,16 +252,19 @@ fn built_in_designs_are_all_valid_and_named_after_their_numbers() {
             .split('x')
             .map(|part| part.parse().unwrap())
             .collect();
+        // A rounding or two of up to 80 mm: 2^-24 of that is 5e-9.
         assert!(
             (design.pitch_radius() - 0.5e-3 * numbers[0]).abs() < 1e-8,
             "{}",
             size.name
         );
+        // Likewise.
         assert!(
             (design.lead() - 1e-3 * numbers[1]).abs() < 1e-8,
             "{}",
             size.name
         );
+        // A rounding or two of up to 8 mm: 2^-24 of that is 5e-10.
         assert!(
             (design.ball_radius() - 0.5e-3 * numbers[2]).abs() < 1e-9,
             "{}",
@@ -287,8 +290,8 @@ fn conformity_and_groove_radius_agree() {
     .unwrap();
     for groove in [Groove::Screw, Groove::Nut] {
         let (a, b) = (by_radius.clearance(groove), by_conformity.clearance(groove));
-        // The difference of radii keeps the rounding of the radius: 7 times larger than itself here.
-        assert!((a / b - 1.0).abs() < 1e-6, "{a} {b}");
+        // The difference of radii keeps the two roundings of the radius, 2^-24 each: 7 times larger than itself here.
+        assert!((a / b - 1.0).abs() < 8.4e-7, "{a} {b}");
     }
 }
 
@@ -331,8 +334,9 @@ fn zero_lead_is_a_bearing() {
             let radius = 35e-3 + groove.sign() * screw.profile(groove).offset_h;
             let circle = LiteratureCurvature::new(groove, radius, 6.75e-3).first(angle);
             let exact = arch.principal(angle).kappa1;
+            // Eight roundings of 2^-24.
             assert!(
-                (circle / exact - 1.0).abs() < 1e-6,
+                (circle / exact - 1.0).abs() < 5e-7,
                 "{groove:?} at {degrees}"
             );
         }
@@ -343,5 +347,6 @@ fn zero_lead_is_a_bearing() {
 fn mass_of_a_ball_is_its_volume_times_density() {
     let design = BallScrew::new(good()).unwrap();
     let expected = 7800.0 * 4.0 / 3.0 * std::f64::consts::PI * 2.778e-3_f64.powi(3);
-    assert!((f64::from(design.ball_mass()) / expected - 1.0).abs() < 1e-6);
+    // Five roundings of 2^-24.
+    assert!((f64::from(design.ball_mass()) / expected - 1.0).abs() < 3e-7);
 }

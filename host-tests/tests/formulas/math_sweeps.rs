@@ -121,9 +121,10 @@ fn check_roots(stride: usize) {
         println!("  around powers of two: {corners}");
         assert!(errors.largest <= bound, "{name} at {}", errors.worst);
         assert!(corners.largest <= bound, "{name} at {}", corners.worst);
-        // A rounding error is spread evenly over a unit in the last place: 1/sqrt(12) rms.
-        assert!((errors.rms() - 0.288_7).abs() < 0.005, "{name}");
-        assert!(errors.mean().abs() < 5e-3, "{name} is biased");
+        // A rounding error is spread evenly over a unit in the last place: 1/sqrt(12) rms. Of two million samples the rms
+        // scatters by 0.13/sqrt(2e6) = 9e-5, the mean by 0.29/sqrt(2e6) = 2e-4: three times that.
+        assert!((errors.rms() - 0.288_7).abs() < 3e-4, "{name}");
+        assert!(errors.mean().abs() < 6e-4, "{name} is biased");
     }
 }
 

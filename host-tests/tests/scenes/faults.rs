@@ -1,6 +1,7 @@
 //! Faults of sensors and of the configuration: flagged within the tick, over within the next, never kept.
 
 use crate::kit::absurd::{EDGES, Trial, sound_train};
+use crate::kit::measured;
 use crate::kit::random::Random;
 use crate::kit::{gears, recorded};
 use epas_friction::{
@@ -128,9 +129,10 @@ fn trains_recover_at_once_but_for_where_the_balls_are() {
     // some two with the angle, which bounds the band.
     let limits = gears::LIMITS;
     let friction = |a: f32, b: f32, line: u32| {
-        assert!(
-            (a - b).abs() <= 0.5 * b.abs() + 1e-3,
-            "{a} N m where a model that never failed has {b} ({line} ticks after)"
+        measured::assert_at(
+            "groove friction after a failure",
+            (a - b) / (b.abs() + 2e-3),
+            format_args!("{a} N m where a model that never failed has {b} ({line} ticks after)"),
         );
     };
     suffer::<Screw>(
