@@ -1,6 +1,7 @@
 //! Ball of a ball screw: stored single balls and pairs, Table 3.7, given contacts, and the laws of the model.
 
 use crate::kit::designs::SCREW_TRACK as TRACK;
+use crate::kit::measured;
 use epas_reference::ReferenceError;
 use epas_reference::friction::ball_screw_ball::{
     Groove, ScrewContact, ScrewMotion, ScrewTrack, motion_from, motion_with_contacts,
@@ -174,27 +175,34 @@ fn stored_single_balls() {
         // The stored values come from a 48-point rule, which is off by up to 2e-7 of the forces.
         let ratio = motion.orbital_speed / TAU - number(&case["wB_over_wN"]);
         worst = worst.max(ratio.abs());
-        assert!(ratio.abs() < 2e-9, "{name}: speed ratio off {ratio:e}");
+        measured::assert_at(
+            "single balls of a screw, speed ratio",
+            ratio,
+            format_args!("{name}: speed ratio off {ratio:e}"),
+        );
         for i in 0..2 {
-            assert!(
-                (solved.positions[0][i] * 1e6 - number(&case["p_um"][i])).abs() < 1e-6,
-                "{name}: position {i}"
+            measured::assert_at(
+                "single balls of a screw, positions in um",
+                solved.positions[0][i] * 1e6 - number(&case["p_um"][i]),
+                format_args!("{name}: position {i}"),
             );
         }
-        assert!(
-            (solved.screw_displacement * 1e6 - number(&case["uz_um"])).abs() < 1e-6,
-            "{name}: displacement"
+        measured::assert_at(
+            "single balls of a screw, positions in um",
+            solved.screw_displacement * 1e6 - number(&case["uz_um"]),
+            format_args!("{name}: displacement"),
         );
         for i in 0..3 {
-            assert!(
-                (motion.spin[i] - number(&case["Om"][i])).abs() < 1e-5,
-                "{name}: spin {i} {}",
-                motion.spin[i]
+            measured::assert_at(
+                "single balls of a screw, spin in rad/s",
+                motion.spin[i] - number(&case["Om"][i]),
+                format_args!("{name}: spin {i} {}", motion.spin[i]),
             );
         }
-        assert!(
-            (motion.power_loss * 1e3 / number(&case["P_mW"]) - 1.0).abs() < 1e-6,
-            "{name}: power"
+        measured::assert_at(
+            "single balls of a screw, loss",
+            motion.power_loss * 1e3 / number(&case["P_mW"]) - 1.0,
+            format_args!("{name}: power"),
         );
         assert_eq!(motion.contacts.len(), 3, "{name}: a third contact closes");
         for (flank, stored) in case["contacts"].as_object().unwrap() {
@@ -203,22 +211,22 @@ fn stored_single_balls() {
                 .iter()
                 .find(|c| c.contact.groove == groove_named(flank))
                 .unwrap();
-            for (value, key, bound) in [
-                (c.contact.load, "N", 1e-5),
-                (c.contact.contact_angle.to_degrees(), "angle", 1e-6),
-                (c.velocity.spin, "w", 1e-5),
-                (c.velocity.slip_major * 1e3, "V1", 1e-5),
-                (c.velocity.slip_minor * 1e3, "V2", 1e-5),
-                (c.force[0], "f1", 1e-5),
-                (c.force[1], "f2", 1e-5),
-                (c.moment * 1e3, "M", 1e-5),
-                (c.power * 1e3, "P", 1e-4),
+            for (value, key) in [
+                (c.contact.load, "N"),
+                (c.contact.contact_angle.to_degrees(), "angle"),
+                (c.velocity.spin, "w"),
+                (c.velocity.slip_major * 1e3, "V1"),
+                (c.velocity.slip_minor * 1e3, "V2"),
+                (c.force[0], "f1"),
+                (c.force[1], "f2"),
+                (c.moment * 1e3, "M"),
+                (c.power * 1e3, "P"),
             ] {
                 let off = (value - number(&stored[key])).abs();
-                assert!(
-                    off < bound,
-                    "{name}: {flank} {key} = {value}, stored {}",
-                    stored[key]
+                measured::assert_at(
+                    "single balls of a screw, contacts",
+                    off,
+                    format_args!("{name}: {flank} {key} = {value}, stored {}", stored[key]),
                 );
             }
         }
@@ -239,10 +247,10 @@ fn stored_single_balls() {
             moment.iter().all(|m| m.abs() < scale * TRACK.ball_radius),
             "{name}: unbalanced moment {moment:?}"
         );
-        assert!(
-            (input / motion.power_loss - 1.0).abs() < 1e-8,
-            "{name}: input {input}, loss {}",
-            motion.power_loss
+        measured::assert_at(
+            "single balls of a screw, power balance",
+            input / motion.power_loss - 1.0,
+            format_args!("{name}: input {input}, loss {}", motion.power_loss),
         );
     }
     println!("largest difference of the speed ratio: {worst:e}");
@@ -278,43 +286,52 @@ fn stored_pairs() {
         };
         let apart = balls.solve_apart(support).unwrap();
         let solved = balls.solve(support).unwrap();
-        assert!(
-            (solved.contact_force - number(&case["F"])).abs() < 1e-6,
-            "{key}: {} N",
-            solved.contact_force
+        measured::assert_at(
+            "pairs of a screw, contact force in N",
+            solved.contact_force - number(&case["F"]),
+            format_args!("{key}: {} N", solved.contact_force),
         );
         for (value, stored) in [
             (apart.groove_loss() * 1e3, number(&case["P0"])),
             (solved.groove_loss() * 1e3, number(&case["P1"])),
             (solved.ball_loss * 1e3, number(&case["Pb"])),
         ] {
-            assert!(
-                (value / stored - 1.0).abs() < 1e-6,
-                "{key}: {value} mW, stored {stored}"
+            measured::assert_at(
+                "pairs of a screw, losses",
+                value / stored - 1.0,
+                format_args!("{key}: {value} mW, stored {stored}"),
             );
         }
         for (state, stored) in [(&apart, &case["y0"]), (&solved, &case["y1"])] {
             for ball in 0..2 {
-                assert!(
-                    (state.positions[ball][0] * 1e6 - number(&stored[6 * ball])).abs() < 1e-5,
-                    "{key}"
+                measured::assert_at(
+                    "pairs of a screw, positions in um",
+                    state.positions[ball][0] * 1e6 - number(&stored[6 * ball]),
+                    format_args!("{key}"),
                 );
-                assert!(
-                    (state.positions[ball][1] * 1e6 - number(&stored[6 * ball + 1])).abs() < 1e-5,
-                    "{key}"
+                measured::assert_at(
+                    "pairs of a screw, positions in um",
+                    state.positions[ball][1] * 1e6 - number(&stored[6 * ball + 1]),
+                    format_args!("{key}"),
                 );
-                assert!(
-                    (state.balls[ball].orbital_speed - number(&stored[6 * ball + 2])).abs() < 1e-6,
-                    "{key}"
+                measured::assert_at(
+                    "pairs of a screw, orbital speed in rad/s",
+                    state.balls[ball].orbital_speed - number(&stored[6 * ball + 2]),
+                    format_args!("{key}"),
                 );
                 for i in 0..3 {
                     let off = (state.balls[ball].spin[i] - number(&stored[6 * ball + 3 + i])).abs();
-                    assert!(off < 1e-4, "{key}: ball {ball} spin {i} off {off:e}");
+                    measured::assert_at(
+                        "pairs of a screw, spin in rad/s",
+                        off,
+                        format_args!("{key}: ball {ball} spin {i} off {off:e}"),
+                    );
                 }
             }
-            assert!(
-                (state.screw_displacement * 1e6 - number(&stored[12])).abs() < 1e-5,
-                "{key}"
+            measured::assert_at(
+                "pairs of a screw, positions in um",
+                state.screw_displacement * 1e6 - number(&stored[12]),
+                format_args!("{key}"),
             );
         }
         // Power: the balance holds with the relative slip, up to cos a against one in the friction along the track (0.3 per
@@ -331,17 +348,20 @@ fn stored_pairs() {
             missing(&solved),
             missing(&relative)
         );
-        assert!(
-            missing(&relative).abs() < 5e-3,
-            "{key}: {}",
-            missing(&relative)
+        measured::assert_at(
+            "pairs of a screw, missing power",
+            missing(&relative).abs(),
+            format_args!("{key}: {}", missing(&relative)),
         );
         assert!(
             missing(&solved) > 0.1 && missing(&solved) < 0.15,
             "{key}: {}",
             missing(&solved)
         );
-        assert!((relative.contact_force / solved.contact_force - 1.0).abs() < 1e-4);
+        measured::assert(
+            "pairs of a screw, contact force by the other slip",
+            relative.contact_force / solved.contact_force - 1.0,
+        );
     }
 }
 
@@ -370,17 +390,19 @@ fn table_3_7_contact_forces() {
             "{theta} deg: held {} N, free {} N, increase {grown} %",
             fixed.contact_force, floating.contact_force
         );
+        // Half a unit of the last digit, here and below.
         assert!(
-            (fixed.contact_force - held).abs() < 1e-3,
+            (fixed.contact_force - held).abs() < 5e-4,
             "{}",
             fixed.contact_force
         );
         assert!(
-            (floating.contact_force - free).abs() < 1e-3,
+            (floating.contact_force - free).abs() < 5e-4,
             "{}",
             floating.contact_force
         );
-        assert!((grown - increase).abs() < 0.1, "{grown}");
+        assert!((grown - increase).abs() < 0.05, "{grown}");
+        // 1.4 per cent low, as said above.
         assert!((floating.contact_force / published - 1.0).abs() < 0.015);
     }
 }
@@ -397,26 +419,28 @@ fn given_contacts_decide_the_orbital_speed() {
         for (ball, key) in [(0, "wB1"), (1, "wB2")] {
             let off = (train.free_speeds[ball] - number(&case[key])).abs();
             worst[0] = worst[0].max(off);
-            assert!(
-                off < 2e-9,
-                "{key}: {} stored {}",
-                train.free_speeds[ball],
-                case[key]
+            measured::assert_at(
+                "given contacts, orbital speed",
+                off,
+                format_args!("{key}: {} stored {}", train.free_speeds[ball], case[key]),
             );
             let iterated = (train.free_speeds[ball] - number(&case[format!("{key}_imp")])).abs();
             worst[1] = worst[1].max(iterated);
-            assert!(iterated < 1e-6, "{key}_imp: {}", train.free_speeds[ball]);
+            measured::assert_at(
+                "given contacts, orbital speed by impedances",
+                iterated,
+                format_args!("{key}_imp: {}", train.free_speeds[ball]),
+            );
         }
         let theta = number(&case["theta"]);
         let oversize = number(&case["over_mm"]) * 1e-3;
         let full = pair("3.254", theta, oversize, BallSlip::Total)
             .solve(ScrewSupport::Load(-2.0 * number(&case["Fax"])))
             .unwrap();
-        assert!(
-            (full.contact_force - number(&case["F"])).abs() < 2e-6,
-            "{} stored {}",
-            full.contact_force,
-            case["F"]
+        measured::assert_at(
+            "elastic pair, contact force in N",
+            full.contact_force - number(&case["F"]),
+            format_args!("{} stored {}", full.contact_force, case["F"]),
         );
         // With the contacts held the force differs by what the force between the balls moves them.
         let off = (train.contact_forces[0] / number(&case["F"]) - 1.0).abs();
@@ -425,11 +449,10 @@ fn given_contacts_decide_the_orbital_speed() {
             "given contacts {} N, elastic {} N, impedance {} N",
             train.contact_forces[0], case["F"], case["F_imp"]
         );
-        assert!(
-            off < 0.02,
-            "{} stored {}",
-            train.contact_forces[0],
-            case["F"]
+        measured::assert_at(
+            "given contacts, contact force",
+            off,
+            format_args!("{} stored {}", train.contact_forces[0], case["F"]),
         );
         check_train(&train, 1.0);
     }
@@ -459,15 +482,16 @@ fn check_train(train: &ScrewTrain, nut_speed: f64) {
             "ball {j}: {net}"
         );
     }
-    assert!(
-        (input / train.power_loss() - 1.0).abs() < 1e-7,
-        "input {input}, loss {}",
-        train.power_loss()
+    measured::assert_at(
+        "train of a screw, power balance",
+        input / train.power_loss() - 1.0,
+        format_args!("input {input}, loss {}", train.power_loss()),
     );
     for (j, force) in train.contact_forces.iter().enumerate() {
         let parting =
             (train.balls[j + 1].orbital_speed - train.balls[j].orbital_speed) * nut_speed.signum();
         assert!(parting > -1e-12 * nut_speed.abs() && *force >= 0.0);
+        // One of the two is zero.
         assert!(parting * force < 1e-10 * nut_speed.abs());
     }
 }
@@ -490,7 +514,7 @@ fn longer_trains_balance_and_reverse() {
     check_train(&backward, -TAU);
     // Given contacts do not know the direction, but for the term with the sine of the ball-to-ball angle.
     for (f, b) in forward.contact_forces.iter().zip(&backward.contact_forces) {
-        assert!((f - b).abs() < 0.02 * f.max(0.1));
+        measured::assert("reversed train of a screw", (f - b) / f.max(0.1));
     }
     let pair = [two, one];
     assert_eq!(
@@ -513,22 +537,31 @@ fn any_start_gives_the_same_motion() {
         [0.55, 0.0, 0.19, 0.0],
     ] {
         let other = motion_from(&TRACK, &contacts, 0.1, TAU, start).unwrap();
+        // One minimum: what is left are roundings of 1.1e-16.
         assert!(
-            (first.orbital_speed - other.orbital_speed).abs() < 1e-9,
+            (first.orbital_speed - other.orbital_speed).abs() < 1e-14,
             "{start:?}: {}",
             other.orbital_speed
         );
         assert!(
-            (first.power_loss / other.power_loss - 1.0).abs() < 1e-10,
+            (first.power_loss / other.power_loss - 1.0).abs() < 1e-14,
             "{start:?}"
         );
     }
     let (force, moment, input) = friction_sums(&first, TAU);
+    measured::assert_at(
+        "given contacts, balance in N",
+        force[1],
+        format_args!("{force:?} {moment:?}"),
+    );
     assert!(
-        force[1].abs() < 1e-9 && moment.iter().all(|m| m.abs() < 1e-11),
+        moment.iter().all(|m| m.abs() < 1e-11),
         "{force:?} {moment:?}"
     );
-    assert!((input / first.power_loss - 1.0).abs() < 1e-9);
+    measured::assert(
+        "given contacts, power balance",
+        input / first.power_loss - 1.0,
+    );
 }
 
 /// Two-point contact: one race sticks and the other slides across the track at `R_B w_N sin a` = 3.306 mm/s; the orbital speed is
@@ -569,12 +602,16 @@ fn two_point_contact_sticks_on_one_race() {
         third: FRAC_PI_4,
     };
     let rolling = speed_ratio(&TRACK, Support::TwoPoint, angles);
+    // Rolling is exact but for the smoothing of friction.
     assert!(
-        (motion.orbital_speed / TAU - rolling).abs() < 2e-4,
+        (motion.orbital_speed / TAU - rolling).abs() < 1e-12,
         "{} {rolling}",
         motion.orbital_speed / TAU
     );
-    assert!(motion.gap < 1e-6 * motion.power_loss);
+    measured::assert(
+        "two contacts of a screw, gap over loss",
+        motion.gap / motion.power_loss,
+    );
 }
 
 #[test]
@@ -634,7 +671,16 @@ fn stored_closed_forms() {
         let off = model.contact_force(&one, &two) / numerical.contact_force - 1.0;
         let loss = one.groove_loss() / numerical_single(radius, load) - 1.0;
         println!("{key}: force {off:.4}, groove loss {loss:.4} of the numerical model");
-        assert!(off.abs() < 0.02 && loss.abs() < 0.05, "{key}: {off} {loss}");
+        measured::assert_at(
+            "closed forms of a screw, contact force",
+            off,
+            format_args!("{key}: {off} {loss}"),
+        );
+        measured::assert_at(
+            "closed forms of a screw, groove loss",
+            loss,
+            format_args!("{key}: {off} {loss}"),
+        );
     }
 }
 
@@ -673,7 +719,11 @@ fn closed_speed_and_third_contact_against_the_numerical_model() {
         };
         let off =
             solved.balls[0].orbital_speed / speed / speed_ratio(&TRACK, support, angles) - 1.0;
-        assert!(off.abs() < 8e-3, "{off}");
+        measured::assert_at(
+            "closed forms of a screw, orbital speed",
+            off,
+            format_args!("{off}"),
+        );
         assert!(solved.balls[0].power_loss > 0.0);
     }
 }
@@ -712,13 +762,14 @@ fn hostile_input_converges_or_is_named() {
     );
     let smooth = motion_with_contacts(&TRACK, &contacts, 0.0, 1.0).unwrap();
     assert_eq!(smooth.power_loss, 0.0);
+    // The limit of no friction is the same problem.
     assert!(
         (smooth.orbital_speed
             - motion_with_contacts(&TRACK, &contacts, 0.3, 1.0)
                 .unwrap()
                 .orbital_speed)
             .abs()
-            < 1e-12
+            < 1e-14
     );
     assert!(solve_screw_train(&TRACK, &[], 0.1, 0.1, 1.0).is_err());
 
@@ -739,8 +790,10 @@ fn hostile_input_converges_or_is_named() {
                         solved += 1;
                         let ball = &motion.balls[0];
                         let (_, _, input) = friction_sums(ball, 1.0);
-                        assert!(
-                            ball.power_loss > 0.0 && (input / ball.power_loss - 1.0).abs() < 1e-3
+                        assert!(ball.power_loss > 0.0);
+                        measured::assert(
+                            "hostile balls of a screw, power balance",
+                            input / ball.power_loss - 1.0,
                         );
                     }
                     Err(error) => refused.push(format!(

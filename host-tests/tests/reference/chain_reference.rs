@@ -1,5 +1,6 @@
 //! Chains of touching balls: stored chains, Table 3.5, the linear model by three methods, and the laws of contact.
 
+use crate::kit::measured;
 use crate::kit::random::Random;
 use std::f64::consts::FRAC_PI_4;
 
@@ -100,7 +101,8 @@ fn check_laws(
     loss += (0..n - 1)
         .map(|j| ball_friction * chain.contact_forces[j] * chain.ball_slip[j])
         .sum::<f64>();
-    assert!((loss - chain.power_loss()).abs() < 1e-12 * loss);
+    // Up to 130 terms in another order, 1.1e-16 each.
+    assert!((loss - chain.power_loss()).abs() < 1.5e-14 * loss);
     // Unbalanced forces do work at speeds of the order of the track's, on three unknowns a ball.
     let unbalanced = 6.0 * n as f64 * chain.residual * speed.abs();
     assert!(
@@ -132,17 +134,21 @@ fn stored_chains() {
             check_laws(&balls, &chain, ball_friction, 0.01, 1e-10);
             for (force, stored) in chain.contact_forces.iter().zip(list(&case[force_key])) {
                 worst[which] = worst[which].max((force - stored).abs());
-                assert!(
-                    (force - stored).abs() < 1e-9,
-                    "{rho:?} {force_key}: {force}, stored {stored}"
+                measured::assert_at(
+                    "stored chains, contact force in N",
+                    force - stored,
+                    format_args!("{rho:?} {force_key}: {force}, stored {stored}"),
                 );
             }
             for (motion, stored) in chain.balls.iter().zip(list(&case[eps_key])) {
                 let off = (motion.speed_deviation - stored).abs();
-                assert!(
-                    off < 1e-11,
-                    "{rho:?} {eps_key}: {} stored {stored}",
-                    motion.speed_deviation
+                measured::assert_at(
+                    "stored chains, speed deviation",
+                    off,
+                    format_args!(
+                        "{rho:?} {eps_key}: {} stored {stored}",
+                        motion.speed_deviation
+                    ),
                 );
             }
         }
@@ -164,9 +170,10 @@ fn stored_chains() {
             (&forces, "F_analytic"),
         ] {
             for (value, stored) in values.iter().zip(list(&case[key])) {
-                assert!(
-                    (value - stored).abs() < 1e-9 * stored.abs().max(1.0),
-                    "{rho:?} {key}: {value}, stored {stored}"
+                measured::assert_at(
+                    "stored chains, closed form",
+                    (value - stored) / stored.abs().max(1.0),
+                    format_args!("{rho:?} {key}: {value}, stored {stored}"),
                 );
             }
         }
@@ -198,7 +205,6 @@ fn stored_pairs() {
                 if stuck { 1e-5 } else { 1e-9 },
             );
             // Where a contact sticks, the stored values rest on a coarser smoothing.
-            let (force_bound, eps_bound) = if stuck { (2e-4, 1e-6) } else { (5e-9, 1e-11) };
             let force = chain.contact_forces[0];
             let stored = case[force_key].as_f64().unwrap();
             let name = format!(
@@ -207,15 +213,16 @@ fn stored_pairs() {
             if stuck {
                 println!("{name}: {force} stored {stored}");
             }
-            assert!(
-                (force - stored).abs() < force_bound,
-                "{name}: {force}, stored {stored}"
+            measured::assert_at(
+                &format!("stored pairs, stuck {stuck}, contact force in N"),
+                force - stored,
+                format_args!("{name}: {force}, stored {stored}"),
             );
             for (motion, stored) in chain.balls.iter().zip(list(&case[eps_key])) {
-                assert!(
-                    (motion.speed_deviation - stored).abs() < eps_bound,
-                    "{name}: {} stored {stored}",
-                    motion.speed_deviation
+                measured::assert_at(
+                    &format!("stored pairs, stuck {stuck}, speed deviation"),
+                    motion.speed_deviation - stored,
+                    format_args!("{name}: {} stored {stored}", motion.speed_deviation),
                 );
             }
         }
@@ -233,13 +240,14 @@ fn table_3_5_contact_forces() {
         with.contact_forces[0],
         with.ball_slip[0] / 0.01
     );
-    assert!((without - 4.023).abs() < 1e-3 && (with.contact_forces[0] - 4.065).abs() < 1e-3);
+    // Half a unit of the last digit, here and below.
+    assert!((without - 4.023).abs() < 5e-4 && (with.contact_forces[0] - 4.065).abs() < 5e-4);
     // (3.52) gives 1.4142 v.
-    assert!((with.ball_slip[0] / 0.01 - 1.406).abs() < 2e-3);
+    assert!((with.ball_slip[0] / 0.01 - 1.406).abs() < 5e-4);
     // Case (b), the mated top groove: no force.
     let theta = 2.0_f64.to_radians();
     let mated = [-0.6, 0.6].map(|rho| ball([-theta, theta, -theta, theta], rho));
-    assert!(solve_chain(&mated, 0.1, 0.01).unwrap().contact_forces[0] < 1e-9);
+    assert!(solve_chain(&mated, 0.1, 0.01).unwrap().contact_forces[0] < 1e-12);
     // Figure 3.15 at its edge, 3 deg and 0.6: ball-to-ball loss 85.1 % of the baseline.
     let edge = [tilted(3.0, -0.6), tilted(3.0, 0.6)];
     let base: f64 = edge.iter().map(|b| b.solve(0.01).unwrap().power_loss).sum();
@@ -250,8 +258,8 @@ fn table_3_5_contact_forces() {
         100.0 * chain.power_loss() / base
     );
     // The published 185.2 % is the baseline with the ball-to-ball loss added; the grooves themselves lose 4 % more in contact.
-    assert!((1.0 + chain.ball_loss / base - 1.851).abs() < 1e-3);
-    assert!((chain.groove_loss / base - 1.044).abs() < 1e-3);
+    assert!((1.0 + chain.ball_loss / base - 1.851).abs() < 5e-4);
+    assert!((chain.groove_loss / base - 1.044).abs() < 5e-4);
 }
 
 #[test]
@@ -260,7 +268,8 @@ fn reversal_swaps_rear_and_front() {
     let swapped = [pair[1], pair[0]];
     let forward = solve_chain(&pair, 0.1, 1.0).unwrap();
     let backward = solve_chain(&swapped, 0.1, -1.0).unwrap();
-    assert!((forward.contact_forces[0] - backward.contact_forces[0]).abs() < 1e-10);
+    // Mirrored: at most some roundings, 4e-16 N each.
+    assert!((forward.contact_forces[0] - backward.contact_forces[0]).abs() < 1e-13);
     check_laws(&swapped, &backward, 0.1, -1.0, 1e-10);
     assert_eq!(
         solve_chain(&pair, 0.1, -1.0).unwrap().contact_forces[0],
@@ -309,7 +318,16 @@ fn linear_model_three_ways() {
         );
     }
     println!("speeds {:e}, forces {:e}", worst[0], worst[1]);
-    assert!(worst[0] < 1e-13 && worst[1] < 1e-12, "{worst:?}");
+    measured::assert_at(
+        "chains three ways, speed",
+        worst[0],
+        format_args!("{worst:?}"),
+    );
+    measured::assert_at(
+        "chains three ways, force",
+        worst[1],
+        format_args!("{worst:?}"),
+    );
     // Equal speeds do not press; one ball has no neighbour; no ball no answer.
     assert_eq!(
         pool_adjacent_violators(&[0.3; 4], &[1.0; 4]),

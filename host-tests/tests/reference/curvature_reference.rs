@@ -1,6 +1,7 @@
 //! The reference's curvatures against 65-digit values, against each other, and against the printed
 //! tables and statistics of Bertolino et al. 2023.
 
+use crate::kit::measured;
 use epas_reference::curvature::{Groove, Surface, literature, profile};
 use epas_reference::published::{TABLE_A1, TABLE_A2, computed_errors};
 use proptest::prelude::*;
@@ -45,7 +46,7 @@ fn weingarten_map_equals_65_digit_values() {
             let error1 = (computed.kappa1 - kappa1).abs() / kappa1.abs().max(1e-3 * kappa2.abs());
             let error2 = (computed.kappa2 / kappa2 - 1.0).abs();
             assert!(
-                error1 < 1e-12 && error2 < 1e-12,
+                error1 < 1e-12 && error2 < 2e-15,
                 "{name} {case}: {error1:e} {error2:e}"
             );
             worst = [worst[0].max(error1), worst[1].max(error2)];
@@ -84,8 +85,8 @@ proptest! {
         let cartesian = surface.principal_cartesian(angle);
         let appendix = surface.appendix_b(angle);
         let scale = frenet.kappa1.abs().max(1e-3 * frenet.kappa2.abs());
-        prop_assert!((cartesian.kappa1 - frenet.kappa1).abs() < 1e-11 * scale);
-        prop_assert!((cartesian.kappa2 / frenet.kappa2 - 1.0).abs() < 1e-11);
+        prop_assert!((cartesian.kappa1 - frenet.kappa1).abs() < 1e-12 * scale);
+        prop_assert!((cartesian.kappa2 / frenet.kappa2 - 1.0).abs() < 1e-12);
         prop_assert!((appendix - frenet.kappa1).abs() < 1e-9 * scale);
     }
 
@@ -129,14 +130,20 @@ fn appendix_b_as_printed_returns_the_wrong_curvature() {
     };
     let screw = surface(Groove::Screw);
     let printed = screw.appendix_b_as_printed(0.7);
-    assert!((printed / screw.principal(0.7).kappa2 - 1.0).abs() < 1e-9);
+    measured::assert(
+        "Appendix B as printed",
+        printed / screw.principal(0.7).kappa2 - 1.0,
+    );
     let nut = surface(Groove::Nut);
     let printed = nut.appendix_b_as_printed(0.7);
     assert!(
         printed.is_nan() || (printed / nut.principal(0.7).kappa2 - 1.0).abs() > 1e-3,
         "{printed}"
     );
-    assert!((nut.appendix_b(0.7) / nut.principal(0.7).kappa1 - 1.0).abs() < 1e-11);
+    measured::assert(
+        "Appendix B as corrected",
+        nut.appendix_b(0.7) / nut.principal(0.7).kappa1 - 1.0,
+    );
 }
 
 /// All 2 x 31 x 4 printed errors, each to its last digit: half of it, and the rounding of the
@@ -206,13 +213,14 @@ fn figure_9_means_reproduce_and_its_maximum_does_not() {
                 }
             }
         }
+        // Printed to two decimals: half a unit, here and below.
         assert!(
             (sum / count - mean_printed).abs() < 0.005,
             "{}",
             sum / count
         );
-        assert!((largest - max_computed).abs() < 0.01, "{largest}");
-        assert!((largest_65 - 2.374).abs() < 0.005, "{largest_65}");
+        assert!((largest - max_computed).abs() < 0.005, "{largest}");
+        assert!((largest_65 - 2.374).abs() < 0.0005, "{largest_65}");
     }
 }
 

@@ -1,5 +1,6 @@
 //! The reference kinematics against first principles, the published numbers and golden cases.
 
+use crate::kit::measured;
 use crate::kit::random::Random;
 use epas_reference::kinematics::{
     HertzMean, KinematicsInput, MeanSlip, Raceway, Revised, RigidBody, Traditional, figures,
@@ -103,9 +104,10 @@ fn golden_cases_within_1e_12() {
         let mut check = |name: &str, found: f64, wanted: f64, scale: f64| {
             let error = (found - wanted).abs() / scale;
             worst = worst.max(error);
-            assert!(
-                error <= 1e-12,
-                "{tag}: {name} {found} for {wanted}: {error:e}"
+            measured::assert_at(
+                "golden kinematics",
+                error,
+                format_args!("{tag}: {name} {found} for {wanted}: {error:e}"),
             );
         };
         let orbital = number(&case, &["omega_m_over_omega"]);
@@ -164,7 +166,11 @@ fn rolling_slip_keeps_its_own_digits() {
             let excess = (contact.rolling_radius - 0.5 * revised.input().ball_diameter).abs();
             if excess < 1e-9 {
                 let error = (revised.rolling_slip(raceway, 0.0) / golden - 1.0).abs();
-                assert!(error < 1e-12, "{}: {error:e}", case["tag"]);
+                measured::assert_at(
+                    "rolling slip, its own digits",
+                    error,
+                    format_args!("{}: {error:e}", case["tag"]),
+                );
                 naive_worst = naive_worst
                     .max((revised.rolling_slip_as_printed(raceway, 0.0) / golden - 1.0).abs());
             }
@@ -173,7 +179,7 @@ fn rolling_slip_keeps_its_own_digits() {
     println!("rolling slip as printed in float64: relative error {naive_worst:.1e}");
 }
 
-/// The two routes share nothing but the statement of the problem: 1e-12 of the entrainment speed for
+/// The two routes share nothing but the statement of the problem: roundings of the entrainment speed for
 /// slip in all three directions anywhere on the ellipse, for either sense of thread and rotation.
 #[test]
 fn material_points_slip_as_the_revised_formulas_say() {
@@ -212,16 +218,17 @@ fn material_points_slip_as_the_revised_formulas_say() {
                 worst[3] = worst[3].max((mean[axis] + input.speed * printed[axis]).abs() / scale);
             }
         }
-        assert!(
-            worst.iter().all(|error| *error < 1e-12),
-            "{worst:?} for {input:?}"
+        measured::assert_at(
+            "material points",
+            worst.into_iter().fold(0.0, f64::max),
+            format_args!("{worst:?} for {input:?}"),
         );
     }
     println!("speeds, slip, slip by vectors, entrainment: {worst:?}");
 }
 
 /// Central differences of the positions, step `h`: truncation `(spin h)^2 / 6`, rounding `1e-16 / h`
-/// of the pitch radius per unit time; 1e-7 of the entrainment speed covers both at `spin h = 1e-4`.
+/// of the pitch radius per unit time: 1.7e-9 and less than 1e-9 of the speed at `spin h = 1e-4`.
 #[test]
 fn dual_numbers_differentiate_positions_as_differences_do() {
     let mut random = Random(0x5EED_0002);
@@ -242,7 +249,7 @@ fn dual_numbers_differentiate_positions_as_differences_do() {
                     .sum::<f64>()
                     .sqrt();
                 let speed = exact.iter().map(|v| v * v).sum::<f64>().sqrt();
-                assert!((difference / speed - 1.0).abs() < 1e-7, "{input:?}");
+                assert!((difference / speed - 1.0).abs() < 3e-9, "{input:?}");
             }
         }
     }
@@ -267,16 +274,23 @@ fn zero_lead_is_a_bearing() {
         let ratio = (1.0 + gamma * outer.cos()) * (inner - beta).cos()
             / ((1.0 - gamma * inner.cos()) * (outer - beta).cos());
         let orbital = input.speed / (1.0 + ratio);
-        assert!((ball.orbital_speed / orbital - 1.0).abs() < 1e-13);
+        measured::assert(
+            "bearing of zero lead, speeds",
+            ball.orbital_speed / orbital - 1.0,
+        );
         let spin_speed = orbital * (1.0 + gamma * outer.cos()) / (gamma * (outer - beta).cos());
-        assert!((ball.spin_speed / spin_speed - 1.0).abs() < 1e-13);
+        measured::assert(
+            "bearing of zero lead, speeds",
+            ball.spin_speed / spin_speed - 1.0,
+        );
         // Spin: relative rotation of ring and ball about the contact normal.
         let inner_spin = (orbital - input.speed) * inner.sin() + spin_speed * (beta - inner).sin();
         let outer_spin = -orbital * outer.sin() - spin_speed * (beta - outer).sin();
         for (spin, wanted) in [(ball.screw.spin, inner_spin), (ball.nut.spin, outer_spin)] {
-            assert!(
-                (spin - wanted).abs() < 1e-12 * spin_speed.abs(),
-                "{input:?}"
+            measured::assert_at(
+                "bearing of zero lead, spin",
+                (spin - wanted) / spin_speed,
+                format_args!("{input:?}"),
             );
         }
         assert_eq!((ball.screw.side_slip, ball.nut.side_slip), (0.0, 0.0));
@@ -299,18 +313,20 @@ fn neither_side_slip_nor_spin_can_vanish_at_both_contacts() {
             .iter()
             .sum();
         let wanted = -input.speed * input.lead_angle.sin();
-        assert!(
-            (sum - wanted).abs() < 1e-13 * input.speed.abs(),
-            "{input:?}"
+        measured::assert_at(
+            "sum of both side slips",
+            (sum - wanted) / input.speed,
+            format_args!("{input:?}"),
         );
 
         input.contact_angle_nut = input.contact_angle_screw;
         let ball = Revised::new(&input).unwrap().evaluate();
         let wanted = -input.speed * input.lead_angle.cos() * input.contact_angle_screw.sin();
         let sum = ball.screw.spin + ball.nut.spin;
-        assert!(
-            (sum - wanted).abs() < 1e-13 * ball.spin_speed.abs(),
-            "{input:?}"
+        measured::assert_at(
+            "sum of both spins",
+            (sum - wanted) / ball.spin_speed,
+            format_args!("{input:?}"),
         );
     }
 }
@@ -338,19 +354,34 @@ fn equal_contact_angles_have_closed_forms() {
         let gamma = 0.5 * input.ball_diameter / input.pitch_radius;
         let (sine, cosine) = input.lead_angle.sin_cos();
         let eps = gamma * input.contact_angle_screw.cos() * cosine * cosine;
-        assert!((ball.orbital_speed / input.speed - 0.5 * (1.0 - eps)).abs() < 1e-14);
+        measured::assert(
+            "equal contact angles, orbital speed",
+            ball.orbital_speed / input.speed - 0.5 * (1.0 - eps),
+        );
         for raceway in Raceway::BOTH {
             let contact = ball.contact(raceway);
             assert_eq!(contact.rolling_slip, 0.0);
             let rolling = contact.entrainment_speed * contact.entrainment_angle.cos();
             let wanted =
                 input.speed.abs() * input.pitch_radius * (1.0 - eps * eps) / (2.0 * cosine);
-            assert!((rolling / wanted - 1.0).abs() < 1e-13, "{input:?}");
+            measured::assert_at(
+                "equal contact angles, rolling speed",
+                rolling / wanted - 1.0,
+                format_args!("{input:?}"),
+            );
             let side_ratio = contact.side_slip.abs() / rolling;
             let wanted = gamma * (sine * cosine).abs() / (1.0 - raceway.sign() * eps);
-            assert!((side_ratio - wanted).abs() < 1e-14, "{input:?}");
+            measured::assert_at(
+                "equal contact angles, side slip",
+                side_ratio - wanted,
+                format_args!("{input:?}"),
+            );
             let angle = contact.entrainment_angle.tan().abs();
-            assert!((angle - 0.5 * wanted).abs() < 1e-14, "{input:?}");
+            measured::assert_at(
+                "equal contact angles, side slip",
+                angle - 0.5 * wanted,
+                format_args!("{input:?}"),
+            );
         }
     }
 }
@@ -373,13 +404,14 @@ fn traditional_formula_with_the_absolute_rotation_is_the_revised_one() {
             let wanted = revised.slip(raceway, x, y);
             let found = absolute.slip(raceway, x, y, distance);
             for axis in 0..2 {
-                assert!(
-                    (found[axis] - wanted[axis]).abs() < 1e-13 * scale,
-                    "{input:?}"
+                measured::assert_at(
+                    "traditional formula, slip",
+                    (found[axis] - wanted[axis]) / scale,
+                    format_args!("{input:?}"),
                 );
             }
             let spin = absolute.spin(raceway) - ball.contact(raceway).spin;
-            assert!(spin.abs() < 1e-13 * ball.spin_speed.abs());
+            measured::assert("traditional formula, spin", spin / ball.spin_speed);
         }
     }
     // And with the relative one it is not: for the paper's screw three times the slip.
@@ -389,7 +421,8 @@ fn traditional_formula_with_the_absolute_rotation_is_the_revised_one() {
         let [x, y] = relative.slip(raceway, 0.0, 0.0, relative.distance(raceway));
         let [true_x, true_y] = revised.slip(raceway, 0.0, 0.0);
         let ratio = x.hypot(y) / true_x.hypot(true_y);
-        assert!((ratio - wanted).abs() < 0.01, "{ratio}");
+        // Printed to two decimals: half a unit.
+        assert!((ratio - wanted).abs() < 0.005, "{ratio}");
     }
 }
 
@@ -428,7 +461,11 @@ fn golden_mean_slip() {
             ] {
                 let error = (found - golden(name)).abs() / golden("mean_speed");
                 worst = worst.max(error);
-                assert!(error < 1e-4, "{} {name}: {error:e}", case["tag"]);
+                measured::assert_at(
+                    "golden mean slip",
+                    error,
+                    format_args!("{} {name}: {error:e}", case["tag"]),
+                );
             }
         }
     }
@@ -447,13 +484,14 @@ fn quadrature_reproduces_closed_means() {
         (y2, a * a / 5.0),
         (y4, 3.0 * a.powi(4) / 35.0),
     ] {
-        assert!((found / wanted - 1.0).abs() < 1e-13);
+        measured::assert("moments of the Hertz weight", found / wanted - 1.0);
     }
     let fine = HertzMean::new(200, 400);
     let spin = MeanSlip::of_field(&fine, a, b, |_| 0.0, |_| 0.0, 2.0);
     let wanted = 2.0 * 0.375 * a * ellip::ellipe(1.0 - (b / a).powi(2)).unwrap();
-    assert!((spin.total / wanted - 1.0).abs() < 1e-6);
-    assert!((spin.spin / spin.total - 1.0).abs() < 1e-12);
+    measured::assert("mean slip of pure spin", spin.total / wanted - 1.0);
+    // Some dozens of roundings of 1.1e-16.
+    assert!((spin.spin / spin.total - 1.0).abs() < 1e-14);
 }
 
 /// Jensen's inequality and the side-slip invariant, for equal loads.
@@ -474,7 +512,11 @@ fn friction_power_never_falls_below_its_bound() {
         assert!(total >= bound, "{input:?}");
     }
     // The bound is of use: some axes of rotation come within a few percent of it.
-    assert!(closest < 1.1, "{closest}");
+    measured::assert_at(
+        "friction power over its bound, closest",
+        closest - 1.0,
+        format_args!("{closest}"),
+    );
 }
 
 /// Table 2 at friction 0.075 and 151 N: what the paper's screw loses, and how little the pitch angle
@@ -493,16 +535,27 @@ fn friction_power_of_the_published_screw() {
     };
     let [screw, nut] = power(40.0 * DEGREE);
     // With side slip constant over the ellipse it would be 489.9 + 355.6 mW; S(y) takes 0.2 % off.
-    assert!((screw.total - 0.48895).abs() < 2e-5, "{screw:?}");
-    assert!((nut.total - 0.35493).abs() < 2e-5, "{nut:?}");
+    measured::assert_at(
+        "loss of the published screw in W",
+        screw.total - 0.48895,
+        format_args!("{screw:?}"),
+    );
+    measured::assert_at(
+        "loss of the published screw in W",
+        nut.total - 0.35493,
+        format_args!("{nut:?}"),
+    );
     for contact in [screw, nut] {
         let parts = contact.rolling + contact.side + contact.spin;
-        assert!((parts / contact.total - 1.0).abs() < 1e-13);
+        measured::assert("parts of the mean slip", parts / contact.total - 1.0);
     }
     let total = |degrees: f64| power(degrees * DEGREE).iter().map(|p| p.total).sum::<f64>();
     let reference = total(40.0);
     for degrees in [34.3, 44.0, 50.1] {
-        assert!((total(degrees) / reference - 1.0).abs() < 0.035);
+        measured::assert(
+            "loss over the pitch angle",
+            total(degrees) / reference - 1.0,
+        );
     }
 }
 
@@ -558,7 +611,8 @@ fn published_pitch_angles() {
     for (name, angle, wanted) in angles {
         let degrees = angle.unwrap() / DEGREE;
         println!("{name}: {degrees:.3}");
-        let tolerance = if name == "least power" { 0.3 } else { 0.006 };
+        // Printed to two or three decimals: half a unit; the minimum of the power is flat.
+        let tolerance = if name == "least power" { 0.012 } else { 0.005 };
         assert!((degrees - wanted).abs() < tolerance, "{name}: {degrees}");
     }
 }
@@ -593,10 +647,10 @@ fn raceway_controls_of_the_golden_cases() {
                 continue;
             }
             let found = found.unwrap_or_else(|| panic!("{} {key} {wanted}", case["tag"]));
-            assert!(
-                (found - wanted).abs() < 1e-12,
-                "{} {key}: {found} {wanted}",
-                case["tag"]
+            measured::assert_at(
+                "golden raceway controls in rad",
+                found - wanted,
+                format_args!("{} {key}: {found} {wanted}", case["tag"]),
             );
         }
     }
@@ -617,12 +671,24 @@ fn contact_ellipse_of_the_published_screw() {
             operating::CONTACT_LOAD,
         )
         .unwrap();
-        assert!((ellipse.semi_major / a - 1.0).abs() < 1e-10, "{ellipse:?}");
-        assert!((ellipse.semi_minor / b - 1.0).abs() < 1e-10, "{ellipse:?}");
+        measured::assert_at(
+            "ellipses of the published screw",
+            ellipse.semi_major / a - 1.0,
+            format_args!("{ellipse:?}"),
+        );
+        measured::assert_at(
+            "ellipses of the published screw",
+            ellipse.semi_minor / b - 1.0,
+            format_args!("{ellipse:?}"),
+        );
     }
     let ball = operating::loaded_ball(1500.0, operating::SPEED).unwrap();
-    assert!((ball.input.contact_angle_screw / DEGREE - 41.02).abs() < 0.01);
-    assert!((ball.load_screw - 154.7).abs() < 0.1, "{ball:?}");
+    measured::assert(
+        "contact angle of the published screw in degrees",
+        ball.input.contact_angle_screw / DEGREE - 41.02,
+    );
+    // Printed to a tenth: half a unit.
+    assert!((ball.load_screw - 154.7).abs() < 0.05, "{ball:?}");
     assert_eq!(operating::ellipse(Raceway::Nut, 0.7, 1.0, 0.0), None);
 }
 
@@ -657,8 +723,9 @@ fn figures_show_what_the_paper_says() {
     let rolling = figures::rolling_radius_sweep(10).unwrap();
     for pair in rolling.windows(2) {
         assert!(pair[1].screw.slide_angle < pair[0].screw.slide_angle);
-        assert!(
-            (pair[1].screw.entrainment_speed / pair[0].screw.entrainment_speed - 1.0).abs() < 2e-3
+        measured::assert(
+            "entrainment speed over the rolling radius",
+            pair[1].screw.entrainment_speed / pair[0].screw.entrainment_speed - 1.0,
         );
     }
     // Figure 11: yaw moves side slip in opposite senses at the two contacts.

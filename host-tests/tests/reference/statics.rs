@@ -1,5 +1,6 @@
 //! Static load distribution: the case studies of Lin 2019, laws, and hostile starts.
 
+use crate::kit::measured;
 use crate::kit::random::Random;
 use std::sync::Arc;
 
@@ -102,22 +103,24 @@ fn contact_forces_are_those_of_an_independent_solver() {
                 .zip(list(&truth["F"][field]))
                 .enumerate()
             {
-                assert!(
-                    (force - truth).abs() <= 1e-10 * load.max(100.0),
-                    "{name} {field} ball {ball}: {force} for {truth}"
+                measured::assert_at(
+                    "independent statics, forces over the load",
+                    (force - truth) / load.max(100.0),
+                    format_args!("{name} {field} ball {ball}: {force} for {truth}"),
                 );
             }
         }
         let truth_axial = truth["uz_left"].as_f64().unwrap() * 1e-3;
-        assert!(
-            (found.axial_displacement() / truth_axial - 1.0).abs() < 1e-9,
-            "{name}"
+        measured::assert_at(
+            "independent statics, axial displacement",
+            found.axial_displacement() / truth_axial - 1.0,
+            format_args!("{name}"),
         );
         for (angles, truth) in found.contact_angles.iter().zip(list(&truth["angle_SL"])) {
-            assert!(
-                (angles[0] - truth.to_radians()).abs() < 1e-9,
-                "{name}: {} for {truth}",
-                angles[0]
+            measured::assert_at(
+                "independent statics, contact angle in rad",
+                angles[0] - truth.to_radians(),
+                format_args!("{name}: {} for {truth}", angles[0]),
             );
         }
         assert!(found.iterations <= 10, "{name}: {} steps", found.iterations);
@@ -159,7 +162,11 @@ fn geometric_errors_of_the_screw_give_the_loads_of_an_independent_solver() {
                 worst = worst.max((force - truth).abs());
             }
         }
-        assert!(worst < 1e-4, "{name}: {worst} N");
+        measured::assert_at(
+            "independent statics, geometric errors in N",
+            worst,
+            format_args!("{name}: {worst} N"),
+        );
         assert_eq!(found.balls_lost as u64, truth["lost"].as_u64().unwrap());
     }
 }
@@ -170,6 +177,7 @@ fn geometric_errors_of_the_screw_give_the_loads_of_an_independent_solver() {
 fn case_1_is_uneven_and_not_monotone() {
     let nominal = solve(&case_1());
     let forces = nominal.of(Contact::ScrewLeft);
+    // Printed to three decimals: half a unit, here and below.
     assert!((ratio(&forces) - 1.301).abs() < 5e-4, "{}", ratio(&forces));
     let fine = solve(&CaseStudy {
         screw_diameter: 30.8e-3,
@@ -226,11 +234,12 @@ fn bar_model_falls_from_the_loaded_end() {
 fn case_2_one_large_ball() {
     let (without, with) = (solve(&case_1()), solve(&case_2()));
     let (without, with) = (without.of(Contact::ScrewLeft), with.of(Contact::ScrewLeft));
+    // Printed to a newton: half a unit, here and below.
     assert!((without[16] - 233.0).abs() < 0.5, "{}", without[16]);
     assert!((with[16] - 283.0).abs() < 0.5, "{}", with[16]);
     for ball in [15, 17] {
         let change = with[ball] / without[ball] - 1.0;
-        assert!((change + 0.022).abs() < 1e-3, "{change}");
+        assert!((change + 0.022).abs() < 5e-4, "{change}");
     }
 }
 
@@ -248,12 +257,13 @@ fn case_3_offset_squeezes_the_last_balls() {
         (last(&offset), [88.0, 147.0, 223.0, 303.0]),
     ] {
         for (force, text) in found.iter().zip(text) {
-            assert!((force - text).abs() < 1.0, "{found:?}");
+            // Printed to a newton: half a unit.
+            assert!((force - text).abs() < 0.5, "{found:?}");
         }
     }
     // The force that holds the end aside.
     assert!(
-        (offset.reactions[1][0] - 100.7).abs() < 0.1,
+        (offset.reactions[1][0] - 100.7).abs() < 0.05,
         "{}",
         offset.reactions[1][0]
     );
@@ -332,9 +342,10 @@ fn hertzian_constants_are_the_golden_ones() {
                     (contact.relative_radii[1], relative[1] * 1e-3),
                 ] {
                     // Stored radii have eleven digits.
-                    assert!(
-                        (found / truth - 1.0).abs() < 2e-10,
-                        "{side} {name} {field}: {found} for {truth}"
+                    measured::assert_at(
+                        "golden Hertz constants",
+                        found / truth - 1.0,
+                        format_args!("{side} {name} {field}: {found} for {truth}"),
                     );
                 }
             }
@@ -362,7 +373,8 @@ fn right_curvatures_change_the_ellipse_more_than_the_loads() {
         ),
         (change(right.nut.semi_major, printed.nut.semi_major), -0.081),
     ] {
-        assert!((found - expected).abs() < 1e-3, "{found} for {expected}");
+        // Printed to a tenth of a per cent: half a unit.
+        assert!((found - expected).abs() < 5e-4, "{found} for {expected}");
     }
     let mut setup = case_1().setup().unwrap();
     setup.contact = printed;
@@ -372,7 +384,11 @@ fn right_curvatures_change_the_ellipse_more_than_the_loads() {
         .iter()
         .zip(printed.of(Contact::ScrewLeft))
     {
-        assert!((force / printed - 1.0).abs() < 1.1e-3, "{force} {printed}");
+        measured::assert_at(
+            "loads by the printed curvatures",
+            force / printed - 1.0,
+            format_args!("{force} {printed}"),
+        );
     }
 }
 
@@ -416,9 +432,15 @@ fn forces_are_the_gradient_of_the_energy() {
         balls = balls.max((slope - gradient.balls[index].y).abs());
     }
     println!("largest difference: {nodes:.1e} on nodes, {balls:.1e} on balls, of {scale:.1e} N");
-    assert!(
-        nodes < 1e-4 * scale.max(100.0) && balls < 1e-4 * scale.max(100.0),
-        "{nodes} {balls}"
+    measured::assert_at(
+        "energy by differences, nodes",
+        nodes / scale.max(100.0),
+        format_args!("{nodes} {balls}"),
+    );
+    measured::assert_at(
+        "energy by differences, balls",
+        balls / scale.max(100.0),
+        format_args!("{nodes} {balls}"),
     );
 }
 
@@ -508,7 +530,11 @@ fn forces_and_moments_balance() {
             let allowed = if axis < 3 { 1e-6 } else { couple };
             assert!(sum.abs() < allowed, "case {name}, axis {axis}: {sum}");
         }
-        assert!(solution.residual < 1e-9, "{}", solution.residual);
+        measured::assert_at(
+            "balance of the case studies, residual in N",
+            solution.residual,
+            format_args!("{}", solution.residual),
+        );
     }
 }
 
@@ -545,9 +571,10 @@ fn loads_scale_with_the_square_of_the_size() {
         .flatten()
         .zip(large.forces.iter().flatten())
     {
-        assert!(
-            (large - 4.0 * small).abs() < 1e-6,
-            "{large} for 4 x {small}"
+        measured::assert_at(
+            "screw of twice the size, forces in N",
+            large - 4.0 * small,
+            format_args!("{large} for 4 x {small}"),
         );
     }
 }
@@ -565,12 +592,12 @@ fn zero_lead_is_a_bearing() {
     let solution = StaticLoad::new(setup).unwrap().solve().unwrap();
     for (force, angle) in solution.forces.iter().zip(&solution.contact_angles) {
         let even = case.axial_load / (32.0 * angle[0].sin());
-        assert!(
-            (force[0] / even - 1.0).abs() < 1e-9,
-            "{} for {even}",
-            force[0]
+        measured::assert_at(
+            "ring of zero lead, forces",
+            force[0] / even - 1.0,
+            format_args!("{} for {even}", force[0]),
         );
-        assert!((force[0] / force[3] - 1.0).abs() < 1e-9);
+        measured::assert("ring of zero lead, forces", force[0] / force[3] - 1.0);
     }
 }
 
@@ -605,10 +632,10 @@ fn two_point_contact_has_a_closed_form() {
     let force =
         ((distance - 2.0 * excess) / (contact.screw.deflection + contact.nut.deflection)).powf(1.5);
     for forces in &solution.forces {
-        assert!(
-            (forces[0] / force - 1.0).abs() < 1e-10,
-            "{} for {force}",
-            forces[0]
+        measured::assert_at(
+            "two-point statics in closed form",
+            forces[0] / force - 1.0,
+            format_args!("{} for {force}", forces[0]),
         );
     }
 }
@@ -653,10 +680,10 @@ fn loads_of_every_kind_are_carried() {
             let solution = StaticLoad::new(setup).unwrap().solve();
             let solution = solution.unwrap_or_else(|error| panic!("{load:?} {oversize}: {error}"));
             assert_eq!(solution.outcome, Outcome::Loaded, "{load:?}");
-            assert!(
-                solution.residual < 1e-7,
-                "{load:?} {oversize}: {}",
-                solution.residual
+            measured::assert_at(
+                "loads of every kind, residual in N",
+                solution.residual,
+                format_args!("{load:?} {oversize}: {}", solution.residual),
             );
         }
     }
@@ -826,7 +853,11 @@ fn a_constant_profile_offset_is_an_oversize() {
         worst = worst.max((a - b).abs());
     }
     println!("profile offset against oversize: {worst:.1e} N");
-    assert!(worst < 1e-6, "{worst}");
+    measured::assert_at(
+        "profile offset, forces in N",
+        worst,
+        format_args!("{worst}"),
+    );
 }
 
 /// A uniform change of the pitch radius of one body by an error is a change of it in the geometry.
@@ -847,7 +878,7 @@ fn local_curvature_changes_the_constants_little() {
         .flatten()
         .zip(local.forces.iter().flatten())
     {
-        assert!((plain - local).abs() < 1e-3 * 300.0, "{plain} {local}");
+        assert!((plain - local).abs() < 2e-4 * 300.0, "{plain} {local}");
     }
     assert_ne!(plain.forces, local.forces);
 }

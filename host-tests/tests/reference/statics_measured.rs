@@ -1,5 +1,6 @@
 //! Measured groove surfaces: splines, point clouds, and the loads they give.
 
+use crate::kit::measured;
 use std::fmt::Write as _;
 use std::sync::Arc;
 
@@ -26,7 +27,7 @@ fn spline_has_two_continuous_derivatives() {
         let spline = spline(places.clone(), values.clone(), ends);
         for (place, value) in places.iter().zip(&values) {
             let (before, after) = (spline.at(place - 1e-9), spline.at(place + 1e-9));
-            assert!((spline.at(*place)[0] - value).abs() < 1e-13);
+            measured::assert("splines, values", spline.at(*place)[0] - value);
             for order in 0..3 {
                 // The next derivative, below 1e4 here, times the gap of 2e-9.
                 let gap = (before[order] - after[order]).abs();
@@ -37,20 +38,22 @@ fn spline_has_two_continuous_derivatives() {
         for index in -20..60 {
             let (place, h) = (0.07 * f64::from(index) + 0.013, 1e-5);
             let [low, here, high] = [place - h, place, place + h].map(|place| spline.at(place));
-            assert!(
-                ((high[0] - low[0]) / (2.0 * h) - here[1]).abs() < 1e-5,
-                "{ends:?} {place}"
+            measured::assert_at(
+                "splines, slope by differences",
+                (high[0] - low[0]) / (2.0 * h) - here[1],
+                format_args!("{ends:?} {place}"),
             );
-            assert!(
-                ((high[1] - low[1]) / (2.0 * h) - here[2]).abs() < 1e-3,
-                "{ends:?} {place}"
+            measured::assert_at(
+                "splines, bend by differences",
+                (high[1] - low[1]) / (2.0 * h) - here[2],
+                format_args!("{ends:?} {place}"),
             );
         }
     }
     let ring = spline(places, values, Ends::Periodic(4.0));
     for (place, turns) in [(0.2, 1.0), (3.3, -2.0), (-0.29, 7.0)] {
         for (a, b) in ring.at(place).into_iter().zip(ring.at(place + 4.0 * turns)) {
-            assert!((a - b).abs() < 1e-12 * (1.0 + a.abs()));
+            measured::assert("splines, periodic", (a - b) / (1.0 + a.abs()));
         }
     }
 }
@@ -134,15 +137,20 @@ fn a_measured_straight_profile_is_the_profile() {
                 fitted.deviation(azimuth, angle),
                 exact.deviation(azimuth, angle),
             );
-            assert!((a.offset - b.offset).abs() < 1e-17 && (a.slope - b.slope).abs() < 1e-17);
-            assert!(a.bend.abs() < 1e-15);
+            measured::assert("straight profile, offset in m", a.offset - b.offset);
+            measured::assert("straight profile, slope", a.slope - b.slope);
+            measured::assert("straight profile, bend", a.bend);
         }
     }
     let exact: Arc<dyn SurfaceError> = Arc::new(exact);
     let fitted: Arc<dyn SurfaceError> = Arc::new(fitted);
     let on_left = |error| [vec![error], Vec::new(), Vec::new(), Vec::new()];
     let difference = worst(&loads_with(on_left(exact)), &loads_with(on_left(fitted)));
-    assert!(difference < 1e-6, "{difference}");
+    measured::assert_at(
+        "straight profile, forces in N",
+        difference,
+        format_args!("{difference}"),
+    );
 }
 
 /// A screw with roundness error, measured as points of its sections and read from a table, gives the loads
