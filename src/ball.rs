@@ -19,4 +19,6 @@ pub use loads::LoadShare;
 pub(crate) use loads::loaded;
 pub(crate) use preload::PreloadSum;
 pub(crate) use screw::largest_deviation;
-pub use screw::{GrooveFit, LoopBall, LoopSums, ScrewLoop, ScrewRow, ScrewTick, ScrewTickBall};
+pub use screw::{
+    GrooveFit, LoopBall, LoopSums, RowContacts, ScrewLoop, ScrewRow, ScrewTick, ScrewTickBall,
+};

@@ -17,6 +17,6 @@ mod speeds;
 mod tick;
 
 pub use fit::GrooveFit;
-pub use row::ScrewRow;
+pub use row::{RowContacts, ScrewRow};
 pub(crate) use speeds::largest_deviation;
 pub use tick::{LoopBall, LoopSums, ScrewLoop, ScrewTick, ScrewTickBall};

@@ -5,7 +5,7 @@
 //! contact angles deviate in either groove. Both are read off the given contacts, and how far those are from
 //! the contacts that the scene then finds stands beside the answer.
 
-use epas_friction::ball::{LoopSums, ScrewRow};
+use epas_friction::ball::{LoopSums, RowContacts, ScrewRow};
 use epas_friction::train::Press;
 use epas_friction::{BallScrew, Error, GrooveFit, LoadShare};
 use serde::Serialize;
@@ -80,7 +80,10 @@ pub fn scene(
     let (mut load_mismatch, mut angle_mismatch) = (0.0_f32, 0.0_f32);
     for ball in &loaded {
         let state = state(&row, nut_speed, nominal, ball, [main_screw, main_nut])?;
-        let (angles, loads) = row.contacts(
+        let RowContacts {
+            angles,
+            forces: loads,
+        } = row.contacts(
             nut_speed,
             state.axial_load,
             state.screw_deviation,
@@ -161,7 +164,7 @@ fn state(
     let wanted = 0.5 * (screw_load + nut_load);
     let mut axial_load = if reversed { -wanted } else { wanted };
     for _ in 0..STEPS {
-        let (_, loads) = row.contacts(nut_speed, axial_load, 0.0, 0.0);
+        let loads = row.contacts(nut_speed, axial_load, 0.0, 0.0).forces;
         axial_load *= wanted / loads[main[0]];
     }
     axial_load.is_finite().then_some(State {

@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_4;
 
-use epas_friction::ball::ScrewRow;
+use epas_friction::ball::{RowContacts, ScrewRow};
 use epas_friction::{BallScrew, BallScrewParameters, GrooveFit, GrooveSize, LoadShare, Material};
 use epas_reference::friction::linear_ball::contact_forces;
 use epas_reference::hertz::{Hertz, contact_modulus};
@@ -373,7 +373,10 @@ fn contacts_of_the_row_are_recovered() {
             // Two contacts do not tell the nominal angle: deviations alike leave their mean at it.
             let states = [(0.02, 0.02), (-0.03, -0.03), (0.01, 0.01)];
             let balls = states.map(|(screw, nut)| {
-                let (angles, loads) = row.contacts(speed, load, screw, nut);
+                let RowContacts {
+                    angles,
+                    forces: loads,
+                } = row.contacts(speed, load, screw, nut);
                 let contacts: serde_json::Map<_, _> = ["SL", "SR", "NL", "NR"]
                     .into_iter()
                     .zip(angles.into_iter().zip(loads))

@@ -5,7 +5,7 @@ use crate::kit::errors::Errors;
 use crate::kit::given;
 use crate::kit::measured;
 use crate::kit::random::Congruential;
-use epas_friction::ball::ScrewRow;
+use epas_friction::ball::{RowContacts, ScrewRow};
 use epas_friction::refined::{
     ScrewBall, ScrewBallMotion, ScrewBallState, ScrewChain, ScrewContacts,
 };
@@ -565,7 +565,7 @@ fn the_third_contact_follows_load_and_direction() {
             let solved = elastic(&[0.0], speed)
                 .solve(ScrewSupport::Load(load))
                 .unwrap();
-            let (_, forces) = row.contacts(speed as f32, load as f32, 0.0, 0.0);
+            let forces = row.contacts(speed as f32, load as f32, 0.0, 0.0).forces;
             let contacts = &solved.balls[0].contacts;
             assert_eq!(contacts.len(), 3, "{case}");
             let least = contacts
@@ -631,7 +631,8 @@ fn force_between_two_balls_in_elastic_grooves() {
                     let force = difference.abs() / (states[0].compliance + states[1].compliance);
                     closed.add_at(f64::from(force) / exact - 1.0, &name);
                     let contacts = order.map(|theta| {
-                        let (angles, forces) = row.contacts(1.0, load as f32, theta as f32, 0.0);
+                        let RowContacts { angles, forces } =
+                            row.contacts(1.0, load as f32, theta as f32, 0.0);
                         ball.contacts(&angles, &forces)
                     });
                     let (found, _) = forces_of_pair(&ball, &contacts, 0.1, 4);
@@ -658,7 +659,7 @@ fn table_3_7() {
         let difference = states[0].speed_deviation - states[1].speed_deviation;
         let force = f64::from(difference / (states[0].compliance + states[1].compliance));
         let contacts = [0.0, degrees.to_radians()].map(|theta| {
-            let (angles, forces) = row.contacts(1.0, -50.0, theta as f32, 0.0);
+            let RowContacts { angles, forces } = row.contacts(1.0, -50.0, theta as f32, 0.0);
             ball.contacts(&angles, &forces)
         });
         let (refined, _) = forces_of_pair(&ball, &contacts, 0.1, 4);
@@ -792,7 +793,7 @@ fn hostile_input_gives_finite_motions() {
                 && state.groove_torque.is_finite();
             assert!(finite, "{angles:?} {forces:?} {push}: {state:?}");
         }
-        let (angles, forces) = row.contacts(pick(), pick(), pick(), pick());
+        let RowContacts { angles, forces } = row.contacts(pick(), pick(), pick(), pick());
         assert!(angles.iter().chain(&forces).all(|x| x.is_finite()));
     }
 }

@@ -65,6 +65,17 @@ pub struct ScrewRow {
     sticks_to_screw: bool,
 }
 
+/// Contacts of one ball of a row, in the order SL, SR, NL, NR (screw or nut, left or right): what
+/// [`ScrewBall::contacts`](crate::refined::ScrewBall::contacts) takes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct RowContacts {
+    /// Contact angles, rad.
+    pub angles: [f32; 4],
+    /// Contact forces, N; 0 where a contact is lost.
+    pub forces: [f32; 4],
+}
+
 impl ScrewRow {
     /// Speed along the track of a ball with nominal contact angles, m per unit of nut speed.
     #[must_use]
@@ -127,8 +138,7 @@ impl ScrewRow {
         }
     }
 
-    /// Contact angles, rad, and contact forces, N, of one ball, in the order SL, SR, NL, NR: what
-    /// [`ScrewBall::contacts`](crate::refined::ScrewBall::contacts) takes.
+    /// Contact angles and contact forces of one ball under an axial load, N.
     ///
     /// A positive axial load of the screw on the ball, N, is carried by SL and NR, a negative one by SR and NL.
     /// Friction across the track of that pair pushes the ball along the other diagonal and, in grooves
@@ -148,7 +158,7 @@ impl ScrewRow {
         axial_load: f32,
         screw_deviation: f32,
         nut_deviation: f32,
-    ) -> ([f32; 4], [f32; 4]) {
+    ) -> RowContacts {
         let normal = self.normal * counted(axial_load);
         let (main, third, fourth) = if self.play {
             (normal, 0.0, 0.0)
@@ -167,10 +177,10 @@ impl ScrewRow {
         let screw = limited(screw_deviation, largest);
         let nut = limited(nut_deviation, largest);
         let angle = self.contact_angle;
-        (
-            [angle - screw, angle + screw, angle - nut, angle + nut],
+        RowContacts {
+            angles: [angle - screw, angle + screw, angle - nut, angle + nut],
             forces,
-        )
+        }
     }
 
     fn in_two_points(&self, normal: f32, side: f32) -> ScrewTick {

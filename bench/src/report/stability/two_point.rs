@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_4;
 
-use epas_friction::ball::{AnalyticLinearBall, PUBLISHED_SLOPE, ScrewRow};
+use epas_friction::ball::{AnalyticLinearBall, PUBLISHED_SLOPE, RowContacts, ScrewRow};
 use epas_friction::refined::{FourPointBall, ScrewBall};
 use epas_friction::{BallScrew, GrooveFit, LoadShare};
 use epas_reference::friction::linear_ball::LinearBall;
@@ -281,7 +281,7 @@ fn play(design: &BallScrew, largest: f64) -> Result<(f64, f64, f64), Failure> {
                 let tick = row.at(1.0, load);
                 let speed =
                     tick.nominal_speed() + tick.ball(screw, nut, &LoadShare::MEAN).speed_deviation;
-                let (angles, forces) = row.contacts(1.0, load, screw, nut);
+                let RowContacts { angles, forces } = row.contacts(1.0, load, screw, nut);
                 let sticking = ball.closed_form(&ball.contacts(&angles, &forces));
                 let error = f64::from(speed / path - ball.orbital_speed(&sticking.motion));
                 if error.abs() > worst.0 {
