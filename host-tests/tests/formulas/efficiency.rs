@@ -1,6 +1,7 @@
 //! Closed-form efficiency: the reference against 17-digit values, the crate against both, and the laws
 //! that bind efficiency, torque and self-locking.
 
+use crate::kit::designs::SCREW_TRACK;
 use crate::kit::measured;
 use epas_friction::efficiency::{
     DesignRequest, Drive, Duty, DynamicCorrection, EfficiencyGeometry, optimum_contact_angle,
@@ -348,7 +349,7 @@ proptest! {
             if angle + step < std::f64::consts::FRAC_PI_2 {
                 prop_assert!(efficiency(angle + step) < top);
             }
-// Six roundings of 2^-24; that of the angle counts by its square.
+            // Six roundings of 2^-24; that of the angle counts by its square.
             prop_assert!((top - f64::from(optimum_efficiency(friction))).abs() < 4e-7);
         }
     }
@@ -475,8 +476,8 @@ fn bad_requests_are_refused_by_name() {
             lead_angle: 0.1,
             friction: 0.075,
             screw_length: 0.5,
-            pitch_radius: 0.0165,
-            ball_ratio: 0.17,
+            pitch_radius: SCREW_TRACK.pitch_radius as f32,
+            ball_ratio: (SCREW_TRACK.ball_radius / SCREW_TRACK.pitch_radius) as f32,
             osculation: 0.95,
             loaded_balls: 30,
             rotation: 1.0,

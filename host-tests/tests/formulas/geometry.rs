@@ -1,5 +1,6 @@
 //! Designs: every field of every constructor with every kind of bad number; derived constants.
 
+use crate::kit::designs::{LINEAR_BEARING, SCREW_GROOVE_RADIUS, SCREW_TRACK, screw};
 use epas_friction::curvature::{GothicArch, LiteratureCurvature};
 use epas_friction::geometry::{
     BallBearing, BallBearingParameters, ContactAngle, Groove, HelixPath,
@@ -20,7 +21,20 @@ const BAD: [f32; 7] = [
 ];
 
 fn good() -> BallScrewParameters {
-    DISSERTATION_DESIGNS[0].parameters
+    *screw().parameters()
+}
+
+/// Races of Lin 2019, Table 3.1, with the groove radius of conformity 0.54.
+fn races() -> BallBearingParameters {
+    BallBearingParameters {
+        pitch_radius: 35e-3,
+        ball_radius: 6.25e-3,
+        inner_groove: GrooveSize::Radius(6.75e-3),
+        outer_groove: GrooveSize::Radius(6.75e-3),
+        contact_angle: 0.785,
+        ball_material: Material::STEEL,
+        groove_material: Material::STEEL,
+    }
 }
 
 #[test]
@@ -147,22 +161,7 @@ fn every_field_of_a_ball_screw_is_checked() {
 
 #[test]
 fn every_field_of_the_bearings_is_checked() {
-    let linear = LinearBearingParameters {
-        ball_radius: 5e-3,
-        groove: GrooveSize::Conformity(0.56),
-        contact_angle: 0.785,
-        ball_material: Material::STEEL,
-        groove_material: Material::STEEL,
-    };
-    let ball = BallBearingParameters {
-        pitch_radius: 35e-3,
-        ball_radius: 6.25e-3,
-        inner_groove: GrooveSize::Radius(6.75e-3),
-        outer_groove: GrooveSize::Radius(6.75e-3),
-        contact_angle: 0.785,
-        ball_material: Material::STEEL,
-        groove_material: Material::STEEL,
-    };
+    let (linear, ball) = (LINEAR_BEARING, races());
     assert!(LinearBearing::new(linear).is_ok() && BallBearing::new(ball).is_ok());
     let field = |parameters| LinearBearing::new(parameters).unwrap_err().field();
     let race = |parameters| BallBearing::new(parameters).unwrap_err().field();
@@ -280,7 +279,7 @@ fn built_in_designs_are_all_valid_and_named_after_their_numbers() {
 #[test]
 fn conformity_and_groove_radius_agree() {
     let by_radius = BallScrew::new(good()).unwrap();
-    let conformity = 3.254e-3 / (2.0 * 2.778e-3);
+    let conformity = (SCREW_GROOVE_RADIUS / (2.0 * SCREW_TRACK.ball_radius)) as f32;
     let groove = GrooveSize::Conformity(conformity);
     let by_conformity = BallScrew::new(BallScrewParameters {
         screw_groove: groove,
@@ -313,16 +312,7 @@ fn path_from_lead_equals_path_from_lead_angle() {
 /// Without lead a ball screw is a ball bearing, and without offsets its curvature the literature's.
 #[test]
 fn zero_lead_is_a_bearing() {
-    let bearing = BallBearing::new(BallBearingParameters {
-        pitch_radius: 35e-3,
-        ball_radius: 6.25e-3,
-        inner_groove: GrooveSize::Radius(6.75e-3),
-        outer_groove: GrooveSize::Radius(6.75e-3),
-        contact_angle: 0.785,
-        ball_material: Material::STEEL,
-        groove_material: Material::STEEL,
-    })
-    .unwrap();
+    let bearing = BallBearing::new(races()).unwrap();
     let screw = bearing.as_ball_screw();
     assert_eq!(screw.path().torsion, 0.0);
     assert_eq!(screw.tan_lead_angle(), 0.0);
@@ -346,7 +336,7 @@ fn zero_lead_is_a_bearing() {
 #[test]
 fn mass_of_a_ball_is_its_volume_times_density() {
     let design = BallScrew::new(good()).unwrap();
-    let expected = 7800.0 * 4.0 / 3.0 * std::f64::consts::PI * 2.778e-3_f64.powi(3);
+    let expected = 7800.0 * 4.0 / 3.0 * std::f64::consts::PI * SCREW_TRACK.ball_radius.powi(3);
     // Five roundings of 2^-24.
     assert!((f64::from(design.ball_mass()) / expected - 1.0).abs() < 3e-7);
 }

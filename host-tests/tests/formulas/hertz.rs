@@ -1,13 +1,11 @@
 //! The contact ellipse: the reference against tabulated values, the crate against the reference.
 
+use crate::kit::designs::LINEAR_BEARING;
 use crate::kit::given;
 use crate::kit::measured;
 use epas_friction::geometry::Groove;
 use epas_friction::hertz::HertzContact;
-use epas_friction::{
-    BallScrew, CATALOGUE, DISSERTATION_DESIGNS, GrooveSize, LinearBearing, LinearBearingParameters,
-    Material,
-};
+use epas_friction::{BallScrew, CATALOGUE, DISSERTATION_DESIGNS, LinearBearing};
 use epas_reference::curvature;
 use epas_reference::hertz::{self, Hertz};
 use serde_json::Value;
@@ -206,14 +204,7 @@ fn designs_give_the_contact_of_their_surface() {
 /// 0.2321.
 #[test]
 fn linear_bearing_of_table_3_3() {
-    let design = LinearBearing::new(LinearBearingParameters {
-        ball_radius: 5e-3,
-        groove: GrooveSize::Conformity(0.56),
-        contact_angle: 45f32.to_radians(),
-        ball_material: Material::STEEL,
-        groove_material: Material::STEEL,
-    })
-    .unwrap();
+    let design = LinearBearing::new(LINEAR_BEARING).unwrap();
     let contact = HertzContact::of_linear(&design);
     // The fit's 1.02e-5 of it, and half a unit of the last digit.
     assert!((contact.axis_ratio() - 0.232_146_4).abs() < 2.5e-6);

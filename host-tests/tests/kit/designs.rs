@@ -2,7 +2,9 @@
 
 use std::f32::consts::FRAC_PI_4;
 
-use epas_friction::{BallScrew, BallScrewParameters, GrooveSize, Material};
+use epas_friction::{
+    BallScrew, BallScrewParameters, GrooveSize, LinearBearingParameters, Material,
+};
 use epas_reference::friction::ball_screw_ball::ScrewTrack;
 
 /// The ball screw of Lin 2019, Tables 2.1 and 3.6 (m); two turns hold 37 balls.
@@ -29,3 +31,12 @@ pub fn screw() -> BallScrew {
 
 /// Radius of its grooves, m.
 pub const SCREW_GROOVE_RADIUS: f64 = 3.254e-3;
+
+/// The linear bearing of Lin 2019, Table 3.3 (m).
+pub const LINEAR_BEARING: LinearBearingParameters = LinearBearingParameters {
+    ball_radius: 5e-3,
+    groove: GrooveSize::Conformity(0.56),
+    contact_angle: FRAC_PI_4,
+    ball_material: Material::STEEL,
+    groove_material: Material::STEEL,
+};

@@ -100,6 +100,8 @@ const TABLES: &[&[Measured]] = &[
     STATICS_STUDIES,
     STEADY_STATE,
     WHOLE_SCREW_REFERENCE,
+    SINES,
+    LONG_ROWS,
 ];
 
 /// `balls/screw_ball.rs`: orbital speeds over the nut's, the rest relative; forces of given pairs over the largest force
@@ -508,6 +510,8 @@ const SCREW_REFERENCE: &[Measured] = &[
     largest("closed forms of a screw, groove loss", 0.05, 0.043),
     largest("closed forms of a screw, orbital speed", 8e-3, 3.7e-3),
     largest("hostile balls of a screw, power balance", 2.5e-9, 1.5e-9),
+    largest("single balls of a screw, balance over the load", 6e-13, 2e-13),
+    largest("given contacts, moment in N m", 2.5e-16, 7.1e-17),
 ];
 
 /// `reference/chain_reference.rs`: speed deviations in units of half the track speed.
@@ -522,6 +526,13 @@ const CHAIN_REFERENCE: &[Measured] = &[
     largest("stored pairs, stuck true, speed deviation", 3e-7, 1.8e-7),
     largest("stored pairs, stuck false, contact force in N", 5e-9, 1.9e-9),
     largest("stored pairs, stuck false, speed deviation", 1e-11, 5.3e-12),
+    largest("balance of stored chains in N", 1.2e-12, 3.9e-13),
+    largest("balance of stored pairs in N", 2e-12, 5.2e-13),
+    largest("balance of sticking pairs in N", 1.5e-6, 9.5e-7),
+    largest("balance of reversed pairs in N", 9e-14, 2.7e-14),
+    largest("balance of rough pairs in N", 4e-13, 1.2e-13),
+    largest("balance of long chains in N", 8e-13, 2.6e-13),
+    largest("balance of chains at the switch in N", 3.5e-6, 2.2e-6),
 ];
 
 /// `reference/linear_ball_reference.rs`: speed deviations in units of half the track speed.
@@ -539,6 +550,8 @@ const LINEAR_REFERENCE: &[Measured] = &[
     largest("factor of the contact angle", 9e-3, 5.9e-3),
     largest("two-point contact, gap in W", 5e-9, 3.1e-9),
     largest("switch to rolling", 1e-5, 6.5e-6),
+    largest("balance of slipping linear balls", 1.5e-12, 4.1e-13),
+    largest("balance of sticking linear balls", 2.5e-7, 1.4e-7),
 ];
 
 /// `reference/rotary_reference.rs`, relative where no unit is given.
@@ -676,6 +689,17 @@ const STEADY_STATE: &[Measured] = &[
     largest("steady state, 10000 rpm, 211.3 N, corrected", 6e-4, 4.8e-4),
     largest("steady state, 10000 rpm, 21.13 N, closed form", 0.034, 0.026),
     largest("steady state, 10000 rpm, 21.13 N, corrected", 0.016, 0.014),
+    largest("steady state, eta", 1.5e-15, 4.5e-16),
+    largest("steady state, torque", 1.5e-15, 4.5e-16),
+    largest("steady state, Q_A", 1.5e-15, 4.5e-16),
+    largest("steady state, Q_B", 2e-15, 5.6e-16),
+    largest("steady state, Q_Ap", 6e-15, 1.8e-15),
+    largest("steady state, omega_n", 3e-15, 8.9e-16),
+    largest("steady state, omega_t", 2e-14, 6.3e-15),
+    largest("steady state, psi_A", 7e-16, 2.3e-16),
+    largest("steady state, psi_B", 6e-15, 2e-15),
+    largest("steady state, slip_A", 2e-14, 6.3e-15),
+    largest("steady state, slip_B", 6e-15, 2e-15),
 ];
 
 /// `reference/whole_screw_reference.rs`, relative where no unit is given.
@@ -687,4 +711,21 @@ const WHOLE_SCREW_REFERENCE: &[Measured] = &[
     largest("whole screw, groove torque over a turn", 4e-4, 1.9e-4),
     largest("whole screw, eight steps", 1.5e-3, 9.9e-4),
     largest("whole screw, one step", 9e-3, 5.7e-3),
+];
+
+/// `formulas/math_sweeps.rs`.
+#[rustfmt::skip]
+const SINES: &[Measured] = &[
+    largest("sine and cosine, rms over the bound", 0.12, 0.072),
+    largest("sine and cosine, mean over the bound", 2.5e-3, 1.5e-3),
+];
+
+/// `reference/long_chain.rs`: speeds in units of half the track speed, forces in N, the rest relative; found in the rows that
+/// settle.
+#[rustfmt::skip]
+const LONG_ROWS: &[Measured] = &[
+    largest("rows of balls, speed", 5e-4, 5.9e-6),
+    largest("rows of balls, force", 0.1, 0.016),
+    largest("rows of balls, power", 1e-4, 1.6e-5),
+    largest("rows of balls, loss", 5e-4, 2.8e-4),
 ];

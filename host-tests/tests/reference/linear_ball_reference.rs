@@ -65,10 +65,15 @@ fn check_laws(ball: &LinearBall, motion: &LinearMotion, speed: f64) {
     ];
     for row in rows {
         // A contact that sticks is as stiff as friction limit over rest speed, and rounding leaves 1e-7 of the load.
-        let bound = if motion.gap > 0.0 { 1e-6 } else { 1e-10 };
-        assert!(
-            row.abs() < bound * largest + 1e-300,
-            "unbalanced {rows:?} of {ball:?}"
+        let kind = if motion.gap > 0.0 {
+            "sticking"
+        } else {
+            "slipping"
+        };
+        measured::assert_at(
+            &format!("balance of {kind} linear balls"),
+            row / (largest + 1e-300),
+            format_args!("{rows:?} of {ball:?}"),
         );
     }
     // The top groove is the only input of power: it drives the ball with f_TR + f_TL at v.
@@ -249,6 +254,7 @@ fn table_3_5_analytical_force() {
         analytic_contact_force(eps, exact) - 3.912,
     );
     assert_eq!(analytic_contact_force([eps[1], eps[0]], s), 0.0);
+    // A few roundings of 1.1e-16.
     assert!((analytic_ball_slip(FRAC_PI_4, 1.0) - 2.0_f64.sqrt()).abs() < 1e-15);
 }
 

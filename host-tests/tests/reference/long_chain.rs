@@ -1,6 +1,7 @@
 //! Balls in a row in a linear bearing, up to 64 of them: the in-loop steps with the pooling pass against
 //! the exact chain, and where the power goes.
 
+use crate::kit::measured;
 use crate::kit::random::Random;
 use std::f64::consts::FRAC_PI_4;
 
@@ -112,12 +113,7 @@ fn settled<const N: usize>(row: &[LinearBall; N], ball_friction: f64) -> Settled
 /// moves the velocity centre by 1e-7 of a semi-axis, and what the last step leaves out of balance is of
 /// that order too. The stick treatment makes the loss small by (delta/w)² of the spin's share.
 fn errors<const N: usize>(row: &[LinearBall; N], ball_friction: f64) -> Result<[f64; 4], String> {
-    const BOUNDS: [(&str, f64); 4] = [
-        ("speed", 5e-4),
-        ("force", 0.1),
-        ("power", 1e-4),
-        ("loss", 5e-4),
-    ];
+    const NAMES: [&str; 4] = ["speed", "force", "power", "loss"];
     let exact = solve_chain(row, ball_friction, 1.0).map_err(|error| error.to_string())?;
     let Settled {
         chain,
@@ -135,7 +131,8 @@ fn errors<const N: usize>(row: &[LinearBall; N], ball_friction: f64) -> Result<[
         missing.abs(),
         (loss / exact.power_loss() - 1.0).abs(),
     ];
-    for (error, (name, bound)) in errors.into_iter().zip(BOUNDS) {
+    for (error, name) in errors.into_iter().zip(NAMES) {
+        let [bound, ..] = measured::of(&format!("rows of balls, {name}")).accepted;
         // False for NaN too.
         if !(error < bound) {
             return Err(format!("{name} off by {error}"));

@@ -216,7 +216,7 @@ proptest! {
         // What still changes in a turn is less than the speed over which friction is smoothed.
         prop_assert!(settled.drift < SMOOTHING, "{:?}", settled);
         let ball = rolling.ball;
-// 5e-7 of the loss, and the gyroscopic moment's part.
+        // 5e-7 of the loss, and the gyroscopic moment's part.
         prop_assert!((settled.efficiency - limit.efficiency).abs() < 1e-6, "{:?} {:?}", settled, limit);
         prop_assert!((settled.normal_screw / limit.normal_screw - 1.0).abs() < 1e-4);
         prop_assert!((settled.normal_nut / limit.normal_nut - 1.0).abs() < 1e-4);
@@ -225,8 +225,8 @@ proptest! {
 
         let useful = ball.axial_load * ball.pitch_radius * ball.lead_angle.tan() * ball.speed;
         let balance = settled.torque * ball.speed - useful - settled.friction_power;
-// At every instant exact but for roundings of 1.1e-16.
-        prop_assert!(balance.abs() < 1e-12 * useful.abs(), "{} of {}", balance, useful);
+        // The tolerance of the integration, whose states loads and power are formed from.
+        prop_assert!(balance.abs() < 1e-9 * useful.abs(), "{} of {}", balance, useful);
 
         let closed = closed(&ball);
         if ball.speed > 0.0 {
@@ -244,6 +244,7 @@ fn instants_of_a_run_are_those_of_the_motion() {
         let turns = 0.25 * (index + 1) as f64;
         assert!((instant.angle / (turns * std::f64::consts::TAU) - 1.0).abs() < 1e-12);
         let alone = rolling.settle(turns).unwrap();
+        // The same equations in steps of their own: what the integration leaves, as above.
         assert!((instant.efficiency - alone.efficiency).abs() < 1e-9);
         assert!((instant.normal_minor / alone.normal_minor - 1.0).abs() < 1e-6);
     }

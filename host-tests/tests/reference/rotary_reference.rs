@@ -91,6 +91,7 @@ fn stored_hertz_constants() {
     assert!((minor / 1.657e-5 - 1.0).abs() < 3.1e-4, "{minor:e}");
     assert!(HertzLaw::new(0.0, 1.0, 1e11, Eccentricity::Exact).is_err());
     assert!(HertzLaw::new(1.0, f64::NAN, 1e11, Eccentricity::Exact).is_err());
+    // Its root is sought to 1e-12 at worst.
     let circle = HertzLaw::new(0.01, 0.01, 1e11, Eccentricity::Exact).unwrap();
     assert!((circle.ellipse.axis_ratio - 1.0).abs() < 1e-9);
 }
@@ -275,6 +276,7 @@ fn coulomb_motion_balances() {
             torque / motion.friction_torque - 1.0,
             format_args!("{torque} {}", motion.friction_torque),
         );
+        // Mirrored: the same steps, and a rounding of the stopping rule at most.
         let back = physical.motion(&loads, 0.1, -INNER_SPEED).unwrap();
         assert!((back.orbital_speed + motion.orbital_speed).abs() < 1e-9);
         assert!((back.friction_torque + motion.friction_torque).abs() < 1e-9);

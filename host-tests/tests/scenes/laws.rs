@@ -125,13 +125,13 @@ proptest! {
         let driving = model.step(inputs(speed, load));
         if driving.regime == Regime::Driving && !driving.faults.any() && driving.load_torque > 0.0 {
             let (load, loss) = (f64::from(driving.load_torque), f64::from(driving.friction_torque));
-// Ten roundings of 2^-24.
-            prop_assert!((f64::from(driving.efficiency) * (load + loss) - load).abs() <= 6e-7 * (load + loss));
+            // Some thirty roundings of 2^-24: near its lock a screw magnifies those of the loss.
+            prop_assert!((f64::from(driving.efficiency) * (load + loss) - load).abs() <= 2e-6 * (load + loss));
         }
         let back = model.step(inputs(speed, -load));
         if back.regime == Regime::BackDriving && !back.faults.any() {
             let (load, loss) = (-f64::from(back.load_torque), f64::from(back.friction_torque));
-            prop_assert!((f64::from(back.efficiency) * load - (load - loss)).abs() <= 6e-7 * load);
+            prop_assert!((f64::from(back.efficiency) * load - (load - loss)).abs() <= 2e-6 * load);
         }
     }
 
@@ -164,7 +164,7 @@ proptest! {
         let load = random.size(1.0, 1e4);
         let small = HertzContact::checked(first, second, 2e11).unwrap().at(load);
         let large = HertzContact::checked(8.0 * first, 8.0 * second, 2e11).unwrap().at(64.0 * load);
-// Both differ by powers of two, but for three roundings of 2^-24.
+        // Both differ by powers of two, but for three roundings of 2^-24.
         prop_assert!((small.max_pressure / large.max_pressure - 1.0).abs() < 2e-7);
         prop_assert!((8.0 * small.semi_major / large.semi_major - 1.0).abs() < 2e-7);
     }
@@ -186,7 +186,7 @@ proptest! {
         // Mirrored, the diagonals change places.
         model.reset();
         let mirrored = model.step(inputs(speed, 1.0, -side));
-// Three roundings of 2^-24: sums in another order.
+        // Three roundings of 2^-24: sums in another order.
         prop_assert!((there.friction_force - mirrored.friction_force).abs() <= 2e-7 * there.friction_force.abs());
         model.reset();
         let heavy = model.step(inputs(speed, more, side));
@@ -217,6 +217,7 @@ proptest! {
             BallScrew::new(parameters)
         };
         let torque = scale * scale * scale;
+        // Cube roots of loads and the series of the ellipse err by some 1e-5, differently in each octave.
         let alike = |one: f32, other: f32| {
             (one * torque - other).abs() <= 2e-4 * (one * torque).abs() + 1e-30
         };
@@ -235,6 +236,7 @@ proptest! {
             let other = large.step(inputs(speed, scale * scale * load));
             let faults = one.faults.any() || other.faults.any();
             prop_assert!(faults || alike(one.friction_torque, other.friction_torque), "{one:?} {other:?}");
+            // Half of what the torques may differ by.
             prop_assert!(faults || (one.efficiency - other.efficiency).abs() <= 1e-4 * one.efficiency.abs());
         }
 
