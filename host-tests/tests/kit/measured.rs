@@ -279,7 +279,7 @@ const UNCAGED: &[Measured] = &[
     largest("whole screw, rubbing of the pairs", 1e-4, 2.6e-7),
 ];
 
-/// `balls/linear_ball.rs`: speed deviations in units of half the track speed, losses relative.
+/// `balls/linear_ball.rs`: speed deviations in units of half the track speed, forces of pairs and chains in N, losses relative.
 #[rustfmt::skip]
 const LINEAR_BALL: &[Measured] = &[
     largest("four-point, (3.43)", 4.2e-3, 4.1e-3),
@@ -713,7 +713,7 @@ const WHOLE_SCREW_REFERENCE: &[Measured] = &[
     largest("whole screw, one step", 9e-3, 5.7e-3),
 ];
 
-/// `formulas/math_sweeps.rs`.
+/// `formulas/math_sweeps.rs`: over the bound of the largest error.
 #[rustfmt::skip]
 const SINES: &[Measured] = &[
     largest("sine and cosine, rms over the bound", 0.12, 0.072),
