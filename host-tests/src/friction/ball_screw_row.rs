@@ -1,0 +1,398 @@
+//! A row of touching balls in a ball screw: each in elastic balance in both gothic grooves under its own axial load, with Coulomb friction by
+//! exact contact integrals, and pressing on its neighbours.
+//!
+//! Every ball finds its own place in the cross section (the screw floats axially under each ball, so that loads are given, not shares of
+//! one displacement). The clearance has a sign: the radial gap of every contact at the centred ball and the unloaded screw, play above
+//! zero, oversize below. Grooves may be turned: the arc centres of one groove by one angle each way, the gaps unchanged.
+//!
+//! The forces between balls are those of a complementarity problem on the actual speeds: `F >= 0`, no ball overtakes the one in front,
+//! and where a force is not zero the two speeds are equal. A ball's speed rises strictly with the force that pushes it, so that the solution
+//! is unique: it is the isotonic regression of the free speeds, each ball with its own nonlinear law.
+//!
+//! Left out: the part of the force between two balls that points away from the track (`sin b` of it, 7 to 17 %), which moves them outward in
+//! their grooves, and what a ball's rotation adds to it. Friction of a contact that sticks is smoothed over a spin of 1e-4 of the nut's speed.
+//!
+//! Source: Lin 2019, eqs. (2.11) to (2.14), (3.65) to (3.77), the last as complementarity on the actual speeds.
+
+use nalgebra::{SMatrix, Vector4};
+
+use super::ball_screw_ball::{ScrewMotion, dimensional};
+use super::ball_screw_grooves::ElasticGrooves;
+use super::ball_screw_placed::{BallState, Drive, PlacedBall, Rubbing, STICK_SPIN, Solved};
+use super::ball_screw_settle::settle;
+use super::isotonic::pool_adjacent_violators;
+use crate::curvature::Groove;
+use crate::design::BallScrewDesign;
+use crate::error::{ReferenceError, within};
+
+/// A ball of the row, as the grooves meet it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RowBall {
+    /// How far the arc centres of the screw's groove are turned, rad: contact angles `SL = beta - screw_deviation`, `SR = beta + screw_deviation`.
+    pub screw_deviation: f64,
+    /// The same of the nut's groove: `NL = beta - nut_deviation`, `NR = beta + nut_deviation`.
+    pub nut_deviation: f64,
+    /// Axial force of the screw on the ball, N: positive carried by SL and NR, negative by SR and NL; not zero.
+    pub axial_load: f64,
+}
+
+/// A row of balls, rear to front in the direction of orbiting; all neighbours touch.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ElasticRow {
+    /// Screw, with one groove radius and one material of both grooves.
+    pub design: BallScrewDesign,
+    /// Radial gap of every contact at the centred ball and the unloaded screw, m: play above zero, oversize below.
+    pub clearance: f64,
+    /// Friction coefficient of the grooves, 0.001 to 1.
+    pub friction: f64,
+    /// Friction coefficient between the balls, 0 to 1.
+    pub ball_friction: f64,
+    /// Angular velocity of the nut, rad/s; not zero.
+    pub nut_speed: f64,
+    /// Balls.
+    pub balls: Vec<RowBall>,
+}
+
+/// One ball of the solution.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RowBallMotion {
+    /// Motion, and friction of the contacts that carry.
+    pub motion: ScrewMotion,
+    /// Loads of SL, SR, NL, NR, N.
+    pub loads: [f64; 4],
+    /// Ball centre in the cross section, x and z, m.
+    pub position: [f64; 2],
+    /// Axial displacement of the screw, m.
+    pub screw_displacement: f64,
+    /// Force of the neighbours on the ball in the direction of orbiting, N.
+    pub force: f64,
+}
+
+/// Solution of a row.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RowMotion {
+    /// Every ball by itself, no neighbour pressing.
+    pub free: Vec<RowBallMotion>,
+    /// The balls as they press.
+    pub pressing: Vec<RowBallMotion>,
+    /// Forces between neighbours, N; zero where they part.
+    pub contact_forces: Vec<f64>,
+    /// Power lost in rubbing between balls, W.
+    pub ball_loss: f64,
+    /// Power that the nut puts in less all that is lost, over all that is lost.
+    pub power_error: f64,
+    /// Largest unbalanced force of a ball, N.
+    pub residual: f64,
+}
+
+impl RowMotion {
+    /// Power lost in the grooves while the balls press, W.
+    pub fn groove_loss(&self) -> f64 {
+        self.pressing.iter().map(|b| b.motion.power_loss).sum()
+    }
+
+    /// Power lost in the grooves while no ball presses, W.
+    pub fn free_groove_loss(&self) -> f64 {
+        self.free.iter().map(|b| b.motion.power_loss).sum()
+    }
+}
+
+/// Largest error of the power balance that is accepted.
+const POWER_ERROR: f64 = 1e-8;
+/// Change of the speeds over the nut's speed at which the row has settled.
+const SETTLED: f64 = 1e-13;
+/// Largest difference of speeds, over the nut's speed, that is accepted of balls that press.
+const UNEQUAL: f64 = 1e-11;
+/// Passes over the row: a few by Newton's method on all forces, more where balls rub against each other.
+const PASSES: usize = 200;
+
+impl ElasticRow {
+    /// Solves the row: every ball alone, then pressing.
+    ///
+    /// # Errors
+    /// [`ReferenceError`] naming an input out of range; [`ReferenceError::Standstill`] at `nut_speed = 0`; [`ReferenceError::Undriven`] where a
+    /// ball has no axial load; [`ReferenceError::NotConverged`] where a ball's balance, the balance of power or the complementarity of the
+    /// forces is not met: there is no answer then, and never a wrong one.
+    pub fn solve(&self) -> Result<RowMotion, ReferenceError> {
+        let grooves = self.grooves()?;
+        let way = self.nut_speed.signum();
+        let mut balls: Vec<PlacedBall<'_>> = grooves
+            .iter()
+            .zip(&self.balls)
+            .map(|(grooves, ball)| PlacedBall {
+                grooves,
+                friction: self.friction,
+                way,
+                axial_load: ball.axial_load,
+                rubbing: Rubbing::default(),
+            })
+            .collect();
+        let free = balls
+            .iter()
+            .map(|ball| settle(ball, Drive::Force(0.0), None))
+            .collect::<Result<Vec<_>, _>>()?;
+        let (pressing, contact_forces) = self.press(&mut balls, &free)?;
+
+        let residual = free
+            .iter()
+            .chain(&pressing)
+            .map(|solved| solved.residual)
+            .fold(0.0, f64::max);
+        let ball_loss = self.ball_loss(&balls, &pressing, &contact_forces);
+        let result = RowMotion {
+            free: self.results(&balls, &free),
+            pressing: self.results(&balls, &pressing),
+            power_error: self.power_error(&balls, &pressing, ball_loss),
+            contact_forces,
+            ball_loss,
+            residual,
+        };
+        if result.power_error.abs() <= POWER_ERROR {
+            Ok(result)
+        } else {
+            Err(ReferenceError::NotConverged {
+                residual: result.power_error,
+                unit: "of the power lost",
+            })
+        }
+    }
+
+    /// Grooves of every ball, after a check of all inputs.
+    fn grooves(&self) -> Result<Vec<ElasticGrooves>, ReferenceError> {
+        within("friction", self.friction, 1e-3, 1.0)?;
+        within("ball_friction", self.ball_friction, 0.0, 1.0)?;
+        within("nut_speed", self.nut_speed, -1e6, 1e6)?;
+        if self.nut_speed == 0.0 {
+            return Err(ReferenceError::Standstill);
+        }
+        within("balls", self.balls.len() as f64, 1.0, 1e4)?;
+        let radius = self.design.ball_radius;
+        within("clearance", self.clearance, -0.05 * radius, 0.2 * radius)?;
+        if self.design.screw_groove_radius != self.design.nut_groove_radius {
+            return Err(ReferenceError::input(
+                "nut_groove_radius",
+                "is not that of the screw's groove",
+            ));
+        }
+        let screw = self.design.contact(Groove::Screw)?.into();
+        let nut = self.design.contact(Groove::Nut)?.into();
+        self.balls
+            .iter()
+            .map(|ball| {
+                within("screw_deviation", ball.screw_deviation, -0.2, 0.2)?;
+                within("nut_deviation", ball.nut_deviation, -0.2, 0.2)?;
+                within("axial_load", ball.axial_load, -1e6, 1e6)?;
+                if ball.axial_load == 0.0 {
+                    return Err(ReferenceError::Undriven);
+                }
+                let angle = self.design.contact_angle;
+                let grooves = ElasticGrooves {
+                    track: (&self.design).into(),
+                    groove_radius: self.design.screw_groove_radius,
+                    arc_angles: [
+                        angle - ball.screw_deviation,
+                        angle + ball.screw_deviation,
+                        angle - ball.nut_deviation,
+                        angle + ball.nut_deviation,
+                    ],
+                    screw,
+                    nut,
+                    oversize: -self.clearance,
+                };
+                grooves
+                    .check()
+                    .map_err(|error| error.renamed("contact_angle"))?;
+                Ok(grooves)
+            })
+            .collect()
+    }
+
+    /// Forces between balls: Newton's method on the balls' laws of speed and force, each step by pooling, until nothing changes.
+    fn press(
+        &self,
+        balls: &mut [PlacedBall<'_>],
+        free: &[Solved],
+    ) -> Result<(Vec<Solved>, Vec<f64>), ReferenceError> {
+        let mut now = free.to_vec();
+        let mut forces = vec![0.0; free.len().saturating_sub(1)];
+        let mut damping = 1.0;
+        let mut last_change = f64::INFINITY;
+        for _ in 0..PASSES {
+            let speeds: Vec<f64> = now.iter().map(|b| b.state.motion[0]).collect();
+            let unforced: Vec<f64> = now
+                .iter()
+                .map(|b| b.state.motion[0] - b.state.force / b.stiffness)
+                .collect();
+            let compliance: Vec<f64> = now.iter().map(|b| 1.0 / b.stiffness).collect();
+            if compliance.iter().any(|y| !(*y > 0.0)) {
+                return Err(ReferenceError::unbalanced(f64::NAN));
+            }
+            let (wanted, found) = pool_adjacent_violators(&unforced, &compliance);
+            let change = wanted
+                .iter()
+                .zip(&speeds)
+                .map(|(a, b)| (a - b).abs())
+                .fold(0.0, f64::max);
+            forces = found;
+            if change <= SETTLED {
+                return self.checked(now, forces);
+            }
+            // Where laws bend so much that steps grow, half of a step is taken.
+            damping = if change > 0.9 * last_change {
+                f64::max(0.5 * damping, 1e-3)
+            } else {
+                f64::min(1.5 * damping, 1.0)
+            };
+            last_change = change;
+            self.rub(balls, &now, &forces);
+            for ((ball, solved), (want, have)) in
+                balls.iter().zip(&mut now).zip(wanted.iter().zip(&speeds))
+            {
+                let speed = have + damping * (want - have);
+                *solved = settle(ball, Drive::Speed(speed), Some(&solved.state))?;
+            }
+        }
+        if last_change <= 1e3 * SETTLED {
+            return self.checked(now, forces);
+        }
+        Err(ReferenceError::NotConverged {
+            residual: last_change,
+            unit: "of the nut's speed",
+        })
+    }
+
+    /// Complementarity on what was found: the forces from the balls' own balances push or are zero, no ball overtakes, and those that
+    /// press are equally fast.
+    fn checked(
+        &self,
+        balls: Vec<Solved>,
+        mut forces: Vec<f64>,
+    ) -> Result<(Vec<Solved>, Vec<f64>), ReferenceError> {
+        let largest = forces.iter().copied().fold(0.0, f64::max);
+        let load = self
+            .balls
+            .iter()
+            .map(|b| b.axial_load.abs())
+            .fold(0.0, f64::max);
+        let allowed = 1e-7 * largest + 1e-9 * load;
+        let mut sum = 0.0;
+        for (index, ball) in balls.iter().enumerate() {
+            sum -= ball.state.force;
+            let force = forces.get(index).copied().unwrap_or(0.0);
+            let ahead = balls.get(index + 1);
+            let overtakes = ahead.map_or(0.0, |a| ball.state.motion[0] - a.state.motion[0]);
+            let unequal = if force > allowed {
+                overtakes.abs()
+            } else {
+                overtakes
+            };
+            if (sum - force).abs() > allowed || unequal > UNEQUAL {
+                return Err(ReferenceError::NotConverged {
+                    residual: (sum - force).abs(),
+                    unit: "N between balls",
+                });
+            }
+        }
+        for force in &mut forces {
+            *force = force.max(0.0);
+        }
+        Ok((balls, forces))
+    }
+
+    /// Puts the friction between neighbours on the balls.
+    fn rub(&self, balls: &mut [PlacedBall<'_>], now: &[Solved], forces: &[f64]) {
+        if self.ball_friction == 0.0 {
+            return;
+        }
+        let Some(first) = balls.first() else { return };
+        let track = first.grooves.track;
+        let way = first.way;
+        let (_, cos_b) = track.ball_contact_angle();
+        let slips = track.slip_between(way);
+        for ball in balls.iter_mut() {
+            ball.rubbing = Rubbing::default();
+        }
+        for (index, force) in forces.iter().enumerate() {
+            let slip = slip(&slips, &now[index].state, &now[index + 1].state);
+            let pull = slip * (-self.ball_friction * force / slip.norm().max(1e-12));
+            for (place, of, side) in [(index, slips[0], 1.0), (index + 1, slips[1], -1.0)] {
+                let rubbing = &mut balls[place].rubbing;
+                rubbing.motion += of.transpose() * pull;
+                rubbing.in_plane[0] += side * cos_b * pull.y;
+                rubbing.in_plane[1] += side * pull.x;
+            }
+        }
+    }
+
+    fn ball_loss(&self, balls: &[PlacedBall<'_>], now: &[Solved], forces: &[f64]) -> f64 {
+        let Some(first) = balls.first() else {
+            return 0.0;
+        };
+        let track = &first.grooves.track;
+        let slips = track.slip_between(first.way);
+        let sum: f64 = now
+            .windows(2)
+            .zip(forces)
+            .map(|(pair, force)| force * slip(&slips, &pair[0].state, &pair[1].state).norm())
+            .sum();
+        self.ball_friction * sum * track.ball_radius * self.nut_speed.abs()
+    }
+
+    /// What the nut puts in less what is lost, over the latter.
+    fn power_error(&self, balls: &[PlacedBall<'_>], now: &[Solved], ball_loss: f64) -> f64 {
+        let (mut put_in, mut lost) = (0.0, 0.0);
+        for (ball, solved) in balls.iter().zip(now) {
+            let rows = ball.rows(&solved.state.place).unwrap_or_default();
+            put_in += ball.power_in(&rows, &solved.state.motion);
+            for row in &rows {
+                lost += self.friction
+                    * row
+                        .local(&solved.state.motion, STICK_SPIN)
+                        .gradient
+                        .dot(&row.velocity(&solved.state.motion));
+            }
+        }
+        lost += ball_loss / (self.design.ball_radius * self.nut_speed.abs());
+        (put_in - lost) / lost
+    }
+
+    fn results(&self, balls: &[PlacedBall<'_>], solved: &[Solved]) -> Vec<RowBallMotion> {
+        balls
+            .iter()
+            .zip(solved)
+            .map(|(ball, solved)| {
+                let BallState {
+                    place,
+                    motion,
+                    force,
+                } = solved.state;
+                let rows = ball.rows(&place).unwrap_or_default();
+                RowBallMotion {
+                    motion: dimensional(
+                        &ball.grooves.track,
+                        &rows,
+                        &motion,
+                        STICK_SPIN,
+                        self.friction,
+                        self.nut_speed,
+                        solved.residual / self.friction,
+                    ),
+                    loads: ball.loads(&place),
+                    position: [place.x, place.y],
+                    screw_displacement: place.z,
+                    force,
+                }
+            })
+            .collect()
+    }
+}
+
+/// Slip between a ball and the one in front of it over `R_B w_N`.
+fn slip(
+    slips: &[SMatrix<f64, 2, 4>; 2],
+    rear: &BallState,
+    front: &BallState,
+) -> nalgebra::Vector2<f64> {
+    let of = |part: &SMatrix<f64, 2, 4>, motion: &Vector4<f64>| part * motion;
+    of(&slips[0], &rear.motion) + of(&slips[1], &front.motion)
+}
