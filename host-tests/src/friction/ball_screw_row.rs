@@ -20,7 +20,7 @@ use super::ball_screw_ball::{ScrewMotion, dimensional};
 use super::ball_screw_grooves::ElasticGrooves;
 use super::ball_screw_placed::{BallState, Drive, PlacedBall, Rubbing, STICK_SPIN, Solved};
 use super::ball_screw_settle::settle;
-use super::isotonic::pool_adjacent_violators;
+use super::ball_screw_press::pressed;
 use crate::curvature::Groove;
 use crate::design::BallScrewDesign;
 use crate::error::{ReferenceError, within};
@@ -99,12 +99,10 @@ impl RowMotion {
 
 /// Largest error of the power balance that is accepted.
 const POWER_ERROR: f64 = 1e-8;
-/// Change of the speeds over the nut's speed at which the row has settled.
-const SETTLED: f64 = 1e-13;
 /// Largest difference of speeds, over the nut's speed, that is accepted of balls that press.
 const UNEQUAL: f64 = 1e-11;
-/// Passes over the row: a few by Newton's method on all forces, more where balls rub against each other.
-const PASSES: usize = 200;
+/// Passes in which the friction between balls settles.
+const PASSES: usize = 60;
 
 impl ElasticRow {
     /// Solves the row: every ball alone, then pressing.
@@ -207,58 +205,31 @@ impl ElasticRow {
             .collect()
     }
 
-    /// Forces between balls: Newton's method on the balls' laws of speed and force, each step by pooling, until nothing changes.
+    /// Forces between balls, with the friction between them from the pass before.
     fn press(
         &self,
         balls: &mut [PlacedBall<'_>],
         free: &[Solved],
     ) -> Result<(Vec<Solved>, Vec<f64>), ReferenceError> {
-        let mut now = free.to_vec();
         let mut forces = vec![0.0; free.len().saturating_sub(1)];
-        let mut damping = 1.0;
-        let mut last_change = f64::INFINITY;
+        let mut now = free.to_vec();
+        let mut change = f64::INFINITY;
         for _ in 0..PASSES {
-            let speeds: Vec<f64> = now.iter().map(|b| b.state.motion[0]).collect();
-            let unforced: Vec<f64> = now
-                .iter()
-                .map(|b| b.state.motion[0] - b.state.force / b.stiffness)
-                .collect();
-            let compliance: Vec<f64> = now.iter().map(|b| 1.0 / b.stiffness).collect();
-            if compliance.iter().any(|y| !(*y > 0.0)) {
-                return Err(ReferenceError::unbalanced(f64::NAN));
+            now = pressed(balls, &now)?;
+            let mut sum = 0.0;
+            change = 0.0;
+            for (force, ball) in forces.iter_mut().zip(&now) {
+                sum -= ball.state.force;
+                change = f64::max(change, (sum - *force).abs());
+                *force = sum;
             }
-            let (wanted, found) = pool_adjacent_violators(&unforced, &compliance);
-            let change = wanted
-                .iter()
-                .zip(&speeds)
-                .map(|(a, b)| (a - b).abs())
-                .fold(0.0, f64::max);
-            forces = found;
-            if change <= SETTLED {
+            let largest = forces.iter().copied().fold(0.0, f64::max);
+            if self.ball_friction == 0.0 || change <= 1e-10 * largest {
                 return self.checked(now, forces);
             }
-            // Where laws bend so much that steps grow, half of a step is taken.
-            damping = if change > 0.9 * last_change {
-                f64::max(0.5 * damping, 1e-3)
-            } else {
-                f64::min(1.5 * damping, 1.0)
-            };
-            last_change = change;
             self.rub(balls, &now, &forces);
-            for ((ball, solved), (want, have)) in
-                balls.iter().zip(&mut now).zip(wanted.iter().zip(&speeds))
-            {
-                let speed = have + damping * (want - have);
-                *solved = settle(ball, Drive::Speed(speed), Some(&solved.state))?;
-            }
         }
-        if last_change <= 1e3 * SETTLED {
-            return self.checked(now, forces);
-        }
-        Err(ReferenceError::NotConverged {
-            residual: last_change,
-            unit: "of the nut's speed",
-        })
+        Err(ReferenceError::unbalanced(change))
     }
 
     /// Complementarity on what was found: the forces from the balls' own balances push or are zero, no ball overtakes, and those that
@@ -275,23 +246,23 @@ impl ElasticRow {
             .map(|b| b.axial_load.abs())
             .fold(0.0, f64::max);
         let allowed = 1e-7 * largest + 1e-9 * load;
-        let mut sum = 0.0;
-        for (index, ball) in balls.iter().enumerate() {
-            sum -= ball.state.force;
-            let force = forces.get(index).copied().unwrap_or(0.0);
-            let ahead = balls.get(index + 1);
-            let overtakes = ahead.map_or(0.0, |a| ball.state.motion[0] - a.state.motion[0]);
-            let unequal = if force > allowed {
-                overtakes.abs()
-            } else {
-                overtakes
-            };
-            if (sum - force).abs() > allowed || unequal > UNEQUAL {
+        let unpaid: f64 = balls.iter().map(|ball| ball.state.force).sum();
+        let mut worst = unpaid.abs();
+        for (pair, force) in balls.windows(2).zip(&forces) {
+            worst = worst.max(-force);
+            let overtakes = pair[0].state.motion[0] - pair[1].state.motion[0];
+            if overtakes > UNEQUAL || *force > allowed && overtakes < -UNEQUAL {
                 return Err(ReferenceError::NotConverged {
-                    residual: (sum - force).abs(),
-                    unit: "N between balls",
+                    residual: overtakes,
+                    unit: "of the nut's speed",
                 });
             }
+        }
+        if !(worst <= allowed) {
+            return Err(ReferenceError::NotConverged {
+                residual: worst,
+                unit: "N between balls",
+            });
         }
         for force in &mut forces {
             *force = force.max(0.0);

@@ -100,3 +100,47 @@ fn stored_pairs() {
     }
     println!("{worst:?}");
 }
+
+/// A pair over the whole range of fits, loads and deviations, on either stored design.
+fn random_row(random: &mut Random, all: &Value, balls: usize) -> ElasticRow {
+    let side = f64::from(random.sign());
+    let name = random.of(&["lin36", "b25x10"]);
+    let turned = 3.0_f64.to_radians();
+    ElasticRow {
+        design: design(all, name),
+        clearance: random.between(-5e-6, 10e-6),
+        friction: random.between(0.03, 0.15),
+        ball_friction: 0.0,
+        nut_speed: TAU * f64::from(random.sign()),
+        balls: (0..balls)
+            .map(|_| RowBall {
+                screw_deviation: turned * random.signed(),
+                nut_deviation: turned * random.signed(),
+                axial_load: side * 5.0 * 60.0_f64.powf(random.between(0.0, 1.0)),
+            })
+            .collect(),
+    }
+}
+
+#[test]
+#[ignore = "minutes"]
+fn random_pairs() {
+    let all = golden();
+    let mut random = Random(1);
+    let (mut solved, mut asked) = (0, 0);
+    let start = std::time::Instant::now();
+    for k in 0..120 {
+        let t = std::time::Instant::now();
+        let row = random_row(&mut random, &all, 2);
+        asked += 1;
+        match row.solve() {
+            Ok(found) => {
+                solved += 1;
+                if !(found.residual < 1e-7 && found.power_error.abs() < 1e-9) { println!("WEAK {:e} {:e}", found.residual, found.power_error); }
+            }
+            Err(error) => println!("{error}: mu {} g {} w {} {:?}", row.friction, row.clearance*1e6, row.nut_speed, row.balls),
+        }
+        if t.elapsed().as_secs_f64() > 0.3 { println!("SLOW {k} {:?}", t.elapsed()); }
+    }
+    println!("{solved} of {asked} in {:?}", start.elapsed());
+}
