@@ -3,11 +3,10 @@
 
 use std::ops::Range;
 
-use roots::{SimpleConvergency, find_root_brent};
-
 use super::ball_screw_placed::{Drive, PlacedBall, Solved};
 use super::ball_screw_settle::settle;
 use super::isotonic::pool_adjacent_violators;
+use super::newton::root_between;
 use crate::error::ReferenceError;
 
 /// Change of the speeds over the nut's speed at which the row has settled: rounding of a speed a hundred times.
@@ -18,7 +17,7 @@ const STEPS: usize = 12;
 /// Balls at the speeds and forces at which they press, from where they are `now`.
 ///
 /// Newton's method: laws replaced by their tangents, tangents pooled. Where a ball's law bends too much for that (a race that sticks), by
-/// pooling of the laws themselves, every cluster's speed found by Brent's method between the speeds of the two that joined.
+/// pooling of the laws themselves, every cluster's speed found by false position between the speeds of the two that joined.
 pub(crate) fn pressed(
     balls: &[PlacedBall<'_>],
     now: &[Solved],
@@ -93,8 +92,9 @@ fn joined(
     now: &mut [Solved],
     (slow, fast): (f64, f64),
 ) -> Result<f64, ReferenceError> {
+    let load: f64 = balls.iter().map(|ball| ball.axial_load.abs()).sum();
     let mut failed = None;
-    let mut sum = |speed: f64| {
+    let root = root_between((slow, fast), (SETTLED, 1e-11 * load), |speed| {
         let mut sum = 0.0;
         for (ball, solved) in balls.iter().zip(now.iter_mut()) {
             match settle(ball, Drive::Speed(speed), Some(&solved.state)) {
@@ -104,21 +104,11 @@ fn joined(
                 }
                 Err(error) => {
                     failed = Some(error);
-                    return f64::NAN;
+                    return None;
                 }
             }
         }
-        sum
-    };
-    let mut convergency = SimpleConvergency {
-        eps: SETTLED,
-        max_iter: 200,
-    };
-    let root = find_root_brent(slow, fast, &mut sum, &mut convergency);
-    let left = root.as_ref().map_or(f64::NAN, |speed| sum(*speed));
-    match (root, failed) {
-        (Ok(speed), None) => Ok(speed),
-        (_, Some(error)) => Err(error),
-        (Err(_), None) => Err(ReferenceError::unbalanced(left)),
-    }
+        Some(sum)
+    });
+    root.ok_or_else(|| failed.unwrap_or_else(|| ReferenceError::unbalanced(f64::NAN)))
 }

@@ -7,13 +7,12 @@
 //! either sign, and where both light contacts are open and one race sticks.
 
 use nalgebra::{SMatrix, Vector3, Vector4};
-use roots::{SimpleConvergency, find_root_brent};
 
 use super::ball_screw_ball::{ScrewRow, ball_dissipation, rolling};
 use super::ball_screw_placed::{
     BallState, Drive, PlacedBall, STICK_SPIN, Solved, main_direction,
 };
-use super::newton::{Local, Minimum, minimise};
+use super::newton::{Local, Minimum, minimise, root_between};
 use crate::error::ReferenceError;
 
 /// Solves one ball: from `hint` where it leads there, or else from nothing.
@@ -36,8 +35,14 @@ pub(crate) fn settle(
     if let Some(solved) = search.guess().and_then(|start| accepted(&start)) {
         return Ok(solved);
     }
-    if let Some(solved) = search.bracketed().and_then(|start| accepted(&start)) {
-        return Ok(solved);
+    // A coarse search and Newton's method are cheaper than a fine search.
+    for tolerance in [1e-3, 1e-10] {
+        if let Some(solved) = search
+            .bracketed(tolerance)
+            .and_then(|start| accepted(&start))
+        {
+            return Ok(solved);
+        }
     }
     Err(ReferenceError::unbalanced(best))
 }
@@ -138,7 +143,7 @@ impl<'a> Search<'a> {
         let mut place = from.map(|state| state.place);
         let mut motion = from.map_or_else(|| rolling(&ball.grooves.track), |state| state.motion);
         let mut friction = Vector3::new(ax * push, az * push, 0.0);
-        for _ in 0..60 {
+        for round in 0..120 {
             let there = self.place(&friction, place.as_ref())?;
             let rows = ball.rows(&there)?;
             let force;
@@ -149,7 +154,8 @@ impl<'a> Search<'a> {
             let missing = push - answer;
             let next = found + Vector3::new(ax * missing, az * missing, 0.0);
             let change = (next - friction).amax();
-            friction = next;
+            // Where a contact that sticks answers its own load, rounds swing about the end.
+            friction = if round < 15 { next } else { (friction + next) * 0.5 };
             if change <= 1e-9 * ball.friction * ball.axial_load.abs() {
                 let state = BallState {
                     place: there,
@@ -193,26 +199,20 @@ impl<'a> Search<'a> {
         2.0 * self.ball.friction * self.ball.loads(frictionless).iter().sum::<f64>()
     }
 
-    /// The push that answers itself, between its bounds.
-    fn bracketed(&self) -> Option<BallState> {
+    /// The push that answers itself, between its bounds, to a tolerance over them.
+    fn bracketed(&self, tolerance: f64) -> Option<BallState> {
         let frictionless = self.place(&Vector3::zeros(), None)?;
         let bound = self.bound(&frictionless);
         let mut last = None;
-        let excess = |push: f64| {
-            let found = self
+        let tolerance = tolerance * bound;
+        root_between((-bound, bound), (tolerance, tolerance), |push| {
+            let (state, answer) = self
                 .under(push, last.as_ref())
-                .or_else(|| self.under(push, None));
-            last = found.map(|(state, _)| state);
-            found.map_or(f64::NAN, |(_, answer)| answer - push)
-        };
-        let mut convergency = SimpleConvergency {
-            eps: 1e-10 * bound,
-            max_iter: 100,
-        };
-        let push = find_root_brent(-bound, bound, excess, &mut convergency).ok()?;
-        self.under(push, last.as_ref())
-            .or_else(|| self.under(push, None))
-            .map(|(state, _)| state)
+                .or_else(|| self.under(push, None))?;
+            last = Some(state);
+            Some(answer - push)
+        })?;
+        last
     }
 }
 
