@@ -7,7 +7,7 @@ use nalgebra::{Matrix4, SMatrix, Vector3, Vector4};
 
 use super::linear_ball::EllipseLaw;
 use super::newton::{Local, Minimum, minimise, sharpen};
-use super::patch::{Patch, PatchVelocity};
+use super::patch::{Integration, Patch, PatchVelocity};
 use crate::curvature;
 use crate::design::BallScrewDesign;
 use crate::error::{ReferenceError, within};
@@ -193,6 +193,7 @@ pub(crate) struct ScrewRow {
     pub patch: Patch,
     pub rows: SMatrix<f64, 3, 4>,
     pub base: Vector3<f64>,
+    pub integration: Integration,
 }
 
 impl ScrewRow {
@@ -231,6 +232,7 @@ impl ScrewRow {
             patch,
             rows,
             base,
+            integration: Integration::Full,
         })
     }
 
@@ -250,11 +252,12 @@ impl ScrewRow {
         }
         let smooth = v.z.hypot(rest_spin);
         let share = if smooth > 0.0 { v.z / smooth } else { 0.0 };
-        let here = self.patch.friction(PatchVelocity {
+        let velocity = PatchVelocity {
             slip_major: v.x,
             slip_minor: v.y,
             spin: smooth,
-        });
+        };
+        let here = self.patch.friction_by(velocity, self.integration);
         let mut gradient = Vector3::from(here.gradient);
         let mut hessian = SMatrix::<f64, 3, 3>::from_fn(|i, j| here.hessian[i][j]);
         let moment = gradient.z;

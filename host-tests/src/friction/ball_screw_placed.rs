@@ -11,6 +11,7 @@ use nalgebra::{SMatrix, SVector, Vector3, Vector4};
 
 use super::ball_screw_ball::{Groove, ScrewRow};
 use super::ball_screw_grooves::ElasticGrooves;
+use super::patch::Integration;
 
 /// Spin over which friction of a contact that sticks is smoothed, over the nut's speed.
 pub(crate) const STICK_SPIN: f64 = 1e-4;
@@ -66,6 +67,7 @@ pub(crate) struct PlacedBall<'a> {
     pub axial_load: f64,
     /// From the neighbours.
     pub rubbing: Rubbing,
+    pub integration: Integration,
 }
 
 /// Unbalanced forces, N: x, z, axial, along the track (times path over ball radius), moments over the ball radius.
@@ -84,7 +86,13 @@ impl PlacedBall<'_> {
             .contacts_at([place.x, place.y], place.z)
             .into_iter()
             .filter(|contact| contact.load > 0.0)
-            .map(|contact| ScrewRow::new(&self.grooves.track, contact).ok())
+            .map(|contact| {
+                let row = ScrewRow::new(&self.grooves.track, contact).ok()?;
+                Some(ScrewRow {
+                    integration: self.integration,
+                    ..row
+                })
+            })
             .collect()
     }
 

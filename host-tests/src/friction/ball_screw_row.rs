@@ -19,8 +19,9 @@ use nalgebra::{SMatrix, Vector4};
 use super::ball_screw_ball::{ScrewMotion, dimensional};
 use super::ball_screw_grooves::ElasticGrooves;
 use super::ball_screw_placed::{BallState, Drive, PlacedBall, Rubbing, STICK_SPIN, Solved};
-use super::ball_screw_settle::settle;
 use super::ball_screw_press::pressed;
+use super::ball_screw_settle::settle;
+use super::patch::Integration;
 use crate::curvature::Groove;
 use crate::design::BallScrewDesign;
 use crate::error::{ReferenceError, within};
@@ -51,6 +52,8 @@ pub struct ElasticRow {
     pub nut_speed: f64,
     /// Balls.
     pub balls: Vec<RowBall>,
+    /// Nodes of the contact integrals: [`Integration::Full`], but to compare with stored cases of fewer.
+    pub integration: Integration,
 }
 
 /// One ball of the solution.
@@ -123,6 +126,7 @@ impl ElasticRow {
                 way,
                 axial_load: ball.axial_load,
                 rubbing: Rubbing::default(),
+                integration: self.integration,
             })
             .collect();
         let free = balls

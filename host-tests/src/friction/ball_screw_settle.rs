@@ -9,9 +9,7 @@
 use nalgebra::{SMatrix, Vector3, Vector4};
 
 use super::ball_screw_ball::{ScrewRow, ball_dissipation, rolling};
-use super::ball_screw_placed::{
-    BallState, Drive, PlacedBall, STICK_SPIN, Solved, main_direction,
-};
+use super::ball_screw_placed::{BallState, Drive, PlacedBall, STICK_SPIN, Solved, main_direction};
 use super::newton::{Local, Minimum, minimise, root_between};
 use crate::error::ReferenceError;
 
@@ -129,9 +127,7 @@ impl<'a> Search<'a> {
         };
         let force = match self.drive {
             Drive::Force(force) => force,
-            Drive::Speed(_) => {
-                ball.friction * power(&point, STICK_SPIN).gradient[0] / ball.path()
-            }
+            Drive::Speed(_) => ball.friction * power(&point, STICK_SPIN).gradient[0] / ball.path(),
         };
         (residual <= 1e-7 * total).then_some((point, force))
     }
@@ -155,7 +151,11 @@ impl<'a> Search<'a> {
             let next = found + Vector3::new(ax * missing, az * missing, 0.0);
             let change = (next - friction).amax();
             // Where a contact that sticks answers its own load, rounds swing about the end.
-            friction = if round < 15 { next } else { (friction + next) * 0.5 };
+            friction = if round < 15 {
+                next
+            } else {
+                (friction + next) * 0.5
+            };
             if change <= 1e-9 * ball.friction * ball.axial_load.abs() {
                 let state = BallState {
                     place: there,
