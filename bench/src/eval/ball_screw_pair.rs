@@ -3,8 +3,9 @@
 //! The reference solves every ball's elastic equilibrium with exact contact integrals. What the scene of a ball screw without cage computes is
 //! a closed form, and cannot do all that is asked here:
 //!
-//! * It knows three fits, not a clearance. Oversize becomes the preload that it makes of the centred ball, none becomes no play, and play
-//!   becomes two-point contact where it is nearer to that than to no play, by the load of the third contact.
+//! * It knows three fits, not a clearance. Oversize becomes the preload that it makes of the centred ball. Play becomes two-point contact
+//!   where it takes the whole load of a nominal ball's third contact, and no play below that: in between the third contact's load is too
+//!   large, and the force between balls with it.
 //! * A deviation that takes load from the third contact makes that contact slide over its whole area. The closed form takes it as rolling:
 //!   forces of that sign are too large, by 10 % to a factor two.
 //! * Loads of a ball follow from its axial load alone, not from deviations or from forces between balls, and friction in the grooves is that
@@ -261,8 +262,8 @@ impl Request {
             let share = loads[1].max(loads[2]) / loads[0];
             let sine = (2.0 * self.contact_angle as f32).sin();
             let offset = (self.groove_radius - self.ball_radius) as f32;
-            // Play `g` takes `4 g/(D sin^2(2 beta))` of the main load from the third contact: more than half of what it has?
-            if 8.0 * clearance > share * offset * sine * sine {
+            // Play `g` takes `4 g/(D sin^2(2 beta))` of the main load from the third contact: all that it has?
+            if 4.0 * clearance > share * offset * sine * sine {
                 return Ok(ScrewRow::new(design, friction, GrooveFit::Play)?);
             }
         }
