@@ -14,12 +14,10 @@
 //!
 //! Source: Lin 2019, eqs. (2.11) to (2.14), (3.65) to (3.77), the last as complementarity on the actual speeds.
 
-use nalgebra::{SMatrix, Vector4};
-
 use super::ball_screw_ball::{ScrewMotion, dimensional};
 use super::ball_screw_grooves::ElasticGrooves;
 use super::ball_screw_placed::{BallState, Drive, PlacedBall, Rubbing, STICK_SPIN, Solved};
-use super::ball_screw_press::pressed;
+use super::ball_screw_rubbing::press_and_rub;
 use super::ball_screw_settle::settle;
 use super::patch::Integration;
 use crate::curvature::Groove;
@@ -102,10 +100,6 @@ impl RowMotion {
 
 /// Largest error of the power balance that is accepted.
 const POWER_ERROR: f64 = 1e-8;
-/// Largest difference of speeds, over the nut's speed, that is accepted of balls that press.
-const UNEQUAL: f64 = 1e-11;
-/// Passes in which the friction between balls settles.
-const PASSES: usize = 60;
 
 impl ElasticRow {
     /// Solves the row: every ball alone, then pressing.
@@ -133,20 +127,19 @@ impl ElasticRow {
             .iter()
             .map(|ball| settle(ball, Drive::Force(0.0), None))
             .collect::<Result<Vec<_>, _>>()?;
-        let (pressing, contact_forces) = self.press(&mut balls, &free)?;
-
+        let pressing = press_and_rub(&mut balls, &free, self.ball_friction)?;
         let residual = free
             .iter()
-            .chain(&pressing)
+            .chain(&pressing.balls)
             .map(|solved| solved.residual)
             .fold(0.0, f64::max);
-        let ball_loss = self.ball_loss(&balls, &pressing, &contact_forces);
+        let unit = self.design.ball_radius * self.nut_speed.abs();
         let result = RowMotion {
             free: self.results(&balls, &free),
-            pressing: self.results(&balls, &pressing),
-            power_error: self.power_error(&balls, &pressing, ball_loss),
-            contact_forces,
-            ball_loss,
+            power_error: pressing.power_error(&balls),
+            ball_loss: pressing.ball_loss * unit,
+            pressing: self.results(&balls, &pressing.balls),
+            contact_forces: pressing.forces,
             residual,
         };
         if result.power_error.abs() <= POWER_ERROR {
@@ -209,128 +202,6 @@ impl ElasticRow {
             .collect()
     }
 
-    /// Forces between balls, with the friction between them from the pass before.
-    fn press(
-        &self,
-        balls: &mut [PlacedBall<'_>],
-        free: &[Solved],
-    ) -> Result<(Vec<Solved>, Vec<f64>), ReferenceError> {
-        let mut forces = vec![0.0; free.len().saturating_sub(1)];
-        let mut now = free.to_vec();
-        let mut change = f64::INFINITY;
-        for _ in 0..PASSES {
-            now = pressed(balls, &now)?;
-            let mut sum = 0.0;
-            change = 0.0;
-            for (force, ball) in forces.iter_mut().zip(&now) {
-                sum -= ball.state.force;
-                change = f64::max(change, (sum - *force).abs());
-                *force = sum;
-            }
-            let largest = forces.iter().copied().fold(0.0, f64::max);
-            if self.ball_friction == 0.0 || change <= 1e-10 * largest {
-                return self.checked(now, forces);
-            }
-            self.rub(balls, &now, &forces);
-        }
-        Err(ReferenceError::unbalanced(change))
-    }
-
-    /// Complementarity on what was found: the forces from the balls' own balances push or are zero, no ball overtakes, and those that
-    /// press are equally fast.
-    fn checked(
-        &self,
-        balls: Vec<Solved>,
-        mut forces: Vec<f64>,
-    ) -> Result<(Vec<Solved>, Vec<f64>), ReferenceError> {
-        let largest = forces.iter().copied().fold(0.0, f64::max);
-        let load = self
-            .balls
-            .iter()
-            .map(|b| b.axial_load.abs())
-            .fold(0.0, f64::max);
-        let allowed = 1e-7 * largest + 1e-9 * load;
-        let unpaid: f64 = balls.iter().map(|ball| ball.state.force).sum();
-        let mut worst = unpaid.abs();
-        for (pair, force) in balls.windows(2).zip(&forces) {
-            worst = worst.max(-force);
-            let overtakes = pair[0].state.motion[0] - pair[1].state.motion[0];
-            if overtakes > UNEQUAL || *force > allowed && overtakes < -UNEQUAL {
-                return Err(ReferenceError::NotConverged {
-                    residual: overtakes,
-                    unit: "of the nut's speed",
-                });
-            }
-        }
-        if !(worst <= allowed) {
-            return Err(ReferenceError::NotConverged {
-                residual: worst,
-                unit: "N between balls",
-            });
-        }
-        for force in &mut forces {
-            *force = force.max(0.0);
-        }
-        Ok((balls, forces))
-    }
-
-    /// Puts the friction between neighbours on the balls.
-    fn rub(&self, balls: &mut [PlacedBall<'_>], now: &[Solved], forces: &[f64]) {
-        if self.ball_friction == 0.0 {
-            return;
-        }
-        let Some(first) = balls.first() else { return };
-        let track = first.grooves.track;
-        let way = first.way;
-        let (_, cos_b) = track.ball_contact_angle();
-        let slips = track.slip_between(way);
-        for ball in balls.iter_mut() {
-            ball.rubbing = Rubbing::default();
-        }
-        for (index, force) in forces.iter().enumerate() {
-            let slip = slip(&slips, &now[index].state, &now[index + 1].state);
-            let pull = slip * (-self.ball_friction * force / slip.norm().max(1e-12));
-            for (place, of, side) in [(index, slips[0], 1.0), (index + 1, slips[1], -1.0)] {
-                let rubbing = &mut balls[place].rubbing;
-                rubbing.motion += of.transpose() * pull;
-                rubbing.in_plane[0] += side * cos_b * pull.y;
-                rubbing.in_plane[1] += side * pull.x;
-            }
-        }
-    }
-
-    fn ball_loss(&self, balls: &[PlacedBall<'_>], now: &[Solved], forces: &[f64]) -> f64 {
-        let Some(first) = balls.first() else {
-            return 0.0;
-        };
-        let track = &first.grooves.track;
-        let slips = track.slip_between(first.way);
-        let sum: f64 = now
-            .windows(2)
-            .zip(forces)
-            .map(|(pair, force)| force * slip(&slips, &pair[0].state, &pair[1].state).norm())
-            .sum();
-        self.ball_friction * sum * track.ball_radius * self.nut_speed.abs()
-    }
-
-    /// What the nut puts in less what is lost, over the latter.
-    fn power_error(&self, balls: &[PlacedBall<'_>], now: &[Solved], ball_loss: f64) -> f64 {
-        let (mut put_in, mut lost) = (0.0, 0.0);
-        for (ball, solved) in balls.iter().zip(now) {
-            let rows = ball.rows(&solved.state.place).unwrap_or_default();
-            put_in += ball.power_in(&rows, &solved.state.motion);
-            for row in &rows {
-                lost += self.friction
-                    * row
-                        .local(&solved.state.motion, STICK_SPIN)
-                        .gradient
-                        .dot(&row.velocity(&solved.state.motion));
-            }
-        }
-        lost += ball_loss / (self.design.ball_radius * self.nut_speed.abs());
-        (put_in - lost) / lost
-    }
-
     fn results(&self, balls: &[PlacedBall<'_>], solved: &[Solved]) -> Vec<RowBallMotion> {
         balls
             .iter()
@@ -360,14 +231,4 @@ impl ElasticRow {
             })
             .collect()
     }
-}
-
-/// Slip between a ball and the one in front of it over `R_B w_N`.
-fn slip(
-    slips: &[SMatrix<f64, 2, 4>; 2],
-    rear: &BallState,
-    front: &BallState,
-) -> nalgebra::Vector2<f64> {
-    let of = |part: &SMatrix<f64, 2, 4>, motion: &Vector4<f64>| part * motion;
-    of(&slips[0], &rear.motion) + of(&slips[1], &front.motion)
 }

@@ -40,6 +40,7 @@ pub mod ball_screw_grooves;
 mod ball_screw_placed;
 mod ball_screw_press;
 pub mod ball_screw_row;
+mod ball_screw_rubbing;
 mod ball_screw_settle;
 pub mod ball_screw_train;
 pub mod chain;
