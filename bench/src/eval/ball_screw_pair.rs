@@ -208,8 +208,8 @@ impl Request {
             free_speed.push(f64::from(
                 (tick.nominal_speed() + ball.speed_deviation) / path,
             ));
-            let (_, forces) = row.contacts(nut_speed, load, screw, nut);
-            loads.push(forces.map(f64::from));
+            let contacts = row.contacts(nut_speed, load, screw, nut);
+            loads.push(contacts.forces.map(f64::from));
         }
         let count = self.balls.len();
         let mut press = Press::new();
@@ -257,7 +257,7 @@ impl Request {
                 .map(|ball| ball.axial_load.abs() as f32)
                 .sum::<f32>()
                 / count;
-            let (_, loads) = row.contacts(nut_speed, mean, 0.0, 0.0);
+            let loads = row.contacts(nut_speed, mean, 0.0, 0.0).forces;
             // A load along z: SL and NR carry, and SR or NL is the third contact.
             let share = loads[1].max(loads[2]) / loads[0];
             let sine = (2.0 * self.contact_angle as f32).sin();

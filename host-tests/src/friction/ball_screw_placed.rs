@@ -174,7 +174,7 @@ impl PlacedBall<'_> {
         Some(jacobian)
     }
 
-    /// Residual that rounding leaves, and the largest that is accepted, N: forces of all contacts are this many times the axial load.
+    /// Residual that rounding leaves, and the largest that is accepted, N: in proportion to the loads of all contacts.
     pub fn accuracy(&self, state: &BallState) -> (f64, f64) {
         let loads: f64 = self
             .grooves
@@ -182,7 +182,7 @@ impl PlacedBall<'_> {
             .iter()
             .map(|contact| contact.load)
             .sum();
-        (1e-13 * loads, 1e-9 * loads)
+        (1e-13 * loads, 1e-8 * loads)
     }
 
     /// Damped Newton steps on all seven equations until the residual no longer falls.

@@ -27,7 +27,8 @@ use crate::error::{ReferenceError, within};
 /// A ball of the row, as the grooves meet it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RowBall {
-    /// How far the arc centres of the screw's groove are turned, rad: contact angles `SL = beta - screw_deviation`, `SR = beta + screw_deviation`.
+    /// How far the arc centres of the screw's groove are turned, rad: contact angles `SL = beta - screw_deviation`,
+    /// `SR = beta + screw_deviation`.
     pub screw_deviation: f64,
     /// The same of the nut's groove: `NL = beta - nut_deviation`, `NR = beta + nut_deviation`.
     pub nut_deviation: f64,
