@@ -1,6 +1,7 @@
 //! `eval`: one JSON object a line in, one a line out, in order.
 
 mod answer;
+mod ball_screw_pair;
 mod ball_screw_train;
 mod contact_kinematics;
 mod efficiency;
@@ -81,6 +82,19 @@ use lines::{Line, Lines};
 /// that the scene finds. `scene` is null at standstill, where a ball has four loaded contacts, where balls
 /// are loaded in different directions, and where a load is further than 0.1 of the main load, or an angle
 /// further than 0.01, from the scene's.
+///
+/// ball_screw_pair: pitch_radius, lead, ball_radius, groove_radius, contact_angle, youngs_modulus, poisson_ratio,
+/// friction, [ball_friction (0)], clearance (radial gap of every contact at the centred ball and the unloaded
+/// screw: play above 0, oversize below), nut_speed, balls: a list, rear to front in the direction of orbiting, of
+/// 2 to 64 {"screw_deviation", "nut_deviation", "axial_load"}; contact angles are SL = contact_angle -
+/// screw_deviation, SR = contact_angle + screw_deviation, NL and NR likewise by nut_deviation; a positive axial
+/// load is carried by SL and NR, a negative one by SR and NL. Answers with free_speed (list, orbital over nut
+/// speed, no neighbour pressing), contact_force (list), groove_torque and groove_torque_free (on the nut, all
+/// balls, pressing and none pressing) and loads (list of [SL, SR, NL, NR], none pressing). The reference has
+/// balls in elastic grooves with exact friction; its quantities are null at standstill, for a ball without load and where no
+/// answer was found that meets every balance. `in_loop` is what the scene of a ball screw without cage computes: a closed form
+/// that knows no play, preload and two-point contact, and takes of them what is nearest to the clearance; with
+/// it balls that press do not change the torque.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// File with the requests; stdin without it or for -
@@ -91,7 +105,7 @@ pub struct Arguments {
 type Model = fn(Fields) -> Result<Answer, BadField>;
 
 /// Every model by its name.
-const MODELS: [(&str, Model); 9] = [
+const MODELS: [(&str, Model); 10] = [
     ("groove_curvature", groove_curvature::evaluate),
     ("efficiency", efficiency::evaluate),
     ("steady_state", steady_state::evaluate),
@@ -101,6 +115,7 @@ const MODELS: [(&str, Model); 9] = [
     ("linear_train", linear_train::evaluate),
     ("static_load", static_load::evaluate),
     ("ball_screw_train", ball_screw_train::evaluate),
+    ("ball_screw_pair", ball_screw_pair::evaluate),
 ];
 
 /// A line of the output.

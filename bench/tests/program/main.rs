@@ -2,6 +2,7 @@
 
 mod eval;
 mod loads;
+mod pairs;
 mod report;
 mod simulate;
 mod simulate_trains;

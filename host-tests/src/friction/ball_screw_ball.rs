@@ -7,7 +7,7 @@ use nalgebra::{Matrix4, SMatrix, Vector3, Vector4};
 
 use super::linear_ball::EllipseLaw;
 use super::newton::{Local, Minimum, minimise, sharpen};
-use super::patch::{Patch, PatchVelocity};
+use super::patch::{Integration, Patch, PatchVelocity};
 use crate::curvature;
 use crate::design::BallScrewDesign;
 use crate::error::{ReferenceError, within};
@@ -116,6 +116,27 @@ impl ScrewTrack {
         let sin = self.ball_radius / self.path_radius();
         (sin, (1.0 - sin * sin).sqrt())
     }
+
+    /// Slip between two touching balls, components z4 and x4 of (3.73) over `R_B`: what the motions of the rear and of the front ball give
+    /// to it, with the angular velocity relative to the orbiting frame. `way` is 1 where the balls orbit along +y, -1 where they orbit
+    /// along -y.
+    pub(crate) fn slip_between(&self, way: f64) -> [SMatrix<f64, 2, 4>; 2] {
+        let (sin_a, cos_a) = self.lead_angle();
+        let (sin_b, cos_b) = self.ball_contact_angle();
+        let of = |way: f64| {
+            SMatrix::<f64, 2, 4>::new(
+                -way * sin_b * sin_a,
+                cos_b,
+                way * sin_b,
+                0.0, //
+                cos_a,
+                0.0,
+                0.0,
+                -1.0,
+            )
+        };
+        [of(way), of(-way)]
+    }
 }
 
 /// A loaded contact of a ball.
@@ -172,6 +193,7 @@ pub(crate) struct ScrewRow {
     pub patch: Patch,
     pub rows: SMatrix<f64, 3, 4>,
     pub base: Vector3<f64>,
+    pub integration: Integration,
 }
 
 impl ScrewRow {
@@ -210,6 +232,7 @@ impl ScrewRow {
             patch,
             rows,
             base,
+            integration: Integration::Full,
         })
     }
 
@@ -229,11 +252,12 @@ impl ScrewRow {
         }
         let smooth = v.z.hypot(rest_spin);
         let share = if smooth > 0.0 { v.z / smooth } else { 0.0 };
-        let here = self.patch.friction(PatchVelocity {
+        let velocity = PatchVelocity {
             slip_major: v.x,
             slip_minor: v.y,
             spin: smooth,
-        });
+        };
+        let here = self.patch.friction_by(velocity, self.integration);
         let mut gradient = Vector3::from(here.gradient);
         let mut hessian = SMatrix::<f64, 3, 3>::from_fn(|i, j| here.hessian[i][j]);
         let moment = gradient.z;

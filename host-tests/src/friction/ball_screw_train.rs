@@ -69,23 +69,8 @@ impl Train<4> for Rows<'_> {
         self.balls[ball].iter().all(|row| row.moves(y, rest_spin))
     }
 
-    /// (3.73) over `R_B`, with the angular velocity relative to the orbiting frame.
     fn slip(&self) -> [SMatrix<f64, 2, 4>; 2] {
-        let (sin_a, cos_a) = self.track.lead_angle();
-        let (sin_b, cos_b) = self.track.ball_contact_angle();
-        let of = |way: f64| {
-            SMatrix::<f64, 2, 4>::new(
-                -way * sin_b * sin_a,
-                cos_b,
-                way * sin_b,
-                0.0, //
-                cos_a,
-                0.0,
-                0.0,
-                -1.0,
-            )
-        };
-        [of(self.way), of(-self.way)]
+        self.track.slip_between(self.way)
     }
 
     fn ball_friction(&self) -> f64 {

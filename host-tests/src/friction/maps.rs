@@ -18,6 +18,13 @@ pub(crate) fn gauss_rule() -> &'static [(f64, f64)] {
         .as_node_weight_pairs()
 }
 
+/// The rule of 32 nodes by which some stored cases were made.
+pub(crate) fn coarse_rule() -> &'static [(f64, f64)] {
+    static RULE: OnceLock<GaussLegendre> = OnceLock::new();
+    RULE.get_or_init(|| GaussLegendre::new(NonZeroUsize::new(32).unwrap_or(NonZeroUsize::MIN)))
+        .as_node_weight_pairs()
+}
+
 /// Friction force, moment and power of an elliptical Hertzian contact, normalised, as functions of the offset `c/a`
 /// of the velocity centre on the major axis.
 ///

@@ -24,6 +24,7 @@
 //! | [`ball_screw_ball`] | ball of a ball screw with given contacts, (3.65) to (3.69) |
 //! | [`ball_screw_grooves`] | the grooves as elastic arcs, (2.11) to (2.14) |
 //! | [`ball_screw_elastic`] | in-plane balance with elasticity, and two touching balls, (3.69) to (3.76) |
+//! | [`ball_screw_row`] | rows of balls with elasticity, clearance of either sign, and an axial load of each ball |
 //! | [`ball_screw_train`] | trains of any length with given contacts, (3.77) |
 //! | [`ball_screw_closed`] | closed-form orbital speed, spin, loads and compliance in a ball screw |
 //! | [`whole_screw`] | balls that recirculate (section 3.4.4) |
@@ -36,6 +37,11 @@ pub mod ball_screw_ball;
 pub mod ball_screw_closed;
 pub mod ball_screw_elastic;
 pub mod ball_screw_grooves;
+mod ball_screw_placed;
+mod ball_screw_press;
+pub mod ball_screw_row;
+mod ball_screw_rubbing;
+mod ball_screw_settle;
 pub mod ball_screw_train;
 pub mod chain;
 pub mod contact_law;

@@ -1,4 +1,4 @@
-//! Damped Newton minimisation of a convex function.
+//! Damped Newton minimisation of a convex function, and zeros of a function of one variable.
 
 use nalgebra::{SMatrix, SVector};
 
@@ -121,4 +121,48 @@ pub(crate) fn sharpen<const N: usize>(
         stages += 1;
         rest_spin *= 0.1;
     }
+}
+
+/// Zero of a continuous function between two places where it has different signs, to within tolerances of the place or of its
+/// value: false position by Anderson and Bjorck, one value a step. `None` where the function has no value or no change of sign.
+///
+/// The function has been asked for its value at the answer last: what it keeps belongs to the answer. That, and an end where there is no
+/// value, are why none of the roots crate's methods serves.
+pub(crate) fn root_between(
+    (mut low, mut high): (f64, f64),
+    (of_place, of_value): (f64, f64),
+    mut f: impl FnMut(f64) -> Option<f64>,
+) -> Option<f64> {
+    let mut at_low = f(low)?;
+    if at_low == 0.0 {
+        return Some(low);
+    }
+    let mut at_high = f(high)?;
+    if at_high == 0.0 {
+        return Some(high);
+    }
+    if !(at_low * at_high < 0.0) {
+        return None;
+    }
+    for step in 0..200 {
+        // Now and then a bisection, so that no shape of the function takes long.
+        let place = if step % 8 == 7 {
+            0.5 * (low + high)
+        } else {
+            (low * at_high - high * at_low) / (at_high - at_low)
+        };
+        let value = f(place)?;
+        if value.abs() <= of_value || (high - low).abs() <= of_place {
+            return Some(place);
+        }
+        // `high` is always the newest.
+        if value * at_high < 0.0 {
+            (low, at_low) = (high, at_high);
+        } else {
+            let share = 1.0 - value / at_high;
+            at_low *= if share > 0.0 { share } else { 0.5 };
+        }
+        (high, at_high) = (place, value);
+    }
+    None
 }

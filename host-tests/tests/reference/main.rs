@@ -4,6 +4,7 @@
 mod kit;
 
 mod ball_screw_reference;
+mod ball_screw_row_reference;
 mod chain_reference;
 mod curvature_reference;
 mod friction_maps_reference;

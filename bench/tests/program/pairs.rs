@@ -1,0 +1,173 @@
+//! `eval` of rows of balls with an axial load of each and a clearance: stored pairs, and every way to ask wrongly.
+
+use serde_json::{Value, json};
+
+use super::eval::{ask, golden, number, relative};
+
+/// The request for a stored pair. A stored force has a sign; where it is negative, the balls press in the other order.
+fn request(all: &Value, case: &Value) -> Value {
+    let design = &all["meta"]["designs"][case["design"].as_str().unwrap()];
+    let length = |name: &str| 1e-3 * number(&design[name]);
+    let side = if case["pair"] == "SRNL" { -1.0 } else { 1.0 };
+    let mut balls: Vec<_> = (0..2)
+        .map(|index| {
+            let of = |name: &str| number(&case[name][index]);
+            json!({
+                "screw_deviation": of("screw_deviation_deg").to_radians(),
+                "nut_deviation": of("nut_deviation_deg").to_radians(),
+                "axial_load": side * of("axial_load_N"),
+            })
+        })
+        .collect();
+    if number(&case["ball_force_N"]) < 0.0 {
+        balls.reverse();
+    }
+    json!({
+        "id": case["ball_force_N"], "model": "ball_screw_pair", "pitch_radius": length("pitch_radius"),
+        "lead": length("pitch"), "ball_radius": length("ball_radius"), "groove_radius": length("groove_radius"),
+        "contact_angle": number(&design["contact_angle_deg"]).to_radians(),
+        "youngs_modulus": 1e6 * number(&design["E"]), "poisson_ratio": design["nu"],
+        "friction": case["friction"], "clearance": 1e-6 * number(&case["clearance_um"]),
+        "nut_speed": 3.0, "balls": balls,
+    })
+}
+
+/// The reference answers as the stored pairs do; where they were made with too few nodes of the contact integrals, within 3e-4 N and 5e-6
+/// of the torque (see the reference's own test). The scene's closed form is far off where deviations take load from the third contact and where
+/// there is play: bounds of its speeds and of its torque without that are measured.
+#[test]
+fn stored_pairs() {
+    let all = golden("ballscrew_exact.json");
+    let cases = all["cases"].as_array().unwrap();
+    let requests: Vec<_> = cases
+        .iter()
+        .map(|case| request(&all, case).to_string())
+        .collect();
+    let (code, answers) = ask(&requests);
+    assert_eq!((code, answers.len()), (0, cases.len()));
+    let mut worst = [0.0_f64; 3];
+    for (case, answer) in cases.iter().zip(&answers) {
+        let reference = &answer["reference"];
+        let force = number(&case["ball_force_N"]);
+        let found = number(&reference["contact_force"][0]);
+        assert!((found - force.abs()).abs() < 4e-4, "{case}: {answer}");
+        let order = if force < 0.0 { [1, 0] } else { [0, 1] };
+        for (name, stored) in [
+            ("groove_torque", "groove_torque_pressed_Nm"),
+            ("groove_torque_free", "groove_torque_free_Nm"),
+        ] {
+            let torque: f64 = (0..2).map(|i| number(&case[stored][i])).sum();
+            assert!(
+                relative(&reference[name], torque) < 1e-5,
+                "{case}: {answer}"
+            );
+        }
+        for (place, stored) in order.into_iter().enumerate() {
+            let speed = number(&case["free_orbital_speed"][stored]);
+            let found = number(&reference["free_speed"][place]);
+            assert!((found - speed).abs() < 5e-6, "{case}: {answer}");
+            let loads = &case[format!("free_loads_ball{}_N", stored + 1)];
+            for flank in 0..4 {
+                let found = number(&reference["loads"][place][flank]);
+                assert!(
+                    (found - number(&loads[flank])).abs() < 1e-3,
+                    "{case}: {answer}"
+                );
+            }
+            let in_loop = number(&answer["in_loop"]["free_speed"][place]);
+            worst[0] = worst[0].max((in_loop - speed).abs());
+        }
+        if number(&case["clearance_um"]) <= 0.0 {
+            let torque = number(&reference["groove_torque"]);
+            worst[1] = worst[1].max(relative(&answer["in_loop"]["groove_torque"], torque));
+        }
+        let in_loop = number(&answer["in_loop"]["contact_force"][0]);
+        worst[2] = worst[2].max((in_loop - force.abs()).abs());
+    }
+    println!("scene: speed, torque without play, force {worst:?}");
+    assert!(worst[0] < 0.02 && worst[1] < 0.25 && worst[2] < 2.0);
+}
+
+/// Loads of opposite signs in one row, a nut that turns backward, balls that rub, and standstill.
+#[test]
+fn odd_rows_have_answers() {
+    let all = golden("ballscrew_exact.json");
+    let mut request = request(&all, &all["cases"][5]);
+    request["balls"][1]["axial_load"] = json!(30.0);
+    request["nut_speed"] = json!(-3.0);
+    request["ball_friction"] = json!(0.1);
+    let mut still = request.clone();
+    still["nut_speed"] = json!(0.0);
+    let (code, answers) = ask(&[request.to_string(), still.to_string()]);
+    assert_eq!(code, 0);
+    for side in ["in_loop", "reference"] {
+        assert!(number(&answers[0][side]["contact_force"][0]) >= 0.0);
+        // A negative load is carried by SR and NL, a positive one by SL and NR.
+        let load = |ball: usize, flank: usize| number(&answers[0][side]["loads"][ball][flank]);
+        assert!(load(0, 1).min(load(0, 2)) > load(0, 0).max(load(0, 3)));
+        assert!(load(1, 0).min(load(1, 3)) > load(1, 1).max(load(1, 2)));
+        for name in [
+            "free_speed",
+            "contact_force",
+            "groove_torque",
+            "groove_torque_free",
+            "loads",
+        ] {
+            assert!(!answers[0][side][name].is_null(), "{name}: {answers:?}");
+            assert!(answers[1][side][name].is_null(), "{name}: {answers:?}");
+        }
+    }
+}
+
+#[test]
+fn bad_fields_of_pairs_are_named() {
+    let all = golden("ballscrew_exact.json");
+    let good = request(&all, &all["cases"][0]);
+    let mut requests = Vec::new();
+    let mut fields = Vec::new();
+    for (field, value) in [
+        ("pitch_radius", json!(0.0)),
+        ("lead", json!(-1e-3)),
+        ("ball_radius", json!(1.0)),
+        ("groove_radius", json!(2e-3)),
+        ("contact_angle", json!(1.5)),
+        ("youngs_modulus", json!("steel")),
+        ("poisson_ratio", json!(0.5)),
+        ("friction", json!(0.0)),
+        ("ball_friction", json!(-0.1)),
+        ("clearance", json!(1e-3)),
+        ("nut_speed", json!(null)),
+        ("balls", json!([good["balls"][0]])),
+        ("balls", json!([])),
+        ("pairs", json!(1)),
+    ] {
+        let mut bad = good.clone();
+        bad[field] = value;
+        requests.push(bad.to_string());
+        fields.push(field);
+    }
+    for (field, value) in [
+        ("screw_deviation", json!(0.3)),
+        ("nut_deviation", json!(-0.3)),
+        ("axial_load", json!([1.0])),
+        ("load", json!(1.0)),
+    ] {
+        let mut bad = good.clone();
+        bad["balls"][1][field] = value;
+        requests.push(bad.to_string());
+        fields.push(field);
+    }
+    for field in ["clearance", "balls", "nut_speed"] {
+        let mut bad = good.clone();
+        bad.as_object_mut().unwrap().remove(field);
+        requests.push(bad.to_string());
+        fields.push(field);
+    }
+    requests.push(good.to_string());
+    let (code, answers) = ask(&requests);
+    assert_eq!((code, answers.len()), (1, requests.len()));
+    for (field, answer) in fields.iter().zip(&answers) {
+        assert_eq!(answer["error"]["field"], *field, "{answer}");
+    }
+    assert!(answers[fields.len()]["error"].is_null());
+}

@@ -1,0 +1,301 @@
+//! One ball of a ball screw between elastic grooves: its place, its motion and its loads together, under its own axial load.
+//!
+//! Seven equations: forces on the ball in its cross section (two), the axial force of the screw, the force along the track and three
+//! moments (the gradient of the dissipation by the ball's motion). Seven unknowns: ball centre in the cross section (two), axial
+//! displacement of the screw, angular velocity (three), and either the orbital speed for a given force along the track, or that force for a
+//! given orbital speed. The second form keeps a ball in order whose speed hardly depends on the force.
+//!
+//! Source: Lin 2019, eqs. (2.11) to (2.14), (3.65) to (3.69).
+
+use nalgebra::{SMatrix, SVector, Vector3, Vector4};
+
+use super::ball_screw_ball::{Groove, ScrewRow};
+use super::ball_screw_grooves::ElasticGrooves;
+use super::patch::Integration;
+
+/// Spin over which friction of a contact that sticks is smoothed, over the nut's speed.
+pub(crate) const STICK_SPIN: f64 = 1e-4;
+
+/// Forces on a ball from its neighbours' rubbing, over which the ball has no say.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Rubbing {
+    /// Force in the cross section, x and z, N.
+    pub in_plane: [f64; 2],
+    /// Force along the track times path radius over ball radius, and moments over the ball radius, N; power per `R_B w_N` of the motion.
+    pub motion: Vector4<f64>,
+}
+
+/// What is given along the track.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Drive {
+    /// Force of the neighbours on the ball in the direction of orbiting, N.
+    Force(f64),
+    /// Orbital speed over the nut's speed.
+    Speed(f64),
+}
+
+/// Where a ball is and how it moves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct BallState {
+    /// Ball centre x, z, and axial displacement of the screw, m.
+    pub place: Vector3<f64>,
+    /// Orbital speed and angular velocity x, y, z, over the nut's speed.
+    pub motion: Vector4<f64>,
+    /// Force of the neighbours on the ball in the direction of orbiting, N.
+    pub force: f64,
+}
+
+/// A solved ball.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Solved {
+    pub state: BallState,
+    /// Largest unbalanced force, N.
+    pub residual: f64,
+    /// Change of the force along the track with the orbital speed over the nut's speed, N.
+    pub stiffness: f64,
+}
+
+/// A ball with all that does not change while it is solved.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PlacedBall<'a> {
+    pub grooves: &'a ElasticGrooves,
+    /// Friction coefficient of the grooves.
+    pub friction: f64,
+    /// 1 where the nut turns forward, -1 backward.
+    pub way: f64,
+    /// Axial force of the screw on the ball, N; positive along z.
+    pub axial_load: f64,
+    /// From the neighbours.
+    pub rubbing: Rubbing,
+    pub integration: Integration,
+}
+
+/// Unbalanced forces, N: x, z, axial, along the track (times path over ball radius), moments over the ball radius.
+type Balance = SVector<f64, 7>;
+
+impl PlacedBall<'_> {
+    /// Path radius over ball radius.
+    pub fn path(&self) -> f64 {
+        let track = &self.grooves.track;
+        track.path_radius() / track.ball_radius
+    }
+
+    /// Contacts that carry, at a place; `None` where the ball has left its grooves.
+    pub fn rows(&self, place: &Vector3<f64>) -> Option<Vec<ScrewRow>> {
+        self.grooves
+            .contacts_at([place.x, place.y], place.z)
+            .into_iter()
+            .filter(|contact| contact.load > 0.0)
+            .map(|contact| {
+                let row = ScrewRow::new(&self.grooves.track, contact).ok()?;
+                Some(ScrewRow {
+                    integration: self.integration,
+                    ..row
+                })
+            })
+            .collect()
+    }
+
+    /// Friction on the ball: x, z, and the part of it that the screw takes up along its axis, N.
+    pub fn friction_in_plane(&self, rows: &[ScrewRow], motion: &Vector4<f64>) -> Vector3<f64> {
+        let (sin_a, cos_a) = self.grooves.track.lead_angle();
+        let mut sum = Vector3::zeros();
+        for row in rows {
+            let [nx, nz] = normal(row);
+            let gradient = row.local(motion, STICK_SPIN).gradient;
+            let (across, along) = (
+                -self.friction * self.way * gradient.x,
+                -self.friction * self.way * gradient.y,
+            );
+            sum += Vector3::new(across * nz, -across * nx, 0.0);
+            if !row.contact.groove.on_nut() {
+                sum.z += along * sin_a - across * nx * cos_a;
+            }
+        }
+        sum
+    }
+
+    /// What is unbalanced.
+    fn balance(&self, state: &BallState) -> Option<Balance> {
+        let rows = self.rows(&state.place)?;
+        let cos_a = self.grooves.track.lead_angle().1;
+        let friction = self.friction_in_plane(&rows, &state.motion);
+        let [rub_x, rub_z] = self.rubbing.in_plane;
+        let mut in_plane = friction + Vector3::new(rub_x, rub_z, -self.axial_load);
+        let mut motion = self.rubbing.motion;
+        motion[0] += self.path() * state.force;
+        for row in &rows {
+            let [nx, nz] = normal(row);
+            let load = row.contact.load;
+            in_plane.x -= load * nx;
+            in_plane.y -= load * nz;
+            if !row.contact.groove.on_nut() {
+                in_plane.z -= load * nz * cos_a;
+            }
+            let gradient = row.local(&state.motion, STICK_SPIN).gradient;
+            motion -= self.friction * (row.rows.transpose() * gradient);
+        }
+        let mut all = Balance::zeros();
+        all.fixed_rows_mut::<3>(0).copy_from(&in_plane);
+        all.fixed_rows_mut::<4>(3).copy_from(&motion);
+        all.iter().all(|x| x.is_finite()).then_some(all)
+    }
+
+    /// Derivatives of the balance by the place over `unit` (central differences), and by the motion (the dissipation's Hessian, which a
+    /// contact at rest makes stiff).
+    fn jacobian(&self, state: &BallState, unit: f64) -> Option<SMatrix<f64, 7, 7>> {
+        let mut jacobian = SMatrix::<f64, 7, 7>::zeros();
+        for column in 0..3 {
+            let step = 1e-6 * state.place[column].abs().max(0.1 * unit);
+            let (mut up, mut down) = (*state, *state);
+            up.place[column] += step;
+            down.place[column] -= step;
+            let change = (self.balance(&up)? - self.balance(&down)?) * (0.5 * unit / step);
+            jacobian.set_column(column, &change);
+        }
+        let (sin_a, cos_a) = self.grooves.track.lead_angle();
+        for row in &self.rows(&state.place)? {
+            let [nx, nz] = normal(row);
+            let by_motion = row.local(&state.motion, STICK_SPIN).hessian * row.rows;
+            let moments = row.rows.transpose() * by_motion * -self.friction;
+            let friction = by_motion * (-self.friction * self.way);
+            for column in 0..4 {
+                let (across, along) = (friction[(0, column)], friction[(1, column)]);
+                jacobian[(0, 3 + column)] += across * nz;
+                jacobian[(1, 3 + column)] -= across * nx;
+                if !row.contact.groove.on_nut() {
+                    jacobian[(2, 3 + column)] += along * sin_a - across * nx * cos_a;
+                }
+                for line in 0..4 {
+                    jacobian[(3 + line, 3 + column)] += moments[(line, column)];
+                }
+            }
+        }
+        Some(jacobian)
+    }
+
+    /// Residual that rounding leaves, and the largest that is accepted, N: in proportion to the loads of all contacts.
+    pub fn accuracy(&self, state: &BallState) -> (f64, f64) {
+        let loads: f64 = self
+            .grooves
+            .contacts_at([state.place.x, state.place.y], state.place.z)
+            .iter()
+            .map(|contact| contact.load)
+            .sum();
+        (1e-13 * loads, 1e-8 * loads)
+    }
+
+    /// Damped Newton steps on all seven equations until the residual no longer falls.
+    pub fn newton(&self, start: &BallState, drive: Drive, unit: f64) -> Option<Solved> {
+        let mut state = *start;
+        match drive {
+            Drive::Force(force) => state.force = force,
+            Drive::Speed(speed) => state.motion[0] = speed,
+        }
+        let mut balance = self.balance(&state)?;
+        for _ in 0..60 {
+            if balance.amax() <= self.accuracy(&state).0 {
+                break;
+            }
+            let Some(step) = self
+                .driven_jacobian(&state, drive, unit)
+                .and_then(|jacobian| jacobian.lu().solve(&balance))
+            else {
+                break;
+            };
+            let mut fraction = 1.0;
+            let taken = loop {
+                let there = moved(&state, &step, drive, unit, fraction);
+                if let Some(new) = self.balance(&there)
+                    && new.norm() < (1.0 - 1e-4 * fraction) * balance.norm()
+                {
+                    break Some((there, new));
+                }
+                fraction *= 0.5;
+                if fraction < 1e-4 {
+                    break None;
+                }
+            };
+            let Some((there, new)) = taken else { break };
+            (state, balance) = (there, new);
+        }
+        Some(Solved {
+            state,
+            residual: balance.amax(),
+            stiffness: self.stiffness(&state, unit)?,
+        })
+    }
+
+    /// The Jacobian by the unknowns: the column of the orbital speed makes place for that of the force where the speed is given.
+    fn driven_jacobian(
+        &self,
+        state: &BallState,
+        drive: Drive,
+        unit: f64,
+    ) -> Option<SMatrix<f64, 7, 7>> {
+        let mut jacobian = self.jacobian(state, unit)?;
+        if let Drive::Speed(_) = drive {
+            jacobian.column_mut(3).fill(0.0);
+            jacobian[(3, 3)] = self.path();
+        }
+        Some(jacobian)
+    }
+
+    /// Change of the force along the track with the orbital speed, all else in balance.
+    fn stiffness(&self, state: &BallState, unit: f64) -> Option<f64> {
+        let mut jacobian = self.jacobian(state, unit)?;
+        let by_speed: Balance = jacobian.column(3).into();
+        jacobian.column_mut(3).fill(0.0);
+        jacobian[(3, 3)] = self.path();
+        let change = jacobian.lu().solve(&by_speed)?;
+        Some(-change[3])
+    }
+
+    /// Loads SL, SR, NL, NR at a place, N.
+    pub fn loads(&self, place: &Vector3<f64>) -> [f64; 4] {
+        self.grooves
+            .contacts_at([place.x, place.y], place.z)
+            .map(|contact| contact.load)
+    }
+
+    /// Power that the nut puts in over `R_B w_N`, N: by its surface's velocity and spin at each of its contacts.
+    pub fn power_in(&self, rows: &[ScrewRow], motion: &Vector4<f64>) -> f64 {
+        rows.iter()
+            .filter(|row| row.contact.groove.on_nut())
+            .map(|row| self.friction * row.local(motion, STICK_SPIN).gradient.dot(&row.base))
+            .sum()
+    }
+}
+
+/// Direction from ball centre to contact, x and z.
+pub(crate) fn normal(row: &ScrewRow) -> [f64; 2] {
+    let (sx, sz) = row.contact.groove.signs();
+    let angle = row.contact.contact_angle;
+    [sx * angle.cos(), sz * angle.sin()]
+}
+
+/// Direction from ball centre to the nut's contact that carries an axial load, with the arcs' mean angle.
+pub(crate) fn main_direction(grooves: &ElasticGrooves, axial_load: f64) -> [f64; 2] {
+    let angle = grooves.arc_angles.iter().sum::<f64>() / 4.0;
+    let nut = if axial_load > 0.0 {
+        Groove::NutRight
+    } else {
+        Groove::NutLeft
+    };
+    let (sx, sz) = nut.signs();
+    [sx * angle.cos(), sz * angle.sin()]
+}
+
+fn moved(state: &BallState, step: &Balance, drive: Drive, unit: f64, fraction: f64) -> BallState {
+    let mut there = *state;
+    there.place -= step.fixed_rows::<3>(0) * (unit * fraction);
+    let motion = step.fixed_rows::<4>(3) * fraction;
+    match drive {
+        Drive::Force(_) => there.motion -= motion,
+        Drive::Speed(_) => {
+            there.force -= motion[0];
+            there.motion -= Vector4::new(0.0, motion[1], motion[2], motion[3]);
+        }
+    }
+    there
+}

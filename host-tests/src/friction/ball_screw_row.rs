@@ -1,0 +1,235 @@
+//! A row of touching balls in a ball screw: each in elastic balance in both gothic grooves under its own axial load, with Coulomb friction by
+//! exact contact integrals, and pressing on its neighbours.
+//!
+//! Every ball finds its own place in the cross section (the screw floats axially under each ball, so that loads are given, not shares of
+//! one displacement). The clearance has a sign: the radial gap of every contact at the centred ball and the unloaded screw, play above
+//! zero, oversize below. Grooves may be turned: the arc centres of one groove by one angle each way, the gaps unchanged.
+//!
+//! The forces between balls are those of a complementarity problem on the actual speeds: `F >= 0`, no ball overtakes the one in front,
+//! and where a force is not zero the two speeds are equal. A ball's speed rises strictly with the force that pushes it, so that the solution
+//! is unique: it is the isotonic regression of the free speeds, each ball with its own nonlinear law.
+//!
+//! Left out: the part of the force between two balls that points away from the track (`sin b` of it, 7 to 17 %), which moves them outward in
+//! their grooves, and what a ball's rotation adds to it. Friction of a contact that sticks is smoothed over a spin of 1e-4 of the nut's speed.
+//!
+//! Source: Lin 2019, eqs. (2.11) to (2.14), (3.65) to (3.77), the last as complementarity on the actual speeds.
+
+use super::ball_screw_ball::{ScrewMotion, dimensional};
+use super::ball_screw_grooves::ElasticGrooves;
+use super::ball_screw_placed::{BallState, Drive, PlacedBall, Rubbing, STICK_SPIN, Solved};
+use super::ball_screw_rubbing::press_and_rub;
+use super::ball_screw_settle::settle;
+use super::patch::Integration;
+use crate::curvature::Groove;
+use crate::design::BallScrewDesign;
+use crate::error::{ReferenceError, within};
+
+/// A ball of the row, as the grooves meet it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RowBall {
+    /// How far the arc centres of the screw's groove are turned, rad: contact angles `SL = beta - screw_deviation`,
+    /// `SR = beta + screw_deviation`.
+    pub screw_deviation: f64,
+    /// The same of the nut's groove: `NL = beta - nut_deviation`, `NR = beta + nut_deviation`.
+    pub nut_deviation: f64,
+    /// Axial force of the screw on the ball, N: positive carried by SL and NR, negative by SR and NL; not zero.
+    pub axial_load: f64,
+}
+
+/// A row of balls, rear to front in the direction of orbiting; all neighbours touch.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ElasticRow {
+    /// Screw, with one groove radius and one material of both grooves.
+    pub design: BallScrewDesign,
+    /// Radial gap of every contact at the centred ball and the unloaded screw, m: play above zero, oversize below.
+    pub clearance: f64,
+    /// Friction coefficient of the grooves, 0.001 to 1.
+    pub friction: f64,
+    /// Friction coefficient between the balls, 0 to 1.
+    pub ball_friction: f64,
+    /// Angular velocity of the nut, rad/s; not zero.
+    pub nut_speed: f64,
+    /// Balls.
+    pub balls: Vec<RowBall>,
+    /// Nodes of the contact integrals: [`Integration::Full`], but to compare with stored cases of fewer.
+    pub integration: Integration,
+}
+
+/// One ball of the solution.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RowBallMotion {
+    /// Motion, and friction of the contacts that carry.
+    pub motion: ScrewMotion,
+    /// Loads of SL, SR, NL, NR, N.
+    pub loads: [f64; 4],
+    /// Ball centre in the cross section, x and z, m.
+    pub position: [f64; 2],
+    /// Axial displacement of the screw, m.
+    pub screw_displacement: f64,
+    /// Force of the neighbours on the ball in the direction of orbiting, N.
+    pub force: f64,
+}
+
+/// Solution of a row.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RowMotion {
+    /// Every ball by itself, no neighbour pressing.
+    pub free: Vec<RowBallMotion>,
+    /// The balls as they press.
+    pub pressing: Vec<RowBallMotion>,
+    /// Forces between neighbours, N; zero where they part.
+    pub contact_forces: Vec<f64>,
+    /// Power lost in rubbing between balls, W.
+    pub ball_loss: f64,
+    /// Power that the nut puts in less all that is lost, over all that is lost.
+    pub power_error: f64,
+    /// Largest unbalanced force of a ball, N.
+    pub residual: f64,
+}
+
+impl RowMotion {
+    /// Power lost in the grooves while the balls press, W.
+    pub fn groove_loss(&self) -> f64 {
+        self.pressing.iter().map(|b| b.motion.power_loss).sum()
+    }
+
+    /// Power lost in the grooves while no ball presses, W.
+    pub fn free_groove_loss(&self) -> f64 {
+        self.free.iter().map(|b| b.motion.power_loss).sum()
+    }
+}
+
+/// Largest error of the power balance that is accepted.
+const POWER_ERROR: f64 = 1e-8;
+
+impl ElasticRow {
+    /// Solves the row: every ball alone, then pressing.
+    ///
+    /// # Errors
+    /// [`ReferenceError`] naming an input out of range; [`ReferenceError::Standstill`] at `nut_speed = 0`; [`ReferenceError::Undriven`] where a
+    /// ball has no axial load; [`ReferenceError::NotConverged`] where a ball's balance, the balance of power or the complementarity of the
+    /// forces is not met: there is no answer then, and never a wrong one.
+    pub fn solve(&self) -> Result<RowMotion, ReferenceError> {
+        let grooves = self.grooves()?;
+        let way = self.nut_speed.signum();
+        let mut balls: Vec<PlacedBall<'_>> = grooves
+            .iter()
+            .zip(&self.balls)
+            .map(|(grooves, ball)| PlacedBall {
+                grooves,
+                friction: self.friction,
+                way,
+                axial_load: ball.axial_load,
+                rubbing: Rubbing::default(),
+                integration: self.integration,
+            })
+            .collect();
+        let free = balls
+            .iter()
+            .map(|ball| settle(ball, Drive::Force(0.0), None))
+            .collect::<Result<Vec<_>, _>>()?;
+        let pressing = press_and_rub(&mut balls, &free, self.ball_friction)?;
+        let residual = free
+            .iter()
+            .chain(&pressing.balls)
+            .map(|solved| solved.residual)
+            .fold(0.0, f64::max);
+        let unit = self.design.ball_radius * self.nut_speed.abs();
+        let result = RowMotion {
+            free: self.results(&balls, &free),
+            power_error: pressing.power_error(&balls),
+            ball_loss: pressing.ball_loss * unit,
+            pressing: self.results(&balls, &pressing.balls),
+            contact_forces: pressing.forces,
+            residual,
+        };
+        if result.power_error.abs() <= POWER_ERROR {
+            Ok(result)
+        } else {
+            Err(ReferenceError::NotConverged {
+                residual: result.power_error,
+                unit: "of the power lost",
+            })
+        }
+    }
+
+    /// Grooves of every ball, after a check of all inputs.
+    fn grooves(&self) -> Result<Vec<ElasticGrooves>, ReferenceError> {
+        within("friction", self.friction, 1e-3, 1.0)?;
+        within("ball_friction", self.ball_friction, 0.0, 1.0)?;
+        within("nut_speed", self.nut_speed, -1e6, 1e6)?;
+        if self.nut_speed == 0.0 {
+            return Err(ReferenceError::Standstill);
+        }
+        within("balls", self.balls.len() as f64, 1.0, 1e4)?;
+        let radius = self.design.ball_radius;
+        within("clearance", self.clearance, -0.05 * radius, 0.2 * radius)?;
+        if self.design.screw_groove_radius != self.design.nut_groove_radius {
+            return Err(ReferenceError::input(
+                "nut_groove_radius",
+                "is not that of the screw's groove",
+            ));
+        }
+        let screw = self.design.contact(Groove::Screw)?.into();
+        let nut = self.design.contact(Groove::Nut)?.into();
+        self.balls
+            .iter()
+            .map(|ball| {
+                within("screw_deviation", ball.screw_deviation, -0.2, 0.2)?;
+                within("nut_deviation", ball.nut_deviation, -0.2, 0.2)?;
+                within("axial_load", ball.axial_load, -1e6, 1e6)?;
+                if ball.axial_load == 0.0 {
+                    return Err(ReferenceError::Undriven);
+                }
+                let angle = self.design.contact_angle;
+                let grooves = ElasticGrooves {
+                    track: (&self.design).into(),
+                    groove_radius: self.design.screw_groove_radius,
+                    arc_angles: [
+                        angle - ball.screw_deviation,
+                        angle + ball.screw_deviation,
+                        angle - ball.nut_deviation,
+                        angle + ball.nut_deviation,
+                    ],
+                    screw,
+                    nut,
+                    oversize: -self.clearance,
+                };
+                grooves
+                    .check()
+                    .map_err(|error| error.renamed("contact_angle"))?;
+                Ok(grooves)
+            })
+            .collect()
+    }
+
+    fn results(&self, balls: &[PlacedBall<'_>], solved: &[Solved]) -> Vec<RowBallMotion> {
+        balls
+            .iter()
+            .zip(solved)
+            .map(|(ball, solved)| {
+                let BallState {
+                    place,
+                    motion,
+                    force,
+                } = solved.state;
+                let rows = ball.rows(&place).unwrap_or_default();
+                RowBallMotion {
+                    motion: dimensional(
+                        &ball.grooves.track,
+                        &rows,
+                        &motion,
+                        STICK_SPIN,
+                        self.friction,
+                        self.nut_speed,
+                        solved.residual / self.friction,
+                    ),
+                    loads: ball.loads(&place),
+                    position: [place.x, place.y],
+                    screw_displacement: place.z,
+                    force,
+                }
+            })
+            .collect()
+    }
+}

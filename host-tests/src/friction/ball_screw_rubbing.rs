@@ -1,0 +1,141 @@
+//! Balls of a row that press and rub on each other, and the checks of what was found.
+
+use nalgebra::{SMatrix, Vector2};
+
+use super::ball_screw_placed::{BallState, PlacedBall, Rubbing, STICK_SPIN, Solved};
+use super::ball_screw_press::pressed;
+use crate::error::ReferenceError;
+
+/// Largest difference of speeds, over the nut's speed, that is accepted of balls that press.
+const UNEQUAL: f64 = 1e-11;
+/// Passes in which the friction between balls settles.
+const PASSES: usize = 60;
+
+/// Balls as they press.
+pub(crate) struct Pressing {
+    pub balls: Vec<Solved>,
+    /// Forces between neighbours, N.
+    pub forces: Vec<f64>,
+    /// Power lost between balls over `R_B w_N`, N.
+    pub ball_loss: f64,
+}
+
+/// Forces between balls, with the friction between them from the pass before, until both agree. Leaves that friction on the balls.
+pub(crate) fn press_and_rub(
+    balls: &mut [PlacedBall<'_>],
+    free: &[Solved],
+    ball_friction: f64,
+) -> Result<Pressing, ReferenceError> {
+    let mut found = Pressing {
+        balls: free.to_vec(),
+        forces: vec![0.0; free.len().saturating_sub(1)],
+        ball_loss: 0.0,
+    };
+    let mut change = f64::INFINITY;
+    for _ in 0..PASSES {
+        found.balls = pressed(balls, &found.balls)?;
+        let mut sum = 0.0;
+        change = 0.0;
+        for (force, ball) in found.forces.iter_mut().zip(&found.balls) {
+            sum -= ball.state.force;
+            change = f64::max(change, (sum - *force).abs());
+            *force = sum;
+        }
+        let largest = found.forces.iter().copied().fold(0.0, f64::max);
+        if ball_friction == 0.0 || change <= 1e-10 * largest {
+            return found.checked(balls);
+        }
+        found.ball_loss = rub(balls, &found, ball_friction);
+    }
+    Err(ReferenceError::unbalanced(change))
+}
+
+impl Pressing {
+    /// Complementarity: forces push, no ball overtakes the one in front, those that press are equally fast, and the forces on the row add
+    /// up to nothing.
+    fn checked(mut self, balls: &[PlacedBall<'_>]) -> Result<Self, ReferenceError> {
+        let largest = self.forces.iter().copied().fold(0.0, f64::max);
+        let load = balls
+            .iter()
+            .map(|ball| ball.axial_load.abs())
+            .fold(0.0, f64::max);
+        let allowed = 1e-7 * largest + 1e-9 * load;
+        let left: f64 = self.balls.iter().map(|ball| ball.state.force).sum();
+        let mut worst = left.abs();
+        for (pair, force) in self.balls.windows(2).zip(&mut self.forces) {
+            let overtakes = pair[0].state.motion[0] - pair[1].state.motion[0];
+            if overtakes > UNEQUAL || *force > allowed && overtakes < -UNEQUAL {
+                return Err(ReferenceError::NotConverged {
+                    residual: overtakes,
+                    unit: "of the nut's speed",
+                });
+            }
+            worst = worst.max(-*force);
+            *force = force.max(0.0);
+        }
+        if worst <= allowed {
+            Ok(self)
+        } else {
+            Err(ReferenceError::NotConverged {
+                residual: worst,
+                unit: "N between balls",
+            })
+        }
+    }
+
+    /// What the nut puts in less what is lost, over the latter.
+    pub fn power_error(&self, balls: &[PlacedBall<'_>]) -> f64 {
+        let (mut put_in, mut lost) = (0.0, self.ball_loss);
+        for (ball, solved) in balls.iter().zip(&self.balls) {
+            let motion = &solved.state.motion;
+            let rows = ball.rows(&solved.state.place).unwrap_or_default();
+            put_in += ball.power_in(&rows, motion);
+            lost += rows
+                .iter()
+                .map(|row| {
+                    row.local(motion, STICK_SPIN)
+                        .gradient
+                        .dot(&row.velocity(motion))
+                })
+                .sum::<f64>()
+                * ball.friction;
+        }
+        (put_in - lost) / lost
+    }
+}
+
+/// Puts the friction between neighbours on the balls; the power that it takes over `R_B w_N`, N.
+fn rub(balls: &mut [PlacedBall<'_>], found: &Pressing, ball_friction: f64) -> f64 {
+    let Some(first) = balls.first() else {
+        return 0.0;
+    };
+    let track = first.grooves.track;
+    let (_, cos_b) = track.ball_contact_angle();
+    let slips = track.slip_between(first.way);
+    for ball in balls.iter_mut() {
+        ball.rubbing = Rubbing::default();
+    }
+    let mut loss = 0.0;
+    for (index, force) in found.forces.iter().enumerate() {
+        let slip = slip(
+            &slips,
+            &found.balls[index].state,
+            &found.balls[index + 1].state,
+        );
+        let limit = ball_friction * force.max(0.0);
+        loss += limit * slip.norm();
+        let pull = slip * (-limit / slip.norm().max(1e-12));
+        for (place, of, side) in [(index, slips[0], 1.0), (index + 1, slips[1], -1.0)] {
+            let rubbing = &mut balls[place].rubbing;
+            rubbing.motion += of.transpose() * pull;
+            rubbing.in_plane[0] += side * cos_b * pull.y;
+            rubbing.in_plane[1] += side * pull.x;
+        }
+    }
+    loss
+}
+
+/// Slip between a ball and the one in front of it over `R_B w_N`.
+fn slip(slips: &[SMatrix<f64, 2, 4>; 2], rear: &BallState, front: &BallState) -> Vector2<f64> {
+    slips[0] * rear.motion + slips[1] * front.motion
+}

@@ -1,0 +1,236 @@
+//! Finds place and motion of a ball in elastic grooves from nothing: by a search that cannot miss, and Newton steps at its end.
+//!
+//! Two halves of the problem are convex. Under given friction forces the ball lies where the elastic energy is least; at a given place it
+//! moves so that it loses the least power. What couples them is, above all, one number: the sum of the friction forces across the diagonal
+//! that carries the load, which pushes the ball towards the third contact. It is bounded by Coulomb's law, and the push that the motion
+//! answers follows it continuously. So a push that answers itself lies between the bounds, and bisection finds it: with play, preload, of
+//! either sign, and where both light contacts are open and one race sticks.
+
+use nalgebra::{SMatrix, Vector3, Vector4};
+
+use super::ball_screw_ball::{ScrewRow, ball_dissipation, rolling};
+use super::ball_screw_placed::{BallState, Drive, PlacedBall, STICK_SPIN, Solved, main_direction};
+use super::newton::{Local, Minimum, minimise, root_between};
+use crate::error::ReferenceError;
+
+/// Solves one ball: from `hint` where it leads there, or else from nothing.
+pub(crate) fn settle(
+    ball: &PlacedBall<'_>,
+    drive: Drive,
+    hint: Option<&BallState>,
+) -> Result<Solved, ReferenceError> {
+    let unit = unit(ball);
+    let mut best = f64::INFINITY;
+    let mut accepted = |start: &BallState| {
+        let solved = ball.newton(start, drive, unit)?;
+        best = best.min(solved.residual);
+        (solved.residual <= ball.accuracy(&solved.state).1).then_some(solved)
+    };
+    if let Some(solved) = hint.and_then(&mut accepted) {
+        return Ok(solved);
+    }
+    let search = Search::new(ball, drive, unit);
+    if let Some(solved) = search.guess().and_then(|start| accepted(&start)) {
+        return Ok(solved);
+    }
+    // A coarse search and Newton's method are cheaper than a fine search.
+    for tolerance in [1e-3, 1e-10] {
+        if let Some(solved) = search
+            .bracketed(tolerance)
+            .and_then(|start| accepted(&start))
+        {
+            return Ok(solved);
+        }
+    }
+    Err(ReferenceError::unbalanced(best))
+}
+
+/// Scale of the displacements, m.
+fn unit(ball: &PlacedBall<'_>) -> f64 {
+    let (_, reach) = ball.grooves.two_point_start(ball.axial_load);
+    reach.max(ball.grooves.oversize.abs())
+}
+
+struct Search<'a> {
+    ball: &'a PlacedBall<'a>,
+    drive: Drive,
+    unit: f64,
+    /// Across the diagonal that carries the load.
+    across: [f64; 2],
+}
+
+impl<'a> Search<'a> {
+    fn new(ball: &'a PlacedBall<'a>, drive: Drive, unit: f64) -> Self {
+        let [nx, nz] = main_direction(ball.grooves, ball.axial_load);
+        Self {
+            ball,
+            drive,
+            unit,
+            across: [nz, -nx],
+        }
+    }
+
+    /// Place of least elastic energy under given friction forces (x, z, axial).
+    fn place(&self, friction: &Vector3<f64>, start: Option<&Vector3<f64>>) -> Option<Vector3<f64>> {
+        let ball = self.ball;
+        let load = ball.axial_load;
+        let [rub_x, rub_z] = ball.rubbing.in_plane;
+        // The screw is pushed by its load and feels the opposite of what it does to the ball.
+        let force = Vector3::new(friction.x + rub_x, friction.y + rub_z, load - friction.z);
+        let start = start.copied().unwrap_or_else(|| {
+            let (travel, _) = ball.grooves.two_point_start(load);
+            let middle = 0.5 * travel * ball.grooves.track.lead_angle().1;
+            Vector3::new(0.0, middle, travel)
+        });
+        let scale = load.abs() * self.unit;
+        let end = minimise(start / self.unit, 1e-13 * scale, |y| {
+            let mut local = ball.grooves.energy(y, self.unit);
+            local.value -= force.dot(y) * self.unit;
+            local.gradient -= force * self.unit;
+            local
+        });
+        (end.residual <= 1e-6 * scale).then(|| end.point * self.unit)
+    }
+
+    /// Motion of least power at a place, and the force along the track.
+    fn motion(&self, rows: &[ScrewRow], start: &Vector4<f64>) -> Option<(Vector4<f64>, f64)> {
+        let ball = self.ball;
+        let total: f64 = rows.iter().map(|row| row.patch.friction_limit).sum();
+        let mut given = ball.rubbing.motion / ball.friction;
+        if let Drive::Force(force) = self.drive {
+            given[0] += ball.path() * force / ball.friction;
+        }
+        let power = |y: &Vector4<f64>, rest_spin: f64| {
+            let mut local = ball_dissipation(rows, y, rest_spin);
+            local.value -= given.dot(y);
+            local.gradient -= given;
+            local
+        };
+        let (point, residual) = match self.drive {
+            Drive::Force(_) => {
+                let end = sharpened(*start, total, power);
+                (end.point, end.residual)
+            }
+            Drive::Speed(speed) => {
+                let whole = |y: &Vector3<f64>| Vector4::new(speed, y.x, y.y, y.z);
+                let turn = Vector3::new(start.y, start.z, start.w);
+                let end = sharpened(turn, total, |y, rest_spin| {
+                    let all = power(&whole(y), rest_spin);
+                    Local {
+                        value: all.value,
+                        gradient: all.gradient.fixed_rows::<3>(1).into(),
+                        hessian: SMatrix::from(all.hessian.fixed_view::<3, 3>(1, 1)),
+                    }
+                });
+                (whole(&end.point), end.residual)
+            }
+        };
+        let force = match self.drive {
+            Drive::Force(force) => force,
+            Drive::Speed(_) => ball.friction * power(&point, STICK_SPIN).gradient[0] / ball.path(),
+        };
+        (residual <= 1e-7 * total).then_some((point, force))
+    }
+
+    /// Place and motion under a push across, with all other friction forces those of the motion; and the push that the motion answers.
+    fn under(&self, push: f64, from: Option<&BallState>) -> Option<(BallState, f64)> {
+        let ball = self.ball;
+        let [ax, az] = self.across;
+        let mut place = from.map(|state| state.place);
+        let mut motion = from.map_or_else(|| rolling(&ball.grooves.track), |state| state.motion);
+        let mut friction = Vector3::new(ax * push, az * push, 0.0);
+        for round in 0..120 {
+            let there = self.place(&friction, place.as_ref())?;
+            let rows = ball.rows(&there)?;
+            let force;
+            (motion, force) = self.motion(&rows, &motion)?;
+            place = Some(there);
+            let found = ball.friction_in_plane(&rows, &motion);
+            let answer = found.x * ax + found.y * az;
+            let missing = push - answer;
+            let next = found + Vector3::new(ax * missing, az * missing, 0.0);
+            let change = (next - friction).amax();
+            // Where a contact that sticks answers its own load, rounds swing about the end.
+            friction = if round < 15 {
+                next
+            } else {
+                (friction + next) * 0.5
+            };
+            if change <= 1e-9 * ball.friction * ball.axial_load.abs() {
+                let state = BallState {
+                    place: there,
+                    motion,
+                    force,
+                };
+                return Some((state, answer));
+            }
+        }
+        None
+    }
+
+    /// Start for Newton's method with the push of a third contact that spins with the ball.
+    fn guess(&self) -> Option<BallState> {
+        let ball = self.ball;
+        let frictionless = self.place(&Vector3::zeros(), None)?;
+        let push = 0.35 * self.towards_third() * self.bound(&frictionless);
+        let [ax, az] = self.across;
+        let place = self.place(
+            &Vector3::new(ax * push, az * push, 0.0),
+            Some(&frictionless),
+        )?;
+        let rows = ball.rows(&place)?;
+        let (motion, force) = self.motion(&rows, &rolling(&ball.grooves.track))?;
+        Some(BallState {
+            place,
+            motion,
+            force,
+        })
+    }
+
+    /// Sign of the push across: towards SL for SR-NL loads and NL for SL-NR loads where the nut turns forward.
+    fn towards_third(&self) -> f64 {
+        let third = [self.ball.axial_load.signum(), -1.0];
+        let towards = self.across[0] * third[0] + self.across[1] * third[1];
+        towards.signum() * self.ball.way
+    }
+
+    /// Friction that all contacts could bear, twice over: more than any push.
+    fn bound(&self, frictionless: &Vector3<f64>) -> f64 {
+        2.0 * self.ball.friction * self.ball.loads(frictionless).iter().sum::<f64>()
+    }
+
+    /// The push that answers itself, between its bounds, to a tolerance over them.
+    fn bracketed(&self, tolerance: f64) -> Option<BallState> {
+        let frictionless = self.place(&Vector3::zeros(), None)?;
+        let bound = self.bound(&frictionless);
+        let mut last = None;
+        let tolerance = tolerance * bound;
+        root_between((-bound, bound), (tolerance, tolerance), |push| {
+            let (state, answer) = self
+                .under(push, last.as_ref())
+                .or_else(|| self.under(push, None))?;
+            last = Some(state);
+            Some(answer - push)
+        })?;
+        last
+    }
+}
+
+/// Least power with friction smoothed over [`STICK_SPIN`]: directly, or from coarser smoothing.
+fn sharpened<const N: usize>(
+    start: nalgebra::SVector<f64, N>,
+    total: f64,
+    power: impl Fn(&nalgebra::SVector<f64, N>, f64) -> Local<N>,
+) -> Minimum<N> {
+    let tolerance = 1e-13 * total;
+    let direct = minimise(start, tolerance, |y| power(y, STICK_SPIN));
+    if direct.residual <= 1e-9 * total {
+        return direct;
+    }
+    let mut end = direct;
+    for rest_spin in [0.1, 0.01, 1e-3, STICK_SPIN] {
+        let from = if rest_spin == 0.1 { start } else { end.point };
+        end = minimise(from, tolerance, |y| power(y, rest_spin));
+    }
+    end
+}
