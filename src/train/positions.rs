@@ -157,3 +157,19 @@ impl<const N: usize> Train<N> {
         self.press.joins()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Rounding may leave balls a few units into each other: a gap just below zero, and not one around the track.
+    #[test]
+    fn an_overlap_by_rounding_is_a_gap_just_below_zero() {
+        let mut train = Train::<2>::new(1.0, 0.01, &[0.0; 2]).unwrap();
+        let rear = &mut train.press.balls[0];
+        rear.set_position(rear.position().wrapping_add(3));
+        // Three of 2^32 units to a metre.
+        let gap = train.gaps().next().unwrap();
+        assert!((gap + 3.0 / 4_294_967_296.0).abs() < 1e-15, "{gap}");
+    }
+}
