@@ -59,7 +59,8 @@ impl Pressing {
             .iter()
             .map(|ball| ball.axial_load.abs())
             .fold(0.0, f64::max);
-        let allowed = 1e-7 * largest + 1e-9 * load;
+        // As precise as the balance of a ball is accepted.
+        let allowed = 1e-7 * largest + 1e-8 * load;
         let left: f64 = self.balls.iter().map(|ball| ball.state.force).sum();
         let mut worst = left.abs();
         for (pair, force) in self.balls.windows(2).zip(&mut self.forces) {
