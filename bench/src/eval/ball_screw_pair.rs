@@ -16,7 +16,7 @@ use epas_friction::ball::ScrewRow;
 use epas_friction::geometry::Groove;
 use epas_friction::hertz::HertzContact;
 use epas_friction::train::Press;
-use epas_friction::{BallScrew, BallScrewParameters, GrooveFit, GrooveSize, LoadShare, Material};
+use epas_friction::{BallScrew, GrooveFit, LoadShare};
 use epas_reference::design::BallScrewDesign;
 use epas_reference::friction::ball_screw_row::{ElasticRow, RowBall, RowMotion};
 use epas_reference::friction::patch::Integration;
@@ -25,7 +25,7 @@ use serde::Serialize;
 
 use super::answer::Answer;
 use super::fields::{BadField, Fields, in_range};
-use super::train::{LARGEST_TRAIN, contact_forces, pressed, room_of_a_row, solved};
+use super::train::{LARGEST_TRAIN, ScrewNumbers, contact_forces, pressed, room_of_a_row, solved};
 
 /// Largest deviation of the arc centres, rad.
 const LARGEST_DEVIATION: f64 = 0.2;
@@ -271,22 +271,15 @@ impl Request {
     }
 
     fn design(&self) -> Result<BallScrew, BadField> {
-        let material = Material {
-            youngs_modulus: self.youngs_modulus as f32,
-            poisson_ratio: self.poisson_ratio as f32,
-            ..Material::STEEL
-        };
-        let groove = GrooveSize::Radius(self.groove_radius as f32);
-        BallScrew::new(BallScrewParameters {
-            pitch_radius: self.pitch_radius as f32,
-            lead: self.lead as f32,
-            ball_radius: self.ball_radius as f32,
-            screw_groove: groove,
-            nut_groove: groove,
-            contact_angle: self.contact_angle as f32,
-            ball_material: material,
-            groove_material: material,
-        })
+        ScrewNumbers {
+            pitch_radius: self.pitch_radius,
+            lead: self.lead,
+            ball_radius: self.ball_radius,
+            groove_radius: self.groove_radius,
+            youngs_modulus: self.youngs_modulus,
+            poisson_ratio: self.poisson_ratio,
+        }
+        .design(self.contact_angle as f32)
         .map_err(|error| BadField::from(error).renamed("axis_ratio", "groove_radius"))
     }
 }

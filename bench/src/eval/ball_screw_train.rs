@@ -2,7 +2,7 @@
 
 use epas_friction::geometry::{LARGEST_CONFORMITY, SMALLEST_CONFORMITY};
 use epas_friction::refined::{ScrewBall, ScrewBallState, ScrewChain};
-use epas_friction::{BallScrew, BallScrewParameters, Error, GrooveSize, Material};
+use epas_friction::{BallScrew, Error};
 use epas_reference::design::BallScrewDesign;
 use epas_reference::friction::ball_screw_ball::{Groove, ScrewContact, ScrewTrack};
 use epas_reference::friction::ball_screw_train::solve_screw_train;
@@ -13,7 +13,7 @@ use serde::Serialize;
 use super::answer::Answer;
 use super::fields::{BadField, Fields, in_range};
 use super::screw_scene::{Given, SceneRow, scene};
-use super::train::{LARGEST_TRAIN, room_of_a_row, solved};
+use super::train::{LARGEST_TRAIN, ScrewNumbers, room_of_a_row, solved};
 
 /// Names of the grooves' flanks: screw or nut, left or right.
 const FLANKS: [(&str, Groove); 4] = [
@@ -277,22 +277,15 @@ impl Request {
 
     /// The screw with a nominal contact angle.
     fn design(&self, contact_angle: f32) -> Result<BallScrew, Error> {
-        let material = Material {
-            youngs_modulus: self.youngs_modulus as f32,
-            poisson_ratio: self.poisson_ratio as f32,
-            ..Material::STEEL
-        };
-        let groove = GrooveSize::Radius(self.groove_radius as f32);
-        BallScrew::new(BallScrewParameters {
-            pitch_radius: self.pitch_radius as f32,
-            lead: self.lead as f32,
-            ball_radius: self.ball_radius as f32,
-            screw_groove: groove,
-            nut_groove: groove,
-            contact_angle,
-            ball_material: material,
-            groove_material: material,
-        })
+        ScrewNumbers {
+            pitch_radius: self.pitch_radius,
+            lead: self.lead,
+            ball_radius: self.ball_radius,
+            groove_radius: self.groove_radius,
+            youngs_modulus: self.youngs_modulus,
+            poisson_ratio: self.poisson_ratio,
+        }
+        .design(contact_angle)
     }
 
     /// Nothing moves; forces between balls are undefined.

@@ -2,12 +2,45 @@
 
 use epas_friction::train::IMPEDANCE_RANGE;
 use epas_friction::train::Press;
+use epas_friction::{BallScrew, BallScrewParameters, Error, GrooveSize, Material};
 use epas_reference::ReferenceError;
 
 use super::fields::BadField;
 
 /// Most balls in a request.
 pub const LARGEST_TRAIN: usize = 64;
+
+/// The numbers of a ball screw in a request, SI; both grooves are alike.
+pub struct ScrewNumbers {
+    pub pitch_radius: f64,
+    pub lead: f64,
+    pub ball_radius: f64,
+    pub groove_radius: f64,
+    pub youngs_modulus: f64,
+    pub poisson_ratio: f64,
+}
+
+impl ScrewNumbers {
+    /// The crate's design with a nominal contact angle.
+    pub fn design(&self, contact_angle: f32) -> Result<BallScrew, Error> {
+        let material = Material {
+            youngs_modulus: self.youngs_modulus as f32,
+            poisson_ratio: self.poisson_ratio as f32,
+            ..Material::STEEL
+        };
+        let groove = GrooveSize::Radius(self.groove_radius as f32);
+        BallScrew::new(BallScrewParameters {
+            pitch_radius: self.pitch_radius as f32,
+            lead: self.lead as f32,
+            ball_radius: self.ball_radius as f32,
+            screw_groove: groove,
+            nut_groove: groove,
+            contact_angle,
+            ball_material: material,
+            groove_material: material,
+        })
+    }
+}
 
 /// Rooms of a row of `count` balls that all touch, with nothing behind the first and ahead of the last.
 pub fn room_of_a_row(count: usize) -> [f32; LARGEST_TRAIN] {

@@ -75,7 +75,7 @@ impl CircuitConfiguration {
     /// Checks and folds a circuit of so many balls.
     ///
     /// # Errors
-    /// [`Error`] naming `return_length`, `length`, `pitch`, `load_shares`, `wavelength` or `tick`.
+    /// [`Error`] naming `return_length`, `length`, `pitch`, `load_shares` or `tick`.
     pub(crate) const fn folded(&self, balls: usize) -> Result<Circuit, Error> {
         let longest = LONGEST_RETURN * self.loaded_length;
         attempt!(in_range("return_length", self.return_length, 0.0, longest));
