@@ -9,6 +9,7 @@
 //!
 //! Refined forms, which a step does not run, stand in [`refined`](crate::refined).
 
+pub mod elastic;
 mod linear;
 mod loads;
 pub(crate) mod preload;

@@ -1,0 +1,18 @@
+//! One ball of a ball screw in elastic grooves: its place, its motion, its friction, renewed step by step.
+//!
+//! | file | what | runs in |
+//! |---|---|---|
+//! | `grooves` | both grooves with their contacts, folded once | set-up |
+//! | `contact` | one contact: load, friction, and how both change | every renewal |
+//! | `groove` | the two contacts of one groove, its axial place eliminated | every renewal |
+//! | `renewal` | one Newton step of place and motion together | every renewal |
+//! | `start` | place and motion from nothing | start, reversal |
+
+mod contact;
+mod groove;
+mod grooves;
+mod renewal;
+mod start;
+
+pub use grooves::ElasticGrooves;
+pub use renewal::{BallInputs, Renewal, Settled};
