@@ -125,10 +125,7 @@ impl Axial {
             stiffness * (hz - growth * nx),
         );
         let turned = load * per_distance;
-        let (gx, gz) = (
-            turned * (-nz - across * nx),
-            turned * (nx - across * nz),
-        );
+        let (gx, gz) = (turned * (-nz - across * nx), turned * (nx - across * nz));
         shared.by_place += kx * nx + gx * nz;
         self.radial += kx * nz - gx * nx;
         self.by_place += kz * nx + gz * nz;
@@ -150,10 +147,7 @@ impl Axial {
         let grown = friction * stiffness;
         let turned = limit * per_distance;
         let of = |gradient: f32, growth: f32, turn: f32| {
-            (
-                grown * (gradient + (1.0 / 3.0) * growth),
-                turned * turn,
-            )
+            (grown * (gradient + (1.0 / 3.0) * growth), turned * turn)
         };
         let (gradient, growth, turn) = (&slip.gradient, &slip.growth, &slip.turn);
         let parts = [
@@ -221,12 +215,7 @@ fn hessian(rows: &mut [[f32; 4]; 4], slip: &Slipping, limit: f32, (nx, nz): (f32
     let xz = limit * (a.x * q1z + b.x * q2z + stick * nx * nz);
     let zz = limit * (a.z * q1z + b.z * q2z + stick * nz * nz);
     let (xy, yy, yz) = (limit * a.x, limit * a.y, limit * a.z);
-    let (sx, sy, sz, ss) = (
-        limit * b.x,
-        limit * b.y,
-        limit * b.z,
-        limit * b.speed,
-    );
+    let (sx, sy, sz, ss) = (limit * b.x, limit * b.y, limit * b.z, limit * b.speed);
     let [x, y, z, speed] = rows;
     let add = |row: &mut [f32; 4], values: [f32; 4]| {
         for (entry, value) in row.iter_mut().zip(values) {

@@ -125,8 +125,7 @@ impl ElasticGrooves {
         );
         let nut = Axial::of(&self.nut, &touches, &motion, &conditions, &mut shared);
         shared.forces[3] -= inputs.force;
-        let needed =
-            (inputs.axial_load - self.sin_lead * screw.along) / self.cos_lead;
+        let needed = (inputs.axial_load - self.sin_lead * screw.along) / self.cos_lead;
         let carried = self.cos_lead * screw.force + self.sin_lead * screw.along;
         let raw = shared.forces;
         let power = shared.power;
@@ -151,11 +150,7 @@ impl ElasticGrooves {
         if shift * taken > reach {
             taken = reach / shift;
         }
-        state.place = [
-            x - taken * dx,
-            screw_z - taken * ds,
-            nut_z - taken * dn,
-        ];
+        state.place = [x - taken * dx, screw_z - taken * ds, nut_z - taken * dn];
         state.turning = [
             turn_x - taken * wx,
             turn_y - taken * wy,

@@ -37,10 +37,7 @@ impl Side {
             side.radial += touch.load * hx;
             side.axial += touch.load * hz;
             let turned = touch.load * touch.per_distance;
-            let (gx, gz) = (
-                turned * (-nz - across * nx),
-                turned * (nx - across * nz),
-            );
+            let (gx, gz) = (turned * (-nz - across * nx), turned * (nx - across * nz));
             let (kx, kz) = (touch.stiffness * hx, touch.stiffness * hz);
             side.xx += kx * nx + gx * nz;
             side.xz += kx * nz - gx * nx;
@@ -116,10 +113,6 @@ impl ElasticGrooves {
         let reach = root * root / self.screw.stiffness;
         let size = dx.abs() + ds.abs() + dn.abs();
         let taken = if size > reach { reach / size } else { 1.0 };
-        *place = [
-            x - taken * dx,
-            screw_z - taken * ds,
-            nut_z - taken * dn,
-        ];
+        *place = [x - taken * dx, screw_z - taken * ds, nut_z - taken * dn];
     }
 }
