@@ -26,6 +26,11 @@ impl Faults {
     /// The friction torque of a screw, or the friction force of a bearing, was cut to its limit.
     pub const FRICTION_LIMIT: Self = Self(1 << 4);
 
+    /// Balls still settle after a start, a reversal, or a jump of the load: forces between them are estimates.
+    pub const SETTLING: Self = Self(1 << 5);
+    /// Balls stand in two contacts, of which one sticks: forces between them are estimates.
+    pub const TWO_POINT: Self = Self(1 << 6);
+
     /// True where any flag is set.
     #[inline]
     #[must_use]

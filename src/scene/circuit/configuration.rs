@@ -120,6 +120,12 @@ impl Circuit {
         speed * self.travel
     }
 
+    /// Whether a ball at a position of the track carries load.
+    #[inline(always)]
+    pub(crate) fn is_loaded(&self, position: u32) -> bool {
+        self.zone.is_loaded(position)
+    }
+
     /// What a ball at a position of the track finds there, where it is loaded.
     #[inline(always)]
     pub(crate) fn place(&self, position: u32, phase: u32) -> Option<Place> {
