@@ -9,12 +9,16 @@ use super::circuit::{
 use super::contract::{Admitted, Inputs, Limits, Regime, Reversal, Scene};
 use super::faults::Faults;
 use super::outputs::UncagedOutputs;
-use crate::ball::{GrooveFit, LoadShare, LoopSums, ScrewRow};
+use crate::ball::{Clearance, GrooveFit, LoadShare, LoopSums, ScrewRow};
 use crate::error::{Error, attempt, in_range};
 use crate::geometry::BallScrew;
 use crate::math::elliptic::arc_sine;
 use crate::ranges;
 use crate::train::LARGEST_FREE_SPEED;
+
+/// Clearance from which on the closed form gives a ball two contacts, m. At 50 N a ball and a friction coefficient of 0.1
+/// the third contact opens at some 20 micrometres, and from half of that on two contacts are nearer than no play.
+const LEAST_PLAY: f32 = 10e-6;
 
 /// A ball screw without cage, with `N` balls in one circuit: friction of the grooves and between balls.
 ///
@@ -36,8 +40,8 @@ pub struct UncagedBallScrewConfiguration {
     pub friction: f32,
     /// Coulomb friction coefficient of ball and ball, 0 to 1.
     pub ball_friction: f32,
-    /// How balls fit between the grooves.
-    pub fit: GrooveFit,
+    /// How balls fit between the grooves, -0.02 to 0.05 ball radii.
+    pub clearance: Clearance,
     /// Turns of the loaded track, 0.1 to 100.
     pub turns: f32,
     /// Length of the return, m, 0 to 10, up to 250 times the loaded track, and 1000 turns with it: there
@@ -188,7 +192,7 @@ impl<const N: usize> UncagedConstants<N> {
             ref design,
             friction,
             ball_friction,
-            fit,
+            clearance,
             return_length,
             reversal_speed,
             limits,
@@ -198,7 +202,12 @@ impl<const N: usize> UncagedConstants<N> {
         attempt!(ranges::FRICTION_OR_NONE.checked("ball_friction", ball_friction));
         let reversal = attempt!(Reversal::new(reversal_speed, 1e-6, 1e3));
         let limits = attempt!(limits.checked());
-        let row = attempt!(ScrewRow::new(design, friction, fit));
+        let clearance = attempt!(clearance.checked(design));
+        let row = attempt!(ScrewRow::new(
+            design,
+            friction,
+            nearest_fit(design, clearance)
+        ));
         let speed = design.pitch_radius() / design.cos_lead_angle() - row.nominal_speed();
         attempt!(configuration.check_deviations(&row, speed));
         Ok(Self {
@@ -279,5 +288,20 @@ impl<const N: usize> UncagedConstants<N> {
     /// See [`FrictionModel::set_nut_angle`](crate::FrictionModel::set_nut_angle).
     pub(crate) fn set_nut_angle(&self, state: &mut CircuitState<N>, angle: f32) {
         state.set_turns(&self.circuit, angle / TAU);
+    }
+}
+
+/// The closed form's fit that is nearest to a clearance: preload with any oversize that counts, no play up to
+/// [`LEAST_PLAY`], two contacts from there on.
+const fn nearest_fit(design: &BallScrew, clearance: Clearance) -> GrooveFit {
+    let preload = clearance.preload(design);
+    if preload > 0.0 {
+        // The smallest preload may be less by rounding.
+        let contact_force = if preload > 1e-3 { preload } else { 1e-3 };
+        GrooveFit::Preload { contact_force }
+    } else if clearance.gap() < LEAST_PLAY {
+        GrooveFit::Zero
+    } else {
+        GrooveFit::Play
     }
 }
