@@ -106,8 +106,8 @@ impl Clearance {
     /// play ~ 4 gap / (sin(beta) cos(alpha))                                   gap << D
     /// ```
     ///
-    /// with the mean `D` of both grooves' radii less the ball's. Off the middle the travel to either flank is half the
-    /// play.
+    /// with the mean `D` of both grooves' radii less the ball's; within 5e-5 of the travel between helical grooves. From the
+    /// middle to either flank it is half the play.
     ///
     /// # Errors
     /// [`Error`] naming `axial_play`.
@@ -157,8 +157,8 @@ impl Clearance {
     /// Preload: force of each of the four contacts without a load, N, `(-2 gap / (C_S + C_N))^(3/2)`; 0 with play, and
     /// where it is less than 1e-3 N. For set-up.
     ///
-    /// Forces of a ball in elastic grooves are this within 1e-3 up to a gap of 1 % of the groove's radius less the
-    /// ball's: the ball shifts towards the softer groove, and its contact angles turn.
+    /// Forces of a ball in elastic grooves, whose contact angles turn where it moves towards the softer one, are this within
+    /// 3e-4 up to an oversize of 1e-3 ball radii, and within 0.4 % up to 0.02.
     #[must_use]
     pub const fn preload(self, design: &BallScrew) -> f32 {
         if self.gap < 0.0 {
