@@ -1,10 +1,10 @@
 //! The three scenes of the stored cases, set up in Rust; `test/setups.c` sets the same up in C, as a user would.
 
 use epas_friction::{
-    BallScrew, BallScrewParameters, CagedBallScrew, CagedBallScrewConfiguration, DeviationMap,
-    Error, FrictionBranch, FrictionModel, Clearance, GrooveSize, Harmonic, Limits, LinearBearing,
-    LinearBearingConfiguration, LinearBearingParameters, LinearBearingTrain, LinearLimits,
-    LoadShare, Material, UncagedBallScrew, UncagedBallScrewConfiguration,
+    BallScrew, BallScrewParameters, CagedBallScrew, CagedBallScrewConfiguration, Clearance,
+    DeviationMap, Error, FrictionBranch, FrictionModel, GrooveSize, Harmonic, Limits,
+    LinearBearing, LinearBearingConfiguration, LinearBearingParameters, LinearBearingTrain,
+    LinearLimits, LoadShare, Material, UncagedBallScrew, UncagedBallScrewConfiguration,
 };
 
 /// The rack-assist gear of Lin 2019, chapter 4.
