@@ -12,8 +12,8 @@ use crate::scene::{
 ///
 /// ```
 /// use epas_friction::{
-///     CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, FrictionBranch, FrictionModel, Inputs,
-///     Limits, Regime,
+///     CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, Clearance, FrictionBranch, FrictionModel,
+///     Inputs, Limits, Regime,
 /// };
 ///
 /// let mut model = FrictionModel::<CagedBallScrew>::new(&CagedBallScrewConfiguration {
@@ -21,7 +21,8 @@ use crate::scene::{
 ///     friction: 0.075,
 ///     rolling_tangent: 0.0,
 ///     branch: FrictionBranch::Rolling,
-///     preload: 0.0,
+///     clearance: Clearance::ZERO,
+///     loaded_balls: 40,
 ///     reversal_speed: 0.5,
 ///     limits: Limits { nut_speed: 500.0, axial_load: 20_000.0, friction_torque: 5.0 },
 /// })?;
@@ -39,8 +40,8 @@ use crate::scene::{
 ///
 /// ```
 /// use epas_friction::{
-///     CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, Error, FrictionBranch,
-///     FrictionModel, Limits,
+///     CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, Clearance, Error,
+///     FrictionBranch, FrictionModel, Limits,
 /// };
 ///
 /// static GEAR: CagedConstants = match gear() {
@@ -57,7 +58,8 @@ use crate::scene::{
 ///         friction: 0.075,
 ///         rolling_tangent: 0.0,
 ///         branch: FrictionBranch::Rolling,
-///         preload: 0.0,
+///         clearance: Clearance::ZERO,
+///         loaded_balls: 40,
 ///         reversal_speed: 0.5,
 ///         limits: Limits { nut_speed: 500.0, axial_load: 20_000.0, friction_torque: 5.0 },
 ///     })
@@ -71,7 +73,8 @@ use crate::scene::{
 ///
 /// ```compile_fail,E0080
 /// # use epas_friction::{
-/// #     CATALOGUE, CagedBallScrewConfiguration, CagedConstants, Error, FrictionBranch, Limits,
+/// #     CATALOGUE, CagedBallScrewConfiguration, CagedConstants, Clearance, Error, FrictionBranch,
+/// #     Limits,
 /// # };
 /// # static GEAR: CagedConstants = match gear() {
 /// #     Ok(constants) => constants,
@@ -86,7 +89,8 @@ use crate::scene::{
 ///         friction: 7.5,
 /// #         rolling_tangent: 0.0,
 /// #         branch: FrictionBranch::Rolling,
-/// #         preload: 0.0,
+/// #         clearance: Clearance::ZERO,
+/// #         loaded_balls: 40,
 /// #         reversal_speed: 0.5,
 /// #         limits: Limits { nut_speed: 500.0, axial_load: 20_000.0, friction_torque: 5.0 },
 /// #     })

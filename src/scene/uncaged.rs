@@ -11,7 +11,7 @@ use super::faults::Faults;
 use super::outputs::UncagedOutputs;
 use crate::ball::elastic::ElasticGrooves;
 use crate::ball::elastic::ring::{Ring, RingConstants, RingLoad};
-use crate::ball::{GrooveFit, LoadShare, ScrewRow};
+use crate::ball::{Clearance, GrooveFit, LoadShare, ScrewRow};
 use crate::error::{Error, attempt, in_range};
 use crate::geometry::BallScrew;
 use crate::math::elliptic::arc_sine;
@@ -38,8 +38,8 @@ pub struct UncagedBallScrewConfiguration {
     pub friction: f32,
     /// Coulomb friction coefficient of ball and ball, 0 to 1.
     pub ball_friction: f32,
-    /// Radial gap of every contact at the centred ball in the unloaded screw, m: play above zero, oversize below.
-    pub clearance: f32,
+    /// How balls fit between the grooves, -0.02 to 0.05 ball radii.
+    pub clearance: Clearance,
     /// Turns of the loaded track, 0.1 to 100.
     pub turns: f32,
     /// Length of the return, m, 0 to 10, up to 250 times the loaded track, and 1000 turns with it: there
@@ -215,6 +215,7 @@ impl<const N: usize> UncagedConstants<N> {
         attempt!(ranges::FRICTION_OR_NONE.checked("ball_friction", ball_friction));
         let reversal = attempt!(Reversal::new(reversal_speed, 1e-6, 1e3));
         let limits = attempt!(limits.checked());
+        let clearance = attempt!(clearance.checked(design)).gap();
         let row = attempt!(ScrewRow::new(design, friction, GrooveFit::Zero));
         let ring = RingConstants::new(attempt!(ElasticGrooves::new(design)));
         let speed = ring.speed_against_nut();

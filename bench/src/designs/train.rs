@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use epas_friction::{
-    BallScrew, DeviationMap, GrooveFit, GrooveSize, Harmonic, Limits, LinearBearing,
+    BallScrew, Clearance, DeviationMap, GrooveSize, Harmonic, Limits, LinearBearing,
     LinearBearingConfiguration, LinearBearingParameters, LinearLimits, LoadShare,
     UncagedBallScrewConfiguration,
 };
@@ -53,7 +53,8 @@ pub struct UncagedTable {
     balls: u8,
     turns: f32,
     ball_friction: Option<f32>,
-    fit: Option<Fit>,
+    /// What the design's `clearance` has replaced.
+    fit: Option<toml::Value>,
     return_length: Option<f32>,
     deviation_turns: Option<u16>,
     screw_deviation: Option<Vec<Wavelet>>,
@@ -61,13 +62,14 @@ pub struct UncagedTable {
     load_shares: Option<Vec<f32>>,
 }
 
-/// How balls fit between the grooves: a word, or the preload of a contact.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(rename_all = "lowercase")]
-enum Fit {
-    Zero,
-    Play,
-    Preload(f32),
+/// Says what stands in the place of a key that files have had.
+pub fn refuse_fit(fit: Option<&toml::Value>) -> Result<(), String> {
+    match fit {
+        None => Ok(()),
+        Some(_) => Err("fit is no key; a design has clearance (m; play above 0, oversize below), or preload (force of \
+                        each contact without a load, N)"
+            .into()),
+    }
 }
 
 /// A wave of a deviation map.
@@ -146,7 +148,7 @@ pub fn built_in(name: &str, screw: BallScrew, balls: u16) -> Option<UncagedDesig
         axial_load: 1e5,
         friction_torque: 100.0,
     };
-    table.design(screw, 0.1, 1e-2, limits).ok()
+    table.design(screw, Clearance::ZERO, 0.1, 1e-2, limits).ok()
 }
 
 impl UncagedTable {
@@ -154,10 +156,12 @@ impl UncagedTable {
     pub fn design(
         &self,
         screw: BallScrew,
+        clearance: Clearance,
         friction: f32,
         reversal_speed: f32,
         limits: Limits,
     ) -> Result<UncagedDesign, String> {
+        refuse_fit(self.fit.as_ref())?;
         let turns = self.deviation_turns.unwrap_or(1);
         let waves = self.screw_deviation.as_deref().unwrap_or_default();
         let on_nut = self.nut_deviation.as_deref().unwrap_or_default();
@@ -183,11 +187,7 @@ impl UncagedTable {
                 design: screw,
                 friction,
                 ball_friction: self.ball_friction.unwrap_or(BALL_FRICTION),
-                fit: match self.fit.unwrap_or(Fit::Zero) {
-                    Fit::Zero => GrooveFit::Zero,
-                    Fit::Play => GrooveFit::Play,
-                    Fit::Preload(contact_force) => GrooveFit::Preload { contact_force },
-                },
+                clearance,
                 turns: self.turns,
                 return_length: self.return_length.unwrap_or(0.0),
                 screw_deviation: map("screw_deviation", turns, waves)?,

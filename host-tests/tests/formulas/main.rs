@@ -3,6 +3,7 @@
 #[path = "../kit/mod.rs"]
 mod kit;
 
+mod clearance;
 mod constants;
 mod curvature;
 mod efficiency;

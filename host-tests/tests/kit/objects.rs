@@ -1,6 +1,8 @@
 //! Every object that is made from plain numbers: refused, or its answers are finite.
 
-use epas_friction::ball::{AnalyticLinearBall, LinearBallParameters, ScrewRow, SpeedDeviation};
+use epas_friction::ball::{
+    AnalyticLinearBall, GrooveFit, LinearBallParameters, ScrewRow, SpeedDeviation,
+};
 use epas_friction::contact::FrictionMap;
 use epas_friction::curvature::{FittedCurvature, GothicArch};
 use epas_friction::efficiency::{
@@ -14,9 +16,7 @@ use epas_friction::kinematics::{
 };
 use epas_friction::refined::{FourPointBall, RotaryBall, RotaryBallParameters};
 use epas_friction::train::{Press, Train};
-use epas_friction::{
-    BallScrew, BallScrewParameters, Error, GrooveFit, GrooveSize, LoadShare, Material,
-};
+use epas_friction::{BallScrew, BallScrewParameters, Error, GrooveSize, LoadShare, Material};
 
 /// Numbers to make objects of, in turn; zeros when they are used up.
 pub struct Numbers(pub Vec<f32>);
@@ -120,8 +120,8 @@ pub fn check(numbers: &mut Numbers) -> Result<(), String> {
 }
 
 fn ball_screw(numbers: &mut Numbers) -> Result<(), String> {
-    let pitch_radius = numbers.size(1e-4, 10.0);
-    let lead = numbers.size(1e-7, 100.0);
+    let pitch_radius = numbers.size(1e-3, 0.5);
+    let lead = numbers.size(1e-7, 0.2);
     let ball_radius = pitch_radius * numbers.within(0.01, 0.9);
     let contact_angle = numbers.within(0.01, 1.5533);
     let parameters = BallScrewParameters {
@@ -532,7 +532,7 @@ fn design(numbers: &mut Numbers) -> Result<(), String> {
     let duty = numbers.size(1e-3, 1e6);
     let lead_angle = numbers.within(0.001, 1.5);
     let friction = numbers.within(0.0, 1.0);
-    let screw_length = numbers.size(0.006, 100.0);
+    let screw_length = numbers.size(0.06, 30.0);
     let pitch_radius = screw_length * numbers.size(1.0 / 60.0, 1.0);
     let ball_ratio = numbers.within(0.07, 0.2);
     let osculation = numbers.within(0.95, 0.97);

@@ -5,8 +5,9 @@ use crate::kit::measured;
 use crate::kit::random::Random;
 use crate::kit::{gears, recorded};
 use epas_friction::{
-    BallScrew, CagedBallScrew, DeviationMap, Faults, FrictionModel, Inputs, LinearBearing,
-    LinearBearingTrain, LinearInputs, UncagedBallScrew, UncagedBallScrewConfiguration, promises,
+    BallScrew, CagedBallScrew, Clearance, DeviationMap, Faults, FrictionModel, Inputs,
+    LinearBearing, LinearBearingTrain, LinearInputs, UncagedBallScrew,
+    UncagedBallScrewConfiguration, promises,
 };
 
 const COMMAND: &str = "cargo test -p epas-reference --test scenes faults -- --nocapture";
@@ -378,10 +379,11 @@ fn corrupted_configurations_are_refused_or_harmless() {
 
         let mut caged = gears::caged();
         caged.design = design;
+        let mut gap = caged.clearance.gap();
         let fields: [&mut f32; 4] = [
             &mut caged.friction,
             &mut caged.rolling_tangent,
-            &mut caged.preload,
+            &mut gap,
             &mut caged.reversal_speed,
         ];
         let which = random.below(fields.len());
@@ -390,7 +392,12 @@ fn corrupted_configurations_are_refused_or_harmless() {
                 corrupted(&mut random, field);
             }
         }
-        refused += u32::from(refused_or_sound::<CagedBallScrew>(&caged, &mut random));
+        if let Ok(clearance) = Clearance::new(gap) {
+            caged.clearance = clearance;
+            refused += u32::from(refused_or_sound::<CagedBallScrew>(&caged, &mut random));
+        } else {
+            refused += 1;
+        }
 
         let mut rail = gears::linear();
         let mut parameters = *rail.bearing.parameters();

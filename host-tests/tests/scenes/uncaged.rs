@@ -8,7 +8,7 @@ use crate::kit::measured;
 use std::f64::consts::{FRAC_PI_4, TAU};
 
 use epas_friction::{
-    DeviationMap, Faults, FrictionModel, GrooveFit, Harmonic, Inputs, Limits, LoadShare, Outputs,
+    Clearance, DeviationMap, Faults, FrictionModel, Harmonic, Inputs, Limits, LoadShare, Outputs,
     Regime, UncagedBallScrew, UncagedBallScrewConfiguration, UncagedOutputs,
 };
 use epas_reference::curvature::Groove;
@@ -37,7 +37,7 @@ fn configuration(degrees: f64) -> UncagedBallScrewConfiguration {
         design: design(),
         friction: 0.1,
         ball_friction: 0.1,
-        fit: GrooveFit::Zero,
+        clearance: Clearance::ZERO,
         turns: 2.0,
         return_length: 0.0,
         screw_deviation: map(degrees),
