@@ -13,6 +13,7 @@ mod linear;
 mod loads;
 pub(crate) mod preload;
 mod screw;
+mod two_point;
 
 pub use linear::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE, SpeedDeviation};
 pub use loads::LoadShare;
@@ -22,3 +23,4 @@ pub(crate) use screw::largest_deviation;
 pub use screw::{
     GrooveFit, LoopBall, LoopSums, RowContacts, ScrewLoop, ScrewRow, ScrewTick, ScrewTickBall,
 };
+pub(crate) use two_point::{BorderParameters, GrooveFriction};
