@@ -4,8 +4,7 @@ use core::borrow::Borrow;
 
 use crate::error::Error;
 use crate::scene::{
-    Faults, LinearBearingTrain, LinearConstants, Scene, SceneOutputs, UncagedBallScrew,
-    UncagedConstants,
+    LinearBearingTrain, LinearConstants, Scene, SceneOutputs, UncagedBallScrew, UncagedConstants,
 };
 
 /// Friction of one scene: configured once, stepped in the interrupt.
@@ -139,10 +138,10 @@ impl<S: Scene, C: Borrow<S::Constants>> FrictionModel<S, C> {
             None => S::Outputs::SAFE,
         };
         let outputs = outputs.limited(S::largest_friction(constants), admitted.faults);
-        self.faulted_ticks = if outputs.faults() == Faults::NONE {
-            0
-        } else {
+        self.faulted_ticks = if outputs.faults().faulty() {
             self.faulted_ticks.saturating_add(1)
+        } else {
+            0
         };
         outputs
     }
@@ -153,7 +152,8 @@ impl<S: Scene, C: Borrow<S::Constants>> FrictionModel<S, C> {
         self.faulted_ticks = 0;
     }
 
-    /// Consecutive ticks whose outputs were flagged, up to `u32::MAX`; 0 after a sound tick.
+    /// Consecutive ticks with a fault ([`Faults::faulty`](crate::Faults::faulty)), up to `u32::MAX`; 0 after a sound tick. A tick that is only
+    /// [`Faults::BEYOND_MODEL`](crate::Faults::BEYOND_MODEL) is sound.
     pub const fn faulted_ticks(&self) -> u32 {
         self.faulted_ticks
     }

@@ -48,6 +48,31 @@ impl LoadShare {
         Ok(Self { share, root })
     }
 
+    /// Its power of 1/3.
+    pub(crate) const fn root(&self) -> f32 {
+        self.root
+    }
+
+    /// The lightest and the heaviest of some shares; of none the mean load.
+    pub(crate) const fn extremes(shares: &[Self]) -> (Self, Self) {
+        let (mut lightest, mut heaviest) = match shares.first() {
+            Some(first) => (*first, *first),
+            None => (Self::MEAN, Self::MEAN),
+        };
+        let mut place = 0;
+        while place < shares.len() {
+            let share = shares[place];
+            if share.share < lightest.share {
+                lightest = share;
+            }
+            if share.share > heaviest.share {
+                heaviest = share;
+            }
+            place += 1;
+        }
+        (lightest, heaviest)
+    }
+
     /// Its power of 2/3.
     #[inline]
     pub(crate) const fn two_thirds(&self) -> f32 {
