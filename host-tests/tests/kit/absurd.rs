@@ -539,7 +539,7 @@ impl<const N: usize> Trial for UncagedBallScrew<N> {
     }
 
     fn check_state(model: &FrictionModel<Self>) -> Result<(), String> {
-        sound_train(&model.state().train)
+        sound_train(&model.state().circuit.train)
     }
 
     fn numbers(outputs: &UncagedOutputs) -> Vec<u32> {
