@@ -408,11 +408,20 @@ fn three_fits_are_the_limits_of_a_clearance() {
             let row = ScrewRow::new(&design, gear.friction, fit).unwrap();
             let tick = row.at(nut_speed, axial_load);
             let wanted = tick.ball(0.0, 0.0, &LoadShare::MEAN).groove_torque;
-            let mut found = model.step(Inputs { nut_speed, axial_load });
+            let mut found = model.step(Inputs {
+                nut_speed,
+                axial_load,
+            });
             for _ in 0..1000 {
-                found = model.step(Inputs { nut_speed, axial_load });
+                found = model.step(Inputs {
+                    nut_speed,
+                    axial_load,
+                });
             }
-            println!("{fit:?} {nut_speed} {axial_load}: {} for {wanted} {:?}", found.groove_torque, found.faults);
+            println!(
+                "{fit:?} {nut_speed} {axial_load}: {} for {wanted} {:?}",
+                found.groove_torque, found.faults
+            );
         }
     }
 }
