@@ -377,24 +377,12 @@ fn play_changes_nothing_in_the_closed_forms_of_a_caged_screw() {
     assert_ne!(folded(-5e-6, 40), folded(-5e-6, 41));
 }
 
-/// The closed form's three fits are what the elastic ball of the scene comes to: no play at a clearance of 0, two contacts
-/// with wide play, four-point contact with oversize.
-#[test]
-fn three_fits_are_the_limits_of_a_clearance() {
+/// Friction torque of one ball in the scene, when it has settled, over that of the closed form, less one: the largest.
+fn off_the_closed_form(clearance: Clearance, fit: GrooveFit) -> f32 {
     let gear = gears::uncaged();
-    let design = gear.design;
-    let preloaded = Clearance::of_preload(&design, 25.0).unwrap();
-    let wide = Clearance::new(0.02 * design.ball_radius()).unwrap();
-    for (clearance, fit) in [
-        (Clearance::ZERO, GrooveFit::Zero),
-        (wide, GrooveFit::Play),
-        (
-            preloaded,
-            GrooveFit::Preload {
-                contact_force: preloaded.preload(&design),
-            },
-        ),
-    ] {
+    let row = ScrewRow::new(&gear.design, gear.friction, fit).unwrap();
+    let mut largest = 0.0_f32;
+    for (nut_speed, axial_load) in [(10.0, 60.0), (10.0, -60.0), (-10.0, 20.0)] {
         let mut model = FrictionModel::<UncagedBallScrew<1>>::new(&UncagedBallScrewConfiguration {
             clearance,
             return_length: 0.0,
@@ -404,24 +392,37 @@ fn three_fits_are_the_limits_of_a_clearance() {
             ..gear
         })
         .unwrap();
-        for (nut_speed, axial_load) in [(10.0, 60.0), (10.0, -60.0), (-10.0, 20.0)] {
-            let row = ScrewRow::new(&design, gear.friction, fit).unwrap();
-            let tick = row.at(nut_speed, axial_load);
-            let wanted = tick.ball(0.0, 0.0, &LoadShare::MEAN).groove_torque;
-            let mut found = model.step(Inputs {
-                nut_speed,
-                axial_load,
-            });
-            for _ in 0..1000 {
-                found = model.step(Inputs {
-                    nut_speed,
-                    axial_load,
-                });
-            }
-            println!(
-                "{fit:?} {nut_speed} {axial_load}: {} for {wanted} {:?}",
-                found.groove_torque, found.faults
-            );
+        let inputs = Inputs {
+            nut_speed,
+            axial_load,
+        };
+        let tick = row.at(nut_speed, axial_load);
+        let wanted = tick.ball(0.0, 0.0, &LoadShare::MEAN).groove_torque;
+        for _ in 0..1000 {
+            model.step(inputs);
         }
+        let found = model.step(inputs).groove_torque;
+        println!("{fit:?} {nut_speed} rad/s {axial_load} N: {found} for {wanted}");
+        largest = largest.max((found.abs() / wanted - 1.0).abs());
     }
+    largest
+}
+
+/// Two of the closed form's three fits are limits of a clearance: no play at 0, four-point contact with oversize. It leaves
+/// out what the elastic ball has: contacts that turn, a third contact that does not roll. Measured: 7.9 % and 4.5 %.
+#[test]
+fn no_play_and_preload_are_limits_of_a_clearance() {
+    let preloaded = Clearance::of_preload(&gears::uncaged().design, 25.0).unwrap();
+    let fit = GrooveFit::Preload {
+        contact_force: 25.0,
+    };
+    assert!(off_the_closed_form(Clearance::ZERO, GrooveFit::Zero) < 0.09);
+    assert!(off_the_closed_form(preloaded, fit) < 0.05);
+}
+
+/// The third is the limit of wide play, where two contacts are left and one groove sticks.
+#[test]
+fn two_contacts_are_the_limit_of_wide_play() {
+    let wide = Clearance::new(0.02 * gears::uncaged().design.ball_radius()).unwrap();
+    assert!(off_the_closed_form(wide, GrooveFit::Play) < 0.15);
 }
