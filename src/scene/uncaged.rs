@@ -9,7 +9,7 @@ use super::circuit::{
 use super::contract::{Admitted, Inputs, Limits, Regime, Reversal, Scene};
 use super::faults::Faults;
 use super::outputs::UncagedOutputs;
-use crate::ball::{GrooveFit, LoadShare, LoopSums, ScrewRow};
+use crate::ball::{GrooveFit, LoadShares, LoopSums, ScrewRow};
 use crate::error::{Error, attempt, in_range};
 use crate::geometry::BallScrew;
 use crate::math::elliptic::arc_sine;
@@ -49,8 +49,9 @@ pub struct UncagedBallScrewConfiguration {
     /// Deviation of the contact angles along the nut's groove, from the start of the loaded track, at
     /// most [`ScrewRow::largest_deviation`].
     pub nut_deviation: &'static DeviationMap,
-    /// Load of a ball over the mean load, in equal parts of the loaded track from its start; 1 to 256.
-    pub load_shares: &'static [LoadShare],
+    /// Load of a ball over the mean load, in equal parts of the loaded track from its start; 1 to 256 for each sign of
+    /// the load, as many for both.
+    pub load_shares: LoadShares,
     /// Nut speed over which friction changes its direction, rad/s, 1e-6 to 1e3: at this speed it has
     /// 71 % of its full value.
     pub reversal_speed: f32,
@@ -232,10 +233,11 @@ impl<const N: usize> UncagedConstants<N> {
         let units = self.circuit.deviation_units();
         let row = tick.per_speed(reference, per_reference, units);
         let phase = state.phase();
+        let shares = self.circuit.shares(axial_load < 0.0);
         let mut sums = LoopSums::NONE;
         let mut balls = state.train.intake(self.circuit.travel(nut_speed));
         while let Some(next) = balls.next_ball() {
-            match self.circuit.place(next.position(), phase) {
+            match self.circuit.place(next.position(), phase, shares) {
                 Some(place) => {
                     let ball = row.ball(place.passing, place.recirculating, place.share, &mut sums);
                     next.put(ball.speed, ball.impedance);

@@ -10,7 +10,7 @@ use epas_friction::{
     BallScrew, CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, DISSERTATION_DESIGNS,
     DeviationMap, Error, FrictionBranch, FrictionModel, GrooveFit, GrooveSize, Harmonic, Inputs,
     Limits, LinearBearing, LinearBearingConfiguration, LinearBearingParameters, LinearBearingTrain,
-    LinearConstants, LinearInputs, LinearLimits, LoadShare, Material, UncagedBallScrew,
+    LinearConstants, LinearInputs, LinearLimits, LoadShare, LoadShares, Material, UncagedBallScrew,
     UncagedBallScrewConfiguration, UncagedConstants,
 };
 
@@ -264,7 +264,7 @@ pub const fn uncaged_configuration() -> Result<UncagedBallScrewConfiguration, Er
         return_length: 0.0,
         screw_deviation: &SCREW_DEVIATION,
         nut_deviation: &NUT_DEVIATION,
-        load_shares: &[LoadShare::MEAN],
+        load_shares: LoadShares::EVEN,
         reversal_speed: 0.5,
         tick: TICK,
         limits: LIMITS,

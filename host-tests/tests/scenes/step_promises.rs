@@ -13,7 +13,7 @@ use epas_friction::{
     BallScrew, CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, DISSERTATION_DESIGNS,
     DeviationMap, FrictionBranch, FrictionModel, GrooveFit, GrooveSize, Harmonic, Inputs, Limits,
     LinearBearing, LinearBearingConfiguration, LinearBearingParameters, LinearBearingTrain,
-    LinearInputs, LinearLimits, LoadShare, Material, UncagedBallScrew,
+    LinearInputs, LinearLimits, LoadShare, LoadShares, Material, UncagedBallScrew,
     UncagedBallScrewConfiguration,
 };
 use epas_reference::efficiency::Screw;
@@ -193,7 +193,7 @@ fn uncaged_step() {
                 return_length: 0.0,
                 screw_deviation: map,
                 nut_deviation: &DeviationMap::NONE,
-                load_shares: &[LoadShare::MEAN],
+                load_shares: LoadShares::EVEN,
                 reversal_speed: 1e-3,
                 tick: 1e-3,
                 limits: Limits {

@@ -4,7 +4,7 @@ use epas_friction::{
     BallScrew, BallScrewParameters, CagedBallScrew, CagedBallScrewConfiguration, DeviationMap,
     Error, FrictionBranch, FrictionModel, GrooveFit, GrooveSize, Harmonic, Limits, LinearBearing,
     LinearBearingConfiguration, LinearBearingParameters, LinearBearingTrain, LinearLimits,
-    LoadShare, Material, UncagedBallScrew, UncagedBallScrewConfiguration,
+    LoadShare, LoadShares, Material, UncagedBallScrew, UncagedBallScrewConfiguration,
 };
 
 /// The rack-assist gear of Lin 2019, chapter 4.
@@ -82,7 +82,7 @@ pub fn screw() -> Result<FrictionModel<UncagedBallScrew<37>>, Error> {
             ],
         )?),
         nut_deviation: kept(DeviationMap::from_samples(2, &triangle)?),
-        load_shares: kept(shares),
+        load_shares: LoadShares::same(kept(shares)),
         reversal_speed: 0.5,
         tick: 0.5e-3,
         limits: Limits {
