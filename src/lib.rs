@@ -62,7 +62,7 @@ pub mod refined;
 pub mod scene;
 pub mod train;
 
-pub use ball::{Clearance, LoadShare};
+pub use ball::{Clearance, LoadShare, LoadShares};
 pub use error::{Error, Range};
 pub use geometry::{
     BallScrew, BallScrewParameters, CATALOGUE, CatalogueSize, DISSERTATION_DESIGNS, GrooveSize,

@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_4;
 use epas_friction::ball::LinearBallParameters;
 use epas_friction::{
     BallScrew, BallScrewParameters, Clearance, DeviationMap, FrictionModel, GrooveSize, Harmonic,
-    Limits, LoadShare, Material, UncagedBallScrew, UncagedBallScrewConfiguration,
+    Limits, LoadShares, Material, UncagedBallScrew, UncagedBallScrewConfiguration,
 };
 use epas_reference::curvature::Groove;
 use epas_reference::design::BallScrewDesign;
@@ -160,7 +160,7 @@ pub fn whole_screw<const N: usize>() -> Result<FrictionModel<UncagedBallScrew<N>
         return_length: 0.0,
         screw_deviation: &SCREW_DEVIATION,
         nut_deviation: &DeviationMap::NONE,
-        load_shares: &[LoadShare::MEAN],
+        load_shares: LoadShares::EVEN,
         reversal_speed: 1e-3,
         tick: 1e-3,
         limits: Limits {

@@ -11,7 +11,7 @@ use super::faults::Faults;
 use super::outputs::UncagedOutputs;
 use crate::ball::elastic::ElasticGrooves;
 use crate::ball::elastic::ring::{Ring, RingConstants, RingLoad};
-use crate::ball::{Clearance, GrooveFit, LoadShare, ScrewRow};
+use crate::ball::{Clearance, GrooveFit, LoadShare, LoadShares, ScrewRow};
 use crate::error::{Error, attempt, in_range};
 use crate::geometry::BallScrew;
 use crate::math::elliptic::arc_sine;
@@ -51,8 +51,9 @@ pub struct UncagedBallScrewConfiguration {
     /// Deviation of the contact angles along the nut's groove, from the start of the loaded track, at
     /// most [`ScrewRow::largest_deviation`].
     pub nut_deviation: &'static DeviationMap,
-    /// Load of a ball over the mean load, in equal parts of the loaded track from its start; 1 to 256.
-    pub load_shares: &'static [LoadShare],
+    /// Load of a ball over the mean load, in equal parts of the loaded track from its start; 1 to 256 for each sign of
+    /// the load, as many for both.
+    pub load_shares: LoadShares,
     /// Nut speed over which friction changes its direction, rad/s, 1e-6 to 1e3: at this speed it has
     /// 71 % of its full value.
     pub reversal_speed: f32,
@@ -246,8 +247,9 @@ impl<const N: usize> UncagedConstants<N> {
         let (load, anew) = state.ring.turn_to(&self.ring, nut_speed, mean);
         let way = state.ring.way();
         if !anew {
+            let shares = self.circuit.shares(axial_load < 0.0);
             for _ in 0..self.renewals {
-                self.renew_next(state, &load, way);
+                self.renew_next(state, &load, way, shares);
             }
         }
         let angle = nut_speed * self.tick;
@@ -305,18 +307,24 @@ impl<const N: usize> UncagedConstants<N> {
             ),
             faults: Faults::NONE
                 .with(state.ring.settles(), Faults::SETTLING)
-                .with(state.ring.in_two_points(), Faults::TWO_POINT),
+                .with(state.ring.in_two_points(), Faults::BEYOND_MODEL),
         }
     }
 
     /// Renews the ball whose turn it is.
     #[inline(always)]
-    fn renew_next(&self, state: &mut UncagedState<N>, load: &RingLoad, way: f32) {
+    fn renew_next(
+        &self,
+        state: &mut UncagedState<N>,
+        load: &RingLoad,
+        way: f32,
+        shares: &'static [LoadShare],
+    ) {
         let index = state.ring.next();
         let train = &state.circuit.train;
         let place = self
             .circuit
-            .place(train.position(index), state.circuit.phase());
+            .place(train.position(index), state.circuit.phase(), shares);
         if let Some(place) = place {
             let (passing, recirculating) = self.circuit.deviation_units();
             let deviations = (

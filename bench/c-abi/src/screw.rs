@@ -1,6 +1,6 @@
 //! A ball screw whose balls press on each other.
 
-use epas_friction::{UncagedBallScrew, UncagedBallScrewConfiguration};
+use epas_friction::{LoadShares, UncagedBallScrew, UncagedBallScrewConfiguration};
 
 use crate::design::{ball_screw, clearance};
 use crate::scene::{CScene, TablePointers, Tables, limits, regime, screw_inputs};
@@ -55,7 +55,7 @@ impl CScene for Screw {
             return_length: configuration.return_length,
             screw_deviation: tables.passing,
             nut_deviation: tables.recirculating,
-            load_shares: tables.load_shares,
+            load_shares: LoadShares::same(tables.load_shares),
             reversal_speed: configuration.reversal_speed,
             tick: configuration.tick,
             limits: limits(&configuration.limits),

@@ -7,11 +7,7 @@ use epas_friction::curvature::FittedCurvature;
 use epas_friction::efficiency::{Drive, EfficiencyGeometry};
 use epas_friction::geometry::{ContactAngle, Groove};
 use epas_friction::{
-    BallScrew, CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, Clearance,
-    DISSERTATION_DESIGNS, DeviationMap, Error, FrictionBranch, FrictionModel, GrooveSize, Harmonic,
-    Inputs, Limits, LinearBearing, LinearBearingConfiguration, LinearBearingParameters,
-    LinearBearingTrain, LinearConstants, LinearInputs, LinearLimits, LoadShare, Material,
-    UncagedBallScrew, UncagedBallScrewConfiguration, UncagedConstants,
+    BallScrew, CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, Clearance, DISSERTATION_DESIGNS, DeviationMap, Error, FrictionBranch, FrictionModel, GrooveSize, Harmonic, Inputs, Limits, LinearBearing, LinearBearingConfiguration, LinearBearingParameters, LinearBearingTrain, LinearConstants, LinearInputs, LinearLimits, LoadShare, LoadShares, Material, UncagedBallScrew, UncagedBallScrewConfiguration, UncagedConstants,
 };
 
 use crate::numbers::{linear_outputs, outputs, uncaged_outputs};
@@ -268,7 +264,7 @@ pub const fn uncaged_configuration() -> Result<UncagedBallScrewConfiguration, Er
         return_length: 0.0,
         screw_deviation: &SCREW_DEVIATION,
         nut_deviation: &NUT_DEVIATION,
-        load_shares: &[LoadShare::MEAN],
+        load_shares: LoadShares::EVEN,
         reversal_speed: 0.5,
         tick: TICK,
         limits: LIMITS,

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use epas_friction::{
     BallScrew, Clearance, DeviationMap, GrooveSize, Harmonic, Limits, LinearBearing,
-    LinearBearingConfiguration, LinearBearingParameters, LinearLimits, LoadShare,
+    LinearBearingConfiguration, LinearBearingParameters, LinearLimits, LoadShare, LoadShares,
     UncagedBallScrewConfiguration,
 };
 use serde::Deserialize;
@@ -60,6 +60,7 @@ pub struct UncagedTable {
     screw_deviation: Option<Vec<Wavelet>>,
     nut_deviation: Option<Vec<Wavelet>>,
     load_shares: Option<Vec<f32>>,
+    negative_load_shares: Option<Vec<f32>>,
 }
 
 /// Says what stands in the place of a key that files have had.
@@ -142,6 +143,7 @@ pub fn built_in(name: &str, screw: BallScrew, balls: u16) -> Option<UncagedDesig
         }]),
         nut_deviation: None,
         load_shares: None,
+        negative_load_shares: None,
     };
     let limits = Limits {
         nut_speed: 2e3,
@@ -192,13 +194,36 @@ impl UncagedTable {
                 return_length: self.return_length.unwrap_or(0.0),
                 screw_deviation: map("screw_deviation", turns, waves)?,
                 nut_deviation: map("nut_deviation", turns, on_nut)?,
-                load_shares: shares(self.load_shares.as_deref())?,
+                load_shares: self.load_shares()?,
                 reversal_speed,
                 tick: 1e-3,
                 limits,
             },
-            wave: wave.filter(|_| self.load_shares.is_none()),
+            wave: wave
+                .filter(|_| self.load_shares.is_none() && self.negative_load_shares.is_none()),
         })
+    }
+
+    /// Shares of both signs of the load: one table serves both where a second one is not given.
+    fn load_shares(&self) -> Result<LoadShares, String> {
+        let positive = shares("load_shares", self.load_shares.as_deref())?;
+        let negative = match &self.negative_load_shares {
+            None => positive,
+            Some(_) if self.load_shares.is_none() => {
+                return Err(
+                    "negative_load_shares needs load_shares, those of positive loads".into(),
+                );
+            }
+            Some(given) if given.len() != positive.len() => {
+                return Err(format!(
+                    "negative_load_shares has {} entries where load_shares has {}",
+                    given.len(),
+                    positive.len()
+                ));
+            }
+            given => shares("negative_load_shares", given.as_deref())?,
+        };
+        Ok(LoadShares { positive, negative })
     }
 }
 
@@ -288,7 +313,7 @@ impl LinearFile {
                 wavelength: self.wavelength.unwrap_or(self.loaded_length),
                 rail_deviation: on("rail_deviation", &self.rail_deviation)?,
                 carriage_deviation: on("carriage_deviation", &self.carriage_deviation)?,
-                load_shares: shares(self.load_shares.as_deref())?,
+                load_shares: shares("load_shares", self.load_shares.as_deref())?,
                 reversal_speed: self.reversal_speed.unwrap_or(1e-3),
                 tick: 1e-3,
                 limits,
@@ -313,7 +338,7 @@ fn map(field: &str, turns: u16, waves: &[Wavelet]) -> Result<&'static DeviationM
 }
 
 /// Shares that live as long as the program.
-fn shares(given: Option<&[f32]>) -> Result<&'static [LoadShare], String> {
+fn shares(field: &str, given: Option<&[f32]>) -> Result<&'static [LoadShare], String> {
     let Some(given) = given else {
         return Ok(&[LoadShare::MEAN]);
     };
@@ -321,6 +346,6 @@ fn shares(given: Option<&[f32]>) -> Result<&'static [LoadShare], String> {
         .iter()
         .map(|share| LoadShare::new(*share))
         .collect::<Result<Vec<_>, _>>()
-        .map_err(|error| format!("load_shares: {error}"))?;
+        .map_err(|error| format!("{field}: {error}"))?;
     Ok(Vec::leak(shares))
 }

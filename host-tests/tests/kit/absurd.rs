@@ -9,8 +9,8 @@ use epas_friction::{
     BallScrew, BallScrewParameters, CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration,
     Clearance, DeviationMap, Faults, FrictionBranch, FrictionModel, GrooveSize, Inputs, Limits,
     LinearBearing, LinearBearingConfiguration, LinearBearingParameters, LinearBearingTrain,
-    LinearInputs, LinearLimits, LinearOutputs, LoadShare, Material, Outputs, Regime, Scene,
-    UncagedBallScrew, UncagedBallScrewConfiguration, UncagedOutputs,
+    LinearInputs, LinearLimits, LinearOutputs, LoadShare, LoadShares, Material, Outputs, Regime,
+    Scene, UncagedBallScrew, UncagedBallScrewConfiguration, UncagedOutputs,
 };
 
 /// Numbers at which formulas break.
@@ -485,7 +485,7 @@ impl<const N: usize> Trial for UncagedBallScrew<N> {
             },
             screw_deviation: map(random),
             nut_deviation: map(random),
-            load_shares: shares(random),
+            load_shares: LoadShares::same(shares(random)),
             reversal_speed: random.size(1e-6, 1e3),
             tick: if random.one_in(2) {
                 random.size(1e-6, 1e-2)

@@ -3,7 +3,8 @@
 use epas_friction::{
     BallScrew, CATALOGUE, CagedBallScrewConfiguration, Clearance, DeviationMap, FrictionBranch,
     GrooveSize, Harmonic, Limits, LinearBearing, LinearBearingConfiguration,
-    LinearBearingParameters, LinearLimits, LoadShare, Material, UncagedBallScrewConfiguration,
+    LinearBearingParameters, LinearLimits, LoadShare, LoadShares, Material,
+    UncagedBallScrewConfiguration,
 };
 
 /// Balls of [`uncaged`].
@@ -76,7 +77,7 @@ pub fn uncaged() -> UncagedBallScrewConfiguration {
         return_length: 0.01,
         screw_deviation: &SCREW_MAP,
         nut_deviation: &NUT_MAP,
-        load_shares: &[LoadShare::MEAN],
+        load_shares: LoadShares::EVEN,
         reversal_speed: 0.5,
         tick: 1e-4,
         limits: LIMITS,

@@ -12,8 +12,9 @@ use epas_friction::{
     BallScrew, CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, Clearance,
     DISSERTATION_DESIGNS, DeviationMap, Error, FrictionBranch, FrictionModel, GrooveSize, Harmonic,
     Inputs, Limits, LinearBearing, LinearBearingConfiguration, LinearBearingParameters,
-    LinearBearingTrain, LinearConstants, LinearInputs, LinearLimits, LoadShare, Material, Outputs,
-    Scene, UncagedBallScrew, UncagedBallScrewConfiguration, UncagedConstants, UncagedOutputs,
+    LinearBearingTrain, LinearConstants, LinearInputs, LinearLimits, LoadShare, LoadShares,
+    Material, Outputs, Scene, UncagedBallScrew, UncagedBallScrewConfiguration, UncagedConstants,
+    UncagedOutputs,
 };
 
 const fn folded<T: Copy>(set_up: Result<T, Error>) -> T {
@@ -51,6 +52,7 @@ static SHARES: [LoadShare; 3] = [
     LoadShare::MEAN,
     folded(LoadShare::new(1.6)),
 ];
+static REVERSED: [LoadShare; 3] = [SHARES[2], SHARES[1], SHARES[0]];
 
 const LIMITS: Limits = Limits {
     nut_speed: 300.0,
@@ -81,7 +83,10 @@ const fn uncaged(clearance: Clearance) -> UncagedBallScrewConfiguration {
         return_length: 0.03,
         screw_deviation: &WAVES,
         nut_deviation: &SLOW_WAVE,
-        load_shares: &SHARES,
+        load_shares: LoadShares {
+            positive: &SHARES,
+            negative: &REVERSED,
+        },
         reversal_speed: 0.5,
         tick: 1e-4,
         limits: LIMITS,

@@ -15,8 +15,8 @@ use epas_friction::{
     BallScrew, CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, Clearance,
     DISSERTATION_DESIGNS, DeviationMap, FrictionBranch, FrictionModel, GrooveSize, Harmonic,
     Inputs, Limits, LinearBearing, LinearBearingConfiguration, LinearBearingParameters,
-    LinearBearingTrain, LinearInputs, LinearLimits, LoadShare, Material, UncagedBallScrew,
-    UncagedBallScrewConfiguration,
+    LinearBearingTrain, LinearInputs, LinearLimits, LoadShare, LoadShares, Material,
+    UncagedBallScrew, UncagedBallScrewConfiguration,
 };
 use epas_reference::efficiency::Screw;
 use epas_reference::friction::ball_screw_closed::{ContactAngles, Support, ThreePointModel};
@@ -196,7 +196,7 @@ fn uncaged_step() {
                 return_length: 0.0,
                 screw_deviation: map,
                 nut_deviation: &DeviationMap::NONE,
-                load_shares: &[LoadShare::MEAN],
+                load_shares: LoadShares::EVEN,
                 reversal_speed: 1e-3,
                 tick: 1e-3,
                 limits: Limits {

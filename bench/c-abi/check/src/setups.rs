@@ -1,10 +1,7 @@
 //! The three scenes of the stored cases, set up in Rust; `test/setups.c` sets the same up in C, as a user would.
 
 use epas_friction::{
-    BallScrew, BallScrewParameters, CagedBallScrew, CagedBallScrewConfiguration, Clearance,
-    DeviationMap, Error, FrictionBranch, FrictionModel, GrooveSize, Harmonic, Limits,
-    LinearBearing, LinearBearingConfiguration, LinearBearingParameters, LinearBearingTrain,
-    LinearLimits, LoadShare, Material, UncagedBallScrew, UncagedBallScrewConfiguration,
+    BallScrew, BallScrewParameters, CagedBallScrew, CagedBallScrewConfiguration, Clearance, DeviationMap, Error, FrictionBranch, FrictionModel, GrooveSize, Harmonic, Limits, LinearBearing, LinearBearingConfiguration, LinearBearingParameters, LinearBearingTrain, LinearLimits, LoadShare, LoadShares, Material, UncagedBallScrew, UncagedBallScrewConfiguration,
 };
 
 /// The rack-assist gear of Lin 2019, chapter 4.
@@ -84,7 +81,7 @@ pub fn screw() -> Result<FrictionModel<UncagedBallScrew<37>>, Error> {
             ],
         )?),
         nut_deviation: kept(DeviationMap::from_samples(2, &triangle)?),
-        load_shares: kept(shares),
+        load_shares: LoadShares::same(kept(shares)),
         reversal_speed: 0.5,
         tick: 0.5e-3,
         limits: Limits {
