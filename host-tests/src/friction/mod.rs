@@ -42,6 +42,7 @@ mod ball_screw_press;
 pub mod ball_screw_row;
 mod ball_screw_rubbing;
 mod ball_screw_settle;
+mod ball_screw_tangent;
 pub mod ball_screw_train;
 pub mod chain;
 pub mod contact_law;
