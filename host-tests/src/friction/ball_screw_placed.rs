@@ -25,6 +25,14 @@ pub(crate) struct Rubbing {
     pub motion: Vector4<f64>,
 }
 
+impl std::ops::AddAssign for Rubbing {
+    fn add_assign(&mut self, other: Self) {
+        self.in_plane[0] += other.in_plane[0];
+        self.in_plane[1] += other.in_plane[1];
+        self.motion += other.motion;
+    }
+}
+
 /// What is given along the track.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Drive {
