@@ -1,35 +1,30 @@
 //! One instant of a ring of balls: place, motion and loads of every ball, and the forces between them.
 //!
-//! Newton's method on all balls at once: every ball's seven equations are replaced by their tangents, which leaves a linear law of its speed by
-//! the force on it; pooling of these laws gives the forces between the balls; and the forces give all balls their next place and motion.
-//! Complementarity then holds in every round, exactly, and what is left is the balls' unbalanced force, that falls quadratically. Friction
-//! between balls, and the outward part of their force, follow one round behind.
+//! Newton's method on all balls at once. Which pairs press is first found by pooling: every ball's seven equations are replaced by their tangents,
+//! which leaves a linear law of its speed by the force on it. From then on a pair that would pull is let go, and one whose rear ball would
+//! overtake is joined, until nothing changes and every ball is in balance.
 
 use nalgebra::SVector;
 use rayon::prelude::*;
 
 use super::ball_screw_grooves::ElasticGrooves;
-use super::ball_screw_placed::{
-    Balance, BallState, Drive, PlacedBall, Rubbing, STICK_SPIN, Solved,
-};
+use super::ball_screw_placed::{BallState, Drive, PlacedBall, Rubbing, STICK_SPIN, Solved};
+use super::ball_screw_ring_newton::{InRow, Moving, Target, UNLOADED, row_step};
 use super::ball_screw_ring_pool::pool_ring;
 use super::ball_screw_rubbing::{BallContact, press_and_rub};
-use super::ball_screw_settle::{settle, unit};
-use super::ball_screw_tangent::Tangent;
+use super::ball_screw_settle::settle;
 use super::patch::Integration;
 use crate::error::ReferenceError;
 
-/// Change of a ball's force with its speed over the nut's speed where it carries no load, N: it goes along with its neighbours.
-const UNLOADED: f64 = 1e-6;
 /// Unbalanced force over the sum of a ball's loads at which no further round is taken, and the largest that is accepted.
 const BALANCED: f64 = 1e-12;
 const ACCEPTED: f64 = 1e-8;
 /// Rounds of Newton's method, and the one from which on balls that do not follow are solved one by one.
 const ROUNDS: usize = 40;
 const PATIENCE: usize = 8;
-/// Longest step of a motion over the nut's speed, and of a place over its unit.
-const LONGEST_TURN: f64 = 0.5;
-const LONGEST_WAY: f64 = 2.0;
+/// Overtaking over the nut's speed, and pulling over the loads, that is rounding.
+const OVERTAKES: f64 = 1e-12;
+const PULLS: f64 = 1e-10;
 
 /// A ball under load.
 #[derive(Clone, Copy, Debug)]
@@ -68,8 +63,6 @@ pub(crate) struct Settled {
     /// Largest unbalanced force of a ball over the sum of its loads.
     pub residual: f64,
     pub power: Power,
-    /// Rounds taken.
-    pub rounds: usize,
 }
 
 /// Powers over `R_B w_N`, N.
@@ -92,94 +85,6 @@ impl Power {
         } else {
             0.0
         }
-    }
-}
-
-/// One ball under way, in the order of motion.
-struct Moving<'a> {
-    ball: PlacedBall<'a>,
-    state: BallState,
-    unit: f64,
-    tangent: Tangent,
-    /// Change of place and motion for the residual, and by a newton along the track.
-    step: [SVector<f64, 7>; 2],
-}
-
-impl<'a> Moving<'a> {
-    fn new(ball: PlacedBall<'a>, state: BallState) -> Option<Self> {
-        let unit = unit(&ball);
-        let tangent = ball.tangent(&state, unit)?;
-        Some(Self {
-            ball,
-            state,
-            unit,
-            tangent,
-            step: [SVector::zeros(); 2],
-        })
-    }
-
-    fn residual(&self) -> f64 {
-        self.tangent.balance.amax() / self.tangent.loads
-    }
-
-    /// Law of speed and force: `(unforced, compliance)`.
-    fn law(&mut self) -> Option<(f64, f64)> {
-        let factors = self.tangent.jacobian.lu();
-        let mut push = Balance::zeros();
-        push[3] = self.ball.path();
-        let missing = -factors.solve(&self.tangent.balance)?;
-        let by_force = -factors.solve(&push)?;
-        self.step = [missing, by_force];
-        let compliance = by_force[3];
-        let unforced = self.state.motion[0] + missing[3] - compliance * self.state.force;
-        (compliance > 0.0 && unforced.is_finite()).then_some((unforced, compliance))
-    }
-
-    /// Takes neighbours' other forces, which the balance holds as given.
-    fn rub(&mut self, rubbing: Rubbing) {
-        self.tangent.balance -= self.ball.given(&self.state);
-        self.ball.rubbing = rubbing;
-        self.tangent.balance += self.ball.given(&self.state);
-    }
-
-    /// Goes to a speed and force; shorter where the tangents do not lead that far. False where nothing leads on.
-    fn follow(&mut self, speed: f64, force: f64) -> bool {
-        let [missing, by_force] = self.step;
-        let change = missing + by_force * (force - self.state.force);
-        let way = change.fixed_rows::<3>(0).amax() / LONGEST_WAY;
-        let turn = change.fixed_rows::<4>(3).amax() / LONGEST_TURN;
-        let longest = way.max(turn);
-        let mut fraction = if longest > 1.0 { 1.0 / longest } else { 1.0 };
-        let before = self.tangent.balance.norm();
-        let floor = 1e-9 * self.tangent.loads;
-        let mut best: Option<(BallState, Tangent)> = None;
-        for _ in 0..6 {
-            let mut there = self.state;
-            there.place += change.fixed_rows::<3>(0) * (self.unit * fraction);
-            there.motion += change.fixed_rows::<4>(3) * fraction;
-            if fraction == 1.0 {
-                there.motion[0] = speed;
-                there.force = force;
-            } else {
-                there.force += (force - there.force) * fraction;
-            }
-            if let Some(tangent) = self.ball.tangent(&there, self.unit) {
-                let after = tangent.balance.norm();
-                let falls = after < before.max(floor);
-                if best.as_ref().is_none_or(|(_, b)| after < b.balance.norm()) {
-                    best = Some((there, tangent));
-                }
-                if falls {
-                    break;
-                }
-            }
-            fraction *= 0.5;
-        }
-        let Some((state, tangent)) = best else {
-            return false;
-        };
-        (self.state, self.tangent) = (state, tangent);
-        true
     }
 }
 
@@ -270,75 +175,200 @@ impl<'a> Instant<'a> {
         states: Vec<Option<BallState>>,
         forces: &[f64],
     ) -> Result<Settled, ReferenceError> {
-        let mut moving: Vec<Option<Moving<'a>>> = self
-            .seats
-            .par_iter()
-            .zip(states)
-            .map(|(seat, state)| Moving::new(self.ball(seat.as_ref()?), state?))
-            .collect();
-        if moving
-            .iter()
-            .zip(self.seats)
-            .any(|(m, s)| m.is_none() && s.is_some())
-        {
-            return Err(ReferenceError::unbalanced(f64::INFINITY));
-        }
-        let mut speeds: Vec<f64> = moving
-            .iter()
-            .map(|m| m.as_ref().map_or(self.idle_speed, |m| m.state.motion[0]))
-            .collect();
+        let mut moving = self.moving(states)?;
         let mut forces = forces.to_vec();
+        self.push(&mut moving, &forces);
+        let (unforced, compliance) = self.laws(&moving)?;
+        let (mut speeds, pooled) = self.pool(&unforced, &compliance);
+        let mut pressing: Vec<bool> = pooled.iter().map(|force| *force > 0.0).collect();
+        forces = pooled;
+        let mut settled = false;
         let mut best = f64::INFINITY;
         for round in 0..ROUNDS {
-            let loss = self.rub(&mut moving, &forces);
-            let residual = moving
-                .iter()
-                .flatten()
-                .map(Moving::residual)
-                .fold(0.0, f64::max);
-            let whole = round > 0 && self.goes_together(&moving, &speeds);
-            let stalled = residual <= ACCEPTED && residual > 0.3 * best;
+            let loss = self.push(&mut moving, &forces);
+            let residual = residual(&moving);
+            let whole = settled && goes_together(&moving, &speeds);
+            let stalled = residual <= ACCEPTED && residual > 0.9 * best;
             if whole && (residual <= BALANCED || stalled) {
-                return self.finished(&mut moving, speeds, forces, residual, loss, round);
+                return self.finished(&moving, speeds, forces, residual, loss);
             }
-            if whole {
-                best = best.min(residual);
-            }
+            best = best.min(residual);
             if round >= PATIENCE && round % 4 == 0 {
-                self.one_by_one(&mut moving, &speeds)?;
+                one_by_one(&mut moving, &speeds)?;
+                self.push(&mut moving, &forces);
             }
-            let (unforced, compliance) = self.laws(&mut moving)?;
-            (speeds, forces) = self.pool(&unforced, &compliance);
-            let nets = self.net(&forces);
+            let (targets, wanted) = self
+                .targets(&moving, &speeds, &forces, &pressing)
+                .ok_or(ReferenceError::unbalanced(best))?;
+            speeds = targets.iter().map(|target| target.speed).collect();
             let going = moving
                 .par_iter_mut()
-                .enumerate()
-                .map(|(j, m)| m.as_mut().is_none_or(|m| m.follow(speeds[j], nets[j])))
+                .zip(&targets)
+                .map(|(m, target)| m.as_mut().is_none_or(|m| m.follow(target)))
                 .reduce(|| true, |a, b| a && b);
             if !going {
                 break;
             }
+            let next = self.pressing_next(&pressing, &speeds, &wanted);
+            settled = next == pressing;
+            pressing = next;
+            forces = wanted
+                .iter()
+                .zip(&pressing)
+                .map(|(force, presses)| if *presses { force.max(0.0) } else { 0.0 })
+                .collect();
         }
         Err(ReferenceError::unbalanced(best))
     }
 
-    /// True where every ball has gone the whole step: it has the speed that pooling gave it.
-    fn goes_together(&self, moving: &[Option<Moving<'a>>], speeds: &[f64]) -> bool {
-        moving
+    fn moving(
+        &self,
+        states: Vec<Option<BallState>>,
+    ) -> Result<Vec<Option<Moving<'a>>>, ReferenceError> {
+        self.seats
+            .par_iter()
+            .zip(states)
+            .map(|(seat, state)| {
+                let (Some(seat), Some(state)) = (seat, state) else {
+                    return Ok(None);
+                };
+                let lost = ReferenceError::unbalanced(f64::INFINITY);
+                Moving::new(self.ball(seat), state).map(Some).ok_or(lost)
+            })
+            .collect()
+    }
+
+    /// Pairs that press in the next round: not those that would pull, and those whose rear ball would overtake.
+    fn pressing_next(&self, pressing: &[bool], speeds: &[f64], forces: &[f64]) -> Vec<bool> {
+        let load = self
+            .seats
             .iter()
-            .zip(speeds)
-            .all(|(m, speed)| m.as_ref().is_none_or(|m| m.state.motion[0] == *speed))
+            .flatten()
+            .map(|seat| seat.axial_load.abs())
+            .fold(0.0, f64::max);
+        let mut next = pressing.to_vec();
+        for rear in 0..speeds.len() {
+            let pair = self.pair_ahead(rear);
+            next[pair] = if pressing[pair] {
+                forces[pair] > -PULLS * load
+            } else {
+                self.touching[pair] && speeds[rear] > speeds[self.ahead(rear)] + OVERTAKES
+            };
+        }
+        next
+    }
+
+    /// Where Newton's step leads, with the pairs that press: balls, and forces along the track.
+    fn targets(
+        &self,
+        moving: &[Option<Moving<'a>>],
+        speeds: &[f64],
+        forces: &[f64],
+        pressing: &[bool],
+    ) -> Option<(Vec<Target>, Vec<f64>)> {
+        let n = moving.len();
+        let nets = self.net(forces);
+        let mut changes = vec![SVector::<f64, 7>::zeros(); n];
+        let mut common = speeds.to_vec();
+        let mut wanted = vec![0.0; n];
+        let rows = self.rows_of(pressing);
+        let steps: Vec<_> = rows
+            .par_iter()
+            .map(|row| {
+                let balls: Vec<InRow<'_, '_>> = row
+                    .iter()
+                    .map(|ball| match &moving[*ball] {
+                        Some(m) => InRow::Loaded(m),
+                        None => InRow::Idle {
+                            speed: speeds[*ball],
+                            unforced: self.idle_speed,
+                            force: nets[*ball],
+                        },
+                    })
+                    .collect();
+                let slopes: Vec<_> = row
+                    .windows(2)
+                    .map(|pair| {
+                        let force = forces[self.pair_ahead(pair[0])];
+                        let idle = BallState {
+                            place: nalgebra::Vector3::zeros(),
+                            motion: nalgebra::Vector4::zeros(),
+                            force: 0.0,
+                        };
+                        let state = |ball: usize| moving[ball].as_ref().map(|m| m.state);
+                        match (state(pair[0]), state(pair[1])) {
+                            (Some(rear), Some(front)) => self.between.slope(force, &rear, &front),
+                            _ => self.between.smooth().slope(force, &idle, &idle),
+                        }
+                    })
+                    .collect();
+                row_step(&balls, &slopes)
+            })
+            .collect();
+        for (row, step) in rows.iter().zip(steps) {
+            let step = step?;
+            let first = row[0];
+            let present = moving[first]
+                .as_ref()
+                .map_or(speeds[first], |m| m.state.motion[0]);
+            for (ball, change) in row.iter().zip(&step.changes) {
+                changes[*ball] = *change;
+                common[*ball] = present + step.changes[0][3];
+            }
+            for (ball, change) in row.iter().zip(&step.forces) {
+                let pair = self.pair_ahead(*ball);
+                wanted[pair] = forces[pair] + change;
+            }
+        }
+        let after: Vec<Option<BallState>> = moving
+            .iter()
+            .zip(&changes)
+            .map(|(m, change)| {
+                let mut state = m.as_ref()?.state;
+                state.motion += change.fixed_rows::<4>(3);
+                Some(state)
+            })
+            .collect();
+        let (rubbing, _) = self.rubbing(&after, &wanted);
+        let nets = self.net(&wanted);
+        let targets = (0..n)
+            .map(|ball| Target {
+                change: changes[ball],
+                speed: common[ball],
+                force: nets[ball],
+                rubbing: rubbing[ball],
+            })
+            .collect();
+        Some((targets, wanted))
+    }
+
+    /// Rows of balls that press, rear to front. A ring of which all pairs press is cut where it presses least: see [`pool_ring`].
+    fn rows_of(&self, pressing: &[bool]) -> Vec<Vec<usize>> {
+        let order = self.order();
+        let n = order.len();
+        let presses = |ball: usize| pressing[self.pair_ahead(ball)];
+        let end = order
+            .iter()
+            .position(|ball| !presses(*ball))
+            .unwrap_or(n - 1);
+        let mut rows = Vec::new();
+        let mut row = Vec::new();
+        for at in end + 1..=end + n {
+            let ball = order[at % n];
+            row.push(ball);
+            if !presses(ball) || at == end + n {
+                rows.push(std::mem::take(&mut row));
+            }
+        }
+        rows
     }
 
     /// Laws of speed and force of all balls.
-    fn laws(
-        &self,
-        moving: &mut [Option<Moving<'a>>],
-    ) -> Result<(Vec<f64>, Vec<f64>), ReferenceError> {
+    fn laws(&self, moving: &[Option<Moving<'a>>]) -> Result<(Vec<f64>, Vec<f64>), ReferenceError> {
         let idle = (self.idle_speed, 1.0 / UNLOADED);
         moving
-            .iter_mut()
-            .map(|m| m.as_mut().map_or(Some(idle), Moving::law))
+            .par_iter()
+            .map(|m| m.as_ref().map_or(Some(idle), Moving::law))
             .collect::<Option<Vec<_>>>()
             .map(|laws| laws.into_iter().unzip())
             .ok_or(ReferenceError::unbalanced(f64::INFINITY))
@@ -373,50 +403,45 @@ impl<'a> Instant<'a> {
         nets
     }
 
-    /// Puts the other forces between neighbours on the balls; the power lost over `R_B w_N`. Balls that carry no load do not rub.
-    fn rub(&self, moving: &mut [Option<Moving<'a>>], forces: &[f64]) -> f64 {
-        if !self.between.acts() {
-            return 0.0;
-        }
-        let mut all = vec![Rubbing::default(); moving.len()];
+    /// What neighbours do to each ball besides pushing it along the track, and the power lost over `R_B w_N`. Balls that carry no load do not
+    /// rub.
+    fn rubbing(&self, states: &[Option<BallState>], forces: &[f64]) -> (Vec<Rubbing>, f64) {
+        let mut all = vec![Rubbing::default(); states.len()];
         let mut loss = 0.0;
-        for rear in 0..moving.len() {
+        if !self.between.acts() {
+            return (all, loss);
+        }
+        for rear in 0..states.len() {
             let force = forces[self.pair_ahead(rear)];
             let front = self.ahead(rear);
-            if let (Some(a), Some(b)) = (&moving[rear], &moving[front])
-                && force > 0.0
-            {
-                let between = self.between.between(force, &a.state, &b.state);
+            if !(force > 0.0) {
+                continue;
+            }
+            if let (Some(a), Some(b)) = (&states[rear], &states[front]) {
+                let between = self.between.between(force, a, b);
                 all[rear] += between.on_rear;
                 all[front] += between.on_front;
                 loss += between.loss;
+            } else {
+                let outward = self.between.outward_force(force);
+                all[rear].in_plane[0] += outward;
+                all[front].in_plane[0] += outward;
             }
         }
-        for (m, rubbing) in moving.iter_mut().zip(all) {
+        (all, loss)
+    }
+
+    /// Puts the neighbours' forces on the balls; the power lost between them.
+    fn push(&self, moving: &mut [Option<Moving<'a>>], forces: &[f64]) -> f64 {
+        let states: Vec<_> = moving.iter().map(|m| m.as_ref().map(|m| m.state)).collect();
+        let (rubbing, loss) = self.rubbing(&states, forces);
+        let nets = self.net(forces);
+        for ((m, rubbing), net) in moving.iter_mut().zip(rubbing).zip(nets) {
             if let Some(m) = m {
-                m.rub(rubbing);
+                m.push(net, rubbing);
             }
         }
         loss
-    }
-
-    /// Balls that Newton's method on all leaves unbalanced, each at its speed.
-    fn one_by_one(
-        &self,
-        moving: &mut [Option<Moving<'a>>],
-        speeds: &[f64],
-    ) -> Result<(), ReferenceError> {
-        moving
-            .par_iter_mut()
-            .zip(speeds)
-            .filter_map(|(m, speed)| m.as_mut().map(|m| (m, speed)))
-            .filter(|(m, _)| m.residual() > ACCEPTED)
-            .try_for_each(|(m, speed)| {
-                let found = settle(&m.ball, Drive::Speed(*speed), Some(&m.state))?;
-                *m = Moving::new(m.ball, found.state)
-                    .ok_or(ReferenceError::unbalanced(found.residual))?;
-                Ok(())
-            })
     }
 
     /// Row by row, each by the laws of its balls: slow, and sure. Only where some gap is open and all balls carry load.
@@ -457,33 +482,24 @@ impl<'a> Instant<'a> {
             }
             row.clear();
         }
-        let mut moving: Vec<Option<Moving<'a>>> = self
-            .seats
-            .iter()
-            .zip(states)
-            .map(|(seat, state)| Moving::new(self.ball(seat.as_ref()?), state?))
-            .collect();
-        let loss = self.rub(&mut moving, &forces);
-        let residual = moving
-            .iter()
-            .map(|m| m.as_ref().map_or(f64::INFINITY, Moving::residual))
-            .fold(0.0, f64::max);
+        let mut moving = self.moving(states)?;
+        let loss = self.push(&mut moving, &forces);
+        let residual = residual(&moving);
         // Forces that were found pass by pass agree to 1e-10 of the largest.
         if !(residual <= 10.0 * ACCEPTED) {
             return Err(ReferenceError::unbalanced(residual));
         }
         let speeds = moving.iter().flatten().map(|m| m.state.motion[0]).collect();
-        self.finished(&mut moving, speeds, forces, residual, loss, ROUNDS)
+        self.finished(&moving, speeds, forces, residual, loss)
     }
 
     fn finished(
         &self,
-        moving: &mut [Option<Moving<'a>>],
+        moving: &[Option<Moving<'a>>],
         speeds: Vec<f64>,
         forces: Vec<f64>,
         residual: f64,
         loss: f64,
-        rounds: usize,
     ) -> Result<Settled, ReferenceError> {
         let mut power = Power {
             balls: loss,
@@ -511,7 +527,35 @@ impl<'a> Instant<'a> {
             compliance,
             residual,
             power,
-            rounds,
         })
     }
+}
+
+/// Largest unbalanced force of a ball over the sum of its loads.
+fn residual(moving: &[Option<Moving<'_>>]) -> f64 {
+    let balls = moving.iter().flatten();
+    balls.map(Moving::residual).fold(0.0, f64::max)
+}
+
+/// True where every ball has gone the whole step: it has the speed of those that it presses on.
+fn goes_together(moving: &[Option<Moving<'_>>], speeds: &[f64]) -> bool {
+    moving
+        .iter()
+        .zip(speeds)
+        .all(|(m, speed)| m.as_ref().is_none_or(|m| m.state.motion[0] == *speed))
+}
+
+/// Balls that Newton's method on all leaves unbalanced, each at its speed.
+fn one_by_one(moving: &mut [Option<Moving<'_>>], speeds: &[f64]) -> Result<(), ReferenceError> {
+    moving
+        .par_iter_mut()
+        .zip(speeds)
+        .filter_map(|(m, speed)| m.as_mut().map(|m| (m, speed)))
+        .filter(|(m, _)| m.residual() > ACCEPTED)
+        .try_for_each(|(m, speed)| {
+            let found = settle(&m.ball, Drive::Speed(*speed), Some(&m.state))?;
+            *m = Moving::new(m.ball, found.state)
+                .ok_or(ReferenceError::unbalanced(found.residual))?;
+            Ok(())
+        })
 }

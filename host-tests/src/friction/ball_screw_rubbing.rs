@@ -1,6 +1,6 @@
 //! Balls of a row that press and rub on each other, and the checks of what was found.
 
-use nalgebra::{SMatrix, Vector2};
+use nalgebra::{Matrix2, SMatrix, Vector2};
 
 use super::ball_screw_ball::ScrewTrack;
 use super::ball_screw_placed::{BallState, PlacedBall, Rubbing, STICK_SPIN, Solved};
@@ -112,6 +112,8 @@ pub(crate) struct BallContact {
     /// Slip over `R_B w_N` by the motions of the rear and of the front ball.
     slips: [SMatrix<f64, 2, 4>; 2],
     cos: f64,
+    /// Path radius over ball radius.
+    path: f64,
     /// Force that points outward over the force along the track.
     outward: f64,
     friction: f64,
@@ -126,6 +128,16 @@ pub(crate) struct BetweenBalls {
     pub loss: f64,
 }
 
+/// Changes of the forces of a contact between two balls: on the seven balances of the rear and of the front ball, by the force along the
+/// track and by the two components of the slip.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct BallContactSlope {
+    /// Slip over `R_B w_N` by the motions of the rear and of the front ball.
+    pub slips: [SMatrix<f64, 2, 4>; 2],
+    pub on_rear: SMatrix<f64, 7, 3>,
+    pub on_front: SMatrix<f64, 7, 3>,
+}
+
 impl BallContact {
     /// With or without the part of the force that points outward because the track is curved; `way` is that of the nut.
     pub fn new(track: &ScrewTrack, friction: f64, way: f64, chord: bool) -> Self {
@@ -133,6 +145,7 @@ impl BallContact {
         Self {
             slips: track.slip_between(way),
             cos,
+            path: track.path_radius() / track.ball_radius,
             outward: if chord { sin / cos } else { 0.0 },
             friction,
         }
@@ -141,6 +154,11 @@ impl BallContact {
     /// Normal force of the contact by that along the track: they are one where the outward part is left out.
     pub fn normal_force(&self, along: f64) -> f64 {
         along * self.outward.hypot(1.0)
+    }
+
+    /// Outward part of a force along the track, on either ball, N.
+    pub fn outward_force(&self, along: f64) -> f64 {
+        self.outward * along
     }
 
     /// Forces of two balls that press with `along` along the track, N.
@@ -160,6 +178,46 @@ impl BallContact {
             on_rear,
             on_front,
             loss: limit * slip.norm(),
+        }
+    }
+
+    /// How the forces of two balls that press with `along`, N, change with it and with their slip.
+    pub fn slope(&self, along: f64, rear: &BallState, front: &BallState) -> BallContactSlope {
+        let slip: Vector2<f64> = self.slips[0] * rear.motion + self.slips[1] * front.motion;
+        let size = slip.norm().max(1e-12);
+        let (way, limit) = (slip / size, self.friction * self.normal_force(1.0));
+        let turn = Matrix2::identity() - way * way.transpose();
+        let by_slip = turn * (-limit * along.max(0.0) / size);
+        let pulls = [
+            -limit * way,
+            by_slip.column(0).into(),
+            by_slip.column(1).into(),
+        ];
+        let [on_rear, on_front] =
+            [(self.slips[0], 1.0), (self.slips[1], -1.0)].map(|(of, side)| {
+                let mut all = SMatrix::<f64, 7, 3>::zeros();
+                for (column, pull) in pulls.iter().enumerate() {
+                    all[(0, column)] = side * self.cos * pull.y;
+                    all[(1, column)] = side * pull.x;
+                    all.fixed_view_mut::<4, 1>(3, column)
+                        .copy_from(&(of.transpose() * pull));
+                }
+                all[(0, 0)] += self.outward;
+                all[(3, 0)] -= side * self.path;
+                all
+            });
+        BallContactSlope {
+            slips: self.slips,
+            on_rear,
+            on_front,
+        }
+    }
+
+    /// The same contact where balls do not rub.
+    pub fn smooth(self) -> Self {
+        Self {
+            friction: 0.0,
+            ..self
         }
     }
 

@@ -110,9 +110,8 @@ impl PlacedBall<'_> {
                 column += self.of_contact(row, 0.0, &by_motion);
             }
         }
-        let all = sum.balance.iter().chain(&sum.jacobian);
-        all.fold(true, |finite, x| finite && x.is_finite())
-            .then_some(sum)
+        let mut all = sum.balance.iter().chain(&sum.jacobian);
+        all.all(|x| x.is_finite()).then_some(sum)
     }
 
     /// Forces that do not come from the contacts.

@@ -41,6 +41,7 @@ mod ball_screw_placed;
 mod ball_screw_press;
 pub mod ball_screw_ring;
 mod ball_screw_ring_march;
+mod ball_screw_ring_newton;
 mod ball_screw_ring_pool;
 mod ball_screw_ring_solve;
 pub mod ball_screw_row;
