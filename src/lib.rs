@@ -23,7 +23,8 @@
 //! | [`geometry`] | validated designs, built-in sizes | set-up |
 //! | [`curvature`] | groove curvature: literature, circular groove, fitted, exact | set-up (the exact one); direct |
 //! | [`hertz`] | contact ellipse, deflection, pressure | set-up; direct |
-//! | [`contact`] | friction of one contact: along the track, across it, in any direction | set-up and step (across); direct |
+//! | [`contact`] | friction of one contact: along the track, across it, in any direction; rolling resistance | set-up and step (across); direct |
+//! | [`defaults`] | friction coefficient, clearance and rolling resistance where nothing is measured | set-up |
 //! | [`train`] | a row of balls that push each other: free speeds and impedances in, forces and moves out | step of both trains |
 //! | [`ball`] | one ball between its grooves, closed forms | step of both trains |
 //! | [`refined`] | one ball and chains of balls, refined by Newton steps | direct |
@@ -44,6 +45,7 @@
 pub mod ball;
 pub mod contact;
 pub mod curvature;
+pub mod defaults;
 pub mod efficiency;
 pub mod error;
 #[doc(hidden)]
