@@ -16,6 +16,7 @@
 //! The report's section "Measured and computed" has the figures, their sources and what other values would do. Wipers, seals and the balls' return are not
 //! in them.
 
+use crate::ball::Clearance;
 use crate::contact::RollingResistance;
 
 /// Coulomb friction coefficient of ball and groove: 0.1.
@@ -26,14 +27,17 @@ use crate::contact::RollingResistance;
 /// Range in the literature: 0.02 to 0.2 assumed in models, 0.05 to 0.15 for boundary-lubricated steel. Lin 2019 takes 0.1.
 pub const FRICTION: f32 = 0.1;
 
-/// Radial gap of every contact at the centred ball and the unloaded screw, m: 1 um of oversize.
+/// Clearance: a radial gap of every contact of -1 um, that is 1 um of oversize.
 ///
 /// Steering gears and machine tools are built without play. A micrometre of oversize is the least preload that a maker can set by sorting balls; it makes
 /// efficiency rise with load, as is measured, and keeps the friction of the makers' rule down to small leads, where a ball that just fits loses its third
 /// contact. It costs some 0.12 N m without load in a steering gear's screw (29x7, 71 balls).
 ///
 /// Range: 5 um of oversize (heavily preloaded) to 20 um of play.
-pub const CLEARANCE: f32 = -1e-6;
+pub const CLEARANCE: Clearance = match Clearance::new(-1e-6) {
+    Ok(clearance) => clearance,
+    Err(_) => Clearance::ZERO,
+};
 
 /// Rolling resistance: steel, without lubricant drag.
 ///

@@ -18,7 +18,7 @@ fn usual() -> Usual {
     let decimal = |value: f32| value.to_string().parse().unwrap_or(f64::from(value));
     Usual {
         friction: decimal(defaults::FRICTION),
-        clearance: decimal(defaults::CLEARANCE),
+        clearance: decimal(defaults::CLEARANCE.gap()),
         rolling: RollingResistance {
             hysteresis_loss: decimal(defaults::ROLLING_RESISTANCE.hysteresis_loss),
             lubricant_drag: decimal(defaults::ROLLING_RESISTANCE.lubricant_drag),

@@ -18,7 +18,7 @@ use crate::kit::given;
 fn usual() -> Usual {
     Usual {
         friction: defaults::FRICTION.into(),
-        clearance: defaults::CLEARANCE.into(),
+        clearance: defaults::CLEARANCE.gap().into(),
         rolling: RollingResistance {
             hysteresis_loss: defaults::ROLLING_RESISTANCE.hysteresis_loss.into(),
             lubricant_drag: defaults::ROLLING_RESISTANCE.lubricant_drag.into(),

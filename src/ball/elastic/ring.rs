@@ -421,7 +421,8 @@ impl RingBall {
         let (least, most) = IMPEDANCES;
         let impedance = if impedance > least { impedance } else { least };
         let impedance = if impedance < most { impedance } else { most };
-        let free = (settled.speed - constants.nominal) * constants.per_reference - force / impedance;
+        let free =
+            (settled.speed - constants.nominal) * constants.per_reference - force / impedance;
         self.place = settled.place;
         self.turning = settled.turning;
         self.free = if free > FASTEST {

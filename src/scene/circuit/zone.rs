@@ -75,7 +75,8 @@ impl LoadedZone {
     /// Whether balls at `position` carry load.
     #[inline(always)]
     pub(super) fn is_loaded(&self, position: u32) -> bool {
-        let entry = ((u64::from(position) * u64::from(self.entries)) >> (32 + FRACTION_BITS)) as usize;
+        let entry =
+            ((u64::from(position) * u64::from(self.entries)) >> (32 + FRACTION_BITS)) as usize;
         entry < self.shares.len()
     }
 
