@@ -1,5 +1,6 @@
 //! Efficiency over lead and load: the exact model, the papers' closed forms, makers' rules.
 
+use epas_reference::friction::ball_screw_efficiency::ScrewFriction;
 use epas_reference::measured::catalogue;
 use epas_reference::measured::studies::{EfficiencyRow, FIT_LOAD};
 
@@ -59,7 +60,7 @@ fn table(rows: &[EfficiencyRow]) -> Table {
                     Cell::from(row.size.name),
                     Cell::fixed(row.size.design().lead_angle().to_degrees(), 2),
                     Cell::fixed(row.ball_load, 0),
-                    known(found.map_or(f64::NAN, |friction| friction.efficiency()), 3),
+                    known(found.map_or(f64::NAN, ScrewFriction::efficiency), 3),
                     known(
                         found.map_or(f64::NAN, |friction| friction.contacts() as f64),
                         0,
@@ -87,7 +88,7 @@ fn picture(rows: &[EfficiencyRow]) -> Figure {
     };
     let exact = |row: &EfficiencyRow| {
         let found = row.exact.as_ref();
-        found.map_or(f64::NAN, |friction| friction.efficiency())
+        found.map_or(f64::NAN, ScrewFriction::efficiency)
     };
     let mut series: Vec<Series> = [30.0, 100.0, 300.0]
         .iter()
