@@ -187,7 +187,7 @@ fn four_groups_build_up_release_and_build_up_again() {
             axial_load: -1500.0,
         });
         torques.push(output.ball_torque / output.groove_torque);
-        let contacts = model.state().train.contacts();
+        let contacts = model.state().circuit.train.contacts();
         assert_eq!(contacts.len(), usize::from(output.contacts));
         if tick == 288 {
             // 103.7 degrees: runs of contacts between neighbours, the last ball's neighbour being ball 0.
@@ -309,7 +309,7 @@ fn reversal_turns_friction_and_releases_the_balls() {
     let before = step(&mut model, TAU as f32);
     assert!(before.contacts > 10 && before.friction_torque > 0.0);
     // At rest nothing rubs; the train stays where it is.
-    let positions: Vec<_> = model.state().train.positions().collect();
+    let positions: Vec<_> = model.state().circuit.train.positions().collect();
     for _ in 0..1000 {
         let rest = step(&mut model, 0.0);
         assert_eq!(
@@ -320,6 +320,7 @@ fn reversal_turns_friction_and_releases_the_balls() {
     assert!(
         model
             .state()
+            .circuit
             .train
             .positions()
             .eq(positions.iter().copied())
@@ -475,7 +476,7 @@ fn power_goes_into_grooves_and_rubbing_alone() {
             nut_speed: nut_speed as f32,
             axial_load: -1500.0,
         });
-        let train = &model.state().train;
+        let train = &model.state().circuit.train;
         let forces: Vec<f64> = train.forces().map(f64::from).collect();
         // Deviations of the speeds of the balls along the nut, over its nominal size; the balls run
         // backwards along the nut.
