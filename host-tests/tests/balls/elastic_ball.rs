@@ -87,6 +87,14 @@ fn scratch() {
                 last = Some(r);
             }
             let r = last.unwrap();
+            let push = number(&case["ball_force_N"]) * if i == 0 { -1.0 } else { 1.0 };
+            let forced = BallInputs { force: push as f32, ..inputs };
+            let mut pressed = state;
+            let mut p = r;
+            for _ in 0..20 { p = grooves.renew(&mut pressed, &forced); }
+            let exact_pressed = number(&case["pressed_orbital_speed"]);
+            println!("pressed {} vs exact {} free {}; F {push} linear {}", f64::from(p.speed)/path, exact_pressed, exact_speed,
+               exact_speed + push * of("free_compliance_per_N", i));
             let count = errors.iter().rposition(|e| *e > 1e-5).map_or(0, |p| p + 1);
             println!(
                 "{} {} mu {} g {} L {} dev {:.2} {:.2} -> n {count} err5 {:.1e} err10 {:.1e} end {:.1e} torque {:.1e} Y {:.4e} {:.4e} carried {:.5} loads {:?} {:?}",
