@@ -3,6 +3,7 @@
 /// A number for each part of a ball's motion: angular velocity about the radial axis, the track and the axis across both,
 /// and speed along the track over the ball radius; all over the nut's speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Motion {
     pub(super) speed: f32,
     pub(super) x: f32,

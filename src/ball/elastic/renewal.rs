@@ -1,12 +1,12 @@
 //! One Newton step of a ball's place and motion together.
 
-use super::contact::Touch;
+use super::contact::{Possible, Reach, add, within};
 use super::equations::{Axial, Motion, Shared, Step, solved};
 use super::grooves::{ElasticGroove, ElasticGrooves};
 use crate::math::inverse_cube_roots;
 
 /// Largest change of the motion in a step: sum over its parts, over the nut's speed.
-const LARGEST_TURN: f32 = 0.3;
+const LARGEST_TURN: f32 = 1.4;
 
 /// Largest change of a place in a step over the deflection of a contact under the ball's load.
 const LARGEST_SHIFT: f32 = 1.0;
@@ -57,139 +57,147 @@ pub struct Renewal {
     pub loads: [f32; 4],
     /// Part of the step that was taken.
     pub taken: f32,
+    /// Both contacts of a groove are open, or a number is not finite: the ball stays as it was, and compliance, torque and
+    /// carried force are zero. It needs [`ElasticGrooves::start`].
+    pub lost: bool,
+}
+
+impl Renewal {
+    /// Whether both light contacts are open: then one groove sticks, and the speed hangs on a friction that is not known
+    /// as well as elsewhere.
+    #[inline]
+    #[must_use]
+    pub fn two_point(&self) -> bool {
+        self.loads.iter().filter(|load| **load > 0.0).count() < 3
+    }
+
+    const fn lost(speed: f32, loads: [f32; 4]) -> Self {
+        Self {
+            speed,
+            compliance: 0.0,
+            torque: 0.0,
+            carried: 0.0,
+            loads,
+            taken: 0.0,
+            lost: true,
+        }
+    }
+}
+
+impl Settled {
+    #[inline(always)]
+    const fn motion(&self) -> Motion {
+        let [x, y, z] = self.turning;
+        Motion {
+            speed: self.speed,
+            x,
+            y,
+            z,
+        }
+    }
 }
 
 impl ElasticGrooves {
-    /// Contacts of both grooves at a place.
+    /// Arc centres of a groove's left and right side from its middle, over the ball radius; `side` is 1 of the screw and
+    /// -1 of the nut.
     #[inline(always)]
-    pub(super) fn touches(
+    pub(super) fn arcs(
         &self,
         groove: &ElasticGroove,
         side: f32,
-        (x, z): (f32, f32),
         deviation: f32,
-        clearance: f32,
-    ) -> [Option<Touch>; 2] {
+    ) -> [(f32, f32); 2] {
         // Cosine and sine of the deviation, to 0.2 rad.
         let square = deviation * deviation;
-        let cos = 1.0 - square * (0.5 - (1.0 / 24.0) * square);
-        let sin = deviation * (1.0 - square * ((1.0 / 6.0) - (1.0 / 120.0) * square));
-        let centre = side * groove.centre;
+        let cos = groove.centre * (1.0 - square * (0.5 - (1.0 / 24.0) * square));
+        let sin =
+            groove.centre * (deviation * (1.0 - square * ((1.0 / 6.0) - (1.0 / 120.0) * square)));
         let (cc, ss) = (self.cos * cos, self.sin * sin);
         let (sc, cs) = (self.sin * cos, self.cos * sin);
         // Left: the contact angle less the deviation; right: with it.
-        [
-            Touch::at(
-                groove,
-                (x, z),
-                (centre * (cc + ss), groove.centre * (sc - cs)),
-                clearance,
-            ),
-            Touch::at(
-                groove,
-                (x, z),
-                (centre * (cc - ss), -groove.centre * (sc + cs)),
-                clearance,
-            ),
-        ]
+        [(side * (cc + ss), sc - cs), (side * (cc - ss), -(sc + cs))]
     }
 
     /// One Newton step of the seven equations of a ball.
+    ///
+    /// A ball that has lost both contacts of a groove, or whose numbers are not finite, stays as it is: see
+    /// [`Renewal::lost`].
     #[inline]
     pub fn renew(&self, state: &mut Settled, inputs: &BallInputs) -> Renewal {
         let clearance = inputs.clearance * self.per_radius;
         let friction = inputs.friction;
         let [x, screw_z, nut_z] = state.place;
-        let [turn_x, turn_y, turn_z] = state.turning;
-        let motion = Motion {
-            speed: state.speed,
-            x: turn_x,
-            y: turn_y,
-            z: turn_z,
-        };
+        let motion = state.motion();
         let mut shared = Shared::NONE;
         let mut screw = Axial::NONE;
-        let touches = self.touches(
-            &self.screw,
-            1.0,
-            (x, screw_z),
-            inputs.screw_deviation,
-            clearance,
-        );
         let mut loads = [0.0; 4];
+        let mut reaches = [Reach::NONE; 4];
         let [left, right, far_left, far_right] = &mut loads;
-        for (touch, load) in touches.iter().zip([left, right]) {
-            if let Some(touch) = touch {
-                *load = touch.load;
-                touch.add(&self.screw, &motion, friction, &mut screw, &mut shared);
-            }
+        let [a, b, c, d] = &mut reaches;
+        let arcs = self.arcs(&self.screw, 1.0, inputs.screw_deviation);
+        for ((arc, load), reach) in arcs.into_iter().zip([left, right]).zip([a, b]) {
+            let at = Possible {
+                place: (x, screw_z),
+                arc,
+                clearance,
+            };
+            (*load, *reach) = add(&self.screw, &at, &motion, friction, &mut screw, &mut shared);
         }
         let on_screw = shared.forces;
-        let [base_y, base_z, base_speed] = self.nut.base;
-        let relative = Motion {
-            speed: motion.speed - base_speed,
-            x: motion.x,
-            y: motion.y - base_y,
-            z: motion.z - base_z,
-        };
+        let base = &self.nut.base;
+        let relative = motion.plus(base, -1.0);
         let mut nut = Axial::NONE;
-        let touches = self.touches(&self.nut, -1.0, (x, nut_z), inputs.nut_deviation, clearance);
-        for (touch, load) in touches.iter().zip([far_left, far_right]) {
-            if let Some(touch) = touch {
-                *load = touch.load;
-                touch.add(&self.nut, &relative, friction, &mut nut, &mut shared);
-            }
+        let arcs = self.arcs(&self.nut, -1.0, inputs.nut_deviation);
+        for ((arc, load), reach) in arcs.into_iter().zip([far_left, far_right]).zip([c, d]) {
+            let at = Possible {
+                place: (x, nut_z),
+                arc,
+                clearance,
+            };
+            (*load, *reach) = add(&self.nut, &at, &relative, friction, &mut nut, &mut shared);
         }
         // Friction along the track carries a part of the axial load.
         let along = -on_screw.speed;
         let needed = (inputs.axial_load - self.sin_lead * along) * self.per_cos_lead;
-        let carried = self.cos_lead * screw.force + self.sin_lead * along;
-        let step = solved(
-            &shared,
-            &screw,
-            &nut,
-            [screw.force - needed, nut.force + needed],
-            inputs.force,
-        );
-        let taken = self.limited(&step, inputs.axial_load);
+        let unbalanced = [screw.force - needed, nut.force + needed];
+        let step = solved(&shared, &screw, &nut, unbalanced, inputs.force);
+        let taken = self.limited(&step, &reaches, inputs.axial_load);
+        let moved = motion.plus(&step.motion, -taken);
+        // Power lost is the ball's forces times its motion, less those in the nut times the nut's.
+        let power = moved.dot(&shared.forces) - base.dot(&shared.forces.plus(&on_screw, -1.0));
+        let lost = !(taken * step.compliance < f32::MAX && power.abs() < f32::MAX);
+        if lost {
+            return Renewal::lost(state.speed * self.ball_radius, loads);
+        }
         state.place = [
             x - taken * step.radial,
             screw_z - taken * step.screw,
             nut_z - taken * step.nut,
         ];
-        let moved = motion.plus(&step.motion, -taken);
         state.turning = [moved.x, moved.y, moved.z];
         state.speed = moved.speed;
-        // Power lost is the ball's forces times its motion, less those in the nut times the nut's.
-        let total = &shared.forces;
-        let into_nut = base_y * (total.y - on_screw.y)
-            + base_z * (total.z - on_screw.z)
-            + base_speed * (total.speed - on_screw.speed);
         Renewal {
             speed: moved.speed * self.ball_radius,
             compliance: self.ball_radius * step.compliance,
-            torque: (moved.dot(total) - into_nut) * self.ball_radius,
-            carried,
+            torque: power * self.ball_radius,
+            carried: self.cos_lead * screw.force + self.sin_lead * along,
             loads,
             taken,
+            lost,
         }
     }
 
     /// Part of a step that is taken.
     #[inline(always)]
-    fn limited(&self, step: &Step, axial_load: f32) -> f32 {
-        let reach = LARGEST_SHIFT * self.deflection(axial_load);
+    fn limited(&self, step: &Step, reaches: &[Reach; 4], axial_load: f32) -> f32 {
         let Motion { speed, x, y, z } = step.motion;
         let sum = x.abs() + y.abs() + z.abs() + speed.abs();
         let shift = larger(step.radial.abs(), larger(step.screw.abs(), step.nut.abs()));
-        let mut taken = 1.0;
-        if sum > LARGEST_TURN {
-            taken = LARGEST_TURN / sum;
+        let mut taken = within(1.0, sum, LARGEST_TURN);
+        for reach in reaches {
+            taken = reach.allowed(&step.motion, taken);
         }
-        if shift * taken > reach {
-            taken = reach / shift;
-        }
-        taken
+        within(taken, shift, LARGEST_SHIFT * self.deflection(axial_load))
     }
 
     /// Deflection of a screw contact under all of a ball's load, over the ball radius.
