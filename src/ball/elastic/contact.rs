@@ -11,7 +11,7 @@ pub(super) const STICK_SPIN: f32 = 0.03;
 /// Part of its own slip and spin by which a step may change those of a contact: beyond it friction changes its sign.
 const REACH: f32 = 0.7;
 
-/// How far a step may change the motion of a ball, for the sake of one contact.
+/// Load of a contact, and how far a step may change the motion of the ball for its sake.
 #[derive(Clone, Copy)]
 pub(super) struct Reach {
     /// Normal: radial and axial part.
@@ -20,6 +20,8 @@ pub(super) struct Reach {
     /// Largest change of the spin and of the slip along the track, over the nut's speed.
     spin: f32,
     along: f32,
+    /// Load, N; zero without contact.
+    pub(super) load: f32,
 }
 
 impl Reach {
@@ -29,11 +31,15 @@ impl Reach {
         nz: 0.0,
         spin: f32::MAX,
         along: f32::MAX,
+        load: 0.0,
     };
 
     /// Part of a step that this contact allows, at most `taken`.
     #[inline(always)]
     pub(super) fn allowed(&self, step: &Motion, taken: f32) -> f32 {
+        if self.load == 0.0 {
+            return taken;
+        }
         let (along, spin) = slips(step, (self.nx, self.nz));
         let taken = within(taken, spin.abs(), self.spin);
         within(taken, along.abs(), self.along)
@@ -59,28 +65,56 @@ fn slips(motion: &Motion, (nx, nz): (f32, f32)) -> (f32, f32) {
     )
 }
 
-/// A contact that may be there.
-pub(super) struct Possible {
-    /// Ball centre from the groove's middle, over the ball radius: radially outward and axially.
-    pub(super) place: (f32, f32),
-    /// Centre of the arc, the same.
-    pub(super) arc: (f32, f32),
-    pub(super) clearance: f32,
-}
-
-/// Adds a contact to the equations of the ball where it carries; returns its load and how far a step may go.
+/// Adds a contact that carries to the equations of the ball; returns what it carries and how far a step may go.
 #[inline(never)]
 pub(super) fn add(
     groove: &ElasticGroove,
-    at: &Possible,
+    pressed: Pressed,
     motion: &Motion,
     friction: f32,
     own: &mut Axial,
     shared: &mut Shared,
-) -> (f32, Reach) {
-    match Touch::at(groove, at.place, at.arc, at.clearance) {
-        Some(touch) => (touch.load, touch.add(groove, motion, friction, own, shared)),
-        None => (0.0, Reach::NONE),
+    reach: &mut Reach,
+) {
+    *reach = Touch::of(groove, pressed).add(groove, motion, friction, own, shared);
+}
+
+/// How an arc of a groove lies to a ball.
+#[derive(Clone, Copy)]
+pub(super) struct Pressed {
+    /// From the arc's centre to the ball's, over the ball radius: radial and axial part.
+    ex: f32,
+    ez: f32,
+    /// Square of their distance less that at which the ball touches; the distance at which it touches.
+    excess: f32,
+    touching: f32,
+}
+
+impl Pressed {
+    /// A ball whose centre lies at `(x, z)` from the groove's middle and an arc whose centre lies at `(mx, mz)`, both over
+    /// the ball radius; none where a gap is left.
+    #[inline(always)]
+    pub(super) fn at(
+        groove: &ElasticGroove,
+        (x, z): (f32, f32),
+        (mx, mz): (f32, f32),
+        clearance: f32,
+    ) -> Option<Self> {
+        let (ex, ez) = (x - mx, z - mz);
+        // Without cancellation: the arc's centre lies `groove.centre` from the middle.
+        let excess =
+            x * (ex - mx) + z * (ez - mz) - clearance * (groove.centre + groove.centre + clearance);
+        // False for NaN.
+        if excess > 0.0 {
+            Some(Self {
+                ex,
+                ez,
+                excess,
+                touching: groove.centre + clearance,
+            })
+        } else {
+            None
+        }
     }
 }
 
@@ -101,37 +135,29 @@ pub(super) struct Touch {
 }
 
 impl Touch {
-    /// The contact of a ball whose centre lies at `(x, z)` from the groove's middle with an arc whose centre lies at
-    /// `(mx, mz)`, both over the ball radius; none where a gap is left.
+    /// The contact of a ball that a groove presses.
     #[inline(always)]
-    pub(super) fn at(
-        groove: &ElasticGroove,
-        (x, z): (f32, f32),
-        (mx, mz): (f32, f32),
-        clearance: f32,
-    ) -> Option<Self> {
-        let (ex, ez) = (x - mx, z - mz);
+    pub(super) fn of(groove: &ElasticGroove, pressed: Pressed) -> Self {
+        let Pressed {
+            ex,
+            ez,
+            excess,
+            touching,
+        } = pressed;
         let distance = math::sqrt(ex * ex + ez * ez);
-        let sum = distance + groove.centre;
+        let sum = distance + touching;
         // One division for both reciprocals.
         let both = 1.0 / (distance * sum);
         let per_distance = sum * both;
-        // distance - centre, without cancellation.
-        let approach = (x * (ex - mx) + z * (ez - mz)) * (distance * both) - clearance;
-        // False for NaN.
-        if approach > 0.0 {
-            let power = approach * groove.stiffness;
-            let root = math::sqrt(power);
-            Some(Self {
-                nx: ex * per_distance,
-                nz: ez * per_distance,
-                per_distance,
-                root,
-                load: root * power,
-                stiffness: 1.5 * root * groove.stiffness,
-            })
-        } else {
-            None
+        let power = excess * (distance * both) * groove.stiffness;
+        let root = math::sqrt(power);
+        Self {
+            nx: ex * per_distance,
+            nz: ez * per_distance,
+            per_distance,
+            root,
+            load: root * power,
+            stiffness: 1.5 * root * groove.stiffness,
         }
     }
 
@@ -175,6 +201,7 @@ impl Touch {
             nz,
             spin: REACH * turning,
             along: REACH * (along.abs() + semi_major * turning),
+            load,
         };
         // Second derivatives times the slips; the potential is homogeneous in slips and spin.
         let h1 = slip.across_across * across + slip.mixed * along;

@@ -1,6 +1,6 @@
 //! One Newton step of a ball's place and motion together.
 
-use super::contact::{Possible, Reach, add, within};
+use super::contact::{Pressed, Reach, add, within};
 use super::equations::{Axial, Motion, Shared, Step, solved};
 use super::grooves::{ElasticGroove, ElasticGrooves};
 use crate::math::inverse_cube_roots;
@@ -130,38 +130,66 @@ impl ElasticGrooves {
         let motion = state.motion();
         let mut shared = Shared::NONE;
         let mut screw = Axial::NONE;
-        let mut loads = [0.0; 4];
-        let mut reaches = [Reach::NONE; 4];
-        let [left, right, far_left, far_right] = &mut loads;
-        let [a, b, c, d] = &mut reaches;
-        let arcs = self.arcs(&self.screw, 1.0, inputs.screw_deviation);
-        for ((arc, load), reach) in arcs.into_iter().zip([left, right]).zip([a, b]) {
-            let at = Possible {
-                place: (x, screw_z),
-                arc,
-                clearance,
-            };
-            (*load, *reach) = add(&self.screw, &at, &motion, friction, &mut screw, &mut shared);
+        let [mut a, mut b, mut c, mut d] = [Reach::NONE; 4];
+        let groove = &self.screw;
+        let [left, right] = self.arcs(groove, 1.0, inputs.screw_deviation);
+        if let Some(pressed) = Pressed::at(groove, (x, screw_z), left, clearance) {
+            add(
+                groove,
+                pressed,
+                &motion,
+                friction,
+                &mut screw,
+                &mut shared,
+                &mut a,
+            );
+        }
+        if let Some(pressed) = Pressed::at(groove, (x, screw_z), right, clearance) {
+            add(
+                groove,
+                pressed,
+                &motion,
+                friction,
+                &mut screw,
+                &mut shared,
+                &mut b,
+            );
         }
         let on_screw = shared.forces;
-        let base = &self.nut.base;
+        let groove = &self.nut;
+        let base = &groove.base;
         let relative = motion.plus(base, -1.0);
         let mut nut = Axial::NONE;
-        let arcs = self.arcs(&self.nut, -1.0, inputs.nut_deviation);
-        for ((arc, load), reach) in arcs.into_iter().zip([far_left, far_right]).zip([c, d]) {
-            let at = Possible {
-                place: (x, nut_z),
-                arc,
-                clearance,
-            };
-            (*load, *reach) = add(&self.nut, &at, &relative, friction, &mut nut, &mut shared);
+        let [left, right] = self.arcs(groove, -1.0, inputs.nut_deviation);
+        if let Some(pressed) = Pressed::at(groove, (x, nut_z), left, clearance) {
+            add(
+                groove,
+                pressed,
+                &relative,
+                friction,
+                &mut nut,
+                &mut shared,
+                &mut c,
+            );
         }
+        if let Some(pressed) = Pressed::at(groove, (x, nut_z), right, clearance) {
+            add(
+                groove,
+                pressed,
+                &relative,
+                friction,
+                &mut nut,
+                &mut shared,
+                &mut d,
+            );
+        }
+        let loads = [a.load, b.load, c.load, d.load];
         // Friction along the track carries a part of the axial load.
         let along = -on_screw.speed;
         let needed = (inputs.axial_load - self.sin_lead * along) * self.per_cos_lead;
         let unbalanced = [screw.force - needed, nut.force + needed];
         let step = solved(&shared, &screw, &nut, unbalanced, inputs.force);
-        let taken = self.limited(&step, &reaches, inputs.axial_load);
+        let taken = self.limited(&step, [&a, &b, &c, &d], inputs.axial_load);
         let moved = motion.plus(&step.motion, -taken);
         // Power lost is the ball's forces times its motion, less those in the nut times the nut's.
         let power = moved.dot(&shared.forces) - base.dot(&shared.forces.plus(&on_screw, -1.0));
@@ -189,14 +217,15 @@ impl ElasticGrooves {
 
     /// Part of a step that is taken.
     #[inline(always)]
-    fn limited(&self, step: &Step, reaches: &[Reach; 4], axial_load: f32) -> f32 {
+    fn limited(&self, step: &Step, [a, b, c, d]: [&Reach; 4], axial_load: f32) -> f32 {
         let Motion { speed, x, y, z } = step.motion;
         let sum = x.abs() + y.abs() + z.abs() + speed.abs();
         let shift = larger(step.radial.abs(), larger(step.screw.abs(), step.nut.abs()));
         let mut taken = within(1.0, sum, LARGEST_TURN);
-        for reach in reaches {
-            taken = reach.allowed(&step.motion, taken);
-        }
+        taken = a.allowed(&step.motion, taken);
+        taken = b.allowed(&step.motion, taken);
+        taken = c.allowed(&step.motion, taken);
+        taken = d.allowed(&step.motion, taken);
         within(taken, shift, LARGEST_SHIFT * self.deflection(axial_load))
     }
 

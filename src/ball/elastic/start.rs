@@ -1,6 +1,6 @@
 //! Place and motion of a ball from nothing.
 
-use super::contact::Touch;
+use super::contact::{Pressed, Touch};
 use super::grooves::{ElasticGroove, ElasticGrooves};
 use super::renewal::{BallInputs, Settled};
 
@@ -38,8 +38,8 @@ impl Side {
             zz: 0.0,
         };
         for arc in arcs {
-            if let Some(touch) = Touch::at(groove, place, *arc, clearance) {
-                side.add(&touch, across);
+            if let Some(pressed) = Pressed::at(groove, place, *arc, clearance) {
+                side.add(&Touch::of(groove, pressed), across);
             }
         }
         side
