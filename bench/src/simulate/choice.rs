@@ -24,7 +24,7 @@ pub enum Chosen {
     /// A ball screw whose balls do not touch.
     Caged(Caged),
     /// A ball screw whose balls press on each other.
-    Uncaged(Uncaged),
+    Uncaged(Box<Uncaged>),
     /// A linear bearing whose balls press on each other.
     Linear(Linear),
 }
@@ -60,7 +60,7 @@ pub fn choose(
                     design.name
                 )));
             };
-            Ok(Chosen::Uncaged(Uncaged { design, balls }))
+            Ok(Chosen::Uncaged(Box::new(Uncaged { design, balls })))
         }
         SceneName::Linear => linear(source).map(|design| Chosen::Linear(Linear { design })),
     }
