@@ -1,5 +1,6 @@
 //! `simulate --loads`: load tables for the scene without a cage.
 
+use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 
@@ -210,7 +211,7 @@ fn a_trace_gets_the_tables_it_needs() {
     let trace = |name: &str, loads: &[f64]| {
         let mut text = String::from("time,nut_speed,axial_load\n");
         for (index, load) in loads.iter().enumerate() {
-            text.push_str(&format!("{},1.0,{load}\n", index as f64 * 1e-3));
+            let _ = writeln!(text, "{},1.0,{load}", index as f64 * 1e-3);
         }
         fs::write(path.join(name), text).unwrap();
     };

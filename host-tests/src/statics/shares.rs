@@ -7,7 +7,8 @@
 //! force changes its sign.
 //!
 //! How much a table errs under another load is told by two figures ([`ShareTable::error_at`]): friction of all grooves,
-//! which goes as the sum of `share^(4/3)`, and the load of the ball that is most wrong. Within a tolerance of both,
+//! which goes as the sum of `share^(4/3)` where balls spin (less steeply where they slip across the track: then it goes as
+//! the load, and how that is shared does not matter), and the load of the ball that is most wrong. Within a tolerance of both,
 //! [`ShareTables::fewest`] finds the smallest number of tables that serve a list of loads, [`Served::best_alone`] the
 //! best single one, and [`ShareTable::range`] what a given one serves.
 //!
