@@ -41,3 +41,15 @@ pub const ROLLING_CONTACT_ANGLE: Range = Range::new(0.05, 1.5);
 
 /// Semi-major axis of a contact over the cube root of its load, m/N^(1/3): 1e-8 to 1.
 pub const SEMI_MAJOR_COEFFICIENT: Range = Range::new(1e-8, 1.0);
+
+/// Semi-minor axis of a contact over the cube root of its load, m/N^(1/3): 1e-9 to 1.
+pub const SEMI_MINOR_COEFFICIENT: Range = Range::new(1e-9, 1.0);
+
+/// Relative curvature of both bodies of a contact along its track, 1/m: 1e-3 to 1e6.
+pub const ROLLING_CURVATURE: Range = Range::new(1e-3, 1e6);
+
+/// Share of the elastic energy that a rolling contact loses: 0 to 0.2, far above any metal's (0.01).
+pub const HYSTERESIS_LOSS: Range = Range::new(0.0, 0.2);
+
+/// Drag of a lubricant on one contact under 100 N, N: 0 to 10.
+pub const LUBRICANT_DRAG: Range = Range::new(0.0, 10.0);

@@ -141,7 +141,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         arguments.design.as_ref(),
         arguments.manoeuvre,
     )? {
-        Chosen::Caged(scene) => simulate(&scene, arguments, existing),
+        Chosen::Caged(scene) => simulate(&*scene, arguments, existing),
         Chosen::Uncaged(scene) => simulate(&*scene, arguments, existing),
         Chosen::Linear(scene) => simulate(&scene, arguments, existing),
     }

@@ -3,14 +3,14 @@
 //! | file | what | runs in |
 //! |---|---|---|
 //! | `grooves` | both grooves with their contacts, folded once | set-up |
-//! | `contact` | one contact: load, friction, and how both change | every renewal |
-//! | `groove` | the two contacts of one groove, its axial place eliminated | every renewal |
+//! | `contact` | one contact: load, friction, and what it adds to the equations | every renewal |
+//! | `equations` | the seven equations of a ball and their solution | every renewal |
 //! | `renewal` | one Newton step of place and motion together | every renewal |
 //! | `ring` | balls that are renewed in turn, and their laws between | every tick |
 //! | `start` | place and motion from nothing | start, reversal |
 
 mod contact;
-mod groove;
+mod equations;
 mod grooves;
 mod renewal;
 pub(crate) mod ring;

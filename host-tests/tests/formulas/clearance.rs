@@ -377,13 +377,12 @@ fn play_changes_nothing_in_the_closed_forms_of_a_caged_screw() {
     assert_ne!(folded(-5e-6, 40), folded(-5e-6, 41));
 }
 
-/// The closed form of a ball screw without cage knows three fits: preload where balls are oversized, no play up to 10
-/// micrometres, two contacts from there on.
-#[test]
-fn three_fits_are_the_limits_of_a_clearance() {
+/// Friction torque of one ball in the scene, when it has settled, over that of the closed form, less one: the largest.
+fn off_the_closed_form(clearance: Clearance, fit: GrooveFit) -> f32 {
     let gear = gears::uncaged();
-    let design = gear.design;
-    let groove_torque = |clearance| {
+    let row = ScrewRow::new(&gear.design, gear.friction, fit).unwrap();
+    let mut largest = 0.0_f32;
+    for (nut_speed, axial_load) in [(10.0, 60.0), (10.0, -60.0), (-10.0, 20.0)] {
         let mut model = FrictionModel::<UncagedBallScrew<1>>::new(&UncagedBallScrewConfiguration {
             clearance,
             return_length: 0.0,
@@ -394,41 +393,36 @@ fn three_fits_are_the_limits_of_a_clearance() {
         })
         .unwrap();
         let inputs = Inputs {
-            nut_speed: 10.0,
-            axial_load: 60.0,
+            nut_speed,
+            axial_load,
         };
-        model.step(inputs).groove_torque
-    };
-    let preloaded = Clearance::of_preload(&design, 25.0).unwrap();
-    let at = |gap: f32| Clearance::new(gap).unwrap();
-    for (clearances, fit) in [
-        (
-            vec![
-                Clearance::ZERO,
-                at(1e-9),
-                at(10e-6_f32.next_down()),
-                at(-1e-13),
-            ],
-            GrooveFit::Zero,
-        ),
-        (vec![at(10e-6), at(20e-6), at(1e-4)], GrooveFit::Play),
-        (
-            vec![preloaded],
-            GrooveFit::Preload {
-                contact_force: preloaded.preload(&design),
-            },
-        ),
-    ] {
-        let row = ScrewRow::new(&design, gear.friction, fit).unwrap();
-        let ball = row.at(10.0, 60.0).ball(0.0, 0.0, &LoadShare::MEAN);
-        for clearance in clearances {
-            // Half a dozen roundings of sums and of the direction.
-            let found = groove_torque(clearance);
-            assert!(
-                (found / ball.groove_torque - 1.0).abs() < 6.0 * 6e-8,
-                "{fit:?} {clearance:?}: {found} for {}",
-                ball.groove_torque
-            );
+        let tick = row.at(nut_speed, axial_load);
+        let wanted = tick.ball(0.0, 0.0, &LoadShare::MEAN).groove_torque;
+        for _ in 0..1000 {
+            model.step(inputs);
         }
+        let found = model.step(inputs).groove_torque;
+        println!("{fit:?} {nut_speed} rad/s {axial_load} N: {found} for {wanted}");
+        largest = largest.max((found.abs() / wanted - 1.0).abs());
     }
+    largest
+}
+
+/// Two of the closed form's three fits are limits of a clearance: no play at 0, four-point contact with oversize. It leaves
+/// out what the elastic ball has: contacts that turn, a third contact that does not roll. Measured: 7.9 % and 4.5 %.
+#[test]
+fn no_play_and_preload_are_limits_of_a_clearance() {
+    let preloaded = Clearance::of_preload(&gears::uncaged().design, 25.0).unwrap();
+    let fit = GrooveFit::Preload {
+        contact_force: 25.0,
+    };
+    assert!(off_the_closed_form(Clearance::ZERO, GrooveFit::Zero) < 0.09);
+    assert!(off_the_closed_form(preloaded, fit) < 0.05);
+}
+
+/// The third is the limit of wide play, where two contacts are left and one groove sticks.
+#[test]
+fn two_contacts_are_the_limit_of_wide_play() {
+    let wide = Clearance::new(0.02 * gears::uncaged().design.ball_radius()).unwrap();
+    assert!(off_the_closed_form(wide, GrooveFit::Play) < 0.15);
 }

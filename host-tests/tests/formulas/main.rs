@@ -13,4 +13,5 @@ mod hertz;
 mod kinematics;
 mod math_sweeps;
 mod ranges;
+mod rolling;
 mod slip_map;

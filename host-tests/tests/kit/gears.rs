@@ -59,8 +59,8 @@ pub fn caged() -> CagedBallScrewConfiguration {
         friction: 0.075,
         rolling_tangent: 0.0,
         branch: FrictionBranch::Rolling,
-        clearance: oversize(&design, 300.0, 40),
-        loaded_balls: 40,
+        clearance: oversize(&design, 300.0, 41),
+        loaded_balls: 41,
         reversal_speed: 0.5,
         limits: LIMITS,
     }

@@ -16,7 +16,9 @@ use epas_friction::kinematics::{
 };
 use epas_friction::refined::{FourPointBall, RotaryBall, RotaryBallParameters};
 use epas_friction::train::{Press, Train};
-use epas_friction::{BallScrew, BallScrewParameters, Error, GrooveSize, LoadShare, Material};
+use epas_friction::{
+    BallScrew, BallScrewParameters, Clearance, Error, GrooveSize, LoadShare, Material,
+};
 
 /// Numbers to make objects of, in turn; zeros when they are used up.
 pub struct Numbers(pub Vec<f32>);
@@ -119,6 +121,38 @@ pub fn check(numbers: &mut Numbers) -> Result<(), String> {
     }
 }
 
+/// A clearance from each of its words: what is accepted is one that the design's balls have.
+fn clearance(numbers: &mut Numbers, design: &BallScrew) -> Result<(), String> {
+    let value = numbers.size(1e-9, 1e4);
+    let loaded_balls = numbers.choice(1000) as u16;
+    let words = [
+        Clearance::new(value).and_then(|clearance| clearance.checked(design)),
+        Clearance::new(-value).and_then(|clearance| clearance.checked(design)),
+        Clearance::of_preload(design, value),
+        Clearance::of_axial_play(design, value),
+    ];
+    for word in words {
+        let clearance = match word {
+            Ok(clearance) => clearance,
+            Err(error) => {
+                refused("Clearance", &error)?;
+                continue;
+            }
+        };
+        let forces = [
+            clearance.preload(design),
+            clearance.axial_preload(design, loaded_balls),
+            clearance.axial_play(design),
+        ];
+        let what = format!("{clearance:?} of {value} in {:?}", design.parameters());
+        all_finite(&what, &forces)?;
+        if clearance.checked(design) != Ok(clearance) || forces.iter().any(|force| *force < 0.0) {
+            return Err(format!("{what}: {forces:?}"));
+        }
+    }
+    Ok(())
+}
+
 fn ball_screw(numbers: &mut Numbers) -> Result<(), String> {
     let pitch_radius = numbers.size(1e-3, 0.5);
     let lead = numbers.size(1e-7, 0.2);
@@ -163,6 +197,7 @@ fn ball_screw(numbers: &mut Numbers) -> Result<(), String> {
         let fitted = FittedCurvature::of(&design, groove).first(ContactAngle::new(angle));
         all_finite(&format!("FittedCurvature {parameters:?}"), &[fitted])?;
     }
+    clearance(numbers, &design)?;
     let friction = numbers.size(1e-6, 0.5);
     let [force, load] = [numbers.size(1e-3, 1e6), numbers.size(1e-6, 1e7)];
     let [nut_speed, screw, nut] = numbers.several();

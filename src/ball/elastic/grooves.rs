@@ -1,6 +1,6 @@
 //! Both grooves of a ball screw, as an elastic ball meets them.
 
-use crate::contact::SlipMap;
+use crate::contact::slip_map::looped::LoopSlipMap;
 use crate::error::{Error, attempt};
 use crate::geometry::{BallScrew, Groove};
 use crate::hertz::HertzContact;
@@ -20,19 +20,24 @@ pub struct ElasticGrooves {
     pub(super) sin_lead: f32,
     pub(super) cos_lead: f32,
     pub(super) ball_radius: f32,
+    /// 1 / ball radius, 1/m; 1 / cosine of the lead angle; load of a main contact over the axial one.
+    pub(super) per_radius: f32,
+    pub(super) per_cos_lead: f32,
+    pub(super) per_axial_load: f32,
 }
 
 /// One groove.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct ElasticGroove {
-    pub(super) map: SlipMap,
+    pub(super) map: LoopSlipMap,
     /// Distance of the arcs' centres from the centre of the ball that touches both without load.
     pub(super) centre: f32,
     /// Load to the power 2/3 over deflection, `N^(2/3)`.
     pub(super) stiffness: f32,
-    /// Semi-major axis at one newton, `N^(-1/3)`.
-    pub(super) semi_major: f32,
+    pub(super) per_stiffness: f32,
+    /// Square of the semi-major axis at one newton, `N^(-2/3)`.
+    pub(super) semi_major2: f32,
     /// Angular velocity over the nut's: 0 of the screw, 1 of the nut.
     pub(super) turning: f32,
     /// Sines of lead angle times that, cosine times that, path times that.
@@ -46,11 +51,13 @@ impl ElasticGroove {
         let cos_lead = design.cos_lead_angle();
         let sin_lead = cos_lead * design.tan_lead_angle();
         let path = design.pitch_radius() / (cos_lead * radius);
+        let semi_major = contact.semi_major_coefficient() / radius;
         Ok(Self {
-            map: attempt!(SlipMap::new(contact.axis_ratio())),
+            map: attempt!(LoopSlipMap::new(contact.axis_ratio())),
             centre: design.clearance(groove) / radius,
             stiffness: radius / contact.deflection_coefficient(),
-            semi_major: contact.semi_major_coefficient() / radius,
+            per_stiffness: contact.deflection_coefficient() / radius,
+            semi_major2: semi_major * semi_major,
             turning,
             base: [turning * sin_lead, turning * cos_lead, turning * path],
         })
@@ -77,6 +84,9 @@ impl ElasticGrooves {
             sin_lead: cos_lead * design.tan_lead_angle(),
             cos_lead,
             ball_radius: design.ball_radius(),
+            per_radius: 1.0 / design.ball_radius(),
+            per_cos_lead: 1.0 / cos_lead,
+            per_axial_load: 1.0 / (cos_lead * design.contact_angle().sin),
         })
     }
 }

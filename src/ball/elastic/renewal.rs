@@ -1,8 +1,9 @@
 //! One Newton step of a ball's place and motion together.
 
-use super::contact::{Motion, Touch};
-use super::groove::{Axial, Conditions, Follows, Shared};
+use super::contact::Touch;
+use super::equations::{Axial, Motion, Shared, Step, solved};
 use super::grooves::{ElasticGroove, ElasticGrooves};
+use crate::math::inverse_cube_roots;
 
 /// Largest change of the motion in a step: sum over its parts, over the nut's speed.
 const LARGEST_TURN: f32 = 0.3;
@@ -94,11 +95,10 @@ impl ElasticGrooves {
     }
 
     /// One Newton step of the seven equations of a ball.
+    #[inline]
     pub fn renew(&self, state: &mut Settled, inputs: &BallInputs) -> Renewal {
-        let conditions = Conditions {
-            friction: inputs.friction,
-            clearance: inputs.clearance / self.ball_radius,
-        };
+        let clearance = inputs.clearance * self.per_radius;
+        let friction = inputs.friction;
         let [x, screw_z, nut_z] = state.place;
         let [turn_x, turn_y, turn_z] = state.turning;
         let motion = Motion {
@@ -108,41 +108,80 @@ impl ElasticGrooves {
             z: turn_z,
         };
         let mut shared = Shared::NONE;
+        let mut screw = Axial::NONE;
         let touches = self.touches(
             &self.screw,
             1.0,
             (x, screw_z),
             inputs.screw_deviation,
-            conditions.clearance,
+            clearance,
         );
-        let screw = Axial::of(&self.screw, &touches, &motion, &conditions, &mut shared);
-        let touches = self.touches(
-            &self.nut,
-            -1.0,
-            (x, nut_z),
-            inputs.nut_deviation,
-            conditions.clearance,
-        );
-        let nut = Axial::of(&self.nut, &touches, &motion, &conditions, &mut shared);
-        shared.forces[3] -= inputs.force;
-        let needed = (inputs.axial_load - self.sin_lead * screw.along) / self.cos_lead;
-        let carried = self.cos_lead * screw.force + self.sin_lead * screw.along;
-        let raw = shared.forces;
-        let power = shared.power;
-        let on_screw = screw.eliminated(needed, &mut shared);
-        let in_nut = nut.eliminated(-needed, &mut shared);
-        let (dx, turn, pivot) = solved(&mut shared);
-        let ds = following(&on_screw, dx, &turn);
-        let dn = following(&in_nut, dx, &turn);
-        let [wx, wy, wz, dv] = turn;
-
-        let reach = {
-            let load = inputs.axial_load.abs() / (self.sin * self.cos_lead);
-            let root = crate::math::cbrt(load);
-            LARGEST_SHIFT * root * root / self.screw.stiffness
+        let mut loads = [0.0; 4];
+        let [left, right, far_left, far_right] = &mut loads;
+        for (touch, load) in touches.iter().zip([left, right]) {
+            if let Some(touch) = touch {
+                *load = touch.load;
+                touch.add(&self.screw, &motion, friction, &mut screw, &mut shared);
+            }
+        }
+        let on_screw = shared.forces;
+        let [base_y, base_z, base_speed] = self.nut.base;
+        let relative = Motion {
+            speed: motion.speed - base_speed,
+            x: motion.x,
+            y: motion.y - base_y,
+            z: motion.z - base_z,
         };
-        let sum = wx.abs() + wy.abs() + wz.abs() + dv.abs();
-        let shift = larger(dx.abs(), larger(ds.abs(), dn.abs()));
+        let mut nut = Axial::NONE;
+        let touches = self.touches(&self.nut, -1.0, (x, nut_z), inputs.nut_deviation, clearance);
+        for (touch, load) in touches.iter().zip([far_left, far_right]) {
+            if let Some(touch) = touch {
+                *load = touch.load;
+                touch.add(&self.nut, &relative, friction, &mut nut, &mut shared);
+            }
+        }
+        // Friction along the track carries a part of the axial load.
+        let along = -on_screw.speed;
+        let needed = (inputs.axial_load - self.sin_lead * along) * self.per_cos_lead;
+        let carried = self.cos_lead * screw.force + self.sin_lead * along;
+        let step = solved(
+            &shared,
+            &screw,
+            &nut,
+            [screw.force - needed, nut.force + needed],
+            inputs.force,
+        );
+        let taken = self.limited(&step, inputs.axial_load);
+        state.place = [
+            x - taken * step.radial,
+            screw_z - taken * step.screw,
+            nut_z - taken * step.nut,
+        ];
+        let moved = motion.plus(&step.motion, -taken);
+        state.turning = [moved.x, moved.y, moved.z];
+        state.speed = moved.speed;
+        // Power lost is the ball's forces times its motion, less those in the nut times the nut's.
+        let total = &shared.forces;
+        let into_nut = base_y * (total.y - on_screw.y)
+            + base_z * (total.z - on_screw.z)
+            + base_speed * (total.speed - on_screw.speed);
+        Renewal {
+            speed: moved.speed * self.ball_radius,
+            compliance: self.ball_radius * step.compliance,
+            torque: (moved.dot(total) - into_nut) * self.ball_radius,
+            carried,
+            loads,
+            taken,
+        }
+    }
+
+    /// Part of a step that is taken.
+    #[inline(always)]
+    fn limited(&self, step: &Step, axial_load: f32) -> f32 {
+        let reach = LARGEST_SHIFT * self.deflection(axial_load);
+        let Motion { speed, x, y, z } = step.motion;
+        let sum = x.abs() + y.abs() + z.abs() + speed.abs();
+        let shift = larger(step.radial.abs(), larger(step.screw.abs(), step.nut.abs()));
         let mut taken = 1.0;
         if sum > LARGEST_TURN {
             taken = LARGEST_TURN / sum;
@@ -150,91 +189,16 @@ impl ElasticGrooves {
         if shift * taken > reach {
             taken = reach / shift;
         }
-        state.place = [x - taken * dx, screw_z - taken * ds, nut_z - taken * dn];
-        state.turning = [
-            turn_x - taken * wx,
-            turn_y - taken * wy,
-            turn_z - taken * wz,
-        ];
-        state.speed = motion.speed - taken * dv;
-        let [rx, ry, rz, rv] = raw;
-        let change = rx * wx + ry * wy + rz * wz + (rv + inputs.force) * dv;
-        let [left, right] = screw.loads;
-        let [far_left, far_right] = nut.loads;
-        Renewal {
-            speed: state.speed * self.ball_radius,
-            compliance: self.ball_radius / pivot,
-            torque: (power - taken * change) * self.ball_radius,
-            carried,
-            loads: [left, right, far_left, far_right],
-            taken,
-        }
+        taken
     }
-}
 
-#[inline(always)]
-fn following(follows: &Follows, dx: f32, turn: &[f32; 4]) -> f32 {
-    let mut step = follows.right - follows.place * dx;
-    for (by, part) in follows.motion.iter().zip(turn) {
-        step -= by * part;
+    /// Deflection of a screw contact under all of a ball's load, over the ball radius.
+    #[inline(always)]
+    pub(super) fn deflection(&self, axial_load: f32) -> f32 {
+        let normal = axial_load.abs() * self.per_axial_load;
+        let [inverse, _] = inverse_cube_roots([normal, 1.0]);
+        normal * inverse * self.screw.per_stiffness
     }
-    step
-}
-
-/// The radial step, the steps of the motion (x, y, z, speed), and the stiffness of the speed against a force along the track.
-#[inline(always)]
-fn solved(shared: &mut Shared) -> (f32, [f32; 4], f32) {
-    let inverse = 1.0 / shared.by_place;
-    let right = inverse * shared.radial;
-    let by = shared.by_motion.map(|by| inverse * by);
-    for ((force, row), by_place) in shared
-        .forces
-        .iter_mut()
-        .zip(&mut shared.forces_by_motion)
-        .zip(shared.forces_by_place)
-    {
-        *force -= by_place * right;
-        for (entry, by) in row.iter_mut().zip(by) {
-            *entry -= by_place * by;
-        }
-    }
-    let [mut r0, mut r1, mut r2, mut r3] = shared.forces;
-    let [a, b, c, d] = shared.forces_by_motion;
-    let [a0, a1, a2, a3] = a;
-    let i0 = 1.0 / a0;
-    let (a1, a2, a3) = (a1 * i0, a2 * i0, a3 * i0);
-    r0 *= i0;
-    let [b0, b1, b2, b3] = b;
-    let (b1, b2, b3) = (b1 - b0 * a1, b2 - b0 * a2, b3 - b0 * a3);
-    r1 -= b0 * r0;
-    let i1 = 1.0 / b1;
-    let (b2, b3) = (b2 * i1, b3 * i1);
-    r1 *= i1;
-    let [c0, c1, c2, c3] = c;
-    let (c1, c2, c3) = (c1 - c0 * a1, c2 - c0 * a2, c3 - c0 * a3);
-    r2 -= c0 * r0;
-    let (c2, c3) = (c2 - c1 * b2, c3 - c1 * b3);
-    r2 -= c1 * r1;
-    let i2 = 1.0 / c2;
-    let c3 = c3 * i2;
-    r2 *= i2;
-    let [d0, d1, d2, d3] = d;
-    let (d1, d2, d3) = (d1 - d0 * a1, d2 - d0 * a2, d3 - d0 * a3);
-    r3 -= d0 * r0;
-    let (d2, d3) = (d2 - d1 * b2, d3 - d1 * b3);
-    r3 -= d1 * r1;
-    let d3 = d3 - d2 * c3;
-    r3 -= d2 * r2;
-    let speed = r3 / d3;
-    let z = r2 - c3 * speed;
-    let y = r1 - b2 * z - b3 * speed;
-    let x = r0 - a1 * y - a2 * z - a3 * speed;
-    let turn = [x, y, z, speed];
-    let mut dx = right;
-    for (by, part) in by.iter().zip(turn) {
-        dx -= by * part;
-    }
-    (dx, turn, d3)
 }
 
 #[inline(always)]
