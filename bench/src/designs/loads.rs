@@ -178,6 +178,16 @@ pub fn built_in(name: &str, loaded_balls: u16) -> Option<LoadCase> {
 }
 
 impl LoadCase {
+    /// The same with other amplitudes of the screw's pitch and roundness errors, m.
+    #[must_use]
+    pub fn with_errors(self, pitch_error: f64, roundness_error: f64) -> Self {
+        Self {
+            pitch_error,
+            roundness_error,
+            ..self
+        }
+    }
+
     /// The same under another axial load, N.
     #[must_use]
     pub fn under(&self, axial_load: f64) -> Self {

@@ -6,8 +6,8 @@ mod table;
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
+use epas_reference::statics::ShareTable;
 use epas_reference::statics::shares::loads_between;
-use epas_reference::statics::{ShareError, ShareTable};
 
 use super::manoeuvre::Manoeuvre;
 use super::samples::ScrewSample;
@@ -16,7 +16,7 @@ use crate::designs::Design;
 use crate::designs::loads::LoadCase;
 use crate::failure::Failure;
 use crate::files::{self, Existing};
-use said::{Answer, answer, range_of};
+use said::{Answer, BALL_LOADS, answer, range_of, text};
 pub use table::Format;
 
 /// What is asked of a load table.
@@ -53,9 +53,6 @@ impl LoadArguments {
         self.loads
     }
 }
-
-/// Loads of a ball that tables are tried for, N: what the scenes' errors are stated for.
-const BALL_LOADS: [f64; 2] = [5.0, 300.0];
 
 /// Loads of one sign count where the largest of them is this part of the largest of both.
 const COUNTED: f64 = 0.01;
@@ -218,13 +215,6 @@ impl Wanted {
             }
         }
     }
-}
-
-/// What a table may be off where it serves.
-const TOLERANCE: ShareError = ShareError::TOLERANCE;
-
-fn text(error: impl std::fmt::Display) -> String {
-    error.to_string()
 }
 
 /// Smallest and largest of the loads above zero; what is no number is none.

@@ -1,21 +1,15 @@
 //! Which tables loads need, in sentences.
 
-use epas_reference::statics::cases::ScrewEnd;
 use epas_reference::statics::{Served, ShareError, ShareTable, ShareTables};
 
-use super::table::Tables;
-use super::{BALL_LOADS, TOLERANCE, text};
+use super::table::{Tables, Wording};
 use crate::designs::loads::LoadCase;
 
-/// A table with the words for its heading.
-pub struct Wording {
-    /// The table.
-    pub table: ShareTable,
-    /// Its load, N.
-    pub load: String,
-    /// Where the load acts.
-    pub loaded_end: ScrewEnd,
-}
+/// Loads of a ball that tables are tried for, N: what the scenes' errors are stated for.
+pub const BALL_LOADS: [f64; 2] = [5.0, 300.0];
+
+/// What a table may be off where it serves.
+const TOLERANCE: ShareError = ShareError::TOLERANCE;
 
 /// What is written, and said of it.
 pub struct Answer {
@@ -240,4 +234,9 @@ fn newtons(load: f64) -> String {
     let above_one = load.abs().max(1e-6).log10().floor() as i32;
     let digits = usize::try_from(2 - above_one).unwrap_or(0);
     format!("{load:.digits$}")
+}
+
+/// An error of the static model in words.
+pub fn text(error: impl std::fmt::Display) -> String {
+    error.to_string()
 }

@@ -7,8 +7,6 @@ use epas_reference::statics::ShareTable;
 use epas_reference::statics::cases::ScrewEnd;
 use epas_reference::statics::shares::LEAST_SHARE;
 
-use super::said::Wording;
-
 /// How a load table is written.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
 pub enum Format {
@@ -21,6 +19,16 @@ pub enum Format {
 
 /// Most entries of a load table.
 const MOST_ENTRIES: usize = 256;
+
+/// A table with the words for its heading.
+pub struct Wording {
+    /// The table.
+    pub table: ShareTable,
+    /// Its load, N.
+    pub load: String,
+    /// Where the load acts.
+    pub loaded_end: ScrewEnd,
+}
 
 /// The tables that are written: one for both signs of the load, or one for each.
 pub enum Tables {
