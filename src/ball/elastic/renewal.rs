@@ -3,7 +3,7 @@
 use super::contact::Touch;
 use super::equations::{Axial, Motion, Shared, Step, solved};
 use super::grooves::{ElasticGroove, ElasticGrooves};
-use crate::math::inverse_cube_roots;
+use crate::math::{self, inverse_cube_roots};
 
 /// Largest change of the motion in a step: sum over its parts, over the nut's speed.
 const LARGEST_TURN: f32 = 0.3;
@@ -31,6 +31,9 @@ pub struct BallInputs {
     pub axial_load: f32,
     /// Force of the neighbours along the track, N.
     pub force: f32,
+    /// Largest friction forces that both neighbours put on the ball across the track, N: their sum, and that of the ball in
+    /// front less that of the ball behind.
+    pub rubbing: [f32; 2],
     /// How far the arcs of the screw's and the nut's groove are turned, rad.
     pub screw_deviation: f32,
     /// The nut's.
@@ -144,11 +147,14 @@ impl ElasticGrooves {
         let along = -on_screw.speed;
         let needed = (inputs.axial_load - self.sin_lead * along) * self.per_cos_lead;
         let carried = self.cos_lead * screw.force + self.sin_lead * along;
+        let total = shared.forces;
+        let [on_ball, across] = self.rub(&motion, inputs.rubbing, &mut shared);
+        shared.radial += on_ball;
         let step = solved(
             &shared,
             &screw,
             &nut,
-            [screw.force - needed, nut.force + needed],
+            [screw.force - needed, nut.force + needed + across],
             inputs.force,
         );
         let taken = self.limited(&step, inputs.axial_load);
@@ -161,18 +167,34 @@ impl ElasticGrooves {
         state.turning = [moved.x, moved.y, moved.z];
         state.speed = moved.speed;
         // Power lost is the ball's forces times its motion, less those in the nut times the nut's.
-        let total = &shared.forces;
         let into_nut = base_y * (total.y - on_screw.y)
             + base_z * (total.z - on_screw.z)
             + base_speed * (total.speed - on_screw.speed);
         Renewal {
             speed: moved.speed * self.ball_radius,
             compliance: self.ball_radius * step.compliance,
-            torque: (moved.dot(total) - into_nut) * self.ball_radius,
+            torque: (moved.dot(&total) - into_nut) * self.ball_radius,
             carried,
             loads,
             taken,
         }
+    }
+
+    /// Adds the friction of both neighbours, which are taken to turn as the ball does: moments against its turning, and what
+    /// this brings along the track. Gives the force on the ball, radial and axial.
+    #[inline(always)]
+    fn rub(&self, motion: &Motion, [sum, difference]: [f32; 2], shared: &mut Shared) -> [f32; 2] {
+        let (x, z) = (motion.x, motion.z - self.orbit * motion.speed);
+        let inverse = 1.0 / (math::sqrt(x * x + z * z) + 1e-6);
+        let (ux, uz) = (x * inverse, z * inverse);
+        shared.forces.x += sum * ux;
+        shared.forces.z += sum * uz;
+        shared.forces.speed -= sum * uz * self.orbit;
+        let stiffness = 0.5 * sum * inverse;
+        shared.hessian.xx += stiffness * uz * uz;
+        shared.hessian.xz -= stiffness * ux * uz;
+        shared.hessian.zz += stiffness * ux * ux;
+        [difference * uz, -difference * ux]
     }
 
     /// Part of a step that is taken.

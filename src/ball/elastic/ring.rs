@@ -74,11 +74,20 @@ pub(crate) struct RingLoad {
     per_four_thirds: f32,
 }
 
+/// Forces of a ball's neighbours in the frame in which the nut turns forward, N, and the friction coefficient between balls.
+pub(crate) struct Neighbours {
+    pub(crate) behind: f32,
+    pub(crate) ahead: f32,
+    pub(crate) friction: f32,
+}
+
 /// Balls that are renewed in turn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(crate) struct Ring<const N: usize> {
     pub(crate) balls: [RingBall; N],
+    /// A ball without deviations under the mean load: what balls without load follow.
+    nominal: RingBall,
     /// Place and motion with which balls begin anew.
     fresh: Settled,
     pub(crate) friction: f32,
@@ -112,7 +121,7 @@ impl RingConstants {
             nominal,
             reference,
             per_reference: 1.0 / reference,
-            orbit: nominal / grooves.path * grooves.cos_lead,
+            orbit: nominal * grooves.orbit,
             normal: 1.0 / (grooves.sin * grooves.cos_lead),
             deflection: 1.0 / grooves.screw.stiffness + 1.0 / grooves.nut.stiffness,
             grooves,
@@ -148,6 +157,7 @@ impl<const N: usize> Ring<N> {
         let inputs = BallInputs {
             axial_load: FIRST_LOAD,
             force: 0.0,
+            rubbing: [0.0; 2],
             screw_deviation: 0.0,
             nut_deviation: 0.0,
             friction,
@@ -170,6 +180,7 @@ impl<const N: usize> Ring<N> {
         }
         Self {
             balls: [ball; N],
+            nominal: ball,
             fresh,
             friction,
             clearance,
@@ -186,6 +197,12 @@ impl<const N: usize> Ring<N> {
             backward: false,
             negative: false,
         }
+    }
+
+    /// Speed of a ball without load less the nominal one, over the nominal one against the nut.
+    #[inline(always)]
+    pub(crate) const fn idle(&self) -> f32 {
+        self.nominal.free
     }
 
     /// Whether forces between balls are those of balls that still settle.
@@ -252,6 +269,7 @@ impl<const N: usize> Ring<N> {
         self.fresh = constants.grooves.start(&BallInputs {
             axial_load,
             force: 0.0,
+            rubbing: [0.0; 2],
             screw_deviation: 0.0,
             nut_deviation: 0.0,
             friction: self.friction,
@@ -276,7 +294,7 @@ impl<const N: usize> Ring<N> {
             return entered - 1;
         }
         let next = usize::from(self.next);
-        if next + 1 < N {
+        if next < N {
             self.next += 1;
         } else {
             self.end_round();
@@ -302,11 +320,11 @@ impl<const N: usize> Ring<N> {
         index: usize,
         (screw_deviation, nut_deviation): (f32, f32),
         share: f32,
-        force: f32,
+        forces: &Neighbours,
     ) {
-        let Some(ball) = self.balls.get_mut(index) else {
-            return;
-        };
+        let force = forces.behind - forces.ahead;
+        let is_nominal = index >= N;
+        let ball = self.balls.get_mut(index).unwrap_or(&mut self.nominal);
         self.settling = self.settling.saturating_sub(1);
         let (place, turning) = if self.stale > 0 {
             self.stale -= 1;
@@ -326,6 +344,10 @@ impl<const N: usize> Ring<N> {
         let inputs = BallInputs {
             axial_load: load.axial * share,
             force,
+            rubbing: [
+                forces.friction * (forces.ahead + forces.behind),
+                forces.friction * -force,
+            ],
             screw_deviation,
             nut_deviation,
             friction: self.friction,
@@ -339,7 +361,7 @@ impl<const N: usize> Ring<N> {
         ball.keep(constants, load, &settled, &found, force);
         // The slope is that of a whole round between two renewals.
         let change = ball.free - before;
-        ball.slope = if self.last_round.abs() > 1e-4 && self.stale == 0 {
+        ball.slope = if self.last_round.abs() > 1e-4 && self.stale == 0 && !is_nominal {
             ball.slope + change / self.last_round
         } else {
             0.0
