@@ -7,7 +7,11 @@ use epas_friction::curvature::FittedCurvature;
 use epas_friction::efficiency::{Drive, EfficiencyGeometry};
 use epas_friction::geometry::{ContactAngle, Groove};
 use epas_friction::{
-    BallScrew, CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, Clearance, DISSERTATION_DESIGNS, DeviationMap, Error, FrictionBranch, FrictionModel, GrooveSize, Harmonic, Inputs, Limits, LinearBearing, LinearBearingConfiguration, LinearBearingParameters, LinearBearingTrain, LinearConstants, LinearInputs, LinearLimits, LoadShare, LoadShares, Material, UncagedBallScrew, UncagedBallScrewConfiguration, UncagedConstants,
+    BallScrew, CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, Clearance,
+    DISSERTATION_DESIGNS, DeviationMap, Error, FrictionBranch, FrictionModel, GrooveSize, Harmonic,
+    Inputs, Limits, LinearBearing, LinearBearingConfiguration, LinearBearingParameters,
+    LinearBearingTrain, LinearConstants, LinearInputs, LinearLimits, LoadShare, LoadShares,
+    Material, UncagedBallScrew, UncagedBallScrewConfiguration, UncagedConstants,
 };
 
 use crate::numbers::{linear_outputs, outputs, uncaged_outputs};
