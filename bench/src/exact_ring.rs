@@ -21,9 +21,8 @@ use epas_reference::material::Elastic;
 /// States before and after one that count as about the same time.
 const NEAR: usize = 1;
 
-/// Part of the track that the balls fill, and part of the track that carries load.
+/// Part of the track that the balls fill, where a case does not say its length.
 const OCCUPATION: f64 = 0.978;
-const LOADED: f64 = 0.95;
 
 const YOUNGS_MODULUS: f64 = 210e9;
 const POISSON_RATIO: f64 = 0.28;
@@ -43,6 +42,10 @@ pub struct Case {
     /// Radial gap of every contact at the centred ball.
     pub clearance: f64,
     pub load_per_ball: f64,
+    /// Length of the whole track in turns; without it as long as lets the balls fill 97.8 % of it.
+    pub track: Option<f64>,
+    /// Part of the track that carries load.
+    pub loaded: f64,
     /// Amplitude of the deviation, and waves in a turn, of screw and nut.
     pub screw: (f64, u8),
     pub nut: (f64, u8),
@@ -67,6 +70,8 @@ impl Case {
         ball_friction: 0.1,
         clearance: 0.0,
         load_per_ball: 50.0,
+        track: None,
+        loaded: 0.95,
         screw: (2.3 * TAU / 360.0, 2),
         nut: (0.7 * TAU / 360.0, 3),
         speed: 1.0,
@@ -200,14 +205,14 @@ impl<const N: usize> Pair<N> {
         .map_err(|error| error.to_string())?;
         let path = f64::from(design.pitch_radius() / design.cos_lead_angle());
         let pitch = 2.0 * (f64::from(design.ball_radius()) / path).asin();
-        let turns = N as f64 * pitch / OCCUPATION / TAU;
-        let return_length = (1.0 - LOADED) * turns * TAU * path;
+        let turns = case.track.unwrap_or(N as f64 * pitch / OCCUPATION / TAU);
+        let return_length = (1.0 - case.loaded) * turns * TAU * path;
         let model = FrictionModel::new(&UncagedBallScrewConfiguration {
             design,
             friction: case.friction as f32,
             ball_friction: case.ball_friction as f32,
             clearance: Clearance::new(case.clearance as f32).map_err(|error| error.to_string())?,
-            turns: (LOADED * turns) as f32,
+            turns: (case.loaded * turns) as f32,
             return_length: return_length as f32,
             screw_deviation: wave(case.screw)?,
             nut_deviation: wave(case.nut)?,
@@ -252,7 +257,7 @@ impl<const N: usize> Pair<N> {
             friction: case.friction,
             ball_friction: case.ball_friction,
             balls: N,
-            turns: LOADED * turns,
+            turns: case.loaded * turns,
             return_length,
             screw_deviation: samples(case.screw),
             nut_deviation: samples(case.nut),
@@ -317,7 +322,7 @@ impl<const N: usize> Pair<N> {
 pub fn compare<const N: usize>(case: &Case) -> Result<Comparison, String> {
     let mut pair = Pair::<N>::new(case)?;
     let nut_speed = case.speed * TAU;
-    let load = case.load_per_ball * N as f64 * LOADED;
+    let load = case.load_per_ball * N as f64 * case.loaded;
     let ticks = (case.turns / case.speed.abs() / case.tick).round() as usize;
     let per_state = (ticks / case.states.max(1)).max(1);
     let asked: Vec<RingSample> = (0..=case.states)

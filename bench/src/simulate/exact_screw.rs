@@ -17,8 +17,8 @@ use crate::designs::train::UncagedDesign;
 use crate::failure::Failure;
 use crate::progress::Progress;
 
-/// Most states of 37 balls, which take less than two minutes on one core; of more balls fewer.
-const MOST_STATES: usize = 720;
+/// Most states of 37 balls, which take a minute at most; of more balls fewer.
+const MOST_STATES: usize = 10_000;
 const BALLS: usize = 37;
 
 /// Samples of a deviation map in its period.
