@@ -187,6 +187,10 @@ impl<const N: usize> Ring<N> {
         let load = RingLoad::new(constants, FIRST_LOAD, lift_off);
         for _ in 0..FIRST_RENEWALS {
             let found = constants.grooves.renew(&mut fresh, &inputs);
+            if found.lost {
+                fresh = constants.grooves.start(&inputs);
+                continue;
+            }
             ball.keep(constants, &load, &fresh, &found, &Neighbours::NONE);
         }
         Self {
@@ -366,9 +370,12 @@ impl<const N: usize> Ring<N> {
             clearance: self.clearance,
         };
         let found = constants.grooves.renew(&mut settled, &inputs);
-        let [a, b, c, d] = found.loads;
-        let light = if load.axial < 0.0 { (a, d) } else { (b, c) };
-        self.two_point += u8::from(!(light.0 > 0.0 || light.1 > 0.0));
+        self.two_point = self.two_point.saturating_add(u8::from(found.two_point()));
+        if found.lost {
+            let Settled { place, turning, .. } = constants.grooves.start(&inputs);
+            (ball.place, ball.turning) = (place, turning);
+            return;
+        }
         let before = ball.free;
         ball.keep(constants, load, &settled, &found, forces);
         // The slope is that of a whole round between two renewals.
