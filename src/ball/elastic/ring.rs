@@ -121,6 +121,8 @@ pub(crate) struct Ring<const N: usize> {
     last_two_point: u8,
     backward: bool,
     negative: bool,
+    /// Whether a tick has said how the nut turns and what the load is.
+    begun: bool,
 }
 
 impl RingConstants {
@@ -211,6 +213,7 @@ impl<const N: usize> Ring<N> {
             last_two_point: 0,
             backward: false,
             negative: false,
+            begun: false,
         }
     }
 
@@ -269,8 +272,10 @@ impl<const N: usize> Ring<N> {
         let held = constants.normal * size < HELD * whole && !reversed;
         let jumped = whole > LOAD_JUMP * self.settled_load || LOAD_JUMP * whole < self.settled_load;
         let anew = (reversed || crossed) && !held || jumped;
+        let anew = anew || !self.begun;
         if anew {
-            self.begin_anew(constants, axial, crossed && !held);
+            self.begin_anew(constants, axial, self.begun && crossed && !held);
+            self.begun = true;
             self.settled_load = whole;
         }
         self.backward = backward;
