@@ -9,12 +9,13 @@ use crate::scene::{Faults, Outputs};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum FaultReaction {
-    /// Any flag: neutral.
+    /// Any fault ([`Faults::faulty`]): neutral. [`Faults::BEYOND_MODEL`] is none: its torque is the best estimate, and
+    /// stays.
     #[default]
     NeutralOnAnyFault,
     /// A value at its limit ([`Faults::SPEED_RANGE`], [`Faults::LOAD_RANGE`],
     /// [`Faults::FRICTION_LIMIT`]) is still put out, so that the torque does not drop where it is largest;
-    /// any other flag: neutral.
+    /// any other fault: neutral.
     LimitedValuesPass,
 }
 
@@ -42,7 +43,7 @@ pub struct AppliedDuty {
     pub duty: u16,
     /// The torque was cut to [`FeedForwardConfiguration::largest_torque`].
     pub saturated: bool,
-    /// The outputs were flagged or no numbers: neutral duty in their place.
+    /// The outputs were faulty or no numbers: neutral duty in their place.
     pub neutral: bool,
 }
 
@@ -130,10 +131,12 @@ impl<PWM: SetDutyCycle> FrictionFeedForward<PWM> {
     }
 
     fn refuses(&self, faults: Faults) -> bool {
-        const LIMITED: u8 =
-            Faults::SPEED_RANGE.bits() | Faults::LOAD_RANGE.bits() | Faults::FRICTION_LIMIT.bits();
+        const LIMITED: u8 = Faults::SPEED_RANGE.bits()
+            | Faults::LOAD_RANGE.bits()
+            | Faults::FRICTION_LIMIT.bits()
+            | Faults::BEYOND_MODEL.bits();
         match self.reaction {
-            FaultReaction::NeutralOnAnyFault => faults.any(),
+            FaultReaction::NeutralOnAnyFault => faults.faulty(),
             FaultReaction::LimitedValuesPass => faults.bits() & !LIMITED != 0,
         }
     }

@@ -233,8 +233,8 @@ fn flags(
             expected |= Faults::LOAD_RANGE;
         }
     }
-    let beside_torque = faults.bits() & !Faults::FRICTION_LIMIT.bits();
-    if beside_torque == expected.bits() {
+    let of_outputs = Faults::FRICTION_LIMIT | Faults::BEYOND_MODEL;
+    if faults.bits() & !of_outputs.bits() == expected.bits() {
         Ok(lost)
     } else {
         Err(format!("flags {faults:?}, expected {expected:?}"))

@@ -14,4 +14,5 @@ mod promises;
 mod scene_constants;
 mod step_promises;
 mod stiff;
+mod two_point_rolling;
 mod uncaged;
