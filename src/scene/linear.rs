@@ -8,7 +8,7 @@ use super::contract::{Admitted, Regime, Reversal, Scene};
 use super::faults::{Faults, bounded};
 use super::outputs::LinearOutputs;
 use crate::ball::{
-    AnalyticLinearBall, BorderParameters, GrooveFriction, LoadShare, largest_deviation,
+    AnalyticLinearBall, BorderParameters, GrooveFriction, LoadShare, LoadShares, largest_deviation,
 };
 use crate::contact::FrictionMap;
 use crate::error::{Error, attempt, in_range};
@@ -231,7 +231,7 @@ impl LinearBearingConfiguration {
             motion_per_turn: wavelength,
             passing_deviation: self.rail_deviation,
             recirculating_deviation: self.carriage_deviation,
-            load_shares: self.load_shares,
+            load_shares: LoadShares::same(self.load_shares),
             tick,
             largest_speed: limits.speed,
         }
@@ -331,12 +331,13 @@ impl<const N: usize> LinearConstants<N> {
         let loss = self.grooves.at([up, down], spins, normal - side.abs());
 
         let phase = state.phase();
+        let table = self.circuit.shares(false);
         let (passing, recirculating) = self.circuit.deviation_units();
         let (passing, recirculating) = (turn * passing, turn * recirculating);
         let mut shares = 0.0;
         let mut balls = state.train.intake(self.circuit.travel(speed));
         while let Some(next) = balls.next_ball() {
-            let (free, impedance) = match self.circuit.place(next.position(), phase) {
+            let (free, impedance) = match self.circuit.place(next.position(), phase, table) {
                 Some(place) => {
                     shares += place.share.four_thirds();
                     let free = recirculating * place.recirculating + passing * place.passing;

@@ -2,8 +2,9 @@
 
 use core::hint::black_box;
 
+use epas_friction::ball::elastic::ElasticGrooves;
 use epas_friction::ball::{
-    AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE, ScrewLoop, ScrewRow,
+    AnalyticLinearBall, GrooveFit, LinearBallParameters, PUBLISHED_SLOPE, ScrewLoop, ScrewRow,
 };
 use epas_friction::contact::FrictionMap;
 use epas_friction::curvature::{
@@ -18,7 +19,7 @@ use epas_friction::refined::{
 };
 use epas_friction::train::{Press, Train};
 use epas_friction::{
-    BallScrew, CATALOGUE, CagedBallScrew, DeviationMap, Error, FrictionModel, GrooveFit, Inputs,
+    BallScrew, CATALOGUE, CagedBallScrew, DeviationMap, Error, FrictionModel, Inputs,
     LinearBearingTrain, UncagedBallScrew,
 };
 
@@ -69,6 +70,8 @@ pub struct Contexts {
     pub screw_row: ScrewRow,
     /// The same at a tick, for deviations in radians.
     pub screw_loop: ScrewLoop,
+    /// Grooves of a ball screw with elastic contacts.
+    pub elastic: ElasticGrooves,
     /// Forces between balls.
     pub press: Press<BALLS>,
     /// Forces between balls and their positions.
@@ -159,6 +162,7 @@ impl Contexts {
             deviation: &SCREW_DEVIATION,
             screw_loop: screw_row.at(10.0, 100.0).per_speed(0.5, 2.0, (1.0, 1.0)),
             screw_row,
+            elastic: ElasticGrooves::new(&design)?,
             press: Press::new(),
             train: Train::evenly_spaced(0.2248, 0.00594)?,
             uncaged: FrictionModel::new(&black_box(uncaged_configuration()?))?,

@@ -6,6 +6,7 @@
 // Rust calls Rust here; the C calling convention passes f32 in floating-point registers.
 #![allow(improper_ctypes_definitions)]
 
+use epas_friction::ball::elastic::{BallInputs, ElasticGrooves, Renewal, Settled};
 use epas_friction::ball::{
     AnalyticLinearBall, LoopBall, LoopSums, ScrewLoop, ScrewRow, ScrewTick, SpeedDeviation,
 };
@@ -206,6 +207,18 @@ counted! {
         row: &ScrewLoop, screw: f32, nut: f32, share: &LoadShare, sums: &mut LoopSums
     ) -> LoopBall {
         row.ball(screw, nut, share, sums)
+    }
+
+    /// One Newton step of a ball's place and motion.
+    fn count_ball_screw_renewal(
+        grooves: &ElasticGrooves, state: &mut Settled, inputs: &BallInputs
+    ) -> Renewal {
+        grooves.renew(state, inputs)
+    }
+
+    /// A ball's place and motion from nothing.
+    fn count_ball_screw_start(grooves: &ElasticGrooves, inputs: &BallInputs) -> Settled {
+        grooves.start(inputs)
     }
 
     /// Forces between balls that all touch, from given speeds and impedances.

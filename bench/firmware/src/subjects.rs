@@ -4,22 +4,24 @@ use core::hint::black_box;
 
 use epas_friction::LoadShare;
 use epas_friction::ball::LoopSums;
+use epas_friction::ball::elastic::BallInputs;
 use epas_friction::kinematics::EllipticContact;
 
 use crate::contexts::Contexts;
 use crate::counted::{
-    FourContacts, count_ball_screw_ball, count_ball_screw_row, count_cbrt, count_cbrt_and_squared,
-    count_cbrt_squared, count_curvature_circular_groove, count_curvature_exact,
-    count_curvature_fitted, count_curvature_literature, count_deviation_map,
-    count_efficiency_backdrive, count_efficiency_rolling, count_efficiency_sliding,
-    count_friction_dissipation, count_friction_map, count_hertz_ellipse, count_idsp_sin_cos,
-    count_kinematics_ratios, count_kinematics_tick, count_kinematics_update, count_libm_cbrtf,
-    count_libm_cosf, count_libm_powf, count_libm_sincosf, count_libm_sqrtf,
-    count_linear_ball_analytic, count_linear_ball_refined, count_linear_ball_speed,
-    count_linear_chain_2, count_lugre_step, count_micromath_cos, count_micromath_powf,
-    count_micromath_sqrt, count_press_37, count_rotary_ball_refined, count_sin_cos, count_sqrt,
-    count_step_caged, count_step_efficiency, count_step_linear, count_step_train_37,
-    count_step_train_37_pressing, count_stribeck_curve, count_train_37,
+    FourContacts, count_ball_screw_ball, count_ball_screw_renewal, count_ball_screw_row,
+    count_ball_screw_start, count_cbrt, count_cbrt_and_squared, count_cbrt_squared,
+    count_curvature_circular_groove, count_curvature_exact, count_curvature_fitted,
+    count_curvature_literature, count_deviation_map, count_efficiency_backdrive,
+    count_efficiency_rolling, count_efficiency_sliding, count_friction_dissipation,
+    count_friction_map, count_hertz_ellipse, count_idsp_sin_cos, count_kinematics_ratios,
+    count_kinematics_tick, count_kinematics_update, count_libm_cbrtf, count_libm_cosf,
+    count_libm_powf, count_libm_sincosf, count_libm_sqrtf, count_linear_ball_analytic,
+    count_linear_ball_refined, count_linear_ball_speed, count_linear_chain_2, count_lugre_step,
+    count_micromath_cos, count_micromath_powf, count_micromath_sqrt, count_press_37,
+    count_rotary_ball_refined, count_sin_cos, count_sqrt, count_step_caged, count_step_efficiency,
+    count_step_linear, count_step_train_37, count_step_train_37_pressing, count_stribeck_curve,
+    count_train_37,
 };
 use crate::inputs::{
     SPECIAL, angle, contact_angle, four_contacts, impedances, pair, positive, tick, train, wave,
@@ -256,6 +258,35 @@ subjects! {
             let row = black_box(&c.screw_loop);
             let ball = timed!(c, count_ball_screw_ball(row, screw, nut, &LoadShare::MEAN, &mut sums));
             [ball.speed, ball.impedance, c.screw_loop.groove_torque(&sums)]
+        };
+    ball_screw_renewal: |spread| -> [5] [
+            spread.between(-300.0, 300.0), spread.between(-0.05, 0.05), spread.between(-0.05, 0.05),
+            spread.between(-5e-6, 1e-5), spread.between(0.05, 0.15),
+        ],
+        |c, [axial_load, screw_deviation, nut_deviation, clearance, friction]| -> [4] {
+            let inputs = BallInputs {
+                axial_load: axial_load + 5.0_f32.copysign(axial_load),
+                force: 0.0, screw_deviation, nut_deviation, friction, clearance,
+            };
+            let grooves = black_box(&c.elastic);
+            let mut ball = grooves.start(&inputs);
+            let _ = grooves.renew(&mut ball, &inputs);
+            let _ = grooves.renew(&mut ball, &inputs);
+            let found = timed!(c, count_ball_screw_renewal(grooves, &mut ball, &inputs));
+            [found.speed, found.compliance, found.torque, found.carried]
+        };
+    ball_screw_start: |spread| -> [5] [
+            spread.between(-300.0, 300.0), spread.between(-0.05, 0.05), spread.between(-0.05, 0.05),
+            spread.between(-5e-6, 1e-5), spread.between(0.05, 0.15),
+        ],
+        |c, [axial_load, screw_deviation, nut_deviation, clearance, friction]| -> [1] {
+            let inputs = BallInputs {
+                axial_load: axial_load + 5.0_f32.copysign(axial_load),
+                force: 0.0, screw_deviation, nut_deviation, friction, clearance,
+            };
+            let grooves = black_box(&c.elastic);
+            let ball = timed!(c, count_ball_screw_start(grooves, &inputs));
+            [grooves.renew(&mut ball.clone(), &inputs).speed]
         };
     press_37: |spread| -> [3] train(spread),
         |c, input| -> [37] {

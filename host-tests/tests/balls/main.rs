@@ -3,6 +3,7 @@
 #[path = "../kit/mod.rs"]
 mod kit;
 
+mod elastic_ball;
 mod linear_ball;
 mod rotary_ball;
 mod rotary_bearing;

@@ -12,8 +12,8 @@ use epas_friction::hal::{
     FrictionFeedForward, MagneticEncoder,
 };
 use epas_friction::{
-    BallScrew, CagedBallScrew, CagedBallScrewConfiguration, DISSERTATION_DESIGNS, Faults,
-    FrictionBranch, FrictionModel, Inputs, Limits, Outputs, Regime,
+    BallScrew, CagedBallScrew, CagedBallScrewConfiguration, Clearance, DISSERTATION_DESIGNS,
+    Faults, FrictionBranch, FrictionModel, Inputs, Limits, Outputs, Regime,
 };
 
 const READ_ANGLE: u16 = 0xFFFF;
@@ -519,11 +519,12 @@ fn flagged_outputs_and_no_numbers_give_the_neutral_duty() {
     let expected = [500, 500, 563, 563, 563];
     // Accuracy alone takes no torque away, whatever the reaction to faults is.
     for configuration in [STAGE, passing] {
-        let transactions: Vec<_> = puts(1000, 563).into_iter().collect();
-        let mut stage = stage(&transactions, &configuration);
-        let applied = stage.apply(&outputs(1.0, Faults::BEYOND_MODEL)).unwrap();
-        assert_eq!((applied.duty, applied.neutral), (563, false));
-        stage.release().done();
+        for flag in [Faults::BEYOND_MODEL, Faults::SETTLING] {
+            let mut stage = stage(&puts(1000, 563), &configuration);
+            let applied = stage.apply(&outputs(1.0, flag)).unwrap();
+            assert_eq!((applied.duty, applied.neutral), (563, false));
+            stage.release().done();
+        }
     }
     let transactions: Vec<_> = expected.iter().flat_map(|&duty| puts(1000, duty)).collect();
     let mut stage = stage(&transactions, &passing);
@@ -581,7 +582,7 @@ proptest::proptest! {
     #[test]
     fn the_authority_bounds_every_duty(
         bits: u32,
-        flags in 0_u8..64,
+        flags in 0_u8..128,
         scale: u16,
         full in 1e-6_f32..1e6,
         authority in 0.0_f32..=1.0,
@@ -607,6 +608,7 @@ proptest::proptest! {
             Faults::LOAD_RANGE,
             Faults::FRICTION_LIMIT,
             Faults::BEYOND_MODEL,
+            Faults::SETTLING,
         ];
         let mut faults = Faults::NONE;
         for flag in all {
@@ -684,7 +686,8 @@ fn a_failed_bus_leaves_the_bridge_neutral() {
         friction: 0.075,
         rolling_tangent: 0.0,
         branch: FrictionBranch::Rolling,
-        preload: 0.0,
+        clearance: Clearance::ZERO,
+        loaded_balls: 71,
         reversal_speed: 0.5,
         limits: Limits {
             nut_speed: 500.0,

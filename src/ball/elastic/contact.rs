@@ -1,0 +1,180 @@
+//! One contact of a ball: where it lies, what it carries, its friction, and what it adds to the ball's equations.
+
+use super::equations::{Axial, Motion, Shared};
+use super::grooves::ElasticGroove;
+use crate::contact::slip_map::looped::Slips;
+use crate::math;
+
+/// Spin below which a contact sticks, over the nut's speed.
+pub(super) const STICK_SPIN: f32 = 0.03;
+
+/// Where a contact lies and what it carries.
+#[derive(Clone, Copy)]
+pub(super) struct Touch {
+    /// Direction from the ball's centre to the contact: radial and axial part.
+    pub(super) nx: f32,
+    pub(super) nz: f32,
+    /// 1 / distance of the ball's centre from the arc's.
+    pub(super) per_distance: f32,
+    /// Load to the power 2/3, `N^(2/3)`.
+    pub(super) power: f32,
+    /// Load, N.
+    pub(super) load: f32,
+    /// Change of the load with the approach, N.
+    pub(super) stiffness: f32,
+}
+
+impl Touch {
+    /// The contact of a ball whose centre lies at `(x, z)` from the groove's middle with an arc whose centre lies at
+    /// `(mx, mz)`, both over the ball radius; none where a gap is left.
+    #[inline(always)]
+    pub(super) fn at(
+        groove: &ElasticGroove,
+        (x, z): (f32, f32),
+        (mx, mz): (f32, f32),
+        clearance: f32,
+    ) -> Option<Self> {
+        let (ex, ez) = (x - mx, z - mz);
+        let distance = math::sqrt(ex * ex + ez * ez);
+        let sum = distance + groove.centre;
+        // One division for both reciprocals.
+        let both = 1.0 / (distance * sum);
+        let per_distance = sum * both;
+        // distance - centre, without cancellation.
+        let approach = (x * (ex - mx) + z * (ez - mz)) * (distance * both) - clearance;
+        // False for NaN.
+        if approach > 0.0 {
+            let power = approach * groove.stiffness;
+            let root = math::sqrt(power);
+            Some(Self {
+                nx: ex * per_distance,
+                nz: ez * per_distance,
+                per_distance,
+                power,
+                load: root * power,
+                stiffness: 1.5 * root * groove.stiffness,
+            })
+        } else {
+            None
+        }
+    }
+
+    /// Adds the contact's forces and all their derivatives to the equations of the ball: those of its own groove's
+    /// axial place, and those that both grooves share. The motion is that of the ball less that of the groove.
+    ///
+    /// In the contact's own directions, with the slips `V1` across and `V2` along and the spin `w`, all over the nut's
+    /// speed, and the normal `n`:
+    ///
+    /// ```text
+    /// V1 = y    V2 = speed + z nx - x nz    w = x nx + z nz
+    /// ```
+    ///
+    /// Sources: Lin 2019, eqs. (3.65)-(3.69); loads by eqs. (2.11)-(2.14).
+    #[inline(never)]
+    pub(super) fn add(
+        &self,
+        groove: &ElasticGroove,
+        motion: &Motion,
+        friction: f32,
+        own: &mut Axial,
+        shared: &mut Shared,
+    ) {
+        let Self { nx, nz, load, .. } = *self;
+        let across = motion.y;
+        let along = motion.speed + (motion.z * nx - motion.x * nz);
+        let spin = motion.x * nx + motion.z * nz;
+        let slip = groove.map.at(&Slips {
+            across,
+            along,
+            spin,
+            stick: STICK_SPIN * STICK_SPIN,
+            size: groove.semi_major2 * self.power,
+        });
+        // Second derivatives times the slips; the potential is homogeneous in slips and spin.
+        let h1 = slip.across_across * across + slip.mixed * along;
+        let h2 = slip.mixed * across + slip.along_along * along;
+        let turned = slip.tilt * (h1 * across + h2 * along);
+        let limit = friction * load;
+
+        // Forces and their growth with the approach: of the load, and of the ellipse with its cube root.
+        let (f1, f2, fm) = (limit * slip.across, limit * slip.along, limit * slip.moment);
+        let grown = friction * self.stiffness;
+        let (u1, u2, um) = (
+            grown * (slip.across - (1.0 / 3.0) * h1),
+            grown * (slip.along - (1.0 / 3.0) * h2),
+            grown * (slip.moment + (1.0 / 3.0) * (slip.moment + turned)),
+        );
+        self.place(f1, u1, own, shared);
+        let force = Motion {
+            speed: f2,
+            x: fm * nx - f2 * nz,
+            y: f1,
+            z: fm * nz + f2 * nx,
+        };
+        shared.forces = shared.forces.plus(&force, 1.0);
+        let growth = Motion {
+            speed: u2,
+            x: um * nx - u2 * nz,
+            y: u1,
+            z: um * nz + u2 * nx,
+        };
+        shared.forces_by_place = shared.forces_by_place.plus(&growth, nx);
+        own.forces = own.forces.plus(&growth, nz);
+
+        // Second derivatives by slips and spin.
+        let (s11, s12, s22) = (
+            limit * slip.across_across,
+            limit * slip.mixed,
+            limit * slip.along_along,
+        );
+        let tilt = -limit * slip.tilt;
+        let (s1w, s2w) = (tilt * h1, tilt * h2);
+        let sww = limit * (slip.tilt * turned + slip.stick);
+        let (ax, az) = (nx * s2w - nz * s22, nx * s22 + nz * s2w);
+        let (bx, bz) = (nx * sww - nz * s2w, nx * s2w + nz * sww);
+        let by_across = Motion {
+            speed: s12,
+            x: nx * s1w - nz * s12,
+            y: s11,
+            z: nx * s12 + nz * s1w,
+        };
+        let h = &mut shared.hessian;
+        h.xx += nx * bx - nz * ax;
+        h.xy += by_across.x;
+        h.xz += nx * bz - nz * az;
+        h.xs += ax;
+        h.yy += s11;
+        h.yz += by_across.z;
+        h.ys += s12;
+        h.zz += nx * az + nz * bz;
+        h.zs += az;
+        h.ss += s22;
+        // Friction across the track acts on the ball along (nz, -nx), against the slip.
+        shared.by_motion = shared.by_motion.plus(&by_across, -nz);
+        own.by_motion = own.by_motion.plus(&by_across, nx);
+    }
+
+    /// Adds forces in the cross section and their derivatives by the place, where the friction force across the track is
+    /// `f1` and grows with the approach by `u1`.
+    #[inline(always)]
+    fn place(&self, f1: f32, u1: f32, own: &mut Axial, shared: &mut Shared) {
+        let Self {
+            nx,
+            nz,
+            load,
+            stiffness,
+            per_distance,
+            ..
+        } = *self;
+        let (fx, fz) = (-(load * nx + f1 * nz), f1 * nx - load * nz);
+        shared.radial += fx;
+        own.force += fz;
+        let (kx, kz) = (-(stiffness * nx + u1 * nz), u1 * nx - stiffness * nz);
+        // The normal turns about the arc's centre.
+        let (gx, gz) = (per_distance * fz, -per_distance * fx);
+        shared.by_place += kx * nx + gx * nz;
+        own.radial += kx * nz - gx * nx;
+        own.by_place += kz * nx + gz * nz;
+        own.by_axial += kz * nz - gz * nx;
+    }
+}

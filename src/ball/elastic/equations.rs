@@ -1,0 +1,269 @@
+//! The seven equations of a ball: sums over its contacts, and their solution.
+
+/// A number for each part of a ball's motion: angular velocity about the radial axis, the track and the axis across both,
+/// and speed along the track over the ball radius; all over the nut's speed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Motion {
+    pub(super) speed: f32,
+    pub(super) x: f32,
+    pub(super) y: f32,
+    pub(super) z: f32,
+}
+
+impl Motion {
+    const NONE: Self = Self {
+        speed: 0.0,
+        x: 0.0,
+        y: 0.0,
+        z: 0.0,
+    };
+
+    /// `self + factor other`.
+    #[inline(always)]
+    pub(super) fn plus(&self, other: &Self, factor: f32) -> Self {
+        Self {
+            speed: self.speed + factor * other.speed,
+            x: self.x + factor * other.x,
+            y: self.y + factor * other.y,
+            z: self.z + factor * other.z,
+        }
+    }
+
+    /// `factor self`.
+    #[inline(always)]
+    pub(super) fn times(&self, factor: f32) -> Self {
+        Self {
+            speed: factor * self.speed,
+            x: factor * self.x,
+            y: factor * self.y,
+            z: factor * self.z,
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn dot(&self, other: &Self) -> f32 {
+        self.x * other.x + self.y * other.y + self.z * other.z + self.speed * other.speed
+    }
+}
+
+/// Second derivatives of the power by the motion, N; `s` is the speed.
+#[derive(Clone, Copy)]
+pub(super) struct Hessian {
+    pub(super) xx: f32,
+    pub(super) xy: f32,
+    pub(super) xz: f32,
+    pub(super) xs: f32,
+    pub(super) yy: f32,
+    pub(super) yz: f32,
+    pub(super) ys: f32,
+    pub(super) zz: f32,
+    pub(super) zs: f32,
+    pub(super) ss: f32,
+}
+
+/// Equations that both grooves share: the radial place and the motion.
+pub(super) struct Shared {
+    /// Unbalanced radial force, N; its change with the radial place and with the motion.
+    pub(super) radial: f32,
+    pub(super) by_place: f32,
+    pub(super) by_motion: Motion,
+    /// Derivative of the power by the motion, N; its change with the radial place and with the motion.
+    pub(super) forces: Motion,
+    pub(super) forces_by_place: Motion,
+    pub(super) hessian: Hessian,
+}
+
+impl Shared {
+    pub(super) const NONE: Self = Self {
+        radial: 0.0,
+        by_place: 0.0,
+        by_motion: Motion::NONE,
+        forces: Motion::NONE,
+        forces_by_place: Motion::NONE,
+        hessian: Hessian {
+            xx: 0.0,
+            xy: 0.0,
+            xz: 0.0,
+            xs: 0.0,
+            yy: 0.0,
+            yz: 0.0,
+            ys: 0.0,
+            zz: 0.0,
+            zs: 0.0,
+            ss: 0.0,
+        },
+    };
+}
+
+/// Axial balance in one groove.
+#[derive(Clone, Copy)]
+pub(super) struct Axial {
+    /// Axial force on the ball, N; its change with the axial place, the radial place and the motion.
+    pub(super) force: f32,
+    pub(super) by_axial: f32,
+    pub(super) by_place: f32,
+    pub(super) by_motion: Motion,
+    /// Change of the radial force and of the power's derivatives with the axial place.
+    pub(super) radial: f32,
+    pub(super) forces: Motion,
+}
+
+impl Axial {
+    pub(super) const NONE: Self = Self {
+        force: 0.0,
+        by_axial: 0.0,
+        by_place: 0.0,
+        by_motion: Motion::NONE,
+        radial: 0.0,
+        forces: Motion::NONE,
+    };
+}
+
+/// Steps that bring all unbalanced forces to zero, to first order.
+pub(super) struct Step {
+    pub(super) radial: f32,
+    pub(super) screw: f32,
+    pub(super) nut: f32,
+    pub(super) motion: Motion,
+    /// Change of the speed with a force along the track, 1/N.
+    pub(super) compliance: f32,
+}
+
+/// A place in terms of what is eliminated after it: `step = right - place dx - motion dy`.
+struct Follows {
+    right: f32,
+    place: f32,
+    motion: Motion,
+}
+
+impl Follows {
+    #[inline(always)]
+    fn of(axial: &Axial, unbalanced: f32, inverse: f32) -> Self {
+        Self {
+            right: inverse * unbalanced,
+            place: inverse * axial.by_place,
+            motion: axial.by_motion.times(inverse),
+        }
+    }
+
+    #[inline(always)]
+    fn step(&self, radial: f32, motion: &Motion) -> f32 {
+        self.right - self.place * radial - self.motion.dot(motion)
+    }
+}
+
+/// One row of the equations of the motion, places eliminated.
+#[derive(Clone, Copy)]
+struct Line {
+    right: f32,
+    by: Motion,
+}
+
+impl Line {
+    /// The row with the axial places and then the radial one eliminated.
+    #[inline(always)]
+    fn of(
+        force: f32,
+        hessian: Motion,
+        (radial, screw, nut): (f32, f32, f32),
+        (x, s, n): (&Follows, &Follows, &Follows),
+    ) -> Self {
+        let radial = radial - screw * s.place - nut * n.place;
+        let by = hessian
+            .plus(&s.motion, -screw)
+            .plus(&n.motion, -nut)
+            .plus(&x.motion, -radial);
+        Self {
+            right: force - screw * s.right - nut * n.right - radial * x.right,
+            by,
+        }
+    }
+}
+
+/// Solves the equations, where the axial forces on the ball are unbalanced by those given.
+///
+/// Elimination without exchange of rows: axial places, radial place, motion.
+#[inline(always)]
+pub(super) fn solved(
+    shared: &Shared,
+    screw: &Axial,
+    nut: &Axial,
+    unbalanced: [f32; 2],
+    push: f32,
+) -> Step {
+    // One division for both reciprocals.
+    let both = 1.0 / (screw.by_axial * nut.by_axial);
+    let s = Follows::of(screw, unbalanced[0], both * nut.by_axial);
+    let n = Follows::of(nut, unbalanced[1], both * screw.by_axial);
+    let by_place = shared.by_place - screw.radial * s.place - nut.radial * n.place;
+    let inverse = 1.0 / by_place;
+    let x = Follows {
+        right: inverse * (shared.radial - screw.radial * s.right - nut.radial * n.right),
+        place: 0.0,
+        motion: shared
+            .by_motion
+            .plus(&s.motion, -screw.radial)
+            .plus(&n.motion, -nut.radial)
+            .times(inverse),
+    };
+    let h = &shared.hessian;
+    let (p, u, v, f) = (
+        &shared.forces_by_place,
+        &screw.forces,
+        &nut.forces,
+        &shared.forces,
+    );
+    let all = (&x, &s, &n);
+    let row = |x, y, z, speed| Motion { speed, x, y, z };
+    let a = Line::of(f.x, row(h.xx, h.xy, h.xz, h.xs), (p.x, u.x, v.x), all);
+    let inverse = 1.0 / a.by.x;
+    let (a1, a2, a3, a4) = (
+        inverse * a.by.y,
+        inverse * a.by.z,
+        inverse * a.by.speed,
+        inverse * a.right,
+    );
+    let b = Line::of(f.y, row(h.xy, h.yy, h.yz, h.ys), (p.y, u.y, v.y), all);
+    let first = b.by.x;
+    let inverse = 1.0 / (b.by.y - first * a1);
+    let (b2, b3, b4) = (
+        inverse * (b.by.z - first * a2),
+        inverse * (b.by.speed - first * a3),
+        inverse * (b.right - first * a4),
+    );
+    let c = Line::of(f.z, row(h.xz, h.yz, h.zz, h.zs), (p.z, u.z, v.z), all);
+    let first = c.by.x;
+    let second = c.by.y - first * a1;
+    let inverse = 1.0 / (c.by.z - first * a2 - second * b2);
+    let (c3, c4) = (
+        inverse * (c.by.speed - first * a3 - second * b3),
+        inverse * (c.right - first * a4 - second * b4),
+    );
+    let d = Line::of(
+        f.speed - push,
+        row(h.xs, h.ys, h.zs, h.ss),
+        (p.speed, u.speed, v.speed),
+        all,
+    );
+    let first = d.by.x;
+    let second = d.by.y - first * a1;
+    let third = d.by.z - first * a2 - second * b2;
+    let compliance = 1.0 / (d.by.speed - first * a3 - second * b3 - third * c3);
+    let speed = compliance * (d.right - first * a4 - second * b4 - third * c4);
+    let z = c4 - c3 * speed;
+    let y = b4 - b2 * z - b3 * speed;
+    let motion = Motion {
+        speed,
+        x: a4 - a1 * y - a2 * z - a3 * speed,
+        y,
+        z,
+    };
+    let radial = x.right - x.motion.dot(&motion);
+    Step {
+        radial,
+        screw: s.step(radial, &motion),
+        nut: n.step(radial, &motion),
+        motion,
+        compliance,
+    }
+}

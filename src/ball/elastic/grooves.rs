@@ -1,0 +1,92 @@
+//! Both grooves of a ball screw, as an elastic ball meets them.
+
+use crate::contact::slip_map::looped::LoopSlipMap;
+use crate::error::{Error, attempt};
+use crate::geometry::{BallScrew, Groove};
+use crate::hertz::HertzContact;
+use crate::ranges;
+
+/// Grooves of a ball screw with their elastic contacts; lengths over the ball radius.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct ElasticGrooves {
+    pub(super) screw: ElasticGroove,
+    pub(super) nut: ElasticGroove,
+    /// Cosine and sine of the nominal contact angle.
+    pub(super) cos: f32,
+    pub(super) sin: f32,
+    /// Radius of the path of the balls.
+    pub(super) path: f32,
+    pub(super) sin_lead: f32,
+    pub(super) cos_lead: f32,
+    pub(super) ball_radius: f32,
+    /// 1 / ball radius, 1/m; 1 / cosine of the lead angle; load of a main contact over the axial one.
+    pub(super) per_radius: f32,
+    pub(super) per_cos_lead: f32,
+    pub(super) per_axial_load: f32,
+}
+
+/// One groove.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(super) struct ElasticGroove {
+    pub(super) map: LoopSlipMap,
+    /// Distance of the arcs' centres from the centre of the ball that touches both without load.
+    pub(super) centre: f32,
+    /// Load to the power 2/3 over deflection, `N^(2/3)`.
+    pub(super) stiffness: f32,
+    pub(super) per_stiffness: f32,
+    /// Square of the semi-major axis at one newton, `N^(-2/3)`.
+    pub(super) semi_major2: f32,
+    /// Angular velocity over the nut's: 0 of the screw, 1 of the nut.
+    pub(super) turning: f32,
+    /// Sines of lead angle times that, cosine times that, path times that.
+    pub(super) base: [f32; 3],
+}
+
+impl ElasticGroove {
+    const fn new(design: &BallScrew, groove: Groove, turning: f32) -> Result<Self, Error> {
+        let contact = HertzContact::of(design, groove);
+        let radius = design.ball_radius();
+        let cos_lead = design.cos_lead_angle();
+        let sin_lead = cos_lead * design.tan_lead_angle();
+        let path = design.pitch_radius() / (cos_lead * radius);
+        let semi_major = contact.semi_major_coefficient() / radius;
+        Ok(Self {
+            map: attempt!(LoopSlipMap::new(contact.axis_ratio())),
+            centre: design.clearance(groove) / radius,
+            stiffness: radius / contact.deflection_coefficient(),
+            per_stiffness: contact.deflection_coefficient() / radius,
+            semi_major2: semi_major * semi_major,
+            turning,
+            base: [turning * sin_lead, turning * cos_lead, turning * path],
+        })
+    }
+}
+
+impl ElasticGrooves {
+    /// Folds the constants of a design.
+    ///
+    /// # Errors
+    /// [`Error`] naming `contact_angle` (0.05 to 1.5) or `axis_ratio`.
+    pub const fn new(design: &BallScrew) -> Result<Self, Error> {
+        attempt!(
+            ranges::ROLLING_CONTACT_ANGLE
+                .checked("contact_angle", design.parameters().contact_angle)
+        );
+        let cos_lead = design.cos_lead_angle();
+        Ok(Self {
+            screw: attempt!(ElasticGroove::new(design, Groove::Screw, 0.0)),
+            nut: attempt!(ElasticGroove::new(design, Groove::Nut, 1.0)),
+            cos: design.contact_angle().cos,
+            sin: design.contact_angle().sin,
+            path: design.pitch_radius() / (cos_lead * design.ball_radius()),
+            sin_lead: cos_lead * design.tan_lead_angle(),
+            cos_lead,
+            ball_radius: design.ball_radius(),
+            per_radius: 1.0 / design.ball_radius(),
+            per_cos_lead: 1.0 / cos_lead,
+            per_axial_load: 1.0 / (cos_lead * design.contact_angle().sin),
+        })
+    }
+}
