@@ -415,6 +415,12 @@ extern "C" {
 #define EPAS_FAULT_BEYOND_MODEL 32u
 
 /**
+ * Balls still settle after a start, a reversal, or a jump of the load by a factor of three: forces between them are
+ * estimates for some milliseconds. No fault of the inputs, either.
+ */
+#define EPAS_FAULT_SETTLING 64u
+
+/**
  * The call itself was refused (its status says why): no friction is put out.
  */
 #define EPAS_FAULT_CALL 2147483648u
@@ -1137,7 +1143,8 @@ uint32_t epas_caged_step(struct epas_caged_t *place,
 uint32_t epas_caged_reset(struct epas_caged_t *place);
 
 /**
- * Consecutive ticks with a fault; 0 after a sound tick, and after one that is only `EPAS_FAULT_BEYOND_MODEL`.
+ * Consecutive ticks with a fault; 0 after a sound tick, and after one whose flags speak of
+ * accuracy alone (`EPAS_FAULT_BEYOND_MODEL`, `EPAS_FAULT_SETTLING`).
  */
 uint32_t epas_caged_faulted_ticks(const struct epas_caged_t *place, uint32_t *ticks);
 
@@ -1168,7 +1175,8 @@ uint32_t epas_screw_set_nut_angle(struct epas_screw_t *place, float angle);
 uint32_t epas_screw_reset(struct epas_screw_t *place);
 
 /**
- * Consecutive ticks with a fault; 0 after a sound tick, and after one that is only `EPAS_FAULT_BEYOND_MODEL`.
+ * Consecutive ticks with a fault; 0 after a sound tick, and after one whose flags speak of
+ * accuracy alone (`EPAS_FAULT_BEYOND_MODEL`, `EPAS_FAULT_SETTLING`).
  */
 uint32_t epas_screw_faulted_ticks(const struct epas_screw_t *place, uint32_t *ticks);
 
@@ -1200,7 +1208,8 @@ uint32_t epas_linear_set_carriage_position(struct epas_linear_t *place,
 uint32_t epas_linear_reset(struct epas_linear_t *place);
 
 /**
- * Consecutive ticks with a fault; 0 after a sound tick, and after one that is only `EPAS_FAULT_BEYOND_MODEL`.
+ * Consecutive ticks with a fault; 0 after a sound tick, and after one whose flags speak of
+ * accuracy alone (`EPAS_FAULT_BEYOND_MODEL`, `EPAS_FAULT_SETTLING`).
  */
 uint32_t epas_linear_faulted_ticks(const struct epas_linear_t *place, uint32_t *ticks);
 
