@@ -10,7 +10,7 @@ use super::contract::{Admitted, Inputs, Limits, Regime, Reversal, Scene};
 use super::faults::Faults;
 use super::outputs::UncagedOutputs;
 use crate::ball::elastic::ElasticGrooves;
-use crate::ball::elastic::ring::{Ring, RingConstants, RingLoad};
+use crate::ball::elastic::ring::{Neighbours, Ring, RingConstants, RingLoad};
 use crate::ball::{Clearance, GrooveFit, LoadShare, LoadShares, ScrewRow};
 use crate::error::{Error, attempt, in_range};
 use crate::geometry::BallScrew;
@@ -256,18 +256,20 @@ impl<const N: usize> UncagedConstants<N> {
         let mut torque = 0.0;
         let mut entered = None;
         let UncagedState { circuit, ring } = state;
+        let idle = way * ring.idle();
         let mut balls = circuit.train.intake(self.circuit.travel(nut_speed));
         let mut known = ring.balls.iter_mut().enumerate().rev();
         while let (Some(next), Some((index, ball))) = (balls.next_ball(), known.next()) {
             if !self.circuit.is_loaded(next.position()) {
                 ball.leave();
-                next.put(0.0, UNLOADED);
+                next.put(idle, UNLOADED);
             } else if ball.loaded() {
                 torque += ball.torque();
-                next.put(way * ball.follow(angle), load.impedance(ball));
+                let speed = ball.follow(angle, next.pressed());
+                next.put(way * speed, load.impedance(ball));
             } else {
                 entered = Some(index);
-                next.put(0.0, UNLOADED);
+                next.put(idle, UNLOADED);
             }
         }
         let pressing = balls.press();
@@ -322,25 +324,33 @@ impl<const N: usize> UncagedConstants<N> {
     ) {
         let index = state.ring.next();
         let train = &state.circuit.train;
-        let place = self
-            .circuit
-            .place(train.position(index), state.circuit.phase(), shares);
-        if let Some(place) = place {
-            let (passing, recirculating) = self.circuit.deviation_units();
+        let (passing, recirculating) = self.circuit.deviation_units();
+        let (deviations, share, [behind, ahead]) = if index < N {
+            let position = train.position(index);
+            let Some(place) = self.circuit.place(position, state.circuit.phase(), shares) else {
+                return;
+            };
             let deviations = (
                 way * passing * place.passing,
                 way * recirculating * place.recirculating,
             );
-            let force = way * train.push(index);
-            state.ring.renew(
-                &self.ring,
-                load,
-                index,
-                deviations,
-                place.share.share(),
-                force,
-            );
-        }
+            (deviations, place.share.share(), train.forces_on(index))
+        } else {
+            ((0.0, 0.0), 1.0, [0.0; 2])
+        };
+        let (behind, ahead) = if way < 0.0 {
+            (ahead, behind)
+        } else {
+            (behind, ahead)
+        };
+        let forces = Neighbours {
+            behind,
+            ahead,
+            friction: self.ball_friction,
+        };
+        state
+            .ring
+            .renew(&self.ring, load, index, deviations, share, &forces);
     }
 
     /// Sum over all pairs of their force times the speed with which they rub, N m per unit of nut speed.

@@ -128,12 +128,13 @@ impl<const N: usize> Train<N> {
         self.press.balls.get(ball).map_or(0, Ball::position)
     }
 
-    /// Force of both neighbours on a ball along the track, in the unit of speed times impedance.
+    /// Forces between a ball and the one behind it, and between it and the one in front, in the unit of speed times
+    /// impedance.
     #[inline(always)]
-    pub(crate) fn push(&self, ball: usize) -> f32 {
+    pub(crate) fn forces_on(&self, ball: usize) -> [f32; 2] {
         let force = |ball: usize| self.press.balls.get(ball).map_or(0.0, Ball::force);
         let behind = ball.wrapping_sub(1);
-        force(if behind < N { behind } else { N - 1 }) - force(ball)
+        [force(if behind < N { behind } else { N - 1 }), force(ball)]
     }
 
     /// Force between each ball and the one in front of it, in the unit of speed times impedance; the last

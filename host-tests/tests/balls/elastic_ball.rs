@@ -61,6 +61,7 @@ fn scratch() {
             let inputs = BallInputs {
                 axial_load: (side * of("axial_load_N", i)) as f32,
                 force: 0.0,
+                rubbing: [0.0; 2],
                 screw_deviation: of("screw_deviation_deg", i).to_radians() as f32,
                 nut_deviation: of("nut_deviation_deg", i).to_radians() as f32,
                 friction: number(&case["friction"]) as f32,

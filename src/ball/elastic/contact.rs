@@ -8,25 +8,91 @@ use crate::math;
 /// Spin below which a contact sticks, over the nut's speed.
 pub(super) const STICK_SPIN: f32 = 0.03;
 
-/// Where a contact lies and what it carries.
+/// Part of its own slip and spin by which a step may change those of a contact: beyond it friction changes its sign.
+const REACH: f32 = 0.7;
+
+/// Load of a contact, and how far a step may change the motion of the ball for its sake.
 #[derive(Clone, Copy)]
-pub(super) struct Touch {
-    /// Direction from the ball's centre to the contact: radial and axial part.
-    pub(super) nx: f32,
-    pub(super) nz: f32,
-    /// 1 / distance of the ball's centre from the arc's.
-    pub(super) per_distance: f32,
-    /// Load to the power 2/3, `N^(2/3)`.
-    pub(super) power: f32,
-    /// Load, N.
+pub(super) struct Reach {
+    /// Normal: radial and axial part.
+    nx: f32,
+    nz: f32,
+    /// Largest change of the spin and of the slip along the track, over the nut's speed.
+    spin: f32,
+    along: f32,
+    /// Load, N; zero without contact.
     pub(super) load: f32,
-    /// Change of the load with the approach, N.
-    pub(super) stiffness: f32,
 }
 
-impl Touch {
-    /// The contact of a ball whose centre lies at `(x, z)` from the groove's middle with an arc whose centre lies at
-    /// `(mx, mz)`, both over the ball radius; none where a gap is left.
+impl Reach {
+    /// No contact, no limit.
+    pub(super) const NONE: Self = Self {
+        nx: 0.0,
+        nz: 0.0,
+        spin: f32::MAX,
+        along: f32::MAX,
+        load: 0.0,
+    };
+
+    /// Part of a step that this contact allows, at most `taken`.
+    #[inline(always)]
+    pub(super) fn allowed(&self, step: &Motion, taken: f32) -> f32 {
+        if self.load == 0.0 {
+            return taken;
+        }
+        let (along, spin) = slips(step, (self.nx, self.nz));
+        let taken = within(taken, spin.abs(), self.spin);
+        within(taken, along.abs(), self.along)
+    }
+}
+
+/// The part `taken` of a step of some size, or less, so that it stays within a limit.
+#[inline(always)]
+pub(super) fn within(taken: f32, size: f32, limit: f32) -> f32 {
+    if taken * size > limit {
+        limit / size
+    } else {
+        taken
+    }
+}
+
+/// Slip along the track and spin of a contact with the normal `(nx, nz)`.
+#[inline(always)]
+fn slips(motion: &Motion, (nx, nz): (f32, f32)) -> (f32, f32) {
+    (
+        motion.speed + (motion.z * nx - motion.x * nz),
+        motion.x * nx + motion.z * nz,
+    )
+}
+
+/// Adds a contact that carries to the equations of the ball; returns what it carries and how far a step may go.
+#[inline(never)]
+pub(super) fn add(
+    groove: &ElasticGroove,
+    pressed: Pressed,
+    motion: &Motion,
+    friction: f32,
+    own: &mut Axial,
+    shared: &mut Shared,
+    reach: &mut Reach,
+) {
+    *reach = Touch::of(groove, pressed).add(groove, motion, friction, own, shared);
+}
+
+/// How an arc of a groove lies to a ball.
+#[derive(Clone, Copy)]
+pub(super) struct Pressed {
+    /// From the arc's centre to the ball's, over the ball radius: radial and axial part.
+    ex: f32,
+    ez: f32,
+    /// Square of their distance less that at which the ball touches; the distance at which it touches.
+    excess: f32,
+    touching: f32,
+}
+
+impl Pressed {
+    /// A ball whose centre lies at `(x, z)` from the groove's middle and an arc whose centre lies at `(mx, mz)`, both over
+    /// the ball radius; none where a gap is left.
     #[inline(always)]
     pub(super) fn at(
         groove: &ElasticGroove,
@@ -35,32 +101,69 @@ impl Touch {
         clearance: f32,
     ) -> Option<Self> {
         let (ex, ez) = (x - mx, z - mz);
-        let distance = math::sqrt(ex * ex + ez * ez);
-        let sum = distance + groove.centre;
-        // One division for both reciprocals.
-        let both = 1.0 / (distance * sum);
-        let per_distance = sum * both;
-        // distance - centre, without cancellation.
-        let approach = (x * (ex - mx) + z * (ez - mz)) * (distance * both) - clearance;
+        // Without cancellation: the arc's centre lies `groove.centre` from the middle.
+        let excess =
+            x * (ex - mx) + z * (ez - mz) - clearance * (groove.centre + groove.centre + clearance);
         // False for NaN.
-        if approach > 0.0 {
-            let power = approach * groove.stiffness;
-            let root = math::sqrt(power);
+        if excess > 0.0 {
             Some(Self {
-                nx: ex * per_distance,
-                nz: ez * per_distance,
-                per_distance,
-                power,
-                load: root * power,
-                stiffness: 1.5 * root * groove.stiffness,
+                ex,
+                ez,
+                excess,
+                touching: groove.centre + clearance,
             })
         } else {
             None
         }
     }
+}
+
+/// Where a contact lies and what it carries.
+#[derive(Clone, Copy)]
+pub(super) struct Touch {
+    /// Direction from the ball's centre to the contact: radial and axial part.
+    pub(super) nx: f32,
+    pub(super) nz: f32,
+    /// 1 / distance of the ball's centre from the arc's.
+    pub(super) per_distance: f32,
+    /// Cube root of the load, `N^(1/3)`.
+    pub(super) root: f32,
+    /// Load, N.
+    pub(super) load: f32,
+    /// Change of the load with the approach, N.
+    pub(super) stiffness: f32,
+}
+
+impl Touch {
+    /// The contact of a ball that a groove presses.
+    #[inline(always)]
+    pub(super) fn of(groove: &ElasticGroove, pressed: Pressed) -> Self {
+        let Pressed {
+            ex,
+            ez,
+            excess,
+            touching,
+        } = pressed;
+        let distance = math::sqrt(ex * ex + ez * ez);
+        let sum = distance + touching;
+        // One division for both reciprocals.
+        let both = 1.0 / (distance * sum);
+        let per_distance = sum * both;
+        let power = excess * (distance * both) * groove.stiffness;
+        let root = math::sqrt(power);
+        Self {
+            nx: ex * per_distance,
+            nz: ez * per_distance,
+            per_distance,
+            root,
+            load: root * power,
+            stiffness: 1.5 * root * groove.stiffness,
+        }
+    }
 
     /// Adds the contact's forces and all their derivatives to the equations of the ball: those of its own groove's
-    /// axial place, and those that both grooves share. The motion is that of the ball less that of the groove.
+    /// axial place, and those that both grooves share. The motion is that of the ball less that of the groove. Returns how
+    /// far a step may change the motion.
     ///
     /// In the contact's own directions, with the slips `V1` across and `V2` along and the spin `w`, all over the nut's
     /// speed, and the normal `n`:
@@ -69,27 +172,37 @@ impl Touch {
     /// V1 = y    V2 = speed + z nx - x nz    w = x nx + z nz
     /// ```
     ///
+    /// Left out of the derivatives is that the normal turns with the ball's place, which friction hardly feels.
+    ///
     /// Sources: Lin 2019, eqs. (3.65)-(3.69); loads by eqs. (2.11)-(2.14).
-    #[inline(never)]
-    pub(super) fn add(
+    #[inline(always)]
+    fn add(
         &self,
         groove: &ElasticGroove,
         motion: &Motion,
         friction: f32,
         own: &mut Axial,
         shared: &mut Shared,
-    ) {
+    ) -> Reach {
         let Self { nx, nz, load, .. } = *self;
+        let (along, spin) = slips(motion, (nx, nz));
         let across = motion.y;
-        let along = motion.speed + (motion.z * nx - motion.x * nz);
-        let spin = motion.x * nx + motion.z * nz;
+        let semi_major = groove.semi_major * self.root;
         let slip = groove.map.at(&Slips {
             across,
             along,
             spin,
             stick: STICK_SPIN * STICK_SPIN,
-            size: groove.semi_major2 * self.power,
+            size: semi_major * semi_major,
         });
+        let turning = spin.abs() + STICK_SPIN;
+        let reach = Reach {
+            nx,
+            nz,
+            spin: REACH * turning,
+            along: REACH * (along.abs() + semi_major * turning),
+            load,
+        };
         // Second derivatives times the slips; the potential is homogeneous in slips and spin.
         let h1 = slip.across_across * across + slip.mixed * along;
         let h2 = slip.mixed * across + slip.along_along * along;
@@ -152,6 +265,7 @@ impl Touch {
         // Friction across the track acts on the ball along (nz, -nx), against the slip.
         shared.by_motion = shared.by_motion.plus(&by_across, -nz);
         own.by_motion = own.by_motion.plus(&by_across, nx);
+        reach
     }
 
     /// Adds forces in the cross section and their derivatives by the place, where the friction force across the track is

@@ -1,5 +1,6 @@
 //! Both grooves of a ball screw, as an elastic ball meets them.
 
+use super::equations::Motion;
 use crate::contact::slip_map::looped::LoopSlipMap;
 use crate::error::{Error, attempt};
 use crate::geometry::{BallScrew, Groove};
@@ -24,6 +25,8 @@ pub struct ElasticGrooves {
     pub(super) per_radius: f32,
     pub(super) per_cos_lead: f32,
     pub(super) per_axial_load: f32,
+    /// Angular velocity of the orbit about the axis across track and radius, over the speed along the track.
+    pub(super) orbit: f32,
 }
 
 /// One groove.
@@ -36,12 +39,12 @@ pub(super) struct ElasticGroove {
     /// Load to the power 2/3 over deflection, `N^(2/3)`.
     pub(super) stiffness: f32,
     pub(super) per_stiffness: f32,
-    /// Square of the semi-major axis at one newton, `N^(-2/3)`.
-    pub(super) semi_major2: f32,
+    /// Semi-major axis at one newton, `N^(-1/3)`.
+    pub(super) semi_major: f32,
     /// Angular velocity over the nut's: 0 of the screw, 1 of the nut.
     pub(super) turning: f32,
-    /// Sines of lead angle times that, cosine times that, path times that.
-    pub(super) base: [f32; 3],
+    /// Its motion as the ball's: angular velocity across the track and about it, speed along it.
+    pub(super) base: Motion,
 }
 
 impl ElasticGroove {
@@ -51,15 +54,19 @@ impl ElasticGroove {
         let cos_lead = design.cos_lead_angle();
         let sin_lead = cos_lead * design.tan_lead_angle();
         let path = design.pitch_radius() / (cos_lead * radius);
-        let semi_major = contact.semi_major_coefficient() / radius;
         Ok(Self {
             map: attempt!(LoopSlipMap::new(contact.axis_ratio())),
             centre: design.clearance(groove) / radius,
             stiffness: radius / contact.deflection_coefficient(),
             per_stiffness: contact.deflection_coefficient() / radius,
-            semi_major2: semi_major * semi_major,
+            semi_major: contact.semi_major_coefficient() / radius,
             turning,
-            base: [turning * sin_lead, turning * cos_lead, turning * path],
+            base: Motion {
+                speed: turning * path,
+                x: 0.0,
+                y: turning * sin_lead,
+                z: turning * cos_lead,
+            },
         })
     }
 }
@@ -83,6 +90,7 @@ impl ElasticGrooves {
             path: design.pitch_radius() / (cos_lead * design.ball_radius()),
             sin_lead: cos_lead * design.tan_lead_angle(),
             cos_lead,
+            orbit: cos_lead * cos_lead * design.ball_radius() / design.pitch_radius(),
             ball_radius: design.ball_radius(),
             per_radius: 1.0 / design.ball_radius(),
             per_cos_lead: 1.0 / cos_lead,

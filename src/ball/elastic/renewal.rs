@@ -1,12 +1,12 @@
 //! One Newton step of a ball's place and motion together.
 
-use super::contact::Touch;
+use super::contact::{Pressed, Reach, add, within};
 use super::equations::{Axial, Motion, Shared, Step, solved};
 use super::grooves::{ElasticGroove, ElasticGrooves};
-use crate::math::inverse_cube_roots;
+use crate::math::{self, inverse_cube_roots};
 
 /// Largest change of the motion in a step: sum over its parts, over the nut's speed.
-const LARGEST_TURN: f32 = 0.3;
+const LARGEST_TURN: f32 = 1.4;
 
 /// Largest change of a place in a step over the deflection of a contact under the ball's load.
 const LARGEST_SHIFT: f32 = 1.0;
@@ -31,6 +31,9 @@ pub struct BallInputs {
     pub axial_load: f32,
     /// Force of the neighbours along the track, N.
     pub force: f32,
+    /// Largest friction forces that both neighbours put on the ball across the track, N: their sum, and that of the ball in
+    /// front less that of the ball behind.
+    pub rubbing: [f32; 2],
     /// How far the arcs of the screw's and the nut's groove are turned, rad.
     pub screw_deviation: f32,
     /// The nut's.
@@ -49,6 +52,8 @@ pub struct Renewal {
     pub speed: f32,
     /// Change of the true speed with the force along the track, m/N per unit of the size of the nut's speed.
     pub compliance: f32,
+    /// Change of the speed with the friction of both neighbours, m/N per unit of nut speed.
+    pub by_rubbing: f32,
     /// Power lost in the contacts, N m: the ball's friction torque on the nut.
     pub torque: f32,
     /// Axial force that the contacts carry, N.
@@ -57,139 +62,208 @@ pub struct Renewal {
     pub loads: [f32; 4],
     /// Part of the step that was taken.
     pub taken: f32,
+    /// Both contacts of a groove are open, or a number is not finite: the ball stays as it was, and compliance, torque and
+    /// carried force are zero. It needs [`ElasticGrooves::start`].
+    pub lost: bool,
+}
+
+impl Renewal {
+    /// Whether both light contacts are open: then one groove sticks, and the speed hangs on a friction that is not known
+    /// as well as elsewhere.
+    #[inline]
+    #[must_use]
+    pub fn two_point(&self) -> bool {
+        self.loads.iter().filter(|load| **load > 0.0).count() < 3
+    }
+
+    const fn lost(speed: f32, loads: [f32; 4]) -> Self {
+        Self {
+            speed,
+            compliance: 0.0,
+            by_rubbing: 0.0,
+            torque: 0.0,
+            carried: 0.0,
+            loads,
+            taken: 0.0,
+            lost: true,
+        }
+    }
+}
+
+impl Settled {
+    #[inline(always)]
+    const fn motion(&self) -> Motion {
+        let [x, y, z] = self.turning;
+        Motion {
+            speed: self.speed,
+            x,
+            y,
+            z,
+        }
+    }
 }
 
 impl ElasticGrooves {
-    /// Contacts of both grooves at a place.
+    /// Arc centres of a groove's left and right side from its middle, over the ball radius; `side` is 1 of the screw and
+    /// -1 of the nut.
     #[inline(always)]
-    pub(super) fn touches(
+    pub(super) fn arcs(
         &self,
         groove: &ElasticGroove,
         side: f32,
-        (x, z): (f32, f32),
         deviation: f32,
-        clearance: f32,
-    ) -> [Option<Touch>; 2] {
+    ) -> [(f32, f32); 2] {
         // Cosine and sine of the deviation, to 0.2 rad.
         let square = deviation * deviation;
-        let cos = 1.0 - square * (0.5 - (1.0 / 24.0) * square);
-        let sin = deviation * (1.0 - square * ((1.0 / 6.0) - (1.0 / 120.0) * square));
-        let centre = side * groove.centre;
+        let cos = groove.centre * (1.0 - square * (0.5 - (1.0 / 24.0) * square));
+        let sin =
+            groove.centre * (deviation * (1.0 - square * ((1.0 / 6.0) - (1.0 / 120.0) * square)));
         let (cc, ss) = (self.cos * cos, self.sin * sin);
         let (sc, cs) = (self.sin * cos, self.cos * sin);
         // Left: the contact angle less the deviation; right: with it.
-        [
-            Touch::at(
-                groove,
-                (x, z),
-                (centre * (cc + ss), groove.centre * (sc - cs)),
-                clearance,
-            ),
-            Touch::at(
-                groove,
-                (x, z),
-                (centre * (cc - ss), -groove.centre * (sc + cs)),
-                clearance,
-            ),
-        ]
+        [(side * (cc + ss), sc - cs), (side * (cc - ss), -(sc + cs))]
     }
 
     /// One Newton step of the seven equations of a ball.
+    ///
+    /// A ball that has lost both contacts of a groove, or whose numbers are not finite, stays as it is: see
+    /// [`Renewal::lost`].
     #[inline]
     pub fn renew(&self, state: &mut Settled, inputs: &BallInputs) -> Renewal {
         let clearance = inputs.clearance * self.per_radius;
         let friction = inputs.friction;
         let [x, screw_z, nut_z] = state.place;
-        let [turn_x, turn_y, turn_z] = state.turning;
-        let motion = Motion {
-            speed: state.speed,
-            x: turn_x,
-            y: turn_y,
-            z: turn_z,
-        };
+        let motion = state.motion();
         let mut shared = Shared::NONE;
         let mut screw = Axial::NONE;
-        let touches = self.touches(
-            &self.screw,
-            1.0,
-            (x, screw_z),
-            inputs.screw_deviation,
-            clearance,
-        );
-        let mut loads = [0.0; 4];
-        let [left, right, far_left, far_right] = &mut loads;
-        for (touch, load) in touches.iter().zip([left, right]) {
-            if let Some(touch) = touch {
-                *load = touch.load;
-                touch.add(&self.screw, &motion, friction, &mut screw, &mut shared);
-            }
+        let [mut a, mut b, mut c, mut d] = [Reach::NONE; 4];
+        let groove = &self.screw;
+        let [left, right] = self.arcs(groove, 1.0, inputs.screw_deviation);
+        if let Some(pressed) = Pressed::at(groove, (x, screw_z), left, clearance) {
+            add(
+                groove,
+                pressed,
+                &motion,
+                friction,
+                &mut screw,
+                &mut shared,
+                &mut a,
+            );
+        }
+        if let Some(pressed) = Pressed::at(groove, (x, screw_z), right, clearance) {
+            add(
+                groove,
+                pressed,
+                &motion,
+                friction,
+                &mut screw,
+                &mut shared,
+                &mut b,
+            );
         }
         let on_screw = shared.forces;
-        let [base_y, base_z, base_speed] = self.nut.base;
-        let relative = Motion {
-            speed: motion.speed - base_speed,
-            x: motion.x,
-            y: motion.y - base_y,
-            z: motion.z - base_z,
-        };
+        let groove = &self.nut;
+        let base = &groove.base;
+        let relative = motion.plus(base, -1.0);
         let mut nut = Axial::NONE;
-        let touches = self.touches(&self.nut, -1.0, (x, nut_z), inputs.nut_deviation, clearance);
-        for (touch, load) in touches.iter().zip([far_left, far_right]) {
-            if let Some(touch) = touch {
-                *load = touch.load;
-                touch.add(&self.nut, &relative, friction, &mut nut, &mut shared);
-            }
+        let [left, right] = self.arcs(groove, -1.0, inputs.nut_deviation);
+        if let Some(pressed) = Pressed::at(groove, (x, nut_z), left, clearance) {
+            add(
+                groove,
+                pressed,
+                &relative,
+                friction,
+                &mut nut,
+                &mut shared,
+                &mut c,
+            );
         }
+        if let Some(pressed) = Pressed::at(groove, (x, nut_z), right, clearance) {
+            add(
+                groove,
+                pressed,
+                &relative,
+                friction,
+                &mut nut,
+                &mut shared,
+                &mut d,
+            );
+        }
+        let loads = [a.load, b.load, c.load, d.load];
         // Friction along the track carries a part of the axial load.
         let along = -on_screw.speed;
         let needed = (inputs.axial_load - self.sin_lead * along) * self.per_cos_lead;
-        let carried = self.cos_lead * screw.force + self.sin_lead * along;
-        let step = solved(
-            &shared,
-            &screw,
-            &nut,
-            [screw.force - needed, nut.force + needed],
-            inputs.force,
-        );
-        let taken = self.limited(&step, inputs.axial_load);
+        let total = shared.forces;
+        let (on_ball, by_rubbing) = self.rub(&motion, inputs.rubbing, &mut shared);
+        let [radial, across] = on_ball;
+        shared.radial += radial;
+        let unbalanced = [screw.force - needed, nut.force + needed + across];
+        let step = solved(&shared, &screw, &nut, unbalanced, inputs.force, &by_rubbing);
+        let taken = self.limited(&step, [&a, &b, &c, &d], inputs.axial_load);
+        let moved = motion.plus(&step.motion, -taken);
+        // Power lost is the ball's forces times its motion, less those in the nut times the nut's.
+        let power = moved.dot(&total) - base.dot(&total.plus(&on_screw, -1.0));
+        let lost = !(taken * step.compliance < f32::MAX && power.abs() < f32::MAX);
+        if lost {
+            return Renewal::lost(state.speed * self.ball_radius, loads);
+        }
         state.place = [
             x - taken * step.radial,
             screw_z - taken * step.screw,
             nut_z - taken * step.nut,
         ];
-        let moved = motion.plus(&step.motion, -taken);
         state.turning = [moved.x, moved.y, moved.z];
         state.speed = moved.speed;
-        // Power lost is the ball's forces times its motion, less those in the nut times the nut's.
-        let total = &shared.forces;
-        let into_nut = base_y * (total.y - on_screw.y)
-            + base_z * (total.z - on_screw.z)
-            + base_speed * (total.speed - on_screw.speed);
         Renewal {
             speed: moved.speed * self.ball_radius,
             compliance: self.ball_radius * step.compliance,
-            torque: (moved.dot(total) - into_nut) * self.ball_radius,
-            carried,
+            by_rubbing: self.ball_radius * step.by_rubbing,
+            torque: power * self.ball_radius,
+            carried: self.cos_lead * screw.force + self.sin_lead * along,
             loads,
             taken,
+            lost,
         }
+    }
+
+    /// Adds the friction of both neighbours, which are taken to turn as the ball does: moments against its turning, and what
+    /// this brings along the track. Gives the force on the ball, radial and axial, and the moments over their size.
+    #[inline(always)]
+    fn rub(
+        &self,
+        motion: &Motion,
+        [sum, difference]: [f32; 2],
+        shared: &mut Shared,
+    ) -> ([f32; 2], Motion) {
+        let (x, z) = (motion.x, motion.z - self.orbit * motion.speed);
+        let inverse = 1.0 / (math::sqrt(x * x + z * z) + 1e-6);
+        let (ux, uz) = (x * inverse, z * inverse);
+        let against = Motion {
+            speed: -uz * self.orbit,
+            x: ux,
+            y: 0.0,
+            z: uz,
+        };
+        shared.forces = shared.forces.plus(&against, sum);
+        let stiffness = 0.5 * sum * inverse;
+        shared.hessian.xx += stiffness * uz * uz;
+        shared.hessian.xz -= stiffness * ux * uz;
+        shared.hessian.zz += stiffness * ux * ux;
+        ([difference * uz, -difference * ux], against)
     }
 
     /// Part of a step that is taken.
     #[inline(always)]
-    fn limited(&self, step: &Step, axial_load: f32) -> f32 {
-        let reach = LARGEST_SHIFT * self.deflection(axial_load);
+    fn limited(&self, step: &Step, [a, b, c, d]: [&Reach; 4], axial_load: f32) -> f32 {
         let Motion { speed, x, y, z } = step.motion;
         let sum = x.abs() + y.abs() + z.abs() + speed.abs();
         let shift = larger(step.radial.abs(), larger(step.screw.abs(), step.nut.abs()));
-        let mut taken = 1.0;
-        if sum > LARGEST_TURN {
-            taken = LARGEST_TURN / sum;
-        }
-        if shift * taken > reach {
-            taken = reach / shift;
-        }
-        taken
+        let mut taken = within(1.0, sum, LARGEST_TURN);
+        taken = a.allowed(&step.motion, taken);
+        taken = b.allowed(&step.motion, taken);
+        taken = c.allowed(&step.motion, taken);
+        taken = d.allowed(&step.motion, taken);
+        within(taken, shift, LARGEST_SHIFT * self.deflection(axial_load))
     }
 
     /// Deflection of a screw contact under all of a ball's load, over the ball radius.

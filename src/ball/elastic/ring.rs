@@ -49,7 +49,7 @@ pub(crate) struct RingConstants {
 pub(crate) struct RingBall {
     place: [f32; 3],
     turning: [f32; 3],
-    /// Speed without force along the track less the nominal one, over the nominal one against the nut.
+    /// Speed without forces of neighbours less the nominal one, over the nominal one against the nut.
     free: f32,
     /// Its change with the nut's angle, 1/rad.
     slope: f32,
@@ -57,6 +57,8 @@ pub(crate) struct RingBall {
     impedance: f32,
     /// Friction torque on the nut over the power 4/3 of the load.
     torque: f32,
+    /// Change of the speed with the sum of both neighbours' forces, 1/N.
+    rubbing: f32,
 }
 
 /// The load that all balls have in common, in a tick.
@@ -74,11 +76,28 @@ pub(crate) struct RingLoad {
     per_four_thirds: f32,
 }
 
+/// Forces of a ball's neighbours in the frame in which the nut turns forward, N, and the friction coefficient between balls.
+pub(crate) struct Neighbours {
+    pub(crate) behind: f32,
+    pub(crate) ahead: f32,
+    pub(crate) friction: f32,
+}
+
+impl Neighbours {
+    const NONE: Self = Self {
+        behind: 0.0,
+        ahead: 0.0,
+        friction: 0.0,
+    };
+}
+
 /// Balls that are renewed in turn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(crate) struct Ring<const N: usize> {
     pub(crate) balls: [RingBall; N],
+    /// A ball without deviations under the mean load: what balls without load follow.
+    nominal: RingBall,
     /// Place and motion with which balls begin anew.
     fresh: Settled,
     pub(crate) friction: f32,
@@ -112,7 +131,7 @@ impl RingConstants {
             nominal,
             reference,
             per_reference: 1.0 / reference,
-            orbit: nominal / grooves.path * grooves.cos_lead,
+            orbit: nominal * grooves.orbit,
             normal: 1.0 / (grooves.sin * grooves.cos_lead),
             deflection: 1.0 / grooves.screw.stiffness + 1.0 / grooves.nut.stiffness,
             grooves,
@@ -148,6 +167,7 @@ impl<const N: usize> Ring<N> {
         let inputs = BallInputs {
             axial_load: FIRST_LOAD,
             force: 0.0,
+            rubbing: [0.0; 2],
             screw_deviation: 0.0,
             nut_deviation: 0.0,
             friction,
@@ -161,15 +181,17 @@ impl<const N: usize> Ring<N> {
             slope: 0.0,
             impedance: 1.0,
             torque: 0.0,
+            rubbing: 0.0,
         };
         let lift_off = constants.lift_off(clearance);
         let load = RingLoad::new(constants, FIRST_LOAD, lift_off);
         for _ in 0..FIRST_RENEWALS {
             let found = constants.grooves.renew(&mut fresh, &inputs);
-            ball.keep(constants, &load, &fresh, &found, 0.0);
+            ball.keep(constants, &load, &fresh, &found, &Neighbours::NONE);
         }
         Self {
             balls: [ball; N],
+            nominal: ball,
             fresh,
             friction,
             clearance,
@@ -186,6 +208,12 @@ impl<const N: usize> Ring<N> {
             backward: false,
             negative: false,
         }
+    }
+
+    /// Speed of a ball without load less the nominal one, over the nominal one against the nut.
+    #[inline(always)]
+    pub(crate) const fn idle(&self) -> f32 {
+        self.nominal.free
     }
 
     /// Whether forces between balls are those of balls that still settle.
@@ -252,6 +280,7 @@ impl<const N: usize> Ring<N> {
         self.fresh = constants.grooves.start(&BallInputs {
             axial_load,
             force: 0.0,
+            rubbing: [0.0; 2],
             screw_deviation: 0.0,
             nut_deviation: 0.0,
             friction: self.friction,
@@ -276,7 +305,7 @@ impl<const N: usize> Ring<N> {
             return entered - 1;
         }
         let next = usize::from(self.next);
-        if next + 1 < N {
+        if next < N {
             self.next += 1;
         } else {
             self.end_round();
@@ -302,11 +331,11 @@ impl<const N: usize> Ring<N> {
         index: usize,
         (screw_deviation, nut_deviation): (f32, f32),
         share: f32,
-        force: f32,
+        forces: &Neighbours,
     ) {
-        let Some(ball) = self.balls.get_mut(index) else {
-            return;
-        };
+        let force = forces.behind - forces.ahead;
+        let is_nominal = index >= N;
+        let ball = self.balls.get_mut(index).unwrap_or(&mut self.nominal);
         self.settling = self.settling.saturating_sub(1);
         let (place, turning) = if self.stale > 0 {
             self.stale -= 1;
@@ -317,7 +346,8 @@ impl<const N: usize> Ring<N> {
         if !ball.is_loaded() {
             return;
         }
-        let pushed = force / (ball.impedance * load.two_thirds);
+        let pushed = force / (ball.impedance * load.two_thirds)
+            + ball.rubbing * (forces.ahead + forces.behind);
         let mut settled = Settled {
             place,
             turning,
@@ -326,6 +356,10 @@ impl<const N: usize> Ring<N> {
         let inputs = BallInputs {
             axial_load: load.axial * share,
             force,
+            rubbing: [
+                forces.friction * (forces.ahead + forces.behind),
+                forces.friction * -force,
+            ],
             screw_deviation,
             nut_deviation,
             friction: self.friction,
@@ -336,10 +370,10 @@ impl<const N: usize> Ring<N> {
         let light = if load.axial < 0.0 { (a, d) } else { (b, c) };
         self.two_point += u8::from(!(light.0 > 0.0 || light.1 > 0.0));
         let before = ball.free;
-        ball.keep(constants, load, &settled, &found, force);
+        ball.keep(constants, load, &settled, &found, forces);
         // The slope is that of a whole round between two renewals.
         let change = ball.free - before;
-        ball.slope = if self.last_round.abs() > 1e-4 && self.stale == 0 {
+        ball.slope = if self.last_round.abs() > 1e-4 && self.stale == 0 && !is_nominal {
             ball.slope + change / self.last_round
         } else {
             0.0
@@ -414,8 +448,9 @@ impl RingBall {
         load: &RingLoad,
         settled: &Settled,
         found: &Renewal,
-        force: f32,
+        forces: &Neighbours,
     ) {
+        let force = forces.behind - forces.ahead;
         let radius = constants.grooves.ball_radius;
         let impedance = constants.reference * radius / found.compliance;
         let (least, most) = IMPEDANCES;
@@ -438,9 +473,9 @@ impl RingBall {
 
     /// Free speed at this tick, over the nominal one against the nut; it follows the nut's angle.
     #[inline(always)]
-    pub(crate) fn follow(&mut self, angle: f32) -> f32 {
+    pub(crate) fn follow(&mut self, angle: f32, pressed: f32) -> f32 {
         self.free += self.slope * angle;
-        self.free
+        self.free + self.rubbing * pressed
     }
 
     /// Friction torque over the power 4/3 of the load.
