@@ -34,12 +34,12 @@ pub(crate) const HALF_TO_FOUR_THIRDS: f32 = 0.396_850_26;
 ///
 /// Where side forces leave little on one diagonal, balls change to two-point rolling, and their speed jumps.
 /// [`Faults::BEYOND_MODEL`] stands from the tick on in which the loads and the force between balls let some ball do so,
-/// at the least favourable deviations of both maps. The border is that of the loads in this tick: a side-force ratio of 0.92
-/// at 100 N a ball, straight grooves and the ball of Lin 2019, Table 3.3, 0.87 where one groove deviates by 3 degrees,
-/// and less with heavier balls, closer grooves and friction between pressing balls. The flag comes up to 0.03 of the ratio
-/// before a ball alone jumps, up to 0.1 before a row of pressing balls, and never after. From there on the grooves'
-/// friction is that of two-point rolling, within 4 % of the friction before where grooves are straight; forces between
-/// balls go on as before, and the friction of a row is within 40 % up to a ratio of 0.97.
+/// at the least favourable deviations of both maps. With the ball of Lin 2019, Table 3.3, under 100 N that is a side-force
+/// ratio of 0.92 where grooves are straight, 0.87 where one deviates by 3 degrees; less with heavier balls, closer
+/// grooves, and friction between balls that press. The flag comes up to 0.03 of the ratio before a ball alone jumps, up to
+/// 0.1 before a row of pressing balls, and in no tested case after. From there on the grooves' friction is that of two-point
+/// rolling, within 4 % of the friction before where grooves are straight; forces between balls go on as before, and the
+/// friction of a row is within 40 % up to a ratio of 0.97.
 ///
 /// A tick whose speed or load is no number is flagged in that tick, puts out no force, and leaves the state as
 /// it is; the next sound tick is unflagged. Balls, and the phase of the rail's deviations, stand behind by the
