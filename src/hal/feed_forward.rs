@@ -131,13 +131,13 @@ impl<PWM: SetDutyCycle> FrictionFeedForward<PWM> {
     }
 
     fn refuses(&self, faults: Faults) -> bool {
-        const LIMITED: u8 = Faults::SPEED_RANGE.bits()
+        const PASSES: u8 = Faults::SPEED_RANGE.bits()
             | Faults::LOAD_RANGE.bits()
             | Faults::FRICTION_LIMIT.bits()
             | Faults::ACCURACY.bits();
         match self.reaction {
             FaultReaction::NeutralOnAnyFault => faults.faulty(),
-            FaultReaction::LimitedValuesPass => faults.bits() & !LIMITED != 0,
+            FaultReaction::LimitedValuesPass => faults.bits() & !PASSES != 0,
         }
     }
 
