@@ -17,6 +17,7 @@
 use super::ball_screw_ball::{ScrewMotion, dimensional};
 use super::ball_screw_grooves::ElasticGrooves;
 use super::ball_screw_placed::{BallState, Drive, PlacedBall, Rubbing, STICK_SPIN, Solved};
+use super::ball_screw_ring_order::Neighbours;
 use super::ball_screw_ring_solve::{Instant, Seat};
 use super::ball_screw_rubbing::{BallContact, Pressing, press_and_rub};
 use super::ball_screw_settle::settle;
@@ -191,7 +192,10 @@ impl ElasticRow {
             seats: &seats,
             touching: &touching,
             friction: self.friction,
-            way,
+            neighbours: Neighbours {
+                balls: balls.len(),
+                way,
+            },
             between,
             integration: self.integration,
             idle_speed: 0.0,
