@@ -25,7 +25,6 @@ use std::f64::consts::TAU;
 
 use super::ball_screw_grooves::ElasticGrooves;
 pub use super::ball_screw_ring_deviation::{DeviationWave, GrooveDeviation};
-use super::ball_screw_ring_march::March;
 use super::contact_law::HertzLaw;
 use super::patch::Integration;
 use crate::curvature::Groove;
@@ -180,34 +179,6 @@ impl RingState {
 }
 
 impl ElasticRing {
-    /// Follows the balls through the samples: a state for each. `progress` is told how many of how many are done.
-    ///
-    /// A state is solved from the one before; from nothing at the start, where the nut or the load turns, and where that does not lead
-    /// to a balance. Between the samples balls move with speeds that change by a line, as they did before. A sample at rest has no friction,
-    /// and says so.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] naming an input out of range; `samples` where times fall or there are none. A state without a solution is no error
-    /// of the march: see [`RingState::failure`].
-    pub fn simulate(
-        &self,
-        samples: &[RingSample],
-        mut progress: impl FnMut(usize, usize),
-    ) -> Result<Vec<RingState>, ReferenceError> {
-        let track = self.checked()?;
-        check_samples(samples)?;
-        let mut march = March::new(self, track);
-        let mut states = Vec::with_capacity(samples.len());
-        for (at, sample) in samples.iter().enumerate() {
-            states.push(march.state(sample));
-            if let Some(next) = samples.get(at + 1) {
-                march.advance(sample, next);
-            }
-            progress(at + 1, samples.len());
-        }
-        Ok(states)
-    }
-
     /// Share of the track that the balls fill.
     #[must_use]
     pub fn occupation(&self) -> f64 {
@@ -224,7 +195,8 @@ impl ElasticRing {
         TAU * self.turns + self.return_length / self.track().path_radius()
     }
 
-    fn checked(&self) -> Result<RingTrack, ReferenceError> {
+    /// The track, after a check of all inputs.
+    pub(crate) fn checked(&self) -> Result<RingTrack, ReferenceError> {
         within("friction", self.friction, 1e-3, 1.0)?;
         within("ball_friction", self.ball_friction, 0.0, 1.0)?;
         within("balls", self.balls as f64, 1.0, 1e3)?;
@@ -299,23 +271,6 @@ impl ElasticRing {
             oversize: -self.clearance,
         }
     }
-}
-
-fn check_samples(samples: &[RingSample]) -> Result<(), ReferenceError> {
-    if samples.is_empty() {
-        return Err(ReferenceError::input("samples", "are none"));
-    }
-    let mut before = f64::NEG_INFINITY;
-    for sample in samples {
-        within("time", sample.time, -1e9, 1e9)?;
-        within("nut_speed", sample.nut_speed, -1e6, 1e6)?;
-        within("axial_load", sample.axial_load, -1e7, 1e7)?;
-        if sample.time < before {
-            return Err(ReferenceError::input("samples", "go back in time"));
-        }
-        before = sample.time;
-    }
-    Ok(())
 }
 
 /// The track, by azimuths in rad.

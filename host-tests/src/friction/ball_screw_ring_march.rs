@@ -10,7 +10,7 @@ use super::ball_screw_ring_rates::{Last, Rates};
 use super::ball_screw_ring_solve::{Instant, Seat, Settled};
 use super::ball_screw_rubbing::BallContact;
 use super::ball_screw_settle::settle;
-use crate::error::ReferenceError;
+use crate::error::{ReferenceError, within};
 
 /// Gap at which balls touch, rad.
 const TOUCHING: f64 = 1e-12;
@@ -35,7 +35,7 @@ enum Event {
 }
 
 /// Balls on their way.
-pub(crate) struct March<'a> {
+struct March<'a> {
     ring: &'a ElasticRing,
     track: RingTrack,
     /// Azimuth of the first ball from the start of the track, rad.
@@ -52,8 +52,55 @@ pub(crate) struct March<'a> {
     idle: Option<(f64, f64, f64)>,
 }
 
+impl ElasticRing {
+    /// Follows the balls through the samples: a state for each. `progress` is told how many of how many are done.
+    ///
+    /// A state is solved from the one before; from nothing at the start, where the nut or the load turns, and where that does not lead
+    /// to a balance. Between the samples balls move with speeds that change by a line, as they did before. A sample at rest has no friction,
+    /// and says so.
+    ///
+    /// # Errors
+    /// [`ReferenceError`] naming an input out of range; `samples` where times fall or there are none. A state without a solution is no error
+    /// of the march: see [`RingState::failure`].
+    pub fn simulate(
+        &self,
+        samples: &[RingSample],
+        mut progress: impl FnMut(usize, usize),
+    ) -> Result<Vec<RingState>, ReferenceError> {
+        let track = self.checked()?;
+        check_samples(samples)?;
+        let mut march = March::new(self, track);
+        let mut states = Vec::with_capacity(samples.len());
+        for (at, sample) in samples.iter().enumerate() {
+            states.push(march.state(sample));
+            if let Some(next) = samples.get(at + 1) {
+                march.advance(sample, next);
+            }
+            progress(at + 1, samples.len());
+        }
+        Ok(states)
+    }
+}
+
+fn check_samples(samples: &[RingSample]) -> Result<(), ReferenceError> {
+    if samples.is_empty() {
+        return Err(ReferenceError::input("samples", "are none"));
+    }
+    let mut before = f64::NEG_INFINITY;
+    for sample in samples {
+        within("time", sample.time, -1e9, 1e9)?;
+        within("nut_speed", sample.nut_speed, -1e6, 1e6)?;
+        within("axial_load", sample.axial_load, -1e7, 1e7)?;
+        if sample.time < before {
+            return Err(ReferenceError::input("samples", "go back in time"));
+        }
+        before = sample.time;
+    }
+    Ok(())
+}
+
 impl<'a> March<'a> {
-    pub fn new(ring: &'a ElasticRing, track: RingTrack) -> Self {
+    fn new(ring: &'a ElasticRing, track: RingTrack) -> Self {
         let n = ring.balls;
         let gaps = if ring.places.is_empty() {
             vec![(track.length / n as f64 - track.pitch).max(0.0); n]
@@ -81,7 +128,7 @@ impl<'a> March<'a> {
     }
 
     /// Solves the balls where they are.
-    pub fn state(&mut self, sample: &RingSample) -> RingState {
+    fn state(&mut self, sample: &RingSample) -> RingState {
         let events = std::mem::take(&mut self.events);
         let failure = if sample.nut_speed == 0.0 {
             Some(ReferenceError::Standstill)
@@ -93,7 +140,7 @@ impl<'a> March<'a> {
     }
 
     /// Moves the balls to the next sample.
-    pub fn advance(&mut self, sample: &RingSample, next: &RingSample) {
+    fn advance(&mut self, sample: &RingSample, next: &RingSample) {
         let whole = sample.nut_speed.abs() * (next.time - sample.time);
         let way = sample.nut_speed.signum();
         let same = sample.axial_load * next.axial_load > 0.0;
