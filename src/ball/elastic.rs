@@ -6,6 +6,7 @@
 //! | `contact` | one contact: load, friction, and what it adds to the equations | every renewal |
 //! | `equations` | the seven equations of a ball and their solution | every renewal |
 //! | `renewal` | one Newton step of place and motion together | every renewal |
+//! | `resistance` | rolling resistance of all contacts | every renewal |
 //! | `ring` | balls that are renewed in turn, and their laws between | every tick |
 //! | `start` | place and motion from nothing | start, reversal |
 
@@ -13,6 +14,7 @@ mod contact;
 mod equations;
 mod grooves;
 mod renewal;
+pub(crate) mod resistance;
 pub(crate) mod ring;
 mod start;
 

@@ -2,6 +2,7 @@
 
 use super::grooves::ElasticGrooves;
 use super::renewal::{BallInputs, Renewal, Settled};
+use super::resistance::BallResistance;
 use crate::math::{self, inverse_cube_roots};
 
 /// Axial load of a ball below which it counts as this, N.
@@ -31,6 +32,7 @@ const FASTEST: f32 = 0.99;
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(crate) struct RingConstants {
     grooves: ElasticGrooves,
+    resistance: BallResistance,
     /// Speed of a nominal ball and its speed against the nut, over ball radius and nut speed.
     nominal: f32,
     reference: f32,
@@ -126,7 +128,7 @@ pub(crate) struct Ring<const N: usize> {
 }
 
 impl RingConstants {
-    pub(crate) const fn new(grooves: ElasticGrooves) -> Self {
+    pub(crate) const fn new(grooves: ElasticGrooves, resistance: BallResistance) -> Self {
         let nominal = 0.5 * (grooves.path + grooves.cos_lead * grooves.cos);
         let reference = grooves.path - nominal;
         Self {
@@ -137,12 +139,19 @@ impl RingConstants {
             normal: 1.0 / (grooves.sin * grooves.cos_lead),
             deflection: 1.0 / grooves.screw.stiffness + 1.0 / grooves.nut.stiffness,
             grooves,
+            resistance,
         }
     }
 
     /// Speed of a nominal ball against the nut, m per unit of nut speed.
     pub(crate) const fn speed_against_nut(&self) -> f32 {
         self.reference * self.grooves.ball_radius
+    }
+
+    /// Friction torque of a renewed ball on the nut, rolling resistance included, N m.
+    #[inline(always)]
+    pub(crate) fn torque(&self, found: &Renewal) -> f32 {
+        found.torque + self.resistance.torque(found.loads)
     }
 
     /// Contact force of a preload's oversize, N, times the load over it at which a diagonal is lost.
@@ -480,7 +489,7 @@ impl RingBall {
             -FASTEST
         };
         self.impedance = impedance * load.per_two_thirds;
-        self.torque = found.torque * load.per_four_thirds;
+        self.torque = constants.torque(found) * load.per_four_thirds;
     }
 
     /// Free speed at this tick, over the nominal one against the nut; it follows the nut's angle.
