@@ -8,7 +8,7 @@ use crate::math::{self, inverse_cube_roots};
 /// Rolling resistance of a ball between its grooves, folded.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub(crate) struct BallResistance {
+pub(super) struct BallResistance {
     /// Torque of hysteresis on the nut over the power 4/3 of a contact's load: of the screw's contacts and of the nut's.
     screw: f32,
     nut: f32,
@@ -29,7 +29,7 @@ impl BallResistance {
     ///
     /// # Errors
     /// As [`RollingContact::of`].
-    pub(crate) const fn new(
+    pub(super) const fn new(
         design: &BallScrew,
         resistance: RollingResistance,
     ) -> Result<Self, Error> {
@@ -48,7 +48,7 @@ impl BallResistance {
 
     /// Torque on the nut, N m, of contacts with these loads, N: SL, SR, NL, NR; 0 where a contact is open.
     #[inline(always)]
-    pub(crate) fn torque(&self, [sl, sr, nl, nr]: [f32; 4]) -> f32 {
+    pub(super) fn torque(&self, [sl, sr, nl, nr]: [f32; 4]) -> f32 {
         let screw = self.screw * powers(sl, sr);
         let hysteresis = screw + self.nut * powers(nl, nr);
         // A dry contact saves four roots.
