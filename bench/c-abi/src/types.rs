@@ -163,6 +163,10 @@ pub struct ScrewConfiguration {
     pub friction: f32,
     /// Coulomb friction coefficient of ball and ball, 0 to 1.
     pub ball_friction: f32,
+    /// Share of the elastic energy that is lost while a contact passes, 0 to 0.2; hardened steel 0.01.
+    pub hysteresis_loss: f32,
+    /// Drag of the lubricant on one contact under 100 N, N, 0 to 10; 0 for none.
+    pub lubricant_drag: f32,
     /// Radial gap of every contact at a centred ball without load, m, play above zero, oversize below; -0.02 to
     /// 0.05 ball radii. `epas_clearance` finds it from a preload or an axial play.
     pub clearance: f32,

@@ -2,7 +2,8 @@
 
 use epas_friction::{
     BallScrew, BallScrewParameters, Clearance, DeviationMap, FrictionModel, GrooveSize, Harmonic,
-    Inputs, Limits, LoadShares, Material, UncagedBallScrew, UncagedBallScrewConfiguration,
+    Inputs, Limits, LoadShares, Material, RollingResistance, UncagedBallScrew,
+    UncagedBallScrewConfiguration,
 };
 use epas_reference::design::BallScrewDesign;
 use epas_reference::friction::ball_screw_ring::{
@@ -137,6 +138,7 @@ pub fn compare<const N: usize>(case: &Case) -> Result {
             design: own,
             friction: case.friction as f32,
             ball_friction: case.ball_friction as f32,
+            rolling_resistance: RollingResistance::NONE,
             clearance: Clearance::new(case.clearance as f32).unwrap(),
             turns: (turns * 0.95) as f32,
             return_length: (0.05 * turns * TAU * f64::from(path)) as f32,
