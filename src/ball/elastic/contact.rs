@@ -34,8 +34,14 @@ impl Reach {
         load: 0.0,
     };
 
-    /// Part of a step that this contact allows, at most `taken`.
+    /// Whether this contact allows a whole step.
     #[inline(always)]
+    pub(super) fn allows(&self, step: &Motion) -> bool {
+        let (along, spin) = slips(step, (self.nx, self.nz));
+        (self.load == 0.0) | ((spin.abs() <= self.spin) & (along.abs() <= self.along))
+    }
+
+    /// Part of a step that this contact allows, at most `taken`.
     pub(super) fn allowed(&self, step: &Motion, taken: f32) -> f32 {
         if self.load == 0.0 {
             return taken;

@@ -217,16 +217,18 @@ impl ElasticGrooves {
 
     /// Part of a step that is taken.
     #[inline(always)]
-    fn limited(&self, step: &Step, [a, b, c, d]: [&Reach; 4], axial_load: f32) -> f32 {
+    fn limited(&self, step: &Step, reaches: [&Reach; 4], axial_load: f32) -> f32 {
         let Motion { speed, x, y, z } = step.motion;
         let sum = x.abs() + y.abs() + z.abs() + speed.abs();
         let shift = larger(step.radial.abs(), larger(step.screw.abs(), step.nut.abs()));
-        let mut taken = within(1.0, sum, LARGEST_TURN);
-        taken = a.allowed(&step.motion, taken);
-        taken = b.allowed(&step.motion, taken);
-        taken = c.allowed(&step.motion, taken);
-        taken = d.allowed(&step.motion, taken);
-        within(taken, shift, LARGEST_SHIFT * self.deflection(axial_load))
+        let reach = LARGEST_SHIFT * self.deflection(axial_load);
+        let [a, b, c, d] = reaches.map(|reach| reach.allows(&step.motion));
+        if a & b & c & d & (sum <= LARGEST_TURN) & (shift <= reach) {
+            1.0
+        } else {
+            let taken = within(within(1.0, sum, LARGEST_TURN), shift, reach);
+            shortened(&step.motion, reaches, taken)
+        }
     }
 
     /// Deflection of a screw contact under all of a ball's load, over the ball radius.
@@ -236,6 +238,17 @@ impl ElasticGrooves {
         let [inverse, _] = inverse_cube_roots([normal, 1.0]);
         normal * inverse * self.screw.per_stiffness
     }
+}
+
+/// Part of a step that all contacts allow, at most `taken`.
+#[cold]
+#[inline(never)]
+fn shortened(step: &Motion, reaches: [&Reach; 4], taken: f32) -> f32 {
+    let mut taken = taken;
+    for reach in reaches {
+        taken = reach.allowed(step, taken);
+    }
+    taken
 }
 
 #[inline(always)]
