@@ -4,22 +4,27 @@
 //! |---|---|---|
 //! | [`AnalyticLinearBall`] | ball of a linear bearing, the published closed form (Lin 2019, eqs. (3.43), (3.51)) | `LinearBearingTrain` |
 //! | [`ScrewRow`], [`ScrewTick`] | balls of a ball screw under one load | `UncagedBallScrew` |
-//! | [`LoadShare`] | a ball's share of the load | both |
+//! | [`LoadShare`], [`LoadShares`] | a ball's share of the load; along the track, for both signs of it | both |
+//! | [`Clearance`] | how balls fit between the grooves | set-up of both ball screws |
 //! | `preload` | two springs pressed against each other, and what a load leaves of it | `CagedBallScrew`, `UncagedBallScrew` |
 //!
 //! Refined forms, which a step does not run, stand in [`refined`](crate::refined).
 
+mod clearance;
 pub mod elastic;
 mod linear;
 mod loads;
 pub(crate) mod preload;
 mod screw;
+mod two_point;
 
+pub use clearance::Clearance;
 pub use linear::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE, SpeedDeviation};
-pub use loads::LoadShare;
 pub(crate) use loads::loaded;
+pub use loads::{LoadShare, LoadShares};
 pub(crate) use preload::PreloadSum;
 pub(crate) use screw::largest_deviation;
 pub use screw::{
     GrooveFit, LoopBall, LoopSums, RowContacts, ScrewLoop, ScrewRow, ScrewTick, ScrewTickBall,
 };
+pub(crate) use two_point::{BorderParameters, GrooveFriction};

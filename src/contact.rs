@@ -2,7 +2,8 @@
 //! friction, all three from one convex dissipation potential.
 //!
 //! Friction across the track runs in the step of the uncaged scene, from a table that its set-up makes. [`FrictionMap`]
-//! runs at the set-up of the linear scene. [`SlipMap`] is called directly; no scene links it.
+//! runs at the set-up of the linear scene. [`SlipMap`] is called directly; no scene links it. [`RollingContact`] adds what a contact
+//! loses that rolls without slip.
 //!
 //! A contact of ball and groove slips along the ball path with the velocity `V` of its centre and spins
 //! about its normal with `w`. With the friction coefficient `mu`, the contact force `F` and the ellipse
@@ -21,8 +22,10 @@
 mod across;
 mod along;
 mod integrals;
+mod rolling;
 pub(crate) mod slip_map;
 
 pub(crate) use across::{Across, AcrossTable};
 pub use along::{Dissipation, FrictionMap, NormalizedFriction, SMALLEST_AXIS_RATIO};
+pub use rolling::{RollingContact, RollingResistance};
 pub use slip_map::{SlipFriction, SlipMap};

@@ -69,6 +69,19 @@ pub enum Error {
     },
 }
 
+/// Fields that are lengths, which drawings print in millimetres: their errors say the unit.
+const LENGTHS: [&str; 9] = [
+    "pitch_radius",
+    "lead",
+    "ball_radius",
+    "groove_radius",
+    "clearance",
+    "axial_play",
+    "loaded_length",
+    "return_length",
+    "wavelength",
+];
+
 impl Error {
     /// A value that folds the groove surface, where the other fields leave it `minimum` to `maximum`. The range ends below
     /// the value, whatever rounding has made of `maximum`.
@@ -129,10 +142,15 @@ impl fmt::Display for Error {
             Self::FoldedGroove { .. } => "folds the groove surface past the axis",
         };
         let Range { minimum, maximum } = self.allowed();
+        let field = self.field();
+        let unit = if LENGTHS.contains(&field) {
+            " m; lengths are in metres"
+        } else {
+            ""
+        };
         write!(
             formatter,
-            "{} = {} {problem}; allowed: {minimum} to {maximum}",
-            self.field(),
+            "{field} = {} {problem}; allowed: {minimum} to {maximum}{unit}",
             self.value(),
         )
     }
@@ -190,7 +208,11 @@ mod tests {
         assert_eq!(error.allowed(), Range::new(0.0, 1.0));
         assert_eq!(
             error.to_string(),
-            "lead = -0.5 is out of range; allowed: 0 to 1"
+            "lead = -0.5 is out of range; allowed: 0 to 1 m; lengths are in metres"
+        );
+        assert_eq!(
+            in_range("friction", 2.0, 0.0, 1.0).unwrap_err().to_string(),
+            "friction = 2 is out of range; allowed: 0 to 1"
         );
     }
 

@@ -19,6 +19,8 @@ pub use angle::ContactAngle;
 pub use ball_bearing::{BallBearing, BallBearingParameters};
 pub use ball_screw::{BallScrew, BallScrewParameters};
 pub use catalogue::{CATALOGUE, CatalogueSize, DISSERTATION_DESIGNS, NamedDesign};
-pub use limits::{LARGEST_CONFORMITY, LARGEST_CONTACT_ANGLE, SMALLEST_CONFORMITY};
+pub use limits::{
+    BALL_RADIUS, LARGEST_CONFORMITY, LARGEST_CONTACT_ANGLE, LEAD, PITCH_RADIUS, SMALLEST_CONFORMITY,
+};
 pub use linear_bearing::{LinearBearing, LinearBearingParameters};
 pub use profile::{Groove, GrooveProfile, GrooveSize, HelixPath};

@@ -23,9 +23,10 @@
 //! | [`geometry`] | validated designs, built-in sizes | set-up |
 //! | [`curvature`] | groove curvature: literature, circular groove, fitted, exact | set-up (the exact one); direct |
 //! | [`hertz`] | contact ellipse, deflection, pressure | set-up; direct |
-//! | [`contact`] | friction of one contact: along the track, across it, in any direction | set-up and step (across); direct |
+//! | [`contact`] | friction of one contact: along the track, across it, in any direction; rolling resistance | set-up and step (across); direct |
 //! | [`train`] | a row of balls that push each other: free speeds and impedances in, forces and moves out | step of both trains |
 //! | [`ball`] | one ball between its grooves, closed forms | step of both trains |
+//! | [`defaults`] | friction coefficient, clearance and rolling resistance where nothing is measured | set-up |
 //! | [`refined`] | one ball and chains of balls, refined by Newton steps | direct |
 //! | [`efficiency`] | closed-form efficiency, self-locking; optimum and design procedure | set-up of the caged scene; direct |
 //! | [`kinematics`] | rolling, side and spin slip of a contact, their ratios and friction power | direct |
@@ -44,6 +45,7 @@
 pub mod ball;
 pub mod contact;
 pub mod curvature;
+pub mod defaults;
 pub mod efficiency;
 pub mod error;
 #[doc(hidden)]
@@ -62,7 +64,7 @@ pub mod refined;
 pub mod scene;
 pub mod train;
 
-pub use ball::{GrooveFit, LoadShare};
+pub use ball::{Clearance, LoadShare, LoadShares};
 pub use error::{Error, Range};
 pub use geometry::{
     BallScrew, BallScrewParameters, CATALOGUE, CatalogueSize, DISSERTATION_DESIGNS, GrooveSize,

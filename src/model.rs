@@ -4,16 +4,15 @@ use core::borrow::Borrow;
 
 use crate::error::Error;
 use crate::scene::{
-    Faults, LinearBearingTrain, LinearConstants, Scene, SceneOutputs, UncagedBallScrew,
-    UncagedConstants,
+    LinearBearingTrain, LinearConstants, Scene, SceneOutputs, UncagedBallScrew, UncagedConstants,
 };
 
 /// Friction of one scene: configured once, stepped in the interrupt.
 ///
 /// ```
 /// use epas_friction::{
-///     CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, FrictionBranch, FrictionModel, Inputs,
-///     Limits, Regime,
+///     CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, Clearance, FrictionBranch, FrictionModel,
+///     Inputs, Limits, Regime,
 /// };
 ///
 /// let mut model = FrictionModel::<CagedBallScrew>::new(&CagedBallScrewConfiguration {
@@ -21,7 +20,8 @@ use crate::scene::{
 ///     friction: 0.075,
 ///     rolling_tangent: 0.0,
 ///     branch: FrictionBranch::Rolling,
-///     preload: 0.0,
+///     clearance: Clearance::ZERO,
+///     loaded_balls: 40,
 ///     reversal_speed: 0.5,
 ///     limits: Limits { nut_speed: 500.0, axial_load: 20_000.0, friction_torque: 5.0 },
 /// })?;
@@ -39,8 +39,8 @@ use crate::scene::{
 ///
 /// ```
 /// use epas_friction::{
-///     CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, Error, FrictionBranch,
-///     FrictionModel, Limits,
+///     CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, Clearance, Error,
+///     FrictionBranch, FrictionModel, Limits,
 /// };
 ///
 /// static GEAR: CagedConstants = match gear() {
@@ -57,7 +57,8 @@ use crate::scene::{
 ///         friction: 0.075,
 ///         rolling_tangent: 0.0,
 ///         branch: FrictionBranch::Rolling,
-///         preload: 0.0,
+///         clearance: Clearance::ZERO,
+///         loaded_balls: 40,
 ///         reversal_speed: 0.5,
 ///         limits: Limits { nut_speed: 500.0, axial_load: 20_000.0, friction_torque: 5.0 },
 ///     })
@@ -71,7 +72,8 @@ use crate::scene::{
 ///
 /// ```compile_fail,E0080
 /// # use epas_friction::{
-/// #     CATALOGUE, CagedBallScrewConfiguration, CagedConstants, Error, FrictionBranch, Limits,
+/// #     CATALOGUE, CagedBallScrewConfiguration, CagedConstants, Clearance, Error, FrictionBranch,
+/// #     Limits,
 /// # };
 /// # static GEAR: CagedConstants = match gear() {
 /// #     Ok(constants) => constants,
@@ -86,7 +88,8 @@ use crate::scene::{
 ///         friction: 7.5,
 /// #         rolling_tangent: 0.0,
 /// #         branch: FrictionBranch::Rolling,
-/// #         preload: 0.0,
+/// #         clearance: Clearance::ZERO,
+/// #         loaded_balls: 40,
 /// #         reversal_speed: 0.5,
 /// #         limits: Limits { nut_speed: 500.0, axial_load: 20_000.0, friction_torque: 5.0 },
 /// #     })
@@ -135,10 +138,10 @@ impl<S: Scene, C: Borrow<S::Constants>> FrictionModel<S, C> {
             None => S::Outputs::SAFE,
         };
         let outputs = outputs.limited(S::largest_friction(constants), admitted.faults);
-        self.faulted_ticks = if outputs.faults() == Faults::NONE {
-            0
-        } else {
+        self.faulted_ticks = if outputs.faults().faulty() {
             self.faulted_ticks.saturating_add(1)
+        } else {
+            0
         };
         outputs
     }
@@ -149,7 +152,8 @@ impl<S: Scene, C: Borrow<S::Constants>> FrictionModel<S, C> {
         self.faulted_ticks = 0;
     }
 
-    /// Consecutive ticks whose outputs were flagged, up to `u32::MAX`; 0 after a sound tick.
+    /// Consecutive ticks with a fault ([`Faults::faulty`](crate::Faults::faulty)), up to `u32::MAX`; 0 after a sound tick. A tick that is only
+    /// [`Faults::BEYOND_MODEL`](crate::Faults::BEYOND_MODEL) is sound.
     pub const fn faulted_ticks(&self) -> u32 {
         self.faulted_ticks
     }

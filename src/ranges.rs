@@ -2,8 +2,8 @@
 //!
 //! Called at set-up, by every constructor that takes one of these quantities.
 //!
-//! A range that only one module has stands in the documentation of its field. Ranges of a validated design (conformity,
-//! nominal contact angle) stand in [`geometry`](crate::geometry).
+//! A range that only one module has stands in the documentation of its field. Ranges of a validated design (lengths,
+//! conformity, nominal contact angle) stand in [`geometry`](crate::geometry).
 
 use crate::error::Range;
 
@@ -27,10 +27,12 @@ pub const FRICTION_OF_A_ROW: Range = Range::new(1e-6, 0.5);
 /// Load of one contact or one ball, N: 0 to 1e7.
 pub const LOAD: Range = Range::new(0.0, 1e7);
 
-/// Ball radius, m: 1e-5 to 1. A ball screw's design also bounds it by 0.9 of the pitch radius.
+/// Ball radius, m, of a formula that is called directly: 1e-5 to 1. That of a design is narrower
+/// ([`geometry::BALL_RADIUS`](crate::geometry::BALL_RADIUS)).
 pub const BALL_RADIUS: Range = Range::new(1e-5, 1.0);
 
-/// Radius of the cylinder on which the balls of a ball screw run, m: 1e-4 to 10.
+/// Radius of the cylinder on which the balls of a ball screw run, m, of a formula that is called directly: 1e-4 to 10. That of
+/// a design is narrower ([`geometry::PITCH_RADIUS`](crate::geometry::PITCH_RADIUS)).
 pub const PITCH_RADIUS: Range = Range::new(1e-4, 10.0);
 
 /// Nominal contact angle of a ball that rolls in up to four contacts, rad: 0.05 to 1.5. Its speed of rotation grows with
@@ -39,3 +41,15 @@ pub const ROLLING_CONTACT_ANGLE: Range = Range::new(0.05, 1.5);
 
 /// Semi-major axis of a contact over the cube root of its load, m/N^(1/3): 1e-8 to 1.
 pub const SEMI_MAJOR_COEFFICIENT: Range = Range::new(1e-8, 1.0);
+
+/// Semi-minor axis of a contact over the cube root of its load, m/N^(1/3): 1e-9 to 1.
+pub const SEMI_MINOR_COEFFICIENT: Range = Range::new(1e-9, 1.0);
+
+/// Relative curvature of both bodies of a contact along its track, 1/m: 1e-3 to 1e6.
+pub const ROLLING_CURVATURE: Range = Range::new(1e-3, 1e6);
+
+/// Share of the elastic energy that a rolling contact loses: 0 to 0.2, far above any metal's (0.01).
+pub const HYSTERESIS_LOSS: Range = Range::new(0.0, 0.2);
+
+/// Drag of a lubricant on one contact under 100 N, N: 0 to 10.
+pub const LUBRICANT_DRAG: Range = Range::new(0.0, 10.0);

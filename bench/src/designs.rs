@@ -4,12 +4,13 @@ pub mod loads;
 mod tables;
 pub mod train;
 
+use std::f32::consts::TAU;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use epas_friction::{
     BallScrew, BallScrewParameters, CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration,
-    DISSERTATION_DESIGNS, FrictionBranch, FrictionModel, GrooveSize, Limits,
+    Clearance, DISSERTATION_DESIGNS, FrictionBranch, FrictionModel, GrooveSize, Limits,
 };
 use serde::Deserialize;
 
@@ -51,7 +52,8 @@ impl Design {
                 friction: FRICTION,
                 rolling_tangent: 0.0,
                 branch: FrictionBranch::Rolling,
-                preload: 0.0,
+                clearance: Clearance::ZERO,
+                loaded_balls: loaded_balls.unwrap_or_else(|| usual_balls(&design)),
                 reversal_speed: REVERSAL_SPEED,
                 limits: LIMITS,
             },
@@ -174,7 +176,10 @@ struct DesignFile {
     friction: Option<f32>,
     rolling_tangent: Option<f32>,
     branch: Option<BranchName>,
+    clearance: Option<f32>,
     preload: Option<f32>,
+    /// What [`clearance`] has replaced.
+    fit: Option<toml::Value>,
     reversal_speed: Option<f32>,
     loaded_balls: Option<u16>,
     limits: Option<LimitsTable>,
@@ -241,7 +246,15 @@ impl DesignFile {
         };
         let screw = BallScrew::new(parameters).map_err(|error| error.to_string())?;
         if self.loaded_balls == Some(0) {
-            return Err("loaded_balls = 0 is out of range; allowed: 1 to 65535".into());
+            return Err("loaded_balls = 0 is out of range; allowed: 1 to 1000".into());
+        }
+        train::refuse_fit(self.fit.as_ref())?;
+        let clearance = clearance(&screw, self.clearance, self.preload)?;
+        if clearance.gap() < 0.0 && self.loaded_balls.is_none() {
+            return Err(
+                "loaded_balls is missing: all of them press on the flanks of a preloaded nut"
+                    .into(),
+            );
         }
 
         let mut design = Design::built_in(
@@ -252,7 +265,7 @@ impl DesignFile {
         let configuration = &mut design.configuration;
         replace(&mut configuration.friction, self.friction);
         replace(&mut configuration.rolling_tangent, self.rolling_tangent);
-        replace(&mut configuration.preload, self.preload);
+        configuration.clearance = clearance;
         replace(&mut configuration.reversal_speed, self.reversal_speed);
         if matches!(self.branch, Some(BranchName::Sliding)) {
             configuration.branch = FrictionBranch::Sliding;
@@ -273,6 +286,7 @@ impl DesignFile {
                 table
                     .design(
                         screw,
+                        clearance,
                         configuration.friction,
                         configuration.reversal_speed,
                         configuration.limits,
@@ -289,6 +303,31 @@ impl DesignFile {
             })
             .transpose()?;
         Ok(design)
+    }
+}
+
+/// Balls that a usual nut has under load: those of two turns and a half that touch.
+fn usual_balls(design: &BallScrew) -> u16 {
+    let turn = TAU * design.pitch_radius() / design.cos_lead_angle();
+    // Not less than one, and within the range of a configuration.
+    (2.5 * turn / (2.0 * design.ball_radius())).clamp(1.0, 1e3) as u16
+}
+
+/// How balls fit between the grooves: the gap, m, or the preload of a contact, N, whichever a file gives.
+fn clearance(
+    design: &BallScrew,
+    gap: Option<f32>,
+    preload: Option<f32>,
+) -> Result<Clearance, String> {
+    match (gap, preload) {
+        (None, None | Some(0.0)) => Ok(Clearance::ZERO),
+        (Some(gap), None) => Clearance::new(gap)
+            .and_then(|clearance| clearance.checked(design))
+            .map_err(|error| error.to_string()),
+        (None, Some(force)) => {
+            Clearance::of_preload(design, force).map_err(|error| format!("preload: {error}"))
+        }
+        (Some(_), Some(_)) => Err("clearance and preload say the same; give one of them".into()),
     }
 }
 
@@ -343,6 +382,13 @@ mod tests {
             ("rolling_tangent = 0.2", "rolling_tangent"),
             ("branch = \"fast\"", "branch"),
             ("preload = -1", "preload"),
+            ("preload = 2e5", "preload"),
+            ("clearance = -2e-4", "clearance"),
+            ("clearance = 2", "clearance"),
+            ("clearance = nan", "clearance"),
+            ("clearance = 0\npreload = 100", "clearance and preload"),
+            ("preload = 100", "loaded_balls"),
+            ("fit = \"zero\"", "clearance"),
             ("reversal_speed = 0", "reversal_speed"),
             ("loaded_balls = 0", "loaded_balls"),
             ("loaded_balls = -3", "loaded_balls"),

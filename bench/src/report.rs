@@ -12,6 +12,7 @@ mod hertz;
 mod kernels;
 mod kinematics;
 mod loads;
+mod measured;
 mod published;
 mod stability;
 mod statistics;
@@ -64,7 +65,7 @@ impl Default for Arguments {
 type MakeSection = fn(&Context) -> Result<Section, Failure>;
 
 /// Every section, in the order of the report.
-const SECTIONS: [MakeSection; 13] = [
+const SECTIONS: [MakeSection; 14] = [
     summary::section,
     curvature::section,
     hertz::section,
@@ -75,6 +76,7 @@ const SECTIONS: [MakeSection; 13] = [
     trains::section,
     applications::section,
     published::section,
+    measured::section,
     kernels::section,
     cortex_m::section,
     stability::section,

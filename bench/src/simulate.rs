@@ -43,11 +43,12 @@ use targets::{refuse_same, targets};
 /// ball_diameter, conformity or groove_radius (for both grooves, or each in a table [screw_groove],
 /// [nut_groove]), contact_angle; and if wanted name, youngs_modulus, poisson_ratio, density (for both
 /// bodies, or each in a table [ball_material], [groove_material]; steel without), friction,
-/// rolling_tangent, branch ("rolling" or "sliding"), preload, reversal_speed, loaded_balls, a table
-/// [limits] with nut_speed, axial_load, friction_torque; and for --scene uncaged a table [uncaged] with
-/// balls (1 to 64), turns, and if wanted ball_friction, fit ("zero", "play" or { preload = N }),
-/// return_length, screw_deviation and nut_deviation (lists of { order, cosine, sine }, over
-/// deviation_turns turns) and load_shares (a list along the loaded track).
+/// rolling_tangent, branch ("rolling" or "sliding"), clearance (radial gap of every contact, m; play above 0,
+/// oversize below) or preload (force of each contact without a load, N), reversal_speed, loaded_balls
+/// (needed with oversize), a table [limits] with nut_speed, axial_load, friction_torque; and for --scene
+/// uncaged a table [uncaged] with balls (1 to 64), turns, and if wanted ball_friction, return_length,
+/// screw_deviation and nut_deviation (lists of { order, cosine, sine }, over deviation_turns turns) and
+/// load_shares (a list along the loaded track).
 ///
 /// For --scene linear a trace has the columns time, speed (m/s), normal_load and side_load (N), and a
 /// design file ball_radius or ball_diameter, conformity or groove_radius, contact_angle, balls,

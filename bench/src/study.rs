@@ -4,8 +4,8 @@ use std::f64::consts::FRAC_PI_4;
 
 use epas_friction::ball::LinearBallParameters;
 use epas_friction::{
-    BallScrew, BallScrewParameters, DeviationMap, FrictionModel, GrooveFit, GrooveSize, Harmonic,
-    Limits, LoadShare, Material, UncagedBallScrew, UncagedBallScrewConfiguration,
+    BallScrew, BallScrewParameters, Clearance, DeviationMap, FrictionModel, GrooveSize, Harmonic,
+    Limits, LoadShares, Material, UncagedBallScrew, UncagedBallScrewConfiguration,
 };
 use epas_reference::curvature::Groove;
 use epas_reference::design::BallScrewDesign;
@@ -155,12 +155,12 @@ pub fn whole_screw<const N: usize>() -> Result<FrictionModel<UncagedBallScrew<N>
         design: ball_screw()?,
         friction: FRICTION as f32,
         ball_friction: FRICTION as f32,
-        fit: GrooveFit::Zero,
+        clearance: Clearance::ZERO,
         turns: (2.0 * N as f32 / 37.0).max(0.11),
         return_length: 0.0,
         screw_deviation: &SCREW_DEVIATION,
         nut_deviation: &DeviationMap::NONE,
-        load_shares: &[LoadShare::MEAN],
+        load_shares: LoadShares::EVEN,
         reversal_speed: 1e-3,
         tick: 1e-3,
         limits: Limits {

@@ -15,6 +15,7 @@ pub mod friction;
 pub mod hertz;
 pub mod kinematics;
 pub mod material;
+pub mod measured;
 pub mod published;
 pub mod record;
 pub mod rolling_ball;

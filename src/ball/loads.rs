@@ -48,6 +48,31 @@ impl LoadShare {
         Ok(Self { share, root })
     }
 
+    /// Its power of 1/3.
+    pub(crate) const fn root(&self) -> f32 {
+        self.root
+    }
+
+    /// The lightest and the heaviest of some shares; of none the mean load.
+    pub(crate) const fn extremes(shares: &[Self]) -> (Self, Self) {
+        let (mut lightest, mut heaviest) = match shares.first() {
+            Some(first) => (*first, *first),
+            None => (Self::MEAN, Self::MEAN),
+        };
+        let mut place = 0;
+        while place < shares.len() {
+            let share = shares[place];
+            if share.share < lightest.share {
+                lightest = share;
+            }
+            if share.share > heaviest.share {
+                heaviest = share;
+            }
+            place += 1;
+        }
+        (lightest, heaviest)
+    }
+
     /// Its power of 2/3.
     #[inline]
     pub(crate) const fn two_thirds(&self) -> f32 {
@@ -67,9 +92,81 @@ impl LoadShare {
     }
 }
 
+/// Loads of the balls over their mean along the loaded track, a table for each sign of the load.
+///
+/// A screw that bends shares a push and a pull differently, and so does one with errors of its groove: the other flank
+/// carries. Both tables are constants in equal parts of the loaded track, from its start; where only one is known,
+/// [`LoadShares::same`] takes it for both signs. `simulate --loads` of the bench program writes them.
+///
+/// At a load of zero the step from one table to the other is no step of friction, which is zero there too; between
+/// grooves that press on the balls without any load, friction steps by as much as both tables' sums of
+/// `share^(4/3)` differ.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct LoadShares {
+    /// Of loads of zero and above; 1 to 256 entries.
+    pub positive: &'static [LoadShare],
+    /// Of loads below zero; as many entries.
+    pub negative: &'static [LoadShare],
+}
+
+impl LoadShares {
+    /// Every ball carries the mean load.
+    pub const EVEN: Self = Self::same(&[LoadShare::MEAN]);
+
+    /// One table for both signs of the load.
+    #[must_use]
+    pub const fn same(shares: &'static [LoadShare]) -> Self {
+        Self {
+            positive: shares,
+            negative: shares,
+        }
+    }
+
+    /// The table of loads of this sign.
+    #[inline(always)]
+    pub(crate) const fn of(&self, negative: bool) -> &'static [LoadShare] {
+        if negative {
+            self.negative
+        } else {
+            self.positive
+        }
+    }
+
+    /// The tables, checked.
+    pub(crate) const fn checked(self) -> Result<Self, Error> {
+        let entries = self.positive.len() as f32;
+        attempt!(in_range("load_shares", entries, 1.0, 256.0));
+        let as_many = self.negative.len() as f32;
+        attempt!(in_range("load_shares", as_many, entries, entries));
+        Ok(self)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn tables_of_both_signs_are_as_long() {
+        const HALVES: [LoadShare; 2] = [LoadShare::MEAN; 2];
+        for (positive, negative, good) in [
+            (&HALVES[..], &HALVES[..], true),
+            (&HALVES[..1], &HALVES[..1], true),
+            (&HALVES[..], &HALVES[..1], false),
+            (&HALVES[..1], &HALVES[..], false),
+            (&[], &[], false),
+            (&HALVES[..], &[], false),
+            (&[LoadShare::MEAN; 256], &[LoadShare::MEAN; 256], true),
+            (&[LoadShare::MEAN; 257], &[LoadShare::MEAN; 257], false),
+        ] {
+            let checked = LoadShares { positive, negative }.checked();
+            match checked {
+                Ok(_) => assert!(good),
+                Err(error) => assert!(!good && error.field() == "load_shares", "{error}"),
+            }
+        }
+    }
 
     #[test]
     fn loads_that_are_none() {

@@ -9,9 +9,9 @@ use crate::material::Material;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct BallBearingParameters {
-    /// Radius of the circle on which the ball centres run, m, 1e-4 to 10.
+    /// Radius of the circle on which the ball centres run, m, 1e-3 to 0.5.
     pub pitch_radius: f32,
-    /// Ball radius, m, 1e-5 up to 0.9 of the pitch radius.
+    /// Ball radius, m, 1e-4 to 0.05, up to 0.9 of the pitch radius.
     pub ball_radius: f32,
     /// Size of the inner race's groove.
     pub inner_groove: GrooveSize,

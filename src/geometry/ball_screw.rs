@@ -3,24 +3,23 @@
 use core::f32::consts::{FRAC_PI_2, TAU};
 
 use super::angle::ContactAngle;
-use super::limits::LARGEST_CONTACT_ANGLE;
+use super::limits::{BALL_RADIUS, LARGEST_CONTACT_ANGLE, LEAD, PITCH_RADIUS};
 use super::profile::{Groove, GrooveProfile, GrooveSize, HelixPath};
 use crate::error::{Error, attempt, in_range};
 use crate::material::Material;
 use crate::math::constant;
 use crate::math::elliptic::arc_sine;
-use crate::ranges;
 
 /// What a catalogue or a drawing prints of a ball screw; unchecked.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct BallScrewParameters {
-    /// Radius `r_m` of the cylinder on which the ball centres run, m, 1e-4 to 10; half the nominal
-    /// diameter where a catalogue prints no pitch circle.
+    /// Radius `r_m` of the cylinder on which the ball centres run, m, 1e-3 to 0.5; half the
+    /// nominal diameter where a catalogue prints no pitch circle.
     pub pitch_radius: f32,
-    /// Axial travel of the nut in one turn, m, 0 to 100; 0 is a ball bearing.
+    /// Axial travel of the nut in one turn, m, 0 to 0.2; 0 is a ball bearing.
     pub lead: f32,
-    /// Ball radius `r_b`, m, 1e-5 up to 0.9 of the pitch radius.
+    /// Ball radius `r_b`, m, 1e-4 to 0.05, up to 0.9 of the pitch radius.
     pub ball_radius: f32,
     /// Size of the screw's groove.
     pub screw_groove: GrooveSize,
@@ -134,13 +133,18 @@ impl BallScrew {
             ball_radius,
             ..
         } = parameters;
-        attempt!(ranges::PITCH_RADIUS.checked("pitch_radius", pitch_radius));
-        attempt!(in_range("lead", lead, 0.0, 100.0));
-        let largest_ball = 0.9 * pitch_radius;
+        attempt!(PITCH_RADIUS.checked("pitch_radius", pitch_radius));
+        attempt!(LEAD.checked("lead", lead));
+        let track = 0.9 * pitch_radius;
+        let largest_ball = if track < BALL_RADIUS.maximum {
+            track
+        } else {
+            BALL_RADIUS.maximum
+        };
         attempt!(in_range(
             "ball_radius",
             ball_radius,
-            ranges::BALL_RADIUS.minimum,
+            BALL_RADIUS.minimum,
             largest_ball
         ));
         attempt!(in_range(

@@ -1,4 +1,18 @@
 //! Limits that every design keeps.
+//!
+//! Lengths stand in metres. Their ranges hold every ball screw and bearing of a steering gear or a machine, and refuse most
+//! lengths that were given in millimetres.
+
+use crate::error::Range;
+
+/// Radius of the cylinder on which the balls of a ball screw or a ball bearing run, m: 1e-3 to 0.5.
+pub const PITCH_RADIUS: Range = Range::new(1e-3, 0.5);
+
+/// Lead of a ball screw, m: 0 to 0.2; 0 is a ball bearing.
+pub const LEAD: Range = Range::new(0.0, 0.2);
+
+/// Ball radius, m: 1e-4 to 0.05. In a ball screw it also stays below 0.9 of the pitch radius.
+pub const BALL_RADIUS: Range = Range::new(1e-4, 0.05);
 
 /// Smallest accepted conformity `groove_radius / (2 ball_radius)`. At 0.5 ball and groove coincide and
 /// the contact is no ellipse; catalogues stand between 0.505 and 0.58.

@@ -1,17 +1,16 @@
 //! A linear ball bearing with four-point contact.
 
 use super::angle::ContactAngle;
-use super::limits::LARGEST_CONTACT_ANGLE;
+use super::limits::{BALL_RADIUS, LARGEST_CONTACT_ANGLE};
 use super::profile::GrooveSize;
 use crate::error::{Error, attempt, in_range};
 use crate::material::Material;
-use crate::ranges;
 
 /// What a drawing prints of a linear ball bearing with gothic-arch grooves; unchecked.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LinearBearingParameters {
-    /// Ball radius, m, 1e-5 to 1.
+    /// Ball radius, m, 1e-4 to 0.05.
     pub ball_radius: f32,
     /// Size of the grooves.
     pub groove: GrooveSize,
@@ -42,8 +41,7 @@ impl LinearBearing {
     /// [`Error`] naming `ball_radius`, `conformity` or `groove_radius`, `contact_angle`, or a
     /// material's field.
     pub const fn new(parameters: LinearBearingParameters) -> Result<Self, Error> {
-        let ball_radius =
-            attempt!(ranges::BALL_RADIUS.checked("ball_radius", parameters.ball_radius));
+        let ball_radius = attempt!(BALL_RADIUS.checked("ball_radius", parameters.ball_radius));
         let contact_angle = attempt!(in_range(
             "contact_angle",
             parameters.contact_angle,

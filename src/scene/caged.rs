@@ -5,7 +5,7 @@ use core::f32::consts::TAU;
 use super::contract::{Admitted, Inputs, Limits, Regime, Reversal, Scene};
 use super::faults::Faults;
 use super::outputs::{Outputs, efficiency};
-use crate::ball::PreloadSum;
+use crate::ball::{Clearance, PreloadSum};
 use crate::efficiency::{Drive, EfficiencyGeometry};
 use crate::error::{Error, attempt, in_range};
 use crate::geometry::BallScrew;
@@ -43,8 +43,11 @@ pub struct CagedBallScrewConfiguration {
     pub rolling_tangent: f32,
     /// Which state of the ball the torque is computed for.
     pub branch: FrictionBranch,
-    /// Axial preload on each flank without load, N: 0, or 1e-3 to 1e6.
-    pub preload: f32,
+    /// How balls fit between the grooves, -0.02 to 0.05 ball radii. Oversize presses each flank of the nut with
+    /// [`Clearance::axial_preload`]; play changes nothing, because the papers' closed forms know no third contact.
+    pub clearance: Clearance,
+    /// Number of balls that carry load, 1 to 1000.
+    pub loaded_balls: u16,
     /// Nut speed over which friction changes its direction, rad/s, 1e-6 to 1e3: at this speed it has
     /// 71 % of its full value.
     pub reversal_speed: f32,
@@ -112,15 +115,15 @@ impl CagedConstants {
             friction,
             rolling_tangent: rolling,
             branch,
-            preload,
+            clearance,
+            loaded_balls,
             reversal_speed,
             limits,
         } = *configuration;
         attempt!(ranges::FRICTION_OR_NONE.checked("friction", friction));
         attempt!(in_range("rolling_tangent", rolling, 0.0, 0.1));
-        if preload != 0.0 {
-            attempt!(in_range("preload", preload, 1e-3, 1e6));
-        }
+        let clearance = attempt!(clearance.checked(design));
+        attempt!(in_range("loaded_balls", loaded_balls as f32, 1.0, 1e3));
         let reversal = attempt!(Reversal::new(reversal_speed, 1e-6, 1e3));
         let limits = attempt!(limits.checked());
 
@@ -140,7 +143,7 @@ impl CagedConstants {
             reduced_lead: design.lead() / TAU,
             reversal,
             drive_locked,
-            flanks: PreloadSum::new(preload),
+            flanks: PreloadSum::new(clearance.axial_preload(design, loaded_balls)),
             limits,
         })
     }

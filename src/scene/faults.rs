@@ -1,6 +1,9 @@
 //! What can be wrong in a tick.
 
-/// What was wrong with a tick's inputs, or limited in its outputs; a set of flags.
+/// What was wrong with a tick's inputs, limited in its outputs, or beyond the model; a set of flags.
+///
+/// [`Faults::BEYOND_MODEL`] and [`Faults::SETTLING`] speak of accuracy alone: inputs and outputs are sound, and the
+/// friction is the best estimate. They are in [`Faults::any`], and are not [`Faults::faulty`].
 ///
 /// ```
 /// use epas_friction::Faults;
@@ -25,12 +28,26 @@ impl Faults {
     pub const LOAD_RANGE: Self = Self(1 << 3);
     /// The friction torque of a screw, or the friction force of a bearing, was cut to its limit.
     pub const FRICTION_LIMIT: Self = Self(1 << 4);
+    /// The mechanism is where its formulas leave the accuracy that they promise. What is put out is the best estimate, finite
+    /// and continuous: not the safe output, and no reason to take the friction away. Where this begins stands with the scene.
+    pub const BEYOND_MODEL: Self = Self(1 << 5);
+    /// Balls still settle after a start, a reversal, or a jump of the load by a factor of three: forces between them are
+    /// estimates for some milliseconds.
+    pub const SETTLING: Self = Self(1 << 6);
 
     /// True where any flag is set.
     #[inline]
     #[must_use]
     pub const fn any(self) -> bool {
         self.0 != 0
+    }
+
+    /// True where an input was wrong or an output was limited: any flag but
+    /// [`Faults::BEYOND_MODEL`] and [`Faults::SETTLING`].
+    #[inline]
+    #[must_use]
+    pub const fn faulty(self) -> bool {
+        self.0 & !(Self::BEYOND_MODEL.0 | Self::SETTLING.0) != 0
     }
 
     /// True where every flag of `other` is set.
@@ -123,5 +140,21 @@ mod tests {
         assert_eq!(cut.with_friction_limit(-2.0, 1.0), cut);
         assert_eq!(cut.with_friction_limit(1.0, 1.0), cut);
         assert_eq!(Faults::NONE.with_friction_limit(1.0, 1.0), Faults::NONE);
+    }
+
+    #[test]
+    fn a_set_contains_its_flags_and_no_others() {
+        let both = Faults::LOAD_RANGE | Faults::BEYOND_MODEL;
+        assert!(both.contains(Faults::LOAD_RANGE) && both.contains(both));
+        assert!(!both.contains(Faults::SPEED_RANGE));
+        assert!(!both.contains(Faults::LOAD_RANGE | Faults::SPEED_RANGE));
+        assert!(both.contains(Faults::NONE));
+    }
+
+    #[test]
+    fn accuracy_is_no_fault() {
+        assert!(Faults::BEYOND_MODEL.any() && !Faults::BEYOND_MODEL.faulty());
+        assert!((Faults::BEYOND_MODEL | Faults::LOAD_RANGE).faulty());
+        assert!(Faults::LOAD_RANGE.faulty() && !Faults::NONE.faulty());
     }
 }

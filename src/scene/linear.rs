@@ -7,7 +7,9 @@ use super::circuit::{
 use super::contract::{Admitted, Regime, Reversal, Scene};
 use super::faults::{Faults, bounded};
 use super::outputs::LinearOutputs;
-use crate::ball::{AnalyticLinearBall, LoadShare, largest_deviation};
+use crate::ball::{
+    AnalyticLinearBall, BorderParameters, GrooveFriction, LoadShare, LoadShares, largest_deviation,
+};
 use crate::contact::FrictionMap;
 use crate::error::{Error, attempt, in_range};
 use crate::geometry::LinearBearing;
@@ -106,8 +108,7 @@ pub struct LinearConstants<const N: usize> {
     normal: f32,
     /// Half the difference of both diagonals' forces over the side load, `1/(n sin beta)`.
     side: f32,
-    /// Drag of a ball over `F_U^(4/3) + F_D^(4/3)` of the diagonals' forces, N^(-1/3).
-    drag: f32,
+    grooves: GrooveFriction,
     /// Friction force of two balls over the force between them.
     rubbing: f32,
     /// Length that counts as one turn of the deviation maps, m.
@@ -220,7 +221,7 @@ impl LinearBearingConfiguration {
             motion_per_turn: wavelength,
             passing_deviation: self.rail_deviation,
             recirculating_deviation: self.carriage_deviation,
-            load_shares: self.load_shares,
+            load_shares: LoadShares::same(self.load_shares),
             tick,
             largest_speed: limits.speed,
         }
@@ -269,13 +270,22 @@ impl<const N: usize> LinearConstants<N> {
             half_tangent,
             semi_major / (map.slope() * friction * radius),
         );
+        let grooves = GrooveFriction::new(&BorderParameters {
+            angle: (angle.sin, angle.cos),
+            friction,
+            ball_friction,
+            spin: HALF_TO_FOUR_THIRDS * drag,
+            bottom: rail_deviation.extremes(),
+            top: carriage_deviation.extremes(),
+            shares: LoadShare::extremes(configuration.load_shares),
+        });
         let per_ball = per_loaded_ball(configuration.loaded_length, configuration.return_length, N);
         Ok(Self {
             circuit,
             ball,
             normal: per_ball / angle.cos,
             side: per_ball / angle.sin,
-            drag: HALF_TO_FOUR_THIRDS * drag,
+            grooves,
             // (3.52): balls that roll alike rub with v/cos(beta).
             rubbing: ball_friction / angle.cos,
             wavelength: configuration.wavelength,
@@ -307,15 +317,18 @@ impl<const N: usize> LinearConstants<N> {
             mean.speed_deviation
         };
         let impedance = self.ball.impedance(diagonals);
-        let drag = self.drag * (up * up_root + down * down_root);
+        let loss = self
+            .grooves
+            .at([up, down], [up * up_root, down * down_root]);
 
         let phase = state.phase();
+        let table = self.circuit.shares(false);
         let (passing, recirculating) = self.circuit.deviation_units();
         let (passing, recirculating) = (turn * passing, turn * recirculating);
         let mut shares = 0.0;
         let mut balls = state.train.intake(self.circuit.travel(speed));
         while let Some(next) = balls.next_ball() {
-            let (free, impedance) = match self.circuit.place(next.position(), phase) {
+            let (free, impedance) = match self.circuit.place(next.position(), phase, table) {
                 Some(place) => {
                     shares += place.share.four_thirds();
                     let free = recirculating * place.recirculating + passing * place.passing;
@@ -328,7 +341,10 @@ impl<const N: usize> LinearConstants<N> {
         let pressing = balls.press();
         state.advance(&self.circuit, speed);
 
-        let groove_force = direction * (drag * shares);
+        let rolls_on_two_points =
+            self.grooves
+                .leaves_four_points(&loss, pressing.largest, mean.compliance);
+        let groove_force = direction * (loss.friction * shares);
         let ball_force = direction * (self.rubbing * pressing.force);
         LinearOutputs {
             friction_force: groove_force + ball_force,
@@ -337,7 +353,7 @@ impl<const N: usize> LinearConstants<N> {
             contacts: pressing.contacts,
             largest_contact_force: pressing.largest,
             regime: Regime::of(self.reversal.stands(speed), true, true),
-            faults: Faults::NONE,
+            faults: Faults::NONE.with(rolls_on_two_points, Faults::BEYOND_MODEL),
         }
     }
 

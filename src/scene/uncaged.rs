@@ -9,7 +9,9 @@ use super::circuit::{
 use super::contract::{Admitted, Inputs, Limits, Regime, Reversal, Scene};
 use super::faults::Faults;
 use super::outputs::UncagedOutputs;
-use crate::ball::{GrooveFit, LoadShare, LoopSums, ScrewRow};
+use crate::ball::elastic::ElasticGrooves;
+use crate::ball::elastic::ring::{Neighbours, Ring, RingConstants, RingLoad};
+use crate::ball::{Clearance, GrooveFit, LoadShare, LoadShares, ScrewRow};
 use crate::error::{Error, attempt, in_range};
 use crate::geometry::BallScrew;
 use crate::math::elliptic::arc_sine;
@@ -36,8 +38,8 @@ pub struct UncagedBallScrewConfiguration {
     pub friction: f32,
     /// Coulomb friction coefficient of ball and ball, 0 to 1.
     pub ball_friction: f32,
-    /// How balls fit between the grooves.
-    pub fit: GrooveFit,
+    /// How balls fit between the grooves, -0.02 to 0.05 ball radii.
+    pub clearance: Clearance,
     /// Turns of the loaded track, 0.1 to 100.
     pub turns: f32,
     /// Length of the return, m, 0 to 10, up to 250 times the loaded track, and 1000 turns with it: there
@@ -49,8 +51,9 @@ pub struct UncagedBallScrewConfiguration {
     /// Deviation of the contact angles along the nut's groove, from the start of the loaded track, at
     /// most [`ScrewRow::largest_deviation`].
     pub nut_deviation: &'static DeviationMap,
-    /// Load of a ball over the mean load, in equal parts of the loaded track from its start; 1 to 256.
-    pub load_shares: &'static [LoadShare],
+    /// Load of a ball over the mean load, in equal parts of the loaded track from its start; 1 to 256 for each sign of
+    /// the load, as many for both.
+    pub load_shares: LoadShares,
     /// Nut speed over which friction changes its direction, rad/s, 1e-6 to 1e3: at this speed it has
     /// 71 % of its full value.
     pub reversal_speed: f32,
@@ -61,19 +64,31 @@ pub struct UncagedBallScrewConfiguration {
     pub limits: Limits,
 }
 
+/// What a tick changes in a ball screw without cage.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct UncagedState<const N: usize> {
+    /// Where the balls are, and how they press.
+    pub circuit: CircuitState<N>,
+    ring: Ring<N>,
+}
+
 /// Constants of a ball screw without cage, with `N` balls.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct UncagedConstants<const N: usize> {
-    row: ScrewRow,
+    ring: RingConstants,
     circuit: Circuit,
+    friction: f32,
+    /// Radial gap of every contact at the centred ball, m.
+    clearance: f32,
+    /// Balls that are renewed in a tick.
+    renewals: u8,
+    /// Time between two ticks, s.
+    tick: f32,
     ball_friction: f32,
     /// 1 / number of loaded balls.
     per_ball: f32,
-    /// Speed of the balls against the nut, m per unit of nut speed.
-    speed: f32,
-    /// 1 / that speed, 1/m.
-    per_speed: f32,
     /// Torque per axial load without friction, `lead / 2 pi`, m.
     reduced_lead: f32,
     reversal: Reversal,
@@ -83,7 +98,7 @@ pub struct UncagedConstants<const N: usize> {
 impl<const N: usize> Scene for UncagedBallScrew<N> {
     type Configuration = UncagedBallScrewConfiguration;
     type Constants = UncagedConstants<N>;
-    type State = CircuitState<N>;
+    type State = UncagedState<N>;
     type Inputs = Inputs;
     type Outputs = UncagedOutputs;
 
@@ -93,8 +108,11 @@ impl<const N: usize> Scene for UncagedBallScrew<N> {
         UncagedConstants::new(configuration)
     }
 
-    fn initial_state(constants: &UncagedConstants<N>) -> CircuitState<N> {
-        CircuitState::new(&constants.circuit)
+    fn initial_state(constants: &UncagedConstants<N>) -> UncagedState<N> {
+        UncagedState {
+            circuit: CircuitState::new(&constants.circuit),
+            ring: Ring::new(&constants.ring, constants.friction, constants.clearance),
+        }
     }
 
     #[inline(always)]
@@ -105,7 +123,7 @@ impl<const N: usize> Scene for UncagedBallScrew<N> {
     #[inline(always)]
     fn outputs(
         constants: &UncagedConstants<N>,
-        state: &mut CircuitState<N>,
+        state: &mut UncagedState<N>,
         inputs: Inputs,
     ) -> UncagedOutputs {
         constants.outputs(state, inputs)
@@ -188,7 +206,7 @@ impl<const N: usize> UncagedConstants<N> {
             ref design,
             friction,
             ball_friction,
-            fit,
+            clearance,
             return_length,
             reversal_speed,
             limits,
@@ -198,16 +216,20 @@ impl<const N: usize> UncagedConstants<N> {
         attempt!(ranges::FRICTION_OR_NONE.checked("ball_friction", ball_friction));
         let reversal = attempt!(Reversal::new(reversal_speed, 1e-6, 1e3));
         let limits = attempt!(limits.checked());
-        let row = attempt!(ScrewRow::new(design, friction, fit));
-        let speed = design.pitch_radius() / design.cos_lead_angle() - row.nominal_speed();
+        let clearance = attempt!(clearance.checked(design)).gap();
+        let row = attempt!(ScrewRow::new(design, friction, GrooveFit::Zero));
+        let ring = RingConstants::new(attempt!(ElasticGrooves::new(design)));
+        let speed = ring.speed_against_nut();
         attempt!(configuration.check_deviations(&row, speed));
         Ok(Self {
-            row,
+            ring,
+            friction,
+            clearance,
+            renewals: 2,
+            tick: configuration.tick,
             circuit: attempt!(configuration.circuit(speed, &limits, N)),
             ball_friction,
             per_ball: per_loaded_ball(configuration.loaded_length(), return_length, N),
-            speed,
-            per_speed: 1.0 / speed,
             reduced_lead: design.lead() / TAU,
             reversal,
             limits,
@@ -215,42 +237,54 @@ impl<const N: usize> UncagedConstants<N> {
     }
 
     #[inline(always)]
-    fn outputs(&self, state: &mut CircuitState<N>, inputs: Inputs) -> UncagedOutputs {
+    fn outputs(&self, state: &mut UncagedState<N>, inputs: Inputs) -> UncagedOutputs {
         let Inputs {
             nut_speed,
             axial_load,
         } = inputs;
         let direction = self.reversal.direction(nut_speed);
-        let tick = self.row.at(nut_speed, axial_load * self.per_ball);
-        // Speeds are along the track, over the size of the nominal speed against the nut.
-        let (reference, per_reference) = if nut_speed < 0.0 {
-            (-self.speed, -self.per_speed)
-        } else {
-            (self.speed, self.per_speed)
-        };
-
-        let units = self.circuit.deviation_units();
-        let row = tick.per_speed(reference, per_reference, units);
-        let phase = state.phase();
-        let mut sums = LoopSums::NONE;
-        let mut balls = state.train.intake(self.circuit.travel(nut_speed));
-        while let Some(next) = balls.next_ball() {
-            match self.circuit.place(next.position(), phase) {
-                Some(place) => {
-                    let ball = row.ball(place.passing, place.recirculating, place.share, &mut sums);
-                    next.put(ball.speed, ball.impedance);
-                }
-                None => next.put(0.0, UNLOADED),
+        let mean = axial_load * self.per_ball;
+        let (load, anew) = state.ring.turn_to(&self.ring, nut_speed, mean);
+        let way = state.ring.way();
+        if !anew {
+            let shares = self.circuit.shares(axial_load < 0.0);
+            for _ in 0..self.renewals {
+                self.renew_next(state, &load, way, shares);
+            }
+        }
+        let angle = nut_speed * self.tick;
+        let mut torque = 0.0;
+        let mut entered = None;
+        let UncagedState { circuit, ring } = state;
+        let idle = way * ring.idle();
+        let mut balls = circuit.train.intake(self.circuit.travel(nut_speed));
+        let mut known = ring.balls.iter_mut().enumerate().rev();
+        while let (Some(next), Some((index, ball))) = (balls.next_ball(), known.next()) {
+            if !self.circuit.is_loaded(next.position()) {
+                ball.leave();
+                next.put(idle, UNLOADED);
+            } else if ball.loaded() {
+                torque += ball.torque();
+                next.put(way * ball.follow(angle), load.impedance(ball));
+            } else {
+                entered = Some(index);
+                next.put(idle, UNLOADED);
             }
         }
         let pressing = balls.press();
-        state.advance(&self.circuit, nut_speed);
+        if let Some(index) = entered {
+            ring.enter(index);
+        }
+        ring.advance(angle, &load);
+        circuit.advance(&self.circuit, nut_speed);
 
-        // Both balls of a pair turn alike; the sign of the speeds is that of the nut speed.
-        let rubbing =
-            tick.rubbing() * pressing.force + tick.rubbing_slope() * reference * pressing.power;
-        let groove_torque = direction * row.groove_torque(&sums);
-        let ball_torque = direction * (2.0 * self.ball_friction * rubbing);
+        let groove_torque = direction * load.torque(torque);
+        let rubbing = if pressing.contacts > 0 {
+            self.rubbing(state)
+        } else {
+            0.0
+        };
+        let ball_torque = direction * (self.ball_friction * rubbing);
         let friction_torque = groove_torque + ball_torque;
 
         let load_torque = axial_load * self.reduced_lead;
@@ -272,12 +306,68 @@ impl<const N: usize> UncagedConstants<N> {
                 load_opposes,
                 load_opposes || friction_torque.abs() < -opposing,
             ),
-            faults: Faults::NONE,
+            faults: Faults::NONE
+                .with(state.ring.settles(), Faults::SETTLING)
+                .with(state.ring.in_two_points(), Faults::BEYOND_MODEL),
         }
     }
 
+    /// Renews the ball whose turn it is.
+    #[inline(always)]
+    fn renew_next(
+        &self,
+        state: &mut UncagedState<N>,
+        load: &RingLoad,
+        way: f32,
+        shares: &'static [LoadShare],
+    ) {
+        let index = state.ring.next();
+        let train = &state.circuit.train;
+        let (passing, recirculating) = self.circuit.deviation_units();
+        let (deviations, share, [behind, ahead]) = if index < N {
+            let position = train.position(index);
+            let Some(place) = self.circuit.place(position, state.circuit.phase(), shares) else {
+                return;
+            };
+            let deviations = (
+                way * passing * place.passing,
+                way * recirculating * place.recirculating,
+            );
+            (deviations, place.share.share(), train.forces_on(index))
+        } else {
+            ((0.0, 0.0), 1.0, [0.0; 2])
+        };
+        let (behind, ahead) = if way < 0.0 {
+            (ahead, behind)
+        } else {
+            (behind, ahead)
+        };
+        let forces = Neighbours {
+            behind,
+            ahead,
+            friction: self.ball_friction,
+        };
+        state
+            .ring
+            .renew(&self.ring, load, index, deviations, share, &forces);
+    }
+
+    /// Sum over all pairs of their force times the speed with which they rub, N m per unit of nut speed.
+    #[inline(always)]
+    fn rubbing(&self, state: &UncagedState<N>) -> f32 {
+        let (mut sum, mut behind) = (0.0, 0.0);
+        let mut last = None;
+        for (force, ball) in state.circuit.train.forces().zip(&state.ring.balls) {
+            let speed = ball.rubbing(&self.ring);
+            last.get_or_insert(speed);
+            sum += (behind + force) * speed;
+            behind = force;
+        }
+        sum + behind * last.unwrap_or(0.0)
+    }
+
     /// See [`FrictionModel::set_nut_angle`](crate::FrictionModel::set_nut_angle).
-    pub(crate) fn set_nut_angle(&self, state: &mut CircuitState<N>, angle: f32) {
-        state.set_turns(&self.circuit, angle / TAU);
+    pub(crate) fn set_nut_angle(&self, state: &mut UncagedState<N>, angle: f32) {
+        state.circuit.set_turns(&self.circuit, angle / TAU);
     }
 }

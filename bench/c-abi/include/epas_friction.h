@@ -14,6 +14,21 @@ extern "C" {
 #endif
 
 /**
+ * The clearance itself is given, m.
+ */
+#define EPAS_GIVEN_CLEARANCE 0u
+
+/**
+ * The force of each of a ball's four contacts without load is given, N, 1e-3 to 1e6.
+ */
+#define EPAS_GIVEN_PRELOAD 1u
+
+/**
+ * The travel of the nut along the axis from one flank to the other is given, m.
+ */
+#define EPAS_GIVEN_AXIAL_PLAY 2u
+
+/**
  * Groove of the screw shaft.
  */
 #define EPAS_GROOVE_SCREW 0u
@@ -149,19 +164,19 @@ extern "C" {
 #define EPAS_FIELD_BRANCH 17u
 
 /**
- * `preload`
+ * `clearance`
  */
-#define EPAS_FIELD_PRELOAD 18u
+#define EPAS_FIELD_CLEARANCE 18u
 
 /**
- * `fit`
+ * `loaded_balls`
  */
-#define EPAS_FIELD_FIT 19u
+#define EPAS_FIELD_LOADED_BALLS 19u
 
 /**
- * `contact_preload`
+ * Preload of a contact, N.
  */
-#define EPAS_FIELD_CONTACT_PRELOAD 20u
+#define EPAS_FIELD_CONTACT_FORCE 20u
 
 /**
  * `turns`
@@ -309,6 +324,16 @@ extern "C" {
 #define EPAS_FIELD_OTHER 49u
 
 /**
+ * Axial play of the nut, m.
+ */
+#define EPAS_FIELD_AXIAL_PLAY 50u
+
+/**
+ * `given`
+ */
+#define EPAS_FIELD_GIVEN 51u
+
+/**
  * Samples in a period of a deviation.
  */
 #define EPAS_DEVIATION_SAMPLES 64
@@ -400,21 +425,6 @@ extern "C" {
 #define EPAS_SCREW_BALLS 37
 
 /**
- * Balls have neither play nor preload: friction across the track closes a light third contact.
- */
-#define EPAS_FIT_ZERO 0u
-
-/**
- * So much play that only two contacts carry a ball (from about 20 micrometres on).
- */
-#define EPAS_FIT_PLAY 1u
-
-/**
- * Oversized balls in four-point contact, with `contact_preload`.
- */
-#define EPAS_FIT_PRELOAD 2u
-
-/**
  * Size of `epas_screw_t` in words of eight bytes.
  */
 #define EPAS_SCREW_WORDS 212
@@ -434,7 +444,7 @@ extern "C" {
  * Version of the structures and functions of this header; `epas_abi_version` returns the library's. It rises
  * whenever a structure, a function or what a place holds changes.
  */
-#define EPAS_ABI_VERSION 2u
+#define EPAS_ABI_VERSION 3u
 
 /**
  * Place for the constants and the state of a caged ball screw. The caller provides it, in memory of
@@ -471,16 +481,16 @@ typedef struct epas_material_t {
  */
 typedef struct epas_ball_screw_t {
     /**
-     * Radius of the cylinder on which the ball centres run, m, 1e-4 to 10; half the nominal diameter
+     * Radius of the cylinder on which the ball centres run, m, 1e-3 to 0.5; half the nominal diameter
      * where a catalogue prints no pitch circle.
      */
     float pitch_radius;
     /**
-     * Axial travel of the nut in one turn, m, 0 to 100.
+     * Axial travel of the nut in one turn, m, 0 to 0.2.
      */
     float lead;
     /**
-     * Ball radius, m, 1e-5 up to 0.9 of the pitch radius.
+     * Ball radius, m, 1e-4 to 0.05, up to 0.9 of the pitch radius.
      */
     float ball_radius;
     /**
@@ -544,9 +554,15 @@ typedef struct epas_caged_configuration_t {
      */
     uint32_t branch;
     /**
-     * Axial preload on each flank without load, N: 0, or 1e-3 to 1e6.
+     * Radial gap of every contact at a centred ball without load, m, play above zero, oversize below; -0.02 to
+     * 0.05 ball radii. `epas_clearance` finds it from a preload or an axial play. Oversize presses on both
+     * flanks of the nut; play changes nothing.
      */
-    float preload;
+    float clearance;
+    /**
+     * Number of balls that carry load, 1 to 1000.
+     */
+    uint32_t loaded_balls;
     /**
      * Nut speed over which friction changes its direction, rad/s, 1e-6 to 1e3.
      */
@@ -680,14 +696,10 @@ typedef struct epas_screw_configuration_t {
      */
     float ball_friction;
     /**
-     * How balls fit between the grooves, one of `EPAS_FIT_...`.
+     * Radial gap of every contact at a centred ball without load, m, play above zero, oversize below; -0.02 to
+     * 0.05 ball radii. `epas_clearance` finds it from a preload or an axial play.
      */
-    uint32_t fit;
-    /**
-     * Force of each of the four contacts without an external load, N, 1e-3 to 1e6; read only where `fit`
-     * is `EPAS_FIT_PRELOAD`.
-     */
-    float contact_preload;
+    float clearance;
     /**
      * Turns of the loaded track, 0.1 to 100.
      */
@@ -784,7 +796,7 @@ typedef struct epas_linear_t {
  */
 typedef struct epas_linear_bearing_t {
     /**
-     * Ball radius, m, 1e-5 to 1.
+     * Ball radius, m, 1e-4 to 0.05.
      */
     float ball_radius;
     /**
@@ -936,6 +948,50 @@ typedef struct epas_linear_outputs_t {
      */
     uint32_t faults;
 } epas_linear_outputs_t;
+
+/**
+ * How balls fit between the grooves, in the words of a drawing or a data sheet.
+ */
+typedef struct epas_clearance_request_t {
+    /**
+     * The design.
+     */
+    struct epas_ball_screw_t design;
+    /**
+     * What the value is, one of `EPAS_GIVEN_...`.
+     */
+    uint32_t given;
+    /**
+     * The value, in m or N. Its field is named after what it is.
+     */
+    float value;
+    /**
+     * Number of balls that carry load, 1 to 1000.
+     */
+    uint32_t loaded_balls;
+} epas_clearance_request_t;
+
+/**
+ * One clearance in all its words.
+ */
+typedef struct epas_clearance_t {
+    /**
+     * Radial gap of every contact at a centred ball without load, m: what the configurations take.
+     */
+    float clearance;
+    /**
+     * Force of each of a ball's four contacts without load, N; 0 with play.
+     */
+    float preload;
+    /**
+     * Axial preload of all loaded balls on each flank of the nut, N; 0 with play.
+     */
+    float axial_preload;
+    /**
+     * Travel of the nut along the axis from one flank to the other, m; 0 with oversize.
+     */
+    float axial_play;
+} epas_clearance_t;
 
 /**
  * What the closed-form efficiency depends on.
@@ -1156,6 +1212,14 @@ const char *epas_field_name(uint32_t field);
  * Name of a status, for a diagnostic message. Never NULL.
  */
 const char *epas_status_name(uint32_t status);
+
+/**
+ * How balls fit between the grooves, from a gap, a preload or an axial play. It checks the whole design at each
+ * call; no state: safe from any context. `failure` may be NULL.
+ */
+uint32_t epas_clearance(const struct epas_clearance_request_t *request,
+                        struct epas_clearance_t *answer,
+                        struct epas_failure_t *failure);
 
 /**
  * Efficiency of a ball screw in closed form. No state: safe from any context. `failure` may be NULL.

@@ -2,7 +2,7 @@
 
 use epas_friction::{CagedBallScrew, CagedBallScrewConfiguration, FrictionBranch};
 
-use crate::design::ball_screw;
+use crate::design::{ball_screw, clearance, loaded_balls};
 use crate::scene::{CScene, TablePointers, Tables, limits, regime, screw_inputs};
 use crate::status::{EPAS_FIELD_BRANCH, Failure};
 use crate::types::{
@@ -47,7 +47,8 @@ impl CScene for Caged {
                 EPAS_BRANCH_SLIDING => FrictionBranch::Sliding,
                 other => return Err(Failure::count(EPAS_FIELD_BRANCH, other, 0, 1)),
             },
-            preload: configuration.preload,
+            clearance: clearance(configuration.clearance)?,
+            loaded_balls: loaded_balls(configuration.loaded_balls)?,
             reversal_speed: configuration.reversal_speed,
             limits: limits(&configuration.limits),
         })

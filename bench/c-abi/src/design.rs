@@ -1,15 +1,19 @@
 //! Designs: the crate's from the C structure's, with the failure at the C structure's field.
 
 use epas_friction::{
-    BallScrewParameters, Error, GrooveSize, LinearBearingParameters, Material as CrateMaterial,
+    BallScrewParameters, Clearance, Error, GrooveSize, LinearBearingParameters,
+    Material as CrateMaterial,
 };
 
 use crate::status::{
     EPAS_FIELD_BALL_DENSITY, EPAS_FIELD_BALL_POISSON_RATIO, EPAS_FIELD_BALL_YOUNGS_MODULUS,
     EPAS_FIELD_GROOVE_DENSITY, EPAS_FIELD_GROOVE_POISSON_RATIO, EPAS_FIELD_GROOVE_YOUNGS_MODULUS,
-    EPAS_FIELD_NUT_CONFORMITY, EPAS_FIELD_SCREW_CONFORMITY, Failure,
+    EPAS_FIELD_LOADED_BALLS, EPAS_FIELD_NUT_CONFORMITY, EPAS_FIELD_SCREW_CONFORMITY, Failure,
 };
 use crate::types::{BallScrew, LinearBearing, Material};
+
+/// Largest number of balls that carry load in a nut.
+const MOST_LOADED_BALLS: u16 = 1000;
 
 const fn material(material: &Material) -> CrateMaterial {
     CrateMaterial {
@@ -92,4 +96,22 @@ pub(crate) fn linear_bearing(
             None => Failure::of(error),
         },
     )
+}
+
+/// The crate's clearance, of a gap that is checked against the design where it is used.
+pub(crate) fn clearance(gap: f32) -> Result<Clearance, Failure> {
+    Clearance::new(gap).map_err(Failure::of)
+}
+
+/// The crate's number of loaded balls.
+pub(crate) fn loaded_balls(count: u32) -> Result<u16, Failure> {
+    match u16::try_from(count) {
+        Ok(balls) if (1..=MOST_LOADED_BALLS).contains(&balls) => Ok(balls),
+        _ => Err(Failure::count(
+            EPAS_FIELD_LOADED_BALLS,
+            count,
+            1,
+            u32::from(MOST_LOADED_BALLS),
+        )),
+    }
 }

@@ -1,18 +1,20 @@
-//! Functions without state: efficiency, curvature.
+//! Functions without state: clearance, efficiency, curvature.
 
 use epas_friction::curvature::{CircularGrooveCurvature, GothicArch, LiteratureCurvature};
 use epas_friction::efficiency::{Drive, EfficiencyGeometry};
 use epas_friction::geometry::{ContactAngle, Groove};
 use epas_friction::ranges::FRICTION_OR_NONE;
-use epas_friction::{Error, Range};
+use epas_friction::{Clearance, Error, Range};
 
-use crate::design::ball_screw;
+use crate::design::{ball_screw, clearance as checked_clearance, loaded_balls};
 use crate::requests::{
-    Curvature, CurvatureRequest, EPAS_GROOVE_NUT, EPAS_GROOVE_SCREW, Efficiency, EfficiencyRequest,
+    self, ClearanceRequest, Curvature, CurvatureRequest, EPAS_GIVEN_AXIAL_PLAY,
+    EPAS_GIVEN_CLEARANCE, EPAS_GIVEN_PRELOAD, EPAS_GROOVE_NUT, EPAS_GROOVE_SCREW, Efficiency,
+    EfficiencyRequest,
 };
 use crate::status::{
-    EPAS_FIELD_CONTACT_ANGLE, EPAS_FIELD_FRICTION, EPAS_FIELD_GROOVE, EPAS_FIELD_ROLLING_TANGENT,
-    Failure,
+    EPAS_FIELD_CONTACT_ANGLE, EPAS_FIELD_FRICTION, EPAS_FIELD_GIVEN, EPAS_FIELD_GROOVE,
+    EPAS_FIELD_ROLLING_TANGENT, Failure,
 };
 
 /// A number that the crate takes unchecked.
@@ -42,6 +44,24 @@ fn checked(
         };
         Err(Failure::at(error, field))
     }
+}
+
+pub(crate) fn clearance(request: &ClearanceRequest) -> Result<requests::Clearance, Failure> {
+    let design = ball_screw(&request.design)?;
+    let balls = loaded_balls(request.loaded_balls)?;
+    let clearance = match request.given {
+        EPAS_GIVEN_CLEARANCE => checked_clearance(request.value)?.checked(&design),
+        EPAS_GIVEN_PRELOAD => Clearance::of_preload(&design, request.value),
+        EPAS_GIVEN_AXIAL_PLAY => Clearance::of_axial_play(&design, request.value),
+        other => return Err(Failure::count(EPAS_FIELD_GIVEN, other, 0, 2)),
+    }
+    .map_err(Failure::of)?;
+    Ok(requests::Clearance {
+        clearance: clearance.gap(),
+        preload: clearance.preload(&design),
+        axial_preload: clearance.axial_preload(&design, balls),
+        axial_play: clearance.axial_play(&design),
+    })
 }
 
 pub(crate) fn efficiency(request: &EfficiencyRequest) -> Result<Efficiency, Failure> {

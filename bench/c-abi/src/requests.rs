@@ -2,6 +2,41 @@
 
 use crate::types::BallScrew;
 
+/// The clearance itself is given, m.
+pub const EPAS_GIVEN_CLEARANCE: u32 = 0u32;
+/// The force of each of a ball's four contacts without load is given, N, 1e-3 to 1e6.
+pub const EPAS_GIVEN_PRELOAD: u32 = 1u32;
+/// The travel of the nut along the axis from one flank to the other is given, m.
+pub const EPAS_GIVEN_AXIAL_PLAY: u32 = 2u32;
+
+/// How balls fit between the grooves, in the words of a drawing or a data sheet.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+pub struct ClearanceRequest {
+    /// The design.
+    pub design: BallScrew,
+    /// What the value is, one of `EPAS_GIVEN_...`.
+    pub given: u32,
+    /// The value, in m or N. Its field is named after what it is.
+    pub value: f32,
+    /// Number of balls that carry load, 1 to 1000.
+    pub loaded_balls: u32,
+}
+
+/// One clearance in all its words.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+pub struct Clearance {
+    /// Radial gap of every contact at a centred ball without load, m: what the configurations take.
+    pub clearance: f32,
+    /// Force of each of a ball's four contacts without load, N; 0 with play.
+    pub preload: f32,
+    /// Axial preload of all loaded balls on each flank of the nut, N; 0 with play.
+    pub axial_preload: f32,
+    /// Travel of the nut along the axis from one flank to the other, m; 0 with oversize.
+    pub axial_play: f32,
+}
+
 /// Groove of the screw shaft.
 pub const EPAS_GROOVE_SCREW: u32 = 0u32;
 /// Groove of the nut.

@@ -1,13 +1,13 @@
 //! A ball screw whose balls press on each other.
 
-use epas_friction::{GrooveFit, UncagedBallScrew, UncagedBallScrewConfiguration};
+use epas_friction::{LoadShares, UncagedBallScrew, UncagedBallScrewConfiguration};
 
-use crate::design::ball_screw;
+use crate::design::{ball_screw, clearance};
 use crate::scene::{CScene, TablePointers, Tables, limits, regime, screw_inputs};
-use crate::status::{EPAS_FIELD_FIT, Failure};
+use crate::status::Failure;
 use crate::types::{
-    EPAS_FAULT_CALL, EPAS_FIT_PLAY, EPAS_FIT_PRELOAD, EPAS_FIT_ZERO, EPAS_REGIME_STANDING,
-    EPAS_SCREW_BALLS, Inputs, ScrewConfiguration, ScrewOutputs, ScrewPlace,
+    EPAS_FAULT_CALL, EPAS_REGIME_STANDING, EPAS_SCREW_BALLS, Inputs, ScrewConfiguration,
+    ScrewOutputs, ScrewPlace,
 };
 use crate::version::mark;
 
@@ -50,19 +50,12 @@ impl CScene for Screw {
             design: ball_screw(&configuration.design)?,
             friction: configuration.friction,
             ball_friction: configuration.ball_friction,
-            fit: match configuration.fit {
-                EPAS_FIT_ZERO => GrooveFit::Zero,
-                EPAS_FIT_PLAY => GrooveFit::Play,
-                EPAS_FIT_PRELOAD => GrooveFit::Preload {
-                    contact_force: configuration.contact_preload,
-                },
-                other => return Err(Failure::count(EPAS_FIELD_FIT, other, 0, 2)),
-            },
+            clearance: clearance(configuration.clearance)?,
             turns: configuration.turns,
             return_length: configuration.return_length,
             screw_deviation: tables.passing,
             nut_deviation: tables.recirculating,
-            load_shares: tables.load_shares,
+            load_shares: LoadShares::same(tables.load_shares),
             reversal_speed: configuration.reversal_speed,
             tick: configuration.tick,
             limits: limits(&configuration.limits),

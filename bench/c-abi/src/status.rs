@@ -55,12 +55,12 @@ pub const EPAS_FIELD_BALL_FRICTION: u32 = 15u32;
 pub const EPAS_FIELD_ROLLING_TANGENT: u32 = 16u32;
 /// `branch`
 pub const EPAS_FIELD_BRANCH: u32 = 17u32;
-/// `preload`
-pub const EPAS_FIELD_PRELOAD: u32 = 18u32;
-/// `fit`
-pub const EPAS_FIELD_FIT: u32 = 19u32;
-/// `contact_preload`
-pub const EPAS_FIELD_CONTACT_PRELOAD: u32 = 20u32;
+/// `clearance`
+pub const EPAS_FIELD_CLEARANCE: u32 = 18u32;
+/// `loaded_balls`
+pub const EPAS_FIELD_LOADED_BALLS: u32 = 19u32;
+/// Preload of a contact, N.
+pub const EPAS_FIELD_CONTACT_FORCE: u32 = 20u32;
 /// `turns`
 pub const EPAS_FIELD_TURNS: u32 = 21u32;
 /// `loaded_length`
@@ -119,10 +119,14 @@ pub const EPAS_FIELD_BALL_RATIO: u32 = 47u32;
 pub const EPAS_FIELD_GROOVE: u32 = 48u32;
 /// A field that this header does not know; a newer library would.
 pub const EPAS_FIELD_OTHER: u32 = 49u32;
+/// Axial play of the nut, m.
+pub const EPAS_FIELD_AXIAL_PLAY: u32 = 50u32;
+/// `given`
+pub const EPAS_FIELD_GIVEN: u32 = 51u32;
 
 /// Number, name in C, and the crate's name: empty where only this layer names the field. A field to which the crate
 /// gives a name of its own in each scene has a row for each.
-const FIELDS: [(u32, &CStr, &str); 51] = [
+const FIELDS: [(u32, &CStr, &str); 53] = [
     (EPAS_FIELD_PITCH_RADIUS, c"pitch_radius", "pitch_radius"),
     (EPAS_FIELD_LEAD, c"lead", "lead"),
     (EPAS_FIELD_BALL_RADIUS, c"ball_radius", "ball_radius"),
@@ -160,13 +164,9 @@ const FIELDS: [(u32, &CStr, &str); 51] = [
         "rolling_tangent",
     ),
     (EPAS_FIELD_BRANCH, c"branch", ""),
-    (EPAS_FIELD_PRELOAD, c"preload", "preload"),
-    (EPAS_FIELD_FIT, c"fit", ""),
-    (
-        EPAS_FIELD_CONTACT_PRELOAD,
-        c"contact_preload",
-        "contact_force",
-    ),
+    (EPAS_FIELD_CLEARANCE, c"clearance", "clearance"),
+    (EPAS_FIELD_LOADED_BALLS, c"loaded_balls", "loaded_balls"),
+    (EPAS_FIELD_CONTACT_FORCE, c"contact force", "contact_force"),
     (EPAS_FIELD_TURNS, c"turns", "turns"),
     (EPAS_FIELD_LOADED_LENGTH, c"loaded_length", "loaded_length"),
     (EPAS_FIELD_RETURN_LENGTH, c"return_length", "return_length"),
@@ -234,6 +234,8 @@ const FIELDS: [(u32, &CStr, &str); 51] = [
     (EPAS_FIELD_BALL_RATIO, c"ball_ratio", "ball_ratio"),
     (EPAS_FIELD_GROOVE, c"groove", ""),
     (EPAS_FIELD_OTHER, c"other", ""),
+    (EPAS_FIELD_AXIAL_PLAY, c"axial play", "axial_play"),
+    (EPAS_FIELD_GIVEN, c"given", ""),
 ];
 
 const STATUS_NAMES: [(u32, &CStr); 7] = [

@@ -46,12 +46,12 @@ pub struct Material {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub struct BallScrew {
-    /// Radius of the cylinder on which the ball centres run, m, 1e-4 to 10; half the nominal diameter
+    /// Radius of the cylinder on which the ball centres run, m, 1e-3 to 0.5; half the nominal diameter
     /// where a catalogue prints no pitch circle.
     pub pitch_radius: f32,
-    /// Axial travel of the nut in one turn, m, 0 to 100.
+    /// Axial travel of the nut in one turn, m, 0 to 0.2.
     pub lead: f32,
-    /// Ball radius, m, 1e-5 up to 0.9 of the pitch radius.
+    /// Ball radius, m, 1e-4 to 0.05, up to 0.9 of the pitch radius.
     pub ball_radius: f32,
     /// Radius of the screw's groove over the ball's diameter, 0.5005 to 1.
     pub screw_conformity: f32,
@@ -118,8 +118,12 @@ pub struct CagedConfiguration {
     pub rolling_tangent: f32,
     /// Which state of the ball the torque is computed for, one of `EPAS_BRANCH_...`.
     pub branch: u32,
-    /// Axial preload on each flank without load, N: 0, or 1e-3 to 1e6.
-    pub preload: f32,
+    /// Radial gap of every contact at a centred ball without load, m, play above zero, oversize below; -0.02 to
+    /// 0.05 ball radii. `epas_clearance` finds it from a preload or an axial play. Oversize presses on both
+    /// flanks of the nut; play changes nothing.
+    pub clearance: f32,
+    /// Number of balls that carry load, 1 to 1000.
+    pub loaded_balls: u32,
     /// Nut speed over which friction changes its direction, rad/s, 1e-6 to 1e3.
     pub reversal_speed: f32,
     /// Bounds that are kept whatever comes in.
@@ -143,13 +147,6 @@ pub struct CagedPlace {
 /// built with that number.
 pub const EPAS_SCREW_BALLS: usize = 37;
 
-/// Balls have neither play nor preload: friction across the track closes a light third contact.
-pub const EPAS_FIT_ZERO: u32 = 0u32;
-/// So much play that only two contacts carry a ball (from about 20 micrometres on).
-pub const EPAS_FIT_PLAY: u32 = 1u32;
-/// Oversized balls in four-point contact, with `contact_preload`.
-pub const EPAS_FIT_PRELOAD: u32 = 2u32;
-
 /// What the engineer sets for a ball screw whose balls press on each other.
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
@@ -160,11 +157,9 @@ pub struct ScrewConfiguration {
     pub friction: f32,
     /// Coulomb friction coefficient of ball and ball, 0 to 1.
     pub ball_friction: f32,
-    /// How balls fit between the grooves, one of `EPAS_FIT_...`.
-    pub fit: u32,
-    /// Force of each of the four contacts without an external load, N, 1e-3 to 1e6; read only where `fit`
-    /// is `EPAS_FIT_PRELOAD`.
-    pub contact_preload: f32,
+    /// Radial gap of every contact at a centred ball without load, m, play above zero, oversize below; -0.02 to
+    /// 0.05 ball radii. `epas_clearance` finds it from a preload or an axial play.
+    pub clearance: f32,
     /// Turns of the loaded track, 0.1 to 100.
     pub turns: f32,
     /// Length of the return, m, 0 to 10: there balls carry no load.
@@ -232,7 +227,7 @@ pub const EPAS_LINEAR_BALLS: usize = 32;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub struct LinearBearing {
-    /// Ball radius, m, 1e-5 to 1.
+    /// Ball radius, m, 1e-4 to 0.05.
     pub ball_radius: f32,
     /// Radius of the grooves over the ball's diameter, 0.5005 to 1.
     pub conformity: f32,

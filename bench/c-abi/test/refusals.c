@@ -130,7 +130,7 @@ static void caged_fields(void)
     wrong.design.lead = -1.0f;
     status = epas_caged_init(&place, &wrong, &failure);
     check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_LEAD, "lead");
-    check((failure.value == -1.0f) && (failure.minimum == 0.0f) && (failure.maximum == 100.0f),
+    check((failure.value == -1.0f) && (failure.minimum == 0.0f) && (failure.maximum == 0.2f),
           "value and range of the lead");
     check(epas_caged_step(&place, &sound, &outputs) == EPAS_NOT_INITIALISED,
           "a place whose configuration was refused holds no model");
@@ -169,6 +169,11 @@ static void caged_fields(void)
     status = epas_caged_init(&place, &wrong, &failure);
     check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_BALL_YOUNGS_MODULUS,
                   "ball_material.youngs_modulus");
+
+    wrong = test_caged_configuration;
+    wrong.loaded_balls = 0u;
+    status = epas_caged_init(&place, &wrong, &failure);
+    check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_LOADED_BALLS, "loaded_balls");
 
     wrong = test_caged_configuration;
     wrong.branch = 2u;
@@ -233,10 +238,14 @@ static void train_fields(void)
                   "recirculating deviation");
 
     wrong = test_screw_configuration;
-    wrong.fit = EPAS_FIT_PRELOAD;
+    wrong.clearance = -0.9e-3f;
     status = epas_screw_init(&screw, &wrong, &failure);
-    check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_CONTACT_PRELOAD, "contact_preload");
-    wrong.contact_preload = 20.0f;
+    check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_CLEARANCE, "clearance");
+    check(failure.minimum == -0.02f * wrong.design.ball_radius, "the range of these balls");
+    wrong.clearance = not_a_number();
+    status = epas_screw_init(&screw, &wrong, &failure);
+    check_failure(status, &failure, EPAS_NOT_FINITE, EPAS_FIELD_CLEARANCE, "clearance");
+    wrong.clearance = -3e-6f;
     wrong.screw_deviation = NULL;
     wrong.nut_deviation = NULL;
     wrong.load_shares = NULL;
@@ -266,6 +275,13 @@ static void tables_and_requests(void)
     epas_efficiency_t efficiency;
     epas_curvature_request_t curvature_request = {.design = test_caged_configuration.design};
     epas_curvature_t curvature;
+    epas_clearance_request_t clearance_request = {
+        .design = test_caged_configuration.design,
+        .given = EPAS_GIVEN_PRELOAD,
+        .value = 50.0f,
+        .loaded_balls = 70u,
+    };
+    epas_clearance_t clearance;
     epas_failure_t failure;
     uint32_t status;
 
@@ -289,6 +305,34 @@ static void tables_and_requests(void)
     status = epas_deviation_from_samples(&deviation, 1u, samples, &failure);
     check_failure(status, &failure, EPAS_NOT_FINITE, EPAS_FIELD_DEVIATION, "deviation");
     check(failure.index == 63u, "which sample");
+
+    check(epas_clearance(&clearance_request, &clearance, &failure) == EPAS_OK, "a preload");
+    check((clearance.clearance < 0.0f) && (clearance.axial_play == 0.0f), "is an oversize");
+    check((clearance.preload > 49.999f) && (clearance.preload < 50.001f), "of that preload");
+    check(clearance.axial_preload > 40.0f * clearance.preload, "of all balls on each flank");
+    clearance_request.given = EPAS_GIVEN_AXIAL_PLAY;
+    status = epas_clearance(&clearance_request, &clearance, &failure);
+    check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_AXIAL_PLAY, "axial play");
+    clearance_request.value = 20e-6f;
+    check(epas_clearance(&clearance_request, &clearance, &failure) == EPAS_OK, "an axial play");
+    check((clearance.clearance > 0.0f) && (clearance.preload == 0.0f), "is a gap");
+    clearance_request.given = EPAS_GIVEN_PRELOAD;
+    clearance_request.value = -1.0f;
+    status = epas_clearance(&clearance_request, &clearance, &failure);
+    check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_CONTACT_FORCE, "contact force");
+    clearance_request.given = EPAS_GIVEN_CLEARANCE;
+    status = epas_clearance(&clearance_request, &clearance, &failure);
+    check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_CLEARANCE, "clearance");
+    clearance_request.value = -2e-6f;
+    check(epas_clearance(&clearance_request, &clearance, &failure) == EPAS_OK, "a clearance");
+    check(clearance.clearance == clearance_request.value, "is itself");
+    clearance_request.loaded_balls = 0x10001u;
+    status = epas_clearance(&clearance_request, &clearance, &failure);
+    check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_LOADED_BALLS, "loaded_balls");
+    clearance_request.loaded_balls = 1u;
+    clearance_request.given = 3u;
+    status = epas_clearance(&clearance_request, &clearance, &failure);
+    check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_GIVEN, "given");
 
     status = epas_efficiency(&request, &efficiency, &failure);
     check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_FRICTION, "friction");

@@ -20,7 +20,8 @@ const epas_caged_configuration_t test_caged_configuration = {
     .friction = 0.075f,
     .rolling_tangent = 0.002f,
     .branch = EPAS_BRANCH_ROLLING,
-    .preload = 100.0f,
+    .clearance = -2.653692e-7f, /* 100 N on each flank. */
+    .loaded_balls = 70u,
     .reversal_speed = 0.5f,
     .limits = {.nut_speed = 500.0f, .axial_load = 20000.0f, .friction_torque = 2.0f},
 };
@@ -45,8 +46,7 @@ epas_screw_configuration_t test_screw_configuration = {
     },
     .friction = 0.1f,
     .ball_friction = 0.12f,
-    .fit = EPAS_FIT_ZERO,
-    .contact_preload = 0.0f,
+    .clearance = 0.0f,
     .turns = 1.8f,
     .return_length = 20e-3f,
     .screw_deviation = &screw_deviation,

@@ -4,7 +4,7 @@ use core::hint::black_box;
 
 use epas_friction::ball::elastic::ElasticGrooves;
 use epas_friction::ball::{
-    AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE, ScrewLoop, ScrewRow,
+    AnalyticLinearBall, GrooveFit, LinearBallParameters, PUBLISHED_SLOPE, ScrewLoop, ScrewRow,
 };
 use epas_friction::contact::FrictionMap;
 use epas_friction::curvature::{
@@ -19,7 +19,7 @@ use epas_friction::refined::{
 };
 use epas_friction::train::{Press, Train};
 use epas_friction::{
-    BallScrew, CATALOGUE, CagedBallScrew, DeviationMap, Error, FrictionModel, GrooveFit, Inputs,
+    BallScrew, CATALOGUE, CagedBallScrew, DeviationMap, Error, FrictionModel, Inputs,
     LinearBearingTrain, UncagedBallScrew,
 };
 

@@ -7,11 +7,11 @@ use epas_friction::curvature::FittedCurvature;
 use epas_friction::efficiency::{Drive, EfficiencyGeometry};
 use epas_friction::geometry::{ContactAngle, Groove};
 use epas_friction::{
-    BallScrew, CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, DISSERTATION_DESIGNS,
-    DeviationMap, Error, FrictionBranch, FrictionModel, GrooveFit, GrooveSize, Harmonic, Inputs,
-    Limits, LinearBearing, LinearBearingConfiguration, LinearBearingParameters, LinearBearingTrain,
-    LinearConstants, LinearInputs, LinearLimits, LoadShare, Material, UncagedBallScrew,
-    UncagedBallScrewConfiguration, UncagedConstants,
+    BallScrew, CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, Clearance,
+    DISSERTATION_DESIGNS, DeviationMap, Error, FrictionBranch, FrictionModel, GrooveSize, Harmonic,
+    Inputs, Limits, LinearBearing, LinearBearingConfiguration, LinearBearingParameters,
+    LinearBearingTrain, LinearConstants, LinearInputs, LinearLimits, LoadShare, LoadShares,
+    Material, UncagedBallScrew, UncagedBallScrewConfiguration, UncagedConstants,
 };
 
 use crate::numbers::{linear_outputs, outputs, uncaged_outputs};
@@ -24,6 +24,9 @@ pub const ROW: usize = 24;
 
 /// Time between two ticks, s.
 pub const TICK: f32 = 1e-3;
+
+/// Oversize of the caged form's balls: with 36 of them, 100 N on each flank of the nut.
+const OVERSIZE: Clearance = folded(Clearance::new(-4.068_737e-7));
 
 /// Two waves a turn, Lin 2019, Fig. 3.23.
 pub static SCREW_DEVIATION: DeviationMap = folded(DeviationMap::from_harmonics(
@@ -244,7 +247,8 @@ pub const fn caged_configuration() -> Result<CagedBallScrewConfiguration, Error>
         friction: 0.075,
         rolling_tangent: 0.0,
         branch: FrictionBranch::Rolling,
-        preload: 100.0,
+        clearance: OVERSIZE,
+        loaded_balls: 36,
         reversal_speed: 0.5,
         limits: LIMITS,
     })
@@ -259,12 +263,12 @@ pub const fn uncaged_configuration() -> Result<UncagedBallScrewConfiguration, Er
         design: DESIGN,
         friction: 0.1,
         ball_friction: 0.1,
-        fit: GrooveFit::Zero,
+        clearance: Clearance::ZERO,
         turns: 2.0,
         return_length: 0.0,
         screw_deviation: &SCREW_DEVIATION,
         nut_deviation: &NUT_DEVIATION,
-        load_shares: &[LoadShare::MEAN],
+        load_shares: LoadShares::EVEN,
         reversal_speed: 0.5,
         tick: TICK,
         limits: LIMITS,

@@ -266,7 +266,7 @@ subjects! {
         |c, [axial_load, screw_deviation, nut_deviation, clearance, friction]| -> [4] {
             let inputs = BallInputs {
                 axial_load: axial_load + 5.0_f32.copysign(axial_load),
-                force: 0.0, screw_deviation, nut_deviation, friction, clearance,
+                force: 0.0, rubbing: [0.0; 2], screw_deviation, nut_deviation, friction, clearance,
             };
             let grooves = black_box(&c.elastic);
             let mut ball = grooves.start(&inputs);
@@ -282,7 +282,7 @@ subjects! {
         |c, [axial_load, screw_deviation, nut_deviation, clearance, friction]| -> [1] {
             let inputs = BallInputs {
                 axial_load: axial_load + 5.0_f32.copysign(axial_load),
-                force: 0.0, screw_deviation, nut_deviation, friction, clearance,
+                force: 0.0, rubbing: [0.0; 2], screw_deviation, nut_deviation, friction, clearance,
             };
             let grooves = black_box(&c.elastic);
             let ball = timed!(c, count_ball_screw_start(grooves, &inputs));

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use epas_friction::{
-    BallScrew, DeviationMap, GrooveFit, GrooveSize, Harmonic, Limits, LinearBearing,
-    LinearBearingConfiguration, LinearBearingParameters, LinearLimits, LoadShare,
+    BallScrew, Clearance, DeviationMap, GrooveSize, Harmonic, Limits, LinearBearing,
+    LinearBearingConfiguration, LinearBearingParameters, LinearLimits, LoadShare, LoadShares,
     UncagedBallScrewConfiguration,
 };
 use serde::Deserialize;
@@ -53,21 +53,24 @@ pub struct UncagedTable {
     balls: u8,
     turns: f32,
     ball_friction: Option<f32>,
-    fit: Option<Fit>,
+    /// What the design's `clearance` has replaced.
+    fit: Option<toml::Value>,
     return_length: Option<f32>,
     deviation_turns: Option<u16>,
     screw_deviation: Option<Vec<Wavelet>>,
     nut_deviation: Option<Vec<Wavelet>>,
     load_shares: Option<Vec<f32>>,
+    negative_load_shares: Option<Vec<f32>>,
 }
 
-/// How balls fit between the grooves: a word, or the preload of a contact.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(rename_all = "lowercase")]
-enum Fit {
-    Zero,
-    Play,
-    Preload(f32),
+/// Says what stands in the place of a key that files have had.
+pub fn refuse_fit(fit: Option<&toml::Value>) -> Result<(), String> {
+    match fit {
+        None => Ok(()),
+        Some(_) => Err("fit is no key; a design has clearance (m; play above 0, oversize below), or preload (force of \
+                        each contact without a load, N)"
+            .into()),
+    }
 }
 
 /// A wave of a deviation map.
@@ -140,13 +143,14 @@ pub fn built_in(name: &str, screw: BallScrew, balls: u16) -> Option<UncagedDesig
         }]),
         nut_deviation: None,
         load_shares: None,
+        negative_load_shares: None,
     };
     let limits = Limits {
         nut_speed: 2e3,
         axial_load: 1e5,
         friction_torque: 100.0,
     };
-    table.design(screw, 0.1, 1e-2, limits).ok()
+    table.design(screw, Clearance::ZERO, 0.1, 1e-2, limits).ok()
 }
 
 impl UncagedTable {
@@ -154,10 +158,12 @@ impl UncagedTable {
     pub fn design(
         &self,
         screw: BallScrew,
+        clearance: Clearance,
         friction: f32,
         reversal_speed: f32,
         limits: Limits,
     ) -> Result<UncagedDesign, String> {
+        refuse_fit(self.fit.as_ref())?;
         let turns = self.deviation_turns.unwrap_or(1);
         let waves = self.screw_deviation.as_deref().unwrap_or_default();
         let on_nut = self.nut_deviation.as_deref().unwrap_or_default();
@@ -183,22 +189,41 @@ impl UncagedTable {
                 design: screw,
                 friction,
                 ball_friction: self.ball_friction.unwrap_or(BALL_FRICTION),
-                fit: match self.fit.unwrap_or(Fit::Zero) {
-                    Fit::Zero => GrooveFit::Zero,
-                    Fit::Play => GrooveFit::Play,
-                    Fit::Preload(contact_force) => GrooveFit::Preload { contact_force },
-                },
+                clearance,
                 turns: self.turns,
                 return_length: self.return_length.unwrap_or(0.0),
                 screw_deviation: map("screw_deviation", turns, waves)?,
                 nut_deviation: map("nut_deviation", turns, on_nut)?,
-                load_shares: shares(self.load_shares.as_deref())?,
+                load_shares: self.load_shares()?,
                 reversal_speed,
                 tick: 1e-3,
                 limits,
             },
-            wave: wave.filter(|_| self.load_shares.is_none()),
+            wave: wave
+                .filter(|_| self.load_shares.is_none() && self.negative_load_shares.is_none()),
         })
+    }
+
+    /// Shares of both signs of the load: one table serves both where a second one is not given.
+    fn load_shares(&self) -> Result<LoadShares, String> {
+        let positive = shares("load_shares", self.load_shares.as_deref())?;
+        let negative = match &self.negative_load_shares {
+            None => positive,
+            Some(_) if self.load_shares.is_none() => {
+                return Err(
+                    "negative_load_shares needs load_shares, those of positive loads".into(),
+                );
+            }
+            Some(given) if given.len() != positive.len() => {
+                return Err(format!(
+                    "negative_load_shares has {} entries where load_shares has {}",
+                    given.len(),
+                    positive.len()
+                ));
+            }
+            given => shares("negative_load_shares", given.as_deref())?,
+        };
+        Ok(LoadShares { positive, negative })
     }
 }
 
@@ -288,7 +313,7 @@ impl LinearFile {
                 wavelength: self.wavelength.unwrap_or(self.loaded_length),
                 rail_deviation: on("rail_deviation", &self.rail_deviation)?,
                 carriage_deviation: on("carriage_deviation", &self.carriage_deviation)?,
-                load_shares: shares(self.load_shares.as_deref())?,
+                load_shares: shares("load_shares", self.load_shares.as_deref())?,
                 reversal_speed: self.reversal_speed.unwrap_or(1e-3),
                 tick: 1e-3,
                 limits,
@@ -313,7 +338,7 @@ fn map(field: &str, turns: u16, waves: &[Wavelet]) -> Result<&'static DeviationM
 }
 
 /// Shares that live as long as the program.
-fn shares(given: Option<&[f32]>) -> Result<&'static [LoadShare], String> {
+fn shares(field: &str, given: Option<&[f32]>) -> Result<&'static [LoadShare], String> {
     let Some(given) = given else {
         return Ok(&[LoadShare::MEAN]);
     };
@@ -321,6 +346,6 @@ fn shares(given: Option<&[f32]>) -> Result<&'static [LoadShare], String> {
         .iter()
         .map(|share| LoadShare::new(*share))
         .collect::<Result<Vec<_>, _>>()
-        .map_err(|error| format!("load_shares: {error}"))?;
+        .map_err(|error| format!("{field}: {error}"))?;
     Ok(Vec::leak(shares))
 }

@@ -12,11 +12,11 @@
 //!   of balls that do not press: `groove_torque` is `groove_torque_free`.
 //! * Friction between balls does not change the forces between them.
 
-use epas_friction::ball::ScrewRow;
+use epas_friction::ball::{GrooveFit, ScrewRow};
 use epas_friction::geometry::Groove;
 use epas_friction::hertz::HertzContact;
 use epas_friction::train::Press;
-use epas_friction::{BallScrew, GrooveFit, LoadShare};
+use epas_friction::{BallScrew, LoadShare};
 use epas_reference::design::BallScrewDesign;
 use epas_reference::friction::ball_screw_row::{ElasticRow, RowBall, RowMotion};
 use epas_reference::friction::patch::Integration;

@@ -5,9 +5,9 @@
 //! contact angles deviate in either groove. Both are read off the given contacts, and how far those are from
 //! the contacts that the scene then finds stands beside the answer.
 
-use epas_friction::ball::{LoopSums, RowContacts, ScrewRow};
+use epas_friction::ball::{GrooveFit, LoopSums, RowContacts, ScrewRow};
 use epas_friction::train::Press;
-use epas_friction::{BallScrew, Error, GrooveFit, LoadShare};
+use epas_friction::{BallScrew, Error, LoadShare};
 use serde::Serialize;
 
 use super::train::{LARGEST_TRAIN, contact_forces, room_of_a_row};

@@ -4,7 +4,7 @@
 use std::f64::consts::{SQRT_2, TAU};
 
 use epas_friction::{
-    BallScrewParameters, CagedBallScrewConfiguration, FrictionBranch, GrooveFit, GrooveSize,
+    BallScrewParameters, CagedBallScrewConfiguration, Clearance, FrictionBranch, GrooveSize,
     Limits, Material,
 };
 use epas_reference::curvature::Groove;
@@ -41,7 +41,7 @@ pub fn whole_screw(
         },
         None => return Err(limited("this deviation or these load shares are others")),
     };
-    if configuration.fit != GrooveFit::Zero || configuration.return_length > 0.0 {
+    if configuration.clearance != Clearance::ZERO || configuration.return_length > 0.0 {
         return Err(limited("this circuit is another"));
     }
     let [first, .., last] = trace.samples.as_slice() else {
@@ -140,6 +140,23 @@ fn efficiency(load_torque: f64, friction_torque: f64) -> f64 {
     }
 }
 
+/// Axial load on each flank of the nut without a load, N: oversized balls press on all four contacts, whose deflections in
+/// screw and nut are twice the oversize together.
+fn flank_preload(configuration: &CagedBallScrewConfiguration) -> Result<f64, Failure> {
+    let oversize = (-f64::from(configuration.clearance.gap())).max(0.0);
+    let drawing = drawing(configuration.design.parameters());
+    let mut deflection = 0.0;
+    for groove in [Groove::Screw, Groove::Nut] {
+        let contact = drawing
+            .contact(groove)
+            .map_err(|error| Failure::Data(format!("--reference: {error}")))?;
+        deflection += contact.deflection;
+    }
+    let contact_force = (2.0 * oversize / deflection).powf(1.5);
+    let slope = drawing.contact_angle.sin() * drawing.lead_angle().cos();
+    Ok(f64::from(configuration.loaded_balls) * contact_force * slope)
+}
+
 /// A caged ball screw in float64.
 pub struct CagedReference {
     /// Friction torque per load of a driven flank, m; none where driving locks.
@@ -148,6 +165,7 @@ pub struct CagedReference {
     backdrive: f64,
     reduced_lead: f64,
     reversal_speed: f64,
+    /// Axial load of each flank without a load between them, N.
     preload: f64,
     limits: Limits,
 }
@@ -187,7 +205,7 @@ impl CagedReference {
             backdrive: reduced_lead * (1.0 - backdrive),
             reduced_lead,
             reversal_speed: configuration.reversal_speed.into(),
-            preload: configuration.preload.into(),
+            preload: flank_preload(configuration)?,
             limits: configuration.limits,
         })
     }

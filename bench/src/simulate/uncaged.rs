@@ -42,7 +42,7 @@ impl<const N: usize> Balls<ScrewSample, UncagedOutputs> for FrictionModel<Uncage
     }
 
     fn pressing(&self) -> u64 {
-        pressing(&self.state().train)
+        pressing(&self.state().circuit.train)
     }
 }
 

@@ -9,7 +9,7 @@ use epas_friction::efficiency::{DynamicCorrection, EfficiencyGeometry};
 use epas_friction::geometry::{ContactAngle, Groove};
 use epas_friction::hertz::HertzContact;
 use epas_friction::{
-    BallScrew, CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, FrictionBranch,
+    BallScrew, CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, Clearance, FrictionBranch,
     FrictionModel, Inputs, Limits, math,
 };
 use epas_reference::curvature as reference;
@@ -167,7 +167,8 @@ fn caged_step(race: &mut Race, list: &mut List, design: BallScrew) -> Result<(),
         friction: 0.075,
         rolling_tangent: 0.0,
         branch: FrictionBranch::Rolling,
-        preload: black_box(100.0),
+        clearance: black_box(Clearance::new(-1e-6).map_err(refused)?),
+        loaded_balls: 40,
         reversal_speed: 0.5,
         limits: Limits {
             nut_speed: 500.0,

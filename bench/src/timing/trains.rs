@@ -4,11 +4,13 @@ use std::array;
 use std::f64::consts::TAU;
 use std::hint::black_box;
 
-use epas_friction::ball::{AnalyticLinearBall, PUBLISHED_SLOPE, ScrewRow, SpeedDeviation};
+use epas_friction::ball::{
+    AnalyticLinearBall, GrooveFit, PUBLISHED_SLOPE, ScrewRow, SpeedDeviation,
+};
 use epas_friction::refined::{BallChain, BallState, FourPointBall, ScrewBall, ScrewChain};
 use epas_friction::train::Press;
 use epas_friction::train::Train;
-use epas_friction::{GrooveFit, Inputs, LoadShare, UncagedOutputs};
+use epas_friction::{Inputs, LoadShare, UncagedOutputs};
 
 use super::group::{Group, List};
 use super::race::{Feed, Race, Taken};

@@ -17,7 +17,7 @@ ball_diameter = 6.35e-3
 conformity = 0.528
 contact_angle = 0.7853982
 friction = 0.1
-preload = 200
+preload = 7
 loaded_balls = 40
 ";
 
@@ -314,6 +314,24 @@ fn a_wrong_design_file_is_named_with_its_field() {
     for (from, to, field) in [
         ("lead = 0.02", "lead = -0.02", "lead"),
         ("lead = 0.02", "", "lead"),
+        (
+            "lead = 0.02",
+            "lead = 7",
+            "0 to 0.2 m; lengths are in metres",
+        ),
+        (
+            "= 0.032",
+            "= 32",
+            "pitch_radius = 16 is out of range; allowed: 0.001 to 0.5 m",
+        ),
+        ("= 6.35e-3", "= 6.35", "ball_radius"),
+        (
+            "preload = 7",
+            "preload = 7\nclearance = 0",
+            "clearance and preload",
+        ),
+        ("preload = 7", "fit = \"play\"", "clearance (m"),
+        ("loaded_balls = 40", "", "loaded_balls"),
         ("lead = 0.02", "lead = \"long\"", "lead"),
         ("conformity = 0.528", "conformity = 0.5", "conformity"),
         ("friction = 0.1", "friction = nan", "friction"),

@@ -272,9 +272,10 @@ fn what_a_train_cannot_run_is_named() {
         (
             "turns = 2",
             "turns = 2\nfit = { preload = -1 }",
-            "contact_force",
+            "clearance (m",
         ),
-        ("turns = 2", "turns = 2\nfit = \"tight\"", "tight"),
+        ("turns = 2", "turns = 2\nfit = \"play\"", "clearance (m"),
+        ("[uncaged]", "clearance = 1e-3\n[uncaged]", "clearance"),
     ] {
         fs::write(folder.path().join("bad.toml"), SCREW.replace(from, to)).unwrap();
         let run = simulate(

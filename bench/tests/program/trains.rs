@@ -2,8 +2,8 @@
 
 use std::f64::consts::FRAC_PI_4;
 
-use epas_friction::ball::{RowContacts, ScrewRow};
-use epas_friction::{BallScrew, BallScrewParameters, GrooveFit, GrooveSize, LoadShare, Material};
+use epas_friction::ball::{GrooveFit, RowContacts, ScrewRow};
+use epas_friction::{BallScrew, BallScrewParameters, GrooveSize, LoadShare, Material};
 use epas_reference::friction::linear_ball::contact_forces;
 use epas_reference::hertz::{Hertz, contact_modulus};
 use serde_json::{Value, json};

@@ -25,6 +25,14 @@ pub(crate) struct Rubbing {
     pub motion: Vector4<f64>,
 }
 
+impl std::ops::AddAssign for Rubbing {
+    fn add_assign(&mut self, other: Self) {
+        self.in_plane[0] += other.in_plane[0];
+        self.in_plane[1] += other.in_plane[1];
+        self.motion += other.motion;
+    }
+}
+
 /// What is given along the track.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Drive {
@@ -71,7 +79,7 @@ pub(crate) struct PlacedBall<'a> {
 }
 
 /// Unbalanced forces, N: x, z, axial, along the track (times path over ball radius), moments over the ball radius.
-type Balance = SVector<f64, 7>;
+pub(crate) type Balance = SVector<f64, 7>;
 
 impl PlacedBall<'_> {
     /// Path radius over ball radius.
@@ -117,61 +125,12 @@ impl PlacedBall<'_> {
 
     /// What is unbalanced.
     fn balance(&self, state: &BallState) -> Option<Balance> {
-        let rows = self.rows(&state.place)?;
-        let cos_a = self.grooves.track.lead_angle().1;
-        let friction = self.friction_in_plane(&rows, &state.motion);
-        let [rub_x, rub_z] = self.rubbing.in_plane;
-        let mut in_plane = friction + Vector3::new(rub_x, rub_z, -self.axial_load);
-        let mut motion = self.rubbing.motion;
-        motion[0] += self.path() * state.force;
-        for row in &rows {
-            let [nx, nz] = normal(row);
-            let load = row.contact.load;
-            in_plane.x -= load * nx;
-            in_plane.y -= load * nz;
-            if !row.contact.groove.on_nut() {
-                in_plane.z -= load * nz * cos_a;
-            }
-            let gradient = row.local(&state.motion, STICK_SPIN).gradient;
-            motion -= self.friction * (row.rows.transpose() * gradient);
-        }
-        let mut all = Balance::zeros();
-        all.fixed_rows_mut::<3>(0).copy_from(&in_plane);
-        all.fixed_rows_mut::<4>(3).copy_from(&motion);
-        all.iter().all(|x| x.is_finite()).then_some(all)
-    }
-
-    /// Derivatives of the balance by the place over `unit` (central differences), and by the motion (the dissipation's Hessian, which a
-    /// contact at rest makes stiff).
-    fn jacobian(&self, state: &BallState, unit: f64) -> Option<SMatrix<f64, 7, 7>> {
-        let mut jacobian = SMatrix::<f64, 7, 7>::zeros();
-        for column in 0..3 {
-            let step = 1e-6 * state.place[column].abs().max(0.1 * unit);
-            let (mut up, mut down) = (*state, *state);
-            up.place[column] += step;
-            down.place[column] -= step;
-            let change = (self.balance(&up)? - self.balance(&down)?) * (0.5 * unit / step);
-            jacobian.set_column(column, &change);
-        }
-        let (sin_a, cos_a) = self.grooves.track.lead_angle();
+        let mut all = self.given(state);
         for row in &self.rows(&state.place)? {
-            let [nx, nz] = normal(row);
-            let by_motion = row.local(&state.motion, STICK_SPIN).hessian * row.rows;
-            let moments = row.rows.transpose() * by_motion * -self.friction;
-            let friction = by_motion * (-self.friction * self.way);
-            for column in 0..4 {
-                let (across, along) = (friction[(0, column)], friction[(1, column)]);
-                jacobian[(0, 3 + column)] += across * nz;
-                jacobian[(1, 3 + column)] -= across * nx;
-                if !row.contact.groove.on_nut() {
-                    jacobian[(2, 3 + column)] += along * sin_a - across * nx * cos_a;
-                }
-                for line in 0..4 {
-                    jacobian[(3 + line, 3 + column)] += moments[(line, column)];
-                }
-            }
+            let gradient = row.local(&state.motion, STICK_SPIN).gradient;
+            all += self.of_contact(row, row.contact.load, &gradient);
         }
-        Some(jacobian)
+        all.iter().all(|x| x.is_finite()).then_some(all)
     }
 
     /// Residual that rounding leaves, and the largest that is accepted, N: in proportion to the loads of all contacts.
@@ -233,7 +192,7 @@ impl PlacedBall<'_> {
         drive: Drive,
         unit: f64,
     ) -> Option<SMatrix<f64, 7, 7>> {
-        let mut jacobian = self.jacobian(state, unit)?;
+        let mut jacobian = self.tangent(state, unit)?.jacobian;
         if let Drive::Speed(_) = drive {
             jacobian.column_mut(3).fill(0.0);
             jacobian[(3, 3)] = self.path();
@@ -243,7 +202,7 @@ impl PlacedBall<'_> {
 
     /// Change of the force along the track with the orbital speed, all else in balance.
     fn stiffness(&self, state: &BallState, unit: f64) -> Option<f64> {
-        let mut jacobian = self.jacobian(state, unit)?;
+        let mut jacobian = self.tangent(state, unit)?.jacobian;
         let by_speed: Balance = jacobian.column(3).into();
         jacobian.column_mut(3).fill(0.0);
         jacobian[(3, 3)] = self.path();

@@ -17,7 +17,7 @@
 use super::ball_screw_ball::{ScrewMotion, dimensional};
 use super::ball_screw_grooves::ElasticGrooves;
 use super::ball_screw_placed::{BallState, Drive, PlacedBall, Rubbing, STICK_SPIN, Solved};
-use super::ball_screw_rubbing::press_and_rub;
+use super::ball_screw_rubbing::{BallContact, press_and_rub};
 use super::ball_screw_settle::settle;
 use super::patch::Integration;
 use crate::curvature::Groove;
@@ -128,7 +128,9 @@ impl ElasticRow {
             .iter()
             .map(|ball| settle(ball, Drive::Force(0.0), None))
             .collect::<Result<Vec<_>, _>>()?;
-        let pressing = press_and_rub(&mut balls, &free, self.ball_friction)?;
+        let track = (&self.design).into();
+        let contact = BallContact::new(&track, self.ball_friction, way, false);
+        let pressing = press_and_rub(&mut balls, &free, &contact)?;
         let residual = free
             .iter()
             .chain(&pressing.balls)

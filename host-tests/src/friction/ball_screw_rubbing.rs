@@ -1,7 +1,8 @@
 //! Balls of a row that press and rub on each other, and the checks of what was found.
 
-use nalgebra::{SMatrix, Vector2};
+use nalgebra::{Matrix2, SMatrix, Vector2};
 
+use super::ball_screw_ball::ScrewTrack;
 use super::ball_screw_placed::{BallState, PlacedBall, Rubbing, STICK_SPIN, Solved};
 use super::ball_screw_press::pressed;
 use crate::error::ReferenceError;
@@ -24,7 +25,7 @@ pub(crate) struct Pressing {
 pub(crate) fn press_and_rub(
     balls: &mut [PlacedBall<'_>],
     free: &[Solved],
-    ball_friction: f64,
+    contact: &BallContact,
 ) -> Result<Pressing, ReferenceError> {
     let mut found = Pressing {
         balls: free.to_vec(),
@@ -42,10 +43,10 @@ pub(crate) fn press_and_rub(
             *force = sum;
         }
         let largest = found.forces.iter().copied().fold(0.0, f64::max);
-        if ball_friction == 0.0 || change <= 1e-10 * largest {
+        if !contact.acts() || change <= 1e-10 * largest {
             return found.checked(balls);
         }
-        found.ball_loss = rub(balls, &found, ball_friction);
+        found.ball_loss = rub(balls, &found, contact);
     }
     Err(ReferenceError::unbalanced(change))
 }
@@ -105,38 +106,139 @@ impl Pressing {
     }
 }
 
+/// What two touching balls do to each other.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct BallContact {
+    /// Slip over `R_B w_N` by the motions of the rear and of the front ball.
+    slips: [SMatrix<f64, 2, 4>; 2],
+    cos: f64,
+    /// Path radius over ball radius.
+    path: f64,
+    /// Force that points outward over the force along the track.
+    outward: f64,
+    friction: f64,
+}
+
+/// Forces of a contact between two balls, besides the one along the track.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct BetweenBalls {
+    pub on_rear: Rubbing,
+    pub on_front: Rubbing,
+    /// Power lost over `R_B w_N`, N.
+    pub loss: f64,
+}
+
+/// Changes of the forces of a contact between two balls: on the seven balances of the rear and of the front ball, by the force along the
+/// track and by the two components of the slip.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct BallContactSlope {
+    /// Slip over `R_B w_N` by the motions of the rear and of the front ball.
+    pub slips: [SMatrix<f64, 2, 4>; 2],
+    pub on_rear: SMatrix<f64, 7, 3>,
+    pub on_front: SMatrix<f64, 7, 3>,
+}
+
+impl BallContact {
+    /// With or without the part of the force that points outward because the track is curved; `way` is that of the nut.
+    pub fn new(track: &ScrewTrack, friction: f64, way: f64, chord: bool) -> Self {
+        let (sin, cos) = track.ball_contact_angle();
+        Self {
+            slips: track.slip_between(way),
+            cos,
+            path: track.path_radius() / track.ball_radius,
+            outward: if chord { sin / cos } else { 0.0 },
+            friction,
+        }
+    }
+
+    /// Normal force of the contact by that along the track: they are one where the outward part is left out.
+    pub fn normal_force(&self, along: f64) -> f64 {
+        along * self.outward.hypot(1.0)
+    }
+
+    /// Outward part of a force along the track, on either ball, N.
+    pub fn outward_force(&self, along: f64) -> f64 {
+        self.outward * along
+    }
+
+    /// Forces of two balls that press with `along` along the track, N.
+    pub fn between(&self, along: f64, rear: &BallState, front: &BallState) -> BetweenBalls {
+        let slip: Vector2<f64> = self.slips[0] * rear.motion + self.slips[1] * front.motion;
+        let limit = self.friction * self.normal_force(along.max(0.0));
+        let pull = slip * (-limit / slip.norm().max(1e-12));
+        let [on_rear, on_front] =
+            [(self.slips[0], 1.0), (self.slips[1], -1.0)].map(|(of, side)| {
+                let outward = self.outward * along.max(0.0);
+                Rubbing {
+                    in_plane: [side * self.cos * pull.y + outward, side * pull.x],
+                    motion: of.transpose() * pull,
+                }
+            });
+        BetweenBalls {
+            on_rear,
+            on_front,
+            loss: limit * slip.norm(),
+        }
+    }
+
+    /// How the forces of two balls that press with `along`, N, change with it and with their slip.
+    pub fn slope(&self, along: f64, rear: &BallState, front: &BallState) -> BallContactSlope {
+        let slip: Vector2<f64> = self.slips[0] * rear.motion + self.slips[1] * front.motion;
+        let size = slip.norm().max(1e-12);
+        let (way, limit) = (slip / size, self.friction * self.normal_force(1.0));
+        let turn = Matrix2::identity() - way * way.transpose();
+        let by_slip = turn * (-limit * along.max(0.0) / size);
+        let pulls = [
+            -limit * way,
+            by_slip.column(0).into(),
+            by_slip.column(1).into(),
+        ];
+        let [on_rear, on_front] =
+            [(self.slips[0], 1.0), (self.slips[1], -1.0)].map(|(of, side)| {
+                let mut all = SMatrix::<f64, 7, 3>::zeros();
+                for (column, pull) in pulls.iter().enumerate() {
+                    all[(0, column)] = side * self.cos * pull.y;
+                    all[(1, column)] = side * pull.x;
+                    all.fixed_view_mut::<4, 1>(3, column)
+                        .copy_from(&(of.transpose() * pull));
+                }
+                all[(0, 0)] += self.outward;
+                all[(3, 0)] -= side * self.path;
+                all
+            });
+        BallContactSlope {
+            slips: self.slips,
+            on_rear,
+            on_front,
+        }
+    }
+
+    /// The same contact where balls do not rub.
+    pub fn smooth(self) -> Self {
+        Self {
+            friction: 0.0,
+            ..self
+        }
+    }
+
+    /// True where balls feel more than the force along the track.
+    pub fn acts(&self) -> bool {
+        self.friction > 0.0 || self.outward > 0.0
+    }
+}
+
 /// Puts the friction between neighbours on the balls; the power that it takes over `R_B w_N`, N.
-fn rub(balls: &mut [PlacedBall<'_>], found: &Pressing, ball_friction: f64) -> f64 {
-    let Some(first) = balls.first() else {
-        return 0.0;
-    };
-    let track = first.grooves.track;
-    let (_, cos_b) = track.ball_contact_angle();
-    let slips = track.slip_between(first.way);
+fn rub(balls: &mut [PlacedBall<'_>], found: &Pressing, contact: &BallContact) -> f64 {
     for ball in balls.iter_mut() {
         ball.rubbing = Rubbing::default();
     }
     let mut loss = 0.0;
     for (index, force) in found.forces.iter().enumerate() {
-        let slip = slip(
-            &slips,
-            &found.balls[index].state,
-            &found.balls[index + 1].state,
-        );
-        let limit = ball_friction * force.max(0.0);
-        loss += limit * slip.norm();
-        let pull = slip * (-limit / slip.norm().max(1e-12));
-        for (place, of, side) in [(index, slips[0], 1.0), (index + 1, slips[1], -1.0)] {
-            let rubbing = &mut balls[place].rubbing;
-            rubbing.motion += of.transpose() * pull;
-            rubbing.in_plane[0] += side * cos_b * pull.y;
-            rubbing.in_plane[1] += side * pull.x;
-        }
+        let (rear, front) = (&found.balls[index].state, &found.balls[index + 1].state);
+        let forces = contact.between(*force, rear, front);
+        loss += forces.loss;
+        balls[index].rubbing += forces.on_rear;
+        balls[index + 1].rubbing += forces.on_front;
     }
     loss
-}
-
-/// Slip between a ball and the one in front of it over `R_B w_N`.
-fn slip(slips: &[SMatrix<f64, 2, 4>; 2], rear: &BallState, front: &BallState) -> Vector2<f64> {
-    slips[0] * rear.motion + slips[1] * front.motion
 }

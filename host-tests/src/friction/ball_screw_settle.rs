@@ -46,7 +46,7 @@ pub(crate) fn settle(
 }
 
 /// Scale of the displacements, m.
-fn unit(ball: &PlacedBall<'_>) -> f64 {
+pub(crate) fn unit(ball: &PlacedBall<'_>) -> f64 {
     let (_, reach) = ball.grooves.two_point_start(ball.axial_load);
     reach.max(ball.grooves.oversize.abs())
 }

@@ -25,6 +25,8 @@
 //! | [`ball_screw_grooves`] | the grooves as elastic arcs, (2.11) to (2.14) |
 //! | [`ball_screw_elastic`] | in-plane balance with elasticity, and two touching balls, (3.69) to (3.76) |
 //! | [`ball_screw_row`] | rows of balls with elasticity, clearance of either sign, and an axial load of each ball |
+//! | [`rolling_resistance`] | elastic hysteresis and lubricant drag of a contact, beside its Coulomb friction |
+//! | [`ball_screw_efficiency`] | friction torque and efficiency of a screw under a steady load, by one of its balls |
 //! | [`ball_screw_train`] | trains of any length with given contacts, (3.77) |
 //! | [`ball_screw_closed`] | closed-form orbital speed, spin, loads and compliance in a ball screw |
 //! | [`whole_screw`] | balls that recirculate (section 3.4.4) |
@@ -35,13 +37,20 @@
 pub mod area;
 pub mod ball_screw_ball;
 pub mod ball_screw_closed;
+pub mod ball_screw_efficiency;
 pub mod ball_screw_elastic;
 pub mod ball_screw_grooves;
 mod ball_screw_placed;
 mod ball_screw_press;
+pub mod ball_screw_ring;
+mod ball_screw_ring_march;
+mod ball_screw_ring_newton;
+mod ball_screw_ring_pool;
+mod ball_screw_ring_solve;
 pub mod ball_screw_row;
 mod ball_screw_rubbing;
 mod ball_screw_settle;
+mod ball_screw_tangent;
 pub mod ball_screw_train;
 pub mod chain;
 pub mod contact_law;
@@ -51,6 +60,7 @@ pub mod maps;
 mod newton;
 pub mod patch;
 pub mod planar;
+pub mod rolling_resistance;
 pub mod rotary_ball;
 pub mod rotary_bearing;
 mod train_newton;

@@ -1,5 +1,7 @@
 //! Friction of one Hertzian contact with slip in both directions and spin (Lin 2019, eqs. (3.65) to (3.69)).
 
+use std::sync::OnceLock;
+
 use super::maps::{coarse_rule, gauss_rule};
 
 /// One loaded contact ellipse with Coulomb friction.
@@ -63,6 +65,24 @@ pub struct PatchFriction {
 /// from their limits by less than one part in 1e12.
 const FARTHEST: f64 = 1e12;
 
+/// Sine and cosine of the nodes' `t`, and their weights.
+fn nodes(integration: Integration) -> &'static [[f64; 3]] {
+    static FULL: OnceLock<Vec<[f64; 3]>> = OnceLock::new();
+    static COARSE: OnceLock<Vec<[f64; 3]>> = OnceLock::new();
+    let of = |rule: &[(f64, f64)]| {
+        rule.iter()
+            .map(|&(node, weight)| {
+                let (sin, cos) = (std::f64::consts::FRAC_PI_2 * node).sin_cos();
+                [sin, cos, weight]
+            })
+            .collect()
+    };
+    match integration {
+        Integration::Full => FULL.get_or_init(|| of(gauss_rule())),
+        Integration::Coarse => COARSE.get_or_init(|| of(coarse_rule())),
+    }
+}
+
 impl Patch {
     /// Power, force and moment by the exact reduction of the area integrals to one integral.
     ///
@@ -109,13 +129,7 @@ impl Patch {
         let mut power = 0.0;
         let mut gradient = [0.0; 3];
         let mut hessian = [[0.0; 3]; 3];
-        let rule = match integration {
-            Integration::Full => gauss_rule(),
-            Integration::Coarse => coarse_rule(),
-        };
-        for &(node, weight) in rule {
-            let t = std::f64::consts::FRAC_PI_2 * node;
-            let (sin_t, cos_t) = t.sin_cos();
+        for &[sin_t, cos_t, weight] in nodes(integration) {
             let s = reach * sin_t;
             let h2 = 1.0 - s * s;
             // Angle between the line and the direction to the contact centre: sin = s/e.

@@ -61,6 +61,7 @@ fn scratch() {
             let inputs = BallInputs {
                 axial_load: (side * of("axial_load_N", i)) as f32,
                 force: 0.0,
+                rubbing: [0.0; 2],
                 screw_deviation: of("screw_deviation_deg", i).to_radians() as f32,
                 nut_deviation: of("nut_deviation_deg", i).to_radians() as f32,
                 friction: number(&case["friction"]) as f32,
@@ -87,6 +88,24 @@ fn scratch() {
                 last = Some(r);
             }
             let r = last.unwrap();
+            let push = number(&case["ball_force_N"]) * if i == 0 { -1.0 } else { 1.0 };
+            let forced = BallInputs {
+                force: push as f32,
+                ..inputs
+            };
+            let mut pressed = state;
+            let mut p = r;
+            for _ in 0..20 {
+                p = grooves.renew(&mut pressed, &forced);
+            }
+            let exact_pressed = number(&case["pressed_orbital_speed"]);
+            println!(
+                "pressed {} vs exact {} free {}; F {push} linear {}",
+                f64::from(p.speed) / path,
+                exact_pressed,
+                exact_speed,
+                exact_speed + push * of("free_compliance_per_N", i)
+            );
             let count = errors.iter().rposition(|e| *e > 1e-5).map_or(0, |p| p + 1);
             println!(
                 "{} {} mu {} g {} L {} dev {:.2} {:.2} -> n {count} err5 {:.1e} err10 {:.1e} end {:.1e} torque {:.1e} Y {:.4e} {:.4e} carried {:.5} loads {:?} {:?}",

@@ -5,11 +5,11 @@ use crate::kit::errors::Errors;
 use crate::kit::given;
 use crate::kit::measured;
 use crate::kit::random::Congruential;
-use epas_friction::ball::{RowContacts, ScrewRow};
+use epas_friction::ball::{GrooveFit, RowContacts, ScrewRow};
 use epas_friction::refined::{
     ScrewBall, ScrewBallMotion, ScrewBallState, ScrewChain, ScrewContacts,
 };
-use epas_friction::{BallScrew, BallScrewParameters, GrooveFit, GrooveSize, LoadShare, Material};
+use epas_friction::{BallScrew, BallScrewParameters, GrooveSize, LoadShare, Material};
 use epas_reference::curvature;
 use epas_reference::friction::ball_screw_ball::{
     Groove as Flank, ScrewContact, ScrewMotion, ScrewTrack, motion_with_contacts,

@@ -6,9 +6,11 @@ use crate::kit::given;
 use crate::kit::measured;
 use std::f64::consts::FRAC_PI_4;
 
-use epas_friction::ball::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE, ScrewRow};
+use epas_friction::ball::{
+    AnalyticLinearBall, GrooveFit, LinearBallParameters, PUBLISHED_SLOPE, ScrewRow,
+};
 use epas_friction::refined::{FourPointBall, ScrewBall};
-use epas_friction::{BallScrew, GrooveFit, LoadShare};
+use epas_friction::{BallScrew, LoadShare};
 use epas_reference::friction::ball_screw_ball::{
     Groove as Flank, ScrewContact, motion_with_contacts,
 };

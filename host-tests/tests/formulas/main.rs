@@ -3,6 +3,7 @@
 #[path = "../kit/mod.rs"]
 mod kit;
 
+mod clearance;
 mod constants;
 mod curvature;
 mod efficiency;
@@ -12,4 +13,5 @@ mod hertz;
 mod kinematics;
 mod math_sweeps;
 mod ranges;
+mod rolling;
 mod slip_map;

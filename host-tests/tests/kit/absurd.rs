@@ -7,10 +7,10 @@ use super::random::Random;
 use epas_friction::train::Train;
 use epas_friction::{
     BallScrew, BallScrewParameters, CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration,
-    DeviationMap, Faults, FrictionBranch, FrictionModel, GrooveFit, GrooveSize, Inputs, Limits,
+    Clearance, DeviationMap, Faults, FrictionBranch, FrictionModel, GrooveSize, Inputs, Limits,
     LinearBearing, LinearBearingConfiguration, LinearBearingParameters, LinearBearingTrain,
-    LinearInputs, LinearLimits, LinearOutputs, LoadShare, Material, Outputs, Regime, Scene,
-    UncagedBallScrew, UncagedBallScrewConfiguration, UncagedOutputs,
+    LinearInputs, LinearLimits, LinearOutputs, LoadShare, LoadShares, Material, Outputs, Regime,
+    Scene, UncagedBallScrew, UncagedBallScrewConfiguration, UncagedOutputs,
 };
 
 /// Numbers at which formulas break.
@@ -145,12 +145,12 @@ pub fn screw_parameters(random: &mut Random) -> BallScrewParameters {
     if random.one_in(2) {
         return random.of(&CATALOGUE).parameters();
     }
-    let pitch_radius = random.size(1e-4, 10.0);
+    let pitch_radius = random.size(1e-3, 0.5);
     BallScrewParameters {
         pitch_radius,
         lead: match random.below(4) {
             0 => 0.0,
-            1 => random.size(1e-8, 100.0),
+            1 => random.size(1e-8, 0.2),
             _ => pitch_radius * random.size(0.01, 10.0),
         },
         ball_radius: pitch_radius * random.size(0.01, 0.9),
@@ -160,6 +160,16 @@ pub fn screw_parameters(random: &mut Random) -> BallScrewParameters {
         ball_material: material(random),
         groove_material: material(random),
     }
+}
+
+/// From the largest oversize to the most play.
+fn clearance(random: &mut Random, design: &BallScrew) -> Clearance {
+    let gap = match random.below(4) {
+        0 | 1 => 0.0,
+        2 => -random.size(1e-8, 0.02) * design.ball_radius(),
+        _ => random.size(1e-8, 0.05) * design.ball_radius(),
+    };
+    Clearance::new(gap).unwrap()
 }
 
 pub fn design(random: &mut Random) -> BallScrew {
@@ -270,16 +280,14 @@ impl Trial for CagedBallScrew {
     }
 
     fn configuration(random: &mut Random) -> CagedBallScrewConfiguration {
+        let design = design(random);
         CagedBallScrewConfiguration {
-            design: design(random),
             friction: random.within(0.0, 1.0),
             rolling_tangent: random.of(&[0.0, 0.001, 0.1]),
             branch: random.of(&[FrictionBranch::Rolling, FrictionBranch::Sliding]),
-            preload: if random.one_in(2) {
-                0.0
-            } else {
-                random.size(1e-3, 1e6)
-            },
+            clearance: clearance(random, &design),
+            loaded_balls: random.of(&[1, 7, 120, 1000]),
+            design,
             reversal_speed: random.size(1e-6, 1e3),
             limits: limits(random),
         }
@@ -464,13 +472,7 @@ impl<const N: usize> Trial for UncagedBallScrew<N> {
         UncagedBallScrewConfiguration {
             friction: random.size(1e-6, 0.5),
             ball_friction: random.within(0.0, 1.0),
-            fit: match random.below(3) {
-                0 => GrooveFit::Zero,
-                1 => GrooveFit::Play,
-                _ => GrooveFit::Preload {
-                    contact_force: random.size(1e-3, 1e6),
-                },
-            },
+            clearance: clearance(random, &design),
             turns: if random.one_in(4) {
                 random.size(0.1, 100.0)
             } else {
@@ -483,7 +485,7 @@ impl<const N: usize> Trial for UncagedBallScrew<N> {
             },
             screw_deviation: map(random),
             nut_deviation: map(random),
-            load_shares: shares(random),
+            load_shares: LoadShares::same(shares(random)),
             reversal_speed: random.size(1e-6, 1e3),
             tick: if random.one_in(2) {
                 random.size(1e-6, 1e-2)
@@ -537,7 +539,7 @@ impl<const N: usize> Trial for UncagedBallScrew<N> {
     }
 
     fn check_state(model: &FrictionModel<Self>) -> Result<(), String> {
-        sound_train(&model.state().train)
+        sound_train(&model.state().circuit.train)
     }
 
     fn numbers(outputs: &UncagedOutputs) -> Vec<u32> {
@@ -556,7 +558,7 @@ impl<const N: usize> Trial for LinearBearingTrain<N> {
                 ball_radius: if random.one_in(2) {
                     random.size(1e-3, 1e-2)
                 } else {
-                    random.size(1e-5, 1.0)
+                    random.size(1e-4, 0.05)
                 },
                 groove: groove(random),
                 contact_angle: random.within(0.01, 1.5533),

@@ -1,9 +1,10 @@
 //! Ordinary mechanisms, one of every scene.
 
 use epas_friction::{
-    CATALOGUE, CagedBallScrewConfiguration, DeviationMap, FrictionBranch, GrooveFit, GrooveSize,
-    Harmonic, Limits, LinearBearing, LinearBearingConfiguration, LinearBearingParameters,
-    LinearLimits, LoadShare, Material, UncagedBallScrewConfiguration,
+    BallScrew, CATALOGUE, CagedBallScrewConfiguration, Clearance, DeviationMap, FrictionBranch,
+    GrooveSize, Harmonic, Limits, LinearBearing, LinearBearingConfiguration,
+    LinearBearingParameters, LinearLimits, LoadShare, LoadShares, Material,
+    UncagedBallScrewConfiguration,
 };
 
 /// Balls of [`uncaged`].
@@ -43,14 +44,23 @@ pub const LIMITS: Limits = Limits {
     friction_torque: 5.0,
 };
 
+/// Oversize with which so many loaded balls press each flank of the nut with an axial force, N.
+pub fn oversize(design: &BallScrew, axial_preload: f32, loaded_balls: u16) -> Clearance {
+    let slope = design.contact_angle().sin * design.cos_lead_angle();
+    let contact_force = axial_preload / (f32::from(loaded_balls) * slope);
+    Clearance::of_preload(design, contact_force).unwrap()
+}
+
 /// 32 x 20 x 6.35, caged.
 pub fn caged() -> CagedBallScrewConfiguration {
+    let design = CATALOGUE[15].design().unwrap();
     CagedBallScrewConfiguration {
-        design: CATALOGUE[15].design().unwrap(),
+        design,
         friction: 0.075,
         rolling_tangent: 0.0,
         branch: FrictionBranch::Rolling,
-        preload: 300.0,
+        clearance: oversize(&design, 300.0, 41),
+        loaded_balls: 41,
         reversal_speed: 0.5,
         limits: LIMITS,
     }
@@ -62,12 +72,12 @@ pub fn uncaged() -> UncagedBallScrewConfiguration {
         design: CATALOGUE[15].design().unwrap(),
         friction: 0.075,
         ball_friction: 0.1,
-        fit: GrooveFit::Zero,
+        clearance: Clearance::ZERO,
         turns: 2.5,
         return_length: 0.01,
         screw_deviation: &SCREW_MAP,
         nut_deviation: &NUT_MAP,
-        load_shares: &[LoadShare::MEAN],
+        load_shares: LoadShares::EVEN,
         reversal_speed: 0.5,
         tick: 1e-4,
         limits: LIMITS,

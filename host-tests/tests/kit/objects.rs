@@ -1,6 +1,8 @@
 //! Every object that is made from plain numbers: refused, or its answers are finite.
 
-use epas_friction::ball::{AnalyticLinearBall, LinearBallParameters, ScrewRow, SpeedDeviation};
+use epas_friction::ball::{
+    AnalyticLinearBall, GrooveFit, LinearBallParameters, ScrewRow, SpeedDeviation,
+};
 use epas_friction::contact::FrictionMap;
 use epas_friction::curvature::{FittedCurvature, GothicArch};
 use epas_friction::efficiency::{
@@ -15,7 +17,7 @@ use epas_friction::kinematics::{
 use epas_friction::refined::{FourPointBall, RotaryBall, RotaryBallParameters};
 use epas_friction::train::{Press, Train};
 use epas_friction::{
-    BallScrew, BallScrewParameters, Error, GrooveFit, GrooveSize, LoadShare, Material,
+    BallScrew, BallScrewParameters, Clearance, Error, GrooveSize, LoadShare, Material,
 };
 
 /// Numbers to make objects of, in turn; zeros when they are used up.
@@ -119,9 +121,41 @@ pub fn check(numbers: &mut Numbers) -> Result<(), String> {
     }
 }
 
+/// A clearance from each of its words: what is accepted is one that the design's balls have.
+fn clearance(numbers: &mut Numbers, design: &BallScrew) -> Result<(), String> {
+    let value = numbers.size(1e-9, 1e4);
+    let loaded_balls = numbers.choice(1000) as u16;
+    let words = [
+        Clearance::new(value).and_then(|clearance| clearance.checked(design)),
+        Clearance::new(-value).and_then(|clearance| clearance.checked(design)),
+        Clearance::of_preload(design, value),
+        Clearance::of_axial_play(design, value),
+    ];
+    for word in words {
+        let clearance = match word {
+            Ok(clearance) => clearance,
+            Err(error) => {
+                refused("Clearance", &error)?;
+                continue;
+            }
+        };
+        let forces = [
+            clearance.preload(design),
+            clearance.axial_preload(design, loaded_balls),
+            clearance.axial_play(design),
+        ];
+        let what = format!("{clearance:?} of {value} in {:?}", design.parameters());
+        all_finite(&what, &forces)?;
+        if clearance.checked(design) != Ok(clearance) || forces.iter().any(|force| *force < 0.0) {
+            return Err(format!("{what}: {forces:?}"));
+        }
+    }
+    Ok(())
+}
+
 fn ball_screw(numbers: &mut Numbers) -> Result<(), String> {
-    let pitch_radius = numbers.size(1e-4, 10.0);
-    let lead = numbers.size(1e-7, 100.0);
+    let pitch_radius = numbers.size(1e-3, 0.5);
+    let lead = numbers.size(1e-7, 0.2);
     let ball_radius = pitch_radius * numbers.within(0.01, 0.9);
     let contact_angle = numbers.within(0.01, 1.5533);
     let parameters = BallScrewParameters {
@@ -163,6 +197,7 @@ fn ball_screw(numbers: &mut Numbers) -> Result<(), String> {
         let fitted = FittedCurvature::of(&design, groove).first(ContactAngle::new(angle));
         all_finite(&format!("FittedCurvature {parameters:?}"), &[fitted])?;
     }
+    clearance(numbers, &design)?;
     let friction = numbers.size(1e-6, 0.5);
     let [force, load] = [numbers.size(1e-3, 1e6), numbers.size(1e-6, 1e7)];
     let [nut_speed, screw, nut] = numbers.several();
@@ -532,7 +567,7 @@ fn design(numbers: &mut Numbers) -> Result<(), String> {
     let duty = numbers.size(1e-3, 1e6);
     let lead_angle = numbers.within(0.001, 1.5);
     let friction = numbers.within(0.0, 1.0);
-    let screw_length = numbers.size(0.006, 100.0);
+    let screw_length = numbers.size(0.06, 30.0);
     let pitch_radius = screw_length * numbers.size(1.0 / 60.0, 1.0);
     let ball_ratio = numbers.within(0.07, 0.2);
     let osculation = numbers.within(0.95, 0.97);

@@ -3,6 +3,7 @@
 #[path = "../kit/mod.rs"]
 mod kit;
 
+mod ball_screw_efficiency_reference;
 mod ball_screw_reference;
 mod ball_screw_row_reference;
 mod chain_reference;

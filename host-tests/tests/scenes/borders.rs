@@ -3,8 +3,9 @@
 use epas_friction::ball::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE};
 use epas_friction::efficiency::{Drive, EfficiencyGeometry};
 use epas_friction::{
-    BallScrew, CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, Faults, FrictionBranch,
-    FrictionModel, Inputs, LinearBearingTrain, LinearInputs, LoadShare, Regime, UncagedBallScrew,
+    BallScrew, CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, Clearance, Faults,
+    FrictionBranch, FrictionModel, Inputs, LinearBearingTrain, LinearInputs, LoadShare, Regime,
+    UncagedBallScrew,
 };
 
 use crate::kit::gears;
@@ -81,9 +82,10 @@ fn at_the_reversal_speed_a_mechanism_moves() {
 /// Under no load a screw drives: its motor turns against friction alone.
 #[test]
 fn without_a_load_a_screw_drives() {
+    let gear = gears::caged();
     let mut model = caged(&CagedBallScrewConfiguration {
-        preload: 100.0,
-        ..gears::caged()
+        clearance: gears::oversize(&gear.design, 100.0, gear.loaded_balls),
+        ..gear
     });
     for nut_speed in [50.0, -50.0] {
         let outputs = model.step(Inputs {
@@ -106,7 +108,7 @@ fn back_driving_ends_where_the_efficiency_does() {
         let configuration = CagedBallScrewConfiguration {
             design,
             rolling_tangent,
-            preload: 0.0,
+            clearance: Clearance::ZERO,
             ..gears::caged()
         };
         caged(&configuration).step(Inputs {

@@ -5,8 +5,9 @@ use crate::kit::measured;
 use crate::kit::random::Random;
 use crate::kit::{gears, recorded};
 use epas_friction::{
-    BallScrew, CagedBallScrew, DeviationMap, Faults, FrictionModel, Inputs, LinearBearing,
-    LinearBearingTrain, LinearInputs, UncagedBallScrew, UncagedBallScrewConfiguration, promises,
+    BallScrew, CagedBallScrew, Clearance, DeviationMap, Faults, FrictionModel, Inputs,
+    LinearBearing, LinearBearingTrain, LinearInputs, UncagedBallScrew,
+    UncagedBallScrewConfiguration, promises,
 };
 
 const COMMAND: &str = "cargo test -p epas-reference --test scenes faults -- --nocapture";
@@ -175,7 +176,7 @@ fn a_lost_sensor_stops_the_state() {
         let mut without = model;
         let outputs = model.step(lost);
         assert!(outputs.faults.any() && outputs.friction_torque == 0.0);
-        assert_eq!(model.state().train, without.state().train);
+        assert_eq!(model.state().circuit.train, without.state().circuit.train);
         assert_eq!(model.step(inputs), without.step(inputs), "tick {tick}");
         assert_eq!(model.faulted_ticks(), 0);
     }
@@ -245,12 +246,12 @@ fn recovery_takes_a_tick_and_leaves_the_missed_travel() {
             lose_the_speed::<Screw>(&screw, [speed, 6e3, 0.0], missed, |outputs| outputs.faults);
         // An absolute sensor tells where the screw is; the balls stay where they are.
         assert_ne!(phase(&model), phase(&ahead));
-        let balls = model.state().train;
+        let balls = model.state().circuit.train;
         let angle = speed * tick * (1000 + missed) as f32;
         model.set_nut_angle(angle);
         ahead.set_nut_angle(angle);
         assert_eq!(phase(&model), phase(&ahead));
-        assert_eq!(model.state().train, balls);
+        assert_eq!(model.state().circuit.train, balls);
         // `reset` takes both back to the start.
         model.reset();
         ahead.reset();
@@ -302,7 +303,7 @@ fn ticks_from_a_microsecond_to_ten_milliseconds() {
             let sensors = [fastest * speed, 9e3 * load, 0.0];
             let outputs = model.step(Screw::inputs(sensors));
             Screw::check(&screw, sensors, &outputs).unwrap();
-            sound_train(&model.state().train).unwrap();
+            sound_train(&model.state().circuit.train).unwrap();
         }
     }
 }
@@ -378,10 +379,11 @@ fn corrupted_configurations_are_refused_or_harmless() {
 
         let mut caged = gears::caged();
         caged.design = design;
+        let mut gap = caged.clearance.gap();
         let fields: [&mut f32; 4] = [
             &mut caged.friction,
             &mut caged.rolling_tangent,
-            &mut caged.preload,
+            &mut gap,
             &mut caged.reversal_speed,
         ];
         let which = random.below(fields.len());
@@ -390,7 +392,12 @@ fn corrupted_configurations_are_refused_or_harmless() {
                 corrupted(&mut random, field);
             }
         }
-        refused += u32::from(refused_or_sound::<CagedBallScrew>(&caged, &mut random));
+        if let Ok(clearance) = Clearance::new(gap) {
+            caged.clearance = clearance;
+            refused += u32::from(refused_or_sound::<CagedBallScrew>(&caged, &mut random));
+        } else {
+            refused += 1;
+        }
 
         let mut rail = gears::linear();
         let mut parameters = *rail.bearing.parameters();
@@ -441,7 +448,7 @@ fn a_reversal_every_tick_is_even() {
         ..gears::uncaged()
     })
     .unwrap();
-    let start: Vec<u32> = even.state().train.positions().collect();
+    let start: Vec<u32> = even.state().circuit.train.positions().collect();
     for _ in 0..100_000 {
         for sign in [1.0, -1.0] {
             let inputs = Inputs {
@@ -459,11 +466,11 @@ fn a_reversal_every_tick_is_even() {
             assert!(outputs.friction_force * sign > 0.0 && !outputs.faults.any());
         }
     }
-    sound_train(&screw.state().train).unwrap();
+    sound_train(&screw.state().circuit.train).unwrap();
     sound_train(&rail.state().train).unwrap();
     // With deviations balls wander: a load that does not turn with the speed lays them against other
     // flanks. Without, they stay where they are.
-    for (before, now) in start.iter().zip(even.state().train.positions()) {
+    for (before, now) in start.iter().zip(even.state().circuit.train.positions()) {
         let moved = now.wrapping_sub(*before).cast_signed();
         assert!(moved.unsigned_abs() <= 2, "{moved} units");
     }

@@ -12,8 +12,8 @@ use epas_friction::hal::{
     FrictionFeedForward, MagneticEncoder,
 };
 use epas_friction::{
-    BallScrew, CagedBallScrew, CagedBallScrewConfiguration, DISSERTATION_DESIGNS, Faults,
-    FrictionBranch, FrictionModel, Inputs, Limits, Outputs, Regime,
+    BallScrew, CagedBallScrew, CagedBallScrewConfiguration, Clearance, DISSERTATION_DESIGNS,
+    Faults, FrictionBranch, FrictionModel, Inputs, Limits, Outputs, Regime,
 };
 
 const READ_ANGLE: u16 = 0xFFFF;
@@ -675,7 +675,8 @@ fn a_failed_bus_leaves_the_bridge_neutral() {
         friction: 0.075,
         rolling_tangent: 0.0,
         branch: FrictionBranch::Rolling,
-        preload: 0.0,
+        clearance: Clearance::ZERO,
+        loaded_balls: 71,
         reversal_speed: 0.5,
         limits: Limits {
             nut_speed: 500.0,

@@ -7,7 +7,7 @@ use epas_friction::geometry::{ContactAngle, Groove, GrooveProfile, HelixPath};
 use epas_friction::hertz::HertzContact;
 use epas_friction::train::Press;
 use epas_friction::{
-    BallScrew, CagedBallScrew, CagedBallScrewConfiguration, DeviationMap, FrictionModel, GrooveFit,
+    BallScrew, CagedBallScrew, CagedBallScrewConfiguration, Clearance, DeviationMap, FrictionModel,
     GrooveSize, Inputs, LinearBearingConfiguration, LinearBearingTrain, LinearInputs, LinearLimits,
     Regime, UncagedBallScrew, UncagedBallScrewConfiguration,
 };
@@ -19,7 +19,7 @@ fn caged(seed: u64) -> FrictionModel<CagedBallScrew> {
     loop {
         let (configuration, ..) = accepted::<CagedBallScrew>(&mut random);
         let mut configuration = CagedBallScrewConfiguration {
-            preload: 0.0,
+            clearance: Clearance::ZERO,
             ..configuration
         };
         configuration.limits.nut_speed = 1e3;
@@ -33,6 +33,11 @@ fn caged(seed: u64) -> FrictionModel<CagedBallScrew> {
     }
 }
 
+/// The most play that a scene takes.
+fn widest(design: &BallScrew) -> Clearance {
+    Clearance::new(0.05 * design.ball_radius()).unwrap()
+}
+
 /// A screw without cage, deviations or preload.
 fn uncaged(seed: u64, ball_friction: f32) -> FrictionModel<UncagedBallScrew<7>> {
     static NONE: DeviationMap = DeviationMap::NONE;
@@ -41,10 +46,10 @@ fn uncaged(seed: u64, ball_friction: f32) -> FrictionModel<UncagedBallScrew<7>> 
         let (configuration, ..) = accepted::<UncagedBallScrew<7>>(&mut random);
         let mut configuration = UncagedBallScrewConfiguration {
             ball_friction,
-            fit: if random.one_in(2) {
-                GrooveFit::Zero
+            clearance: if random.one_in(2) {
+                Clearance::ZERO
             } else {
-                GrooveFit::Play
+                widest(&configuration.design)
             },
             screw_deviation: &NONE,
             nut_deviation: &NONE,
@@ -223,7 +228,7 @@ proptest! {
         };
 
         let (mut configuration, ..) = accepted::<CagedBallScrew>(&mut random);
-        configuration.preload = 0.0;
+        configuration.clearance = Clearance::ZERO;
         configuration.limits.nut_speed = 1e3;
         configuration.limits.axial_load = 1e6;
         configuration.limits.friction_torque = 1e6;
@@ -241,7 +246,7 @@ proptest! {
         }
 
         let (mut configuration, ..) = accepted::<UncagedBallScrew<7>>(&mut random);
-        configuration.fit = GrooveFit::Zero;
+        configuration.clearance = Clearance::ZERO;
         configuration.limits.axial_load = 1e6;
         configuration.limits.friction_torque = 1e6;
         let nut_speed = 1e-3 * speed * configuration.limits.nut_speed;

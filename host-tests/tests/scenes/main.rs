@@ -5,6 +5,7 @@ mod kit;
 
 mod borders;
 mod caged;
+mod exact_ring;
 mod extreme;
 mod faults;
 mod hal;

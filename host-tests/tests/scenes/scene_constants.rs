@@ -3,16 +3,18 @@
 use std::fmt::Debug;
 use std::hint::black_box;
 
-use epas_friction::ball::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE, ScrewRow};
+use epas_friction::ball::{
+    AnalyticLinearBall, GrooveFit, LinearBallParameters, PUBLISHED_SLOPE, ScrewRow,
+};
 use epas_friction::contact::{FrictionMap, SlipMap};
 use epas_friction::refined::{FourPointBall, RotaryBall, RotaryBallParameters, ScrewBall};
 use epas_friction::{
-    BallScrew, CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, CagedConstants,
-    DISSERTATION_DESIGNS, DeviationMap, Error, FrictionBranch, FrictionModel, GrooveFit,
-    GrooveSize, Harmonic, Inputs, Limits, LinearBearing, LinearBearingConfiguration,
-    LinearBearingParameters, LinearBearingTrain, LinearConstants, LinearInputs, LinearLimits,
-    LoadShare, Material, Outputs, Scene, UncagedBallScrew, UncagedBallScrewConfiguration,
-    UncagedConstants, UncagedOutputs,
+    BallScrew, CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, Clearance,
+    DISSERTATION_DESIGNS, DeviationMap, Error, FrictionBranch, FrictionModel, GrooveSize, Harmonic,
+    Inputs, Limits, LinearBearing, LinearBearingConfiguration, LinearBearingParameters,
+    LinearBearingTrain, LinearConstants, LinearInputs, LinearLimits, LoadShare, LoadShares,
+    Material, Outputs, Scene, UncagedBallScrew, UncagedBallScrewConfiguration, UncagedConstants,
+    UncagedOutputs,
 };
 
 const fn folded<T: Copy>(set_up: Result<T, Error>) -> T {
@@ -50,6 +52,7 @@ static SHARES: [LoadShare; 3] = [
     LoadShare::MEAN,
     folded(LoadShare::new(1.6)),
 ];
+static REVERSED: [LoadShare; 3] = [SHARES[2], SHARES[1], SHARES[0]];
 
 const LIMITS: Limits = Limits {
     nut_speed: 300.0,
@@ -57,29 +60,33 @@ const LIMITS: Limits = Limits {
     friction_torque: 5.0,
 };
 
-const fn caged(branch: FrictionBranch, preload: f32) -> CagedBallScrewConfiguration {
+const fn caged(branch: FrictionBranch, clearance: Clearance) -> CagedBallScrewConfiguration {
     CagedBallScrewConfiguration {
         design: folded(CATALOGUE[15].design()),
         friction: 0.075,
         rolling_tangent: 1e-3,
         branch,
-        preload,
+        clearance,
+        loaded_balls: 40,
         reversal_speed: 0.5,
         limits: LIMITS,
     }
 }
 
-const fn uncaged(fit: GrooveFit) -> UncagedBallScrewConfiguration {
+const fn uncaged(clearance: Clearance) -> UncagedBallScrewConfiguration {
     UncagedBallScrewConfiguration {
         design: folded(BallScrew::new(DISSERTATION_DESIGNS[1].parameters)),
         friction: 0.1,
         ball_friction: 0.1,
-        fit,
+        clearance,
         turns: 2.0,
         return_length: 0.03,
         screw_deviation: &WAVES,
         nut_deviation: &SLOW_WAVE,
-        load_shares: &SHARES,
+        load_shares: LoadShares {
+            positive: &SHARES,
+            negative: &REVERSED,
+        },
         reversal_speed: 0.5,
         tick: 1e-4,
         limits: LIMITS,
@@ -117,12 +124,20 @@ const PRELOAD: GrooveFit = GrooveFit::Preload {
     contact_force: 20.0,
 };
 
-static ROLLING: CagedConstants =
-    folded(CagedConstants::new(&caged(FrictionBranch::Rolling, 300.0)));
-static SLIDING: CagedConstants = folded(CagedConstants::new(&caged(FrictionBranch::Sliding, 0.0)));
-static ZERO: UncagedConstants<37> = folded(UncagedConstants::new(&uncaged(GrooveFit::Zero)));
-static PLAY: UncagedConstants<37> = folded(UncagedConstants::new(&uncaged(GrooveFit::Play)));
-static PRELOADED: UncagedConstants<24> = folded(UncagedConstants::new(&uncaged(PRELOAD)));
+const OVERSIZE: Clearance = folded(Clearance::new(-2e-6));
+const WIDE: Clearance = folded(Clearance::new(20e-6));
+
+static ROLLING: CagedConstants = folded(CagedConstants::new(&caged(
+    FrictionBranch::Rolling,
+    OVERSIZE,
+)));
+static SLIDING: CagedConstants = folded(CagedConstants::new(&caged(
+    FrictionBranch::Sliding,
+    Clearance::ZERO,
+)));
+static ZERO: UncagedConstants<37> = folded(UncagedConstants::new(&uncaged(Clearance::ZERO)));
+static PLAY: UncagedConstants<37> = folded(UncagedConstants::new(&uncaged(WIDE)));
+static PRELOADED: UncagedConstants<24> = folded(UncagedConstants::new(&uncaged(OVERSIZE)));
 static CARRIAGE: LinearConstants<24> = folded(LinearConstants::new(&linear()));
 
 /// `Debug` prints the shortest text that reads back as the same number, and the sign of a zero: equal texts
@@ -187,15 +202,19 @@ const fn nut(nut_speed: f32, axial_load: f32) -> Inputs {
 
 #[test]
 fn a_folded_caged_ball_screw_is_the_one_set_up_at_run_time() {
-    same_gear::<CagedBallScrew>(&ROLLING, &caged(FrictionBranch::Rolling, 300.0), nut);
-    same_gear::<CagedBallScrew>(&SLIDING, &caged(FrictionBranch::Sliding, 0.0), nut);
+    same_gear::<CagedBallScrew>(&ROLLING, &caged(FrictionBranch::Rolling, OVERSIZE), nut);
+    same_gear::<CagedBallScrew>(
+        &SLIDING,
+        &caged(FrictionBranch::Sliding, Clearance::ZERO),
+        nut,
+    );
 }
 
 #[test]
 fn a_folded_ball_screw_without_cage_is_the_one_set_up_at_run_time() {
-    same_gear::<UncagedBallScrew<37>>(&ZERO, &uncaged(GrooveFit::Zero), nut);
-    same_gear::<UncagedBallScrew<37>>(&PLAY, &uncaged(GrooveFit::Play), nut);
-    same_gear::<UncagedBallScrew<24>>(&PRELOADED, &uncaged(PRELOAD), nut);
+    same_gear::<UncagedBallScrew<37>>(&ZERO, &uncaged(Clearance::ZERO), nut);
+    same_gear::<UncagedBallScrew<37>>(&PLAY, &uncaged(WIDE), nut);
+    same_gear::<UncagedBallScrew<24>>(&PRELOADED, &uncaged(OVERSIZE), nut);
 }
 
 #[test]
@@ -228,10 +247,10 @@ fn a_refused_gear_names_its_field() {
     const BAD: Result<UncagedConstants<37>, Error> =
         UncagedConstants::new(&UncagedBallScrewConfiguration {
             tick: 0.1,
-            ..uncaged(GrooveFit::Zero)
+            ..uncaged(Clearance::ZERO)
         });
     const CROWDED: Result<UncagedConstants<60>, Error> =
-        UncagedConstants::new(&uncaged(GrooveFit::Zero));
+        UncagedConstants::new(&uncaged(Clearance::ZERO));
     const HASTY: Result<LinearConstants<24>, Error> =
         LinearConstants::new(&LinearBearingConfiguration {
             limits: LinearLimits {
@@ -243,7 +262,7 @@ fn a_refused_gear_names_its_field() {
     const SLIPPERY: Result<CagedConstants, Error> =
         CagedConstants::new(&CagedBallScrewConfiguration {
             friction: -0.1,
-            ..caged(FrictionBranch::Rolling, 0.0)
+            ..caged(FrictionBranch::Rolling, Clearance::ZERO)
         });
     let fields = [
         BAD.unwrap_err(),

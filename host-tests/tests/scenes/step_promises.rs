@@ -5,16 +5,18 @@ use crate::kit::errors::Errors;
 use crate::kit::random::Random;
 use std::f64::consts::{FRAC_PI_4, TAU};
 
-use epas_friction::ball::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE, ScrewRow};
+use epas_friction::ball::{
+    AnalyticLinearBall, GrooveFit, LinearBallParameters, PUBLISHED_SLOPE, ScrewRow,
+};
 use epas_friction::promises;
 use epas_friction::refined::{BallChain, FourPointBall};
 use epas_friction::train::Train;
 use epas_friction::{
-    BallScrew, CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, DISSERTATION_DESIGNS,
-    DeviationMap, FrictionBranch, FrictionModel, GrooveFit, GrooveSize, Harmonic, Inputs, Limits,
-    LinearBearing, LinearBearingConfiguration, LinearBearingParameters, LinearBearingTrain,
-    LinearInputs, LinearLimits, LoadShare, Material, UncagedBallScrew,
-    UncagedBallScrewConfiguration,
+    BallScrew, CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, Clearance,
+    DISSERTATION_DESIGNS, DeviationMap, FrictionBranch, FrictionModel, GrooveSize, Harmonic,
+    Inputs, Limits, LinearBearing, LinearBearingConfiguration, LinearBearingParameters,
+    LinearBearingTrain, LinearInputs, LinearLimits, LoadShare, LoadShares, Material,
+    UncagedBallScrew, UncagedBallScrewConfiguration,
 };
 use epas_reference::efficiency::Screw;
 use epas_reference::friction::ball_screw_closed::{ContactAngles, Support, ThreePointModel};
@@ -40,7 +42,8 @@ fn caged_step() {
                 friction: 0.075,
                 rolling_tangent: 0.0,
                 branch,
-                preload: 0.0,
+                clearance: Clearance::ZERO,
+                loaded_balls: 40,
                 reversal_speed: 0.5,
                 limits: Limits {
                     nut_speed: 500.0,
@@ -188,12 +191,12 @@ fn uncaged_step() {
                 design: screw(),
                 friction: 0.1,
                 ball_friction: 0.1,
-                fit: GrooveFit::Zero,
+                clearance: Clearance::ZERO,
                 turns: 2.0,
                 return_length: 0.0,
                 screw_deviation: map,
                 nut_deviation: &DeviationMap::NONE,
-                load_shares: &[LoadShare::MEAN],
+                load_shares: LoadShares::EVEN,
                 reversal_speed: 1e-3,
                 tick: 1e-3,
                 limits: Limits {

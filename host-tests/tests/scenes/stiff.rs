@@ -164,7 +164,7 @@ fn long_run<const N: usize>(ticks: u64, every: u64) {
         contacts += u64::from(outputs.contacts);
         if tick % every == 0 {
             let checked = UncagedBallScrew::<N>::check(&configuration, sensors, &outputs)
-                .and_then(|()| sound_train(&model.state().train));
+                .and_then(|()| sound_train(&model.state().circuit.train));
             checked.unwrap_or_else(|error| panic!("tick {tick}: {error}"));
         }
     }

@@ -8,8 +8,8 @@ use crate::kit::measured;
 use std::f64::consts::{FRAC_PI_4, TAU};
 
 use epas_friction::{
-    DeviationMap, Faults, FrictionModel, GrooveFit, Harmonic, Inputs, Limits, LoadShare, Outputs,
-    Regime, UncagedBallScrew, UncagedBallScrewConfiguration, UncagedOutputs,
+    Clearance, DeviationMap, Faults, FrictionModel, Harmonic, Inputs, Limits, LoadShare,
+    LoadShares, Outputs, Regime, UncagedBallScrew, UncagedBallScrewConfiguration, UncagedOutputs,
 };
 use epas_reference::curvature::Groove;
 use epas_reference::friction::ball_screw_closed::{
@@ -37,12 +37,12 @@ fn configuration(degrees: f64) -> UncagedBallScrewConfiguration {
         design: design(),
         friction: 0.1,
         ball_friction: 0.1,
-        fit: GrooveFit::Zero,
+        clearance: Clearance::ZERO,
         turns: 2.0,
         return_length: 0.0,
         screw_deviation: map(degrees),
         nut_deviation: &DeviationMap::NONE,
-        load_shares: &[LoadShare::MEAN],
+        load_shares: LoadShares::EVEN,
         reversal_speed: 1e-3,
         tick: TICK,
         limits: Limits {
@@ -187,7 +187,7 @@ fn four_groups_build_up_release_and_build_up_again() {
             axial_load: -1500.0,
         });
         torques.push(output.ball_torque / output.groove_torque);
-        let contacts = model.state().train.contacts();
+        let contacts = model.state().circuit.train.contacts();
         assert_eq!(contacts.len(), usize::from(output.contacts));
         if tick == 288 {
             // 103.7 degrees: runs of contacts between neighbours, the last ball's neighbour being ball 0.
@@ -309,7 +309,7 @@ fn reversal_turns_friction_and_releases_the_balls() {
     let before = step(&mut model, TAU as f32);
     assert!(before.contacts > 10 && before.friction_torque > 0.0);
     // At rest nothing rubs; the train stays where it is.
-    let positions: Vec<_> = model.state().train.positions().collect();
+    let positions: Vec<_> = model.state().circuit.train.positions().collect();
     for _ in 0..1000 {
         let rest = step(&mut model, 0.0);
         assert_eq!(
@@ -320,6 +320,7 @@ fn reversal_turns_friction_and_releases_the_balls() {
     assert!(
         model
             .state()
+            .circuit
             .train
             .positions()
             .eq(positions.iter().copied())
@@ -384,7 +385,7 @@ fn a_return_without_load_takes_its_share_of_the_balls() {
 fn shares_of_the_load_go_to_their_balls() {
     let half = [LoadShare::new(1.99).unwrap(), LoadShare::new(0.01).unwrap()];
     let uneven = UncagedBallScrewConfiguration {
-        load_shares: Box::leak(Box::new(half)),
+        load_shares: LoadShares::same(Box::leak(Box::new(half))),
         ..configuration(0.0)
     };
     let mut uneven = Model::new(&uneven).unwrap();
@@ -407,6 +408,44 @@ fn shares_of_the_load_go_to_their_balls() {
         "{found} {expected}"
     );
     assert!(found > step(&mut even, 1000.0));
+}
+
+/// A pair of tables is the table of each load's sign, to the bit: no ball presses here, so that balls stand alike in
+/// all three models whatever the load was before.
+#[test]
+fn each_sign_of_the_load_has_its_shares() {
+    let table = |shares: [f32; 3]| -> &'static [LoadShare] {
+        Box::leak(Box::new(shares.map(|share| LoadShare::new(share).unwrap())))
+    };
+    let (positive, negative) = (table([1.6, 1.0, 0.4]), table([0.7, 0.8, 1.5]));
+    let model = |load_shares| {
+        Model::new(&UncagedBallScrewConfiguration {
+            load_shares,
+            ..configuration(0.0)
+        })
+        .unwrap()
+    };
+    let mut pair = model(LoadShares { positive, negative });
+    let mut alone = [positive, negative].map(|table| model(LoadShares::same(table)));
+    let mut apart = 0;
+    for tick in 0..600 {
+        let inputs = Inputs {
+            nut_speed: if tick < 400 { 5.0 } else { -3.0 },
+            axial_load: [1000.0, -1000.0, 0.0, -20.0, -0.0][tick % 5],
+        };
+        let torque = pair.step(inputs).groove_torque;
+        let [of_positive, of_negative] = alone
+            .each_mut()
+            .map(|model| model.step(inputs).groove_torque);
+        let expected = if inputs.axial_load < 0.0 {
+            of_negative
+        } else {
+            of_positive
+        };
+        assert_eq!(torque.to_bits(), expected.to_bits(), "tick {tick}");
+        apart += u32::from(of_positive != of_negative);
+    }
+    assert!(apart > 300, "{apart}");
 }
 
 #[test]
@@ -437,7 +476,7 @@ fn power_goes_into_grooves_and_rubbing_alone() {
             nut_speed: nut_speed as f32,
             axial_load: -1500.0,
         });
-        let train = &model.state().train;
+        let train = &model.state().circuit.train;
         let forces: Vec<f64> = train.forces().map(f64::from).collect();
         // Deviations of the speeds of the balls along the nut, over its nominal size; the balls run
         // backwards along the nut.
@@ -553,7 +592,14 @@ fn bad_configurations_are_refused_by_name() {
     }
     // Balls may move by 3 % of the track in a tick.
     assert_eq!(with(&|c| c.tick = 0.05), "tick");
-    assert_eq!(with(&|c| c.load_shares = &[]), "load_shares");
+    assert_eq!(
+        with(&|c| c.load_shares = LoadShares::same(&[])),
+        "load_shares"
+    );
+    assert_eq!(
+        with(&|c| c.load_shares.negative = &[LoadShare::MEAN; 2]),
+        "load_shares"
+    );
     // 37 balls do not go into one turn.
     assert_eq!(with(&|c| c.turns = 1.0), "pitch");
 }

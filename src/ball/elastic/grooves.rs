@@ -25,6 +25,8 @@ pub struct ElasticGrooves {
     pub(super) per_radius: f32,
     pub(super) per_cos_lead: f32,
     pub(super) per_axial_load: f32,
+    /// Angular velocity of the orbit about the axis across track and radius, over the speed along the track.
+    pub(super) orbit: f32,
 }
 
 /// One groove.
@@ -88,6 +90,7 @@ impl ElasticGrooves {
             path: design.pitch_radius() / (cos_lead * design.ball_radius()),
             sin_lead: cos_lead * design.tan_lead_angle(),
             cos_lead,
+            orbit: cos_lead * cos_lead * design.ball_radius() / design.pitch_radius(),
             ball_radius: design.ball_radius(),
             per_radius: 1.0 / design.ball_radius(),
             per_cos_lead: 1.0 / cos_lead,

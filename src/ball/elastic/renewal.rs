@@ -3,7 +3,7 @@
 use super::contact::{Pressed, Reach, add, within};
 use super::equations::{Axial, Motion, Shared, Step, solved};
 use super::grooves::{ElasticGroove, ElasticGrooves};
-use crate::math::inverse_cube_roots;
+use crate::math::{self, inverse_cube_roots};
 
 /// Largest change of the motion in a step: sum over its parts, over the nut's speed.
 const LARGEST_TURN: f32 = 1.4;
@@ -31,6 +31,9 @@ pub struct BallInputs {
     pub axial_load: f32,
     /// Force of the neighbours along the track, N.
     pub force: f32,
+    /// Largest friction forces that both neighbours put on the ball across the track, N: their sum, and that of the ball in
+    /// front less that of the ball behind.
+    pub rubbing: [f32; 2],
     /// How far the arcs of the screw's and the nut's groove are turned, rad.
     pub screw_deviation: f32,
     /// The nut's.
@@ -187,12 +190,15 @@ impl ElasticGrooves {
         // Friction along the track carries a part of the axial load.
         let along = -on_screw.speed;
         let needed = (inputs.axial_load - self.sin_lead * along) * self.per_cos_lead;
-        let unbalanced = [screw.force - needed, nut.force + needed];
+        let total = shared.forces;
+        let [on_ball, across] = self.rub(&motion, inputs.rubbing, &mut shared);
+        shared.radial += on_ball;
+        let unbalanced = [screw.force - needed, nut.force + needed + across];
         let step = solved(&shared, &screw, &nut, unbalanced, inputs.force);
         let taken = self.limited(&step, [&a, &b, &c, &d], inputs.axial_load);
         let moved = motion.plus(&step.motion, -taken);
         // Power lost is the ball's forces times its motion, less those in the nut times the nut's.
-        let power = moved.dot(&shared.forces) - base.dot(&shared.forces.plus(&on_screw, -1.0));
+        let power = moved.dot(&total) - base.dot(&total.plus(&on_screw, -1.0));
         let lost = !(taken * step.compliance < f32::MAX && power.abs() < f32::MAX);
         if lost {
             return Renewal::lost(state.speed * self.ball_radius, loads);
@@ -213,6 +219,23 @@ impl ElasticGrooves {
             taken,
             lost,
         }
+    }
+
+    /// Adds the friction of both neighbours, which are taken to turn as the ball does: moments against its turning, and what
+    /// this brings along the track. Gives the force on the ball, radial and axial.
+    #[inline(always)]
+    fn rub(&self, motion: &Motion, [sum, difference]: [f32; 2], shared: &mut Shared) -> [f32; 2] {
+        let (x, z) = (motion.x, motion.z - self.orbit * motion.speed);
+        let inverse = 1.0 / (math::sqrt(x * x + z * z) + 1e-6);
+        let (ux, uz) = (x * inverse, z * inverse);
+        shared.forces.x += sum * ux;
+        shared.forces.z += sum * uz;
+        shared.forces.speed -= sum * uz * self.orbit;
+        let stiffness = 0.5 * sum * inverse;
+        shared.hessian.xx += stiffness * uz * uz;
+        shared.hessian.xz -= stiffness * ux * uz;
+        shared.hessian.zz += stiffness * ux * ux;
+        [difference * uz, -difference * ux]
     }
 
     /// Part of a step that is taken.

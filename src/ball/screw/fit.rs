@@ -1,6 +1,7 @@
-//! How balls fit between the grooves.
+//! The fits that the closed form tells apart.
 
-/// How balls fit between the grooves.
+/// How balls fit between the grooves, as the closed form [`ScrewRow`](super::ScrewRow) takes it: three cases, where
+/// scenes take a [`Clearance`](crate::Clearance), of which these are limits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum GrooveFit {

@@ -5,7 +5,9 @@ use core::f32::consts::TAU;
 use super::optimum::optimum_contact_angle;
 use crate::efficiency::closed_form::{Drive, EfficiencyGeometry};
 use crate::error::{Error, in_range};
-use crate::geometry::{BallScrew, BallScrewParameters, Groove, GrooveSize, LARGEST_CONTACT_ANGLE};
+use crate::geometry::{
+    BallScrew, BallScrewParameters, Groove, GrooveSize, LARGEST_CONTACT_ANGLE, PITCH_RADIUS,
+};
 use crate::hertz::HertzContact;
 use crate::material::Material;
 use crate::math;
@@ -31,9 +33,9 @@ pub struct DesignRequest {
     pub lead_angle: f32,
     /// Friction coefficient, 0 to 1.
     pub friction: f32,
-    /// Step 3: length of the screw, m, 0.006 to 100.
+    /// Step 3: length of the screw, m, 0.06 to 30.
     pub screw_length: f32,
-    /// Step 4: pitch radius, m, at least a sixtieth of the length (Levit), at most 10.
+    /// Step 4: pitch radius, m, at least a sixtieth of the length (Levit), 1e-3 to 0.5.
     pub pitch_radius: f32,
     /// Step 5: ball radius over pitch radius, 0.07 to 0.2.
     pub ball_ratio: f32,
@@ -177,12 +179,12 @@ impl DesignRequest {
     fn checked_balls(&self) -> Result<f32, Error> {
         in_range("lead_angle", self.lead_angle, 0.001, 1.5)?;
         ranges::FRICTION_OR_NONE.checked("friction", self.friction)?;
-        in_range("screw_length", self.screw_length, 0.006, 100.0)?;
+        in_range("screw_length", self.screw_length, 0.06, 30.0)?;
         in_range(
             "pitch_radius",
             self.pitch_radius,
             self.screw_length / 60.0,
-            ranges::PITCH_RADIUS.maximum,
+            PITCH_RADIUS.maximum,
         )?;
         in_range("ball_ratio", self.ball_ratio, 0.07, 0.2)?;
         in_range("osculation", self.osculation, 0.95, 0.97)?;

@@ -3,7 +3,7 @@
 use super::deviation::DeviationMap;
 use super::phase::Phase;
 use super::zone::{LoadedZone, Place};
-use crate::ball::LoadShare;
+use crate::ball::{LoadShare, LoadShares};
 use crate::error::{Error, attempt, in_range};
 use crate::train::{IMPEDANCE_RANGE, LARGEST_TRAVEL, Track, Train};
 
@@ -42,7 +42,7 @@ pub(crate) struct CircuitConfiguration {
     /// Deviation of the groove of the body in which balls recirculate: nut, carriage.
     pub(crate) recirculating_deviation: &'static DeviationMap,
     /// Load of a ball over the mean load, along the loaded part.
-    pub(crate) load_shares: &'static [LoadShare],
+    pub(crate) load_shares: LoadShares,
     /// Time between two ticks, s.
     pub(crate) tick: f32,
     /// Largest speed of the motion.
@@ -120,10 +120,27 @@ impl Circuit {
         speed * self.travel
     }
 
-    /// What a ball at a position of the track finds there, where it is loaded.
+    /// Whether a ball at a position of the track carries load.
     #[inline(always)]
-    pub(crate) fn place(&self, position: u32, phase: u32) -> Option<Place> {
-        self.zone.at(position, phase)
+    pub(crate) fn is_loaded(&self, position: u32) -> bool {
+        self.zone.is_loaded(position)
+    }
+
+    /// Shares of the balls under a load of this sign: once a tick.
+    #[inline(always)]
+    pub(crate) const fn shares(&self, negative: bool) -> &'static [LoadShare] {
+        self.zone.shares(negative)
+    }
+
+    /// What a ball at a position of the track finds there, where it is loaded, by the [`Circuit::shares`] of this tick.
+    #[inline(always)]
+    pub(crate) fn place(
+        &self,
+        position: u32,
+        phase: u32,
+        shares: &'static [LoadShare],
+    ) -> Option<Place> {
+        self.zone.at(position, phase, shares)
     }
 }
 

@@ -183,6 +183,24 @@ impl DeviationMap {
         )
     }
 
+    /// Its least and its largest deviation, rad.
+    pub(crate) const fn extremes(&self) -> (f32, f32) {
+        let (mut least, mut largest) = (i32::MAX, i32::MIN);
+        let mut index = 0;
+        while index < SAMPLES {
+            let sample = self.samples[index] >> 16;
+            if sample < least {
+                least = sample;
+            }
+            if sample > largest {
+                largest = sample;
+            }
+            index += 1;
+        }
+        let unit = self.unit * (1_u32 << FRACTION_BITS) as f32;
+        (unit * least as f32, unit * largest as f32)
+    }
+
     /// Deviation at a phase of the period in units of 2^-32, rad: linear between samples, which is within
     /// `(pi order/64)²/2` of a wave's amplitude, 1.2e-3 for the first order.
     #[inline]

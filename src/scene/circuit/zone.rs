@@ -2,8 +2,8 @@
 
 use super::deviation::{DeviationMap, PHASE_BITS};
 use super::phase::UNITS;
-use crate::ball::LoadShare;
-use crate::error::{Error, attempt, in_range};
+use crate::ball::{LoadShare, LoadShares};
+use crate::error::{Error, attempt};
 
 /// Fraction bits of the ratio of the load table's entries.
 const FRACTION_BITS: u32 = 16;
@@ -21,7 +21,7 @@ pub(super) struct LoadedZone {
     recirculating_ratio: u32,
     passing: &'static DeviationMap,
     recirculating: &'static DeviationMap,
-    shares: &'static [LoadShare],
+    shares: LoadShares,
 }
 
 /// What a loaded ball finds.
@@ -40,12 +40,13 @@ impl LoadedZone {
         length: f32,
         passing: &'static DeviationMap,
         recirculating: &'static DeviationMap,
-        shares: &'static [LoadShare],
+        shares: LoadShares,
     ) -> Result<Self, Error> {
-        attempt!(in_range("load_shares", shares.len() as f32, 1.0, 256.0));
+        let shares = attempt!(shares.checked());
         // A whole number ends the table at most 2e-5 of the track too early; that of a track without return is exact
         // when the quotient's rounding is taken off.
-        let entries = shares.len() as f32 * length / loaded * (1_u32 << FRACTION_BITS) as f32;
+        let entries =
+            shares.positive.len() as f32 * length / loaded * (1_u32 << FRACTION_BITS) as f32;
         let entries = (entries * (1.0 - 4.0 * f32::EPSILON)) as u32 + 1;
         Ok(Self {
             entries,
@@ -57,19 +58,37 @@ impl LoadedZone {
         })
     }
 
-    /// What a ball at `position` finds, where it is loaded, when the passing groove is at `phase`.
+    /// Shares of the balls where the load is below zero, or else where it is not.
     #[inline(always)]
-    pub(super) fn at(&self, position: u32, phase: u32) -> Option<Place> {
+    pub(super) const fn shares(&self, negative: bool) -> &'static [LoadShare] {
+        self.shares.of(negative)
+    }
+
+    /// What a ball at `position` finds, where it is loaded, when the passing groove is at `phase` and the balls
+    /// have these [`LoadedZone::shares`].
+    #[inline(always)]
+    pub(super) fn at(
+        &self,
+        position: u32,
+        phase: u32,
+        shares: &'static [LoadShare],
+    ) -> Option<Place> {
         let scaled = |ratio: u32| ((u64::from(position) * u64::from(ratio)) >> 32) as u32;
-        let share = self
-            .shares
-            .get((scaled(self.entries) >> FRACTION_BITS) as usize)?;
+        let share = shares.get((scaled(self.entries) >> FRACTION_BITS) as usize)?;
         let passing = scaled(self.passing_ratio).wrapping_add(phase >> (32 - PHASE_BITS));
         Some(Place {
             passing: self.passing.units(passing) as f32,
             recirculating: self.recirculating.units(scaled(self.recirculating_ratio)) as f32,
             share,
         })
+    }
+
+    /// Whether balls at `position` carry load.
+    #[inline(always)]
+    pub(super) fn is_loaded(&self, position: u32) -> bool {
+        let entry =
+            ((u64::from(position) * u64::from(self.entries)) >> (32 + FRACTION_BITS)) as usize;
+        entry < self.shares.positive.len()
     }
 
     /// Units of the deviations of the passing groove and of the recirculating one, rad.

@@ -1,10 +1,7 @@
 //! The three scenes of the stored cases, set up in Rust; `test/setups.c` sets the same up in C, as a user would.
 
 use epas_friction::{
-    BallScrew, BallScrewParameters, CagedBallScrew, CagedBallScrewConfiguration, DeviationMap,
-    Error, FrictionBranch, FrictionModel, GrooveFit, GrooveSize, Harmonic, Limits, LinearBearing,
-    LinearBearingConfiguration, LinearBearingParameters, LinearBearingTrain, LinearLimits,
-    LoadShare, Material, UncagedBallScrew, UncagedBallScrewConfiguration,
+    BallScrew, BallScrewParameters, CagedBallScrew, CagedBallScrewConfiguration, Clearance, DeviationMap, Error, FrictionBranch, FrictionModel, GrooveSize, Harmonic, Limits, LinearBearing, LinearBearingConfiguration, LinearBearingParameters, LinearBearingTrain, LinearLimits, LoadShare, LoadShares, Material, UncagedBallScrew, UncagedBallScrewConfiguration,
 };
 
 /// The rack-assist gear of Lin 2019, chapter 4.
@@ -23,7 +20,9 @@ pub fn caged() -> Result<FrictionModel<CagedBallScrew>, Error> {
         friction: 0.075,
         rolling_tangent: 0.002,
         branch: FrictionBranch::Rolling,
-        preload: 100.0,
+        // 100 N on each flank.
+        clearance: Clearance::new(-2.653_692e-7)?,
+        loaded_balls: 70,
         reversal_speed: 0.5,
         limits: Limits {
             nut_speed: 500.0,
@@ -63,7 +62,7 @@ pub fn screw() -> Result<FrictionModel<UncagedBallScrew<37>>, Error> {
         })?,
         friction: 0.1,
         ball_friction: 0.12,
-        fit: GrooveFit::Zero,
+        clearance: Clearance::ZERO,
         turns: 1.8,
         return_length: 20e-3,
         screw_deviation: kept(DeviationMap::from_harmonics(
@@ -82,7 +81,7 @@ pub fn screw() -> Result<FrictionModel<UncagedBallScrew<37>>, Error> {
             ],
         )?),
         nut_deviation: kept(DeviationMap::from_samples(2, &triangle)?),
-        load_shares: kept(shares),
+        load_shares: LoadShares::same(kept(shares)),
         reversal_speed: 0.5,
         tick: 0.5e-3,
         limits: Limits {

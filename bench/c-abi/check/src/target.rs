@@ -22,7 +22,8 @@ const MACHINES: [(&str, &str); 2] = [
 ];
 
 /// What a user links of the library, by its functions.
-const PARTS: [(&str, &[&str]); 6] = [
+const PARTS: [(&str, &[&str]); 7] = [
+    ("epas_clearance", &["epas_clearance"]),
     ("epas_efficiency", &["epas_efficiency"]),
     ("epas_curvature", &["epas_curvature"]),
     ("epas_caged", &["epas_caged_init", "epas_caged_step"]),
@@ -51,6 +52,7 @@ const PARTS: [(&str, &[&str]); 6] = [
             "epas_linear_set_carriage_position",
             "epas_linear_reset",
             "epas_linear_faulted_ticks",
+            "epas_clearance",
             "epas_efficiency",
             "epas_curvature",
         ],

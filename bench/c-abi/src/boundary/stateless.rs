@@ -1,10 +1,12 @@
-//! The exported functions that need no object: version, names, efficiency, curvature.
+//! The exported functions that need no object: version, names, clearance, efficiency, curvature.
 
 use core::ffi::c_char;
 
 use super::pointers::{bare, report, usable};
 use crate::one_shot;
-use crate::requests::{Curvature, CurvatureRequest, Efficiency, EfficiencyRequest};
+use crate::requests::{
+    Clearance, ClearanceRequest, Curvature, CurvatureRequest, Efficiency, EfficiencyRequest,
+};
 use crate::status::{Failure, field_name, status_name};
 use crate::version::EPAS_ABI_VERSION;
 
@@ -24,6 +26,17 @@ pub extern "C" fn epas_field_name(field: u32) -> *const c_char {
 #[unsafe(no_mangle)]
 pub extern "C" fn epas_status_name(status: u32) -> *const c_char {
     status_name(status).as_ptr()
+}
+
+/// How balls fit between the grooves, from a gap, a preload or an axial play. It checks the whole design at each
+/// call; no state: safe from any context. `failure` may be NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn epas_clearance(
+    request: *const ClearanceRequest,
+    answer: *mut Clearance,
+    failure: *mut Failure,
+) -> u32 {
+    unsafe { one_shot(request, answer, failure, one_shot::clearance) }
 }
 
 /// Efficiency of a ball screw in closed form. No state: safe from any context. `failure` may be NULL.

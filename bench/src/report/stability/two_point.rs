@@ -2,9 +2,9 @@
 
 use std::f64::consts::FRAC_PI_4;
 
-use epas_friction::ball::{AnalyticLinearBall, PUBLISHED_SLOPE, RowContacts, ScrewRow};
+use epas_friction::ball::{AnalyticLinearBall, GrooveFit, PUBLISHED_SLOPE, RowContacts, ScrewRow};
 use epas_friction::refined::{FourPointBall, ScrewBall};
-use epas_friction::{BallScrew, GrooveFit, LoadShare};
+use epas_friction::{BallScrew, LoadShare};
 use epas_reference::friction::linear_ball::LinearBall;
 use serde_json::Value;
 

@@ -1,8 +1,8 @@
 //! The ball of a ball screw: closed forms and impedance iteration against the elastic model.
 
-use epas_friction::ball::ScrewRow;
+use epas_friction::LoadShare;
+use epas_friction::ball::{GrooveFit, ScrewRow};
 use epas_friction::refined::{ScrewBall, ScrewChain, ScrewContacts};
-use epas_friction::{GrooveFit, LoadShare};
 use epas_reference::friction::ball_screw_ball::ScrewMotion;
 use epas_reference::friction::ball_screw_elastic::ScrewSupport;
 

@@ -1,0 +1,128 @@
+//! Measured and catalogue figures beside computed ones: what real screws do, and what decides it.
+
+mod deciding;
+mod efficiency;
+
+use epas_friction::defaults;
+use epas_reference::friction::rolling_resistance::RollingResistance;
+use epas_reference::measured::{COUNT, Measured, Usual, Verdict, records, studies};
+
+use super::context::Context;
+use super::document::{Block, Cell, Section, Table};
+use crate::failure::Failure;
+use crate::progress::Progress;
+
+/// The crate's defaults, widened for the reference.
+fn usual() -> Usual {
+    // 0.1 and not the f32 next to it.
+    let decimal = |value: f32| value.to_string().parse().unwrap_or(f64::from(value));
+    Usual {
+        friction: decimal(defaults::FRICTION),
+        clearance: decimal(defaults::CLEARANCE.gap()),
+        rolling: RollingResistance {
+            hysteresis_loss: decimal(defaults::ROLLING_RESISTANCE.hysteresis_loss),
+            lubricant_drag: decimal(defaults::ROLLING_RESISTANCE.lubricant_drag),
+        },
+    }
+}
+
+/// The section.
+pub fn section(_: &Context) -> Result<Section, Failure> {
+    let usual = usual();
+    let progress = Progress::new(
+        "measured figures",
+        COUNT
+            + studies::SCREWS.len() * studies::BALL_LOADS.len()
+            + studies::LOADS.len() * studies::FRICTIONS.len() * studies::CLEARANCES.len()
+            + studies::CHOICE_COUNT,
+    );
+    let step = || progress.step();
+    let records = records(&usual, &step).map_err(|error| Failure::Data(error.to_string()))?;
+    let rows = studies::efficiency_over_lead(&usual, &step);
+    let deciding = studies::what_decides(&step);
+    let choices = studies::choices(&usual, &step);
+    let count = |verdict: Verdict| {
+        records
+            .iter()
+            .filter(|record| record.verdict == verdict)
+            .count()
+    };
+    let mut blocks = vec![
+        Block::Text(format!(
+            "{COUNT} figures of real screws beside the exact float64 model of a ball between its grooves (elastic balance, Coulomb friction \
+             of every contact that carries, rolling resistance), with the crate's defaults: friction coefficient {}, {} um of oversize, \
+             {} % of the elastic energy lost, no lubricant drag. {} lie within their bands, {} outside, {} agree in kind, {} are not \
+             computed. No figure comes with geometry, lubricant and seals complete; what was assumed stands beside it. A band is never \
+             narrower than 15 %: two screws of one batch differ by 29 %. Left out by the model: wipers and seals, the balls' return, balls that \
+             rub on each other, unequal shares of the load.",
+            usual.friction,
+            -1e6 * usual.clearance,
+            100.0 * usual.rolling.hysteresis_loss,
+            count(Verdict::Within),
+            count(Verdict::Apart),
+            count(Verdict::InKind),
+            count(Verdict::NotComputed),
+        )),
+        Block::Table(verdicts(&records)),
+        Block::Annex(table(&records)),
+    ];
+    blocks.extend(efficiency::blocks(&rows));
+    blocks.extend(deciding::blocks(&deciding, &choices));
+    Ok(Section {
+        title: "Measured and computed",
+        blocks,
+    })
+}
+
+fn verdicts(records: &[Measured]) -> Table {
+    Table {
+        name: "measured_verdicts",
+        caption: "Figures of real screws and what became of them; the table \"measured\" has the numbers, what was assumed, and what would \
+                  have to be what"
+            .into(),
+        columns: ["what", "verdict"].map(String::from).to_vec(),
+        rows: records
+            .iter()
+            .map(|record| vec![Cell::from(record.what), record.verdict.name().into()])
+            .collect(),
+    }
+}
+
+fn table(records: &[Measured]) -> Table {
+    Table {
+        name: "measured",
+        caption: "What real screws do, and what the model makes of it".into(),
+        columns: [
+            "what",
+            "figure",
+            "source",
+            "computed",
+            "verdict",
+            "what would have to be what, or is missing",
+        ]
+        .map(String::from)
+        .to_vec(),
+        rows: records
+            .iter()
+            .map(|record| {
+                vec![
+                    Cell::from(record.what),
+                    record.figure.into(),
+                    record.source.name().into(),
+                    record.computed.clone().into(),
+                    record.verdict.name().into(),
+                    record.needed.clone().into(),
+                ]
+            })
+            .collect(),
+    }
+}
+
+/// A number, or nothing where there is none.
+fn known(value: f64, decimals: usize) -> Cell {
+    if value.is_finite() {
+        Cell::fixed(value, decimals)
+    } else {
+        "".into()
+    }
+}

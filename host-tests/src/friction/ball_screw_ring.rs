@@ -1,0 +1,435 @@
+//! The whole ball screw without cage, exactly: balls on a closed ring, each in elastic balance in both gothic grooves with Coulomb friction by
+//! exact contact integrals, that push the ball in front.
+//!
+//! The track runs through the nut: first the loaded part, then the return, where balls carry no load and go along with their neighbours; its
+//! end joins its start. Where a ball is on it says what share of the load it carries and how both grooves deviate there: the nut's deviation
+//! is fixed to the track, the screw's passes by with the nut's angle. Each ball has its own axial load, and finds place and motion as in
+//! [`super::ball_screw_row`].
+//!
+//! At every instant the forces between touching balls are those of a complementarity problem on the actual speeds: forces push, no ball
+//! overtakes the one in front, and balls that press are equally fast. From instant to instant the balls move with their speeds; where two of
+//! them meet or part inside a step, or one enters or leaves the loaded part, the instant is located and solved. So balls never overlap, and
+//! those that press move as one. Friction of Coulomb does not depend on the size of the speed: what counts is the nut's angle, its
+//! direction and the load.
+//!
+//! Left out: a ball's inertia; the run into and out of the load, which sets in at once; friction between balls one of which carries no load;
+//! and, unless [`ElasticRing::chord`] asks for it, the part of the force between two balls that points outward (`sin b` of it, 7 to 17 %).
+//! Friction of a contact that sticks is smoothed over a spin of 1e-4 of the nut's speed.
+//!
+//! [`super::whole_screw`] is the same screw by a closed form of each ball, for one speed, one load and one wave of deviation.
+//!
+//! Source: Lin 2019, eqs. (2.11) to (2.14), (3.65) to (3.77) and section 3.4.4. Corrected: (3.77) takes contacts by the free speeds of two
+//! neighbours, which lets chains of balls overlap; here by the actual speeds.
+
+use std::f64::consts::TAU;
+
+use super::ball_screw_grooves::ElasticGrooves;
+use super::ball_screw_ring_march::March;
+use super::contact_law::HertzLaw;
+use super::patch::Integration;
+use crate::curvature::Groove;
+use crate::design::BallScrewDesign;
+use crate::error::{ReferenceError, within};
+
+/// Largest deviation of the arc centres, rad.
+const LARGEST_DEVIATION: f64 = 0.2;
+/// Largest error of the power balance that is accepted of a solved state.
+const POWER_ERROR: f64 = 1e-7;
+/// Largest violation of the complementarity that is accepted of a solved state.
+const COMPLEMENTARITY: f64 = 1e-8;
+
+/// One wave of a deviation along a groove: `cosine cos(order p) + sine sin(order p)` at the phase `p` of its period.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DeviationWave {
+    /// Waves in a period; 0 for a constant.
+    pub order: f64,
+    /// Amplitude of the cosine, rad.
+    pub cosine: f64,
+    /// Amplitude of the sine, rad.
+    pub sine: f64,
+}
+
+/// How far the arc centres of a groove are turned along it, rad: contact angles `beta + deviation` on the right flank, `beta - deviation` on
+/// the left.
+#[derive(Clone, Debug, PartialEq)]
+pub enum GrooveDeviation {
+    /// A sum of waves over a period of so many turns.
+    Waves {
+        /// Turns of a period, above zero.
+        turns: f64,
+        /// Waves; none for a groove without deviation.
+        waves: Vec<DeviationWave>,
+    },
+    /// Values at equal distances from the start of a period, linear in between.
+    Samples {
+        /// Turns of a period, above zero.
+        turns: f64,
+        /// Values, rad; at least one.
+        values: Vec<f64>,
+    },
+}
+
+impl GrooveDeviation {
+    /// No deviation.
+    pub const NONE: Self = Self::Waves {
+        turns: 1.0,
+        waves: Vec::new(),
+    };
+
+    /// One wave of `sine sin(order phi)` in every turn.
+    #[must_use]
+    pub fn sine(order: f64, sine: f64) -> Self {
+        Self::Waves {
+            turns: 1.0,
+            waves: vec![DeviationWave {
+                order,
+                cosine: 0.0,
+                sine,
+            }],
+        }
+    }
+
+    /// Deviation at an azimuth along the groove, rad.
+    #[must_use]
+    pub fn at(&self, azimuth: f64) -> f64 {
+        match self {
+            Self::Waves { turns, waves } => {
+                let phase = azimuth / turns;
+                waves
+                    .iter()
+                    .map(|wave| {
+                        let (sin, cos) = (wave.order * phase).sin_cos();
+                        wave.cosine * cos + wave.sine * sin
+                    })
+                    .sum()
+            }
+            Self::Samples { turns, values } => {
+                let count = values.len();
+                let at = (azimuth / (TAU * turns)).rem_euclid(1.0) * count as f64;
+                let low = at as usize % count;
+                let part = at - at.floor();
+                values[low] * (1.0 - part) + values[(low + 1) % count] * part
+            }
+        }
+    }
+
+    fn check(&self, field: &'static str) -> Result<(), ReferenceError> {
+        let largest = match self {
+            Self::Waves { turns, waves } => {
+                within(field, *turns, 1e-3, 1e3)?;
+                for wave in waves {
+                    within(field, wave.order, 0.0, 1e3)?;
+                }
+                waves.iter().map(|w| w.cosine.abs() + w.sine.abs()).sum()
+            }
+            Self::Samples { turns, values } => {
+                within(field, *turns, 1e-3, 1e3)?;
+                if values.is_empty() {
+                    return Err(ReferenceError::input(field, "has no values"));
+                }
+                // A value that is no number must not be lost in the comparison.
+                values.iter().try_fold(0.0_f64, |largest, value| {
+                    within(field, *value, -LARGEST_DEVIATION, LARGEST_DEVIATION)
+                        .map(|value| largest.max(value.abs()))
+                })?
+            }
+        };
+        within(field, largest, 0.0, LARGEST_DEVIATION)?;
+        Ok(())
+    }
+}
+
+/// A ball screw without cage.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ElasticRing {
+    /// Screw, with one groove radius and one material of both grooves.
+    pub design: BallScrewDesign,
+    /// Radial gap of every contact at the centred ball and the unloaded screw, m: play above zero, oversize below.
+    pub clearance: f64,
+    /// Friction coefficient of the grooves, 0.001 to 1.
+    pub friction: f64,
+    /// Friction coefficient between the balls, 0 to 1.
+    pub ball_friction: f64,
+    /// Number of balls, 1 to 1000; they must fit on the track.
+    pub balls: usize,
+    /// Turns of the loaded track, 0.01 to 100.
+    pub turns: f64,
+    /// Length of the return, m, 0 to 10.
+    pub return_length: f64,
+    /// Deviation of the screw's groove by the azimuth on the screw.
+    pub screw_deviation: GrooveDeviation,
+    /// Deviation of the nut's groove by the azimuth from the start of the loaded track.
+    pub nut_deviation: GrooveDeviation,
+    /// Loads of the balls over their mean, 0 to 100, in equal parts of the loaded track from its start; empty for equal loads.
+    pub load_shares: Vec<f64>,
+    /// Whether forces between balls have the part that points outward because the track is curved.
+    pub chord: bool,
+    /// Azimuths of the balls from the start of the track, rad, rising; empty for balls at equal distances from there.
+    pub places: Vec<f64>,
+    /// Nodes of the contact integrals.
+    pub integration: Integration,
+}
+
+/// What the screw does at an instant; speed, and by a line the load, until the next sample.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RingSample {
+    /// Time, s; not before that of the sample before.
+    pub time: f64,
+    /// Angular velocity of the nut, rad/s, from this sample to the next.
+    pub nut_speed: f64,
+    /// Axial load on the screw, N, along z: above zero carried by SL and NR.
+    pub axial_load: f64,
+}
+
+/// Samples of constant speed and load over an angle of the nut, rad, the start included.
+#[must_use]
+pub fn steady_samples(
+    nut_speed: f64,
+    axial_load: f64,
+    nut_angle: f64,
+    steps: usize,
+) -> Vec<RingSample> {
+    (0..=steps)
+        .map(|step| RingSample {
+            time: nut_angle / nut_speed.abs() * step as f64 / steps as f64,
+            nut_speed,
+            axial_load,
+        })
+        .collect()
+}
+
+/// One ball at an instant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RingBall {
+    /// Azimuth from the start of the track, rad; beyond the loaded turns in the return.
+    pub place: f64,
+    /// Orbital speed about the screw, rad/s.
+    pub speed: f64,
+    /// Force between this ball and the next of the list, the last and the first, N; zero where they part.
+    pub force: f64,
+    /// Distance to the next ball of the list between their surfaces, as an azimuth, rad.
+    pub gap: f64,
+    /// Loads of SL, SR, NL, NR, N; zero in the return.
+    pub loads: [f64; 4],
+}
+
+/// The screw at an instant.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RingState {
+    /// Time, s.
+    pub time: f64,
+    /// Angle of the nut since the start, rad.
+    pub nut_angle: f64,
+    /// Balls in the order of the track.
+    pub balls: Vec<RingBall>,
+    /// Torque that the friction of the grooves puts on the nut: their power over its speed, N m.
+    pub groove_torque: f64,
+    /// The same of the friction between balls, N m.
+    pub ball_torque: f64,
+    /// Largest unbalanced force of a ball over the sum of its contacts' loads.
+    pub residual: f64,
+    /// Power that the nut puts in less all that is lost, over the latter.
+    pub power_error: f64,
+    /// Largest violation of the complementarity: how much a ball overtakes the one it touches, over the nut's speed; a force that pulls, over
+    /// the largest load; the lesser of a force and the speed at which its balls part, over the same.
+    pub complementarity: f64,
+    /// Instants solved inside the step before, where balls met or parted.
+    pub events: usize,
+    /// Why there is no solution. Speeds, forces and torques then are no numbers, and the balls go on with their speeds of before: states that
+    /// follow are solved at places that are off by what the speeds change in a step.
+    pub failure: Option<ReferenceError>,
+}
+
+impl RingState {
+    /// Friction torque, N m.
+    #[must_use]
+    pub fn torque(&self) -> f64 {
+        self.groove_torque + self.ball_torque
+    }
+
+    /// Number of pairs that press.
+    #[must_use]
+    pub fn pressing(&self) -> usize {
+        self.balls.iter().filter(|ball| ball.force > 0.0).count()
+    }
+
+    /// Largest force between two balls, N.
+    #[must_use]
+    pub fn largest_force(&self) -> f64 {
+        self.balls.iter().map(|ball| ball.force).fold(0.0, f64::max)
+    }
+
+    /// True where the balances, that of power and the complementarity are met.
+    #[must_use]
+    pub fn solved(&self) -> bool {
+        self.failure.is_none()
+    }
+
+    /// What a solved state must keep; otherwise it has failed.
+    pub(crate) fn checked(mut self) -> Self {
+        let broken = |residual: f64, unit| Some(ReferenceError::NotConverged { residual, unit });
+        if self.failure.is_none() {
+            self.failure = if !(self.power_error.abs() <= POWER_ERROR) {
+                broken(self.power_error, "of the power lost")
+            } else if !(self.complementarity <= COMPLEMENTARITY) {
+                broken(self.complementarity, "of complementarity")
+            } else {
+                None
+            };
+        }
+        self
+    }
+}
+
+impl ElasticRing {
+    /// Follows the balls through the samples: a state for each. `progress` is told how many of how many are done.
+    ///
+    /// A state is solved from the one before; from nothing at the start, where the nut or the load turns, and where that does not lead
+    /// to a balance. Between the samples balls move with speeds that change by a line, as they did before. A sample at rest has no friction,
+    /// and says so.
+    ///
+    /// # Errors
+    /// [`ReferenceError`] naming an input out of range; `samples` where times fall or there are none. A state without a solution is no error
+    /// of the march: see [`RingState::failure`].
+    pub fn simulate(
+        &self,
+        samples: &[RingSample],
+        mut progress: impl FnMut(usize, usize),
+    ) -> Result<Vec<RingState>, ReferenceError> {
+        let track = self.checked()?;
+        check_samples(samples)?;
+        let mut march = March::new(self, track);
+        let mut states = Vec::with_capacity(samples.len());
+        for (at, sample) in samples.iter().enumerate() {
+            states.push(march.state(sample));
+            if let Some(next) = samples.get(at + 1) {
+                march.advance(sample, next);
+            }
+            progress(at + 1, samples.len());
+        }
+        Ok(states)
+    }
+
+    /// Share of the track that the balls fill.
+    #[must_use]
+    pub fn occupation(&self) -> f64 {
+        let pitch = 2.0 * self.track().ball_contact_angle().0.asin();
+        self.balls as f64 * pitch / self.length()
+    }
+
+    fn track(&self) -> super::ball_screw_ball::ScrewTrack {
+        (&self.design).into()
+    }
+
+    /// Length of the whole track as an azimuth, rad.
+    fn length(&self) -> f64 {
+        TAU * self.turns + self.return_length / self.track().path_radius()
+    }
+
+    fn checked(&self) -> Result<RingTrack, ReferenceError> {
+        within("friction", self.friction, 1e-3, 1.0)?;
+        within("ball_friction", self.ball_friction, 0.0, 1.0)?;
+        within("balls", self.balls as f64, 1.0, 1e3)?;
+        within("turns", self.turns, 0.01, 100.0)?;
+        within("return_length", self.return_length, 0.0, 10.0)?;
+        let radius = self.design.ball_radius;
+        within("clearance", self.clearance, -0.05 * radius, 0.2 * radius)?;
+        if self.design.screw_groove_radius != self.design.nut_groove_radius {
+            return Err(ReferenceError::input(
+                "nut_groove_radius",
+                "is not that of the screw's groove",
+            ));
+        }
+        self.screw_deviation.check("screw_deviation")?;
+        self.nut_deviation.check("nut_deviation")?;
+        for share in &self.load_shares {
+            within("load_shares", *share, 0.0, 100.0)?;
+        }
+        let laws = [
+            self.design.contact(Groove::Screw)?.into(),
+            self.design.contact(Groove::Nut)?.into(),
+        ];
+        self.grooves(&laws, 0.0, 0.0)
+            .check()
+            .map_err(|error| error.renamed("contact_angle"))?;
+        // Turned arcs must still be arcs.
+        let angle = self.design.contact_angle;
+        within("contact_angle", angle, 0.25, 1.3)?;
+        // A track that is full to rounding is full.
+        within("balls", self.occupation(), 0.0, 1.0 + 1e-12)?;
+        let pitch = 2.0 * self.track().ball_contact_angle().0.asin();
+        let track = RingTrack {
+            length: self.length(),
+            loaded: TAU * self.turns,
+            pitch,
+            per_ball: self.length() / (TAU * self.turns * self.balls as f64),
+            laws,
+        };
+        self.check_places(&track)?;
+        Ok(track)
+    }
+
+    fn check_places(&self, track: &RingTrack) -> Result<(), ReferenceError> {
+        if self.places.is_empty() {
+            return Ok(());
+        }
+        if self.places.len() != self.balls {
+            return Err(ReferenceError::input("places", "are not one for each ball"));
+        }
+        for place in &self.places {
+            within("places", *place, 0.0, track.length)?;
+        }
+        let first = self.places[0] + track.length;
+        let ahead = self.places.iter().skip(1).chain(std::iter::once(&first));
+        for (place, next) in self.places.iter().zip(ahead) {
+            if next - place < track.pitch * (1.0 - 1e-12) {
+                return Err(ReferenceError::input("places", "make balls overlap"));
+            }
+        }
+        Ok(())
+    }
+
+    /// Grooves around a ball with both deviations, rad.
+    pub(crate) fn grooves(&self, laws: &[HertzLaw; 2], screw: f64, nut: f64) -> ElasticGrooves {
+        let angle = self.design.contact_angle;
+        ElasticGrooves {
+            track: self.track(),
+            groove_radius: self.design.screw_groove_radius,
+            arc_angles: [angle - screw, angle + screw, angle - nut, angle + nut],
+            screw: laws[0],
+            nut: laws[1],
+            oversize: -self.clearance,
+        }
+    }
+}
+
+fn check_samples(samples: &[RingSample]) -> Result<(), ReferenceError> {
+    if samples.is_empty() {
+        return Err(ReferenceError::input("samples", "are none"));
+    }
+    let mut before = f64::NEG_INFINITY;
+    for sample in samples {
+        within("time", sample.time, -1e9, 1e9)?;
+        within("nut_speed", sample.nut_speed, -1e6, 1e6)?;
+        within("axial_load", sample.axial_load, -1e7, 1e7)?;
+        if sample.time < before {
+            return Err(ReferenceError::input("samples", "go back in time"));
+        }
+        before = sample.time;
+    }
+    Ok(())
+}
+
+/// The track, by azimuths in rad.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct RingTrack {
+    /// Whole length, and that of the loaded part.
+    pub length: f64,
+    pub loaded: f64,
+    /// Between the centres of two touching balls.
+    pub pitch: f64,
+    /// 1 / number of loaded balls, where all balls are spread evenly over the track.
+    pub per_ball: f64,
+    /// Contact laws on screw and nut.
+    pub laws: [HertzLaw; 2],
+}

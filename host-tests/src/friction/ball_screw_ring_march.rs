@@ -1,0 +1,561 @@
+//! A ring of balls from instant to instant.
+//!
+//! Between two instants every ball moves with the speed of the last one, and with the change that this speed had before it: second order in
+//! the step. Where two balls meet, where a force that falls ends, or where a ball crosses the border of the loaded part, the step is split.
+
+use super::ball_screw_placed::{BallState, Drive, PlacedBall, Rubbing};
+use super::ball_screw_ring::{ElasticRing, RingBall, RingSample, RingState, RingTrack};
+use super::ball_screw_ring_solve::{Instant, Seat, Settled};
+use super::ball_screw_rubbing::BallContact;
+use super::ball_screw_settle::settle;
+use crate::error::ReferenceError;
+
+/// Gap at which balls touch, rad.
+const TOUCHING: f64 = 1e-12;
+/// Load below which a ball without preload carries none, N. A preloaded ball is given as much.
+const NO_LOAD: f64 = 1e-6;
+/// Change of the load over which speeds are not taken to change as they did before.
+const SUDDEN: f64 = 0.05;
+/// Part of a step below which it is not split for a force that ends.
+const SHORT: f64 = 1e-3;
+/// Travel of the nut that tells how speeds change, rad: their rounding over it is 1e-6.
+const TELLING: f64 = 1e-7;
+/// Forces that end by which a step is split at most.
+const ENDINGS: usize = 4;
+/// How far beyond the border of the loaded part a ball is put, rad.
+const BEYOND: f64 = 1e-9;
+
+/// What the last solution leaves.
+struct Last {
+    settled: Settled,
+    way: f64,
+    axial_load: f64,
+    /// Travel of the nut since then, rad.
+    travel: f64,
+}
+
+/// Changes per rad of the nut.
+#[derive(Clone)]
+struct Rates {
+    speeds: Vec<f64>,
+    forces: Vec<f64>,
+    states: Vec<Option<BallState>>,
+}
+
+/// Where a step is split.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Event {
+    /// The balls of a pair meet.
+    Meeting(usize),
+    /// The force of a pair ends.
+    Ending,
+    /// A ball comes under load, or out of it.
+    Border,
+}
+
+/// Balls on their way.
+pub(crate) struct March<'a> {
+    ring: &'a ElasticRing,
+    track: RingTrack,
+    /// Azimuth of the first ball from the start of the track, rad.
+    first: f64,
+    /// Gaps ahead of the balls in the order of the track, rad.
+    gaps: Vec<f64>,
+    nut_angle: f64,
+    last: Option<Last>,
+    rates: Rates,
+    /// Speeds over the nut's speed until the next solution.
+    speeds: Vec<f64>,
+    events: usize,
+    /// Speed of a nominal ball, with the way and the load that it belongs to.
+    idle: Option<(f64, f64, f64)>,
+}
+
+impl<'a> March<'a> {
+    pub fn new(ring: &'a ElasticRing, track: RingTrack) -> Self {
+        let n = ring.balls;
+        let gaps = if ring.places.is_empty() {
+            vec![(track.length / n as f64 - track.pitch).max(0.0); n]
+        } else {
+            let first = ring.places[0] + track.length;
+            let ahead = ring.places.iter().skip(1).chain(std::iter::once(&first));
+            ring.places
+                .iter()
+                .zip(ahead)
+                .map(|(place, next)| (next - place - track.pitch).max(0.0))
+                .collect()
+        };
+        Self {
+            ring,
+            track,
+            first: ring.places.first().copied().unwrap_or(0.0),
+            gaps,
+            nut_angle: 0.0,
+            last: None,
+            rates: Rates::none(n),
+            speeds: vec![0.5; n],
+            events: 0,
+            idle: None,
+        }
+    }
+
+    /// Solves the balls where they are.
+    pub fn state(&mut self, sample: &RingSample) -> RingState {
+        let events = std::mem::take(&mut self.events);
+        let failure = if sample.nut_speed == 0.0 {
+            Some(ReferenceError::Standstill)
+        } else {
+            let way = sample.nut_speed.signum();
+            self.solve(way, sample.axial_load).err()
+        };
+        self.result(sample, events, failure).checked()
+    }
+
+    /// Moves the balls to the next sample.
+    pub fn advance(&mut self, sample: &RingSample, next: &RingSample) {
+        let whole = sample.nut_speed.abs() * (next.time - sample.time);
+        let way = sample.nut_speed.signum();
+        let same = sample.axial_load * next.axial_load > 0.0;
+        let rise = if same && whole > 0.0 {
+            (next.axial_load - sample.axial_load) / whole
+        } else {
+            0.0
+        };
+        let mut done = 0.0;
+        let mut endings = 0;
+        // Every ball meets its neighbour a few times at most.
+        for _ in 0..8 * self.ring.balls + 64 {
+            let left = whole - done;
+            if left <= 0.0 {
+                return;
+            }
+            let Some((travel, event)) =
+                self.next_event(way, left, SHORT * whole, endings < ENDINGS)
+            else {
+                self.go(way, left);
+                return;
+            };
+            self.go(way, travel);
+            done += travel;
+            self.events += 1;
+            match event {
+                Event::Meeting(pair) => self.gaps[pair] = 0.0,
+                Event::Ending => endings += 1,
+                Event::Border => {}
+            }
+            // Without a solution the balls go on as they were, and the next state says what is wrong.
+            let _ = self.solve(way, sample.axial_load + rise * done);
+        }
+        self.go(way, whole - done);
+    }
+
+    /// The first event within a travel of the nut, and its travel.
+    fn next_event(&self, way: f64, left: f64, short: f64, endings: bool) -> Option<(f64, Event)> {
+        let n = self.gaps.len();
+        let mut found: Option<(f64, Event)> = None;
+        let mut take = |travel: f64, event: Event| {
+            if travel < left && found.is_none_or(|(first, _)| travel < first) {
+                found = Some((travel, event));
+            }
+        };
+        let pressing = |pair: usize| {
+            self.last
+                .as_ref()
+                .map_or(0.0, |last| last.settled.forces[pair])
+        };
+        for pair in 0..n {
+            let force = pressing(pair);
+            if force > 0.0 {
+                let rate = self.rates.forces[pair];
+                let travelled = self.last.as_ref().map_or(0.0, |last| last.travel);
+                if endings && rate < 0.0 {
+                    take((-force / rate - travelled).max(short), Event::Ending);
+                }
+                continue;
+            }
+            let next = (pair + 1) % n;
+            let closing = way * (self.speeds[pair] - self.speeds[next]);
+            let faster = way * (self.rates.speeds[pair] - self.rates.speeds[next]);
+            if let Some(travel) = closes(self.gaps[pair], closing, faster) {
+                take(travel.max(short * SHORT), Event::Meeting(pair));
+            }
+        }
+        if self.ring.return_length > 0.0 {
+            for (ball, place) in self.places().iter().enumerate() {
+                let speed = way * (self.speeds[ball] - 1.0);
+                let faster = way * self.rates.speeds[ball];
+                for border in [0.0, self.track.loaded] {
+                    let ahead = (border - place) * speed.signum();
+                    let ahead = ahead.rem_euclid(self.track.length);
+                    let rate = faster * speed.signum();
+                    if let Some(travel) = closes(ahead + BEYOND, speed.abs(), rate) {
+                        take(travel, Event::Border);
+                    }
+                }
+            }
+        }
+        found
+    }
+
+    /// Moves all balls while the nut turns by `travel`.
+    fn go(&mut self, way: f64, travel: f64) {
+        let n = self.gaps.len();
+        // Speeds of now: the solution may be a while ago where a state had none.
+        let moved: Vec<f64> = (0..n)
+            .map(|j| way * travel * (self.speeds[j] + 0.5 * travel * self.rates.speeds[j]))
+            .collect();
+        self.first = (self.first + moved[0] - way * travel).rem_euclid(self.track.length);
+        for pair in 0..n {
+            let gap = self.gaps[pair] + moved[(pair + 1) % n] - moved[pair];
+            self.gaps[pair] = gap.max(0.0);
+        }
+        // Rounding, and what was cut off below zero, goes where it matters least.
+        let slack = self.track.length - n as f64 * self.track.pitch;
+        let excess = self.gaps.iter().sum::<f64>() - slack.max(0.0);
+        if let Some(largest) = self.gaps.iter_mut().max_by(|a, b| a.total_cmp(b)) {
+            *largest = (*largest - excess).max(0.0);
+        }
+        for (speed, rate) in self.speeds.iter_mut().zip(&self.rates.speeds) {
+            *speed += rate * travel;
+        }
+        self.nut_angle += way * travel;
+        if let Some(last) = &mut self.last {
+            last.travel += travel;
+        }
+    }
+
+    /// Azimuths of the balls from the start of the track.
+    fn places(&self) -> Vec<f64> {
+        let mut place = self.first;
+        let mut places = Vec::with_capacity(self.gaps.len());
+        for gap in &self.gaps {
+            places.push(place.rem_euclid(self.track.length));
+            place += self.track.pitch + gap;
+        }
+        places
+    }
+
+    /// What every ball finds where it is.
+    fn seats(&self, axial_load: f64) -> Vec<Option<Seat>> {
+        let shares = &self.ring.load_shares;
+        self.places()
+            .iter()
+            .map(|place| {
+                if *place >= self.track.loaded {
+                    return None;
+                }
+                let part = place / self.track.loaded * shares.len() as f64;
+                let share = shares.get(part as usize).copied().unwrap_or(1.0);
+                let load = axial_load * share * self.track.per_ball;
+                let axial_load = if load.abs() > NO_LOAD {
+                    load
+                } else if self.ring.clearance < 0.0 {
+                    NO_LOAD.copysign(load)
+                } else {
+                    return None;
+                };
+                let screw = self.ring.screw_deviation.at(place + self.nut_angle);
+                let nut = self.ring.nut_deviation.at(*place);
+                let grooves = self.ring.grooves(&self.track.laws, screw, nut);
+                Some(Seat {
+                    grooves,
+                    axial_load,
+                })
+            })
+            .collect()
+    }
+
+    /// Speed of a ball that carries no load: that of one without deviation under the mean load.
+    fn idle_speed(&mut self, way: f64, axial_load: f64) -> Result<f64, ReferenceError> {
+        if let Some((speed, for_way, for_load)) = self.idle
+            && for_way == way
+            && for_load == axial_load
+        {
+            return Ok(speed);
+        }
+        let load = axial_load * self.track.per_ball;
+        let grooves = self.ring.grooves(&self.track.laws, 0.0, 0.0);
+        let ball = PlacedBall {
+            grooves: &grooves,
+            friction: self.ring.friction,
+            way,
+            axial_load: if load.abs() > NO_LOAD { load } else { 1.0 },
+            rubbing: Rubbing::default(),
+            integration: self.ring.integration,
+        };
+        let speed = settle(&ball, Drive::Force(0.0), None)?.state.motion[0];
+        self.idle = Some((speed, way, axial_load));
+        Ok(speed)
+    }
+
+    fn solve(&mut self, way: f64, axial_load: f64) -> Result<(), ReferenceError> {
+        let seats = self.seats(axial_load);
+        let idle_speed = if seats.iter().all(Option::is_some) {
+            0.5
+        } else {
+            self.idle_speed(way, axial_load)?
+        };
+        let touching: Vec<bool> = self.gaps.iter().map(|gap| *gap <= TOUCHING).collect();
+        let track = (&self.ring.design).into();
+        let instant = Instant {
+            seats: &seats,
+            touching: &touching,
+            friction: self.ring.friction,
+            way,
+            between: BallContact::new(&track, self.ring.ball_friction, way, self.ring.chord),
+            integration: self.ring.integration,
+            idle_speed,
+        };
+        let n = seats.len();
+        let follows = self
+            .last
+            .as_ref()
+            .is_some_and(|last| last.way == way && last.axial_load * axial_load > 0.0);
+        let found = if follows {
+            let (states, forces) = self.expected();
+            instant.settle(&states, &forces)
+        } else {
+            instant.settle(&vec![None; n], &vec![0.0; n])
+        };
+        match found {
+            Ok(settled) => {
+                self.rates = self.new_rates(&settled, way, axial_load);
+                self.speeds.clone_from(&settled.speeds);
+                self.last = Some(Last {
+                    settled,
+                    way,
+                    axial_load,
+                    travel: 0.0,
+                });
+                Ok(())
+            }
+            Err(error) => {
+                self.rates = Rates::none(n);
+                let (speeds, forces) = match &mut self.last {
+                    Some(last) if last.way == way => {
+                        instant.pool(&last.settled.unforced, &last.settled.compliance)
+                    }
+                    _ => instant.pool(&self.speeds, &vec![1.0; n]),
+                };
+                self.speeds = speeds;
+                if let Some(last) = &mut self.last {
+                    last.settled.forces = forces;
+                }
+                Err(error)
+            }
+        }
+    }
+
+    /// States and forces as they were, carried on by their changes.
+    fn expected(&self) -> (Vec<Option<BallState>>, Vec<f64>) {
+        let Some(last) = &self.last else {
+            return (vec![None; self.gaps.len()], vec![0.0; self.gaps.len()]);
+        };
+        let states = last
+            .settled
+            .states
+            .iter()
+            .zip(&self.rates.states)
+            .map(|(state, rate)| {
+                let state = (*state)?;
+                let Some(rate) = rate else { return Some(state) };
+                Some(BallState {
+                    place: state.place + rate.place * last.travel,
+                    motion: state.motion + rate.motion * last.travel,
+                    force: state.force + rate.force * last.travel,
+                })
+            })
+            .collect();
+        let forces = last
+            .settled
+            .forces
+            .iter()
+            .zip(&self.rates.forces)
+            .map(|(force, rate)| (force + rate * last.travel).max(0.0))
+            .collect();
+        (states, forces)
+    }
+
+    /// How speeds and forces have changed since the last solution, of balls that still press as they did. Balls that have met go on with the
+    /// mean change of those that they join.
+    fn new_rates(&self, now: &Settled, way: f64, axial_load: f64) -> Rates {
+        let n = self.gaps.len();
+        let mut rates = Rates::none(n);
+        let Some(last) = &self.last else { return rates };
+        let sudden = (axial_load - last.axial_load).abs() > SUDDEN * last.axial_load.abs();
+        if last.way != way || sudden || !(last.travel > 0.0) {
+            return rates;
+        }
+        if last.travel < TELLING {
+            return self.rates.clone();
+        }
+        for cluster in clusters(&now.forces) {
+            let pairs = |inside: usize| cluster[..inside].iter();
+            let ends = [(cluster[0] + n - 1) % n, cluster[cluster.len() - 1]];
+            let pressed = |pair: &usize| last.settled.forces[*pair] > 0.0;
+            let same = cluster.len() == n
+                || pairs(cluster.len() - 1).all(pressed) && !ends.iter().any(pressed);
+            if same {
+                for ball in &cluster {
+                    rates.speeds[*ball] =
+                        (now.speeds[*ball] - last.settled.speeds[*ball]) / last.travel;
+                    rates.forces[*ball] =
+                        (now.forces[*ball] - last.settled.forces[*ball]) / last.travel;
+                    rates.states[*ball] =
+                        difference(now.states[*ball], last.settled.states[*ball], last.travel);
+                }
+            } else {
+                let sum: f64 = cluster.iter().map(|ball| self.rates.speeds[*ball]).sum();
+                for ball in &cluster {
+                    rates.speeds[*ball] = sum / cluster.len() as f64;
+                }
+            }
+        }
+        rates
+    }
+
+    fn result(
+        &self,
+        sample: &RingSample,
+        events: usize,
+        failure: Option<ReferenceError>,
+    ) -> RingState {
+        let way = sample.nut_speed.signum();
+        let settled = match (&self.last, &failure) {
+            (Some(last), None) => Some(&last.settled),
+            _ => None,
+        };
+        let seats = self.seats(sample.axial_load);
+        let track = (&self.ring.design).into();
+        let between = BallContact::new(&track, self.ring.ball_friction, way, self.ring.chord);
+        let balls = self
+            .places()
+            .iter()
+            .enumerate()
+            .map(|(ball, place)| RingBall {
+                place: *place,
+                gap: self.gaps[ball],
+                speed: settled.map_or(f64::NAN, |s| s.speeds[ball] * sample.nut_speed),
+                force: settled.map_or(f64::NAN, |s| between.normal_force(s.forces[ball])),
+                loads: match (settled.map(|s| s.states[ball]), &seats[ball]) {
+                    (Some(Some(state)), Some(seat)) => seat
+                        .grooves
+                        .contacts_at([state.place.x, state.place.y], state.place.z)
+                        .map(|contact| contact.load),
+                    (Some(_), _) => [0.0; 4],
+                    (None, _) => [f64::NAN; 4],
+                },
+            })
+            .collect::<Vec<_>>();
+        let of = |value: fn(&Settled) -> f64| settled.map_or(f64::NAN, value);
+        let arm = way * self.ring.design.ball_radius;
+        RingState {
+            time: sample.time,
+            nut_angle: self.nut_angle,
+            groove_torque: arm * of(|s| s.power.grooves),
+            ball_torque: arm * of(|s| s.power.balls),
+            residual: of(|s| s.residual),
+            power_error: of(|s| s.power.error()),
+            complementarity: settled.map_or(f64::NAN, |s| self.violation(s, way, &balls)),
+            balls,
+            events,
+            failure,
+        }
+    }
+
+    /// See [`RingState::complementarity`].
+    fn violation(&self, settled: &Settled, way: f64, balls: &[RingBall]) -> f64 {
+        let n = balls.len();
+        let largest = balls
+            .iter()
+            .flat_map(|ball| ball.loads)
+            .fold(f64::MIN_POSITIVE, f64::max);
+        let mut worst = 0.0_f64;
+        for (pair, gap) in self.gaps.iter().enumerate() {
+            let force = settled.forces[pair] / largest;
+            let parting = way * (settled.speeds[(pair + 1) % n] - settled.speeds[pair]);
+            let touching = *gap <= TOUCHING;
+            worst = worst.max(-force);
+            worst = worst.max(if touching { -parting } else { force });
+            worst = worst.max(force.min(parting));
+        }
+        worst
+    }
+}
+
+impl Rates {
+    fn none(balls: usize) -> Self {
+        Self {
+            speeds: vec![0.0; balls],
+            forces: vec![0.0; balls],
+            states: vec![None; balls],
+        }
+    }
+}
+
+fn difference(now: Option<BallState>, before: Option<BallState>, travel: f64) -> Option<BallState> {
+    let (now, before) = (now?, before?);
+    Some(BallState {
+        place: (now.place - before.place) / travel,
+        motion: (now.motion - before.motion) / travel,
+        force: (now.force - before.force) / travel,
+    })
+}
+
+/// Balls that press on each other, in the order of the track; `forces[j]` acts between ball `j` and the next.
+fn clusters(forces: &[f64]) -> Vec<Vec<usize>> {
+    let n = forces.len();
+    let Some(end) = forces.iter().position(|force| !(*force > 0.0)) else {
+        return vec![(0..n).collect()];
+    };
+    let mut all = Vec::new();
+    let mut cluster = Vec::new();
+    for place in end + 1..=end + n {
+        let ball = place % n;
+        cluster.push(ball);
+        if !(forces[ball] > 0.0) {
+            all.push(std::mem::take(&mut cluster));
+        }
+    }
+    all
+}
+
+/// Travel in which a gap closes at a speed that grows in proportion to the travel.
+fn closes(gap: f64, closing: f64, faster: f64) -> Option<f64> {
+    // gap - closing s - faster s^2/2 = 0, in the form that does not cancel.
+    let root = (closing * closing + 2.0 * faster * gap).sqrt();
+    let travel = if gap <= 0.0 {
+        // Balls that part just now, and may meet again.
+        -2.0 * closing / faster
+    } else {
+        2.0 * gap / (closing + root)
+    };
+    (travel > 0.0 && travel.is_finite()).then_some(travel)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{closes, clusters};
+
+    #[test]
+    fn a_gap_closes_where_its_distance_ends() {
+        for (gap, closing, faster) in [(0.3, 0.2, 0.1), (0.3, 0.5, -0.1), (0.3, -0.2, 0.4)] {
+            let s = closes(gap, closing, faster).unwrap();
+            assert!((gap - closing * s - 0.5 * faster * s * s).abs() < 1e-15);
+        }
+        assert_eq!(closes(0.3, -0.2, 0.0), None);
+        assert_eq!(closes(0.3, 0.1, -0.5), None);
+        assert_eq!(closes(0.0, -0.1, 0.2), Some(1.0));
+        assert_eq!(closes(0.0, -0.1, -0.2), None);
+        assert_eq!(closes(0.0, 0.0, 0.0), None);
+    }
+
+    #[test]
+    fn clusters_go_round() {
+        assert_eq!(
+            clusters(&[1.0, 0.0, 0.0, 2.0]),
+            vec![vec![2], vec![3, 0, 1]]
+        );
+        assert_eq!(clusters(&[1.0; 3]).len(), 1);
+    }
+}

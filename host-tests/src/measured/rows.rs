@@ -1,0 +1,539 @@
+//! The figures one by one.
+
+use std::f64::consts::TAU;
+
+use super::studies::{FIT_LOAD, SCREWS};
+use super::{Measured, Size, Source, Usual, Verdict, catalogue};
+use crate::curvature::Groove;
+use crate::design::LinearBearingDesign;
+use crate::error::ReferenceError;
+use crate::friction::ball_screw_efficiency::LoadedScrew;
+use crate::friction::rolling_resistance::LubricatedContact;
+use crate::material::Elastic;
+
+type Row = fn(&Usual) -> Result<Measured, ReferenceError>;
+
+/// Every figure.
+pub(super) const ROWS: [Row; 18] = [
+    drag_new,
+    drag_worn,
+    drag_over_preload,
+    after_reversal,
+    efficiency_over_load,
+    friction_over_speed,
+    steering_friction,
+    drag_fluctuation,
+    pre_rolling,
+    pure_rolling,
+    chart,
+    rule,
+    drag_rule,
+    drag_range,
+    assumed_friction,
+    geometry_without_torque,
+    rack,
+    slide,
+];
+
+const DATA_SET: Source = Source::Seen("XJTU degradation data set of ball screws");
+/// Printed drag torques, N m.
+const NEW: [f64; 2] = [0.3985, 0.5156];
+const WORN: [f64; 2] = [0.2482, 0.3785];
+/// Two screws of one batch differ by 29 %: no band is narrower than this.
+const BATCH: f64 = 0.15;
+/// Printed preload, N.
+const PRELOAD: f64 = 1500.0;
+/// The data set prints lead, preload and dynamic load rating (16.4 kN); diameter, balls and grooves are assumed.
+const PRELOADED: Size = Size {
+    name: "32x8, balls of 4.762 mm, 60 of them",
+    diameter: 32.0,
+    lead: 8.0,
+    ball: 4.762,
+    conformity: 0.528,
+    balls: 60.0,
+};
+
+/// The screw of Table 4.1 of Lin 2019, of a steering gear's size.
+const STEERING: Size = Size {
+    name: "29x7, 71 balls",
+    diameter: 29.0,
+    lead: 7.0,
+    ball: 4.0,
+    conformity: 0.54,
+    balls: 71.0,
+};
+
+fn widened(band: [f64; 2]) -> [f64; 2] {
+    [band[0] * (1.0 - BATCH), band[1] * (1.0 + BATCH)]
+}
+
+fn range(values: impl IntoIterator<Item = f64>) -> [f64; 2] {
+    values
+        .into_iter()
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| {
+            [low.min(value), high.max(value)]
+        })
+}
+
+/// A coefficient that was sought.
+fn found(value: Option<f64>) -> String {
+    value.map_or("none".into(), |value| format!("{value:.3}"))
+}
+
+/// Drag torque of two nuts braced against each other, with balls that just fit: the nuts' distance preloads them, not the balls' size.
+fn double_nut(screw: &LoadedScrew) -> Result<f64, ReferenceError> {
+    LoadedScrew {
+        clearance: 0.0,
+        ..*screw
+    }
+    .double_nut_torque()
+}
+
+fn torque(screw: &LoadedScrew) -> Result<f64, ReferenceError> {
+    Ok(screw.solve()?.torque())
+}
+
+fn drag_new(usual: &Usual) -> Result<Measured, ReferenceError> {
+    let braced = PRELOADED.under(PRELOAD, usual);
+    let oversize = braced.braced_by_oversize()?;
+    let (two_nuts, one_nut) = (double_nut(&braced)?, torque(&oversize)?);
+    let other = |diameter: f64| {
+        let size = Size {
+            diameter,
+            ..PRELOADED
+        };
+        let screw = size.under(PRELOAD, usual);
+        NEW.map(|target| found(screw.friction_for(target, double_nut)))
+            .join(" to ")
+    };
+    Ok(Measured {
+        what: "drag torque of two new preloaded screws, after disassembly (N m)",
+        figure: "0.3985 and 0.5156; lead 8 mm, preload 1500 N",
+        source: DATA_SET,
+        computed: format!(
+            "{two_nuts:.3} with two nuts, {one_nut:.3} with oversize balls of {:.1} um; assumed: {}",
+            -1e6 * oversize.clearance,
+            PRELOADED.name
+        ),
+        verdict: Verdict::of(range([two_nuts, one_nut]), widened(NEW)),
+        needed: format!(
+            "friction {} with two nuts (with a diameter of 25 mm {}, of 40 mm {}), {} with oversize balls",
+            NEW.map(|target| found(braced.friction_for(target, double_nut)))
+                .join(" to "),
+            other(25.0),
+            other(40.0),
+            NEW.map(|target| found(oversize.friction_for(target, torque)))
+                .join(" to "),
+        ),
+    })
+}
+
+/// Power of the preload in the drag torque of two nuts and of one nut with oversize balls, between half the preload and the whole.
+fn preload_powers(usual: &Usual) -> Result<[f64; 2], ReferenceError> {
+    let at = |preload: f64| PRELOADED.under(preload, usual);
+    let two = double_nut(&at(PRELOAD))? / double_nut(&at(0.5 * PRELOAD))?;
+    let one = torque(&at(PRELOAD).braced_by_oversize()?)?
+        / torque(&at(0.5 * PRELOAD).braced_by_oversize()?)?;
+    Ok([two.log2(), one.log2()])
+}
+
+fn drag_worn(usual: &Usual) -> Result<Measured, ReferenceError> {
+    let powers = preload_powers(usual)?;
+    let shares = [0, 1].map(|screw| {
+        let share = WORN[screw] / NEW[screw];
+        range(powers.map(|power| 100.0 * share.powf(1.0 / power)))
+    });
+    Ok(Measured {
+        what: "the same worn, after some 1000 h (N m)",
+        figure: "0.2482 and 0.3785: 62 and 73 % of new",
+        source: DATA_SET,
+        computed: "wear is not computed".into(),
+        verdict: Verdict::NotComputed,
+        needed: format!(
+            "with the friction coefficient as new, a preload of {:.0} to {:.0} and of {:.0} to {:.0} % of new",
+            shares[0][0], shares[0][1], shares[1][0], shares[1][1]
+        ),
+    })
+}
+
+fn drag_over_preload(usual: &Usual) -> Result<Measured, ReferenceError> {
+    let [two, one] = preload_powers(usual)?;
+    Ok(Measured {
+        what: "drag torque over preload and speed, ground screw 40x10",
+        figure: "about proportional to preload; falls with speed, then rises",
+        source: Source::Seen("Heidenhain's paper on feed drives"),
+        computed: format!(
+            "preload to the power {two:.2} with two nuts, {one:.2} with oversize balls; no change with speed"
+        ),
+        verdict: Verdict::InKind,
+        needed: "a friction coefficient that falls with speed, and lubricant drag that rises with its power 0.66"
+            .into(),
+    })
+}
+
+fn after_reversal(usual: &Usual) -> Result<Measured, ReferenceError> {
+    let steady = STEERING.under(50.0 * STEERING.balls, usual);
+    let open = LoadedScrew {
+        clearance: 30e-6,
+        ..steady
+    };
+    Ok(Measured {
+        what: "torque just after a reversal, double nut",
+        figure: "lower than steady",
+        source: Source::Seen("Ninomiya, Kakino, abstract"),
+        computed: format!(
+            "{:.2} of steady while a ball that changes its third contact has none, 50 N a ball",
+            torque(&open)? / torque(&steady)?
+        ),
+        verdict: Verdict::InKind,
+        needed: "a bound, not a course: the march of the whole screw through a reversal gives that"
+            .into(),
+    })
+}
+
+fn efficiency_over_load(usual: &Usual) -> Result<Measured, ReferenceError> {
+    let at = |clearance: f64| -> Result<Vec<String>, ReferenceError> {
+        [5.0, 20.0, 80.0]
+            .iter()
+            .map(|load| {
+                let usual = Usual {
+                    clearance,
+                    ..*usual
+                };
+                let friction = PRELOADED.under(load * PRELOADED.balls, &usual).solve()?;
+                Ok(format!("{:.3}", friction.efficiency()))
+            })
+            .collect()
+    };
+    Ok(Measured {
+        what: "efficiency over load at 1000 rev/min",
+        figure: "rises with load",
+        source: Source::Seen("Zhou et al. 2018, abstract"),
+        computed: format!(
+            "{} at 5, 20, 80 N a ball ({}); without oversize {}",
+            at(usual.clearance)?.join(", "),
+            PRELOADED.name,
+            at(0.0)?.join(", ")
+        ),
+        verdict: Verdict::InKind,
+        needed:
+            "any oversize; without it, or drag of lubricant and seals, efficiency falls with load"
+                .into(),
+    })
+}
+
+fn friction_over_speed(usual: &Usual) -> Result<Measured, ReferenceError> {
+    let size = STEERING;
+    let contact = LubricatedContact::of(&size.design(), Groove::Screw, 0.1, 2e-8)?;
+    let speed = |turns: f64| 0.25e-3 * size.diameter * TAU * turns;
+    let normal = 50.0 / usual_sine();
+    let share = |turns: f64| 2.0 * contact.drag(normal, speed(turns)) / 50.0;
+    let screw = size.under(50.0 * size.balls, usual).solve()?;
+    let coulomb =
+        screw.torque() / (screw.ideal * TAU / size.design().lead * 0.25e-3 * size.diameter);
+    Ok(Measured {
+        what: "friction coefficient over speed, double nut",
+        figure: "mixed, then elastohydrodynamic, one minimum; speed matters more than preload",
+        source: Source::Seen("Zhang, Zhou, Feng 2021, abstract"),
+        computed: format!(
+            "only the rising part: lubricant drag {:.4} of the load at 1 turn a second, {:.4} at 20 (0.1 Pa s), beside {coulomb:.4} \
+             of slip and spin, which do not change with speed",
+            share(1.0),
+            share(20.0)
+        ),
+        verdict: Verdict::NotComputed,
+        needed: "a friction coefficient that falls with speed from mixed to full lubrication"
+            .into(),
+    })
+}
+
+/// Sine of the contact angle of every size.
+fn usual_sine() -> f64 {
+    std::f64::consts::FRAC_PI_4.sin()
+}
+
+fn steering_friction(usual: &Usual) -> Result<Measured, ReferenceError> {
+    let at = |load: f64| torque(&STEERING.under(load, usual));
+    let (none, half, full, back) = (at(1.0)?, at(7e3)?, at(14e3)?, at(-14e3)?);
+    Ok(Measured {
+        what: "steering friction of an electric power steering",
+        figure: "strongly load-dependent, differs by direction of speed, no Stribeck dip, differs from unit to unit",
+        source: Source::Seen("Weiskircher et al. 2015, abstract"),
+        computed: format!(
+            "{none:.2}, {half:.2}, {full:.2} N m at 0, 7, 14 kN; at 14 kN {:+.0} % with the load reversed; no dip, by assumption \
+             (assumed: {})",
+            100.0 * (back / full - 1.0),
+            STEERING.name
+        ),
+        verdict: Verdict::InKind,
+        needed: "nothing".into(),
+    })
+}
+
+fn drag_fluctuation(usual: &Usual) -> Result<Measured, ReferenceError> {
+    let screw = PRELOADED.under(PRELOAD, usual).braced_by_oversize()?;
+    let at = |factor: f64| {
+        torque(&LoadedScrew {
+            clearance: factor * screw.clearance,
+            ..screw
+        })
+    };
+    // Change of the torque with the oversize, of both relative to themselves.
+    let power = (at(1.1)? / at(0.9)?).ln() / (1.1_f64 / 0.9).ln();
+    let swing = 1e6 * screw.clearance.abs() * 0.5 / power;
+    Ok(Measured {
+        what: "fluctuation of drag torque that a standard allows",
+        figure: "up to 50 % of the preload torque",
+        source: Source::Seen("ISO 3408-3 as cited"),
+        computed: format!(
+            "torque goes with the oversize to the power {power:.1}: {swing:.1} um of {:.1} um are 50 %",
+            -1e6 * screw.clearance
+        ),
+        verdict: Verdict::InKind,
+        needed: format!("grooves that vary by {swing:.1} um along the screw, as ground ones do"),
+    })
+}
+
+fn pre_rolling(_: &Usual) -> Result<Measured, ReferenceError> {
+    let ball = 0.5 * 6.35e-3;
+    let guide = LinearBearingDesign {
+        ball_radius: ball,
+        groove_radius: 1.04 * ball,
+        ball: Elastic::STEEL,
+        groove: Elastic::STEEL,
+    };
+    let length = 2e6 * guide.contact()?.at(FIT_LOAD).semi_minor;
+    Ok(Measured {
+        what: "pre-rolling of a linear guide's balls",
+        figure: "linear spring below 100 nm, normal rolling beyond 100 um",
+        source: Source::Seen("Futami, Furutani, abstract"),
+        computed: format!(
+            "contact {length:.0} um long under 100 N (assumed: ball of 6.35 mm, conformity 0.52): rolling is normal once a ball has left \
+             its old contact"
+        ),
+        verdict: Verdict::InKind,
+        needed: "a law of pre-rolling for the spring below 100 nm".into(),
+    })
+}
+
+#[expect(clippy::unnecessary_wraps, reason = "one type for every row")]
+fn pure_rolling(usual: &Usual) -> Result<Measured, ReferenceError> {
+    let ball: f64 = 5e-3;
+    let modulus = Elastic::STEEL.contact_modulus(&Elastic::STEEL);
+    let semi_axis = (0.75 * FIT_LOAD * ball / modulus).cbrt();
+    // Two contacts, and the upper plate goes twice as far as the ball.
+    let coefficient = usual.rolling.hysteresis_force(FIT_LOAD, semi_axis, ball) / FIT_LOAD;
+    Ok(Measured {
+        what: "rolling coefficient of a ball between plates",
+        figure: "order of 1e-5",
+        source: Source::Seen("abstract"),
+        computed: format!(
+            "{coefficient:.1e} (assumed: ball of 10 mm, 100 N, hysteresis loss {})",
+            usual.rolling.hysteresis_loss as f32
+        ),
+        verdict: Verdict::of([coefficient; 2], [3e-6, 1e-4]),
+        needed: format!(
+            "hysteresis loss {:.4} for 1e-5 itself",
+            usual.rolling.hysteresis_loss * 1e-5 / coefficient
+        ),
+    })
+}
+
+/// Screws under [`FIT_LOAD`] with their efficiency.
+fn efficiencies(usual: &Usual) -> Result<Vec<(Size, f64)>, ReferenceError> {
+    SCREWS
+        .iter()
+        .map(|size| {
+            let friction = size.under(FIT_LOAD * size.balls, usual).solve()?;
+            Ok((*size, friction.efficiency()))
+        })
+        .collect()
+}
+
+fn chart(usual: &Usual) -> Result<Measured, ReferenceError> {
+    let frictions = range(
+        efficiencies(usual)?
+            .iter()
+            .filter_map(|(size, efficiency)| {
+                let angle = size.design().lead_angle();
+                (1.0..=9.0)
+                    .contains(&angle.to_degrees())
+                    .then(|| catalogue::chart_friction(angle, *efficiency))
+            }),
+    );
+    Ok(Measured {
+        what: "catalogue chart: efficiency over lead angles of 1 to 9 degrees",
+        figure: "that of a plain screw with friction 0.005 to 0.01, at most 98 %",
+        source: Source::Seen("Rexroth"),
+        computed: format!(
+            "that of a plain screw with friction {:.4} to {:.4}, 100 N a ball",
+            frictions[0], frictions[1]
+        ),
+        verdict: Verdict::of(frictions, widened(catalogue::CHART_FRICTION)),
+        needed: "nothing".into(),
+    })
+}
+
+fn rule(usual: &Usual) -> Result<Measured, ReferenceError> {
+    let shares =
+        range(efficiencies(usual)?.iter().map(|(size, efficiency)| {
+            efficiency / catalogue::efficiency(size.diameter, size.lead)
+        }));
+    let needed = range(SCREWS[..3].iter().filter_map(|size| {
+        let screw = size.under(FIT_LOAD * size.balls, usual);
+        let rule = catalogue::efficiency(size.diameter, size.lead);
+        let target = screw.axial_load * screw.design.lead / TAU * (1.0 / rule - 1.0);
+        screw.friction_for(target, torque)
+    }));
+    Ok(Measured {
+        what: "catalogue rule: efficiency",
+        figure: "1/(1 + 0.018 d0/lead) in theory, 0.9 of it in practice",
+        source: Source::Recalled("SKF"),
+        computed: format!(
+            "{:.3} to {:.3} of the theory, ten screws, 100 N a ball",
+            shares[0], shares[1]
+        ),
+        verdict: Verdict::of(shares, [catalogue::PRACTICE, 1.0]),
+        needed: format!(
+            "for the theory itself friction {:.3} to {:.3} (125x10, 29x7, 33x20); what practice lacks more is wipers, seals, return",
+            needed[0], needed[1]
+        ),
+    })
+}
+
+/// Sizes of screws that are sold preloaded.
+const SOLD: [[f64; 3]; 4] = [
+    [25.0, 8.0, 4.762],
+    [32.0, 10.0, 6.35],
+    [40.0, 8.0, 6.35],
+    [40.0, 10.0, 6.35],
+];
+
+/// Drag coefficients of [`SOLD`], two nuts under 25 N a ball, and those of the rule.
+fn drag_coefficients(usual: &Usual) -> Result<Vec<[f64; 2]>, ReferenceError> {
+    SOLD.iter()
+        .map(|&[diameter, lead, ball]| {
+            let size = Size {
+                diameter,
+                lead,
+                ball,
+                ..PRELOADED
+            };
+            let screw = size.under(25.0 * size.balls, usual);
+            let unit = screw.axial_load * screw.design.lead / TAU;
+            Ok([
+                double_nut(&screw)? / unit,
+                catalogue::drag_coefficient(diameter, lead),
+            ])
+        })
+        .collect()
+}
+
+fn drag_rule(usual: &Usual) -> Result<Measured, ReferenceError> {
+    let pairs = drag_coefficients(usual)?;
+    let shares = range(pairs.iter().map(|[computed, rule]| computed / rule));
+    let frictions = range(shares.map(|share| usual.friction / share));
+    Ok(Measured {
+        what: "catalogue rule: drag torque over preload lead/2 pi",
+        figure: "0.05 (tan lead angle)^-1/2",
+        source: Source::Recalled("JIS B 1192"),
+        computed: format!(
+            "{:.2} to {:.2} of the rule, two nuts, 25 N a ball (25x8, 32x10, 40x8, 40x10)",
+            shares[0], shares[1]
+        ),
+        verdict: Verdict::of(shares, widened([1.0, 1.0])),
+        needed: format!(
+            "friction of about {:.2} to {:.2}",
+            frictions[0], frictions[1]
+        ),
+    })
+}
+
+fn drag_range(usual: &Usual) -> Result<Measured, ReferenceError> {
+    let computed = range(
+        drag_coefficients(usual)?
+            .iter()
+            .map(|[computed, _]| *computed),
+    );
+    Ok(Measured {
+        what: "coefficient of the drag torque over preload lead/2 pi",
+        figure: "0.1 to 0.3",
+        source: Source::Seen("two makers' manuals"),
+        computed: format!("{:.3} to {:.3}, the same screws", computed[0], computed[1]),
+        verdict: Verdict::of(computed, catalogue::DRAG_RANGE),
+        needed: "nothing".into(),
+    })
+}
+
+#[expect(clippy::unnecessary_wraps, reason = "one type for every row")]
+fn assumed_friction(usual: &Usual) -> Result<Measured, ReferenceError> {
+    Ok(Measured {
+        what: "friction coefficients that models assume",
+        figure: "0.02 to 0.2 (Olaru), 0.03 (Xu)",
+        source: Source::Seen("introduction of Zhou et al. 2018"),
+        computed: format!("{} taken here", usual.friction as f32),
+        verdict: Verdict::of([usual.friction; 2], [0.02, 0.2]),
+        needed: "0.06 to 0.14, as the rows above say; 0.02 and 0.03 would need drag of lubricant and seals in place of spin".into(),
+    })
+}
+
+fn geometry_without_torque(usual: &Usual) -> Result<Measured, ReferenceError> {
+    let size = Size {
+        name: "",
+        diameter: 41.75,
+        lead: 10.0,
+        ball: 6.35,
+        conformity: 3.429 / 6.35,
+        balls: 4.0 * 17.0,
+    };
+    let design = size.design();
+    // Screw and nut approach each other by the axial offset, along the normal.
+    let sine = design.contact_angle.sin() * design.lead_angle().cos();
+    let compliance =
+        design.contact(Groove::Screw)?.deflection + design.contact(Groove::Nut)?.deflection;
+    let normal = (0.011e-3 * sine / compliance).powf(1.5);
+    let preload = size.balls * normal * sine;
+    let computed = double_nut(&size.under(preload, usual))?;
+    Ok(Measured {
+        what: "a complete geometry without torque",
+        figure: "pitch circle 41.75, lead 10, ball 6.35 mm, 8 circuits of 17 balls, preload +-0.011 mm",
+        source: Source::Seen("input of a public solver"),
+        computed: format!(
+            "{computed:.2} N m of drag, preload {preload:.0} N (assumed: half the balls on either flank)"
+        ),
+        verdict: Verdict::NotComputed,
+        needed: "no figure to compare with".into(),
+    })
+}
+
+fn rack(usual: &Usual) -> Result<Measured, ReferenceError> {
+    let at = |load: f64| {
+        let screw = STEERING.under(load, usual);
+        Ok::<f64, ReferenceError>(torque(&screw)? * TAU / screw.design.lead)
+    };
+    let (idle, driving) = (at(1.0)?, at(1500.0)?);
+    Ok(Measured {
+        what: "friction of a steering rack (N at the rack)",
+        figure: "150 to 400, of all parts; rack 22 to 32 mm, lead 5 to 10 mm, ball 4 to 6 mm",
+        source: Source::Recalled("several; the balls seen"),
+        computed: format!(
+            "{idle:.0} without load, {driving:.0} under 1500 N, of the grooves alone (assumed: {})",
+            STEERING.name
+        ),
+        verdict: Verdict::of([idle; 2], [0.0, 400.0]),
+        needed: "the screw's share of the whole; with clearance 0 it is next to none without load"
+            .into(),
+    })
+}
+
+#[expect(clippy::unnecessary_wraps, reason = "one type for every row")]
+fn slide(_: &Usual) -> Result<Measured, ReferenceError> {
+    Ok(Measured {
+        what: "a slide on a ball screw",
+        figure: "20.4 N + 203 N s/m, concave over speed, differs by direction (-36 N s/m), breakaway 1 to 7 um",
+        source: Source::Seen("measured trace"),
+        computed: String::new(),
+        verdict: Verdict::NotComputed,
+        needed: "missing: geometry and preload of the screw, friction of guide and seals; laws of speed and of pre-rolling".into(),
+    })
+}

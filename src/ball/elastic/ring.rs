@@ -1,0 +1,492 @@
+//! Balls of a ball screw that are renewed in turn, and what each of them would do on its own until its turn comes.
+
+use super::grooves::ElasticGrooves;
+use super::renewal::{BallInputs, Renewal, Settled};
+use crate::math::{self, inverse_cube_roots};
+
+/// Axial load of a ball below which it counts as this, N.
+const SMALLEST_LOAD: f32 = 1e-3;
+
+/// Change of the load in one round of renewals from which balls begin anew, as a factor.
+const LOAD_JUMP: f32 = 3.0;
+
+/// Part of the load that crosses zero below which a preload holds the balls where they are.
+const HELD: f32 = 0.3;
+
+/// Rounds of renewals after a start in which forces between balls are those of balls that still settle.
+pub(crate) const SETTLING_ROUNDS: u16 = 3;
+
+/// Renewals of a nominal ball before the first tick.
+const FIRST_RENEWALS: usize = 16;
+
+/// Load of a ball before the first tick, N.
+const FIRST_LOAD: f32 = 50.0;
+
+/// Least and largest impedance of a loaded ball, N, and its largest deviation of speed: what a train takes.
+const IMPEDANCES: (f32, f32) = (1e-6, 1e8);
+const FASTEST: f32 = 0.99;
+
+/// A screw's balls: constants.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(crate) struct RingConstants {
+    grooves: ElasticGrooves,
+    /// Speed of a nominal ball and its speed against the nut, over ball radius and nut speed.
+    nominal: f32,
+    reference: f32,
+    per_reference: f32,
+    /// Angular velocity of a nominal ball's orbit about the axis across track and radius.
+    orbit: f32,
+    /// Contact force over axial load, `1/(sin beta cos alpha)`.
+    normal: f32,
+    /// Sum of the deflections of both contacts under one newton over the ball radius.
+    deflection: f32,
+}
+
+/// One ball: 40 bytes. Lengths over the ball radius, speeds over the nut's.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(crate) struct RingBall {
+    place: [f32; 3],
+    turning: [f32; 3],
+    /// Speed without force along the track less the nominal one, over the nominal one against the nut.
+    free: f32,
+    /// Its change with the nut's angle, 1/rad.
+    slope: f32,
+    /// Force along the track that changes this by one, over the power 2/3 of the load; 0 of a ball without load.
+    impedance: f32,
+    /// Friction torque on the nut over the power 4/3 of the load.
+    torque: f32,
+}
+
+/// The load that all balls have in common, in a tick.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(crate) struct RingLoad {
+    /// Mean axial load of a ball in the frame in which the nut turns forward, N.
+    pub(crate) axial: f32,
+    /// Mean contact force, preload counted, N.
+    whole: f32,
+    /// Powers 2/3 and 4/3 of the load, preload counted, and inverse ones.
+    two_thirds: f32,
+    four_thirds: f32,
+    per_two_thirds: f32,
+    per_four_thirds: f32,
+}
+
+/// Forces of a ball's neighbours in the frame in which the nut turns forward, N, and the friction coefficient between balls.
+pub(crate) struct Neighbours {
+    pub(crate) behind: f32,
+    pub(crate) ahead: f32,
+    pub(crate) friction: f32,
+}
+
+/// Balls that are renewed in turn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(crate) struct Ring<const N: usize> {
+    pub(crate) balls: [RingBall; N],
+    /// A ball without deviations under the mean load: what balls without load follow.
+    nominal: RingBall,
+    /// Place and motion with which balls begin anew.
+    fresh: Settled,
+    pub(crate) friction: f32,
+    /// Radial gap of every contact at the centred ball, m.
+    pub(crate) clearance: f32,
+    /// Contact force of the lost diagonal's last touch, N: 0 without preload.
+    lift_off: f32,
+    /// Load, preload counted, that the balls are settled for, N.
+    settled_load: f32,
+    /// Angle of the nut in this round and in the last one, rad.
+    round: f32,
+    last_round: f32,
+    /// Balls still to begin anew; renewals until all are settled.
+    stale: u16,
+    settling: u16,
+    next: u8,
+    /// Balls that came under load and wait for their first renewal, as a ball's index and one; 0 is none.
+    entered: u8,
+    /// Balls in two contacts, in this round and in the last one.
+    two_point: u8,
+    last_two_point: u8,
+    backward: bool,
+    negative: bool,
+}
+
+impl RingConstants {
+    pub(crate) const fn new(grooves: ElasticGrooves) -> Self {
+        let nominal = 0.5 * (grooves.path + grooves.cos_lead * grooves.cos);
+        let reference = grooves.path - nominal;
+        Self {
+            nominal,
+            reference,
+            per_reference: 1.0 / reference,
+            orbit: nominal * grooves.orbit,
+            normal: 1.0 / (grooves.sin * grooves.cos_lead),
+            deflection: 1.0 / grooves.screw.stiffness + 1.0 / grooves.nut.stiffness,
+            grooves,
+        }
+    }
+
+    /// Speed of a nominal ball against the nut, m per unit of nut speed.
+    pub(crate) const fn speed_against_nut(&self) -> f32 {
+        self.reference * self.grooves.ball_radius
+    }
+
+    /// Contact force of a preload's oversize, N, times the load over it at which a diagonal is lost.
+    fn lift_off(&self, clearance: f32) -> f32 {
+        let gap = clearance / self.grooves.ball_radius;
+        if gap < 0.0 {
+            let power = -2.0 * gap / self.deflection;
+            power * math::sqrt(power) * crate::ball::preload::LOST
+        } else {
+            0.0
+        }
+    }
+}
+
+impl RingBall {
+    const fn is_loaded(&self) -> bool {
+        self.impedance > 0.0
+    }
+}
+
+impl<const N: usize> Ring<N> {
+    /// Nominal balls, under a load.
+    pub(crate) fn new(constants: &RingConstants, friction: f32, clearance: f32) -> Self {
+        let inputs = BallInputs {
+            axial_load: FIRST_LOAD,
+            force: 0.0,
+            rubbing: [0.0; 2],
+            screw_deviation: 0.0,
+            nut_deviation: 0.0,
+            friction,
+            clearance,
+        };
+        let mut fresh = constants.grooves.start(&inputs);
+        let mut ball = RingBall {
+            place: fresh.place,
+            turning: fresh.turning,
+            free: 0.0,
+            slope: 0.0,
+            impedance: 1.0,
+            torque: 0.0,
+        };
+        let lift_off = constants.lift_off(clearance);
+        let load = RingLoad::new(constants, FIRST_LOAD, lift_off);
+        for _ in 0..FIRST_RENEWALS {
+            let found = constants.grooves.renew(&mut fresh, &inputs);
+            ball.keep(constants, &load, &fresh, &found, 0.0);
+        }
+        Self {
+            balls: [ball; N],
+            nominal: ball,
+            fresh,
+            friction,
+            clearance,
+            lift_off,
+            settled_load: FIRST_LOAD,
+            round: 0.0,
+            last_round: 0.0,
+            stale: N as u16,
+            settling: SETTLING_ROUNDS * N as u16,
+            next: 0,
+            entered: 0,
+            two_point: 0,
+            last_two_point: 0,
+            backward: false,
+            negative: false,
+        }
+    }
+
+    /// Speed of a ball without load less the nominal one, over the nominal one against the nut.
+    #[inline(always)]
+    pub(crate) const fn idle(&self) -> f32 {
+        self.nominal.free
+    }
+
+    /// Whether forces between balls are those of balls that still settle.
+    pub(crate) const fn settles(&self) -> bool {
+        self.settling > 0
+    }
+
+    /// Whether balls stand in two contacts.
+    pub(crate) const fn in_two_points(&self) -> bool {
+        self.two_point > 0 || self.last_two_point > 0
+    }
+
+    /// -1 where the nut turns backward, else 1.
+    #[inline(always)]
+    pub(crate) const fn way(&self) -> f32 {
+        if self.backward { -1.0 } else { 1.0 }
+    }
+
+    /// Turns to the speed and the mean axial load of a ball in a tick: balls begin anew where it jumps.
+    /// Gives the load, and whether they did.
+    #[inline(always)]
+    pub(crate) fn turn_to(
+        &mut self,
+        constants: &RingConstants,
+        nut_speed: f32,
+        axial_load: f32,
+    ) -> (RingLoad, bool) {
+        let backward = if nut_speed == 0.0 {
+            self.backward
+        } else {
+            nut_speed < 0.0
+        };
+        let size = axial_load.abs();
+        let negative = if size > SMALLEST_LOAD {
+            axial_load < 0.0
+        } else {
+            self.negative
+        };
+        let size = if size > SMALLEST_LOAD {
+            size
+        } else {
+            SMALLEST_LOAD
+        };
+        let axial = if backward == negative { size } else { -size };
+        let load = RingLoad::new(constants, axial, self.lift_off);
+        let whole = load.whole;
+        let reversed = backward != self.backward;
+        let crossed = negative != self.negative;
+        let held = constants.normal * size < HELD * whole && !reversed;
+        let jumped = whole > LOAD_JUMP * self.settled_load || LOAD_JUMP * whole < self.settled_load;
+        let anew = (reversed || crossed) && !held || jumped;
+        if anew {
+            self.begin_anew(constants, axial, crossed && !held);
+            self.settled_load = whole;
+        }
+        self.backward = backward;
+        self.negative = negative;
+        (load, anew)
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn begin_anew(&mut self, constants: &RingConstants, axial_load: f32, mirrored: bool) {
+        self.fresh = constants.grooves.start(&BallInputs {
+            axial_load,
+            force: 0.0,
+            rubbing: [0.0; 2],
+            screw_deviation: 0.0,
+            nut_deviation: 0.0,
+            friction: self.friction,
+            clearance: self.clearance,
+        });
+        for ball in &mut self.balls {
+            ball.slope = 0.0;
+            if mirrored {
+                ball.free = -ball.free;
+            }
+        }
+        self.stale = N as u16;
+        self.settling = SETTLING_ROUNDS * N as u16;
+    }
+
+    /// The ball whose turn it is.
+    #[inline(always)]
+    pub(crate) fn next(&mut self) -> usize {
+        let entered = usize::from(self.entered);
+        if entered > 0 {
+            self.entered = 0;
+            return entered - 1;
+        }
+        let next = usize::from(self.next);
+        if next < N {
+            self.next += 1;
+        } else {
+            self.end_round();
+        }
+        next
+    }
+
+    #[inline(always)]
+    fn end_round(&mut self) {
+        self.next = 0;
+        self.last_round = self.round;
+        self.round = 0.0;
+        self.last_two_point = self.two_point;
+        self.two_point = 0;
+    }
+
+    /// Renews a ball under its share of the load, its deviations and the force of its neighbours, in the forward frame.
+    #[inline(always)]
+    pub(crate) fn renew(
+        &mut self,
+        constants: &RingConstants,
+        load: &RingLoad,
+        index: usize,
+        (screw_deviation, nut_deviation): (f32, f32),
+        share: f32,
+        forces: &Neighbours,
+    ) {
+        let force = forces.behind - forces.ahead;
+        let is_nominal = index >= N;
+        let ball = self.balls.get_mut(index).unwrap_or(&mut self.nominal);
+        self.settling = self.settling.saturating_sub(1);
+        let (place, turning) = if self.stale > 0 {
+            self.stale -= 1;
+            (self.fresh.place, self.fresh.turning)
+        } else {
+            (ball.place, ball.turning)
+        };
+        if !ball.is_loaded() {
+            return;
+        }
+        let pushed = force / (ball.impedance * load.two_thirds);
+        let mut settled = Settled {
+            place,
+            turning,
+            speed: constants.nominal + constants.reference * (ball.free + pushed),
+        };
+        let inputs = BallInputs {
+            axial_load: load.axial * share,
+            force,
+            rubbing: [
+                forces.friction * (forces.ahead + forces.behind),
+                forces.friction * -force,
+            ],
+            screw_deviation,
+            nut_deviation,
+            friction: self.friction,
+            clearance: self.clearance,
+        };
+        let found = constants.grooves.renew(&mut settled, &inputs);
+        let [a, b, c, d] = found.loads;
+        let light = if load.axial < 0.0 { (a, d) } else { (b, c) };
+        self.two_point += u8::from(!(light.0 > 0.0 || light.1 > 0.0));
+        let before = ball.free;
+        ball.keep(constants, load, &settled, &found, force);
+        // The slope is that of a whole round between two renewals.
+        let change = ball.free - before;
+        ball.slope = if self.last_round.abs() > 1e-4 && self.stale == 0 && !is_nominal {
+            ball.slope + change / self.last_round
+        } else {
+            0.0
+        };
+    }
+
+    /// The load for which balls are renewed, once a round is over.
+    #[inline(always)]
+    pub(crate) fn advance(&mut self, angle: f32, load: &RingLoad) {
+        self.round += angle;
+        if self.next == 0 {
+            self.settled_load = load.whole;
+        }
+    }
+
+    /// Marks a ball as loaded that was not: it takes over what its neighbour does.
+    #[inline(always)]
+    pub(crate) fn enter(&mut self, index: usize) {
+        let behind = index.wrapping_sub(1);
+        let behind = if behind < N { behind } else { N - 1 };
+        let ahead = if index + 1 < N { index + 1 } else { 0 };
+        let neighbour = [behind, ahead]
+            .into_iter()
+            .filter_map(|place| self.balls.get(place))
+            .find(|ball| ball.is_loaded())
+            .copied();
+        if let (Some(neighbour), Some(ball)) = (neighbour, self.balls.get_mut(index)) {
+            *ball = neighbour;
+            self.entered = index as u8 + 1;
+        }
+    }
+}
+
+impl RingLoad {
+    /// Of a mean axial load in the frame in which the nut turns forward, N.
+    #[inline(always)]
+    fn new(constants: &RingConstants, axial: f32, lift_off: f32) -> Self {
+        let normal = constants.normal * axial;
+        let whole = math::sqrt(normal * normal + lift_off * lift_off);
+        let [inverse, _] = inverse_cube_roots([whole, 1.0]);
+        let square = inverse * inverse;
+        let two_thirds = whole * inverse;
+        Self {
+            axial,
+            whole,
+            two_thirds,
+            four_thirds: two_thirds * two_thirds,
+            per_two_thirds: square,
+            per_four_thirds: square * square,
+        }
+    }
+
+    /// Impedance of a ball, N.
+    #[inline(always)]
+    pub(crate) fn impedance(&self, ball: &RingBall) -> f32 {
+        ball.impedance * self.two_thirds
+    }
+
+    /// Friction torque of balls on the nut, from the sum of theirs, N m.
+    #[inline(always)]
+    pub(crate) fn torque(&self, sum: f32) -> f32 {
+        sum * self.four_thirds
+    }
+}
+
+impl RingBall {
+    /// Keeps what a renewal found.
+    #[inline(always)]
+    fn keep(
+        &mut self,
+        constants: &RingConstants,
+        load: &RingLoad,
+        settled: &Settled,
+        found: &Renewal,
+        force: f32,
+    ) {
+        let radius = constants.grooves.ball_radius;
+        let impedance = constants.reference * radius / found.compliance;
+        let (least, most) = IMPEDANCES;
+        let impedance = if impedance > least { impedance } else { least };
+        let impedance = if impedance < most { impedance } else { most };
+        let free =
+            (settled.speed - constants.nominal) * constants.per_reference - force / impedance;
+        self.place = settled.place;
+        self.turning = settled.turning;
+        self.free = if free > FASTEST {
+            FASTEST
+        } else if free > -FASTEST {
+            free
+        } else {
+            -FASTEST
+        };
+        self.impedance = impedance * load.per_two_thirds;
+        self.torque = found.torque * load.per_four_thirds;
+    }
+
+    /// Free speed at this tick, over the nominal one against the nut; it follows the nut's angle.
+    #[inline(always)]
+    pub(crate) fn follow(&mut self, angle: f32) -> f32 {
+        self.free += self.slope * angle;
+        self.free
+    }
+
+    /// Friction torque over the power 4/3 of the load.
+    #[inline(always)]
+    pub(crate) const fn torque(&self) -> f32 {
+        self.torque
+    }
+
+    /// A ball that leaves its load.
+    #[inline(always)]
+    pub(crate) fn leave(&mut self) {
+        self.impedance = 0.0;
+    }
+
+    #[inline(always)]
+    pub(crate) const fn loaded(&self) -> bool {
+        self.is_loaded()
+    }
+
+    /// Half the speed with which balls alike rub, m per unit of nut speed.
+    #[inline(always)]
+    pub(crate) fn rubbing(&self, constants: &RingConstants) -> f32 {
+        let [x, _, z] = self.turning;
+        let z = z - constants.orbit;
+        math::sqrt(x * x + z * z) * constants.grooves.ball_radius
+    }
+}

@@ -1,0 +1,133 @@
+//! The two ways in which a ball of a linear bearing rolls: on four contacts that spin, or on two that do not while
+//! the other two slide.
+
+use super::loads::LoadShare;
+
+/// Part of the four-point loss by which two-point rolling has to cost more, so that a ball counts as rolling on four
+/// points: the border's formula leaves out the spin of the weaker diagonal and terms in the square of the deviations,
+/// 7 % of the loss at 3 degrees.
+const BORDER_MARGIN: f32 = 1.1;
+
+/// Force between two balls over that of the closed form, at most, shortly before the border.
+const FORCE_MARGIN: f32 = 1.25;
+
+/// Friction of a ball with the grooves of a linear bearing, and how near the ball is to two-point rolling.
+///
+/// Coulomb friction takes the way of rolling that loses least. With the sums `U` and `D` of the forces of both
+/// diagonals, loss over the speed of the carriage:
+///
+/// ```text
+/// four-point rolling: four contacts spin with v tan(beta)/(2 r_b)     spin (U^(4/3) + D^(4/3))
+/// two-point rolling:  two contacts slide with v sin²(beta)            mu sin²(beta) D,  D the weaker one
+/// ```
+///
+/// Where the second gets less than the first, the ball's speed jumps. Two things move this border: angle deviations,
+/// which take force off one diagonal (`h U/sin(2 beta)` for a difference `h` of the mean deviations of both grooves),
+/// and neighbours, which press less on a ball and rub less on it when it rolls on two points.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(crate) struct GrooveFriction {
+    /// Loss of spin over `F^(4/3)` of a diagonal, N^(-1/3).
+    spin: f32,
+    /// Loss of sliding over the force of the weaker diagonal.
+    slide: f32,
+    /// Loss of spin at the border over `F^(4/3)` of the stronger diagonal, for the heaviest ball, N^(-1/3).
+    border: f32,
+    /// What deviations take at most off the loss of sliding, over the force of the stronger diagonal: where the
+    /// diagonal U is the weaker one, and where D is.
+    turned: [f32; 2],
+    /// Loss by neighbours that a ball saves in two-point rolling: over the force between balls, for the lightest ball.
+    rubbing: f32,
+    /// The same over that force's square and the compliance.
+    pressing: f32,
+}
+
+/// What moves the border of two-point rolling beside the loads.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct BorderParameters {
+    /// Sine and cosine of the contact angle.
+    pub(crate) angle: (f32, f32),
+    /// Friction coefficient of ball and groove.
+    pub(crate) friction: f32,
+    /// Friction coefficient of ball and ball.
+    pub(crate) ball_friction: f32,
+    /// Loss of a ball that spins at four contacts over `U^(4/3) + D^(4/3)`, N^(-1/3).
+    pub(crate) spin: f32,
+    /// Least and largest deviation of the bottom groove, rad.
+    pub(crate) bottom: (f32, f32),
+    /// Least and largest deviation of the top groove, rad.
+    pub(crate) top: (f32, f32),
+    /// Lightest and heaviest load of a ball.
+    pub(crate) shares: (LoadShare, LoadShare),
+}
+
+/// What a ball under the mean load loses in its grooves, N: power over the speed of the carriage.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct GrooveLoss {
+    /// Friction force.
+    pub(crate) friction: f32,
+    /// By how much two-point rolling costs more than four-point rolling, at the least favourable deviations; below zero
+    /// it costs less.
+    reserve: f32,
+}
+
+impl GrooveFriction {
+    pub(crate) const fn new(parameters: &BorderParameters) -> Self {
+        let BorderParameters {
+            angle: (sin, cos),
+            friction,
+            ball_friction,
+            spin,
+            bottom,
+            top,
+            shares: (lightest, heaviest),
+        } = *parameters;
+        let slide = friction * sin * sin;
+        // Half the difference of the deviations, over sin(2 beta).
+        let turned = 0.25 * slide / (sin * cos);
+        Self {
+            spin,
+            slide,
+            border: BORDER_MARGIN * spin * heaviest.root(),
+            turned: [turned * (top.1 - bottom.0), turned * (bottom.1 - top.0)],
+            // Balls rub with v/cos(beta) in four-point rolling, (3.52), and with v in two-point rolling.
+            rubbing: FORCE_MARGIN * ball_friction * (1.0 / cos - 1.0) / lightest.share(),
+            // The force changes the ball's speed by v/2 times the compliance: half of the product.
+            pressing: 0.25 * FORCE_MARGIN * FORCE_MARGIN
+                / (lightest.share() * lightest.two_thirds()),
+        }
+    }
+
+    /// The loss under the forces of both diagonals, each the sum of its two contacts, N, and their powers of 4/3.
+    #[inline(always)]
+    pub(crate) fn at(&self, [up, down]: [f32; 2], [up_spin, down_spin]: [f32; 2]) -> GrooveLoss {
+        let [turned_up, turned_down] = self.turned;
+        let (weak, strong, strong_spin, turned) = if up < down {
+            (up, down, down_spin, turned_up)
+        } else {
+            (down, up, up_spin, turned_down)
+        };
+        let four_points = self.spin * (up_spin + down_spin);
+        let two_points = self.slide * weak;
+        GrooveLoss {
+            friction: if two_points < four_points {
+                two_points
+            } else {
+                four_points
+            },
+            reserve: two_points - (turned * strong + self.border * strong_spin),
+        }
+    }
+
+    /// Whether some ball may roll on two points, where so much force acts between two balls whose compliance is this,
+    /// 1/N.
+    #[inline(always)]
+    pub(crate) fn leaves_four_points(
+        &self,
+        loss: &GrooveLoss,
+        force: f32,
+        compliance: f32,
+    ) -> bool {
+        loss.reserve < force * (self.rubbing + self.pressing * force * compliance)
+    }
+}
