@@ -362,6 +362,29 @@ impl Compared {
             errors
                 .speed
                 .add((f64::from(found.speed) - speed) / case.span(), line);
+            {
+                let e = errors.speed.all.last().unwrap();
+                if e.abs() > 1e-2 {
+                    let i = &case.inputs;
+                    println!(
+                        "BAD {e:.3} {:?} {:?} {:?} b {:.4} args {} {} {} {} {} | {} {} {} {} {:e}",
+                        found.loads,
+                        exact.loads.map(|l| l as f32),
+                        found.taken,
+                        case.design.contact_angle,
+                        case.design.pitch_radius,
+                        case.design.lead,
+                        case.design.ball_radius,
+                        case.design.screw_groove_radius,
+                        case.design.contact_angle,
+                        i.axial_load,
+                        i.screw_deviation,
+                        i.nut_deviation,
+                        i.friction,
+                        i.clearance
+                    );
+                }
+            }
             let torque = exact.motion.power_loss / TAU;
             errors
                 .torque

@@ -6,9 +6,9 @@ use crate::contact::slip_map::looped::Slips;
 use crate::math;
 
 /// Spin below which a contact sticks, over the nut's speed.
-pub(super) const STICK_SPIN: f32 = 0.03;
+pub(super) const STICK_SPIN: f32 = 0.01;
 
-/// Part of its own slip and spin by which a step may change those of a contact: beyond it friction changes its sign.
+/// Part of its own slip and spin by which a step may change those of a contact: beyond, friction changes its sign.
 const REACH: f32 = 0.7;
 
 /// Load of a contact, and how far a step may change the motion of the ball for its sake.
@@ -38,14 +38,11 @@ impl Reach {
     #[inline(always)]
     pub(super) fn allows(&self, step: &Motion) -> bool {
         let (along, spin) = slips(step, (self.nx, self.nz));
-        (self.load == 0.0) | ((spin.abs() <= self.spin) & (along.abs() <= self.along))
+        (spin.abs() <= self.spin) & (along.abs() <= self.along)
     }
 
     /// Part of a step that this contact allows, at most `taken`.
     pub(super) fn allowed(&self, step: &Motion, taken: f32) -> f32 {
-        if self.load == 0.0 {
-            return taken;
-        }
         let (along, spin) = slips(step, (self.nx, self.nz));
         let taken = within(taken, spin.abs(), self.spin);
         within(taken, along.abs(), self.along)

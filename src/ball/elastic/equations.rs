@@ -94,6 +94,13 @@ impl Shared {
             ss: 0.0,
         },
     };
+
+    /// Leaves the place out of the equations of the motion.
+    pub(super) const fn uncouple(&mut self, screw: &mut Axial, nut: &mut Axial) {
+        self.forces_by_place = Motion::NONE;
+        screw.forces = Motion::NONE;
+        nut.forces = Motion::NONE;
+    }
 }
 
 /// Axial balance in one groove.
@@ -184,7 +191,7 @@ impl Line {
 /// Solves the equations, where the axial forces on the ball are unbalanced by those given.
 ///
 /// Elimination without exchange of rows: axial places, radial place, motion.
-#[inline(always)]
+#[inline(never)]
 pub(super) fn solved(
     shared: &Shared,
     screw: &Axial,
