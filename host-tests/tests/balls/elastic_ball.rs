@@ -184,13 +184,12 @@ fn stored_free_balls() {
             }
         }
     }
-    speed.within("speed", OPEN);
-    torque.within("torque", OPEN);
-    load.within("loads over axial load", OPEN);
-    compliance.within("compliance", OPEN);
+    // Measured: 1.8e-5, 2.7e-6, 4.4e-7; 3.3e-4, 6.7e-5, 9.0e-6; 4.3e-5, 7.6e-6, 1.5e-6; 2.4e-2, 3.6e-3, 1.8e-4.
+    speed.within("speed", [2.7e-5, 4e-6, 1e-6]);
+    torque.within("torque", [5e-4, 1e-4, 2e-5]);
+    load.within("loads over axial load", [6.5e-5, 1.2e-5, 3e-6]);
+    compliance.within("compliance", [3.6e-2, 5.4e-3, 5e-4]);
 }
-
-const OPEN: [f64; 3] = [f64::INFINITY; 3];
 
 /// Two balls that press on each other: each is renewed with the force that their two laws `v = v0 + Y F` give, as in a train.
 #[test]
@@ -223,8 +222,12 @@ fn stored_pressing_pairs() {
             torque.add(f64::from(found[ball].torque) / exact - 1.0, line);
         }
     }
-    force.within("force between two balls", OPEN);
-    torque.within("torque of pressing balls", OPEN);
+    // Measured: 1.9e-2, 3.3e-3, 5.3e-4, the largest where the third contact all but opens (100 N at a friction of 0.05), all
+    // others within 0.6 per cent; 1.1e-3, 1.4e-4, 2.2e-5.
+    force.within("force between two balls", [2.8e-2, 5e-3, 1e-3]);
+    let beyond = force.all.iter().filter(|error| error.abs() > 6e-3).count();
+    assert!(beyond <= 1, "{beyond} forces beyond 0.6 per cent");
+    torque.within("torque of pressing balls", [1.7e-3, 2.1e-4, 4e-5]);
 }
 
 /// Nominal diameter, lead and ball diameter, mm; conformity of both grooves.
@@ -347,7 +350,7 @@ impl Compared {
             let exact = &exact.free[0];
             let mut ball = case.grooves.start(&case.inputs);
             let found = renewed(&case.grooves, &mut ball, &case.inputs, 60);
-            assert!(!found.lost, "{}", case.line());
+            assert!(!found.lost && found.compliance > 0.0, "{}", case.line());
             // A light contact under less than a thousandth of the load is as good as open.
             let size = f64::from(case.inputs.axial_load.abs());
             let carrying = exact
@@ -362,29 +365,6 @@ impl Compared {
             errors
                 .speed
                 .add((f64::from(found.speed) - speed) / case.span(), line);
-            {
-                let e = errors.speed.all.last().unwrap();
-                if e.abs() > 1e-2 {
-                    let i = &case.inputs;
-                    println!(
-                        "BAD {e:.3} {:?} {:?} {:?} b {:.4} args {} {} {} {} {} | {} {} {} {} {:e}",
-                        found.loads,
-                        exact.loads.map(|l| l as f32),
-                        found.taken,
-                        case.design.contact_angle,
-                        case.design.pitch_radius,
-                        case.design.lead,
-                        case.design.ball_radius,
-                        case.design.screw_groove_radius,
-                        case.design.contact_angle,
-                        i.axial_load,
-                        i.screw_deviation,
-                        i.nut_deviation,
-                        i.friction,
-                        i.clearance
-                    );
-                }
-            }
             let torque = exact.motion.power_loss / TAU;
             errors
                 .torque
@@ -397,26 +377,153 @@ impl Compared {
     }
 }
 
+/// Clearance of an EPAS screw. Every ball comes to rest within 60 renewals from nothing.
+///
+/// The largest errors are those of balls whose third contact all but opens, where friction that is smoothed below a spin of 0.01
+/// counts. In two points one groove sticks, and the speed between that of both grooves' rolling hangs on that.
 #[test]
 fn random_balls() {
     let ([three, two], unsolved) = Compared::random(1, 200, (-5e-6, 5e-6));
-    println!("{unsolved} unsolved");
-    three.speed.within("speed", OPEN);
-    three.torque.within("torque", OPEN);
-    three.load.within("loads", OPEN);
-    two.speed.within("speed in two points", OPEN);
-    two.torque.within("torque in two points", OPEN);
-    two.load.within("loads in two points", OPEN);
+    assert_eq!(unsolved, 0);
+    assert!(two.speed.all.len() <= 12);
+    // Measured: 4.6e-2, 3.8e-3, 6.0e-5; 2.4e-2, 2.7e-3, 7.0e-4; 5.4e-3, 3.1e-4, 5.4e-5.
+    three.speed.within("speed", [7e-2, 5.7e-3, 4e-4]);
+    three.torque.within("torque", [3.6e-2, 4e-3, 1.1e-3]);
+    three.load.within("loads", [8e-3, 4.7e-4, 9e-5]);
+    // Measured: 1.6e-1, 8.6e-2, 2.0e-2; 1.8e-4, 9.2e-5, 6.4e-5; 1.1e-6, 3.2e-7, 1.7e-7.
+    two.speed
+        .within("speed in two points", [2.4e-1, 1.3e-1, 5e-2]);
+    two.torque
+        .within("torque in two points", [2.8e-4, 1.4e-4, 1e-4]);
+    two.load.within("loads in two points", [4e-6, 1e-6, 6e-7]);
 }
 
+/// Play of 5 to 20 micrometres: two thirds of the balls stand in two points.
 #[test]
 fn random_balls_with_play() {
     let ([three, two], unsolved) = Compared::random(2, 100, (5e-6, 20e-6));
-    println!("{unsolved} unsolved");
-    three.speed.within("speed", OPEN);
-    three.torque.within("torque", OPEN);
-    three.load.within("loads", OPEN);
-    two.speed.within("speed in two points", OPEN);
-    two.torque.within("torque in two points", OPEN);
-    two.load.within("loads in two points", OPEN);
+    assert_eq!(unsolved, 0);
+    // Measured: 3.1e-2, 6.8e-3, 1.1e-4; 6.9e-3, 1.8e-3, 7.0e-4; 8.5e-4, 1.1e-4, 3.3e-5.
+    three.speed.within("speed", [4.7e-2, 1.1e-2, 1e-3]);
+    three.torque.within("torque", [1.1e-2, 2.7e-3, 1.1e-3]);
+    three.load.within("loads", [1.3e-3, 1.7e-4, 6e-5]);
+    // Measured: 6.8e-1, 1.2e-1, 3.0e-2; 1.3e-3, 1.7e-4, 2.3e-5; 7.2e-6, 1.2e-6, 3.5e-7.
+    two.speed.within("speed in two points", [1.0, 1.8e-1, 6e-2]);
+    two.torque
+        .within("torque in two points", [2e-3, 3e-4, 6e-5]);
+    two.load.within("loads in two points", [2e-5, 4e-6, 1e-6]);
+}
+
+fn typical() -> Case {
+    let mut case = Case::random(&mut Random(3), (0.0, 0.0));
+    case.inputs = BallInputs {
+        axial_load: -50.0,
+        screw_deviation: 0.02,
+        nut_deviation: -0.01,
+        friction: 0.1,
+        ..case.inputs
+    };
+    case
+}
+
+/// A clearance through zero changes nothing at once: neither loads nor speed nor torque jump.
+#[test]
+fn clearance_is_continuous_through_zero() {
+    let case = typical();
+    let at = |clearance: f32| {
+        let inputs = BallInputs {
+            clearance,
+            ..case.inputs
+        };
+        let mut ball = case.grooves.start(&inputs);
+        renewed(&case.grooves, &mut ball, &inputs, 60)
+    };
+    let (play, none, oversize) = (at(1e-8), at(0.0), at(-1e-8));
+    for other in [play, oversize] {
+        // A hundredth of a micrometre is a part in some hundreds of the deflection of a light contact.
+        assert!((other.torque / none.torque - 1.0).abs() < 3e-3);
+        assert!((other.speed / none.speed - 1.0).abs() < 1e-4);
+        for (load, before) in other.loads.iter().zip(none.loads) {
+            assert!((load - before).abs() < 0.2, "{load} {before}");
+        }
+    }
+    assert!(play.loads[0] < none.loads[0] && none.loads[0] < oversize.loads[0]);
+}
+
+/// Whatever goes in, numbers come out, and a ball that is lost stays as it was.
+#[test]
+fn hostile_input_gives_numbers_or_a_lost_ball() {
+    let case = typical();
+    let hostile = [
+        0.0,
+        -0.0,
+        1e-30,
+        1e-3,
+        -1e7,
+        1e30,
+        f32::NAN,
+        f32::INFINITY,
+        f32::MIN_POSITIVE,
+    ];
+    let good = case.inputs;
+    let mut lost = 0;
+    for value in hostile {
+        for inputs in [
+            BallInputs {
+                axial_load: value,
+                ..good
+            },
+            BallInputs {
+                force: value,
+                ..good
+            },
+            BallInputs {
+                screw_deviation: value,
+                ..good
+            },
+            BallInputs {
+                nut_deviation: -value,
+                ..good
+            },
+            BallInputs {
+                friction: value,
+                ..good
+            },
+            BallInputs {
+                clearance: value,
+                ..good
+            },
+        ] {
+            let mut ball = case.grooves.start(&inputs);
+            for _ in 0..20 {
+                let before = ball;
+                let found = case.grooves.renew(&mut ball, &inputs);
+                let numbers = [
+                    found.speed,
+                    found.compliance,
+                    found.torque,
+                    found.carried,
+                    found.taken,
+                ];
+                if found.lost {
+                    lost += 1;
+                    assert_eq!(format!("{ball:?}"), format!("{before:?}"));
+                } else {
+                    assert!(
+                        numbers.iter().all(|number| number.is_finite()),
+                        "{found:?} {inputs:?}"
+                    );
+                }
+            }
+            // From a good state as well.
+            let mut ball = case.grooves.start(&good);
+            for _ in 0..20 {
+                let found = case.grooves.renew(&mut ball, &inputs);
+                assert!(found.lost || found.speed.is_finite() && found.torque.is_finite());
+            }
+            let found = renewed(&case.grooves, &mut ball, &good, 60);
+            assert!(found.speed.is_finite(), "{inputs:?}");
+        }
+    }
+    assert!(lost > 0);
 }
