@@ -1,8 +1,10 @@
-//! What to take for a ball screw of which nothing has been measured: friction coefficient, clearance, rolling resistance.
+//! What to take for a ball screw of which nothing has been measured: friction coefficient, clearance, rolling
+//! resistance.
 //!
-//! Set-up: numbers for a configuration. No drawing prints them, and they decide a screw's friction: at 14.5 kN the screw of 37 balls (33x20) has 0.8 to
-//! 5 N m between the friction coefficients 0.05 and 0.15, and 3.2 to 1.2 N m between 5 um of oversize and 20 um of play (friction 0.1).
-//! Whoever has a measured torque should fit the friction coefficient to it.
+//! Set-up: numbers for a configuration. No drawing prints them, and they decide a screw's friction: at 14.5 kN the
+//! screw of 37 balls (33x20) has 0.8 to 5 N m between the friction coefficients 0.05 and 0.15, and 3.2 to 1.2 N m
+//! between 5 um of oversize and 20 um of play (friction 0.1). Whoever has a measured torque should fit the friction
+//! coefficient to it.
 //!
 //! With these three, all of the exact model (slip, spin, every contact that carries, rolling resistance):
 //!
@@ -13,25 +15,27 @@
 //! | efficiency over load | rises | rises |
 //! | drag torque of two braced nuts | 0.92 to 1.04 of the rule | 0.05 (tan lead angle)^-1/2 preload lead/2 pi |
 //!
-//! The report's section "Measured and computed" has the figures, their sources and what other values would do. Wipers, seals and the balls' return are not
-//! in them.
+//! The report's section "Measured and computed" has the figures, their sources and what other values would do. Wipers,
+//! seals and the balls' return are not in them.
 
 use crate::ball::Clearance;
 use crate::contact::RollingResistance;
 
 /// Coulomb friction coefficient of ball and groove: 0.1.
 ///
-/// The one number here that is fitted: with it the drag torque of two braced nuts is that of the rule of JIS B 1192 (within 8 %); a measured pair of
-/// screws means 0.09 to 0.16, by their assumed diameter.
+/// The one number here that is fitted: with it the drag torque of two braced nuts is that of the rule of JIS B 1192
+/// (within 8 %); a measured pair of screws means 0.09 to 0.16, by their assumed diameter.
 ///
-/// Range in the literature: 0.02 to 0.2 assumed in models, 0.05 to 0.15 for boundary-lubricated steel. Lin 2019 takes 0.1.
+/// Range in the literature: 0.02 to 0.2 assumed in models, 0.05 to 0.15 for boundary-lubricated steel. Lin 2019 takes
+/// 0.1.
 pub const FRICTION: f32 = 0.1;
 
 /// Clearance: a radial gap of every contact of -1 um, that is 1 um of oversize.
 ///
-/// Steering gears and machine tools are built without play. A micrometre of oversize is the least preload that a maker can set by sorting balls; it makes
-/// efficiency rise with load, as is measured, and keeps the friction of the makers' rule down to small leads, where a ball that just fits loses its third
-/// contact. It costs some 0.12 N m without load in a steering gear's screw (29x7, 71 balls).
+/// Steering gears and machine tools are built without play. A micrometre of oversize is the least preload that a maker
+/// can set by sorting balls; it makes efficiency rise with load, as is measured, and keeps the friction of the makers'
+/// rule down to small leads, where a ball that just fits loses its third contact. It costs some 0.12 N m without load
+/// in a steering gear's screw (29x7, 71 balls).
 ///
 /// Range: 5 um of oversize (heavily preloaded) to 20 um of play.
 pub const CLEARANCE: Clearance = match Clearance::new(-1e-6) {
@@ -41,6 +45,7 @@ pub const CLEARANCE: Clearance = match Clearance::new(-1e-6) {
 
 /// Rolling resistance: steel, without lubricant drag.
 ///
-/// Hysteresis is about 1 % of a screw's friction. Drag is zero because it depends on grease, temperature and speed: 0.006 N a contact at room temperature and
-/// 1 turn a second, seven times that at 20, a per cent or so of a loaded screw's friction at the first, a tenth at the second.
+/// Hysteresis is about 1 % of a screw's friction. Drag is zero because it depends on grease, temperature and speed:
+/// with a viscosity of 0.1 Pa s it is 0.006 N a contact at 1 turn a second and 0.041 N at 20, which are 1 % and 8 % of
+/// a loaded screw's friction.
 pub const ROLLING_RESISTANCE: RollingResistance = RollingResistance::STEEL;

@@ -47,8 +47,9 @@ use targets::{refuse_same, targets};
 /// oversize below) or preload (force of each contact without a load, N), reversal_speed, loaded_balls
 /// (needed with oversize), a table [limits] with nut_speed, axial_load, friction_torque; and for --scene
 /// uncaged a table [uncaged] with balls (1 to 64), turns, and if wanted ball_friction, return_length,
-/// screw_deviation and nut_deviation (lists of { order, cosine, sine }, over deviation_turns turns) and
-/// load_shares (a list along the loaded track).
+/// screw_deviation and nut_deviation (lists of { order, cosine, sine }, over deviation_turns turns),
+/// load_shares (a list along the loaded track) and negative_load_shares (as long a list, for loads below
+/// zero; load_shares serves both signs without it).
 ///
 /// For --scene linear a trace has the columns time, speed (m/s), normal_load and side_load (N), and a
 /// design file ball_radius or ball_diameter, conformity or groove_radius, contact_angle, balls,
@@ -56,13 +57,22 @@ use targets::{refuse_same, targets};
 /// load_shares, friction, ball_friction, materials as above, reversal_speed, and a table [limits] with
 /// speed, load, friction_force. Scenes with a train need a trace of equal steps of time.
 ///
-/// With --loads no trace is run: the static model of the float64 reference finds the share of each ball in
-/// the axial load, for load_shares. A design file says in a table [loads] what it needs beside loaded_balls:
-/// screw_length, screw_diameter (outer), nut_position (axial centre of the balls), axial_load (on the left
-/// end, which moves only along the axis; the right end is free and the nut rigid), turns (of the loaded
-/// balls) or ball_spacing; and if wanted ball_oversize (of the radius; a number, or a list with one for each
-/// ball), end_offset (x displacement forced on the right end), pitch_error and roundness_error (amplitudes
-/// of the screw's groove, once and twice a turn).
+/// With --loads no friction is computed: the static model of the float64 reference finds the share of each
+/// ball in the axial load, for load_shares. Shares change with the size of the load, because contacts get
+/// stiffer, and with its sign, because the other flank carries. So the program says which loads a table
+/// serves: those where friction of the grooves is within 1 % of that with the load's own table, and each
+/// ball's load within 5 % of the largest one. Loads of 5 to 300 N a ball of both signs are tried in steps of
+/// a tenth; with --input or --manoeuvre, those from 5 N a ball to the largest load of the trace. One
+/// table is written where it serves all loads of the trace, else one for each sign. Where that does
+/// not serve either, the program says so, by how much it errs, and how many tables it would take.
+///
+/// A design file says in a table [loads] what this needs beside loaded_balls: screw_length, screw_diameter
+/// (outer), nut_position (axial centre of the balls), axial_load (on the end that moves only along the axis;
+/// the other end is free and the nut rigid; positive towards the right), turns (of the loaded balls) or
+/// ball_spacing; and if wanted loaded_end ("left", where the loaded track starts, or "right"; left without),
+/// ball_oversize (of the radius; a number, or a list with one for each ball), end_offset (x displacement
+/// forced on the other end), pitch_error and roundness_error (amplitudes of the screw's groove, once and
+/// twice a turn).
 // Each is a flag of the command line.
 #[allow(clippy::struct_excessive_bools)]
 #[derive(Debug, clap::Args)]
@@ -116,16 +126,23 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     };
     if let (true, Some(source)) = (arguments.loads.wanted(), &arguments.design) {
         let output = arguments.output.as_deref();
-        refuse_same([source.file()], arguments.output.iter())?;
-        return loads::run(&source.load()?, &arguments.loads, output, existing);
+        refuse_same(
+            [source.file(), arguments.input.as_deref()],
+            arguments.output.iter(),
+        )?;
+        let loads = loads::Source {
+            input: arguments.input.as_ref(),
+            manoeuvre: arguments.manoeuvre,
+        };
+        return loads::run(&source.load()?, &arguments.loads, loads, output, existing);
     }
     match choose(
         arguments.scene,
         arguments.design.as_ref(),
         arguments.manoeuvre,
     )? {
-        Chosen::Caged(scene) => simulate(&scene, arguments, existing),
-        Chosen::Uncaged(scene) => simulate(&scene, arguments, existing),
+        Chosen::Caged(scene) => simulate(&*scene, arguments, existing),
+        Chosen::Uncaged(scene) => simulate(&*scene, arguments, existing),
         Chosen::Linear(scene) => simulate(&scene, arguments, existing),
     }
 }

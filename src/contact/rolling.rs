@@ -1,6 +1,7 @@
 //! Rolling resistance of one contact: elastic hysteresis and lubricant drag, beside its Coulomb friction.
 //!
-//! [`RollingContact`] is folded at set-up; its functions are called directly or by a step that knows the load of each contact.
+//! [`RollingContact`] is folded at set-up; its functions are called directly or by a step that knows the load of each
+//! contact.
 
 use crate::curvature::GothicArch;
 use crate::error::{Error, attempt};
@@ -11,23 +12,23 @@ use crate::ranges;
 
 /// What a contact loses that rolls without slip.
 ///
-/// Hysteresis: of the elastic energy that a contact takes up in front of its centre, it gives back a little less behind. Drag: a lubricant is
-/// pumped into the contact's inlet against its own viscosity.
+/// Hysteresis: of the elastic energy that a contact takes up in front of its centre, it gives back a little less
+/// behind. Drag: a lubricant is pumped into the contact's inlet against its own viscosity.
 ///
-/// Both are small beside the friction of a ball screw's contacts that slip and spin (a few per cent, see the report's section "Measured and computed"), and
-/// become the rest where a contact neither slips nor spins.
+/// Both are small beside the friction of a ball screw's contacts, which slip and spin: hysteresis is about one per cent
+/// of it. They are what is left of it where a contact neither slips nor spins.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct RollingResistance {
     /// Share of the elastic energy that is lost while a contact passes, 0 to 0.2.
     ///
-    /// Steel: "of the order of one per cent" below yield (Johnson 1985, section 9.2); a measured rolling coefficient of 1e-5 of a ball between plates
-    /// means 0.002. Rubber: 0.1 and more.
+    /// Steel: at most of the order of one per cent below yield (Johnson 1985, section 9.2). A rolling coefficient of
+    /// the order of 1e-5, as measured of a ball between plates, means 0.002 to 0.01, by its load. Rubber: 0.1 and more.
     pub hysteresis_loss: f32,
     /// Drag of the lubricant on one contact under 100 N, N, 0 to 10; 0 where there is none.
     ///
-    /// It grows with viscosity and speed to the power 0.66 (Houpert 2002): by that formula a ball of 5.6 mm in a screw of 33 mm, 0.1 Pa s (a steering gear's grease at room
-    /// temperature) and 1 turn a second give 0.006 N.
+    /// It grows with viscosity and speed to the power 0.66 (Houpert 2002): by that formula a ball of 5.6 mm in a screw
+    /// of 33 mm, a viscosity of 0.1 Pa s and 1 turn a second give 0.006 N.
     pub lubricant_drag: f32,
 }
 
@@ -38,7 +39,7 @@ impl RollingResistance {
         lubricant_drag: 0.0,
     };
 
-    /// Hardened steel without lubricant drag: the upper end of what is measured, 0.01 of the elastic energy.
+    /// Hardened steel without lubricant drag: 0.01 of the elastic energy, the upper end of what is known.
     pub const STEEL: Self = Self {
         hysteresis_loss: 0.01,
         lubricant_drag: 0.0,
@@ -61,14 +62,16 @@ impl RollingResistance {
 /// force = 3/16 loss N b/R_x + drag sqrt(N / 100 N)        b = b_1 N^(1/3)
 /// ```
 ///
-/// `b` is the contact's semi-axis along the track, `R_x` the relative radius of both bodies along it, `loss` and `drag` the fields of
-/// [`RollingResistance`]. The force resists the travel of the contact along its track: times the speed at which the groove's surface
-/// runs past the contact it is the power lost.
+/// `b` is the contact's semi-axis along the track, `R_x` the relative radius of both bodies along it, `loss` and `drag`
+/// the fields of [`RollingResistance`]. The force resists the travel of the contact along its track: times the speed at
+/// which the groove's surface runs past the contact it is the power lost.
 ///
-/// Source: first term Greenwood, Minshall and Tabor 1961, in the form of Johnson 1985, eq. (9.3) for an ellipse; second term the load's power
-/// between Houpert 2002 (0.47) and SKF's rolling moment of ball bearings (0.54): 5 to 300 N within 6 % of Houpert's where both meet at 40 N.
+/// Source: first term Greenwood, Minshall and Tabor 1961, in the form of Johnson 1985, section 9.2, for an ellipse; second
+/// term the load's power between Houpert 2002 (0.47) and SKF's rolling moment of ball bearings (0.54): 5 to 300 N
+/// within 7 % of Houpert's where both meet at 40 N.
 ///
-/// Largest error against the float64 reference, every catalogue size, 1 to 1000 N: 4e-6 of the force, which is that of the contact ellipse.
+/// Largest error against the float64 reference, every catalogue size, 1 to 1000 N: 4e-6 of the force, which is that of
+/// the contact ellipse.
 ///
 /// ```
 /// use epas_friction::CATALOGUE;
@@ -97,8 +100,8 @@ impl RollingContact {
         lubricant: 0.0,
     };
 
-    /// Constants of a contact from its semi-axis along the track over the cube root of the load, m/N^(1/3), 1e-9 to 1, and the relative curvature of both
-    /// bodies along the track, 1/m, 1e-3 to 1e6. At set-up, or in a constant.
+    /// Constants of a contact from its semi-axis along the track over the cube root of the load, m/N^(1/3), 1e-9 to 1,
+    /// and the relative curvature of both bodies along the track, 1/m, 1e-3 to 1e6. At set-up, or in a constant.
     ///
     /// # Errors
     /// [`Error`] naming `hysteresis_loss`, `lubricant_drag`, `semi_minor_coefficient` or `rolling_curvature`.
@@ -138,7 +141,8 @@ impl RollingContact {
         Self::new(resistance, contact.semi_minor_coefficient(), relative.along)
     }
 
-    /// Force against the travel of the contact along its track, N, from its load, N, and the load's cube root; both not below zero.
+    /// Force against the travel of the contact along its track, N, from its load, N, and the load's cube root; both not
+    /// below zero.
     ///
     /// Cost: one square root, 3 multiplications, 1 addition.
     #[inline]
@@ -147,10 +151,12 @@ impl RollingContact {
         self.hysteresis * (load * load_cube_root) + self.lubricant * math::sqrt(load)
     }
 
-    /// Power lost, W, at the speed at which the groove's surface runs past the contact, m/s; a friction torque, N m, where that speed is given over the nut's speed, m.
+    /// Power lost, W, at the speed at which the groove's surface runs past the contact, m/s; a friction torque, N m,
+    /// where that speed is given over the nut's speed, m.
     ///
-    /// For a ball that orbits with `w_B` this speed is `|w_B - w_k| (L_p + R_B cos(alpha) n_x)`, with the path's length per radian `L_p`, the part `n_x` of the contact's normal
-    /// away from the axis, and `w_k` zero on the screw and the nut's speed on the nut: about half the pitch radius over the nut's speed.
+    /// For a ball that orbits with `w_B` this speed is `|w_B - w_k| (L_p + R_B cos(alpha) n_x)`, with the path's length
+    /// per radian `L_p`, the part `n_x` of the contact's normal away from the axis, and `w_k` zero on the screw and the
+    /// nut's speed on the nut: over the nut's speed it is about half the pitch radius.
     ///
     /// Cost: that of [`Self::force`] and 1 multiplication.
     #[inline]

@@ -130,11 +130,14 @@ impl<PWM: SetDutyCycle> FrictionFeedForward<PWM> {
     }
 
     fn refuses(&self, faults: Faults) -> bool {
-        const LIMITED: u8 =
-            Faults::SPEED_RANGE.bits() | Faults::LOAD_RANGE.bits() | Faults::FRICTION_LIMIT.bits();
+        const PASSES: u8 = Faults::SPEED_RANGE.bits()
+            | Faults::LOAD_RANGE.bits()
+            | Faults::FRICTION_LIMIT.bits()
+            | Faults::BEYOND_MODEL.bits()
+            | Faults::SETTLING.bits();
         match self.reaction {
-            FaultReaction::NeutralOnAnyFault => faults.any(),
-            FaultReaction::LimitedValuesPass => faults.bits() & !LIMITED != 0,
+            FaultReaction::NeutralOnAnyFault => faults.faulty(),
+            FaultReaction::LimitedValuesPass => faults.bits() & !PASSES != 0,
         }
     }
 

@@ -265,7 +265,8 @@ impl<const N: usize> UncagedConstants<N> {
                 next.put(idle, UNLOADED);
             } else if ball.loaded() {
                 torque += ball.torque();
-                next.put(way * ball.follow(angle), load.impedance(ball));
+                let speed = ball.follow(angle, next.pressed());
+                next.put(way * speed, load.impedance(ball));
             } else {
                 entered = Some(index);
                 next.put(idle, UNLOADED);

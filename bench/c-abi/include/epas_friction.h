@@ -719,8 +719,8 @@ typedef struct epas_screw_configuration_t {
      */
     const struct epas_deviation_t *nut_deviation;
     /**
-     * Load of a ball over the mean load, in equal parts of the loaded track from its start, or NULL for the
-     * mean load everywhere; it has to stay too.
+     * Load of a ball over the mean load, in equal parts of the loaded track from its start, for loads of
+     * both signs, or NULL for the mean load everywhere; it has to stay too.
      */
     const struct epas_load_share_t *load_shares;
     /**

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use epas_friction::{BallScrew, GrooveSize};
 use epas_reference::ReferenceError;
-use epas_reference::statics::cases::CaseStudy;
+use epas_reference::statics::cases::{CaseStudy, ScrewEnd};
 use epas_reference::statics::surface::HarmonicError;
 use epas_reference::statics::{Elastic, Geometry, HertzConvention, StaticLoad};
 use serde::Deserialize;
@@ -18,12 +18,31 @@ pub struct LoadsTable {
     screw_diameter: f64,
     nut_position: f64,
     axial_load: f64,
+    loaded_end: Option<LoadedEnd>,
     turns: Option<f64>,
     ball_spacing: Option<f64>,
     ball_oversize: Option<Oversize>,
     end_offset: Option<f64>,
     pitch_error: Option<f64>,
     roundness_error: Option<f64>,
+}
+
+/// The end of the screw that is loaded and guided along the axis.
+#[derive(Clone, Copy, Debug, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum LoadedEnd {
+    #[default]
+    Left,
+    Right,
+}
+
+impl From<LoadedEnd> for ScrewEnd {
+    fn from(end: LoadedEnd) -> Self {
+        match end {
+            LoadedEnd::Left => Self::Left,
+            LoadedEnd::Right => Self::Right,
+        }
+    }
 }
 
 /// One for all balls, or one for each.
@@ -98,6 +117,7 @@ impl LoadsTable {
                 first_azimuth: 0.0,
                 nut_position: self.nut_position,
                 axial_load: self.axial_load,
+                loaded_end: self.loaded_end.unwrap_or_default().into(),
                 ball_oversize: match self.ball_oversize {
                     None => Vec::new(),
                     Some(Oversize::All(all)) => vec![all; balls.into()],
@@ -158,6 +178,24 @@ pub fn built_in(name: &str, loaded_balls: u16) -> Option<LoadCase> {
 }
 
 impl LoadCase {
+    /// The same with other amplitudes of the screw's pitch and roundness errors, m.
+    #[must_use]
+    pub fn with_errors(self, pitch_error: f64, roundness_error: f64) -> Self {
+        Self {
+            pitch_error,
+            roundness_error,
+            ..self
+        }
+    }
+
+    /// The same under another axial load, N.
+    #[must_use]
+    pub fn under(&self, axial_load: f64) -> Self {
+        let mut other = self.clone();
+        other.case.axial_load = axial_load;
+        other
+    }
+
     /// The load case, checked.
     pub fn load(&self) -> Result<StaticLoad, ReferenceError> {
         let mut setup = self.case.setup()?;

@@ -1,6 +1,6 @@
 //! `static_load`: how the balls of a ball screw share an axial load.
 
-use epas_reference::statics::cases::CaseStudy;
+use epas_reference::statics::cases::{CaseStudy, ScrewEnd};
 use epas_reference::statics::{Contact, Elastic, Geometry, HertzConvention, StaticSolution};
 use serde::Serialize;
 
@@ -57,6 +57,7 @@ pub fn evaluate(mut fields: Fields) -> Result<Answer, BadField> {
         first_azimuth: 0.0,
         nut_position: fields.number("nut_position")?,
         axial_load: fields.number("axial_load")?,
+        loaded_end: ScrewEnd::Left,
         ball_oversize: match fields.optional_number_or_numbers("ball_oversize")? {
             None => Vec::new(),
             Some(OneOrMany::One(all)) => vec![all; balls],

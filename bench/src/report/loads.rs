@@ -1,4 +1,6 @@
-//! Static loads: Figures 2.9 to 2.14 and 4.10 of Lin 2019, and the Hertzian constants of Table B.1.
+//! Static loads: Figures 2.9 to 2.14 and 4.10 of Lin 2019, the Hertzian constants of Table B.1, and tables of load shares.
+
+mod shares;
 
 use std::sync::Arc;
 
@@ -41,6 +43,7 @@ pub fn section(_: &Context) -> Result<Section, Failure> {
             Block::Figure(figures_2_11_and_12(&nominal)?),
             Block::Figure(figure_2_14(&nominal)?),
             Block::Figure(figure_4_10()?),
+            Block::Table(shares::table().map_err(failed)?),
         ],
     })
 }

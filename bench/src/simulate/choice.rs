@@ -22,9 +22,9 @@ pub enum SceneName {
 /// A scene with its design.
 pub enum Chosen {
     /// A ball screw whose balls do not touch.
-    Caged(Caged),
+    Caged(Box<Caged>),
     /// A ball screw whose balls press on each other.
-    Uncaged(Uncaged),
+    Uncaged(Box<Uncaged>),
     /// A linear bearing whose balls press on each other.
     Linear(Linear),
 }
@@ -48,9 +48,9 @@ pub fn choose(
             .load(),
     };
     match scene {
-        SceneName::Caged => Ok(Chosen::Caged(Caged {
+        SceneName::Caged => Ok(Chosen::Caged(Box::new(Caged {
             design: screw("lin-4.1")?,
-        })),
+        }))),
         SceneName::Uncaged => {
             let design = screw("lin-3.6")?;
             let Some(balls) = design.uncaged else {
@@ -60,7 +60,7 @@ pub fn choose(
                     design.name
                 )));
             };
-            Ok(Chosen::Uncaged(Uncaged { design, balls }))
+            Ok(Chosen::Uncaged(Box::new(Uncaged { design, balls })))
         }
         SceneName::Linear => linear(source).map(|design| Chosen::Linear(Linear { design })),
     }

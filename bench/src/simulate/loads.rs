@@ -1,56 +1,50 @@
 //! `simulate --loads`: how the balls of a design share the load, for the scene without a cage.
 
-use std::fmt::Write as _;
+mod said;
+mod table;
+
 use std::io::{self, Write as _};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use epas_friction::LoadShare;
-use epas_reference::statics::StaticSolution;
+use epas_reference::statics::ShareTable;
+use epas_reference::statics::shares::loads_between;
 
+use super::manoeuvre::Manoeuvre;
+use super::samples::ScrewSample;
+use super::trace;
 use crate::designs::Design;
 use crate::designs::loads::LoadCase;
 use crate::failure::Failure;
 use crate::files::{self, Existing};
-
-/// How a load table is written.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
-pub enum Format {
-    /// A table [uncaged] of a design file
-    #[default]
-    Toml,
-    /// Constants to paste into firmware
-    Rust,
-}
+use said::{Answer, BALL_LOADS, answer, range_of, text};
+pub use table::Format;
 
 /// What is asked of a load table.
 #[derive(Debug, clap::Args)]
 pub struct LoadArguments {
-    /// Compute how the loaded balls share the axial load, as a table of load_shares
+    /// Compute how the loaded balls share the axial load, as a table of load_shares, and for which loads that table
+    /// serves: of the design's axial load, or of all loads of a trace or a manoeuvre
     #[arg(
         long,
         requires = "design",
-        conflicts_with_all = ["input", "manoeuvre", "plot", "reference", "scene", "list"]
+        conflicts_with_all = ["plot", "reference", "scene", "list"]
     )]
     loads: bool,
     /// What the load table is written as
+    #[arg(long, value_enum, default_value_t, requires = "loads")]
+    format: Format,
+    /// Axial load in place of the design's, N; several with commas stand for all loads between them, of each sign
     // What requires an argument is not heard where that argument conflicts with another: so each conflict is
     // said again.
     #[arg(
         long,
-        value_enum,
-        default_value_t,
+        value_name = "N,...",
         requires = "loads",
-        conflicts_with_all = ["input", "manoeuvre", "list"]
-    )]
-    format: Format,
-    /// Axial load in place of the design's, N
-    #[arg(
-        long,
-        value_name = "N",
-        requires = "loads",
+        conflicts_with_all = ["input", "manoeuvre"],
+        value_delimiter = ',',
         allow_negative_numbers = true
     )]
-    axial_load: Option<f64>,
+    axial_load: Vec<f64>,
 }
 
 impl LoadArguments {
@@ -60,193 +54,210 @@ impl LoadArguments {
     }
 }
 
-/// Most entries of a load table.
-const MOST_ENTRIES: usize = 256;
-/// What a ball without contact is given: the smallest share that a scene takes.
-const LEAST_SHARE: f64 = 0.01;
+/// Loads of one sign count where the largest of them is this part of the largest of both.
+const COUNTED: f64 = 0.01;
+
+/// Where the loads come from.
+#[derive(Clone, Copy)]
+pub struct Source<'a> {
+    /// A trace.
+    pub input: Option<&'a PathBuf>,
+    /// A manoeuvre.
+    pub manoeuvre: Option<Manoeuvre>,
+}
 
 /// Computes the load table of a design and writes it to a file, or to stdout without one.
 pub fn run(
     design: &Design,
     arguments: &LoadArguments,
+    source: Source<'_>,
     output: Option<&Path>,
     existing: Existing,
 ) -> Result<(), Failure> {
     let failure = |message: String| Failure::Data(format!("{}: {message}", design.name));
-    let mut loads = design.loads.clone().ok_or_else(|| {
+    let case = design.loads.clone().ok_or_else(|| {
         failure(
             "says nothing of its screw: a design file does in a table [loads], and of the built-in \
              designs lin-2.1, lin-3.6 and lin-4.1"
                 .into(),
         )
     })?;
-    if let Some(axial_load) = arguments.axial_load {
-        loads.case.axial_load = axial_load;
-    }
+    let wanted = Wanted::new(design, arguments, source, &case)?;
     if let Some(path) = output {
         existing.check(path)?;
     }
-    let solution = loads
-        .load()
-        .map_err(|error| failure(error.to_string()))?
-        .solve()
-        .map_err(|error| failure(error.to_string()))?;
-    let table = Table::new(&loads, &solution).map_err(failure)?;
-    let text = match arguments.format {
-        Format::Toml => table.toml(&design.name),
-        Format::Rust => table.rust(&design.name),
-    };
+    let Answer { said, tables } = wanted.answer(&case).map_err(failure)?;
+    let text = table::text(arguments.format, &design.name, &said, &tables).map_err(failure)?;
     match output {
         None => io::stdout().lock().write_all(text.as_bytes())?,
         Some(path) => {
             files::write(path, &text, existing)?;
-            writeln!(io::stdout().lock(), "wrote {}", path.display())?;
+            let mut stdout = io::stdout().lock();
+            for line in said {
+                writeln!(stdout, "{line}")?;
+            }
+            writeln!(stdout, "wrote {}", path.display())?;
         }
     }
     Ok(())
 }
 
-/// Shares over the mean, in equal parts of the loaded track.
-struct Table {
-    shares: Vec<f32>,
-    axial_load: f64,
-    balls: usize,
-    /// Balls that carry nothing along the axis, or push against the load.
-    idle: usize,
+/// What tables are wanted for.
+enum Wanted {
+    /// A table of this load, N.
+    One(f64),
+    /// Tables that serve all loads of each sign between a smallest and a largest size, N.
+    All {
+        name: String,
+        positive: Option<[f64; 2]>,
+        negative: Option<[f64; 2]>,
+    },
 }
 
-impl Table {
-    fn new(loads: &LoadCase, solution: &StaticSolution) -> Result<Self, String> {
-        let parts = solution
-            .axial_shares()
-            .ok_or("no ball carries anything along the axis")?;
-        let balls = parts.len();
-        let shares: Vec<f64> = parts.iter().map(|part| part * balls as f64).collect();
-        let shares: Vec<f64> = spread(&shares, balls.min(MOST_ENTRIES))
-            .into_iter()
-            .map(|share| share.max(LEAST_SHARE))
-            .collect();
-        let mean = shares.iter().sum::<f64>() / shares.len() as f64;
-        let shares: Vec<f32> = shares
-            .into_iter()
-            .map(|share| (share / mean).max(LEAST_SHARE) as f32)
-            .collect();
-        for share in &shares {
-            LoadShare::new(*share).map_err(|error| error.to_string())?;
-        }
-        Ok(Self {
-            shares,
-            axial_load: loads.case.axial_load,
-            balls,
-            idle: parts
+impl Wanted {
+    fn new(
+        design: &Design,
+        arguments: &LoadArguments,
+        source: Source<'_>,
+        case: &LoadCase,
+    ) -> Result<Self, Failure> {
+        let trace = match source {
+            Source {
+                input: Some(path), ..
+            } => Some(trace::read::<ScrewSample>(path)?),
+            Source {
+                manoeuvre: Some(manoeuvre),
+                ..
+            } => Some(manoeuvre.trace(design.screw())?),
+            _ => None,
+        };
+        if let Some(trace) = trace {
+            let smallest = BALL_LOADS[0] * case.case.balls as f64;
+            let loads: Vec<f64> = trace
+                .samples
                 .iter()
-                .filter(|part| *part * balls as f64 <= LEAST_SHARE)
-                .count(),
+                .map(|sample| sample.axial_load)
+                .collect();
+            return Self::of_trace(trace.name, &loads, smallest);
+        }
+        Ok(match arguments.axial_load.as_slice() {
+            [] => Self::One(case.case.axial_load),
+            [load] => Self::One(*load),
+            loads => {
+                let sizes = |sign: f64| ends(loads.iter().map(|load| sign * load));
+                Self::All {
+                    name: "--axial-load".into(),
+                    positive: sizes(1.0),
+                    negative: sizes(-1.0),
+                }
+            }
         })
     }
 
-    /// What stands above the table, without the marks of a comment.
-    fn heading(&self, name: &str) -> Vec<String> {
-        let (least, most) = self
-            .shares
+    /// From the smallest load that counts to the largest of each sign.
+    fn of_trace(name: String, loads: &[f64], smallest: f64) -> Result<Self, Failure> {
+        let [positive, negative] =
+            [1.0, -1.0].map(|sign| ends(loads.iter().map(|load| sign * load)));
+        let largest = [positive, negative]
             .iter()
-            .fold((f32::INFINITY, 0.0_f32), |(least, most), share| {
-                (least.min(*share), most.max(*share))
-            });
-        let mut lines = vec![
-            format!(
-                "Load of each ball of {name} over the mean, under {} N along the axis,",
-                self.axial_load
-            ),
-            "along the loaded track from the end where the load acts: the static model of".into(),
-            format!(
-                "Lin 2019, chapter 2. {} balls; the largest share is {:.3} of the smallest.",
-                self.balls,
-                most / least
-            ),
-        ];
-        if self.idle > 0 {
-            lines.push(format!(
-                "{} balls carry nothing or push against the load; they stand with {LEAST_SHARE}, and the \
-                 mean is kept.",
-                self.idle
-            ));
+            .flatten()
+            .fold(0.0, |most: f64, [_, size]| most.max(*size));
+        if largest == 0.0 {
+            return Err(Failure::Data(format!("{name}: no load along the axis")));
         }
-        lines
+        let counted = |sizes: Option<[f64; 2]>| {
+            sizes
+                .filter(|[_, size]| *size >= COUNTED * largest)
+                .map(|[least, size]| [least.max(smallest).min(size), size])
+        };
+        Ok(Self::All {
+            name,
+            positive: counted(positive),
+            negative: counted(negative),
+        })
     }
 
-    fn toml(&self, name: &str) -> String {
-        let mut text = String::new();
-        for line in self.heading(name) {
-            let _ = writeln!(text, "# {line}");
+    /// The tables, and what is to be said of them.
+    fn answer(&self, case: &LoadCase) -> Result<Answer, String> {
+        let tables = |[least, most]: [f64; 2], sign: f64| -> Result<Vec<ShareTable>, String> {
+            let loads = loads_between(sign * least, sign * most).map_err(text)?;
+            ShareTable::of_loads(&loads, |load| case.under(load).load()?.solve()).map_err(text)
+        };
+        let balls = case.case.balls as f64;
+        match self {
+            Self::One(axial_load) => {
+                let solution = case.under(*axial_load).load().and_then(|load| load.solve());
+                let table = ShareTable::new(*axial_load, &solution.map_err(text)?).map_err(text)?;
+                let size = axial_load.abs();
+                let sizes = [
+                    size.min(BALL_LOADS[0] * balls),
+                    size.max(BALL_LOADS[1] * balls),
+                ];
+                let sign = axial_load.signum();
+                let [alike, opposite] = [sign, -sign].map(|sign| tables(sizes, sign));
+                // Its own load is tried too.
+                let mut alike = alike?;
+                let place =
+                    alike.partition_point(|other| other.axial_load.abs() < axial_load.abs());
+                alike.insert(place, table.clone());
+                let said = range_of(&table, &alike, &opposite?)?;
+                Ok(Answer::one(case, said, table))
+            }
+            Self::All {
+                name,
+                positive,
+                negative,
+            } => {
+                let of = |sizes: &Option<[f64; 2]>, sign: f64| {
+                    sizes.map_or_else(|| Ok(Vec::new()), |sizes| tables(sizes, sign))
+                };
+                answer(case, name, &of(positive, 1.0)?, &of(negative, -1.0)?)
+            }
         }
-        text.push_str("[uncaged]\nload_shares = [\n");
-        for share in &self.shares {
-            let _ = writeln!(text, "    {share:?},");
-        }
-        text.push_str("]\n");
-        text
-    }
-
-    fn rust(&self, name: &str) -> String {
-        let mut text = String::new();
-        for line in self.heading(name) {
-            let _ = writeln!(text, "/// {line}");
-        }
-        let _ = write!(
-            text,
-            "pub static LOAD_SHARES: [epas_friction::LoadShare; {}] = {{\n\
-             \x20   const fn share(share: f32) -> epas_friction::LoadShare {{\n\
-             \x20       match epas_friction::LoadShare::new(share) {{\n\
-             \x20           Ok(share) => share,\n\
-             \x20           Err(_) => panic!(\"a share is 0.01 to 100\"),\n\
-             \x20       }}\n\
-             \x20   }}\n\
-             \x20   [\n",
-            self.shares.len()
-        );
-        for share in &self.shares {
-            let _ = writeln!(text, "        share({share:?}),");
-        }
-        text.push_str("    ]\n};\n");
-        text
     }
 }
 
-/// The mean of a step function over equal steps in each of `count` equal parts.
-fn spread(steps: &[f64], count: usize) -> Vec<f64> {
-    let per_part = steps.len() as f64 / count as f64;
-    (0..count)
-        .map(|part| {
-            let (start, end) = (part as f64 * per_part, (part + 1) as f64 * per_part);
-            let sum: f64 = steps
-                .iter()
-                .enumerate()
-                .skip(start as usize)
-                .take(per_part.ceil() as usize + 1)
-                .map(|(step, value)| {
-                    let step = step as f64;
-                    value * (end.min(step + 1.0) - start.max(step)).max(0.0)
-                })
-                .sum();
-            sum / per_part
-        })
-        .collect()
+/// Smallest and largest of the loads above zero; what is no number is none.
+fn ends(loads: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
+    loads.filter(|load| *load > 0.0).fold(None, |ends, load| {
+        let [least, most] = ends.unwrap_or([load, load]);
+        Some([load.min(least), load.max(most)])
+    })
 }
 
 #[cfg(test)]
 mod tests {
-    use super::spread;
+    use super::{Wanted, ends};
 
     #[test]
-    fn spreading_keeps_the_sum() {
-        let steps: Vec<f64> = (0..1000).map(|step| f64::from(step).sin() + 2.0).collect();
-        let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
-        for count in [1, 3, 256, 999, 1000] {
-            let parts = spread(&steps, count);
-            assert_eq!(parts.len(), count);
-            assert!((mean(&parts) - mean(&steps)).abs() < 1e-12, "{count}");
-        }
-        assert_eq!(spread(&steps, 1000), steps);
+    fn ends_of_loads() {
+        assert_eq!(
+            ends([3.0, -1.0, 0.0, 2.0, 5.0].into_iter()),
+            Some([2.0, 5.0])
+        );
+        assert_eq!(ends([-1.0, 0.0, f64::NAN].into_iter()), None);
+    }
+
+    /// Loads below the smallest that counts are left out where there are larger ones, and so is a sign whose loads
+    /// are all below a hundredth of the largest one.
+    #[test]
+    fn loads_that_count() {
+        let of = |loads: &[f64]| match Wanted::of_trace("t".into(), loads, 100.0) {
+            Ok(Wanted::All {
+                positive, negative, ..
+            }) => Some((positive, negative)),
+            _ => None,
+        };
+        assert_eq!(of(&[1.0, 5000.0, 0.0]), Some((Some([100.0, 5000.0]), None)));
+        assert_eq!(
+            of(&[200.0, 5000.0, -49.0]),
+            Some((Some([200.0, 5000.0]), None))
+        );
+        assert_eq!(
+            of(&[200.0, 5000.0, -51.0]),
+            Some((Some([200.0, 5000.0]), Some([51.0, 51.0])))
+        );
+        assert_eq!(of(&[0.0, 20.0, 50.0]), Some((Some([50.0, 50.0]), None)));
+        assert_eq!(of(&[0.0, 0.0]), None);
     }
 }

@@ -1,5 +1,6 @@
 //! `simulate --loads`: load tables for the scene without a cage.
 
+use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 
@@ -147,6 +148,191 @@ fn other_loads_and_errors_change_the_table() {
     }
 }
 
+/// Text without the marks of comments and the breaks of lines.
+fn words(text: &str) -> String {
+    text.split_whitespace()
+        .filter(|word| *word != "#" && *word != "///" && *word != "//")
+        .collect::<Vec<_>>()
+        .join(" ")
+}
+
+/// The table of one load says which loads it serves: of a screw without errors most of 5 to 300 N a ball, of one with
+/// 5 um of pitch error few around 500 N, and none where balls push against the load.
+#[test]
+fn a_table_says_which_loads_it_serves() {
+    let made = run(&["simulate", "--loads", "--design", "lin-2.1"], "");
+    let said = words(&made.stdout);
+    assert!(
+        said.contains(
+            "It serves loads of 667 to 9600 N and, the other way, of -552 to -9600 N within 1 % of"
+        ),
+        "{said}"
+    );
+    let folder = tempdir().unwrap();
+    let path = folder.path();
+    let file = format!("{DESIGN}{LOADS}pitch_error = 5e-6\n");
+    fs::write(path.join("pitch.toml"), file).unwrap();
+    for (axial_load, expected) in [
+        ("5000", "It serves loads of 1"),
+        (
+            "500",
+            "but none as large the other way, which takes a table of its own",
+        ),
+        (
+            "100",
+            "No table serves this load: even under it, this one errs by",
+        ),
+        (
+            "-5000",
+            "It serves loads of -1300 to -9600 N but none as large",
+        ),
+    ] {
+        let made = loads(
+            path,
+            &[
+                "--design",
+                "pitch.toml",
+                &format!("--axial-load={axial_load}"),
+            ],
+        );
+        assert_eq!(made.code, 0, "{}", made.stderr);
+        let said = words(&made.stdout);
+        assert!(said.contains(expected), "{axial_load}: {said}");
+    }
+}
+
+/// Loads of a trace, from 5 N a ball on: one table where that serves, one for each sign where it does not, and the
+/// sentence that says so; both go into the design file, and the scene runs with them.
+#[test]
+fn a_trace_gets_the_tables_it_needs() {
+    let folder = tempdir().unwrap();
+    let path = folder.path();
+    fs::write(path.join("screw.toml"), format!("{DESIGN}{LOADS}")).unwrap();
+    let trace = |name: &str, loads: &[f64]| {
+        let mut text = String::from("time,nut_speed,axial_load\n");
+        for (index, load) in loads.iter().enumerate() {
+            let _ = writeln!(text, "{},1.0,{load}", index as f64 * 1e-3);
+        }
+        fs::write(path.join(name), text).unwrap();
+    };
+    trace("narrow.csv", &[4000.0, 0.0, 5000.0, -30.0, -5000.0]);
+    trace("one.csv", &[100.0, 0.0, 3000.0, -20.0]);
+    trace("wide.csv", &[50.0, 9000.0, -50.0, -9000.0]);
+    let of = |name: &str| {
+        let made = loads(path, &["--design", "screw.toml", "--input", name]);
+        assert_eq!(made.code, 0, "{name}: {}", made.stderr);
+        (words(&made.stdout), made.stdout)
+    };
+    // A hundredth of the largest load does not count: 20 N of 3000 N.
+    let (said, _) = of("one.csv");
+    assert!(
+        said.contains("Loads of one: 160 to 3000 N. One table serves them all"),
+        "{said}"
+    );
+    let (said, text) = of("wide.csv");
+    for part in [
+        "Loads of wide: 160 to 9000 N and -160 to -9000 N. One table does not serve them all",
+        "160 to 9000 N: one table serves. That of",
+        "-160 to -9000 N: one table does not serve.",
+        "It takes 2 tables, each of which --axial-load writes, to stay within 1 % of the grooves' friction \
+         and 5 % of the largest ball load:",
+    ] {
+        assert!(said.contains(part), "{part}: {said}");
+    }
+    assert_eq!(shares(&text).len(), 2 * 32);
+    assert!(text.contains("\nload_shares = [") && text.contains("\nnegative_load_shares = ["));
+    let (said, text) = of("narrow.csv");
+    assert!(said.contains("One table"), "{said}");
+    assert!(text.contains("\nload_shares = ["));
+
+    let made = loads(
+        path,
+        &[
+            "--design",
+            "screw.toml",
+            "--input",
+            "wide.csv",
+            "--output",
+            "shares.toml",
+        ],
+    );
+    assert!(
+        words(&made.stdout).contains("one table does not serve"),
+        "{}",
+        made.stdout
+    );
+    let table = fs::read_to_string(path.join("shares.toml")).unwrap();
+    let lists = table.split_once("[uncaged]\n").unwrap().1;
+    fs::write(path.join("whole.toml"), format!("{DESIGN}{lists}")).unwrap();
+    let friction = |design: &str, trace: &str| {
+        let run = run_in(
+            path,
+            &[
+                "simulate", "--scene", "uncaged", "--design", design, "--input", trace, "--output",
+                "out.csv", "--force",
+            ],
+            "",
+        );
+        assert_eq!(run.code, 0, "{}", run.stderr);
+        fs::read_to_string(path.join("out.csv")).unwrap()
+    };
+    trace("push.csv", &[5000.0; 20]);
+    trace("pull.csv", &[-5000.0; 20]);
+    let same = lists.split_once("# ").unwrap().0;
+    fs::write(path.join("same.toml"), format!("{DESIGN}{same}")).unwrap();
+    assert_eq!(
+        friction("whole.toml", "push.csv"),
+        friction("same.toml", "push.csv")
+    );
+    assert_ne!(
+        friction("whole.toml", "pull.csv"),
+        friction("same.toml", "pull.csv")
+    );
+}
+
+/// Several loads stand for all between them, and the other end of the screw gives other tables. Constants for
+/// firmware have a name for each sign.
+#[test]
+fn several_loads_and_the_other_end() {
+    let several = run(
+        &[
+            "simulate",
+            "--loads",
+            "--design",
+            "lin-3.6",
+            "--axial-load=-11100,200,11100,-200",
+            "--format",
+            "rust",
+        ],
+        "",
+    );
+    assert_eq!(several.code, 0, "{}", several.stderr);
+    let said = words(&several.stdout);
+    assert!(
+        said.contains("Loads of --axial-load: 200 to 11100 N and -200 to -11100 N."),
+        "{said}"
+    );
+    assert!(said.contains("pub static LOAD_SHARES: [epas_friction::LoadShare; 37]"));
+    assert!(said.contains("pub static NEGATIVE_LOAD_SHARES: [epas_friction::LoadShare; 37]"));
+
+    let folder = tempdir().unwrap();
+    let path = folder.path();
+    let mut tables = Vec::new();
+    for (end, way) in [("left", "from"), ("right", "towards")] {
+        let file = format!("{DESIGN}{LOADS}loaded_end = \"{end}\"\n");
+        fs::write(path.join("end.toml"), file).unwrap();
+        let made = loads(path, &["--design", "end.toml"]);
+        assert_eq!(made.code, 0, "{}", made.stderr);
+        let said = words(&made.stdout);
+        assert!(
+            said.contains(&format!("along the loaded track {way} the end where")),
+            "{said}"
+        );
+        tables.push(shares(&made.stdout));
+    }
+    assert_ne!(tables[0], tables[1]);
+}
+
 #[test]
 fn what_gives_no_table_says_why() {
     let folder = tempdir().unwrap();
@@ -178,6 +364,11 @@ fn what_gives_no_table_says_why() {
         ),
         ("turns = 2\n", "turns = 2\npitch_error = 1\n", "pitch_error"),
         ("turns = 2\n", "turns = 2\ncolour = 1\n", "colour"),
+        (
+            "turns = 2\n",
+            "turns = 2\nloaded_end = \"top\"\n",
+            "loaded_end",
+        ),
     ] {
         let text = format!("{DESIGN}{}", LOADS.replace(from, to));
         fs::write(path.join("bad.toml"), text).unwrap();
@@ -190,9 +381,53 @@ fn what_gives_no_table_says_why() {
         );
         assert!(run.stderr.contains(said), "{to}: {}", run.stderr);
     }
+    fs::write(path.join("good.toml"), format!("{DESIGN}{LOADS}")).unwrap();
+    fs::write(
+        path.join("idle.csv"),
+        "time,nut_speed,axial_load\n0,1,0\n1,1,0\n",
+    )
+    .unwrap();
+    for (arguments, said) in [
+        (&["--input", "idle.csv"][..], "no load along the axis"),
+        (&["--input", "none.csv"], "none.csv"),
+        (&["--axial-load=0,0"], "no load along the axis"),
+        (&["--axial-load=1,inf"], "axial_load"),
+        (&["--axial-load=1e9"], "axial_load"),
+        (&["--manoeuvre", "stroke"], "linear bearing"),
+        (&["--input", "idle.csv", "--output", "idle.csv"], "idle.csv"),
+    ] {
+        let mut all = vec!["--design", "good.toml"];
+        all.extend(arguments);
+        let run = loads(path, &all);
+        assert_eq!(
+            (run.code, run.stdout.as_str()),
+            (1, ""),
+            "{arguments:?}: {}",
+            run.stderr
+        );
+        assert!(run.stderr.contains(said), "{arguments:?}: {}", run.stderr);
+    }
     for arguments in [
         &["--loads"][..],
-        &["--loads", "--design", "lin-2.1", "--manoeuvre", "parking"],
+        &["--loads", "--design", "lin-2.1", "--plot", "p.svg"],
+        &[
+            "--loads",
+            "--design",
+            "lin-2.1",
+            "--manoeuvre",
+            "parking",
+            "--axial-load",
+            "5",
+        ],
+        &[
+            "--loads",
+            "--design",
+            "lin-2.1",
+            "--manoeuvre",
+            "parking",
+            "--input",
+            "t.csv",
+        ],
         &[
             "--design",
             "lin-2.1",

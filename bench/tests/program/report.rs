@@ -73,6 +73,7 @@ fn the_report_reproduces_the_printed_tables_and_writes_every_figure() {
         "applications",
         "static_cost",
         "hertzian_constants",
+        "load_share_tables",
         "published",
         "published_open",
         "measured",

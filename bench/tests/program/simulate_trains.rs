@@ -271,6 +271,21 @@ fn what_a_train_cannot_run_is_named() {
         ),
         (
             "turns = 2",
+            "turns = 2\nload_shares = [1.2, 0.8]\nnegative_load_shares = [0.7, nan]",
+            "negative_load_shares",
+        ),
+        (
+            "turns = 2",
+            "turns = 2\nload_shares = [1.2, 0.8]\nnegative_load_shares = [1.0]",
+            "negative_load_shares has 1 entries",
+        ),
+        (
+            "turns = 2",
+            "turns = 2\nnegative_load_shares = [1.0]",
+            "negative_load_shares needs load_shares",
+        ),
+        (
+            "turns = 2",
             "turns = 2\nfit = { preload = -1 }",
             "clearance (m",
         ),

@@ -1,8 +1,8 @@
 //! Friction torque and efficiency of a ball screw under a steady load, by the exact balance of one of its balls.
 //!
-//! All balls are alike and carry the same share; none presses on another. The torque is that of the grooves: sliding and spinning of every
-//! contact that carries ([`ElasticRow`]), and rolling resistance ([`RollingResistance`]). Left out: balls that rub on each other, the return,
-//! wipers and seals, unequal shares.
+//! All balls are alike and carry the same share; none presses on another. The torque is that of the grooves: sliding
+//! and spinning of every contact that carries ([`ElasticRow`]), and rolling resistance ([`RollingResistance`]). Left
+//! out: balls that rub on each other, the return, wipers and seals, unequal shares.
 
 use std::f64::consts::TAU;
 
@@ -16,8 +16,8 @@ use crate::curvature::Groove;
 use crate::design::BallScrewDesign;
 use crate::error::{ReferenceError, within};
 
-/// Least friction coefficient of the exact balance. Below it the balance is taken with this one: loads and speeds have settled, and the torque is in
-/// proportion.
+/// Least friction coefficient of the exact balance. Below it the balance is taken with this one: loads and speeds have
+/// settled, and the torque is in proportion.
 const LEAST_FRICTION: f64 = 1e-3;
 
 /// A fit ends where its parameter no longer changes, or its torque is met within 1 %.
@@ -82,7 +82,8 @@ impl ScrewFriction {
 }
 
 impl LoadedScrew {
-    /// Solves one ball, at a nut speed of 1 rad/s: Coulomb friction does not depend on it, and the lubricant's drag is given as a force.
+    /// Solves one ball, at a nut speed of 1 rad/s: Coulomb friction does not depend on it, and the lubricant's drag is
+    /// given as a force.
     ///
     /// # Errors
     /// [`ReferenceError`] naming an input out of range, or of a balance that is not found.
@@ -133,7 +134,8 @@ impl LoadedScrew {
             .collect()
     }
 
-    /// Friction torque of two nuts that are braced against each other by `|axial_load|`, N m: one drives, the other is driven.
+    /// Friction torque of two nuts that are braced against each other by `|axial_load|`, N m: one drives, the other is
+    /// driven.
     ///
     /// # Errors
     /// As [`Self::solve`].
@@ -145,8 +147,8 @@ impl LoadedScrew {
         Ok(self.solve()?.torque() + opposite.solve()?.torque())
     }
 
-    /// The same screw with balls so much larger than their grooves that each diagonal carries the axial force `|axial_load|` without an outer load; and next to
-    /// none of that (a fiftieth).
+    /// The same screw with balls so much larger than their grooves that each diagonal carries the axial force
+    /// `|axial_load|` without an outer load; and next to none of that (a fiftieth).
     ///
     /// # Errors
     /// [`ReferenceError`] naming a number that describes no contact.
@@ -163,7 +165,8 @@ impl LoadedScrew {
         })
     }
 
-    /// The friction coefficient between 0.01 and 0.4 at which a torque is `target`, N m, within 1 %; None where no such coefficient gives it.
+    /// The friction coefficient between 0.01 and 0.4 at which a torque is `target`, N m, within 1 %; None where no such
+    /// coefficient gives it.
     ///
     /// `torque` is [`Self::solve`]'s or [`Self::double_nut_torque`]; it rises with the coefficient.
     pub fn friction_for(
@@ -179,7 +182,8 @@ impl LoadedScrew {
         root_between((0.01_f64.ln(), 0.4_f64.ln()), FIT, missing).map(f64::exp)
     }
 
-    /// The clearance between 20 um of play and 6 um of oversize at which the friction torque is `target`, N m, within 1 %; None where none gives it.
+    /// The clearance between 20 um of play and 6 um of oversize at which the friction torque is `target`, N m, within 1
+    /// %; None where none gives it.
     #[must_use]
     pub fn clearance_for(&self, target: f64) -> Option<f64> {
         let missing = |clearance: f64| {

@@ -6,9 +6,9 @@
 
 use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 
-use super::ball_screw_placed::{BallState, PlacedBall, Rubbing};
+use super::ball_screw_placed::{BallState, Drive, PlacedBall, Rubbing};
 use super::ball_screw_rubbing::BallContactSlope;
-use super::ball_screw_settle::unit;
+use super::ball_screw_settle::{least_motion, unit};
 use super::ball_screw_tangent::Tangent;
 
 /// Longest step of a motion over the nut's speed, and of a place over its unit.
@@ -19,6 +19,7 @@ const LONGEST_WAY: f64 = 2.0;
 pub(crate) const UNLOADED: f64 = 1e-6;
 
 /// A ball under load, on its way to its balance.
+#[derive(Clone, Copy)]
 pub(crate) struct Moving<'a> {
     pub ball: PlacedBall<'a>,
     pub state: BallState,
@@ -83,45 +84,46 @@ impl<'a> Moving<'a> {
         (compliance > 0.0).then_some((unforced, compliance))
     }
 
-    /// Goes to its target; less far where the tangents do not lead there. False where nothing leads on.
-    pub fn follow(&mut self, target: &Target) -> bool {
+    /// Goes to its target; less far where the tangents do not lead there. Stays where nothing leads on.
+    pub fn follow(&mut self, target: &Target) {
         let change = &target.change;
         let way = change.fixed_rows::<3>(0).amax() / LONGEST_WAY;
         let turn = change.fixed_rows::<4>(3).amax() / LONGEST_TURN;
         let longest = way.max(turn);
         let mut fraction = if longest > 1.0 { 1.0 / longest } else { 1.0 };
-        let before = self.tangent.balance.norm();
-        let floor = 1e-9 * self.tangent.loads;
-        let from = self.ball.rubbing;
-        let mut best: Option<(BallState, Rubbing, Tangent)> = None;
+        let enough = self.tangent.balance.norm().max(1e-9 * self.tangent.loads);
         for _ in 0..6 {
-            let mut there = self.state;
-            there.place += change.fixed_rows::<3>(0) * (self.unit * fraction);
-            there.motion += change.fixed_rows::<4>(3) * fraction;
-            there.force += (target.force - there.force) * fraction;
-            self.ball.rubbing = between(&from, &target.rubbing, fraction);
+            let mut there = *self;
+            there.state.place += change.fixed_rows::<3>(0) * (self.unit * fraction);
+            there.state.motion += change.fixed_rows::<4>(3) * fraction;
+            there.state.force += (target.force - self.state.force) * fraction;
+            there.ball.rubbing = between(&self.ball.rubbing, &target.rubbing, fraction);
             if fraction == 1.0 {
-                there.motion[0] = target.speed;
+                there.state.motion[0] = target.speed;
             }
-            if let Some(tangent) = self.ball.tangent(&there, self.unit) {
-                let after = tangent.balance.norm();
-                if best
-                    .as_ref()
-                    .is_none_or(|(_, _, b)| after < b.balance.norm())
-                {
-                    best = Some((there, self.ball.rubbing, tangent));
-                }
-                if after < before.max(floor) {
-                    break;
-                }
+            if there.renewed().is_some() && there.tangent.balance.norm() < enough
+                || there.least_motion().is_some() && there.tangent.balance.norm() < enough
+            {
+                *self = there;
+                return;
             }
             fraction *= 0.5;
         }
-        let Some((state, rubbing, tangent)) = best else {
-            return false;
-        };
-        (self.state, self.ball.rubbing, self.tangent) = (state, rubbing, tangent);
-        true
+    }
+
+    /// Tangents of the present state.
+    fn renewed(&mut self) -> Option<()> {
+        self.tangent = self.ball.tangent(&self.state, self.unit)?;
+        Some(())
+    }
+
+    /// The motion of least power under the present force: where a contact sticks, tangents lead no farther than a 1e-4 of its slip, and this
+    /// search, which is convex, does.
+    fn least_motion(&mut self) -> Option<()> {
+        let rows = self.ball.rows(&self.state.place)?;
+        let drive = Drive::Force(self.state.force);
+        (self.state.motion, _) = least_motion(&self.ball, drive, &rows, &self.state.motion)?;
+        self.renewed()
     }
 }
 

@@ -187,6 +187,26 @@ impl<'a> Instant<'a> {
         for round in 0..ROUNDS {
             let loss = self.push(&mut moving, &forces);
             let residual = residual(&moving);
+            if std::env::var("RING").is_ok() {
+                let w = moving
+                    .iter()
+                    .enumerate()
+                    .filter_map(|(j, m)| m.as_ref().map(|m| (j, m.residual())))
+                    .max_by(|a, b| a.1.total_cmp(&b.1))
+                    .unwrap();
+                let m = moving[w.0].as_ref().unwrap();
+                let c = moving
+                    .iter()
+                    .flatten()
+                    .filter(|m| m.residual() > 1e-8)
+                    .count();
+                eprintln!(
+                    "round {round} {residual:.2e} ball {} ({c} bad) {settled} loads {:.2?} v {:.5?}",
+                    w.0,
+                    m.ball.loads(&m.state.place),
+                    m.state.motion.as_slice()
+                );
+            } //DEBUG
             let whole = settled && goes_together(&moving, &speeds);
             let stalled = residual <= ACCEPTED && residual > 0.9 * best;
             if whole && (residual <= BALANCED || stalled) {
@@ -201,14 +221,11 @@ impl<'a> Instant<'a> {
                 .targets(&moving, &speeds, &forces, &pressing)
                 .ok_or(ReferenceError::unbalanced(best))?;
             speeds = targets.iter().map(|target| target.speed).collect();
-            let going = moving
+            moving
                 .par_iter_mut()
                 .zip(&targets)
-                .map(|(m, target)| m.as_mut().is_none_or(|m| m.follow(target)))
-                .reduce(|| true, |a, b| a && b);
-            if !going {
-                break;
-            }
+                .filter_map(|(m, target)| m.as_mut().map(|m| (m, target)))
+                .for_each(|(m, target)| m.follow(target));
             let next = self.pressing_next(&pressing, &speeds, &wanted);
             settled = next == pressing;
             pressing = next;

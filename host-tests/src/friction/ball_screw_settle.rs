@@ -94,42 +94,7 @@ impl<'a> Search<'a> {
 
     /// Motion of least power at a place, and the force along the track.
     fn motion(&self, rows: &[ScrewRow], start: &Vector4<f64>) -> Option<(Vector4<f64>, f64)> {
-        let ball = self.ball;
-        let total: f64 = rows.iter().map(|row| row.patch.friction_limit).sum();
-        let mut given = ball.rubbing.motion / ball.friction;
-        if let Drive::Force(force) = self.drive {
-            given[0] += ball.path() * force / ball.friction;
-        }
-        let power = |y: &Vector4<f64>, rest_spin: f64| {
-            let mut local = ball_dissipation(rows, y, rest_spin);
-            local.value -= given.dot(y);
-            local.gradient -= given;
-            local
-        };
-        let (point, residual) = match self.drive {
-            Drive::Force(_) => {
-                let end = sharpened(*start, total, power);
-                (end.point, end.residual)
-            }
-            Drive::Speed(speed) => {
-                let whole = |y: &Vector3<f64>| Vector4::new(speed, y.x, y.y, y.z);
-                let turn = Vector3::new(start.y, start.z, start.w);
-                let end = sharpened(turn, total, |y, rest_spin| {
-                    let all = power(&whole(y), rest_spin);
-                    Local {
-                        value: all.value,
-                        gradient: all.gradient.fixed_rows::<3>(1).into(),
-                        hessian: SMatrix::from(all.hessian.fixed_view::<3, 3>(1, 1)),
-                    }
-                });
-                (whole(&end.point), end.residual)
-            }
-        };
-        let force = match self.drive {
-            Drive::Force(force) => force,
-            Drive::Speed(_) => ball.friction * power(&point, STICK_SPIN).gradient[0] / ball.path(),
-        };
-        (residual <= 1e-7 * total).then_some((point, force))
+        least_motion(self.ball, self.drive, rows, start)
     }
 
     /// Place and motion under a push across, with all other friction forces those of the motion; and the push that the motion answers.
@@ -233,4 +198,48 @@ fn sharpened<const N: usize>(
         end = minimise(from, tolerance, |y| power(y, rest_spin));
     }
     end
+}
+
+/// Motion of least power at a place, and the force along the track.
+pub(crate) fn least_motion(
+    ball: &PlacedBall<'_>,
+    drive: Drive,
+    rows: &[ScrewRow],
+    start: &Vector4<f64>,
+) -> Option<(Vector4<f64>, f64)> {
+    let total: f64 = rows.iter().map(|row| row.patch.friction_limit).sum();
+    let mut given = ball.rubbing.motion / ball.friction;
+    if let Drive::Force(force) = drive {
+        given[0] += ball.path() * force / ball.friction;
+    }
+    let power = |y: &Vector4<f64>, rest_spin: f64| {
+        let mut local = ball_dissipation(rows, y, rest_spin);
+        local.value -= given.dot(y);
+        local.gradient -= given;
+        local
+    };
+    let (point, residual) = match drive {
+        Drive::Force(_) => {
+            let end = sharpened(*start, total, power);
+            (end.point, end.residual)
+        }
+        Drive::Speed(speed) => {
+            let whole = |y: &Vector3<f64>| Vector4::new(speed, y.x, y.y, y.z);
+            let turn = Vector3::new(start.y, start.z, start.w);
+            let end = sharpened(turn, total, |y, rest_spin| {
+                let all = power(&whole(y), rest_spin);
+                Local {
+                    value: all.value,
+                    gradient: all.gradient.fixed_rows::<3>(1).into(),
+                    hessian: SMatrix::from(all.hessian.fixed_view::<3, 3>(1, 1)),
+                }
+            });
+            (whole(&end.point), end.residual)
+        }
+    };
+    let force = match drive {
+        Drive::Force(force) => force,
+        Drive::Speed(_) => ball.friction * power(&point, STICK_SPIN).gradient[0] / ball.path(),
+    };
+    (residual <= 1e-7 * total).then_some((point, force))
 }

@@ -1,14 +1,16 @@
 //! Rolling resistance of one contact: what a contact loses that rolls without any slip.
 //!
-//! Two losses stand beside Coulomb friction. **Elastic hysteresis**: the material in front of the contact's centre is loaded and takes up
-//! energy, behind it is unloaded and gives back a little less. **Drag of the lubricant**: oil is pumped into the inlet of the contact
-//! against its own viscosity.
+//! Two losses stand beside Coulomb friction. **Elastic hysteresis**: the material in front of the contact's centre is
+//! loaded and takes up energy, behind it is unloaded and gives back a little less. **Drag of the lubricant**: oil is
+//! pumped into the inlet of the contact against its own viscosity.
 //!
-//! Both are taken as forces that resist the contact's travel along its track: loss = force x rolling speed, the speed at which the groove's surface
-//! runs past the contact. They are too small (1e-5 to 1e-4 of the load) to change how a ball moves and are added to its loss.
+//! Both are taken as forces that resist the contact's travel along its track: loss = force x rolling speed, the speed
+//! at which the groove's surface runs past the contact. They are too small (1e-5 to 1e-4 of the load) to change how a
+//! ball moves and are added to its loss.
 //!
-//! Sources: Greenwood, Minshall and Tabor 1961, Proc. Roy. Soc. A 259, with Johnson 1985, Contact Mechanics, section 9.2 (hysteresis of an elliptical contact);
-//! Houpert 2002, Tribology Transactions 45 (lubricant drag of a point contact).
+//! Sources: Greenwood, Minshall and Tabor 1961, Proc. Roy. Soc. A 259, with Johnson 1985, Contact Mechanics, section
+//! 9.2 (hysteresis of an elliptical contact); Houpert 2002, Tribology Transactions 45 (lubricant drag of a point
+//! contact).
 
 use std::f64::consts::TAU;
 
@@ -36,7 +38,8 @@ impl RollingResistance {
         lubricant_drag: 0.0,
     };
 
-    /// Hardened steel without lubricant drag: a share of 0.01, where Johnson gives "of the order of one per cent" for metals below yield.
+    /// Hardened steel without lubricant drag: a share of 0.01, where Johnson gives "of the order of one per cent" for
+    /// metals below yield.
     pub const STEEL: Self = Self {
         hysteresis_loss: 0.01,
         lubricant_drag: 0.0,
@@ -52,20 +55,20 @@ impl RollingResistance {
         Ok(())
     }
 
-    /// Force of hysteresis against the travel of a contact, N: `3/16 loss N b/R_x`, with the semi-axis `b` along the track and the relative radius
-    /// `R_x` of both bodies along the track.
+    /// Force of hysteresis against the travel of a contact, N: `3/16 loss N b/R_x`, with the semi-axis `b` along the
+    /// track and the relative radius `R_x` of both bodies along the track.
     ///
-    /// The pressure of the front half does the work `N 3 b/16` for each radian by which the surfaces close in on each other, and they do so by
-    /// `1/R_x` radians a metre.
+    /// The pressure of the front half does the work `N 3 b/16` for each radian by which the surfaces close in on each
+    /// other, and they do so by `1/R_x` radians a metre.
     ///
-    /// Source: Johnson 1985, eq. (9.3), after Greenwood, Minshall, Tabor 1961: moment `3/16 loss b N`.
+    /// Source: Johnson 1985, section 9.2, after Greenwood, Minshall, Tabor 1961: moment `3/16 loss b N`.
     #[must_use]
     pub fn hysteresis_force(&self, load: f64, semi_minor: f64, rolling_radius: f64) -> f64 {
         3.0 / 16.0 * self.hysteresis_loss * load * semi_minor / rolling_radius
     }
 
-    /// Force of the lubricant against the travel of a contact, N: in proportion to the root of the load, which lies between the powers 0.47 of
-    /// Houpert's formula and 0.54 of SKF's for ball bearings.
+    /// Force of the lubricant against the travel of a contact, N: in proportion to the root of the load, which lies
+    /// between the powers 0.47 of Houpert's formula and 0.54 of SKF's for ball bearings.
     #[must_use]
     pub fn lubricant_force(&self, load: f64) -> f64 {
         self.lubricant_drag * (load / DRAG_LOAD).sqrt()
@@ -108,10 +111,11 @@ impl LubricatedContact {
         })
     }
 
-    /// Drag under a load, N, at a rolling speed, m/s: `F = 2.86 E' R_x² k^0.348 G^0.022 U^0.66 W^0.47` with `E' = 2 E*`, `k = R_y/R_x`, `G = E'` times
-    /// the pressure viscosity, `U = viscosity speed/(E' R_x)`, `W = N/(E' R_x²)`.
+    /// Drag under a load, N, at a rolling speed, m/s: `F = 2.86 E' R_x² k^0.348 G^0.022 U^0.66 W^0.47` with `E' = 2
+    /// E*`, `k = R_y/R_x`, `G = E'` times the pressure viscosity, `U = viscosity speed/(E' R_x)`, `W = N/(E' R_x²)`.
     ///
-    /// Source: Houpert 2002, for fully flooded, isothermal contacts; [`RollingResistance::lubricant_drag`] is this at [`DRAG_LOAD`].
+    /// Source: Houpert 2002, for fully flooded, isothermal contacts; [`RollingResistance::lubricant_drag`] is this at
+    /// [`DRAG_LOAD`].
     #[must_use]
     pub fn drag(&self, load: f64, rolling_speed: f64) -> f64 {
         let modulus = 2.0 * self.contact_modulus;
@@ -143,9 +147,11 @@ pub fn relative_radii(
     ])
 }
 
-/// Power that one ball of a ball screw loses by rolling resistance, W: by hysteresis and by the lubricant, of all its contacts.
+/// Power that one ball of a ball screw loses by rolling resistance, W: by hysteresis and by the lubricant, of all its
+/// contacts.
 ///
-/// The groove's surface runs past a contact by `|w_B - w_k| (L/2 pi + R_B cos a n_x)`, with `w_k` zero for the screw and the nut's speed for the nut.
+/// The groove's surface runs past a contact by `|w_B - w_k| (L/2 pi + R_B cos a n_x)`, with `w_k` zero for the screw
+/// and the nut's speed for the nut.
 ///
 /// # Errors
 /// [`ReferenceError`] naming a parameter out of range.

@@ -8,8 +8,8 @@ const K: f64 = 0.018;
 /// Share of the theoretical efficiency that is left in practice, with wipers and seals.
 pub const PRACTICE: f64 = 0.9;
 
-/// Theoretical efficiency of driving, `1/(1 + K d0/lead)` with `K = 0.018`, from diameter and lead in one unit: a friction torque of
-/// `K/(2 pi) F d0`.
+/// Theoretical efficiency of driving, `1/(1 + K d0/lead)` with `K = 0.018`, from diameter and lead in one unit: a
+/// friction torque of `K/(2 pi) F d0`.
 ///
 /// Source: SKF's catalogue of ball screws, from memory.
 #[must_use]
@@ -17,7 +17,8 @@ pub fn efficiency(diameter: f64, lead: f64) -> f64 {
     1.0 / (1.0 + K * diameter / lead)
 }
 
-/// Friction coefficients of the chart of efficiency over lead angle: a plain screw's efficiency `tan(angle)/tan(angle + atan(f))`.
+/// Friction coefficients of the chart of efficiency over lead angle: a plain screw's efficiency `tan(angle)/tan(angle +
+/// atan(f))`.
 ///
 /// Source: Rexroth's catalogue, seen.
 pub const CHART_FRICTION: [f64; 2] = [0.005, 0.01];

@@ -1,7 +1,9 @@
-//! Measured and catalogue figures of real ball screws beside what the exact model computes: [`records`], and the studies behind them.
+//! Measured and catalogue figures of real ball screws beside what the exact model computes: [`records`], and the
+//! studies behind them.
 //!
-//! No figure comes with all that the model needs: geometry, lubricant or seals are missing somewhere. So figures are bands, assumptions are stated, and
-//! each row says which parameter would have to be what to meet its figure. Nothing is fitted but where a row says so.
+//! No figure comes with all that the model needs: geometry, lubricant or seals are missing somewhere. So figures are
+//! bands, assumptions are stated, and each row says which parameter would have to be what to meet its figure. Nothing
+//! is fitted but where a row says so.
 
 pub mod catalogue;
 mod rows;

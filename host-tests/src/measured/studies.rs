@@ -1,4 +1,5 @@
-//! Studies behind the figures: efficiency over lead and load, what decides a screw's friction, and the choice of usual parameters.
+//! Studies behind the figures: efficiency over lead and load, what decides a screw's friction, and the choice of usual
+//! parameters.
 
 use super::{Size, Usual, catalogue};
 use crate::efficiency::Screw;
@@ -136,7 +137,8 @@ pub struct DecidingRow {
     pub closed: f64,
 }
 
-/// Friction torque of [`TABLE_3_6`] over load, friction coefficient and clearance. `step` is called [`LOADS`] times [`FRICTIONS`] times [`CLEARANCES`].
+/// Friction torque of [`TABLE_3_6`] over load, friction coefficient and clearance. `step` is called [`LOADS`] times
+/// [`FRICTIONS`] times [`CLEARANCES`].
 pub fn what_decides(step: &(dyn Fn() + Sync)) -> Vec<DecidingRow> {
     let rows: Vec<(f64, f64)> = LOADS
         .iter()
@@ -192,7 +194,8 @@ pub struct Choice {
     pub over_rule: f64,
     /// Factor by which one screw and load is away from that mean (one standard deviation of the logarithm).
     pub spread: f64,
-    /// Geometric mean over screws of the drag torque of two braced nuts, whose balls just fit, over that of the rule of drag.
+    /// Geometric mean over screws of the drag torque of two braced nuts, whose balls just fit, over that of the rule of
+    /// drag.
     pub over_drag: f64,
     /// Mean efficiency at the largest load less that at the smallest.
     pub gain_with_load: f64,

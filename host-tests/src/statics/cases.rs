@@ -8,8 +8,18 @@ use super::shaft::Shaft;
 use crate::error::{ReferenceError, within};
 use crate::material::Elastic;
 
-/// A ball screw with a held nut, loaded at its left end, which is guided along the axis: the case
-/// studies of Lin 2019, section 2.4.
+/// An end of a screw.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ScrewEnd {
+    /// At position 0, before the first ball: the loaded end in Lin 2019.
+    #[default]
+    Left,
+    /// At the screw's length, behind the last ball.
+    Right,
+}
+
+/// A ball screw with a held nut, loaded at one end, which is guided along the axis, while the other one is free: the
+/// case studies of Lin 2019, section 2.4.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CaseStudy {
     /// Nominal geometry.
@@ -28,11 +38,13 @@ pub struct CaseStudy {
     pub first_azimuth: f64,
     /// Axial centre of the balls, m.
     pub nut_position: f64,
-    /// Axial load on the left end, N.
+    /// Axial load on the loaded end, N; positive towards the right end.
     pub axial_load: f64,
+    /// Which end is loaded, and guided along the axis.
+    pub loaded_end: ScrewEnd,
     /// Oversize of the balls' radius, m: none, one for all, or one for each.
     pub ball_oversize: Vec<f64>,
-    /// Displacement in x forced on the right end, m; free without.
+    /// Displacement in x forced on the other end, m; free without.
     pub end_offset: Option<f64>,
     /// Division of each element.
     pub refinement: usize,
@@ -60,6 +72,7 @@ impl CaseStudy {
             first_azimuth: 0.0,
             nut_position: 0.4,
             axial_load: 5000.0,
+            loaded_end: ScrewEnd::Left,
             ball_oversize: Vec::new(),
             end_offset: None,
             refinement: 1,
@@ -143,11 +156,15 @@ impl CaseStudy {
             train,
             self.refinement,
         )?;
-        let mut supports = vec![Support::axial_guide(0.0)];
+        let (loaded, other) = match self.loaded_end {
+            ScrewEnd::Left => (0.0, self.screw_length),
+            ScrewEnd::Right => (self.screw_length, 0.0),
+        };
+        let mut supports = vec![Support::axial_guide(loaded)];
         if let Some(offset) = self.end_offset {
             within("end_offset", offset, -0.1, 0.1)?;
             supports.push(Support {
-                position: self.screw_length,
+                position: other,
                 held: [Some(offset), None, None, None, None, None],
             });
         }
@@ -161,7 +178,7 @@ impl CaseStudy {
             )?,
             balls,
             supports,
-            loads: vec![Load::axial(0.0, self.axial_load)],
+            loads: vec![Load::axial(loaded, self.axial_load)],
             nut: NutPose::default(),
             errors: std::array::from_fn(|_| Vec::new()),
             local_curvature: None,

@@ -13,8 +13,8 @@ const RESISTANCE: RollingResistance = RollingResistance {
     lubricant_drag: 0.02,
 };
 
-/// All designs, both grooves, 1 to 1000 N, each part and their sum. The contact ellipse is within 1e-5, the load's cube root to the fourth within
-/// 2e-7; the sum of both parts errs less than the worse of them.
+/// All designs, both grooves, 1 to 1000 N, each part and their sum. The contact ellipse is within 1e-5, the load's cube
+/// root to the fourth within 2e-7; the sum of both parts errs less than the worse of them.
 #[test]
 fn the_crate_follows_the_reference() {
     let mut hysteresis = Errors::of("hysteresis");
@@ -68,7 +68,8 @@ fn the_crate_follows_the_reference() {
     both.assert(1e-5, 5e-6, 5e-6);
 }
 
-/// Power is force times speed, and one whole ball's power is that of the reference with the reference's own loads and speeds.
+/// Power is force times speed, and one whole ball's power is that of the reference with the reference's own loads and
+/// speeds.
 #[test]
 fn a_balls_power_is_that_of_the_reference() {
     use epas_reference::friction::ball_screw_efficiency::LoadedScrew;

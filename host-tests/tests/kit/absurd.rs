@@ -243,7 +243,9 @@ fn flags(
             expected |= Faults::LOAD_RANGE;
         }
     }
-    let beside_torque = faults.bits() & !Faults::FRICTION_LIMIT.bits();
+    // What the sensors deliver says nothing of friction's limit, nor of the model's accuracy.
+    let beside_torque =
+        faults.bits() & !(Faults::FRICTION_LIMIT | Faults::BEYOND_MODEL | Faults::SETTLING).bits();
     if beside_torque == expected.bits() {
         Ok(lost)
     } else {

@@ -11,6 +11,7 @@ mod curvature_reference;
 mod friction_maps_reference;
 mod kinematics_reference;
 mod linear_ball_reference;
+mod load_shares;
 mod long_chain;
 mod published_records;
 mod recorded_runs;

@@ -13,6 +13,7 @@ mod laws;
 mod linear_scene;
 mod promises;
 mod scene_constants;
+mod scratch_two;
 mod step_promises;
 mod stiff;
 mod uncaged;

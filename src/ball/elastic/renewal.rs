@@ -59,6 +59,8 @@ pub struct Renewal {
     pub speed: f32,
     /// Change of the true speed with the force along the track, m/N per unit of the size of the nut's speed.
     pub compliance: f32,
+    /// Change of the speed with the friction of both neighbours, m/N per unit of nut speed.
+    pub by_rubbing: f32,
     /// Power lost in the contacts, N m: the ball's friction torque on the nut.
     pub torque: f32,
     /// Axial force that the contacts carry, N.
@@ -85,6 +87,7 @@ impl Renewal {
         Self {
             speed,
             compliance: 0.0,
+            by_rubbing: 0.0,
             torque: 0.0,
             carried: 0.0,
             loads,
@@ -198,15 +201,16 @@ impl ElasticGrooves {
         let along = -on_screw.speed;
         let needed = (inputs.axial_load - self.sin_lead * along) * self.per_cos_lead;
         let total = shared.forces;
-        let [on_ball, across] = self.rub(&motion, inputs.rubbing, &mut shared);
-        shared.radial += on_ball;
+        let (on_ball, by_rubbing) = self.rub(&motion, inputs.rubbing, &mut shared);
+        let [radial, across] = on_ball;
+        shared.radial += radial;
         let unbalanced = [screw.force - needed, nut.force + needed + across];
-        let mut step = solved(&shared, &screw, &nut, unbalanced, inputs.force);
+        let mut step = solved(&shared, &screw, &nut, unbalanced, inputs.force, &by_rubbing);
         let reaches = [&a, &b, &c, &d];
         let mut taken = self.limited(&step, reaches, inputs.axial_load);
         if taken < LEAST_TAKEN || step.compliance <= 0.0 {
             shared.uncouple(&mut screw, &mut nut);
-            step = solved(&shared, &screw, &nut, unbalanced, inputs.force);
+            step = solved(&shared, &screw, &nut, unbalanced, inputs.force, &by_rubbing);
             taken = self.limited(&step, reaches, inputs.axial_load);
         }
         let moved = motion.plus(&step.motion, -taken);
@@ -226,6 +230,7 @@ impl ElasticGrooves {
         Renewal {
             speed: moved.speed * self.ball_radius,
             compliance: self.ball_radius * step.compliance,
+            by_rubbing: self.ball_radius * step.by_rubbing,
             torque: power * self.ball_radius,
             carried: self.cos_lead * screw.force + self.sin_lead * along,
             loads,
@@ -235,20 +240,29 @@ impl ElasticGrooves {
     }
 
     /// Adds the friction of both neighbours, which are taken to turn as the ball does: moments against its turning, and what
-    /// this brings along the track. Gives the force on the ball, radial and axial.
+    /// this brings along the track. Gives the force on the ball, radial and axial, and the moments over their size.
     #[inline(always)]
-    fn rub(&self, motion: &Motion, [sum, difference]: [f32; 2], shared: &mut Shared) -> [f32; 2] {
+    fn rub(
+        &self,
+        motion: &Motion,
+        [sum, difference]: [f32; 2],
+        shared: &mut Shared,
+    ) -> ([f32; 2], Motion) {
         let (x, z) = (motion.x, motion.z - self.orbit * motion.speed);
         let inverse = 1.0 / (math::sqrt(x * x + z * z) + 1e-6);
         let (ux, uz) = (x * inverse, z * inverse);
-        shared.forces.x += sum * ux;
-        shared.forces.z += sum * uz;
-        shared.forces.speed -= sum * uz * self.orbit;
+        let against = Motion {
+            speed: -uz * self.orbit,
+            x: ux,
+            y: 0.0,
+            z: uz,
+        };
+        shared.forces = shared.forces.plus(&against, sum);
         let stiffness = 0.5 * sum * inverse;
         shared.hessian.xx += stiffness * uz * uz;
         shared.hessian.xz -= stiffness * ux * uz;
         shared.hessian.zz += stiffness * ux * ux;
-        [difference * uz, -difference * ux]
+        ([difference * uz, -difference * ux], against)
     }
 
     /// Part of a step that is taken.

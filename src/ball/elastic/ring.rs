@@ -49,7 +49,7 @@ pub(crate) struct RingConstants {
 pub(crate) struct RingBall {
     place: [f32; 3],
     turning: [f32; 3],
-    /// Speed without force along the track less the nominal one, over the nominal one against the nut.
+    /// Speed without forces of neighbours less the nominal one, over the nominal one against the nut.
     free: f32,
     /// Its change with the nut's angle, 1/rad.
     slope: f32,
@@ -57,6 +57,8 @@ pub(crate) struct RingBall {
     impedance: f32,
     /// Friction torque on the nut over the power 4/3 of the load.
     torque: f32,
+    /// Change of the speed with the sum of both neighbours' forces, 1/N.
+    rubbing: f32,
 }
 
 /// The load that all balls have in common, in a tick.
@@ -79,6 +81,14 @@ pub(crate) struct Neighbours {
     pub(crate) behind: f32,
     pub(crate) ahead: f32,
     pub(crate) friction: f32,
+}
+
+impl Neighbours {
+    const NONE: Self = Self {
+        behind: 0.0,
+        ahead: 0.0,
+        friction: 0.0,
+    };
 }
 
 /// Balls that are renewed in turn.
@@ -111,6 +121,8 @@ pub(crate) struct Ring<const N: usize> {
     last_two_point: u8,
     backward: bool,
     negative: bool,
+    /// Whether a tick has said how the nut turns and what the load is.
+    begun: bool,
 }
 
 impl RingConstants {
@@ -171,12 +183,17 @@ impl<const N: usize> Ring<N> {
             slope: 0.0,
             impedance: 1.0,
             torque: 0.0,
+            rubbing: 0.0,
         };
         let lift_off = constants.lift_off(clearance);
         let load = RingLoad::new(constants, FIRST_LOAD, lift_off);
         for _ in 0..FIRST_RENEWALS {
             let found = constants.grooves.renew(&mut fresh, &inputs);
-            ball.keep(constants, &load, &fresh, &found, 0.0);
+            if found.lost {
+                fresh = constants.grooves.start(&inputs);
+                continue;
+            }
+            ball.keep(constants, &load, &fresh, &found, &Neighbours::NONE);
         }
         Self {
             balls: [ball; N],
@@ -196,6 +213,7 @@ impl<const N: usize> Ring<N> {
             last_two_point: 0,
             backward: false,
             negative: false,
+            begun: false,
         }
     }
 
@@ -254,8 +272,10 @@ impl<const N: usize> Ring<N> {
         let held = constants.normal * size < HELD * whole && !reversed;
         let jumped = whole > LOAD_JUMP * self.settled_load || LOAD_JUMP * whole < self.settled_load;
         let anew = (reversed || crossed) && !held || jumped;
+        let anew = anew || !self.begun;
         if anew {
-            self.begin_anew(constants, axial, crossed && !held);
+            self.begin_anew(constants, axial, self.begun && crossed && !held);
+            self.begun = true;
             self.settled_load = whole;
         }
         self.backward = backward;
@@ -335,7 +355,8 @@ impl<const N: usize> Ring<N> {
         if !ball.is_loaded() {
             return;
         }
-        let pushed = force / (ball.impedance * load.two_thirds);
+        let pushed = force / (ball.impedance * load.two_thirds)
+            + ball.rubbing * (forces.ahead + forces.behind);
         let mut settled = Settled {
             place,
             turning,
@@ -354,11 +375,14 @@ impl<const N: usize> Ring<N> {
             clearance: self.clearance,
         };
         let found = constants.grooves.renew(&mut settled, &inputs);
-        let [a, b, c, d] = found.loads;
-        let light = if load.axial < 0.0 { (a, d) } else { (b, c) };
-        self.two_point += u8::from(!(light.0 > 0.0 || light.1 > 0.0));
+        self.two_point = self.two_point.saturating_add(u8::from(found.two_point()));
+        if found.lost {
+            let Settled { place, turning, .. } = constants.grooves.start(&inputs);
+            (ball.place, ball.turning) = (place, turning);
+            return;
+        }
         let before = ball.free;
-        ball.keep(constants, load, &settled, &found, force);
+        ball.keep(constants, load, &settled, &found, forces);
         // The slope is that of a whole round between two renewals.
         let change = ball.free - before;
         ball.slope = if self.last_round.abs() > 1e-4 && self.stale == 0 && !is_nominal {
@@ -436,8 +460,9 @@ impl RingBall {
         load: &RingLoad,
         settled: &Settled,
         found: &Renewal,
-        force: f32,
+        forces: &Neighbours,
     ) {
+        let force = forces.behind - forces.ahead;
         let radius = constants.grooves.ball_radius;
         let impedance = constants.reference * radius / found.compliance;
         let (least, most) = IMPEDANCES;
@@ -460,9 +485,9 @@ impl RingBall {
 
     /// Free speed at this tick, over the nominal one against the nut; it follows the nut's angle.
     #[inline(always)]
-    pub(crate) fn follow(&mut self, angle: f32) -> f32 {
+    pub(crate) fn follow(&mut self, angle: f32, pressed: f32) -> f32 {
         self.free += self.slope * angle;
-        self.free
+        self.free + self.rubbing * pressed
     }
 
     /// Friction torque over the power 4/3 of the load.
