@@ -38,7 +38,7 @@ impl Reach {
     #[inline(always)]
     pub(super) fn allows(&self, step: &Motion) -> bool {
         let (along, spin) = slips(step, (self.nx, self.nz));
-        (spin.abs() <= self.spin) & (along.abs() <= self.along)
+        spin.abs() <= self.spin && along.abs() <= self.along
     }
 
     /// Part of a step that this contact allows, at most `taken`.
@@ -292,6 +292,6 @@ impl Touch {
         shared.by_place += kx * nx + gx * nz;
         own.radial += kx * nz - gx * nx;
         own.by_place += kz * nx + gz * nz;
-        own.by_axial += kz * nz - gz * nx;
+        own.by_itself += kz * nz - gz * nx;
     }
 }

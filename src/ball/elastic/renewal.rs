@@ -273,8 +273,10 @@ impl ElasticGrooves {
         let shift = larger(step.radial.abs(), larger(step.screw.abs(), step.nut.abs()));
         let reach = LARGEST_SHIFT * self.deflection(axial_load);
         let light = LIGHT * axial_load.abs();
-        let [a, b, c, d] = reaches.map(|reach| reach.load <= light || reach.allows(&step.motion));
-        if a & b & c & d & (sum <= LARGEST_TURN) & (shift <= reach) {
+        let [a, b, c, d] = reaches;
+        let allows = |reach: &Reach| reach.load <= light || reach.allows(&step.motion);
+        if sum <= LARGEST_TURN && shift <= reach && allows(a) && allows(b) && allows(c) && allows(d)
+        {
             1.0
         } else {
             let taken = within(within(1.0, sum, LARGEST_TURN), shift, reach);
