@@ -25,12 +25,12 @@ pub(super) struct Reach {
 }
 
 impl Reach {
-    /// No contact, no limit.
+    /// No contact.
     pub(super) const NONE: Self = Self {
         nx: 0.0,
         nz: 0.0,
-        spin: f32::MAX,
-        along: f32::MAX,
+        spin: 0.0,
+        along: 0.0,
         load: 0.0,
     };
 
@@ -69,7 +69,7 @@ fn slips(motion: &Motion, (nx, nz): (f32, f32)) -> (f32, f32) {
 }
 
 /// Adds a contact that carries to the equations of the ball; returns what it carries and how far a step may go.
-#[inline(never)]
+#[inline]
 pub(super) fn add(
     groove: &ElasticGroove,
     pressed: Pressed,

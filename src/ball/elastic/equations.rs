@@ -193,7 +193,7 @@ impl Line {
 /// Solves the equations, where the axial forces on the ball are unbalanced by those given.
 ///
 /// Elimination without exchange of rows: axial places, radial place, motion.
-#[inline(never)]
+#[inline]
 pub(super) fn solved(
     shared: &Shared,
     screw: &Axial,
