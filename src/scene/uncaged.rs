@@ -18,6 +18,9 @@ use crate::math::elliptic::arc_sine;
 use crate::ranges;
 use crate::train::LARGEST_FREE_SPEED;
 
+/// Largest deviation of a ball's speed over the pitch circle's: a factor, and what is added.
+const ELASTIC_ROOM: (f32, f32) = (1.5, 0.05);
+
 /// A ball screw without cage, with `N` balls in one circuit: friction of the grooves and between balls.
 ///
 /// A tick whose speed or load is no number is flagged in that tick, puts out no torque, and leaves the state as
@@ -179,7 +182,9 @@ impl UncagedBallScrewConfiguration {
 
     /// Checks the deviations of both grooves: what the row's formula holds for, and what keeps every ball within
     /// [`LARGEST_FREE_SPEED`] of the balls' `speed` against the nut, m per unit of nut speed.
-    const fn check_deviations(&self, row: &ScrewRow, speed: f32) -> Result<(), Error> {
+    ///
+    /// Gives the largest deviation of a ball's speed over that, with room for what elastic contacts add to the pitch circle's.
+    const fn check_deviations(&self, row: &ScrewRow, speed: f32) -> Result<f32, Error> {
         let largest = row.largest_deviation();
         let on_screw = attempt!(self.screw_deviation.checked("screw_deviation", largest));
         let in_nut = attempt!(self.nut_deviation.checked("nut_deviation", largest));
@@ -191,7 +196,12 @@ impl UncagedBallScrewConfiguration {
             attempt!(in_range("screw_deviation", on_screw, 0.0, on_screw * part));
             attempt!(in_range("nut_deviation", in_nut, 0.0, in_nut * part));
         }
-        Ok(())
+        let fastest = ELASTIC_ROOM.0 * relative + ELASTIC_ROOM.1;
+        Ok(if fastest < LARGEST_FREE_SPEED {
+            fastest
+        } else {
+            LARGEST_FREE_SPEED
+        })
     }
 }
 
@@ -218,9 +228,9 @@ impl<const N: usize> UncagedConstants<N> {
         let limits = attempt!(limits.checked());
         let clearance = attempt!(clearance.checked(design)).gap();
         let row = attempt!(ScrewRow::new(design, friction, GrooveFit::Zero));
-        let ring = RingConstants::new(attempt!(ElasticGrooves::new(design)));
-        let speed = ring.speed_against_nut();
-        attempt!(configuration.check_deviations(&row, speed));
+        let speed = design.pitch_radius() / design.cos_lead_angle() - row.nominal_speed();
+        let fastest = attempt!(configuration.check_deviations(&row, speed));
+        let ring = RingConstants::new(attempt!(ElasticGrooves::new(design)), fastest);
         Ok(Self {
             ring,
             friction,
@@ -265,7 +275,7 @@ impl<const N: usize> UncagedConstants<N> {
                 next.put(idle, UNLOADED);
             } else if ball.loaded() {
                 torque += ball.torque();
-                let speed = ball.follow(angle, next.pressed());
+                let speed = ball.follow(&self.ring, angle, next.pressed());
                 next.put(way * speed, load.impedance(ball));
             } else {
                 entered = Some(index);

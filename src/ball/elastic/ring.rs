@@ -22,9 +22,15 @@ const FIRST_RENEWALS: usize = 16;
 /// Load of a ball before the first tick, N.
 const FIRST_LOAD: f32 = 50.0;
 
-/// Least and largest impedance of a loaded ball, N, and its largest deviation of speed: what a train takes.
+/// Least and largest impedance of a loaded ball, N: what a train takes.
 const IMPEDANCES: (f32, f32) = (1e-6, 1e8);
-const FASTEST: f32 = 0.99;
+
+/// Impedance of a ball over that of a nominal one, from the least to the largest that counts: a ball that has not settled
+/// must not push harder than friction can.
+const STIFFER: f32 = 16.0;
+
+/// Change of a ball's speed in a round over the largest deviation of speed from which on it is no drift.
+const DRIFT: f32 = 0.25;
 
 /// A screw's balls: constants.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,6 +47,8 @@ pub(crate) struct RingConstants {
     normal: f32,
     /// Sum of the deflections of both contacts under one newton over the ball radius.
     deflection: f32,
+    /// Largest deviation of a ball's speed, over the nominal one against the nut.
+    fastest: f32,
 }
 
 /// One ball: 40 bytes. Lengths over the ball radius, speeds over the nut's.
@@ -126,7 +134,8 @@ pub(crate) struct Ring<const N: usize> {
 }
 
 impl RingConstants {
-    pub(crate) const fn new(grooves: ElasticGrooves) -> Self {
+    /// Of grooves in which no ball's speed deviates by more than `fastest`, over that of a nominal ball against the nut.
+    pub(crate) const fn new(grooves: ElasticGrooves, fastest: f32) -> Self {
         let nominal = 0.5 * (grooves.path + grooves.cos_lead * grooves.cos);
         let reference = grooves.path - nominal;
         Self {
@@ -136,13 +145,9 @@ impl RingConstants {
             orbit: nominal * grooves.orbit,
             normal: 1.0 / (grooves.sin * grooves.cos_lead),
             deflection: 1.0 / grooves.screw.stiffness + 1.0 / grooves.nut.stiffness,
+            fastest,
             grooves,
         }
-    }
-
-    /// Speed of a nominal ball against the nut, m per unit of nut speed.
-    pub(crate) const fn speed_against_nut(&self) -> f32 {
-        self.reference * self.grooves.ball_radius
     }
 
     /// Contact force of a preload's oversize, N, times the load over it at which a diagonal is lost.
@@ -160,6 +165,18 @@ impl RingConstants {
 impl RingBall {
     const fn is_loaded(&self) -> bool {
         self.impedance > 0.0
+    }
+}
+
+/// `value`, or the bound that it is beyond; NaN is the least.
+#[inline(always)]
+const fn between(value: f32, least: f32, most: f32) -> f32 {
+    if value > most {
+        most
+    } else if value > least {
+        value
+    } else {
+        least
     }
 }
 
@@ -383,9 +400,16 @@ impl<const N: usize> Ring<N> {
         }
         let before = ball.free;
         ball.keep(constants, load, &settled, &found, forces);
+        // A ball is stiffer than a nominal one by a factor at most.
+        let nominal = self.nominal.impedance;
+        let ball = self.balls.get_mut(index).unwrap_or(&mut self.nominal);
+        if !is_nominal {
+            ball.impedance = between(ball.impedance, nominal * (1.0 / STIFFER), nominal * STIFFER);
+        }
         // The slope is that of a whole round between two renewals.
         let change = ball.free - before;
-        ball.slope = if self.last_round.abs() > 1e-4 && self.stale == 0 && !is_nominal {
+        let drifts = change.abs() < DRIFT * constants.fastest;
+        ball.slope = if drifts && self.last_round.abs() > 1e-4 && self.stale == 0 && !is_nominal {
             ball.slope + change / self.last_round
         } else {
             0.0
@@ -465,29 +489,27 @@ impl RingBall {
         let force = forces.behind - forces.ahead;
         let radius = constants.grooves.ball_radius;
         let impedance = constants.reference * radius / found.compliance;
-        let (least, most) = IMPEDANCES;
-        let impedance = if impedance > least { impedance } else { least };
-        let impedance = if impedance < most { impedance } else { most };
+        let impedance = between(impedance, IMPEDANCES.0, IMPEDANCES.1);
         let free =
             (settled.speed - constants.nominal) * constants.per_reference - force / impedance;
         self.place = settled.place;
         self.turning = settled.turning;
-        self.free = if free > FASTEST {
-            FASTEST
-        } else if free > -FASTEST {
-            free
-        } else {
-            -FASTEST
-        };
+        self.free = between(free, -constants.fastest, constants.fastest);
         self.impedance = impedance * load.per_two_thirds;
-        self.torque = found.torque * load.per_four_thirds;
+        // The power after a step is one to first order: nothing but a ball that has not settled makes it negative.
+        let torque = found.torque * load.per_four_thirds;
+        self.torque = if torque > 0.0 { torque } else { 0.0 };
     }
 
     /// Free speed at this tick, over the nominal one against the nut; it follows the nut's angle.
     #[inline(always)]
-    pub(crate) fn follow(&mut self, angle: f32, pressed: f32) -> f32 {
+    pub(crate) fn follow(&mut self, constants: &RingConstants, angle: f32, pressed: f32) -> f32 {
         self.free += self.slope * angle;
-        self.free + self.rubbing * pressed
+        between(
+            self.free + self.rubbing * pressed,
+            -constants.fastest,
+            constants.fastest,
+        )
     }
 
     /// Friction torque over the power 4/3 of the load.
