@@ -9,14 +9,18 @@ use super::circuit::{
 use super::contract::{Admitted, Inputs, Limits, Regime, Reversal, Scene};
 use super::faults::Faults;
 use super::outputs::UncagedOutputs;
-use crate::ball::elastic::ElasticGrooves;
+use crate::ball::elastic::constants::BallConstants;
 use crate::ball::elastic::ring::{Neighbours, Ring, RingConstants, RingLoad};
 use crate::ball::{Clearance, GrooveFit, LoadShare, LoadShares, ScrewRow};
+use crate::contact::RollingResistance;
 use crate::error::{Error, attempt, in_range};
 use crate::geometry::BallScrew;
 use crate::math::elliptic::arc_sine;
 use crate::ranges;
 use crate::train::LARGEST_FREE_SPEED;
+
+/// Largest deviation of a ball's speed over the pitch circle's: a factor, and what is added.
+const ELASTIC_ROOM: (f32, f32) = (1.5, 0.05);
 
 /// A ball screw without cage, with `N` balls in one circuit: friction of the grooves and between balls.
 ///
@@ -38,6 +42,8 @@ pub struct UncagedBallScrewConfiguration {
     pub friction: f32,
     /// Coulomb friction coefficient of ball and ball, 0 to 1.
     pub ball_friction: f32,
+    /// Rolling resistance of every contact of ball and groove.
+    pub rolling_resistance: RollingResistance,
     /// How balls fit between the grooves, -0.02 to 0.05 ball radii.
     pub clearance: Clearance,
     /// Turns of the loaded track, 0.1 to 100.
@@ -179,7 +185,9 @@ impl UncagedBallScrewConfiguration {
 
     /// Checks the deviations of both grooves: what the row's formula holds for, and what keeps every ball within
     /// [`LARGEST_FREE_SPEED`] of the balls' `speed` against the nut, m per unit of nut speed.
-    const fn check_deviations(&self, row: &ScrewRow, speed: f32) -> Result<(), Error> {
+    ///
+    /// Gives the largest deviation of a ball's speed over that, with room for what elastic contacts add to the pitch circle's.
+    const fn check_deviations(&self, row: &ScrewRow, speed: f32) -> Result<f32, Error> {
         let largest = row.largest_deviation();
         let on_screw = attempt!(self.screw_deviation.checked("screw_deviation", largest));
         let in_nut = attempt!(self.nut_deviation.checked("nut_deviation", largest));
@@ -191,7 +199,12 @@ impl UncagedBallScrewConfiguration {
             attempt!(in_range("screw_deviation", on_screw, 0.0, on_screw * part));
             attempt!(in_range("nut_deviation", in_nut, 0.0, in_nut * part));
         }
-        Ok(())
+        let fastest = ELASTIC_ROOM.0 * relative + ELASTIC_ROOM.1;
+        Ok(if fastest < LARGEST_FREE_SPEED {
+            fastest
+        } else {
+            LARGEST_FREE_SPEED
+        })
     }
 }
 
@@ -206,6 +219,7 @@ impl<const N: usize> UncagedConstants<N> {
             ref design,
             friction,
             ball_friction,
+            rolling_resistance,
             clearance,
             return_length,
             reversal_speed,
@@ -218,9 +232,12 @@ impl<const N: usize> UncagedConstants<N> {
         let limits = attempt!(limits.checked());
         let clearance = attempt!(clearance.checked(design)).gap();
         let row = attempt!(ScrewRow::new(design, friction, GrooveFit::Zero));
-        let ring = RingConstants::new(attempt!(ElasticGrooves::new(design)));
-        let speed = ring.speed_against_nut();
-        attempt!(configuration.check_deviations(&row, speed));
+        let speed = design.pitch_radius() / design.cos_lead_angle() - row.nominal_speed();
+        let fastest = attempt!(configuration.check_deviations(&row, speed));
+        let ring = RingConstants::new(
+            attempt!(BallConstants::new(design, rolling_resistance)),
+            fastest,
+        );
         Ok(Self {
             ring,
             friction,
@@ -265,7 +282,7 @@ impl<const N: usize> UncagedConstants<N> {
                 next.put(idle, UNLOADED);
             } else if ball.loaded() {
                 torque += ball.torque();
-                let speed = ball.follow(angle, next.pressed());
+                let speed = ball.follow(&self.ring, angle, next.pressed());
                 next.put(way * speed, load.impedance(ball));
             } else {
                 entered = Some(index);

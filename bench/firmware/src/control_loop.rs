@@ -121,7 +121,7 @@ impl ControlLoop {
         let Ok(applied) = self.stage.apply(&friction);
         self.ticks += 1;
         self.blind += u32::from(nut_speed.is_nan());
-        self.safe &= applied.neutral == friction.faults.any();
+        self.safe &= applied.neutral == friction.faults.faulty();
         self.safe &= applied.neutral || !nut_speed.is_nan();
         self.digest.take(&[
             friction.friction_torque,

@@ -13,6 +13,8 @@ mod laws;
 mod linear_scene;
 mod promises;
 mod scene_constants;
+mod scratch_two;
 mod step_promises;
 mod stiff;
+mod two_point_rolling;
 mod uncaged;

@@ -1,6 +1,6 @@
 //! Balls of a ball screw that are renewed in turn, and what each of them would do on its own until its turn comes.
 
-use super::grooves::ElasticGrooves;
+use super::constants::BallConstants;
 use super::renewal::{BallInputs, Renewal, Settled};
 use crate::math::{self, inverse_cube_roots};
 
@@ -22,25 +22,29 @@ const FIRST_RENEWALS: usize = 16;
 /// Load of a ball before the first tick, N.
 const FIRST_LOAD: f32 = 50.0;
 
-/// Least and largest impedance of a loaded ball, N, and its largest deviation of speed: what a train takes.
+/// Least and largest impedance of a loaded ball, N: what a train takes.
 const IMPEDANCES: (f32, f32) = (1e-6, 1e8);
-const FASTEST: f32 = 0.99;
+
+/// Impedance of a ball over that of a nominal one, from the least to the largest that counts: a ball that has not settled
+/// must not push harder than friction can.
+const STIFFER: f32 = 16.0;
+
+/// Change of a ball's speed in a round over the largest deviation of speed from which on it is no drift.
+const DRIFT: f32 = 0.25;
 
 /// A screw's balls: constants.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(crate) struct RingConstants {
-    grooves: ElasticGrooves,
+    ball: BallConstants,
     /// Speed of a nominal ball and its speed against the nut, over ball radius and nut speed.
     nominal: f32,
     reference: f32,
     per_reference: f32,
     /// Angular velocity of a nominal ball's orbit about the axis across track and radius.
     orbit: f32,
-    /// Contact force over axial load, `1/(sin beta cos alpha)`.
-    normal: f32,
-    /// Sum of the deflections of both contacts under one newton over the ball radius.
-    deflection: f32,
+    /// Largest deviation of a ball's speed, over the nominal one against the nut.
+    fastest: f32,
 }
 
 /// One ball: 40 bytes. Lengths over the ball radius, speeds over the nut's.
@@ -121,10 +125,14 @@ pub(crate) struct Ring<const N: usize> {
     last_two_point: u8,
     backward: bool,
     negative: bool,
+    /// Whether a tick has said how the nut turns and what the load is.
+    begun: bool,
 }
 
 impl RingConstants {
-    pub(crate) const fn new(grooves: ElasticGrooves) -> Self {
+    /// Of grooves in which no ball's speed deviates by more than `fastest`, over that of a nominal ball against the nut.
+    pub(crate) const fn new(ball: BallConstants, fastest: f32) -> Self {
+        let grooves = &ball.grooves;
         let nominal = 0.5 * (grooves.path + grooves.cos_lead * grooves.cos);
         let reference = grooves.path - nominal;
         Self {
@@ -132,25 +140,8 @@ impl RingConstants {
             reference,
             per_reference: 1.0 / reference,
             orbit: nominal * grooves.orbit,
-            normal: 1.0 / (grooves.sin * grooves.cos_lead),
-            deflection: 1.0 / grooves.screw.stiffness + 1.0 / grooves.nut.stiffness,
-            grooves,
-        }
-    }
-
-    /// Speed of a nominal ball against the nut, m per unit of nut speed.
-    pub(crate) const fn speed_against_nut(&self) -> f32 {
-        self.reference * self.grooves.ball_radius
-    }
-
-    /// Contact force of a preload's oversize, N, times the load over it at which a diagonal is lost.
-    fn lift_off(&self, clearance: f32) -> f32 {
-        let gap = clearance / self.grooves.ball_radius;
-        if gap < 0.0 {
-            let power = -2.0 * gap / self.deflection;
-            power * math::sqrt(power) * crate::ball::preload::LOST
-        } else {
-            0.0
+            fastest,
+            ball,
         }
     }
 }
@@ -158,6 +149,18 @@ impl RingConstants {
 impl RingBall {
     const fn is_loaded(&self) -> bool {
         self.impedance > 0.0
+    }
+}
+
+/// `value`, or the bound that it is beyond; NaN is the least.
+#[inline(always)]
+const fn between(value: f32, least: f32, most: f32) -> f32 {
+    if value > most {
+        most
+    } else if value > least {
+        value
+    } else {
+        least
     }
 }
 
@@ -173,7 +176,7 @@ impl<const N: usize> Ring<N> {
             friction,
             clearance,
         };
-        let mut fresh = constants.grooves.start(&inputs);
+        let mut fresh = constants.ball.grooves.start(&inputs);
         let mut ball = RingBall {
             place: fresh.place,
             turning: fresh.turning,
@@ -183,10 +186,14 @@ impl<const N: usize> Ring<N> {
             torque: 0.0,
             rubbing: 0.0,
         };
-        let lift_off = constants.lift_off(clearance);
+        let lift_off = constants.ball.lift_off(clearance);
         let load = RingLoad::new(constants, FIRST_LOAD, lift_off);
         for _ in 0..FIRST_RENEWALS {
-            let found = constants.grooves.renew(&mut fresh, &inputs);
+            let found = constants.ball.grooves.renew(&mut fresh, &inputs);
+            if found.lost {
+                fresh = constants.ball.grooves.start(&inputs);
+                continue;
+            }
             ball.keep(constants, &load, &fresh, &found, &Neighbours::NONE);
         }
         Self {
@@ -207,6 +214,7 @@ impl<const N: usize> Ring<N> {
             last_two_point: 0,
             backward: false,
             negative: false,
+            begun: false,
         }
     }
 
@@ -262,11 +270,13 @@ impl<const N: usize> Ring<N> {
         let whole = load.whole;
         let reversed = backward != self.backward;
         let crossed = negative != self.negative;
-        let held = constants.normal * size < HELD * whole && !reversed;
+        let held = constants.ball.normal * size < HELD * whole && !reversed;
         let jumped = whole > LOAD_JUMP * self.settled_load || LOAD_JUMP * whole < self.settled_load;
         let anew = (reversed || crossed) && !held || jumped;
+        let anew = anew || !self.begun;
         if anew {
-            self.begin_anew(constants, axial, crossed && !held);
+            self.begin_anew(constants, axial, self.begun && crossed && !held);
+            self.begun = true;
             self.settled_load = whole;
         }
         self.backward = backward;
@@ -277,7 +287,7 @@ impl<const N: usize> Ring<N> {
     #[cold]
     #[inline(never)]
     fn begin_anew(&mut self, constants: &RingConstants, axial_load: f32, mirrored: bool) {
-        self.fresh = constants.grooves.start(&BallInputs {
+        self.fresh = constants.ball.grooves.start(&BallInputs {
             axial_load,
             force: 0.0,
             rubbing: [0.0; 2],
@@ -365,15 +375,25 @@ impl<const N: usize> Ring<N> {
             friction: self.friction,
             clearance: self.clearance,
         };
-        let found = constants.grooves.renew(&mut settled, &inputs);
-        let [a, b, c, d] = found.loads;
-        let light = if load.axial < 0.0 { (a, d) } else { (b, c) };
-        self.two_point += u8::from(!(light.0 > 0.0 || light.1 > 0.0));
+        let found = constants.ball.grooves.renew(&mut settled, &inputs);
+        self.two_point = self.two_point.saturating_add(u8::from(found.two_point()));
+        if found.lost {
+            let Settled { place, turning, .. } = constants.ball.grooves.start(&inputs);
+            (ball.place, ball.turning) = (place, turning);
+            return;
+        }
         let before = ball.free;
         ball.keep(constants, load, &settled, &found, forces);
+        // A ball is stiffer than a nominal one by a factor at most.
+        let nominal = self.nominal.impedance;
+        let ball = self.balls.get_mut(index).unwrap_or(&mut self.nominal);
+        if !is_nominal {
+            ball.impedance = between(ball.impedance, nominal * (1.0 / STIFFER), nominal * STIFFER);
+        }
         // The slope is that of a whole round between two renewals.
         let change = ball.free - before;
-        ball.slope = if self.last_round.abs() > 1e-4 && self.stale == 0 && !is_nominal {
+        let drifts = change.abs() < DRIFT * constants.fastest;
+        ball.slope = if drifts && self.last_round.abs() > 1e-4 && self.stale == 0 && !is_nominal {
             ball.slope + change / self.last_round
         } else {
             0.0
@@ -411,7 +431,7 @@ impl RingLoad {
     /// Of a mean axial load in the frame in which the nut turns forward, N.
     #[inline(always)]
     fn new(constants: &RingConstants, axial: f32, lift_off: f32) -> Self {
-        let normal = constants.normal * axial;
+        let normal = constants.ball.normal * axial;
         let whole = math::sqrt(normal * normal + lift_off * lift_off);
         let [inverse, _] = inverse_cube_roots([whole, 1.0]);
         let square = inverse * inverse;
@@ -451,31 +471,27 @@ impl RingBall {
         forces: &Neighbours,
     ) {
         let force = forces.behind - forces.ahead;
-        let radius = constants.grooves.ball_radius;
+        let radius = constants.ball.grooves.ball_radius;
         let impedance = constants.reference * radius / found.compliance;
-        let (least, most) = IMPEDANCES;
-        let impedance = if impedance > least { impedance } else { least };
-        let impedance = if impedance < most { impedance } else { most };
+        let impedance = between(impedance, IMPEDANCES.0, IMPEDANCES.1);
         let free =
             (settled.speed - constants.nominal) * constants.per_reference - force / impedance;
         self.place = settled.place;
         self.turning = settled.turning;
-        self.free = if free > FASTEST {
-            FASTEST
-        } else if free > -FASTEST {
-            free
-        } else {
-            -FASTEST
-        };
+        self.free = between(free, -constants.fastest, constants.fastest);
         self.impedance = impedance * load.per_two_thirds;
-        self.torque = found.torque * load.per_four_thirds;
+        self.torque = constants.ball.torque(found) * load.per_four_thirds;
     }
 
     /// Free speed at this tick, over the nominal one against the nut; it follows the nut's angle.
     #[inline(always)]
-    pub(crate) fn follow(&mut self, angle: f32, pressed: f32) -> f32 {
+    pub(crate) fn follow(&mut self, constants: &RingConstants, angle: f32, pressed: f32) -> f32 {
         self.free += self.slope * angle;
-        self.free + self.rubbing * pressed
+        between(
+            self.free + self.rubbing * pressed,
+            -constants.fastest,
+            constants.fastest,
+        )
     }
 
     /// Friction torque over the power 4/3 of the load.
@@ -500,6 +516,6 @@ impl RingBall {
     pub(crate) fn rubbing(&self, constants: &RingConstants) -> f32 {
         let [x, _, z] = self.turning;
         let z = z - constants.orbit;
-        math::sqrt(x * x + z * z) * constants.grooves.ball_radius
+        math::sqrt(x * x + z * z) * constants.ball.grooves.ball_radius
     }
 }
