@@ -2,14 +2,14 @@
 //!
 //! Both follow the same balls, which start at the same places. Balls meet and part in an instant, which the two need not
 //! find in the same state: so a value of the scene is compared with the span of the exact ones of its own state and the
-//! two beside it. States that the scene flags ([`Faults`](epas_friction::Faults)) are counted apart.
+//! two beside it. Rolling resistance, which is added to a ball's loss and moves nothing, is left out of both. States that the scene flags ([`Faults`](epas_friction::Faults)) are counted apart.
 
 use std::f64::consts::TAU;
 
 use epas_friction::{
     BallScrew, BallScrewParameters, Clearance, DeviationMap, FrictionModel, GrooveSize, Harmonic,
-    Inputs, Limits, LoadShares, Material, UncagedBallScrew, UncagedBallScrewConfiguration,
-    UncagedOutputs,
+    Inputs, Limits, LoadShares, Material, RollingResistance, UncagedBallScrew,
+    UncagedBallScrewConfiguration, UncagedOutputs,
 };
 use epas_reference::design::BallScrewDesign;
 use epas_reference::friction::ball_screw_ring::{
@@ -217,6 +217,7 @@ impl<const N: usize> Pair<N> {
             screw_deviation: wave(case.screw)?,
             nut_deviation: wave(case.nut)?,
             load_shares: LoadShares::EVEN,
+            rolling_resistance: RollingResistance::NONE,
             reversal_speed: 1e-6,
             tick: case.tick as f32,
             limits: Limits {
