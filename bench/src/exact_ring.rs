@@ -6,6 +6,7 @@
 
 use std::f64::consts::TAU;
 
+use epas_friction::contact::RollingResistance;
 use epas_friction::{
     BallScrew, BallScrewParameters, Clearance, DeviationMap, FrictionModel, GrooveSize, Harmonic,
     Inputs, Limits, LoadShares, Material, UncagedBallScrew, UncagedBallScrewConfiguration,
@@ -207,6 +208,7 @@ impl<const N: usize> Pair<N> {
             friction: case.friction as f32,
             ball_friction: case.ball_friction as f32,
             clearance: Clearance::new(case.clearance as f32).map_err(|error| error.to_string())?,
+            rolling_resistance: RollingResistance::NONE,
             turns: (LOADED * turns) as f32,
             return_length: return_length as f32,
             screw_deviation: wave(case.screw)?,
