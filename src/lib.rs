@@ -65,6 +65,7 @@ pub mod scene;
 pub mod train;
 
 pub use ball::{Clearance, LoadShare, LoadShares};
+pub use contact::RollingResistance;
 pub use error::{Error, Range};
 pub use geometry::{
     BallScrew, BallScrewParameters, CATALOGUE, CatalogueSize, DISSERTATION_DESIGNS, GrooveSize,

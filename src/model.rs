@@ -152,8 +152,8 @@ impl<S: Scene, C: Borrow<S::Constants>> FrictionModel<S, C> {
         self.faulted_ticks = 0;
     }
 
-    /// Consecutive ticks with a fault ([`Faults::faulty`](crate::Faults::faulty)), up to `u32::MAX`; 0 after a sound tick. A tick that is only
-    /// [`Faults::BEYOND_MODEL`](crate::Faults::BEYOND_MODEL) is sound.
+    /// Consecutive ticks with a fault ([`Faults::faulty`](crate::Faults::faulty)), up to `u32::MAX`; 0 after a sound
+    /// tick. A tick that only has flags of [`Faults::ACCURACY`](crate::Faults::ACCURACY) is sound.
     pub const fn faulted_ticks(&self) -> u32 {
         self.faulted_ticks
     }

@@ -5,7 +5,8 @@ use std::f64::consts::FRAC_PI_4;
 use epas_friction::ball::LinearBallParameters;
 use epas_friction::{
     BallScrew, BallScrewParameters, Clearance, DeviationMap, FrictionModel, GrooveSize, Harmonic,
-    Limits, LoadShares, Material, UncagedBallScrew, UncagedBallScrewConfiguration,
+    Limits, LoadShares, Material, RollingResistance, UncagedBallScrew,
+    UncagedBallScrewConfiguration,
 };
 use epas_reference::curvature::Groove;
 use epas_reference::design::BallScrewDesign;
@@ -155,6 +156,7 @@ pub fn whole_screw<const N: usize>() -> Result<FrictionModel<UncagedBallScrew<N>
         design: ball_screw()?,
         friction: FRICTION as f32,
         ball_friction: FRICTION as f32,
+        rolling_resistance: RollingResistance::NONE,
         clearance: Clearance::ZERO,
         turns: (2.0 * N as f32 / 37.0).max(0.11),
         return_length: 0.0,

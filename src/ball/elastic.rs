@@ -2,17 +2,21 @@
 //!
 //! | file | what | runs in |
 //! |---|---|---|
+//! | `constants` | what all balls of a screw have in common | set-up |
 //! | `grooves` | both grooves with their contacts, folded once | set-up |
 //! | `contact` | one contact: load, friction, and what it adds to the equations | every renewal |
 //! | `equations` | the seven equations of a ball and their solution | every renewal |
 //! | `renewal` | one Newton step of place and motion together | every renewal |
+//! | `resistance` | rolling resistance of all contacts | every renewal |
 //! | `ring` | balls that are renewed in turn, and their laws between | every tick |
 //! | `start` | place and motion from nothing | start, reversal |
 
+pub(crate) mod constants;
 mod contact;
 mod equations;
 mod grooves;
 mod renewal;
+mod resistance;
 pub(crate) mod ring;
 mod start;
 

@@ -141,6 +141,11 @@ impl RollingContact {
         Self::new(resistance, contact.semi_minor_coefficient(), relative.along)
     }
 
+    /// `3/16 loss b_1/R_x`, N^(-1/3), and the drag under 1 N, N^(1/2).
+    pub(crate) const fn coefficients(&self) -> (f32, f32) {
+        (self.hysteresis, self.lubricant)
+    }
+
     /// Force against the travel of the contact along its track, N, from its load, N, and the load's cube root; both not
     /// below zero.
     ///

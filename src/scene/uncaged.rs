@@ -9,9 +9,10 @@ use super::circuit::{
 use super::contract::{Admitted, Inputs, Limits, Regime, Reversal, Scene};
 use super::faults::Faults;
 use super::outputs::UncagedOutputs;
-use crate::ball::elastic::ElasticGrooves;
+use crate::ball::elastic::constants::BallConstants;
 use crate::ball::elastic::ring::{Neighbours, Ring, RingConstants, RingLoad};
 use crate::ball::{Clearance, GrooveFit, LoadShare, LoadShares, ScrewRow};
+use crate::contact::RollingResistance;
 use crate::error::{Error, attempt, in_range};
 use crate::geometry::BallScrew;
 use crate::math::elliptic::arc_sine;
@@ -41,6 +42,8 @@ pub struct UncagedBallScrewConfiguration {
     pub friction: f32,
     /// Coulomb friction coefficient of ball and ball, 0 to 1.
     pub ball_friction: f32,
+    /// Rolling resistance of every contact of ball and groove.
+    pub rolling_resistance: RollingResistance,
     /// How balls fit between the grooves, -0.02 to 0.05 ball radii.
     pub clearance: Clearance,
     /// Turns of the loaded track, 0.1 to 100.
@@ -216,6 +219,7 @@ impl<const N: usize> UncagedConstants<N> {
             ref design,
             friction,
             ball_friction,
+            rolling_resistance,
             clearance,
             return_length,
             reversal_speed,
@@ -230,7 +234,10 @@ impl<const N: usize> UncagedConstants<N> {
         let row = attempt!(ScrewRow::new(design, friction, GrooveFit::Zero));
         let speed = design.pitch_radius() / design.cos_lead_angle() - row.nominal_speed();
         let fastest = attempt!(configuration.check_deviations(&row, speed));
-        let ring = RingConstants::new(attempt!(ElasticGrooves::new(design)), fastest);
+        let ring = RingConstants::new(
+            attempt!(BallConstants::new(design, rolling_resistance)),
+            fastest,
+        );
         Ok(Self {
             ring,
             friction,

@@ -2,7 +2,7 @@
 
 use epas_friction::{LoadShares, UncagedBallScrew, UncagedBallScrewConfiguration};
 
-use crate::design::{ball_screw, clearance};
+use crate::design::{ball_screw, clearance, rolling_resistance};
 use crate::scene::{CScene, TablePointers, Tables, limits, regime, screw_inputs};
 use crate::status::Failure;
 use crate::types::{
@@ -50,6 +50,10 @@ impl CScene for Screw {
             design: ball_screw(&configuration.design)?,
             friction: configuration.friction,
             ball_friction: configuration.ball_friction,
+            rolling_resistance: rolling_resistance(
+                configuration.hysteresis_loss,
+                configuration.lubricant_drag,
+            ),
             clearance: clearance(configuration.clearance)?,
             turns: configuration.turns,
             return_length: configuration.return_length,

@@ -123,10 +123,14 @@ pub const EPAS_FIELD_OTHER: u32 = 49u32;
 pub const EPAS_FIELD_AXIAL_PLAY: u32 = 50u32;
 /// `given`
 pub const EPAS_FIELD_GIVEN: u32 = 51u32;
+/// `hysteresis_loss`
+pub const EPAS_FIELD_HYSTERESIS_LOSS: u32 = 52u32;
+/// `lubricant_drag`
+pub const EPAS_FIELD_LUBRICANT_DRAG: u32 = 53u32;
 
 /// Number, name in C, and the crate's name: empty where only this layer names the field. A field to which the crate
 /// gives a name of its own in each scene has a row for each.
-const FIELDS: [(u32, &CStr, &str); 53] = [
+const FIELDS: [(u32, &CStr, &str); 55] = [
     (EPAS_FIELD_PITCH_RADIUS, c"pitch_radius", "pitch_radius"),
     (EPAS_FIELD_LEAD, c"lead", "lead"),
     (EPAS_FIELD_BALL_RADIUS, c"ball_radius", "ball_radius"),
@@ -162,6 +166,16 @@ const FIELDS: [(u32, &CStr, &str); 53] = [
         EPAS_FIELD_ROLLING_TANGENT,
         c"rolling_tangent",
         "rolling_tangent",
+    ),
+    (
+        EPAS_FIELD_HYSTERESIS_LOSS,
+        c"hysteresis_loss",
+        "hysteresis_loss",
+    ),
+    (
+        EPAS_FIELD_LUBRICANT_DRAG,
+        c"lubricant_drag",
+        "lubricant_drag",
     ),
     (EPAS_FIELD_BRANCH, c"branch", ""),
     (EPAS_FIELD_CLEARANCE, c"clearance", "clearance"),

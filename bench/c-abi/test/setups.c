@@ -46,6 +46,8 @@ epas_screw_configuration_t test_screw_configuration = {
     },
     .friction = 0.1f,
     .ball_friction = 0.12f,
+    .hysteresis_loss = 0.01f,
+    .lubricant_drag = 0.006f,
     .clearance = 0.0f,
     .turns = 1.8f,
     .return_length = 20e-3f,

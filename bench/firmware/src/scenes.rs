@@ -11,7 +11,7 @@ use epas_friction::{
     DISSERTATION_DESIGNS, DeviationMap, Error, FrictionBranch, FrictionModel, GrooveSize, Harmonic,
     Inputs, Limits, LinearBearing, LinearBearingConfiguration, LinearBearingParameters,
     LinearBearingTrain, LinearConstants, LinearInputs, LinearLimits, LoadShare, LoadShares,
-    Material, UncagedBallScrew, UncagedBallScrewConfiguration, UncagedConstants,
+    Material, RollingResistance, UncagedBallScrew, UncagedBallScrewConfiguration, UncagedConstants,
 };
 
 use crate::numbers::{linear_outputs, outputs, uncaged_outputs};
@@ -263,6 +263,7 @@ pub const fn uncaged_configuration() -> Result<UncagedBallScrewConfiguration, Er
         design: DESIGN,
         friction: 0.1,
         ball_friction: 0.1,
+        rolling_resistance: RollingResistance::STEEL,
         clearance: Clearance::ZERO,
         turns: 2.0,
         return_length: 0.0,

@@ -5,7 +5,7 @@ use std::path::Path;
 use epas_friction::{
     BallScrew, Clearance, DeviationMap, GrooveSize, Harmonic, Limits, LinearBearing,
     LinearBearingConfiguration, LinearBearingParameters, LinearLimits, LoadShare, LoadShares,
-    UncagedBallScrewConfiguration,
+    RollingResistance, UncagedBallScrewConfiguration,
 };
 use serde::Deserialize;
 
@@ -189,6 +189,7 @@ impl UncagedTable {
                 design: screw,
                 friction,
                 ball_friction: self.ball_friction.unwrap_or(BALL_FRICTION),
+                rolling_resistance: RollingResistance::NONE,
                 clearance,
                 turns: self.turns,
                 return_length: self.return_length.unwrap_or(0.0),

@@ -10,7 +10,7 @@ use epas_friction::{
     Clearance, DeviationMap, Faults, FrictionBranch, FrictionModel, GrooveSize, Inputs, Limits,
     LinearBearing, LinearBearingConfiguration, LinearBearingParameters, LinearBearingTrain,
     LinearInputs, LinearLimits, LinearOutputs, LoadShare, LoadShares, Material, Outputs, Regime,
-    Scene, UncagedBallScrew, UncagedBallScrewConfiguration, UncagedOutputs,
+    RollingResistance, Scene, UncagedBallScrew, UncagedBallScrewConfiguration, UncagedOutputs,
 };
 
 /// Numbers at which formulas break.
@@ -180,6 +180,14 @@ pub fn design(random: &mut Random) -> BallScrew {
     }
 }
 
+/// From none to the most.
+fn rolling_resistance(random: &mut Random) -> RollingResistance {
+    RollingResistance {
+        hysteresis_loss: random.of(&[0.0, 0.01, 0.2]),
+        lubricant_drag: random.of(&[0.0, 0.006, 10.0]),
+    }
+}
+
 fn limits(random: &mut Random) -> Limits {
     Limits {
         nut_speed: if random.one_in(2) {
@@ -244,8 +252,7 @@ fn flags(
         }
     }
     // What the sensors deliver says nothing of friction's limit, nor of the model's accuracy.
-    let beside_torque =
-        faults.bits() & !(Faults::FRICTION_LIMIT | Faults::BEYOND_MODEL | Faults::SETTLING).bits();
+    let beside_torque = faults.bits() & !(Faults::FRICTION_LIMIT | Faults::ACCURACY).bits();
     if beside_torque == expected.bits() {
         Ok(lost)
     } else {
@@ -474,6 +481,7 @@ impl<const N: usize> Trial for UncagedBallScrew<N> {
         UncagedBallScrewConfiguration {
             friction: random.size(1e-6, 0.5),
             ball_friction: random.within(0.0, 1.0),
+            rolling_resistance: rolling_resistance(random),
             clearance: clearance(random, &design),
             turns: if random.one_in(4) {
                 random.size(0.1, 100.0)

@@ -3,7 +3,7 @@
 use epas_friction::{
     BallScrew, CATALOGUE, CagedBallScrewConfiguration, Clearance, DeviationMap, FrictionBranch,
     GrooveSize, Harmonic, Limits, LinearBearing, LinearBearingConfiguration,
-    LinearBearingParameters, LinearLimits, LoadShare, LoadShares, Material,
+    LinearBearingParameters, LinearLimits, LoadShare, LoadShares, Material, RollingResistance,
     UncagedBallScrewConfiguration,
 };
 
@@ -72,6 +72,7 @@ pub fn uncaged() -> UncagedBallScrewConfiguration {
         design: CATALOGUE[15].design().unwrap(),
         friction: 0.075,
         ball_friction: 0.1,
+        rolling_resistance: RollingResistance::STEEL,
         clearance: Clearance::ZERO,
         turns: 2.5,
         return_length: 0.01,

@@ -13,8 +13,8 @@ use epas_friction::{
     DISSERTATION_DESIGNS, DeviationMap, Error, FrictionBranch, FrictionModel, GrooveSize, Harmonic,
     Inputs, Limits, LinearBearing, LinearBearingConfiguration, LinearBearingParameters,
     LinearBearingTrain, LinearConstants, LinearInputs, LinearLimits, LoadShare, LoadShares,
-    Material, Outputs, Scene, UncagedBallScrew, UncagedBallScrewConfiguration, UncagedConstants,
-    UncagedOutputs,
+    Material, Outputs, RollingResistance, Scene, UncagedBallScrew, UncagedBallScrewConfiguration,
+    UncagedConstants, UncagedOutputs,
 };
 
 const fn folded<T: Copy>(set_up: Result<T, Error>) -> T {
@@ -78,6 +78,7 @@ const fn uncaged(clearance: Clearance) -> UncagedBallScrewConfiguration {
         design: folded(BallScrew::new(DISSERTATION_DESIGNS[1].parameters)),
         friction: 0.1,
         ball_friction: 0.1,
+        rolling_resistance: RollingResistance::STEEL,
         clearance,
         turns: 2.0,
         return_length: 0.03,

@@ -16,7 +16,7 @@ use epas_friction::{
     DISSERTATION_DESIGNS, DeviationMap, FrictionBranch, FrictionModel, GrooveSize, Harmonic,
     Inputs, Limits, LinearBearing, LinearBearingConfiguration, LinearBearingParameters,
     LinearBearingTrain, LinearInputs, LinearLimits, LoadShare, LoadShares, Material,
-    UncagedBallScrew, UncagedBallScrewConfiguration,
+    RollingResistance, UncagedBallScrew, UncagedBallScrewConfiguration,
 };
 use epas_reference::efficiency::Screw;
 use epas_reference::friction::ball_screw_closed::{ContactAngles, Support, ThreePointModel};
@@ -191,6 +191,7 @@ fn uncaged_step() {
                 design: screw(),
                 friction: 0.1,
                 ball_friction: 0.1,
+                rolling_resistance: RollingResistance::NONE,
                 clearance: Clearance::ZERO,
                 turns: 2.0,
                 return_length: 0.0,

@@ -9,7 +9,8 @@ use std::f64::consts::{FRAC_PI_4, TAU};
 
 use epas_friction::{
     Clearance, DeviationMap, Faults, FrictionModel, Harmonic, Inputs, Limits, LoadShare,
-    LoadShares, Outputs, Regime, UncagedBallScrew, UncagedBallScrewConfiguration, UncagedOutputs,
+    LoadShares, Outputs, Regime, RollingResistance, UncagedBallScrew,
+    UncagedBallScrewConfiguration, UncagedOutputs,
 };
 use epas_reference::curvature::Groove;
 use epas_reference::friction::ball_screw_closed::{
@@ -37,6 +38,7 @@ fn configuration(degrees: f64) -> UncagedBallScrewConfiguration {
         design: design(),
         friction: 0.1,
         ball_friction: 0.1,
+        rolling_resistance: RollingResistance::NONE,
         clearance: Clearance::ZERO,
         turns: 2.0,
         return_length: 0.0,
@@ -265,6 +267,7 @@ fn without_deviation_no_ball_presses() {
 fn balls_without_friction_between_them_still_press() {
     let smooth = UncagedBallScrewConfiguration {
         ball_friction: 0.0,
+        rolling_resistance: RollingResistance::NONE,
         ..configuration(2.5)
     };
     let mut rough = Model::new(&configuration(2.5)).unwrap();

@@ -1,6 +1,6 @@
 //! Balls of a ball screw that are renewed in turn, and what each of them would do on its own until its turn comes.
 
-use super::grooves::ElasticGrooves;
+use super::constants::BallConstants;
 use super::renewal::{BallInputs, Renewal, Settled};
 use crate::math::{self, inverse_cube_roots};
 
@@ -36,17 +36,13 @@ const DRIFT: f32 = 0.25;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(crate) struct RingConstants {
-    grooves: ElasticGrooves,
+    ball: BallConstants,
     /// Speed of a nominal ball and its speed against the nut, over ball radius and nut speed.
     nominal: f32,
     reference: f32,
     per_reference: f32,
     /// Angular velocity of a nominal ball's orbit about the axis across track and radius.
     orbit: f32,
-    /// Contact force over axial load, `1/(sin beta cos alpha)`.
-    normal: f32,
-    /// Sum of the deflections of both contacts under one newton over the ball radius.
-    deflection: f32,
     /// Largest deviation of a ball's speed, over the nominal one against the nut.
     fastest: f32,
 }
@@ -135,7 +131,8 @@ pub(crate) struct Ring<const N: usize> {
 
 impl RingConstants {
     /// Of grooves in which no ball's speed deviates by more than `fastest`, over that of a nominal ball against the nut.
-    pub(crate) const fn new(grooves: ElasticGrooves, fastest: f32) -> Self {
+    pub(crate) const fn new(ball: BallConstants, fastest: f32) -> Self {
+        let grooves = &ball.grooves;
         let nominal = 0.5 * (grooves.path + grooves.cos_lead * grooves.cos);
         let reference = grooves.path - nominal;
         Self {
@@ -143,21 +140,8 @@ impl RingConstants {
             reference,
             per_reference: 1.0 / reference,
             orbit: nominal * grooves.orbit,
-            normal: 1.0 / (grooves.sin * grooves.cos_lead),
-            deflection: 1.0 / grooves.screw.stiffness + 1.0 / grooves.nut.stiffness,
             fastest,
-            grooves,
-        }
-    }
-
-    /// Contact force of a preload's oversize, N, times the load over it at which a diagonal is lost.
-    fn lift_off(&self, clearance: f32) -> f32 {
-        let gap = clearance / self.grooves.ball_radius;
-        if gap < 0.0 {
-            let power = -2.0 * gap / self.deflection;
-            power * math::sqrt(power) * crate::ball::preload::LOST
-        } else {
-            0.0
+            ball,
         }
     }
 }
@@ -192,7 +176,7 @@ impl<const N: usize> Ring<N> {
             friction,
             clearance,
         };
-        let mut fresh = constants.grooves.start(&inputs);
+        let mut fresh = constants.ball.grooves.start(&inputs);
         let mut ball = RingBall {
             place: fresh.place,
             turning: fresh.turning,
@@ -202,12 +186,12 @@ impl<const N: usize> Ring<N> {
             torque: 0.0,
             rubbing: 0.0,
         };
-        let lift_off = constants.lift_off(clearance);
+        let lift_off = constants.ball.lift_off(clearance);
         let load = RingLoad::new(constants, FIRST_LOAD, lift_off);
         for _ in 0..FIRST_RENEWALS {
-            let found = constants.grooves.renew(&mut fresh, &inputs);
+            let found = constants.ball.grooves.renew(&mut fresh, &inputs);
             if found.lost {
-                fresh = constants.grooves.start(&inputs);
+                fresh = constants.ball.grooves.start(&inputs);
                 continue;
             }
             ball.keep(constants, &load, &fresh, &found, &Neighbours::NONE);
@@ -286,7 +270,7 @@ impl<const N: usize> Ring<N> {
         let whole = load.whole;
         let reversed = backward != self.backward;
         let crossed = negative != self.negative;
-        let held = constants.normal * size < HELD * whole && !reversed;
+        let held = constants.ball.normal * size < HELD * whole && !reversed;
         let jumped = whole > LOAD_JUMP * self.settled_load || LOAD_JUMP * whole < self.settled_load;
         let anew = (reversed || crossed) && !held || jumped;
         let anew = anew || !self.begun;
@@ -303,7 +287,7 @@ impl<const N: usize> Ring<N> {
     #[cold]
     #[inline(never)]
     fn begin_anew(&mut self, constants: &RingConstants, axial_load: f32, mirrored: bool) {
-        self.fresh = constants.grooves.start(&BallInputs {
+        self.fresh = constants.ball.grooves.start(&BallInputs {
             axial_load,
             force: 0.0,
             rubbing: [0.0; 2],
@@ -391,10 +375,10 @@ impl<const N: usize> Ring<N> {
             friction: self.friction,
             clearance: self.clearance,
         };
-        let found = constants.grooves.renew(&mut settled, &inputs);
+        let found = constants.ball.grooves.renew(&mut settled, &inputs);
         self.two_point = self.two_point.saturating_add(u8::from(found.two_point()));
         if found.lost {
-            let Settled { place, turning, .. } = constants.grooves.start(&inputs);
+            let Settled { place, turning, .. } = constants.ball.grooves.start(&inputs);
             (ball.place, ball.turning) = (place, turning);
             return;
         }
@@ -447,7 +431,7 @@ impl RingLoad {
     /// Of a mean axial load in the frame in which the nut turns forward, N.
     #[inline(always)]
     fn new(constants: &RingConstants, axial: f32, lift_off: f32) -> Self {
-        let normal = constants.normal * axial;
+        let normal = constants.ball.normal * axial;
         let whole = math::sqrt(normal * normal + lift_off * lift_off);
         let [inverse, _] = inverse_cube_roots([whole, 1.0]);
         let square = inverse * inverse;
@@ -487,7 +471,7 @@ impl RingBall {
         forces: &Neighbours,
     ) {
         let force = forces.behind - forces.ahead;
-        let radius = constants.grooves.ball_radius;
+        let radius = constants.ball.grooves.ball_radius;
         let impedance = constants.reference * radius / found.compliance;
         let impedance = between(impedance, IMPEDANCES.0, IMPEDANCES.1);
         let free =
@@ -496,9 +480,7 @@ impl RingBall {
         self.turning = settled.turning;
         self.free = between(free, -constants.fastest, constants.fastest);
         self.impedance = impedance * load.per_two_thirds;
-        // The power after a step is one to first order: nothing but a ball that has not settled makes it negative.
-        let torque = found.torque * load.per_four_thirds;
-        self.torque = if torque > 0.0 { torque } else { 0.0 };
+        self.torque = constants.ball.torque(found) * load.per_four_thirds;
     }
 
     /// Free speed at this tick, over the nominal one against the nut; it follows the nut's angle.
@@ -534,6 +516,6 @@ impl RingBall {
     pub(crate) fn rubbing(&self, constants: &RingConstants) -> f32 {
         let [x, _, z] = self.turning;
         let z = z - constants.orbit;
-        math::sqrt(x * x + z * z) * constants.grooves.ball_radius
+        math::sqrt(x * x + z * z) * constants.ball.grooves.ball_radius
     }
 }

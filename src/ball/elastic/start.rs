@@ -3,6 +3,7 @@
 use super::contact::{Pressed, Touch};
 use super::grooves::{ElasticGroove, ElasticGrooves};
 use super::renewal::{BallInputs, Settled};
+use crate::math;
 
 /// Part of sliding friction that contacts have across the track, to begin with.
 const SHARE: f32 = 0.65;
@@ -67,12 +68,12 @@ impl ElasticGrooves {
     #[must_use]
     #[inline]
     pub fn start(&self, inputs: &BallInputs) -> Settled {
-        let mut place = self.first(inputs);
         let arcs = [
             self.arcs(&self.screw, 1.0, inputs.screw_deviation),
             self.arcs(&self.nut, -1.0, inputs.nut_deviation),
         ];
-        let reach = self.deflection(inputs.axial_load) + inputs.clearance.abs() * self.per_radius;
+        let mut place = self.first(inputs, &arcs);
+        let reach = self.deflection(inputs.axial_load);
         for _ in 0..STEPS {
             self.place(&mut place, inputs, &arcs, reach);
         }
@@ -84,29 +85,32 @@ impl ElasticGrooves {
         }
     }
 
-    /// Place by hand: main contacts under the load, the third one under what friction presses on it.
+    /// Place by hand: main contacts under the load, the third one under what friction presses on it. Exact in the gap, which
+    /// under a light load is far larger than what the contacts give way.
     #[inline(always)]
-    fn first(&self, inputs: &BallInputs) -> [f32; 3] {
+    fn first(&self, inputs: &BallInputs, [[sl, sr], [nl, nr]]: &[[(f32, f32); 2]; 2]) -> [f32; 3] {
         let load = inputs.axial_load;
-        let side = if load < 0.0 { -1.0 } else { 1.0 };
         let gap = inputs.clearance * self.per_radius;
         let screw_power = self.deflection(load);
-        let light = self.deflection(2.0 * SHARE * inputs.friction * load) + 2.0 * gap;
         // Contacts of nut and screw differ little.
         let nut_power = screw_power * self.screw.stiffness * self.nut.per_stiffness;
-        let (squeezed, x) = if gap < 0.0 {
-            (-gap, 0.0)
-        } else if load < 0.0 {
-            (0.0, -0.5 * (screw_power + light) / self.cos)
+        if gap < 0.0 {
+            let side = if load < 0.0 { -1.0 } else { 1.0 };
+            return [
+                0.0,
+                -side * screw_power / self.sin,
+                side * nut_power / self.sin,
+            ];
+        }
+        let third = gap + self.deflection(2.0 * SHARE * inputs.friction * load);
+        let (screw, nut) = (self.screw.centre + gap, self.nut.centre + gap);
+        if load < 0.0 {
+            let (x, z) = touching((*sr, screw + screw_power), (*sl, self.screw.centre + third));
+            [x, z, beside(*nl, nut + nut_power, x)]
         } else {
-            (0.0, 0.5 * (nut_power + light) / self.cos)
-        };
-        let out = self.cos * x;
-        [
-            x,
-            -side * (screw_power + squeezed + gap + out) / self.sin,
-            side * (nut_power + squeezed + gap - out) / self.sin,
-        ]
+            let (x, z) = touching((*nr, nut + nut_power), (*nl, self.nut.centre + third));
+            [x, beside(*sl, screw + screw_power, x), z]
+        }
     }
 
     /// One Newton step of the place alone, with a fixed share of friction across the track.
@@ -140,4 +144,27 @@ impl ElasticGrooves {
             *place = [x - taken * dx, screw_z - taken * ds, nut_z - taken * dn];
         }
     }
+}
+
+/// The place at two distances from the centres of a groove's arcs, on the side of the groove's middle.
+#[inline(always)]
+fn touching(
+    ((x, z), distance): ((f32, f32), f32),
+    ((ax, az), other): ((f32, f32), f32),
+) -> (f32, f32) {
+    let (dx, dz) = (ax - x, az - z);
+    let square = dx * dx + dz * dz;
+    let inverse = 1.0 / square;
+    let along = 0.5 * (1.0 + (distance - other) * (distance + other) * inverse);
+    let off = math::sqrt(distance * distance * inverse - along * along);
+    // Arcs' centres lie on the ball's side of the middle, and the ball between them and the middle.
+    let off = if (x < 0.0) == (dz > 0.0) { off } else { -off };
+    (x + along * dx + off * dz, z + along * dz - off * dx)
+}
+
+/// The axial place, on the side of the groove's middle, at a distance from the centre of an arc.
+#[inline(always)]
+fn beside((ax, az): (f32, f32), distance: f32, x: f32) -> f32 {
+    let off = math::sqrt(distance * distance - (x - ax) * (x - ax));
+    if az > 0.0 { az - off } else { az + off }
 }

@@ -1,7 +1,11 @@
 //! The three scenes of the stored cases, set up in Rust; `test/setups.c` sets the same up in C, as a user would.
 
 use epas_friction::{
-    BallScrew, BallScrewParameters, CagedBallScrew, CagedBallScrewConfiguration, Clearance, DeviationMap, Error, FrictionBranch, FrictionModel, GrooveSize, Harmonic, Limits, LinearBearing, LinearBearingConfiguration, LinearBearingParameters, LinearBearingTrain, LinearLimits, LoadShare, LoadShares, Material, UncagedBallScrew, UncagedBallScrewConfiguration,
+    BallScrew, BallScrewParameters, CagedBallScrew, CagedBallScrewConfiguration, Clearance,
+    DeviationMap, Error, FrictionBranch, FrictionModel, GrooveSize, Harmonic, Limits,
+    LinearBearing, LinearBearingConfiguration, LinearBearingParameters, LinearBearingTrain,
+    LinearLimits, LoadShare, LoadShares, Material, RollingResistance, UncagedBallScrew,
+    UncagedBallScrewConfiguration,
 };
 
 /// The rack-assist gear of Lin 2019, chapter 4.
@@ -62,6 +66,10 @@ pub fn screw() -> Result<FrictionModel<UncagedBallScrew<37>>, Error> {
         })?,
         friction: 0.1,
         ball_friction: 0.12,
+        rolling_resistance: RollingResistance {
+            hysteresis_loss: 0.01,
+            lubricant_drag: 0.006,
+        },
         clearance: Clearance::ZERO,
         turns: 1.8,
         return_length: 20e-3,
