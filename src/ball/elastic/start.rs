@@ -73,7 +73,7 @@ impl ElasticGrooves {
             self.arcs(&self.nut, -1.0, inputs.nut_deviation),
         ];
         let mut place = self.first(inputs, &arcs);
-        let reach = self.deflection(inputs.axial_load);
+        let reach = self.deflection(inputs.axial_load) + inputs.clearance.abs() * self.per_radius;
         for _ in 0..STEPS {
             self.place(&mut place, inputs, &arcs, reach);
         }
