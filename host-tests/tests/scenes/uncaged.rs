@@ -332,8 +332,13 @@ fn each_sign_of_the_load_has_its_shares() {
         step(&mut pair, 1000.0);
     }
     let mut after = 0.0;
-    for _ in 0..200 {
+    for tick in 0..200 {
         after = step(&mut pair, -1000.0);
+        if tick % 20 == 0 { println!("{tick} {after}"); }
+    }
+    for tick in 0..600 {
+        let a = step(&mut pair, -1000.0);
+        if tick % 100 == 0 { println!("more {tick} {a}"); }
     }
     // Balls that move on to other places change the sum by a ball's part, 1/37 of it.
     assert!(
