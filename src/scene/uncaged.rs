@@ -326,7 +326,7 @@ impl<const N: usize> UncagedConstants<N> {
             ),
             faults: Faults::NONE
                 .with(state.ring.settles(), Faults::SETTLING)
-                .with(state.ring.in_two_points(), Faults::BEYOND_MODEL),
+                .with(state.ring.beyond_model(), Faults::BEYOND_MODEL),
         }
     }
 

@@ -10,6 +10,13 @@ const SMALLEST_LOAD: f32 = 1e-3;
 /// Change of the load in one round of renewals from which balls begin anew, as a factor.
 const LOAD_JUMP: f32 = 3.0;
 
+/// Change of the load in one round of renewals from which friction is that of balls that still settle, as a factor: its law
+/// from renewal to renewal is that of a power of the load.
+const LOAD_STEP: f32 = 1.25;
+
+/// Angle of the nut in a round of renewals up to which balls follow their laws, rad: 20 turns a second with rounds of 0.93 ms.
+const LONGEST_ROUND: f32 = 0.12;
+
 /// Part of the load that crosses zero below which a preload holds the balls where they are.
 const HELD: f32 = 0.3;
 
@@ -62,7 +69,7 @@ pub(crate) struct RingBall {
     slope: f32,
     /// Force along the track that changes this by one, over the power 2/3 of the load; 0 of a ball without load.
     impedance: f32,
-    /// Friction torque on the nut over the power 4/3 of the load.
+    /// Friction torque on the nut over the power 7/6 of the load.
     torque: f32,
     /// Change of the speed with the sum of both neighbours' forces, 1/N.
     rubbing: f32,
@@ -76,11 +83,12 @@ pub(crate) struct RingLoad {
     pub(crate) axial: f32,
     /// Mean contact force, preload counted, N.
     whole: f32,
-    /// Powers 2/3 and 4/3 of the load, preload counted, and inverse ones.
+    /// Powers 2/3 and 7/6 of the load, preload counted, and inverse ones. Friction of slip across the track goes with the
+    /// load, that of spin with its power 4/3; a screw's torque has both.
     two_thirds: f32,
-    four_thirds: f32,
+    seven_sixths: f32,
     per_two_thirds: f32,
-    per_four_thirds: f32,
+    per_seven_sixths: f32,
 }
 
 /// Forces of a ball's neighbours in the frame in which the nut turns forward, N, and the friction coefficient between balls.
@@ -232,9 +240,13 @@ impl<const N: usize> Ring<N> {
         self.settling > 0
     }
 
-    /// Whether balls stand in two contacts.
-    pub(crate) const fn in_two_points(&self) -> bool {
-        self.two_point > 0 || self.last_two_point > 0
+    /// Whether friction is not known as well as elsewhere: balls stand in two contacts, of which one sticks, or the nut turns
+    /// so far in a round that balls drift away from their laws.
+    pub(crate) const fn beyond_model(&self) -> bool {
+        self.two_point > 0
+            || self.last_two_point > 0
+            || self.round.abs() > LONGEST_ROUND
+            || self.last_round.abs() > LONGEST_ROUND
     }
 
     /// -1 where the nut turns backward, else 1.
@@ -281,6 +293,10 @@ impl<const N: usize> Ring<N> {
             self.begin_anew(constants, axial, self.begun && crossed && !held);
             self.begun = true;
             self.settled_load = whole;
+        }
+        let old = self.settled_load;
+        if whole > LOAD_STEP * old || LOAD_STEP * whole < old {
+            self.settling = SETTLING_ROUNDS * N as u16;
         }
         self.backward = backward;
         self.negative = negative;
@@ -441,14 +457,15 @@ impl RingLoad {
         let whole = math::sqrt(normal * normal + lift_off * lift_off);
         let [inverse, _] = inverse_cube_roots([whole, 1.0]);
         let square = inverse * inverse;
+        let sixth = math::sqrt(inverse);
         let two_thirds = whole * inverse;
         Self {
             axial,
             whole,
             two_thirds,
-            four_thirds: two_thirds * two_thirds,
+            seven_sixths: whole * whole * square * sixth,
             per_two_thirds: square,
-            per_four_thirds: square * square,
+            per_seven_sixths: square * inverse * sixth,
         }
     }
 
@@ -461,7 +478,7 @@ impl RingLoad {
     /// Friction torque of balls on the nut, from the sum of theirs, N m.
     #[inline(always)]
     pub(crate) fn torque(&self, sum: f32) -> f32 {
-        sum * self.four_thirds
+        sum * self.seven_sixths
     }
 }
 
@@ -486,7 +503,7 @@ impl RingBall {
         self.turning = settled.turning;
         self.free = between(free, -constants.fastest, constants.fastest);
         self.impedance = impedance * load.per_two_thirds;
-        self.torque = constants.ball.torque(found) * load.per_four_thirds;
+        self.torque = constants.ball.torque(found) * load.per_seven_sixths;
     }
 
     /// Free speed at this tick, over the nominal one against the nut; it follows the nut's angle.
@@ -500,7 +517,7 @@ impl RingBall {
         )
     }
 
-    /// Friction torque over the power 4/3 of the load.
+    /// Friction torque over the power 7/6 of the load.
     #[inline(always)]
     pub(crate) const fn torque(&self) -> f32 {
         self.torque
