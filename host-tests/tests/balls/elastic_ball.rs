@@ -1,6 +1,7 @@
 //! The ball in elastic grooves, renewed step by step, against equilibrium with exact contact integrals.
 
-use epas_friction::ball::elastic::{BallInputs, ElasticGrooves, Settled};
+use crate::kit::random::Random;
+use epas_friction::ball::elastic::{BallInputs, ElasticGrooves, Renewal, Settled};
 use epas_friction::{BallScrew, BallScrewParameters, GrooveSize, Material};
 use epas_reference::design::BallScrewDesign;
 use epas_reference::friction::ball_screw_row::{ElasticRow, RowBall};
@@ -9,40 +10,113 @@ use epas_reference::material::Elastic;
 use serde_json::Value;
 use std::f64::consts::TAU;
 
-fn crate_design(d: &BallScrewDesign) -> BallScrew {
-    let steel = Material {
-        youngs_modulus: 210e9,
-        poisson_ratio: 0.28,
+const STEEL: Elastic = Elastic {
+    youngs_modulus: 210e9,
+    poisson_ratio: 0.28,
+};
+
+/// Largest, root-mean-square and mean error.
+#[derive(Default)]
+struct Errors {
+    all: Vec<f64>,
+    worst: (f64, String),
+}
+
+impl Errors {
+    fn add(&mut self, error: f64, case: impl Fn() -> String) {
+        self.all.push(error);
+        // Also where it is no number.
+        if !(error.abs() <= self.worst.0) {
+            self.worst = (error.abs(), case());
+        }
+    }
+
+    /// Asserts largest, root-mean-square and mean error.
+    fn within(&self, name: &str, accepted: [f64; 3]) {
+        let count = self.all.len() as f64;
+        let rms = (self.all.iter().map(|e| e * e).sum::<f64>() / count).sqrt();
+        let mean = self.all.iter().sum::<f64>() / count;
+        let (largest, case) = &self.worst;
+        println!(
+            "{name}: {count} cases, largest {largest:.1e}, rms {rms:.1e}, mean {mean:+.1e}; {case}"
+        );
+        let found = [*largest, rms, mean.abs()];
+        for (found, accepted) in found.into_iter().zip(accepted) {
+            assert!(
+                found <= accepted,
+                "{name}: {found:e} above {accepted:e}; {case}"
+            );
+        }
+    }
+}
+
+fn of_design(d: &BallScrewDesign) -> ElasticGrooves {
+    let material = |elastic: &Elastic| Material {
+        youngs_modulus: elastic.youngs_modulus as f32,
+        poisson_ratio: elastic.poisson_ratio as f32,
         ..Material::STEEL
     };
-    BallScrew::new(BallScrewParameters {
+    let design = BallScrew::new(BallScrewParameters {
         pitch_radius: d.pitch_radius as f32,
         lead: d.lead as f32,
         ball_radius: d.ball_radius as f32,
         screw_groove: GrooveSize::Radius(d.screw_groove_radius as f32),
         nut_groove: GrooveSize::Radius(d.nut_groove_radius as f32),
         contact_angle: d.contact_angle as f32,
-        ball_material: steel,
-        groove_material: steel,
+        ball_material: material(&d.ball),
+        groove_material: material(&d.groove),
     })
-    .unwrap()
+    .unwrap();
+    ElasticGrooves::new(&design).unwrap()
+}
+
+/// Length of the track for one radian of orbit, m.
+fn path(design: &BallScrewDesign) -> f64 {
+    design.pitch_radius.hypot(design.lead / TAU)
+}
+
+fn renewed(
+    grooves: &ElasticGrooves,
+    ball: &mut Settled,
+    inputs: &BallInputs,
+    times: usize,
+) -> Renewal {
+    for _ in 1..times {
+        let _ = grooves.renew(ball, inputs);
+    }
+    grooves.renew(ball, inputs)
 }
 
 fn number(value: &Value) -> f64 {
     value.as_f64().unwrap()
 }
 
-#[test]
-fn scratch() {
-    let all: Value =
-        serde_json::from_str(include_str!("../../golden/ballscrew_exact.json")).unwrap();
-    for case in all["cases"].as_array().unwrap() {
+fn golden() -> Value {
+    serde_json::from_str(include_str!("../../golden/ballscrew_exact.json")).unwrap()
+}
+
+/// A stored pair of balls.
+struct Pair<'a> {
+    case: &'a Value,
+    design: BallScrewDesign,
+    grooves: ElasticGrooves,
+    inputs: [BallInputs; 2],
+}
+
+impl Pair<'_> {
+    fn number(&self, key: &str, ball: usize) -> f64 {
+        number(&self.case[key][ball])
+    }
+
+    fn line(&self) -> String {
+        format!("{:?} {:?}", self.case["design"], self.inputs)
+    }
+}
+
+fn pairs(all: &Value) -> impl Iterator<Item = Pair<'_>> {
+    all["cases"].as_array().unwrap().iter().map(|case| {
         let stored = &all["meta"]["designs"][case["design"].as_str().unwrap()];
         let length = |key: &str| number(&stored[key]) * 1e-3;
-        let steel = Elastic {
-            youngs_modulus: number(&stored["E"]) * 1e6,
-            poisson_ratio: number(&stored["nu"]),
-        };
         let design = BallScrewDesign {
             pitch_radius: length("pitch_radius"),
             lead: length("pitch"),
@@ -50,85 +124,406 @@ fn scratch() {
             screw_groove_radius: length("groove_radius"),
             nut_groove_radius: length("groove_radius"),
             contact_angle: number(&stored["contact_angle_deg"]).to_radians(),
-            ball: steel,
-            groove: steel,
+            ball: STEEL,
+            groove: STEEL,
         };
         let side = if case["pair"] == "SRNL" { -1.0 } else { 1.0 };
-        let of = |key: &str, i: usize| number(&case[key][i]);
-        let grooves = ElasticGrooves::new(&crate_design(&design)).unwrap();
-        let path = design.pitch_radius / (design.lead / TAU / design.pitch_radius).atan().cos();
-        for i in 0..2 {
-            let inputs = BallInputs {
-                axial_load: (side * of("axial_load_N", i)) as f32,
-                force: 0.0,
-                rubbing: [0.0; 2],
-                screw_deviation: of("screw_deviation_deg", i).to_radians() as f32,
-                nut_deviation: of("nut_deviation_deg", i).to_radians() as f32,
-                friction: number(&case["friction"]) as f32,
-                clearance: (number(&case["clearance_um"]) * 1e-6) as f32,
-            };
-            let exact_speed = of("free_orbital_speed", i);
-            let y = of("free_compliance_per_N", i);
-            let key = format!("free_loads_ball{}_N", i + 1);
-            let loads: Vec<f64> = case[&key].as_array().unwrap().iter().map(number).collect();
-            let nominal = BallInputs {
-                screw_deviation: 0.0,
-                nut_deviation: 0.0,
-                ..inputs
-            };
-            let mut state = grooves.start(&nominal);
-            for _ in 0..40 {
-                let _ = grooves.renew(&mut state, &nominal);
-            }
-            let mut errors = vec![];
-            let mut last = None;
-            for _ in 0..40 {
-                let r = grooves.renew(&mut state, &inputs);
-                errors.push((f64::from(r.speed) / path / exact_speed - 1.0).abs());
-                last = Some(r);
-            }
-            let r = last.unwrap();
-            let push = number(&case["ball_force_N"]) * if i == 0 { -1.0 } else { 1.0 };
-            let forced = BallInputs {
-                force: push as f32,
-                ..inputs
-            };
-            let mut pressed = state;
-            let mut p = r;
-            for _ in 0..20 {
-                p = grooves.renew(&mut pressed, &forced);
-            }
-            let exact_pressed = number(&case["pressed_orbital_speed"]);
-            println!(
-                "pressed {} vs exact {} free {}; F {push} linear {}",
-                f64::from(p.speed) / path,
-                exact_pressed,
-                exact_speed,
-                exact_speed + push * of("free_compliance_per_N", i)
+        let of = |key: &str, ball: usize| number(&case[key][ball]);
+        let inputs = [0, 1].map(|ball| BallInputs {
+            axial_load: (side * of("axial_load_N", ball)) as f32,
+            force: 0.0,
+            rubbing: [0.0; 2],
+            screw_deviation: of("screw_deviation_deg", ball).to_radians() as f32,
+            nut_deviation: of("nut_deviation_deg", ball).to_radians() as f32,
+            friction: number(&case["friction"]) as f32,
+            clearance: (number(&case["clearance_um"]) * 1e-6) as f32,
+        });
+        Pair {
+            case,
+            grooves: of_design(&design),
+            design,
+            inputs,
+        }
+    })
+}
+
+/// All free balls of the stored pairs, 25 renewals from nothing.
+///
+/// The compliance is that of a derivative in which normals do not turn with the ball's place: some per cent with play.
+#[test]
+fn stored_free_balls() {
+    let all = golden();
+    let [mut speed, mut torque, mut load, mut compliance] = [(); 4].map(|()| Errors::default());
+    for pair in pairs(&all) {
+        for (ball, inputs) in pair.inputs.iter().enumerate() {
+            let line = || pair.line();
+            let mut state = pair.grooves.start(inputs);
+            let found = renewed(&pair.grooves, &mut state, inputs, 25);
+            assert!(!found.lost);
+            let path = path(&pair.design);
+            let relative = |found: f32, exact: f64| f64::from(found) / exact - 1.0;
+            speed.add(
+                relative(found.speed, path * pair.number("free_orbital_speed", ball)),
+                line,
             );
-            let count = errors.iter().rposition(|e| *e > 1e-5).map_or(0, |p| p + 1);
-            println!(
-                "{} {} mu {} g {} L {} dev {:.2} {:.2} -> n {count} err5 {:.1e} err10 {:.1e} end {:.1e} torque {:.1e} Y {:.4e} {:.4e} carried {:.5} loads {:?} {:?}",
-                case["design"],
-                case["pair"],
-                case["friction"],
-                case["clearance_um"],
-                of("axial_load_N", i),
-                of("screw_deviation_deg", i),
-                of("nut_deviation_deg", i),
-                errors[5],
-                errors[10],
-                errors[39],
-                f64::from(r.torque) / of("groove_torque_free_Nm", i) - 1.0,
-                r.compliance,
-                y,
-                r.carried,
-                r.loads,
-                loads
-                    .iter()
-                    .map(|l| (l * 100.0).round() / 100.0)
-                    .collect::<Vec<_>>()
+            torque.add(
+                relative(found.torque, pair.number("groove_torque_free_Nm", ball)),
+                line,
             );
+            compliance.add(
+                relative(
+                    found.compliance,
+                    path * pair.number("free_compliance_per_N", ball),
+                ),
+                line,
+            );
+            let key = format!("free_loads_ball{}_N", ball + 1);
+            for (found, exact) in found.loads.iter().zip(pair.case[&key].as_array().unwrap()) {
+                let size = f64::from(inputs.axial_load.abs());
+                load.add((f64::from(*found) - number(exact)) / size, line);
+            }
         }
     }
+    // Measured: 1.8e-5, 2.7e-6, 4.4e-7; 3.3e-4, 6.7e-5, 9.0e-6; 4.3e-5, 7.6e-6, 1.5e-6; 2.4e-2, 3.6e-3, 1.8e-4.
+    speed.within("speed", [2.7e-5, 4e-6, 1e-6]);
+    torque.within("torque", [5e-4, 1e-4, 2e-5]);
+    load.within("loads over axial load", [6.5e-5, 1.2e-5, 3e-6]);
+    compliance.within("compliance", [3.6e-2, 5.4e-3, 5e-4]);
+}
+
+/// Two balls that press on each other: each is renewed with the force that their two laws `v = v0 + Y F` give, as in a train.
+#[test]
+fn stored_pressing_pairs() {
+    let all = golden();
+    let [mut force, mut torque] = [(); 2].map(|()| Errors::default());
+    for pair in pairs(&all) {
+        let mut inputs = pair.inputs;
+        let mut states = pair
+            .inputs
+            .each_ref()
+            .map(|inputs| pair.grooves.start(inputs));
+        let mut found = [0, 1].map(|ball| pair.grooves.renew(&mut states[ball], &inputs[ball]));
+        for _ in 0..40 {
+            // Free speeds by the laws; the ball behind is pushed back by what pushes the one in front.
+            let [rear, front] =
+                [0, 1].map(|ball| found[ball].speed - found[ball].compliance * inputs[ball].force);
+            let push = (rear - front) / (found[0].compliance + found[1].compliance);
+            inputs[0].force = -push;
+            inputs[1].force = push;
+            found = [0, 1].map(|ball| pair.grooves.renew(&mut states[ball], &inputs[ball]));
+        }
+        let line = || pair.line();
+        let exact = number(&pair.case["ball_force_N"]);
+        if exact.abs() >= 0.02 {
+            force.add(f64::from(inputs[1].force) / exact - 1.0, line);
+        }
+        for ball in 0..2 {
+            let exact = pair.number("groove_torque_pressed_Nm", ball);
+            torque.add(f64::from(found[ball].torque) / exact - 1.0, line);
+        }
+    }
+    // Measured: 1.9e-2, 3.3e-3, 5.3e-4, the largest where the third contact all but opens (100 N at a friction of 0.05), all
+    // others within 0.6 per cent; 1.1e-3, 1.4e-4, 2.2e-5.
+    force.within("force between two balls", [2.8e-2, 5e-3, 1e-3]);
+    let beyond = force.all.iter().filter(|error| error.abs() > 6e-3).count();
+    assert!(beyond <= 1, "{beyond} forces beyond 0.6 per cent");
+    torque.within("torque of pressing balls", [1.7e-3, 2.1e-4, 4e-5]);
+}
+
+/// Nominal diameter, lead and ball diameter, mm; conformity of both grooves.
+const DESIGNS: [(f64, f64, f64, f64); 10] = [
+    (16.0, 5.0, 3.175, 0.53),
+    (20.0, 10.0, 3.969, 0.55),
+    (25.0, 10.0, 3.969, 0.54),
+    (29.0, 7.0, 4.0, 0.54),
+    (33.0, 20.0, 5.556, 0.5857),
+    (33.0, 20.0, 5.556, 0.56),
+    (32.0, 10.0, 6.35, 0.52),
+    (40.0, 10.0, 6.35, 0.53),
+    (50.0, 20.0, 9.525, 0.54),
+    (63.0, 20.0, 9.525, 0.52),
+];
+
+/// One ball under random conditions.
+struct Case {
+    design: BallScrewDesign,
+    grooves: ElasticGrooves,
+    inputs: BallInputs,
+}
+
+impl Case {
+    fn random(random: &mut Random, clearance: (f64, f64)) -> Self {
+        let (diameter, lead, ball, conformity) = random.of(&DESIGNS);
+        let turned = 3.0_f64.to_radians();
+        let groove = conformity * ball * 1e-3;
+        let design = BallScrewDesign {
+            pitch_radius: 0.5e-3 * diameter,
+            lead: 1e-3 * lead,
+            ball_radius: 0.5e-3 * ball,
+            screw_groove_radius: groove,
+            nut_groove_radius: groove,
+            contact_angle: random.between(42.0, 48.0).to_radians(),
+            ball: STEEL,
+            groove: STEEL,
+        };
+        let inputs = BallInputs {
+            axial_load: random.sign() * (5.0 * 60.0_f64.powf(random.between(0.0, 1.0))) as f32,
+            force: 0.0,
+            rubbing: [0.0; 2],
+            screw_deviation: (turned * random.signed()) as f32,
+            nut_deviation: (turned * random.signed()) as f32,
+            friction: random.between(0.05, 0.15) as f32,
+            clearance: random.between(clearance.0, clearance.1) as f32,
+        };
+        Self {
+            grooves: of_design(&design),
+            design,
+            inputs,
+        }
+    }
+
+    fn line(&self) -> String {
+        format!("{:?} {:?}", self.design, self.inputs)
+    }
+
+    /// Largest less smallest free speed over deviations to three degrees, m.
+    fn span(&self) -> f64 {
+        let turned = 3.0_f32.to_radians();
+        let speeds = [
+            (turned, turned),
+            (turned, -turned),
+            (-turned, turned),
+            (-turned, -turned),
+        ]
+        .map(|(screw_deviation, nut_deviation)| {
+            let inputs = BallInputs {
+                screw_deviation,
+                nut_deviation,
+                ..self.inputs
+            };
+            let mut ball = self.grooves.start(&inputs);
+            f64::from(renewed(&self.grooves, &mut ball, &inputs, 60).speed)
+        });
+        let largest = speeds.iter().copied().fold(f64::MIN, f64::max);
+        let smallest = speeds.iter().copied().fold(f64::MAX, f64::min);
+        largest - smallest
+    }
+
+    fn row(&self) -> ElasticRow {
+        let inputs = &self.inputs;
+        ElasticRow {
+            design: self.design.clone(),
+            clearance: f64::from(inputs.clearance),
+            friction: f64::from(inputs.friction),
+            ball_friction: 0.0,
+            nut_speed: TAU,
+            balls: vec![RowBall {
+                screw_deviation: f64::from(inputs.screw_deviation),
+                nut_deviation: f64::from(inputs.nut_deviation),
+                axial_load: f64::from(inputs.axial_load),
+            }],
+            integration: Integration::Full,
+        }
+    }
+}
+
+/// Errors of speed over the span of free speeds, of torque, and of loads over the axial load, by how many contacts carry.
+#[derive(Default)]
+struct Compared {
+    speed: Errors,
+    torque: Errors,
+    load: Errors,
+}
+
+impl Compared {
+    /// Balls in three or four contacts and those in two; and how many the reference has no answer to.
+    fn random(seed: u64, cases: usize, clearance: (f64, f64)) -> ([Self; 2], usize) {
+        let mut random = Random(seed);
+        let mut compared = [Self::default(), Self::default()];
+        let mut unsolved = 0;
+        for _ in 0..cases {
+            let case = Case::random(&mut random, clearance);
+            let Ok(exact) = case.row().solve() else {
+                unsolved += 1;
+                continue;
+            };
+            let exact = &exact.free[0];
+            let mut ball = case.grooves.start(&case.inputs);
+            let found = renewed(&case.grooves, &mut ball, &case.inputs, 60);
+            assert!(!found.lost && found.compliance > 0.0, "{}", case.line());
+            // A light contact under less than a thousandth of the load is as good as open.
+            let size = f64::from(case.inputs.axial_load.abs());
+            let carrying = exact
+                .loads
+                .iter()
+                .filter(|load| **load > 1e-3 * size)
+                .count();
+            let two_point = found.two_point() || carrying < 3;
+            let errors = &mut compared[usize::from(two_point)];
+            let line = || case.line();
+            let speed = exact.motion.orbital_speed / TAU * path(&case.design);
+            errors
+                .speed
+                .add((f64::from(found.speed) - speed) / case.span(), line);
+            let torque = exact.motion.power_loss / TAU;
+            errors
+                .torque
+                .add(f64::from(found.torque) / torque - 1.0, line);
+            for (found, exact) in found.loads.iter().zip(exact.loads) {
+                errors.load.add((f64::from(*found) - exact) / size, line);
+            }
+        }
+        (compared, unsolved)
+    }
+}
+
+/// Clearance of an EPAS screw. Every ball comes to rest within 60 renewals from nothing.
+///
+/// The largest errors are those of balls whose third contact all but opens, where friction that is smoothed below a spin of 0.01
+/// counts. In two points one groove sticks, and the speed between that of both grooves' rolling hangs on that.
+#[test]
+fn random_balls() {
+    let ([three, two], unsolved) = Compared::random(1, 200, (-5e-6, 5e-6));
+    assert_eq!(unsolved, 0);
+    assert!(two.speed.all.len() <= 12);
+    // Measured: 4.6e-2, 3.8e-3, 6.0e-5; 2.4e-2, 2.7e-3, 7.0e-4; 5.4e-3, 3.1e-4, 5.4e-5.
+    three.speed.within("speed", [7e-2, 5.7e-3, 4e-4]);
+    three.torque.within("torque", [3.6e-2, 4e-3, 1.1e-3]);
+    three.load.within("loads", [8e-3, 4.7e-4, 9e-5]);
+    // Measured: 1.6e-1, 8.6e-2, 2.0e-2; 1.8e-4, 9.2e-5, 6.4e-5; 1.1e-6, 3.2e-7, 1.7e-7.
+    two.speed
+        .within("speed in two points", [2.4e-1, 1.3e-1, 5e-2]);
+    two.torque
+        .within("torque in two points", [2.8e-4, 1.4e-4, 1e-4]);
+    two.load.within("loads in two points", [4e-6, 1e-6, 6e-7]);
+}
+
+/// Play of 5 to 20 micrometres: two thirds of the balls stand in two points.
+#[test]
+fn random_balls_with_play() {
+    let ([three, two], unsolved) = Compared::random(2, 100, (5e-6, 20e-6));
+    assert_eq!(unsolved, 0);
+    // Measured: 3.1e-2, 6.8e-3, 1.1e-4; 6.9e-3, 1.8e-3, 7.0e-4; 8.5e-4, 1.1e-4, 3.3e-5.
+    three.speed.within("speed", [4.7e-2, 1.1e-2, 1e-3]);
+    three.torque.within("torque", [1.1e-2, 2.7e-3, 1.1e-3]);
+    three.load.within("loads", [1.3e-3, 1.7e-4, 6e-5]);
+    // Measured: 6.8e-1, 1.2e-1, 3.0e-2; 1.3e-3, 1.7e-4, 2.3e-5; 7.2e-6, 1.2e-6, 3.5e-7.
+    two.speed.within("speed in two points", [1.0, 1.8e-1, 6e-2]);
+    two.torque
+        .within("torque in two points", [2e-3, 3e-4, 6e-5]);
+    two.load.within("loads in two points", [2e-5, 4e-6, 1e-6]);
+}
+
+fn typical() -> Case {
+    let mut case = Case::random(&mut Random(3), (0.0, 0.0));
+    case.inputs = BallInputs {
+        axial_load: -50.0,
+        screw_deviation: 0.02,
+        nut_deviation: -0.01,
+        friction: 0.1,
+        ..case.inputs
+    };
+    case
+}
+
+/// A clearance through zero changes nothing at once: neither loads nor speed nor torque jump.
+#[test]
+fn clearance_is_continuous_through_zero() {
+    let case = typical();
+    let at = |clearance: f32| {
+        let inputs = BallInputs {
+            clearance,
+            ..case.inputs
+        };
+        let mut ball = case.grooves.start(&inputs);
+        renewed(&case.grooves, &mut ball, &inputs, 60)
+    };
+    let (play, none, oversize) = (at(1e-8), at(0.0), at(-1e-8));
+    for other in [play, oversize] {
+        // A hundredth of a micrometre is a part in some hundreds of the deflection of a light contact.
+        assert!((other.torque / none.torque - 1.0).abs() < 3e-3);
+        assert!((other.speed / none.speed - 1.0).abs() < 1e-4);
+        for (load, before) in other.loads.iter().zip(none.loads) {
+            assert!((load - before).abs() < 0.2, "{load} {before}");
+        }
+    }
+    assert!(play.loads[0] < none.loads[0] && none.loads[0] < oversize.loads[0]);
+}
+
+/// Whatever goes in, numbers come out, and a ball that is lost stays as it was.
+#[test]
+fn hostile_input_gives_numbers_or_a_lost_ball() {
+    let case = typical();
+    let hostile = [
+        0.0,
+        -0.0,
+        1e-30,
+        1e-3,
+        -1e7,
+        1e30,
+        f32::NAN,
+        f32::INFINITY,
+        f32::MIN_POSITIVE,
+    ];
+    let good = case.inputs;
+    let mut lost = 0;
+    for value in hostile {
+        for inputs in [
+            BallInputs {
+                axial_load: value,
+                ..good
+            },
+            BallInputs {
+                force: value,
+                ..good
+            },
+            BallInputs {
+                screw_deviation: value,
+                ..good
+            },
+            BallInputs {
+                nut_deviation: -value,
+                ..good
+            },
+            BallInputs {
+                friction: value,
+                ..good
+            },
+            BallInputs {
+                clearance: value,
+                ..good
+            },
+        ] {
+            let mut ball = case.grooves.start(&inputs);
+            for _ in 0..20 {
+                let before = ball;
+                let found = case.grooves.renew(&mut ball, &inputs);
+                let numbers = [
+                    found.speed,
+                    found.compliance,
+                    found.torque,
+                    found.carried,
+                    found.taken,
+                ];
+                if found.lost {
+                    lost += 1;
+                    assert_eq!(format!("{ball:?}"), format!("{before:?}"));
+                } else {
+                    assert!(
+                        numbers.iter().all(|number| number.is_finite()),
+                        "{found:?} {inputs:?}"
+                    );
+                }
+            }
+            // From a good state as well.
+            let mut ball = case.grooves.start(&good);
+            for _ in 0..20 {
+                let found = case.grooves.renew(&mut ball, &inputs);
+                assert!(found.lost || found.speed.is_finite() && found.torque.is_finite());
+            }
+            let found = renewed(&case.grooves, &mut ball, &good, 60);
+            assert!(found.speed.is_finite(), "{inputs:?}");
+        }
+    }
+    assert!(lost > 0);
 }

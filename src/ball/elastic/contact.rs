@@ -6,9 +6,9 @@ use crate::contact::slip_map::looped::Slips;
 use crate::math;
 
 /// Spin below which a contact sticks, over the nut's speed.
-pub(super) const STICK_SPIN: f32 = 0.03;
+pub(super) const STICK_SPIN: f32 = 0.01;
 
-/// Part of its own slip and spin by which a step may change those of a contact: beyond it friction changes its sign.
+/// Part of its own slip and spin by which a step may change those of a contact: beyond, friction changes its sign.
 const REACH: f32 = 0.7;
 
 /// Load of a contact, and how far a step may change the motion of the ball for its sake.
@@ -25,21 +25,24 @@ pub(super) struct Reach {
 }
 
 impl Reach {
-    /// No contact, no limit.
+    /// No contact.
     pub(super) const NONE: Self = Self {
         nx: 0.0,
         nz: 0.0,
-        spin: f32::MAX,
-        along: f32::MAX,
+        spin: 0.0,
+        along: 0.0,
         load: 0.0,
     };
 
-    /// Part of a step that this contact allows, at most `taken`.
+    /// Whether this contact allows a whole step.
     #[inline(always)]
+    pub(super) fn allows(&self, step: &Motion) -> bool {
+        let (along, spin) = slips(step, (self.nx, self.nz));
+        spin.abs() <= self.spin && along.abs() <= self.along
+    }
+
+    /// Part of a step that this contact allows, at most `taken`.
     pub(super) fn allowed(&self, step: &Motion, taken: f32) -> f32 {
-        if self.load == 0.0 {
-            return taken;
-        }
         let (along, spin) = slips(step, (self.nx, self.nz));
         let taken = within(taken, spin.abs(), self.spin);
         within(taken, along.abs(), self.along)
@@ -66,7 +69,7 @@ fn slips(motion: &Motion, (nx, nz): (f32, f32)) -> (f32, f32) {
 }
 
 /// Adds a contact that carries to the equations of the ball; returns what it carries and how far a step may go.
-#[inline(never)]
+#[inline]
 pub(super) fn add(
     groove: &ElasticGroove,
     pressed: Pressed,
@@ -289,6 +292,6 @@ impl Touch {
         shared.by_place += kx * nx + gx * nz;
         own.radial += kx * nz - gx * nx;
         own.by_place += kz * nx + gz * nz;
-        own.by_axial += kz * nz - gz * nx;
+        own.by_itself += kz * nz - gz * nx;
     }
 }

@@ -94,6 +94,13 @@ impl Shared {
             ss: 0.0,
         },
     };
+
+    /// Leaves the place out of the equations of the motion.
+    pub(super) const fn uncouple(&mut self, screw: &mut Axial, nut: &mut Axial) {
+        self.forces_by_place = Motion::NONE;
+        screw.forces = Motion::NONE;
+        nut.forces = Motion::NONE;
+    }
 }
 
 /// Axial balance in one groove.
@@ -101,7 +108,7 @@ impl Shared {
 pub(super) struct Axial {
     /// Axial force on the ball, N; its change with the axial place, the radial place and the motion.
     pub(super) force: f32,
-    pub(super) by_axial: f32,
+    pub(super) by_itself: f32,
     pub(super) by_place: f32,
     pub(super) by_motion: Motion,
     /// Change of the radial force and of the power's derivatives with the axial place.
@@ -112,7 +119,7 @@ pub(super) struct Axial {
 impl Axial {
     pub(super) const NONE: Self = Self {
         force: 0.0,
-        by_axial: 0.0,
+        by_itself: 0.0,
         by_place: 0.0,
         by_motion: Motion::NONE,
         radial: 0.0,
@@ -186,7 +193,7 @@ impl Line {
 /// Solves the equations, where the axial forces on the ball are unbalanced by those given.
 ///
 /// Elimination without exchange of rows: axial places, radial place, motion.
-#[inline(always)]
+#[inline]
 pub(super) fn solved(
     shared: &Shared,
     screw: &Axial,
@@ -196,9 +203,9 @@ pub(super) fn solved(
     against: &Motion,
 ) -> Step {
     // One division for both reciprocals.
-    let both = 1.0 / (screw.by_axial * nut.by_axial);
-    let s = Follows::of(screw, unbalanced[0], both * nut.by_axial);
-    let n = Follows::of(nut, unbalanced[1], both * screw.by_axial);
+    let both = 1.0 / (screw.by_itself * nut.by_itself);
+    let s = Follows::of(screw, unbalanced[0], both * nut.by_itself);
+    let n = Follows::of(nut, unbalanced[1], both * screw.by_itself);
     let by_place = shared.by_place - screw.radial * s.place - nut.radial * n.place;
     let inverse = 1.0 / by_place;
     let x = Follows {

@@ -11,6 +11,13 @@ const LARGEST_TURN: f32 = 1.4;
 /// Largest change of a place in a step over the deflection of a contact under the ball's load.
 const LARGEST_SHIFT: f32 = 1.0;
 
+/// Part of a step below which the place is left out of the motion's equations: far from balance the coupled step may lead
+/// away from it, that of the motion alone never does, because its power is convex.
+const LEAST_TAKEN: f32 = 0.1;
+
+/// Load over the axial load below which a contact does not limit steps.
+const LIGHT: f32 = 0.02;
+
 /// Place and motion of a ball; lengths over the ball radius, speeds over the nut's.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -198,8 +205,14 @@ impl ElasticGrooves {
         let [radial, across] = on_ball;
         shared.radial += radial;
         let unbalanced = [screw.force - needed, nut.force + needed + across];
-        let step = solved(&shared, &screw, &nut, unbalanced, inputs.force, &by_rubbing);
-        let taken = self.limited(&step, [&a, &b, &c, &d], inputs.axial_load);
+        let mut step = solved(&shared, &screw, &nut, unbalanced, inputs.force, &by_rubbing);
+        let reaches = [&a, &b, &c, &d];
+        let mut taken = self.limited(&step, reaches, inputs.axial_load);
+        if taken < LEAST_TAKEN || step.compliance <= 0.0 {
+            shared.uncouple(&mut screw, &mut nut);
+            step = solved(&shared, &screw, &nut, unbalanced, inputs.force, &by_rubbing);
+            taken = self.limited(&step, reaches, inputs.axial_load);
+        }
         let moved = motion.plus(&step.motion, -taken);
         // Power lost is the ball's forces times its motion, less those in the nut times the nut's.
         let power = moved.dot(&total) - base.dot(&total.plus(&on_screw, -1.0));
@@ -254,16 +267,21 @@ impl ElasticGrooves {
 
     /// Part of a step that is taken.
     #[inline(always)]
-    fn limited(&self, step: &Step, [a, b, c, d]: [&Reach; 4], axial_load: f32) -> f32 {
+    fn limited(&self, step: &Step, reaches: [&Reach; 4], axial_load: f32) -> f32 {
         let Motion { speed, x, y, z } = step.motion;
         let sum = x.abs() + y.abs() + z.abs() + speed.abs();
         let shift = larger(step.radial.abs(), larger(step.screw.abs(), step.nut.abs()));
-        let mut taken = within(1.0, sum, LARGEST_TURN);
-        taken = a.allowed(&step.motion, taken);
-        taken = b.allowed(&step.motion, taken);
-        taken = c.allowed(&step.motion, taken);
-        taken = d.allowed(&step.motion, taken);
-        within(taken, shift, LARGEST_SHIFT * self.deflection(axial_load))
+        let reach = LARGEST_SHIFT * self.deflection(axial_load);
+        let light = LIGHT * axial_load.abs();
+        let [a, b, c, d] = reaches;
+        let allows = |reach: &Reach| reach.load <= light || reach.allows(&step.motion);
+        if sum <= LARGEST_TURN && shift <= reach && allows(a) && allows(b) && allows(c) && allows(d)
+        {
+            1.0
+        } else {
+            let taken = within(within(1.0, sum, LARGEST_TURN), shift, reach);
+            shortened(&step.motion, reaches, light, taken)
+        }
     }
 
     /// Deflection of a screw contact under all of a ball's load, over the ball radius.
@@ -273,6 +291,19 @@ impl ElasticGrooves {
         let [inverse, _] = inverse_cube_roots([normal, 1.0]);
         normal * inverse * self.screw.per_stiffness
     }
+}
+
+/// Part of a step that all contacts allow, at most `taken`.
+#[cold]
+#[inline(never)]
+fn shortened(step: &Motion, reaches: [&Reach; 4], light: f32, taken: f32) -> f32 {
+    let mut taken = taken;
+    for reach in reaches {
+        if reach.load > light {
+            taken = reach.allowed(step, taken);
+        }
+    }
+    taken
 }
 
 #[inline(always)]
