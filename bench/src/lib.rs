@@ -8,6 +8,8 @@
 mod cli;
 mod designs;
 mod eval;
+#[doc(hidden)]
+pub mod exact_ring;
 mod failure;
 mod files;
 mod plot;

@@ -3,6 +3,7 @@
 mod caged;
 mod choice;
 mod curves;
+mod exact_screw;
 mod linear;
 mod loads;
 mod manoeuvre;
@@ -28,6 +29,7 @@ use crate::files::{self, Existing, Pending};
 use choice::{Chosen, SceneName, choose};
 pub use manoeuvre::Manoeuvre;
 use progress::Progress;
+use reference::ReferenceModel;
 use samples::ScrewSample;
 use scene::Scene;
 use targets::{refuse_same, targets};
@@ -106,9 +108,16 @@ pub struct Arguments {
     /// Where the plot goes
     #[arg(long, value_name = "OUT.svg")]
     plot: Option<PathBuf>,
-    /// Compute the float64 reference beside the model
-    #[arg(long)]
-    reference: bool,
+    /// Compute the float64 reference beside the model; uncaged, exactly without a name
+    #[arg(
+        long,
+        value_enum,
+        value_name = "MODEL",
+        num_args = 0..=1,
+        require_equals = true,
+        default_missing_value = "exact"
+    )]
+    reference: Option<ReferenceModel>,
     /// Replace files that exist
     #[arg(long)]
     force: bool,
@@ -169,13 +178,18 @@ fn simulate<S: Scene>(scene: &S, arguments: &Arguments, existing: Existing) -> R
     // Every sample is computed once and written once.
     let steps = trace.samples.len() * (1 + usize::from(output.is_some()));
     let progress = Progress::new(steps);
-    let rows = scene.rows(&trace, arguments.reference, &|| progress.step())?;
+    let (rows, reference) = scene.rows(&trace, arguments.reference, &|| progress.step())?;
     let table = output
         .as_deref()
         .map(|path| {
             let mut pending = Pending::new(path, existing)?;
-            write_table::<S>(pending.writer(), arguments.reference, &rows, &progress)
-                .map_err(|error| Failure::file("write", path, &error))?;
+            write_table::<S>(
+                pending.writer(),
+                arguments.reference.is_some(),
+                &rows,
+                &progress,
+            )
+            .map_err(|error| Failure::file("write", path, &error))?;
             Ok::<_, Failure>(pending)
         })
         .transpose()?;
@@ -196,6 +210,7 @@ fn simulate<S: Scene>(scene: &S, arguments: &Arguments, existing: Existing) -> R
 
     let mut stdout = io::stdout().lock();
     scene.summary(&trace, &rows).print(&mut stdout)?;
+    reference.print(&mut stdout)?;
     for path in output.iter().chain(&plot) {
         writeln!(stdout, "wrote {}", path.display())?;
     }

@@ -65,8 +65,8 @@ impl LinearBallParameters {
 /// Valid for four loaded contacts with nearly equal loads on a diagonal. Largest error of the speed
 /// deviation against the minimum of the dissipation, angle deviations of the bottom groove up to 3
 /// degrees, in units of `v/2`: 2.3e-3 for side-force ratios up to 0.5, 4.1e-3 up to 0.6, 5.8e-3 up to
-/// 0.8; four independent angles 1.5e-2 (rms 2e-3). Of the force between two balls, up to 10 N: 0.62 N
-/// (rms 0.24 N) up to 0.8. Near two-point rolling, from side-force ratios of 0.88 to 0.98 on, the exact
+/// 0.8; four independent angles 1.5e-2 (rms 2e-3). Of the force between two balls, side-force ratios up to 0.8: 0.62 N
+/// (rms 0.27 N) of up to 5.8 N at deviations of 2 degrees, 1.39 N (rms 0.57 N) of up to 9.1 N at 3 degrees. Near two-point rolling, from side-force ratios of 0.88 to 0.98 on, the exact
 /// speed jumps: where the weaker diagonal carries less than `(3/8) E (a/r_b)/sin(2 beta_0)` of the stronger
 /// one (3.7 % in Lin 2019, Table 3.3) it falls from 8.8e-3 per degree of the deviation to 3e-4. This formula
 /// keeps the speed from before, too large by up to 9.5e-3 per degree, never of the wrong sense, and never

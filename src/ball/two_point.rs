@@ -3,12 +3,12 @@
 
 use super::loads::LoadShare;
 
-/// Part of the four-point loss by which two-point rolling has to cost more, so that a ball counts as rolling on four
-/// points: the border's formula leaves out the spin of the weaker diagonal and terms in the square of the deviations,
-/// 7 % of the loss at 3 degrees.
+/// Loss on two points over that on four, below which a ball counts as near two-point rolling. The border's formula takes
+/// the stronger diagonal as the loads alone have it: deviations of 3 degrees in both grooves make its loss 5 % larger.
 const BORDER_MARGIN: f32 = 1.1;
 
-/// Force between two balls over that of the closed form, at most, shortly before the border.
+/// Force between two balls over that of the closed form, at most, shortly before the border (measured: 1.25, where
+/// friction between the balls is as large as that in the grooves).
 const FORCE_MARGIN: f32 = 1.25;
 
 /// Friction of a ball with the grooves of a linear bearing, and how near the ball is to two-point rolling.
@@ -22,8 +22,8 @@ const FORCE_MARGIN: f32 = 1.25;
 /// ```
 ///
 /// Where the second gets less than the first, the ball's speed jumps. Two things move this border: angle deviations,
-/// which take force off one diagonal (`h U/sin(2 beta)` for a difference `h` of the mean deviations of both grooves),
-/// and neighbours, which press less on a ball and rub less on it when it rolls on two points.
+/// which take force off one diagonal; and neighbours, because a ball in two-point rolling resists their pressing without
+/// a loss, and rubs less on them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(crate) struct GrooveFriction {
@@ -71,6 +71,13 @@ pub(crate) struct GrooveLoss {
     reserve: f32,
 }
 
+/// Force that deviations take off the weaker diagonal, over that of the stronger one, at the border: `h` is half the
+/// difference of the deviations of both grooves, beside sine and cosine of twice the contact angle. Statics give
+/// `D - h (U + D cos(2 beta))/sin(2 beta)`.
+const fn taken(h: f32, (sin, cos): (f32, f32)) -> f32 {
+    h / (sin - h * cos)
+}
+
 impl GrooveFriction {
     pub(crate) const fn new(parameters: &BorderParameters) -> Self {
         let BorderParameters {
@@ -83,13 +90,15 @@ impl GrooveFriction {
             shares: (lightest, heaviest),
         } = *parameters;
         let slide = friction * sin * sin;
-        // Half the difference of the deviations, over sin(2 beta).
-        let turned = 0.25 * slide / (sin * cos);
+        let doubled = (2.0 * sin * cos, cos * cos - sin * sin);
         Self {
             spin,
             slide,
             border: BORDER_MARGIN * spin * heaviest.root(),
-            turned: [turned * (top.1 - bottom.0), turned * (bottom.1 - top.0)],
+            turned: [
+                slide * taken(0.5 * (top.1 - bottom.0), doubled),
+                slide * taken(0.5 * (bottom.1 - top.0), doubled),
+            ],
             // Balls rub with v/cos(beta) in four-point rolling, (3.52), and with v in two-point rolling.
             rubbing: FORCE_MARGIN * ball_friction * (1.0 / cos - 1.0) / lightest.share(),
             // The force changes the ball's speed by v/2 times the compliance: half of the product.
@@ -98,9 +107,15 @@ impl GrooveFriction {
         }
     }
 
-    /// The loss under the forces of both diagonals, each the sum of its two contacts, N, and their powers of 4/3.
+    /// The loss under the forces of both diagonals, each the sum of its two contacts, N, and their powers of 4/3. `lean` is
+    /// the weaker force as the loads have it: below zero where they lift that diagonal off.
     #[inline(always)]
-    pub(crate) fn at(&self, [up, down]: [f32; 2], [up_spin, down_spin]: [f32; 2]) -> GrooveLoss {
+    pub(crate) fn at(
+        &self,
+        [up, down]: [f32; 2],
+        [up_spin, down_spin]: [f32; 2],
+        lean: f32,
+    ) -> GrooveLoss {
         let [turned_up, turned_down] = self.turned;
         let (weak, strong, strong_spin, turned) = if up < down {
             (up, down, down_spin, turned_up)
@@ -115,7 +130,7 @@ impl GrooveFriction {
             } else {
                 four_points
             },
-            reserve: two_points - (turned * strong + self.border * strong_spin),
+            reserve: self.slide * lean - (turned * strong + self.border * strong_spin),
         }
     }
 

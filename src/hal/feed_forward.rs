@@ -9,12 +9,13 @@ use crate::scene::{Faults, Outputs};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum FaultReaction {
-    /// Any flag: neutral.
+    /// Any fault ([`Faults::faulty`]): neutral. Those of [`Faults::ACCURACY`] are none: their torque is the best
+    /// estimate, and stays.
     #[default]
     NeutralOnAnyFault,
     /// A value at its limit ([`Faults::SPEED_RANGE`], [`Faults::LOAD_RANGE`],
     /// [`Faults::FRICTION_LIMIT`]) is still put out, so that the torque does not drop where it is largest;
-    /// any other flag: neutral.
+    /// any other fault: neutral.
     LimitedValuesPass,
 }
 
@@ -42,7 +43,7 @@ pub struct AppliedDuty {
     pub duty: u16,
     /// The torque was cut to [`FeedForwardConfiguration::largest_torque`].
     pub saturated: bool,
-    /// The outputs were flagged or no numbers: neutral duty in their place.
+    /// The outputs were faulty or no numbers: neutral duty in their place.
     pub neutral: bool,
 }
 
@@ -51,7 +52,7 @@ pub struct AppliedDuty {
 /// `duty = round((1 + share torque / full_torque) max_duty / 2)`.
 ///
 /// One channel without a direction pin: the reference input of a motor driver, or an H bridge in
-/// locked antiphase. The torque saturates at `largest_torque`; flagged outputs and a torque that is no
+/// locked antiphase. The torque saturates at `largest_torque`; faulty outputs and a torque that is no
 /// number give the neutral duty, which is also what [`FrictionFeedForward::neutral`] gives for a
 /// controller that stops. Cost: three multiplications, no division.
 #[derive(Debug)]
@@ -133,8 +134,7 @@ impl<PWM: SetDutyCycle> FrictionFeedForward<PWM> {
         const PASSES: u8 = Faults::SPEED_RANGE.bits()
             | Faults::LOAD_RANGE.bits()
             | Faults::FRICTION_LIMIT.bits()
-            | Faults::BEYOND_MODEL.bits()
-            | Faults::SETTLING.bits();
+            | Faults::ACCURACY.bits();
         match self.reaction {
             FaultReaction::NeutralOnAnyFault => faults.faulty(),
             FaultReaction::LimitedValuesPass => faults.bits() & !PASSES != 0,

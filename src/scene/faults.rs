@@ -31,9 +31,11 @@ impl Faults {
     /// The mechanism is where its formulas leave the accuracy that they promise. What is put out is the best estimate, finite
     /// and continuous: not the safe output, and no reason to take the friction away. Where this begins stands with the scene.
     pub const BEYOND_MODEL: Self = Self(1 << 5);
-    /// Balls still settle after a start, a reversal, or a jump of the load by a factor of three: forces between them are
-    /// estimates for some milliseconds.
+    /// Balls still settle after a start, a reversal, or a jump of the load, of friction or of the clearance: friction and
+    /// forces between balls are estimates for some milliseconds.
     pub const SETTLING: Self = Self(1 << 6);
+    /// The flags that speak of accuracy alone.
+    pub const ACCURACY: Self = Self(Self::BEYOND_MODEL.0 | Self::SETTLING.0);
 
     /// True where any flag is set.
     #[inline]
@@ -42,12 +44,12 @@ impl Faults {
         self.0 != 0
     }
 
-    /// True where an input was wrong or an output was limited: any flag but
-    /// [`Faults::BEYOND_MODEL`] and [`Faults::SETTLING`].
+    /// True where an input was wrong or an output was limited: any flag but those of
+    /// [`Faults::ACCURACY`].
     #[inline]
     #[must_use]
     pub const fn faulty(self) -> bool {
-        self.0 & !(Self::BEYOND_MODEL.0 | Self::SETTLING.0) != 0
+        self.0 & !Self::ACCURACY.0 != 0
     }
 
     /// True where every flag of `other` is set.
@@ -153,7 +155,9 @@ mod tests {
 
     #[test]
     fn accuracy_is_no_fault() {
-        assert!(Faults::BEYOND_MODEL.any() && !Faults::BEYOND_MODEL.faulty());
+        for flag in [Faults::BEYOND_MODEL, Faults::SETTLING] {
+            assert!(flag.any() && !flag.faulty() && Faults::ACCURACY.contains(flag));
+        }
         assert!((Faults::BEYOND_MODEL | Faults::LOAD_RANGE).faulty());
         assert!(Faults::LOAD_RANGE.faulty() && !Faults::NONE.faulty());
     }

@@ -179,3 +179,51 @@ impl From<UncagedOutputs> for Outputs {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn efficiency_of(load_torque: f32, friction_torque: f32, regime: Regime) -> f32 {
+        Outputs::from(UncagedOutputs {
+            friction_torque,
+            load_torque,
+            regime,
+            ..UncagedOutputs::SAFE
+        })
+        .efficiency
+    }
+
+    /// Work out over work in, for all signs of load and motion; friction has the sign of the motion.
+    #[test]
+    fn efficiency_in_all_four_quadrants() {
+        for (load, friction, expected) in [
+            (2.0, 2.0, 0.5),
+            (-2.0, -2.0, 0.5),
+            (2.0, -0.5, 0.75),
+            (-2.0, 0.5, 0.75),
+            // Without friction nothing is lost, in either direction.
+            (2.0, 0.0, 1.0),
+            (-2.0, 0.0, 1.0),
+            (2.0, -0.0, 1.0),
+            // Locked: the motor helps the load along.
+            (2.0, -3.0, -0.5),
+            // No load: nothing comes out.
+            (0.0, 1.0, 0.0),
+            (-0.0, 1.0, 0.0),
+            // A load that hardly counts beside the friction.
+            (1e-9, -1.0, LEAST_EFFICIENCY),
+            (-1e-9, 1.0, LEAST_EFFICIENCY),
+        ] {
+            assert_eq!(
+                efficiency_of(load, friction, Regime::Driving),
+                expected,
+                "{load} {friction}"
+            );
+            assert_eq!(efficiency_of(load, friction, Regime::Standing), 0.0);
+        }
+        // Twice the least is not cut.
+        let half = 0.5 * LEAST_EFFICIENCY;
+        assert_eq!(efficiency_of(1.0, half - 1.0, Regime::BackDriving), half);
+    }
+}

@@ -409,6 +409,18 @@ extern "C" {
 #define EPAS_FAULT_FRICTION_LIMIT 16u
 
 /**
+ * The mechanism is where its formulas leave the accuracy that they promise: the friction is the best estimate. No fault of
+ * the inputs: the faulted ticks do not count it.
+ */
+#define EPAS_FAULT_BEYOND_MODEL 32u
+
+/**
+ * Balls still settle after a start, a reversal, or a jump of the load by a factor of three: forces between them are
+ * estimates for some milliseconds. No fault of the inputs, either.
+ */
+#define EPAS_FAULT_SETTLING 64u
+
+/**
  * The call itself was refused (its status says why): no friction is put out.
  */
 #define EPAS_FAULT_CALL 2147483648u
@@ -438,7 +450,7 @@ extern "C" {
 /**
  * Size of `epas_linear_t` in words of eight bytes.
  */
-#define EPAS_LINEAR_WORDS 132
+#define EPAS_LINEAR_WORDS 135
 
 /**
  * Version of the structures and functions of this header; `epas_abi_version` returns the library's. It rises
@@ -1131,7 +1143,8 @@ uint32_t epas_caged_step(struct epas_caged_t *place,
 uint32_t epas_caged_reset(struct epas_caged_t *place);
 
 /**
- * Consecutive ticks whose outputs were flagged; 0 after a sound tick.
+ * Consecutive ticks with a fault; 0 after a sound tick, and after one whose flags speak of
+ * accuracy alone (`EPAS_FAULT_BEYOND_MODEL`, `EPAS_FAULT_SETTLING`).
  */
 uint32_t epas_caged_faulted_ticks(const struct epas_caged_t *place, uint32_t *ticks);
 
@@ -1162,7 +1175,8 @@ uint32_t epas_screw_set_nut_angle(struct epas_screw_t *place, float angle);
 uint32_t epas_screw_reset(struct epas_screw_t *place);
 
 /**
- * Consecutive ticks whose outputs were flagged; 0 after a sound tick.
+ * Consecutive ticks with a fault; 0 after a sound tick, and after one whose flags speak of
+ * accuracy alone (`EPAS_FAULT_BEYOND_MODEL`, `EPAS_FAULT_SETTLING`).
  */
 uint32_t epas_screw_faulted_ticks(const struct epas_screw_t *place, uint32_t *ticks);
 
@@ -1194,7 +1208,8 @@ uint32_t epas_linear_set_carriage_position(struct epas_linear_t *place,
 uint32_t epas_linear_reset(struct epas_linear_t *place);
 
 /**
- * Consecutive ticks whose outputs were flagged; 0 after a sound tick.
+ * Consecutive ticks with a fault; 0 after a sound tick, and after one whose flags speak of
+ * accuracy alone (`EPAS_FAULT_BEYOND_MODEL`, `EPAS_FAULT_SETTLING`).
  */
 uint32_t epas_linear_faulted_ticks(const struct epas_linear_t *place, uint32_t *ticks);
 

@@ -27,6 +27,12 @@ pub const EPAS_FAULT_SPEED_RANGE: u32 = 4u32;
 pub const EPAS_FAULT_LOAD_RANGE: u32 = 8u32;
 /// The friction torque of a screw, or the friction force of a bearing, was cut to its limit.
 pub const EPAS_FAULT_FRICTION_LIMIT: u32 = 16u32;
+/// The mechanism is where its formulas leave the accuracy that they promise: the friction is the best estimate. No fault of
+/// the inputs: the faulted ticks do not count it.
+pub const EPAS_FAULT_BEYOND_MODEL: u32 = 32u32;
+/// Balls still settle after a start, a reversal, or a jump of the load by a factor of three: forces between them are
+/// estimates for some milliseconds. No fault of the inputs, either.
+pub const EPAS_FAULT_SETTLING: u32 = 64u32;
 /// The call itself was refused (its status says why): no friction is put out.
 pub const EPAS_FAULT_CALL: u32 = 0x80000000u32;
 
@@ -324,7 +330,7 @@ pub struct LinearOutputs {
 }
 
 /// Size of `epas_linear_t` in words of eight bytes.
-pub const EPAS_LINEAR_WORDS: usize = 132;
+pub const EPAS_LINEAR_WORDS: usize = 135;
 
 /// Place for the constants and the state of a linear bearing; as `epas_caged_t`.
 #[derive(Clone, Copy, Debug)]

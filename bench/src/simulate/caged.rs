@@ -4,7 +4,7 @@ use epas_friction::{CagedBallScrew, FrictionModel, Inputs, Outputs};
 
 use super::curves::thin;
 use super::manoeuvre::Manoeuvre;
-use super::reference::{CagedReference, Friction};
+use super::reference::{CagedReference, Friction, ReferenceModel};
 use super::samples::ScrewSample;
 use super::scene::Scene;
 use super::screw::{self, ScrewSummary};
@@ -42,16 +42,16 @@ impl Scene for Caged {
     fn rows(
         &self,
         trace: &Trace<ScrewSample>,
-        with_reference: bool,
+        reference: Option<ReferenceModel>,
         done: &dyn Fn(),
-    ) -> Result<Vec<CagedRow>, Failure> {
+    ) -> Result<(Vec<CagedRow>, Lines), Failure> {
         let configuration = &self.design.configuration;
         let mut model = FrictionModel::<CagedBallScrew>::new(configuration)
             .map_err(|error| Failure::Data(format!("{}: {error}", self.name())))?;
-        let reference = with_reference
-            .then(|| CagedReference::new(configuration))
+        let reference = reference
+            .map(|_| CagedReference::new(configuration))
             .transpose()?;
-        Ok(trace
+        let rows = trace
             .samples
             .iter()
             .map(|&sample| {
@@ -66,7 +66,8 @@ impl Scene for Caged {
                     reference: reference.as_ref().map(|scene| scene.friction(&sample)),
                 }
             })
-            .collect())
+            .collect();
+        Ok((rows, Lines::default()))
     }
 
     fn columns(with_reference: bool) -> Vec<&'static str> {

@@ -3,6 +3,7 @@
 use epas_friction::{FrictionModel, LinearBearingTrain, LinearInputs, LinearOutputs};
 
 use super::manoeuvre::Manoeuvre;
+use super::reference::ReferenceModel;
 use super::samples::LinearSample;
 use super::scene::Scene;
 use super::summary::{Course, Lines, Moment, Pressing, Words, regime_name};
@@ -79,18 +80,18 @@ impl Scene for Linear {
     fn rows(
         &self,
         trace: &Trace<LinearSample>,
-        with_reference: bool,
+        reference: Option<ReferenceModel>,
         done: &dyn Fn(),
-    ) -> Result<Vec<LinearRow>, Failure> {
+    ) -> Result<(Vec<LinearRow>, Lines), Failure> {
         let mut train = self.train(trace)?;
-        if with_reference {
+        if reference.is_some() {
             return Err(Failure::Data(
                 "--reference follows ball screws; rows of balls in a linear bearing are compared by eval's \
                  linear_train"
                     .into(),
             ));
         }
-        Ok(trace
+        let rows = trace
             .samples
             .iter()
             .map(|&sample| {
@@ -101,7 +102,8 @@ impl Scene for Linear {
                 done();
                 row
             })
-            .collect())
+            .collect();
+        Ok((rows, Lines::default()))
     }
 
     fn columns(_: bool) -> Vec<&'static str> {

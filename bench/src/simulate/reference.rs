@@ -1,5 +1,5 @@
 //! The same scene in float64: a caged ball screw from the efficiencies of the reference, an uncaged one
-//! by its whole screw.
+//! by its whole screw, exactly ([`super::whole_screw`]) or in closed form.
 
 use std::f64::consts::{SQRT_2, TAU};
 
@@ -21,6 +21,16 @@ use super::trace::Trace;
 use crate::designs::train::{UncagedDesign, Wave};
 use crate::failure::Failure;
 
+/// What runs beside an uncaged ball screw.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum ReferenceModel {
+    /// Every ball in elastic grooves with exact contact integrals; at 720 states at most, within two minutes
+    Exact,
+    /// Closed form of each ball (Lin 2019), at every sample: one speed, one load, one sine on the screw, no play,
+    /// preload or return
+    ClosedForm,
+}
+
 /// The whole screw of Lin 2019, Section 3.4.4, which knows one speed, one load and one sine.
 pub fn whole_screw(
     design: &UncagedDesign,
@@ -29,7 +39,7 @@ pub fn whole_screw(
     let configuration = &design.configuration;
     let limited = |what: &str| {
         Failure::Data(format!(
-            "--reference follows an uncaged ball screw at one speed and load, with one sine on the screw, no \
+            "--reference=closed-form follows an uncaged ball screw at one speed and load, with one sine on the screw, no \
              play, preload or return: {what}"
         ))
     };
@@ -54,7 +64,8 @@ pub fn whole_screw(
         return Err(limited("this trace is another"));
     }
 
-    let refused = |error: &dyn std::fmt::Display| Failure::Data(format!("--reference: {error}"));
+    let refused =
+        |error: &dyn std::fmt::Display| Failure::Data(format!("--reference=closed-form: {error}"));
     let parameters = configuration.design.parameters();
     let drawing = drawing(parameters);
     let law = |groove| -> Result<HertzLaw, Failure> {
@@ -97,7 +108,7 @@ pub fn whole_screw(
 }
 
 /// The numbers that the design was made from, for the reference.
-fn drawing(parameters: &BallScrewParameters) -> BallScrewDesign {
+pub fn drawing(parameters: &BallScrewParameters) -> BallScrewDesign {
     let ball_radius = f64::from(parameters.ball_radius);
     let groove_radius = |size: GrooveSize| match size {
         GrooveSize::Conformity(conformity) => 2.0 * f64::from(conformity) * ball_radius,
@@ -130,7 +141,7 @@ pub struct Friction {
 
 /// Efficiency in the present direction, from the torque of the load, positive where it opposes the motion, and
 /// that of friction; 0 without a load.
-fn efficiency(load_torque: f64, friction_torque: f64) -> f64 {
+pub fn efficiency(load_torque: f64, friction_torque: f64) -> f64 {
     if load_torque > 0.0 {
         load_torque / (load_torque + friction_torque)
     } else if load_torque < 0.0 {

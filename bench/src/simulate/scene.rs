@@ -2,6 +2,7 @@
 //! decided once, from the design.
 
 use super::manoeuvre::Manoeuvre;
+use super::reference::ReferenceModel;
 use super::summary::Lines;
 use super::trace::{Sample, Trace};
 use crate::failure::Failure;
@@ -19,14 +20,14 @@ pub trait Scene {
     /// A manoeuvre for this design.
     fn manoeuvre(&self, manoeuvre: Manoeuvre) -> Result<Trace<Self::Sample>, Failure>;
 
-    /// Runs the in-loop model over a trace, with the float64 reference where it is wanted; `done` is called
-    /// after each sample.
+    /// Runs the in-loop model over a trace, with the float64 reference where one is wanted; `done` is called
+    /// after each sample. Lines tell what of the reference was computed.
     fn rows(
         &self,
         trace: &Trace<Self::Sample>,
-        with_reference: bool,
+        reference: Option<ReferenceModel>,
         done: &dyn Fn(),
-    ) -> Result<Vec<Self::Row>, Failure>;
+    ) -> Result<(Vec<Self::Row>, Lines), Failure>;
 
     /// Columns of the table: those of the trace, then the outputs.
     fn columns(with_reference: bool) -> Vec<&'static str>;

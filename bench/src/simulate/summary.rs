@@ -76,12 +76,14 @@ pub struct Course {
     faults: [usize; FAULTS.len()],
 }
 
-const FAULTS: [(Faults, &str); 5] = [
+const FAULTS: [(Faults, &str); 7] = [
     (Faults::SPEED_NOT_FINITE, "speed not finite"),
     (Faults::LOAD_NOT_FINITE, "load not finite"),
     (Faults::SPEED_RANGE, "speed limit"),
     (Faults::LOAD_RANGE, "load limit"),
     (Faults::FRICTION_LIMIT, "torque limit"),
+    (Faults::BEYOND_MODEL, "beyond the model"),
+    (Faults::SETTLING, "balls settling"),
 ];
 
 const REGIMES: [Regime; 4] = [

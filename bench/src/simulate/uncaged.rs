@@ -2,8 +2,9 @@
 
 use epas_friction::{FrictionModel, Inputs, Outputs, UncagedBallScrew, UncagedOutputs};
 
+use super::exact_screw::exact_screw;
 use super::manoeuvre::Manoeuvre;
-use super::reference::{Friction, whole_screw};
+use super::reference::{Friction, ReferenceModel, whole_screw};
 use super::samples::ScrewSample;
 use super::scene::Scene;
 use super::screw::{self, ScrewSummary};
@@ -75,16 +76,20 @@ impl Scene for Uncaged {
     fn rows(
         &self,
         trace: &Trace<ScrewSample>,
-        with_reference: bool,
+        reference: Option<ReferenceModel>,
         done: &dyn Fn(),
-    ) -> Result<Vec<UncagedRow>, Failure> {
+    ) -> Result<(Vec<UncagedRow>, Lines), Failure> {
         let mut train = self.train(trace)?;
-        let reference = if with_reference {
-            whole_screw(&self.balls, trace)?
-        } else {
-            Vec::new()
+        let (reference, lines) = match reference {
+            None => Default::default(),
+            Some(ReferenceModel::Exact) => exact_screw(&self.balls, trace)?,
+            Some(ReferenceModel::ClosedForm) => {
+                let mut lines = Lines::default();
+                lines.add("reference", "closed form, at every sample");
+                (whole_screw(&self.balls, trace)?, lines)
+            }
         };
-        Ok(trace
+        let rows = trace
             .samples
             .iter()
             .enumerate()
@@ -97,7 +102,8 @@ impl Scene for Uncaged {
                 done();
                 row
             })
-            .collect())
+            .collect();
+        Ok((rows, lines))
     }
 
     fn columns(with_reference: bool) -> Vec<&'static str> {

@@ -32,60 +32,122 @@ fn request(all: &Value, case: &Value) -> Value {
     })
 }
 
-/// The reference answers as the stored pairs do; where they were made with too few nodes of the contact integrals, within 3e-4 N and 5e-6
-/// of the torque (see the reference's own test). The scene's closed form is far off where deviations take load from the third contact and where
-/// there is play: bounds of its speeds and of its torque without that are measured.
+/// Largest and mean errors of what the scene finds of the stored pairs.
+#[derive(Default)]
+struct Errors {
+    largest: f64,
+    sum: f64,
+    count: f64,
+    worst: String,
+}
+
+impl Errors {
+    fn add(&mut self, error: f64, case: &Value) {
+        self.sum += error;
+        self.count += 1.0;
+        if error > self.largest {
+            self.largest = error;
+            self.worst = [
+                "design",
+                "pair",
+                "friction",
+                "clearance_um",
+                "axial_load_N",
+                "screw_deviation_deg",
+                "nut_deviation_deg",
+                "ball_force_N",
+            ]
+            .map(|name| case[name].to_string())
+            .join(" ");
+        }
+    }
+
+    fn print(&self, what: &str) {
+        let mean = self.sum / self.count;
+        println!(
+            "scene, {what}: {:.1e}, mean {mean:.1e}; worst {}",
+            self.largest, self.worst
+        );
+    }
+}
+
+/// The reference answers as the stored pairs do, but for the nine digits that they have, in both orders of the balls and in both directions.
+/// The scene's force is within 1 % where it is 0.02 N and more; below that a force is left by nearly equal speeds.
 #[test]
 fn stored_pairs() {
     let all = golden("ballscrew_exact.json");
     let cases = all["cases"].as_array().unwrap();
-    let requests: Vec<_> = cases
-        .iter()
-        .map(|case| request(&all, case).to_string())
-        .collect();
-    let (code, answers) = ask(&requests);
-    assert_eq!((code, answers.len()), (0, cases.len()));
-    let mut worst = [0.0_f64; 3];
-    for (case, answer) in cases.iter().zip(&answers) {
-        let reference = &answer["reference"];
-        let force = number(&case["ball_force_N"]);
-        let found = number(&reference["contact_force"][0]);
-        assert!((found - force.abs()).abs() < 4e-4, "{case}: {answer}");
-        let order = if force < 0.0 { [1, 0] } else { [0, 1] };
-        for (name, stored) in [
-            ("groove_torque", "groove_torque_pressed_Nm"),
-            ("groove_torque_free", "groove_torque_free_Nm"),
-        ] {
-            let torque: f64 = (0..2).map(|i| number(&case[stored][i])).sum();
-            assert!(
-                relative(&reference[name], torque) < 1e-5,
-                "{case}: {answer}"
-            );
+    let mut requests = Vec::new();
+    for nut_speed in [3.0, -3.0] {
+        for case in cases {
+            let mut asked = request(&all, case);
+            asked["nut_speed"] = json!(nut_speed);
+            if nut_speed < 0.0 {
+                // The same screw seen from its other end.
+                for ball in asked["balls"].as_array_mut().unwrap() {
+                    for name in ["screw_deviation", "nut_deviation", "axial_load"] {
+                        ball[name] = json!(-number(&ball[name]));
+                    }
+                }
+            }
+            requests.push(asked.to_string());
         }
-        for (place, stored) in order.into_iter().enumerate() {
-            let speed = number(&case["free_orbital_speed"][stored]);
+    }
+    let (code, answers) = ask(&requests);
+    assert_eq!((code, answers.len()), (0, requests.len()));
+    let [mut force, mut torque, mut free_torque, mut speed, mut load] =
+        [(); 5].map(|()| Errors::default());
+    for (index, (case, answer)) in cases.iter().chain(cases).zip(&answers).enumerate() {
+        let (reference, in_loop) = (&answer["reference"], &answer["in_loop"]);
+        let stored = number(&case["ball_force_N"]);
+        let found = number(&reference["contact_force"][0]);
+        assert!((found - stored.abs()).abs() < 1e-7, "{case}: {answer}");
+        if stored.abs() >= 0.02 {
+            force.add(relative(&in_loop["contact_force"][0], stored.abs()), case);
+        }
+        for (name, stored, errors) in [
+            ("groove_torque", "groove_torque_pressed_Nm", &mut torque),
+            (
+                "groove_torque_free",
+                "groove_torque_free_Nm",
+                &mut free_torque,
+            ),
+        ] {
+            let sum: f64 = (0..2).map(|i| number(&case[stored][i])).sum();
+            assert!(relative(&reference[name], sum) < 2e-8, "{case}: {answer}");
+            errors.add(relative(&in_loop[name], sum), case);
+        }
+        let order = if stored < 0.0 { [1, 0] } else { [0, 1] };
+        for (place, ball) in order.into_iter().enumerate() {
+            let stored = number(&case["free_orbital_speed"][ball]);
             let found = number(&reference["free_speed"][place]);
-            assert!((found - speed).abs() < 5e-6, "{case}: {answer}");
-            let loads = &case[format!("free_loads_ball{}_N", stored + 1)];
+            assert!((found - stored).abs() < 1e-8, "{case}: {answer}");
+            speed.add(relative(&in_loop["free_speed"][place], stored), case);
+            let loads = &case[format!("free_loads_ball{}_N", ball + 1)];
             for flank in 0..4 {
+                let stored = number(&loads[flank]);
+                // Backward, left and right are changed.
+                let flank = if index < cases.len() {
+                    flank
+                } else {
+                    flank ^ 1
+                };
                 let found = number(&reference["loads"][place][flank]);
-                assert!(
-                    (found - number(&loads[flank])).abs() < 1e-3,
-                    "{case}: {answer}"
+                assert!((found - stored).abs() < 2e-6, "{case}: {answer}");
+                let found = number(&in_loop["loads"][place][flank]);
+                load.add(
+                    (found - stored).abs() / number(&case["axial_load_N"][ball]),
+                    case,
                 );
             }
-            let in_loop = number(&answer["in_loop"]["free_speed"][place]);
-            worst[0] = worst[0].max((in_loop - speed).abs());
         }
-        if number(&case["clearance_um"]) <= 0.0 {
-            let torque = number(&reference["groove_torque"]);
-            worst[1] = worst[1].max(relative(&answer["in_loop"]["groove_torque"], torque));
-        }
-        let in_loop = number(&answer["in_loop"]["contact_force"][0]);
-        worst[2] = worst[2].max((in_loop - force.abs()).abs());
     }
-    println!("scene: speed, torque without play, force {worst:?}");
-    assert!(worst[0] < 0.02 && worst[1] < 0.25 && worst[2] < 2.0);
+    force.print("force");
+    torque.print("torque, pressing");
+    free_torque.print("torque, free");
+    speed.print("free speed");
+    load.print("loads over the axial one");
+    assert!(force.largest < 0.01, "{}", force.largest);
 }
 
 /// Loads of opposite signs in one row, a nut that turns backward, balls that rub, and standstill.

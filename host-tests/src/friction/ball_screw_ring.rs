@@ -24,120 +24,17 @@
 use std::f64::consts::TAU;
 
 use super::ball_screw_grooves::ElasticGrooves;
-use super::ball_screw_ring_march::March;
+pub use super::ball_screw_ring_deviation::{DeviationWave, GrooveDeviation};
 use super::contact_law::HertzLaw;
 use super::patch::Integration;
 use crate::curvature::Groove;
 use crate::design::BallScrewDesign;
 use crate::error::{ReferenceError, within};
 
-/// Largest deviation of the arc centres, rad.
-const LARGEST_DEVIATION: f64 = 0.2;
 /// Largest error of the power balance that is accepted of a solved state.
 const POWER_ERROR: f64 = 1e-7;
 /// Largest violation of the complementarity that is accepted of a solved state.
 const COMPLEMENTARITY: f64 = 1e-8;
-
-/// One wave of a deviation along a groove: `cosine cos(order p) + sine sin(order p)` at the phase `p` of its period.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct DeviationWave {
-    /// Waves in a period; 0 for a constant.
-    pub order: f64,
-    /// Amplitude of the cosine, rad.
-    pub cosine: f64,
-    /// Amplitude of the sine, rad.
-    pub sine: f64,
-}
-
-/// How far the arc centres of a groove are turned along it, rad: contact angles `beta + deviation` on the right flank, `beta - deviation` on
-/// the left.
-#[derive(Clone, Debug, PartialEq)]
-pub enum GrooveDeviation {
-    /// A sum of waves over a period of so many turns.
-    Waves {
-        /// Turns of a period, above zero.
-        turns: f64,
-        /// Waves; none for a groove without deviation.
-        waves: Vec<DeviationWave>,
-    },
-    /// Values at equal distances from the start of a period, linear in between.
-    Samples {
-        /// Turns of a period, above zero.
-        turns: f64,
-        /// Values, rad; at least one.
-        values: Vec<f64>,
-    },
-}
-
-impl GrooveDeviation {
-    /// No deviation.
-    pub const NONE: Self = Self::Waves {
-        turns: 1.0,
-        waves: Vec::new(),
-    };
-
-    /// One wave of `sine sin(order phi)` in every turn.
-    #[must_use]
-    pub fn sine(order: f64, sine: f64) -> Self {
-        Self::Waves {
-            turns: 1.0,
-            waves: vec![DeviationWave {
-                order,
-                cosine: 0.0,
-                sine,
-            }],
-        }
-    }
-
-    /// Deviation at an azimuth along the groove, rad.
-    #[must_use]
-    pub fn at(&self, azimuth: f64) -> f64 {
-        match self {
-            Self::Waves { turns, waves } => {
-                let phase = azimuth / turns;
-                waves
-                    .iter()
-                    .map(|wave| {
-                        let (sin, cos) = (wave.order * phase).sin_cos();
-                        wave.cosine * cos + wave.sine * sin
-                    })
-                    .sum()
-            }
-            Self::Samples { turns, values } => {
-                let count = values.len();
-                let at = (azimuth / (TAU * turns)).rem_euclid(1.0) * count as f64;
-                let low = at as usize % count;
-                let part = at - at.floor();
-                values[low] * (1.0 - part) + values[(low + 1) % count] * part
-            }
-        }
-    }
-
-    fn check(&self, field: &'static str) -> Result<(), ReferenceError> {
-        let largest = match self {
-            Self::Waves { turns, waves } => {
-                within(field, *turns, 1e-3, 1e3)?;
-                for wave in waves {
-                    within(field, wave.order, 0.0, 1e3)?;
-                }
-                waves.iter().map(|w| w.cosine.abs() + w.sine.abs()).sum()
-            }
-            Self::Samples { turns, values } => {
-                within(field, *turns, 1e-3, 1e3)?;
-                if values.is_empty() {
-                    return Err(ReferenceError::input(field, "has no values"));
-                }
-                // A value that is no number must not be lost in the comparison.
-                values.iter().try_fold(0.0_f64, |largest, value| {
-                    within(field, *value, -LARGEST_DEVIATION, LARGEST_DEVIATION)
-                        .map(|value| largest.max(value.abs()))
-                })?
-            }
-        };
-        within(field, largest, 0.0, LARGEST_DEVIATION)?;
-        Ok(())
-    }
-}
 
 /// A ball screw without cage.
 #[derive(Clone, Debug, PartialEq)]
@@ -282,34 +179,6 @@ impl RingState {
 }
 
 impl ElasticRing {
-    /// Follows the balls through the samples: a state for each. `progress` is told how many of how many are done.
-    ///
-    /// A state is solved from the one before; from nothing at the start, where the nut or the load turns, and where that does not lead
-    /// to a balance. Between the samples balls move with speeds that change by a line, as they did before. A sample at rest has no friction,
-    /// and says so.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] naming an input out of range; `samples` where times fall or there are none. A state without a solution is no error
-    /// of the march: see [`RingState::failure`].
-    pub fn simulate(
-        &self,
-        samples: &[RingSample],
-        mut progress: impl FnMut(usize, usize),
-    ) -> Result<Vec<RingState>, ReferenceError> {
-        let track = self.checked()?;
-        check_samples(samples)?;
-        let mut march = March::new(self, track);
-        let mut states = Vec::with_capacity(samples.len());
-        for (at, sample) in samples.iter().enumerate() {
-            states.push(march.state(sample));
-            if let Some(next) = samples.get(at + 1) {
-                march.advance(sample, next);
-            }
-            progress(at + 1, samples.len());
-        }
-        Ok(states)
-    }
-
     /// Share of the track that the balls fill.
     #[must_use]
     pub fn occupation(&self) -> f64 {
@@ -326,7 +195,8 @@ impl ElasticRing {
         TAU * self.turns + self.return_length / self.track().path_radius()
     }
 
-    fn checked(&self) -> Result<RingTrack, ReferenceError> {
+    /// The track, after a check of all inputs.
+    pub(crate) fn checked(&self) -> Result<RingTrack, ReferenceError> {
         within("friction", self.friction, 1e-3, 1.0)?;
         within("ball_friction", self.ball_friction, 0.0, 1.0)?;
         within("balls", self.balls as f64, 1.0, 1e3)?;
@@ -401,23 +271,6 @@ impl ElasticRing {
             oversize: -self.clearance,
         }
     }
-}
-
-fn check_samples(samples: &[RingSample]) -> Result<(), ReferenceError> {
-    if samples.is_empty() {
-        return Err(ReferenceError::input("samples", "are none"));
-    }
-    let mut before = f64::NEG_INFINITY;
-    for sample in samples {
-        within("time", sample.time, -1e9, 1e9)?;
-        within("nut_speed", sample.nut_speed, -1e6, 1e6)?;
-        within("axial_load", sample.axial_load, -1e7, 1e7)?;
-        if sample.time < before {
-            return Err(ReferenceError::input("samples", "go back in time"));
-        }
-        before = sample.time;
-    }
-    Ok(())
 }
 
 /// The track, by azimuths in rad.

@@ -3,44 +3,25 @@
 //! Between two instants every ball moves with the speed of the last one, and with the change that this speed had before it: second order in
 //! the step. Where two balls meet, where a force that falls ends, or where a ball crosses the border of the loaded part, the step is split.
 
-use super::ball_screw_placed::{BallState, Drive, PlacedBall, Rubbing};
+use super::ball_screw_placed::{Drive, PlacedBall, Rubbing};
 use super::ball_screw_ring::{ElasticRing, RingBall, RingSample, RingState, RingTrack};
+use super::ball_screw_ring_order::Neighbours;
+use super::ball_screw_ring_rates::{Last, Rates};
 use super::ball_screw_ring_solve::{Instant, Seat, Settled};
 use super::ball_screw_rubbing::BallContact;
 use super::ball_screw_settle::settle;
-use crate::error::ReferenceError;
+use crate::error::{ReferenceError, within};
 
 /// Gap at which balls touch, rad.
 const TOUCHING: f64 = 1e-12;
 /// Load below which a ball without preload carries none, N. A preloaded ball is given as much.
 const NO_LOAD: f64 = 1e-6;
-/// Change of the load over which speeds are not taken to change as they did before.
-const SUDDEN: f64 = 0.05;
 /// Part of a step below which it is not split for a force that ends.
 const SHORT: f64 = 1e-3;
-/// Travel of the nut that tells how speeds change, rad: their rounding over it is 1e-6.
-const TELLING: f64 = 1e-7;
 /// Forces that end by which a step is split at most.
 const ENDINGS: usize = 4;
 /// How far beyond the border of the loaded part a ball is put, rad.
 const BEYOND: f64 = 1e-9;
-
-/// What the last solution leaves.
-struct Last {
-    settled: Settled,
-    way: f64,
-    axial_load: f64,
-    /// Travel of the nut since then, rad.
-    travel: f64,
-}
-
-/// Changes per rad of the nut.
-#[derive(Clone)]
-struct Rates {
-    speeds: Vec<f64>,
-    forces: Vec<f64>,
-    states: Vec<Option<BallState>>,
-}
 
 /// Where a step is split.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,7 +35,7 @@ enum Event {
 }
 
 /// Balls on their way.
-pub(crate) struct March<'a> {
+struct March<'a> {
     ring: &'a ElasticRing,
     track: RingTrack,
     /// Azimuth of the first ball from the start of the track, rad.
@@ -71,8 +52,55 @@ pub(crate) struct March<'a> {
     idle: Option<(f64, f64, f64)>,
 }
 
+impl ElasticRing {
+    /// Follows the balls through the samples: a state for each. `progress` is told how many of how many are done.
+    ///
+    /// A state is solved from the one before; from nothing at the start, where the nut or the load turns, and where that does not lead
+    /// to a balance. Between the samples balls move with speeds that change by a line, as they did before. A sample at rest has no friction,
+    /// and says so.
+    ///
+    /// # Errors
+    /// [`ReferenceError`] naming an input out of range; `samples` where times fall or there are none. A state without a solution is no error
+    /// of the march: see [`RingState::failure`].
+    pub fn simulate(
+        &self,
+        samples: &[RingSample],
+        mut progress: impl FnMut(usize, usize),
+    ) -> Result<Vec<RingState>, ReferenceError> {
+        let track = self.checked()?;
+        check_samples(samples)?;
+        let mut march = March::new(self, track);
+        let mut states = Vec::with_capacity(samples.len());
+        for (at, sample) in samples.iter().enumerate() {
+            states.push(march.state(sample));
+            if let Some(next) = samples.get(at + 1) {
+                march.advance(sample, next);
+            }
+            progress(at + 1, samples.len());
+        }
+        Ok(states)
+    }
+}
+
+fn check_samples(samples: &[RingSample]) -> Result<(), ReferenceError> {
+    if samples.is_empty() {
+        return Err(ReferenceError::input("samples", "are none"));
+    }
+    let mut before = f64::NEG_INFINITY;
+    for sample in samples {
+        within("time", sample.time, -1e9, 1e9)?;
+        within("nut_speed", sample.nut_speed, -1e6, 1e6)?;
+        within("axial_load", sample.axial_load, -1e7, 1e7)?;
+        if sample.time < before {
+            return Err(ReferenceError::input("samples", "go back in time"));
+        }
+        before = sample.time;
+    }
+    Ok(())
+}
+
 impl<'a> March<'a> {
-    pub fn new(ring: &'a ElasticRing, track: RingTrack) -> Self {
+    fn new(ring: &'a ElasticRing, track: RingTrack) -> Self {
         let n = ring.balls;
         let gaps = if ring.places.is_empty() {
             vec![(track.length / n as f64 - track.pitch).max(0.0); n]
@@ -100,7 +128,7 @@ impl<'a> March<'a> {
     }
 
     /// Solves the balls where they are.
-    pub fn state(&mut self, sample: &RingSample) -> RingState {
+    fn state(&mut self, sample: &RingSample) -> RingState {
         let events = std::mem::take(&mut self.events);
         let failure = if sample.nut_speed == 0.0 {
             Some(ReferenceError::Standstill)
@@ -112,7 +140,7 @@ impl<'a> March<'a> {
     }
 
     /// Moves the balls to the next sample.
-    pub fn advance(&mut self, sample: &RingSample, next: &RingSample) {
+    fn advance(&mut self, sample: &RingSample, next: &RingSample) {
         let whole = sample.nut_speed.abs() * (next.time - sample.time);
         let way = sample.nut_speed.signum();
         let same = sample.axial_load * next.axial_load > 0.0;
@@ -295,31 +323,33 @@ impl<'a> March<'a> {
         } else {
             self.idle_speed(way, axial_load)?
         };
+        let n = seats.len();
         let touching: Vec<bool> = self.gaps.iter().map(|gap| *gap <= TOUCHING).collect();
         let track = (&self.ring.design).into();
         let instant = Instant {
             seats: &seats,
             touching: &touching,
             friction: self.ring.friction,
-            way,
+            neighbours: Neighbours { balls: n, way },
             between: BallContact::new(&track, self.ring.ball_friction, way, self.ring.chord),
             integration: self.ring.integration,
             idle_speed,
         };
-        let n = seats.len();
         let follows = self
             .last
             .as_ref()
-            .is_some_and(|last| last.way == way && last.axial_load * axial_load > 0.0);
-        let found = if follows {
-            let (states, forces) = self.expected();
-            instant.settle(&states, &forces)
-        } else {
-            instant.settle(&vec![None; n], &vec![0.0; n])
+            .filter(|last| last.way == way && last.axial_load * axial_load > 0.0);
+        let (states, forces) = match follows {
+            Some(last) => last.expected(&self.rates),
+            None => (vec![None; n], vec![0.0; n]),
         };
+        let found = instant.settle(&states, &forces);
         match found {
             Ok(settled) => {
-                self.rates = self.new_rates(&settled, way, axial_load);
+                self.rates = self.last.as_ref().map_or_else(
+                    || Rates::none(n),
+                    |last| last.rates(&settled, way, axial_load, &self.rates),
+                );
                 self.speeds.clone_from(&settled.speeds);
                 self.last = Some(Last {
                     settled,
@@ -344,74 +374,6 @@ impl<'a> March<'a> {
                 Err(error)
             }
         }
-    }
-
-    /// States and forces as they were, carried on by their changes.
-    fn expected(&self) -> (Vec<Option<BallState>>, Vec<f64>) {
-        let Some(last) = &self.last else {
-            return (vec![None; self.gaps.len()], vec![0.0; self.gaps.len()]);
-        };
-        let states = last
-            .settled
-            .states
-            .iter()
-            .zip(&self.rates.states)
-            .map(|(state, rate)| {
-                let state = (*state)?;
-                let Some(rate) = rate else { return Some(state) };
-                Some(BallState {
-                    place: state.place + rate.place * last.travel,
-                    motion: state.motion + rate.motion * last.travel,
-                    force: state.force + rate.force * last.travel,
-                })
-            })
-            .collect();
-        let forces = last
-            .settled
-            .forces
-            .iter()
-            .zip(&self.rates.forces)
-            .map(|(force, rate)| (force + rate * last.travel).max(0.0))
-            .collect();
-        (states, forces)
-    }
-
-    /// How speeds and forces have changed since the last solution, of balls that still press as they did. Balls that have met go on with the
-    /// mean change of those that they join.
-    fn new_rates(&self, now: &Settled, way: f64, axial_load: f64) -> Rates {
-        let n = self.gaps.len();
-        let mut rates = Rates::none(n);
-        let Some(last) = &self.last else { return rates };
-        let sudden = (axial_load - last.axial_load).abs() > SUDDEN * last.axial_load.abs();
-        if last.way != way || sudden || !(last.travel > 0.0) {
-            return rates;
-        }
-        if last.travel < TELLING {
-            return self.rates.clone();
-        }
-        for cluster in clusters(&now.forces) {
-            let pairs = |inside: usize| cluster[..inside].iter();
-            let ends = [(cluster[0] + n - 1) % n, cluster[cluster.len() - 1]];
-            let pressed = |pair: &usize| last.settled.forces[*pair] > 0.0;
-            let same = cluster.len() == n
-                || pairs(cluster.len() - 1).all(pressed) && !ends.iter().any(pressed);
-            if same {
-                for ball in &cluster {
-                    rates.speeds[*ball] =
-                        (now.speeds[*ball] - last.settled.speeds[*ball]) / last.travel;
-                    rates.forces[*ball] =
-                        (now.forces[*ball] - last.settled.forces[*ball]) / last.travel;
-                    rates.states[*ball] =
-                        difference(now.states[*ball], last.settled.states[*ball], last.travel);
-                }
-            } else {
-                let sum: f64 = cluster.iter().map(|ball| self.rates.speeds[*ball]).sum();
-                for ball in &cluster {
-                    rates.speeds[*ball] = sum / cluster.len() as f64;
-                }
-            }
-        }
-        rates
     }
 
     fn result(
@@ -483,43 +445,6 @@ impl<'a> March<'a> {
     }
 }
 
-impl Rates {
-    fn none(balls: usize) -> Self {
-        Self {
-            speeds: vec![0.0; balls],
-            forces: vec![0.0; balls],
-            states: vec![None; balls],
-        }
-    }
-}
-
-fn difference(now: Option<BallState>, before: Option<BallState>, travel: f64) -> Option<BallState> {
-    let (now, before) = (now?, before?);
-    Some(BallState {
-        place: (now.place - before.place) / travel,
-        motion: (now.motion - before.motion) / travel,
-        force: (now.force - before.force) / travel,
-    })
-}
-
-/// Balls that press on each other, in the order of the track; `forces[j]` acts between ball `j` and the next.
-fn clusters(forces: &[f64]) -> Vec<Vec<usize>> {
-    let n = forces.len();
-    let Some(end) = forces.iter().position(|force| !(*force > 0.0)) else {
-        return vec![(0..n).collect()];
-    };
-    let mut all = Vec::new();
-    let mut cluster = Vec::new();
-    for place in end + 1..=end + n {
-        let ball = place % n;
-        cluster.push(ball);
-        if !(forces[ball] > 0.0) {
-            all.push(std::mem::take(&mut cluster));
-        }
-    }
-    all
-}
-
 /// Travel in which a gap closes at a speed that grows in proportion to the travel.
 fn closes(gap: f64, closing: f64, faster: f64) -> Option<f64> {
     // gap - closing s - faster s^2/2 = 0, in the form that does not cancel.
@@ -535,7 +460,7 @@ fn closes(gap: f64, closing: f64, faster: f64) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::{closes, clusters};
+    use super::closes;
 
     #[test]
     fn a_gap_closes_where_its_distance_ends() {
@@ -548,14 +473,5 @@ mod tests {
         assert_eq!(closes(0.0, -0.1, 0.2), Some(1.0));
         assert_eq!(closes(0.0, -0.1, -0.2), None);
         assert_eq!(closes(0.0, 0.0, 0.0), None);
-    }
-
-    #[test]
-    fn clusters_go_round() {
-        assert_eq!(
-            clusters(&[1.0, 0.0, 0.0, 2.0]),
-            vec![vec![2], vec![3, 0, 1]]
-        );
-        assert_eq!(clusters(&[1.0; 3]).len(), 1);
     }
 }

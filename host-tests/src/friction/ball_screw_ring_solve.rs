@@ -10,6 +10,7 @@ use rayon::prelude::*;
 use super::ball_screw_grooves::ElasticGrooves;
 use super::ball_screw_placed::{BallState, Drive, PlacedBall, Rubbing, STICK_SPIN, Solved};
 use super::ball_screw_ring_newton::{InRow, Moving, Target, UNLOADED, row_step};
+use super::ball_screw_ring_order::Neighbours;
 use super::ball_screw_ring_pool::pool_ring;
 use super::ball_screw_rubbing::{BallContact, press_and_rub};
 use super::ball_screw_settle::settle;
@@ -40,8 +41,7 @@ pub(crate) struct Instant<'a> {
     pub seats: &'a [Option<Seat>],
     pub touching: &'a [bool],
     pub friction: f64,
-    /// 1 where the nut turns forward, -1 backward.
-    pub way: f64,
+    pub neighbours: Neighbours,
     pub between: BallContact,
     pub integration: Integration,
     /// Speed of a ball that carries no load, over the nut's speed.
@@ -93,39 +93,10 @@ impl<'a> Instant<'a> {
         PlacedBall {
             grooves: &seat.grooves,
             friction: self.friction,
-            way: self.way,
+            way: self.neighbours.way,
             axial_load: seat.axial_load,
             rubbing: Rubbing::default(),
             integration: self.integration,
-        }
-    }
-
-    /// Balls in the order of motion, rear to front.
-    fn order(&self) -> Vec<usize> {
-        let n = self.seats.len();
-        if self.way > 0.0 {
-            (0..n).collect()
-        } else {
-            (0..n).rev().collect()
-        }
-    }
-
-    /// Index of the pair of a ball and the next one ahead.
-    fn pair_ahead(&self, ball: usize) -> usize {
-        let n = self.seats.len();
-        if self.way > 0.0 {
-            ball
-        } else {
-            (ball + n - 1) % n
-        }
-    }
-
-    fn ahead(&self, ball: usize) -> usize {
-        let n = self.seats.len();
-        if self.way > 0.0 {
-            (ball + 1) % n
-        } else {
-            (ball + n - 1) % n
         }
     }
 
@@ -187,26 +158,6 @@ impl<'a> Instant<'a> {
         for round in 0..ROUNDS {
             let loss = self.push(&mut moving, &forces);
             let residual = residual(&moving);
-            if std::env::var("RING").is_ok() {
-                let w = moving
-                    .iter()
-                    .enumerate()
-                    .filter_map(|(j, m)| m.as_ref().map(|m| (j, m.residual())))
-                    .max_by(|a, b| a.1.total_cmp(&b.1))
-                    .unwrap();
-                let m = moving[w.0].as_ref().unwrap();
-                let c = moving
-                    .iter()
-                    .flatten()
-                    .filter(|m| m.residual() > 1e-8)
-                    .count();
-                eprintln!(
-                    "round {round} {residual:.2e} ball {} ({c} bad) {settled} loads {:.2?} v {:.5?}",
-                    w.0,
-                    m.ball.loads(&m.state.place),
-                    m.state.motion.as_slice()
-                );
-            } //DEBUG
             let whole = settled && goes_together(&moving, &speeds);
             let stalled = residual <= ACCEPTED && residual > 0.9 * best;
             if whole && (residual <= BALANCED || stalled) {
@@ -265,11 +216,12 @@ impl<'a> Instant<'a> {
             .fold(0.0, f64::max);
         let mut next = pressing.to_vec();
         for rear in 0..speeds.len() {
-            let pair = self.pair_ahead(rear);
+            let pair = self.neighbours.pair_ahead(rear);
             next[pair] = if pressing[pair] {
                 forces[pair] > -PULLS * load
             } else {
-                self.touching[pair] && speeds[rear] > speeds[self.ahead(rear)] + OVERTAKES
+                self.touching[pair]
+                    && speeds[rear] > speeds[self.neighbours.ahead(rear)] + OVERTAKES
             };
         }
         next
@@ -284,11 +236,11 @@ impl<'a> Instant<'a> {
         pressing: &[bool],
     ) -> Option<(Vec<Target>, Vec<f64>)> {
         let n = moving.len();
-        let nets = self.net(forces);
+        let nets = self.neighbours.net(forces);
         let mut changes = vec![SVector::<f64, 7>::zeros(); n];
         let mut common = speeds.to_vec();
         let mut wanted = vec![0.0; n];
-        let rows = self.rows_of(pressing);
+        let rows = self.neighbours.rows_of(pressing);
         let steps: Vec<_> = rows
             .par_iter()
             .map(|row| {
@@ -306,7 +258,7 @@ impl<'a> Instant<'a> {
                 let slopes: Vec<_> = row
                     .windows(2)
                     .map(|pair| {
-                        let force = forces[self.pair_ahead(pair[0])];
+                        let force = forces[self.neighbours.pair_ahead(pair[0])];
                         let idle = BallState {
                             place: nalgebra::Vector3::zeros(),
                             motion: nalgebra::Vector4::zeros(),
@@ -333,7 +285,7 @@ impl<'a> Instant<'a> {
                 common[*ball] = present + step.changes[0][3];
             }
             for (ball, change) in row.iter().zip(&step.forces) {
-                let pair = self.pair_ahead(*ball);
+                let pair = self.neighbours.pair_ahead(*ball);
                 wanted[pair] = forces[pair] + change;
             }
         }
@@ -347,7 +299,7 @@ impl<'a> Instant<'a> {
             })
             .collect();
         let (rubbing, _) = self.rubbing(&after, &wanted);
-        let nets = self.net(&wanted);
+        let nets = self.neighbours.net(&wanted);
         let targets = (0..n)
             .map(|ball| Target {
                 change: changes[ball],
@@ -357,27 +309,6 @@ impl<'a> Instant<'a> {
             })
             .collect();
         Some((targets, wanted))
-    }
-
-    /// Rows of balls that press, rear to front. A ring of which all pairs press is cut where it presses least: see [`pool_ring`].
-    fn rows_of(&self, pressing: &[bool]) -> Vec<Vec<usize>> {
-        let order = self.order();
-        let n = order.len();
-        let presses = |ball: usize| pressing[self.pair_ahead(ball)];
-        let end = order
-            .iter()
-            .position(|ball| !presses(*ball))
-            .unwrap_or(n - 1);
-        let mut rows = Vec::new();
-        let mut row = Vec::new();
-        for at in end + 1..=end + n {
-            let ball = order[at % n];
-            row.push(ball);
-            if !presses(ball) || at == end + n {
-                rows.push(std::mem::take(&mut row));
-            }
-        }
-        rows
     }
 
     /// Laws of speed and force of all balls.
@@ -394,30 +325,19 @@ impl<'a> Instant<'a> {
     /// Speeds and forces by linear laws, in the order of the track.
     pub fn pool(&self, unforced: &[f64], compliance: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let n = self.seats.len();
-        let order = self.order();
+        let order = self.neighbours.order();
         let of = |values: &[f64]| order.iter().map(|j| values[*j]).collect::<Vec<_>>();
         let open: Vec<bool> = order
             .iter()
-            .map(|j| !self.touching[self.pair_ahead(*j)])
+            .map(|j| !self.touching[self.neighbours.pair_ahead(*j)])
             .collect();
         let (row_speeds, row_forces) = pool_ring(&of(unforced), &of(compliance), &open);
         let (mut speeds, mut forces) = (vec![0.0; n], vec![0.0; n]);
         for (at, j) in order.iter().enumerate() {
             speeds[*j] = row_speeds[at];
-            forces[self.pair_ahead(*j)] = row_forces[at];
+            forces[self.neighbours.pair_ahead(*j)] = row_forces[at];
         }
         (speeds, forces)
-    }
-
-    /// Net forces on the balls in the direction of orbiting.
-    fn net(&self, forces: &[f64]) -> Vec<f64> {
-        let mut nets = vec![0.0; forces.len()];
-        for j in 0..forces.len() {
-            let force = forces[self.pair_ahead(j)];
-            nets[j] -= force;
-            nets[self.ahead(j)] += force;
-        }
-        nets
     }
 
     /// What neighbours do to each ball besides pushing it along the track, and the power lost over `R_B w_N`. Balls that carry no load do not
@@ -429,8 +349,8 @@ impl<'a> Instant<'a> {
             return (all, loss);
         }
         for rear in 0..states.len() {
-            let force = forces[self.pair_ahead(rear)];
-            let front = self.ahead(rear);
+            let force = forces[self.neighbours.pair_ahead(rear)];
+            let front = self.neighbours.ahead(rear);
             if !(force > 0.0) {
                 continue;
             }
@@ -452,7 +372,7 @@ impl<'a> Instant<'a> {
     fn push(&self, moving: &mut [Option<Moving<'a>>], forces: &[f64]) -> f64 {
         let states: Vec<_> = moving.iter().map(|m| m.as_ref().map(|m| m.state)).collect();
         let (rubbing, loss) = self.rubbing(&states, forces);
-        let nets = self.net(forces);
+        let nets = self.neighbours.net(forces);
         for ((m, rubbing), net) in moving.iter_mut().zip(rubbing).zip(nets) {
             if let Some(m) = m {
                 m.push(net, rubbing);
@@ -461,26 +381,17 @@ impl<'a> Instant<'a> {
         loss
     }
 
-    /// Row by row, each by the laws of its balls: slow, and sure. Only where some gap is open and all balls carry load.
+    /// Row by row, each by the laws of its balls: slow, and sure but where friction between balls matters much. Only for balls that all carry
+    /// load, with a gap somewhere.
     fn by_rows(&self) -> Result<Settled, ReferenceError> {
         let n = self.seats.len();
-        let order = self.order();
-        let unsolved = ReferenceError::unbalanced(f64::INFINITY);
-        let broken = order
-            .iter()
-            .position(|j| !self.touching[self.pair_ahead(*j)]);
-        let (Some(broken), true) = (broken, self.seats.iter().all(Option::is_some)) else {
-            return Err(unsolved);
-        };
+        if self.touching.iter().all(|touching| *touching) || self.seats.iter().any(Option::is_none)
+        {
+            return Err(ReferenceError::unbalanced(f64::INFINITY));
+        }
         let mut states = vec![None; n];
         let mut forces = vec![0.0; n];
-        let mut row: Vec<usize> = Vec::new();
-        for at in broken + 1..=broken + n {
-            let ball = order[at % n];
-            row.push(ball);
-            if self.touching[self.pair_ahead(ball)] {
-                continue;
-            }
+        for row in self.neighbours.rows_of(self.touching) {
             let mut balls: Vec<PlacedBall<'_>> = row
                 .iter()
                 .filter_map(|j| self.seats[*j].as_ref())
@@ -494,16 +405,14 @@ impl<'a> Instant<'a> {
             for (at, j) in row.iter().enumerate() {
                 states[*j] = Some(found.balls[at].state);
                 if let Some(force) = found.forces.get(at) {
-                    forces[self.pair_ahead(*j)] = *force;
+                    forces[self.neighbours.pair_ahead(*j)] = *force;
                 }
             }
-            row.clear();
         }
         let mut moving = self.moving(states)?;
         let loss = self.push(&mut moving, &forces);
         let residual = residual(&moving);
-        // Forces that were found pass by pass agree to 1e-10 of the largest.
-        if !(residual <= 10.0 * ACCEPTED) {
+        if !(residual <= ACCEPTED) {
             return Err(ReferenceError::unbalanced(residual));
         }
         let speeds = moving.iter().flatten().map(|m| m.state.motion[0]).collect();

@@ -17,7 +17,9 @@
 use super::ball_screw_ball::{ScrewMotion, dimensional};
 use super::ball_screw_grooves::ElasticGrooves;
 use super::ball_screw_placed::{BallState, Drive, PlacedBall, Rubbing, STICK_SPIN, Solved};
-use super::ball_screw_rubbing::{BallContact, press_and_rub};
+use super::ball_screw_ring_order::Neighbours;
+use super::ball_screw_ring_solve::{Instant, Seat};
+use super::ball_screw_rubbing::{BallContact, Pressing, press_and_rub};
 use super::ball_screw_settle::settle;
 use super::patch::Integration;
 use crate::curvature::Groove;
@@ -130,7 +132,9 @@ impl ElasticRow {
             .collect::<Result<Vec<_>, _>>()?;
         let track = (&self.design).into();
         let contact = BallContact::new(&track, self.ball_friction, way, false);
-        let pressing = press_and_rub(&mut balls, &free, &contact)?;
+        // Balls that hardly hold their spin answer friction between them too much for passes.
+        let pressing = press_and_rub(&mut balls, &free, &contact)
+            .or_else(|_| self.at_once(&balls, &free, contact))?;
         let residual = free
             .iter()
             .chain(&pressing.balls)
@@ -153,6 +157,70 @@ impl ElasticRow {
                 unit: "of the power lost",
             })
         }
+    }
+
+    /// The row as part of a ring, all balls with the friction between them in one Newton's method.
+    fn at_once(
+        &self,
+        balls: &[PlacedBall<'_>],
+        free: &[Solved],
+        between: BallContact,
+    ) -> Result<Pressing, ReferenceError> {
+        let way = self.nut_speed.signum();
+        // A ring counts its balls along the track.
+        let along = |index: usize| {
+            if way > 0.0 {
+                index
+            } else {
+                balls.len() - 1 - index
+            }
+        };
+        let of = |index: usize| (&balls[along(index)], free[along(index)].state);
+        let seats: Vec<Option<Seat>> = (0..balls.len())
+            .map(|index| {
+                let (ball, _) = of(index);
+                Some(Seat {
+                    grooves: *ball.grooves,
+                    axial_load: ball.axial_load,
+                })
+            })
+            .collect();
+        let start: Vec<_> = (0..balls.len()).map(|index| Some(of(index).1)).collect();
+        let mut touching = vec![true; balls.len()];
+        touching[balls.len() - 1] = false;
+        let instant = Instant {
+            seats: &seats,
+            touching: &touching,
+            friction: self.friction,
+            neighbours: Neighbours {
+                balls: balls.len(),
+                way,
+            },
+            between,
+            integration: self.integration,
+            idle_speed: 0.0,
+        };
+        let found = instant.settle(&start, &vec![0.0; balls.len()])?;
+        let solved = (0..balls.len())
+            .filter_map(|index| {
+                Some(Solved {
+                    state: found.states[along(index)]?,
+                    residual: found.residual
+                        * sum_of_loads(&balls[index], &found.states[along(index)]?),
+                    stiffness: 1.0 / found.compliance[along(index)],
+                })
+            })
+            .collect();
+        let mut forces = found.forces;
+        forces.truncate(balls.len() - 1);
+        if way < 0.0 {
+            forces.reverse();
+        }
+        Ok(Pressing {
+            balls: solved,
+            forces,
+            ball_loss: found.power.balls,
+        })
     }
 
     /// Grooves of every ball, after a check of all inputs.
@@ -234,4 +302,9 @@ impl ElasticRow {
             })
             .collect()
     }
+}
+
+/// Sum of the loads of a ball's contacts, N.
+fn sum_of_loads(ball: &PlacedBall<'_>, state: &BallState) -> f64 {
+    ball.loads(&state.place).iter().sum()
 }

@@ -27,9 +27,10 @@
 //! | [`ball_screw_row`] | rows of balls with elasticity, clearance of either sign, and an axial load of each ball |
 //! | [`rolling_resistance`] | elastic hysteresis and lubricant drag of a contact, beside its Coulomb friction |
 //! | [`ball_screw_efficiency`] | friction torque and efficiency of a screw under a steady load, by one of its balls |
+//! | [`ball_screw_ring`] | the whole screw, exactly: balls in elastic grooves that recirculate and press on each other |
 //! | [`ball_screw_train`] | trains of any length with given contacts, (3.77) |
 //! | [`ball_screw_closed`] | closed-form orbital speed, spin, loads and compliance in a ball screw |
-//! | [`whole_screw`] | balls that recirculate (section 3.4.4) |
+//! | [`whole_screw`] | the whole screw by the closed form of a ball (section 3.4.4), to compare with |
 //!
 //! Units: m, rad, s, N, W, Pa. Signs: the velocity of a contact is that of the ball minus that of
 //! the groove; forces and moments are those on the ball.
@@ -43,9 +44,12 @@ pub mod ball_screw_grooves;
 mod ball_screw_placed;
 mod ball_screw_press;
 pub mod ball_screw_ring;
+mod ball_screw_ring_deviation;
 mod ball_screw_ring_march;
 mod ball_screw_ring_newton;
+mod ball_screw_ring_order;
 mod ball_screw_ring_pool;
+mod ball_screw_ring_rates;
 mod ball_screw_ring_solve;
 pub mod ball_screw_row;
 mod ball_screw_rubbing;

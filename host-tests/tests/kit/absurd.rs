@@ -252,8 +252,7 @@ fn flags(
         }
     }
     // What the sensors deliver says nothing of friction's limit, nor of the model's accuracy.
-    let beside_torque =
-        faults.bits() & !(Faults::FRICTION_LIMIT | Faults::BEYOND_MODEL | Faults::SETTLING).bits();
+    let beside_torque = faults.bits() & !(Faults::FRICTION_LIMIT | Faults::ACCURACY).bits();
     if beside_torque == expected.bits() {
         Ok(lost)
     } else {

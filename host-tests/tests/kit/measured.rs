@@ -477,6 +477,15 @@ const SCENES: &[Measured] = &[
     largest("stiff rows, speeds", 6e-8, 3.6e-8),
     largest("full track, sum of gaps in m", 1.2e-8, 7.5e-9),
     largest("linear scene, bias of v/2", 9e-9, 5.9e-9),
+    largest("two-point rolling, ball alone, flagged before", 3e-2, 2.5e-2),
+    largest("two-point rolling, rows, flagged before", 0.1, 8.4e-2),
+    largest("row before two-point rolling, friction", 0.26, 0.23),
+    largest("row near two-point rolling, friction", 0.4, 0.33),
+    largest("speed of a ball alone without a flag, 1 N", 1.6e-2, 1.47e-2),
+    largest("speed of a ball alone without a flag, 10 N", 1e-2, 9.3e-3),
+    largest("speed of a ball alone without a flag, 100 N", 7.5e-3, 7.2e-3),
+    largest("row before two-point rolling, grooves", 0.13, 0.11),
+    largest("linear scene through two-point rolling, groove force", 4e-2, 3.3e-2),
     largest("stiff rows beyond a ratio of 1e6, force", 1e-5, 6.6e-6),
 ];
 

@@ -5,6 +5,7 @@ mod kit;
 
 mod ball_screw_efficiency_reference;
 mod ball_screw_reference;
+mod ball_screw_ring_reference;
 mod ball_screw_row_reference;
 mod chain_reference;
 mod curvature_reference;

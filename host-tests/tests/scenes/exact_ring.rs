@@ -304,91 +304,84 @@ pub const LIN: Case = Case {
     tick: 50e-6,
 };
 
+/// Pitch radius, lead, ball radius, groove radius, m, and contact angle, degrees: catalogue sizes, and screws of steering gears.
+const DESIGNS: [[f64; 5]; 6] = [
+    [8e-3, 5e-3, 1.5875e-3, 1.6828e-3, 45.0],
+    [13e-3, 10e-3, 1.984375e-3, 2.143125e-3, 48.0],
+    [16e-3, 20e-3, 3.175e-3, 3.429e-3, 45.0],
+    [31.5e-3, 20e-3, 4.7625e-3, 5.048e-3, 45.0],
+    [14.5e-3, 7e-3, 2e-3, 2.16e-3, 45.0],
+    [16.5e-3, 20e-3, 2.778e-3, 3.254e-3, 45.0],
+];
+
+/// Friction, clearance (um), load of a ball (N), deviations of screw and nut (degrees, waves), turns a second.
+const SETTINGS: [[f64; 8]; 8] = [
+    [0.10, 0.0, 50.0, 2.3, 2.0, 0.7, 3.0, 1.0],
+    [0.10, 0.0, -100.0, 2.0, 2.0, 1.0, 1.0, 5.0],
+    [0.07, -2.0, 50.0, 3.0, 1.0, 0.0, 2.0, -5.0],
+    [0.15, 3.0, 30.0, 1.5, 3.0, 1.5, 2.0, 5.0],
+    [0.05, 0.0, 20.0, 2.5, 2.0, 0.5, 1.0, 2.0],
+    [0.10, -5.0, 150.0, 3.0, 2.0, 1.0, 3.0, 5.0],
+    [0.12, 1.0, 300.0, 2.0, 2.0, 2.0, 3.0, -5.0],
+    [0.10, 5.0, 10.0, 1.0, 4.0, 1.0, 2.0, 5.0],
+];
+
+fn case(
+    [pitch_radius, lead, ball_radius, groove_radius, angle]: [f64; 5],
+    [
+        friction,
+        clearance,
+        load_per_ball,
+        screw,
+        screw_waves,
+        nut,
+        nut_waves,
+        speed,
+    ]: [f64; 8],
+) -> Case {
+    Case {
+        pitch_radius,
+        lead,
+        ball_radius,
+        groove_radius,
+        contact_angle: angle.to_radians(),
+        friction,
+        ball_friction: 0.1,
+        clearance: 1e-6 * clearance,
+        load_per_ball,
+        screw: (screw.to_radians(), screw_waves as u8),
+        nut: (nut.to_radians(), nut_waves as u8),
+        speed,
+        turns_of_nut: 2.0,
+        states: 800,
+        tick: 50e-6,
+    }
+}
+
 #[test]
 fn scratch() {
-    let show = |name: &str, case: &Case| {
-        let start = std::time::Instant::now();
-        let off = compare::<37>(case);
-        println!(
-            "{name}: F {:.2e} {:.2e} {:.1e} groove {:.2e} ball {:.2e} speed {:.2e} contacts {:?} flagged {} failed {} Fmax {:.3} {:.1} s",
-            off.force.relative()[0],
-            off.force.relative()[1],
-            off.force.relative()[2],
-            off.groove.relative()[0],
-            off.ball.relative()[0],
-            off.speed.relative()[0],
-            off.contacts,
-            off.flagged,
-            off.failed,
-            off.largest_force,
-            start.elapsed().as_secs_f64()
-        );
-    };
-    show("1/s", &LIN);
-    show(
-        "no rubbing",
-        &Case {
-            ball_friction: 0.0,
-            ..LIN
-        },
-    );
-    show("5/s", &Case { speed: 5.0, ..LIN });
-    show(
-        "5/s no rubbing",
-        &Case {
-            speed: 5.0,
-            ball_friction: 0.0,
-            ..LIN
-        },
-    );
-    show(
-        "20/s no rubbing",
-        &Case {
-            speed: 20.0,
-            ball_friction: 0.0,
-            ..LIN
-        },
-    );
-    show("20/s", &Case { speed: 20.0, ..LIN });
-    show("-5/s", &Case { speed: -5.0, ..LIN });
-    show(
-        "-50 N 5/s",
-        &Case {
-            speed: 5.0,
-            load_per_ball: -50.0,
-            ..LIN
-        },
-    );
-    show(
-        "100 N 5/s",
-        &Case {
-            speed: 5.0,
-            load_per_ball: 100.0,
-            ..LIN
-        },
-    );
-    show(
-        "mu 0.05 5/s",
-        &Case {
-            speed: 5.0,
-            friction: 0.05,
-            ..LIN
-        },
-    );
-    show(
-        "g -3 5/s",
-        &Case {
-            speed: 5.0,
-            clearance: -3e-6,
-            ..LIN
-        },
-    );
-    show(
-        "g 5 5/s",
-        &Case {
-            speed: 5.0,
-            clearance: 5e-6,
-            ..LIN
-        },
-    );
+    for (d, design) in DESIGNS.iter().enumerate() {
+        for (s, setting) in SETTINGS.iter().enumerate() {
+            let case = case(*design, *setting);
+            let start = std::time::Instant::now();
+            let off = compare::<37>(&case);
+            println!(
+                "{d} {s}: F {:.2e} {:.2e} {:.1e} groove {:.2e} {:.2e} ball {:.2e} {:.2e} speed {:.2e} {:.2e} contacts {:?} flagged {} failed {} Fmax {:.3} {:.1} s",
+                off.force.relative()[0],
+                off.force.relative()[1],
+                off.force.relative()[2],
+                off.groove.relative()[0],
+                off.groove.relative()[1],
+                off.ball.relative()[0],
+                off.ball.relative()[1],
+                off.speed.relative()[0],
+                off.speed.relative()[1],
+                off.contacts,
+                off.flagged,
+                off.failed,
+                off.largest_force,
+                start.elapsed().as_secs_f64()
+            );
+        }
+    }
 }

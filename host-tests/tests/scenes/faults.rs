@@ -92,9 +92,7 @@ fn suffer<S: Trial>(
         S::check(configuration, given, &outputs).unwrap_or_else(|error| panic!("{line}: {error}"));
         S::check_state(&model).unwrap_or_else(|error| panic!("{line}: {error}"));
         assert_eq!(
-            (faults(&outputs).bits()
-                & !(Faults::FRICTION_LIMIT | Faults::BEYOND_MODEL | Faults::SETTLING).bits())
-                != 0,
+            (faults(&outputs).bits() & !(Faults::FRICTION_LIMIT | Faults::ACCURACY).bits()) != 0,
             flagged,
             "{line}"
         );

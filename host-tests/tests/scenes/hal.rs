@@ -517,6 +517,15 @@ fn flagged_outputs_and_no_numbers_give_the_neutral_duty() {
         ..STAGE
     };
     let expected = [500, 500, 563, 563, 563];
+    // Accuracy alone takes no torque away, whatever the reaction to faults is.
+    for configuration in [STAGE, passing] {
+        for flag in [Faults::BEYOND_MODEL, Faults::SETTLING] {
+            let mut stage = stage(&puts(1000, 563), &configuration);
+            let applied = stage.apply(&outputs(1.0, flag)).unwrap();
+            assert_eq!((applied.duty, applied.neutral), (563, false));
+            stage.release().done();
+        }
+    }
     let transactions: Vec<_> = expected.iter().flat_map(|&duty| puts(1000, duty)).collect();
     let mut stage = stage(&transactions, &passing);
     for (flag, duty) in flags.into_iter().zip(expected) {
@@ -573,7 +582,7 @@ proptest::proptest! {
     #[test]
     fn the_authority_bounds_every_duty(
         bits: u32,
-        flags in 0_u8..32,
+        flags in 0_u8..128,
         scale: u16,
         full in 1e-6_f32..1e6,
         authority in 0.0_f32..=1.0,
@@ -598,6 +607,8 @@ proptest::proptest! {
             Faults::SPEED_RANGE,
             Faults::LOAD_RANGE,
             Faults::FRICTION_LIMIT,
+            Faults::BEYOND_MODEL,
+            Faults::SETTLING,
         ];
         let mut faults = Faults::NONE;
         for flag in all {
@@ -623,7 +634,7 @@ proptest::proptest! {
         // Half a count of rounding, and what f32 makes of the product.
         let reach = f64::from(authority) * middle;
         proptest::prop_assert!(away <= reach * (1.0 + 1e-6) + 0.51, "{away} counts of {reach}");
-        let lost = flags & 3 != 0 || (faults.any() && !limited_values_pass);
+        let lost = flags & 3 != 0 || (faults.faulty() && !limited_values_pass);
         proptest::prop_assert!(applied.neutral || !lost);
         proptest::prop_assert!(applied.neutral || torque.is_finite());
         proptest::prop_assert!(!applied.neutral || away <= 0.5);

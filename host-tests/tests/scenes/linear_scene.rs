@@ -334,3 +334,55 @@ fn bad_inputs_are_flagged_and_bad_configurations_named() {
     // Twelve balls of 10 mm do not go on 70 mm.
     assert_eq!(with(&|c| c.loaded_length = 0.05), "pitch");
 }
+
+/// Every limit still holds at its last number, and no further.
+#[test]
+fn limits_hold_to_their_last_number() {
+    let limits = configuration().limits;
+    let sound = LinearInputs {
+        speed: 0.5,
+        normal_load: 400.0,
+        side_load: 100.0,
+    };
+    let (speed_range, load_range) = (Faults::SPEED_RANGE.bits(), Faults::LOAD_RANGE.bits());
+    let range = |inputs| {
+        let mut model = Model::new(&configuration()).unwrap();
+        model.step(inputs).faults.bits() & (speed_range | load_range)
+    };
+    for sign in [-1.0, 1.0] {
+        let speed = |speed: f32| range(LinearInputs { speed, ..sound });
+        assert_eq!(speed(sign * limits.speed), 0);
+        assert_eq!(speed(sign * limits.speed.next_up()), speed_range);
+        let normal = |normal_load: f32| {
+            range(LinearInputs {
+                normal_load,
+                ..sound
+            })
+        };
+        assert_eq!(normal(sign * limits.load), 0);
+        assert_eq!(normal(sign * limits.load.next_up()), load_range);
+        let side = |side_load: f32| range(LinearInputs { side_load, ..sound });
+        assert_eq!(side(sign * limits.load), 0);
+        assert_eq!(side(sign * limits.load.next_up()), load_range);
+    }
+}
+
+/// The shortest wavelength is a thousandth of the track, and 0.1 mm on a track that is shorter than 100 mm.
+#[test]
+fn the_shortest_wavelength_is_that_of_the_track() {
+    let with = |loaded_length: f32, wavelength: f32| {
+        FrictionModel::<LinearBearingTrain<4>>::new(&LinearBearingConfiguration {
+            loaded_length,
+            return_length: 0.0,
+            wavelength,
+            tick: 1e-6,
+            ..configuration()
+        })
+        .map(|_| ())
+        .map_err(|error| error.field())
+    };
+    assert_eq!(with(10.0, 0.011), Ok(()));
+    assert_eq!(with(10.0, 0.009), Err("wavelength"));
+    assert_eq!(with(0.05, 1e-4), Ok(()));
+    assert_eq!(with(0.05, 9e-5), Err("wavelength"));
+}

@@ -16,4 +16,5 @@ mod scene_constants;
 mod scratch_two;
 mod step_promises;
 mod stiff;
+mod two_point_rolling;
 mod uncaged;

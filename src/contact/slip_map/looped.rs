@@ -176,17 +176,16 @@ impl LoopSlipMap {
         distance2: f32,
         end2: f32,
     ) -> LoopSlip {
-        let end = math::sqrt(end2);
         let beyond = self.square * (along2 - end2) + across2;
         let inverse_end;
         let [whole, first, second, third, fourth, fifth];
         if beyond > 0.0 {
             // lambda² + 2 excess lambda - beyond end² = 0.
             let excess = 0.5 * (end2 + self.square * end2 - distance2);
-            let lambda = math::sqrt(excess * excess + beyond * end2) - excess;
-            let root = math::sqrt(lambda);
+            let (end, distance) = math::sqrt_pair(end2, excess * excess + beyond * end2);
+            let lambda = distance - excess;
             let (long, short) = (end2 + lambda, self.square * end2 + lambda);
-            let product = math::sqrt(long * short);
+            let (root, product) = math::sqrt_pair(lambda, long * short);
             let sum = root + self.scale * end;
             // One division for three reciprocals.
             let (sum_end, sum_product) = (sum * end, sum * product);
@@ -208,7 +207,7 @@ impl LoopSlipMap {
             second = end2 * (fourth + 3.0 * narrow + over_short);
             whole = weight + first + self.square * second;
         } else {
-            inverse_end = 1.0 / end;
+            inverse_end = 1.0 / math::sqrt(end2);
             let inverse2 = inverse_end * inverse_end;
             let [c0, c1, c2, c3, c4, c5] = self.inside;
             [whole, first, second] = [c0, c1, c2];

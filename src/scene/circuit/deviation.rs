@@ -243,3 +243,37 @@ pub(crate) const SINES: [f32; SAMPLES] = {
     }
     sines
 };
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Samples are rounded to a part in 16383 of the largest one.
+    #[test]
+    fn extremes_are_those_of_the_samples() {
+        let map = |order, cosine| {
+            DeviationMap::from_harmonics(
+                1,
+                &[Harmonic {
+                    order,
+                    cosine,
+                    sine: 0.0,
+                }],
+            )
+        };
+        for (order, cosine, expected) in [
+            (0, 0.03, (0.03, 0.03)),
+            (0, -0.03, (-0.03, -0.03)),
+            (2, 0.1, (-0.1, 0.1)),
+            (0, 0.0, (0.0, 0.0)),
+        ] {
+            let Ok(map) = map(order, cosine) else {
+                panic!("{order} {cosine}")
+            };
+            let (least, largest) = map.extremes();
+            assert!((least - expected.0).abs() < 1e-5, "{least}");
+            assert!((largest - expected.1).abs() < 1e-5, "{largest}");
+        }
+        assert_eq!(DeviationMap::NONE.extremes(), (0.0, 0.0));
+    }
+}

@@ -38,7 +38,8 @@ pub unsafe extern "C" fn epas_caged_reset(place: *mut CagedPlace) -> u32 {
     unsafe { reset::<Caged>(place) }
 }
 
-/// Consecutive ticks whose outputs were flagged; 0 after a sound tick.
+/// Consecutive ticks with a fault; 0 after a sound tick, and after one whose flags speak of
+/// accuracy alone (`EPAS_FAULT_BEYOND_MODEL`, `EPAS_FAULT_SETTLING`).
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn epas_caged_faulted_ticks(
     place: *const CagedPlace,
@@ -87,7 +88,8 @@ pub unsafe extern "C" fn epas_screw_reset(place: *mut ScrewPlace) -> u32 {
     unsafe { reset::<Screw>(place) }
 }
 
-/// Consecutive ticks whose outputs were flagged; 0 after a sound tick.
+/// Consecutive ticks with a fault; 0 after a sound tick, and after one whose flags speak of
+/// accuracy alone (`EPAS_FAULT_BEYOND_MODEL`, `EPAS_FAULT_SETTLING`).
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn epas_screw_faulted_ticks(
     place: *const ScrewPlace,
@@ -139,7 +141,8 @@ pub unsafe extern "C" fn epas_linear_reset(place: *mut LinearPlace) -> u32 {
     unsafe { reset::<Linear>(place) }
 }
 
-/// Consecutive ticks whose outputs were flagged; 0 after a sound tick.
+/// Consecutive ticks with a fault; 0 after a sound tick, and after one whose flags speak of
+/// accuracy alone (`EPAS_FAULT_BEYOND_MODEL`, `EPAS_FAULT_SETTLING`).
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn epas_linear_faulted_ticks(
     place: *const LinearPlace,

@@ -329,7 +329,8 @@ pub fn blocks(context: &Context) -> Result<Vec<Block>, Failure> {
             "Near two-point contact. Where one diagonal carries some per cent of the other, a ball in a linear \
              bearing stops spinning about the strong one, and its speed jumps: Coulomb friction has no state in \
              between. The border lies where the weaker diagonal carries 3/8 E (a/R_B)/sin 2 beta of the stronger \
-             one. The closed form knows nothing of it and keeps the speed it has before; the refined ball \
+             one. The closed form knows nothing of it and keeps the speed it has before, and its scene says so from the \
+             tick on in which the loads allow it (`Faults::BEYOND_MODEL`); the refined ball \
              follows within some ticks. In a ball screw a third contact that gets lighter begins to slide along \
              the track, which is smooth, and at some 2e-4 of the load the race changes on which the ball sticks, \
              which is a jump again."

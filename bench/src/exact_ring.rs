@@ -1,0 +1,380 @@
+//! The scene of a ball screw without cage against the exact whole screw, over the same turns of the nut.
+//!
+//! Both follow the same balls, which start at the same places. Balls meet and part in an instant, which the two need not
+//! find in the same state: so a value of the scene is compared with the span of the exact ones of its own state and the
+//! two beside it. States that the scene flags ([`Faults`](epas_friction::Faults)) are counted apart.
+
+use std::f64::consts::TAU;
+
+use epas_friction::contact::RollingResistance;
+use epas_friction::{
+    BallScrew, BallScrewParameters, Clearance, DeviationMap, FrictionModel, GrooveSize, Harmonic,
+    Inputs, Limits, LoadShares, Material, UncagedBallScrew, UncagedBallScrewConfiguration,
+    UncagedOutputs,
+};
+use epas_reference::design::BallScrewDesign;
+use epas_reference::friction::ball_screw_ring::{
+    ElasticRing, GrooveDeviation, RingSample, RingState,
+};
+use epas_reference::friction::patch::Integration;
+use epas_reference::material::Elastic;
+
+/// States before and after one that count as about the same time.
+const NEAR: usize = 1;
+
+/// Part of the track that the balls fill, and part of the track that carries load.
+const OCCUPATION: f64 = 0.978;
+const LOADED: f64 = 0.95;
+
+const YOUNGS_MODULUS: f64 = 210e9;
+const POISSON_RATIO: f64 = 0.28;
+
+/// What is asked of one screw. Lengths in m, angles in rad, forces in N.
+#[derive(Clone, Copy, Debug)]
+pub struct Case {
+    /// Design; both grooves have the same radius.
+    pub pitch_radius: f64,
+    pub lead: f64,
+    pub ball_radius: f64,
+    pub groove_radius: f64,
+    pub contact_angle: f64,
+    /// Friction coefficients of balls and grooves, and between balls.
+    pub friction: f64,
+    pub ball_friction: f64,
+    /// Radial gap of every contact at the centred ball.
+    pub clearance: f64,
+    pub load_per_ball: f64,
+    /// Amplitude of the deviation, and waves in a turn, of screw and nut.
+    pub screw: (f64, u8),
+    pub nut: (f64, u8),
+    /// Turns of the nut a second, negative backward.
+    pub speed: f64,
+    /// Turns of the nut that are followed, and states that are compared on the way.
+    pub turns: f64,
+    pub states: usize,
+    /// Time between two ticks, s.
+    pub tick: f64,
+}
+
+impl Case {
+    /// Lin 2019, Table 3.6, under 50 N a ball, with deviations of both grooves.
+    pub const LIN: Self = Self {
+        pitch_radius: 16.5e-3,
+        lead: 20e-3,
+        ball_radius: 2.778e-3,
+        groove_radius: 3.254e-3,
+        contact_angle: std::f64::consts::FRAC_PI_4,
+        friction: 0.1,
+        ball_friction: 0.1,
+        clearance: 0.0,
+        load_per_ball: 50.0,
+        screw: (2.3 * TAU / 360.0, 2),
+        nut: (0.7 * TAU / 360.0, 3),
+        speed: 1.0,
+        turns: 2.0,
+        states: 720,
+        tick: 50e-6,
+    };
+}
+
+/// Largest, rms and mean difference over the largest exact value.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Off {
+    largest: f64,
+    squares: f64,
+    sum: f64,
+    count: f64,
+    scale: f64,
+}
+
+impl Off {
+    /// A value against the exact ones of about the same time, of which `exact` is the one of the same state.
+    fn add(&mut self, found: f64, exact: f64, about: impl Iterator<Item = f64>) {
+        let (least, most) = about.fold((exact, exact), |(least, most), value| {
+            (f64::min(least, value), f64::max(most, value))
+        });
+        let off = (found - most).max(0.0) + (found - least).min(0.0);
+        self.largest = self.largest.max(off.abs());
+        self.squares += off * off;
+        self.sum += off;
+        self.count += 1.0;
+        self.scale = self.scale.max(exact.abs());
+    }
+
+    /// Largest, rms and mean; no numbers where nothing was compared or every exact value is zero.
+    #[must_use]
+    pub fn relative(&self) -> [f64; 3] {
+        [
+            self.largest,
+            (self.squares / self.count).sqrt(),
+            self.sum / self.count,
+        ]
+        .map(|off| off / self.scale)
+    }
+}
+
+/// Scene and exact screw at one state.
+#[derive(Clone, Copy, Debug)]
+pub struct Moment {
+    /// Angle of the nut since the start, rad.
+    pub nut_angle: f64,
+    /// Groove torque, ball torque, N m, largest force between two balls, N, and pairs that press: scene and exact.
+    pub scene: [f64; 4],
+    pub exact: [f64; 4],
+    /// Whether the scene flags this state, and whether the exact screw has it.
+    pub flagged: bool,
+    pub solved: bool,
+}
+
+/// What both found.
+#[derive(Clone, Debug, Default)]
+pub struct Comparison {
+    /// Forces of all pairs, of unflagged states.
+    pub force: Off,
+    /// Friction torque, and its part of the grooves and of the balls.
+    pub torque: Off,
+    pub groove: Off,
+    pub ball: Off,
+    /// Speeds of all balls against the nut.
+    pub speed: Off,
+    /// Difference of the number of pairs that press.
+    pub pairs: Off,
+    /// States compared, those that the scene flags, and those that the exact screw does not have.
+    pub compared: usize,
+    pub flagged: usize,
+    pub failed: usize,
+    /// Largest exact force, N.
+    pub largest_force: f64,
+    /// Every state.
+    pub course: Vec<Moment>,
+}
+
+/// A wave that lives as long as the program: in firmware it lies in flash.
+fn wave((amplitude, order): (f64, u8)) -> Result<&'static DeviationMap, String> {
+    let harmonic = Harmonic {
+        order,
+        cosine: 0.0,
+        sine: amplitude as f32,
+    };
+    let map = DeviationMap::from_harmonics(1, &[harmonic]).map_err(|error| error.to_string())?;
+    Ok(Box::leak(Box::new(map)))
+}
+
+/// The same for the exact screw: linear between as many samples as the map has.
+fn samples((amplitude, order): (f64, u8)) -> GrooveDeviation {
+    GrooveDeviation::Samples {
+        turns: 1.0,
+        values: (0..64)
+            .map(|sample| amplitude * (TAU * f64::from(sample * u32::from(order)) / 64.0).sin())
+            .collect(),
+    }
+}
+
+/// One screw, for both.
+struct Pair<const N: usize> {
+    model: FrictionModel<UncagedBallScrew<N>>,
+    ring: ElasticRing,
+    /// Path radius of the balls; speed of a nominal ball and its speed against the nut, m per unit of nut speed.
+    path: f64,
+    nominal: f64,
+    against: f64,
+}
+
+impl<const N: usize> Pair<N> {
+    fn new(case: &Case) -> Result<Self, String> {
+        let material = Material {
+            youngs_modulus: YOUNGS_MODULUS as f32,
+            poisson_ratio: POISSON_RATIO as f32,
+            ..Material::STEEL
+        };
+        let groove = GrooveSize::Radius(case.groove_radius as f32);
+        let design = BallScrew::new(BallScrewParameters {
+            pitch_radius: case.pitch_radius as f32,
+            lead: case.lead as f32,
+            ball_radius: case.ball_radius as f32,
+            screw_groove: groove,
+            nut_groove: groove,
+            contact_angle: case.contact_angle as f32,
+            ball_material: material,
+            groove_material: material,
+        })
+        .map_err(|error| error.to_string())?;
+        let path = f64::from(design.pitch_radius() / design.cos_lead_angle());
+        let pitch = 2.0 * (f64::from(design.ball_radius()) / path).asin();
+        let turns = N as f64 * pitch / OCCUPATION / TAU;
+        let return_length = (1.0 - LOADED) * turns * TAU * path;
+        let model = FrictionModel::new(&UncagedBallScrewConfiguration {
+            design,
+            friction: case.friction as f32,
+            ball_friction: case.ball_friction as f32,
+            clearance: Clearance::new(case.clearance as f32).map_err(|error| error.to_string())?,
+            rolling_resistance: RollingResistance::NONE,
+            turns: (LOADED * turns) as f32,
+            return_length: return_length as f32,
+            screw_deviation: wave(case.screw)?,
+            nut_deviation: wave(case.nut)?,
+            load_shares: LoadShares::EVEN,
+            reversal_speed: 1e-6,
+            tick: case.tick as f32,
+            limits: Limits {
+                nut_speed: 500.0,
+                axial_load: 1e6,
+                friction_torque: 1e4,
+            },
+        })
+        .map_err(|error| error.to_string())?;
+        let rolling = f64::from(design.ball_radius() * design.cos_lead_angle());
+        let nominal = 0.5 * (path + rolling * case.contact_angle.cos());
+        Ok(Self {
+            model,
+            ring: Self::ring(case, turns, return_length),
+            path,
+            nominal,
+            against: path - nominal,
+        })
+    }
+
+    fn ring(case: &Case, turns: f64, return_length: f64) -> ElasticRing {
+        let steel = Elastic {
+            youngs_modulus: YOUNGS_MODULUS,
+            poisson_ratio: POISSON_RATIO,
+        };
+        ElasticRing {
+            design: BallScrewDesign {
+                pitch_radius: case.pitch_radius,
+                lead: case.lead,
+                ball_radius: case.ball_radius,
+                screw_groove_radius: case.groove_radius,
+                nut_groove_radius: case.groove_radius,
+                contact_angle: case.contact_angle,
+                ball: steel,
+                groove: steel,
+            },
+            clearance: case.clearance,
+            friction: case.friction,
+            ball_friction: case.ball_friction,
+            balls: N,
+            turns: LOADED * turns,
+            return_length,
+            screw_deviation: samples(case.screw),
+            nut_deviation: samples(case.nut),
+            load_shares: vec![],
+            chord: false,
+            places: vec![],
+            integration: Integration::Coarse,
+        }
+    }
+
+    /// Takes one state of the scene in; `near` are the exact ones about it, `at` the one of the same time.
+    fn add(
+        &self,
+        comparison: &mut Comparison,
+        outputs: &UncagedOutputs,
+        near: &[RingState],
+        at: usize,
+        nut_speed: f64,
+    ) {
+        let exact = &near[at];
+        let all = |value: &dyn Fn(&RingState) -> f64| near.iter().map(value).collect::<Vec<_>>();
+        let mut add = |off: fn(&mut Comparison) -> &mut Off,
+                       found: f64,
+                       value: &dyn Fn(&RingState) -> f64| {
+            off(comparison).add(found, value(exact), all(value).into_iter());
+        };
+        let train = &self.model.state().circuit.train;
+        for (index, force) in train.forces().enumerate() {
+            add(|c| &mut c.force, force.into(), &|state| {
+                state.balls[index].force
+            });
+        }
+        for (index, speed) in train.speeds().enumerate() {
+            add(
+                |c| &mut c.speed,
+                self.against * f64::from(speed) * nut_speed.signum(),
+                &|state| state.balls[index].speed / nut_speed * self.path - self.nominal,
+            );
+        }
+        add(
+            |c| &mut c.torque,
+            outputs.friction_torque.into(),
+            &RingState::torque,
+        );
+        add(|c| &mut c.groove, outputs.groove_torque.into(), &|state| {
+            state.groove_torque
+        });
+        add(|c| &mut c.ball, outputs.ball_torque.into(), &|state| {
+            state.ball_torque
+        });
+        add(|c| &mut c.pairs, outputs.contacts.into(), &|state| {
+            state.pressing() as f64
+        });
+        comparison.compared += 1;
+    }
+}
+
+/// Follows both over the turns of a case.
+///
+/// # Errors
+/// What is out of range.
+pub fn compare<const N: usize>(case: &Case) -> Result<Comparison, String> {
+    let mut pair = Pair::<N>::new(case)?;
+    let nut_speed = case.speed * TAU;
+    let load = case.load_per_ball * N as f64 * LOADED;
+    let ticks = (case.turns / case.speed.abs() / case.tick).round() as usize;
+    let per_state = (ticks / case.states.max(1)).max(1);
+    let asked: Vec<RingSample> = (0..=case.states)
+        .map(|state| RingSample {
+            time: (state * per_state) as f64 * case.tick,
+            nut_speed,
+            axial_load: load,
+        })
+        .collect();
+    let states = pair
+        .ring
+        .simulate(&asked, |_, _| ())
+        .map_err(|error| error.to_string())?;
+    let mut comparison = Comparison::default();
+    for (at, state) in states.iter().enumerate() {
+        let mut step = || {
+            pair.model.step(Inputs {
+                nut_speed: nut_speed as f32,
+                axial_load: load as f32,
+            })
+        };
+        // The last tick of those that lead to a state puts out what holds there; a flag of any of them counts.
+        let mut flagged = false;
+        let mut outputs = step();
+        for _ in 1..if at == 0 { 1 } else { per_state } {
+            flagged |= outputs.faults.any();
+            outputs = step();
+        }
+        flagged |= outputs.faults.any();
+        let from = at.saturating_sub(NEAR);
+        let near = &states[from..(at + NEAR + 1).min(states.len())];
+        let solved = near.iter().all(RingState::solved);
+        comparison.course.push(Moment {
+            nut_angle: state.nut_angle,
+            scene: [
+                outputs.groove_torque.into(),
+                outputs.ball_torque.into(),
+                outputs.largest_contact_force.into(),
+                outputs.contacts.into(),
+            ],
+            exact: [
+                state.groove_torque,
+                state.ball_torque,
+                state.largest_force(),
+                state.pressing() as f64,
+            ],
+            flagged,
+            solved,
+        });
+        comparison.flagged += usize::from(flagged);
+        comparison.failed += usize::from(!solved);
+        if !flagged && solved {
+            comparison.largest_force = comparison.largest_force.max(state.largest_force());
+            pair.add(&mut comparison, &outputs, near, at - from, nut_speed);
+        }
+    }
+    Ok(comparison)
+}

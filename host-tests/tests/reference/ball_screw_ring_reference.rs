@@ -1,0 +1,642 @@
+//! Balls on a ring in elastic grooves: against rows and single balls, the laws of the model, and Figures 3.24 and 3.25 again.
+
+use crate::kit::random::Random;
+use epas_reference::ReferenceError;
+use epas_reference::friction::ball_screw_ball::ScrewTrack;
+use epas_reference::friction::ball_screw_elastic::BallSlip;
+use epas_reference::friction::ball_screw_ring::{
+    DeviationWave, ElasticRing, GrooveDeviation, RingSample, RingState, steady_samples,
+};
+use epas_reference::friction::ball_screw_row::{ElasticRow, RowBall};
+use epas_reference::friction::patch::Integration;
+use epas_reference::friction::whole_screw::WholeScrew;
+use epas_reference::published::balls::{SCREW, whole_screw};
+use std::f64::consts::{PI, TAU};
+
+const DEGREE: f64 = PI / 180.0;
+
+/// Azimuth between two touching balls.
+fn pitch() -> f64 {
+    2.0 * ScrewTrack::from(&SCREW).ball_contact_angle().0.asin()
+}
+
+/// Balls on a short track that they fill but for some part of a ball.
+fn short_ring(balls: usize, room: f64) -> ElasticRing {
+    ElasticRing {
+        design: SCREW,
+        clearance: 0.0,
+        friction: 0.1,
+        ball_friction: 0.1,
+        balls,
+        turns: (balls as f64 + room) * pitch() / TAU,
+        return_length: 0.0,
+        screw_deviation: GrooveDeviation::sine(4.0, 2.5 * DEGREE),
+        nut_deviation: GrooveDeviation::Waves {
+            turns: 1.0,
+            waves: vec![DeviationWave {
+                order: 3.0,
+                cosine: 0.01,
+                sine: 0.0,
+            }],
+        },
+        load_shares: Vec::new(),
+        chord: false,
+        places: Vec::new(),
+        integration: Integration::Full,
+    }
+}
+
+fn run(ring: &ElasticRing, samples: &[RingSample]) -> Vec<RingState> {
+    let states = ring.simulate(samples, |_, _| {}).unwrap();
+    for state in &states {
+        check(ring, state);
+    }
+    states
+}
+
+fn one(ring: &ElasticRing, nut_speed: f64, axial_load: f64) -> RingState {
+    let sample = RingSample {
+        time: 0.0,
+        nut_speed,
+        axial_load,
+    };
+    run(ring, &[sample]).remove(0)
+}
+
+/// Laws that every state keeps, from what it says of its balls.
+fn check(ring: &ElasticRing, state: &RingState) {
+    assert!(state.solved(), "{:?}", state.failure);
+    // Ten thousand roundings of the balances; the march accepts 1e-8.
+    assert!(state.residual < 1e-9, "{:e}", state.residual);
+    assert!(state.power_error.abs() < 1e-8, "{:e}", state.power_error);
+    assert!(state.complementarity < 1e-8, "{:e}", state.complementarity);
+    let track = ScrewTrack::from(&SCREW);
+    let length = TAU * ring.turns + ring.return_length / track.path_radius();
+    let n = state.balls.len();
+    let mut around = 0.0;
+    for (j, ball) in state.balls.iter().enumerate() {
+        let next = &state.balls[(j + 1) % n];
+        assert!(ball.gap >= 0.0 && ball.force >= 0.0);
+        assert!(ball.force == 0.0 || ball.gap <= 1e-12);
+        let apart = (next.place - ball.place - pitch() - ball.gap).rem_euclid(length);
+        // Roundings of places up to a few turns.
+        assert!(n == 1 || apart.min(length - apart) < 1e-10, "{apart:e}");
+        if ball.gap <= 1e-12 && n > 1 {
+            // Of either way: the gap shrinks.
+            let overtakes = ball.speed - next.speed;
+            assert!(overtakes <= 1e-10 * ball.speed.abs());
+            assert!(ball.force == 0.0 || overtakes.abs() <= 1e-10 * ball.speed.abs());
+        }
+        around += pitch() + ball.gap;
+    }
+    assert!((around / length - 1.0).abs() < 1e-12);
+}
+
+/// Balls alike do not press, even where they fill the whole track; each is one that is alone.
+#[test]
+fn touching_balls_alike_move_as_one_alone() {
+    let mut ring = short_ring(5, 0.0);
+    ring.screw_deviation = GrooveDeviation::NONE;
+    ring.nut_deviation = GrooveDeviation::NONE;
+    let state = one(&ring, TAU, -5.0 * 40.0);
+    let row = ElasticRow {
+        design: SCREW,
+        clearance: 0.0,
+        friction: 0.1,
+        ball_friction: 0.0,
+        nut_speed: TAU,
+        balls: vec![RowBall {
+            screw_deviation: 0.0,
+            nut_deviation: 0.0,
+            axial_load: -40.0,
+        }],
+        integration: Integration::Full,
+    };
+    let alone = row.solve().unwrap();
+    // Rounding of speeds, 1e-13 of the nut's, over a compliance of 1e-3 per newton.
+    assert!(state.largest_force() < 1e-8 && state.ball_torque < 1e-12);
+    for ball in &state.balls {
+        assert!((ball.speed / alone.free[0].motion.orbital_speed - 1.0).abs() < 1e-10);
+    }
+    assert!((state.groove_torque * TAU / (5.0 * alone.free_groove_loss()) - 1.0).abs() < 1e-9);
+}
+
+/// Two or three touching balls with room around them are a row, for every fit, either load and either way.
+#[test]
+fn touching_balls_are_a_row() {
+    for (balls, clearance, load, nut_speed) in [
+        (2, 0.0, -50.0, TAU),
+        (2, 2e-6, 60.0, TAU),
+        (3, -3e-6, 40.0, -TAU),
+        (3, 0.0, -100.0, -TAU),
+        (3, 1e-6, 30.0, TAU),
+    ] {
+        let mut ring = short_ring(balls, 1.0);
+        ring.clearance = clearance;
+        ring.places = (0..balls).map(|j| 0.1 + pitch() * j as f64).collect();
+        let state = one(&ring, nut_speed, load * balls as f64);
+        let mut row = ElasticRow {
+            design: SCREW,
+            clearance,
+            friction: 0.1,
+            ball_friction: 0.1,
+            nut_speed,
+            balls: ring
+                .places
+                .iter()
+                .map(|place| RowBall {
+                    screw_deviation: ring.screw_deviation.at(*place),
+                    nut_deviation: ring.nut_deviation.at(*place),
+                    axial_load: load,
+                })
+                .collect(),
+            integration: Integration::Full,
+        };
+        if nut_speed < 0.0 {
+            row.balls.reverse();
+        }
+        let mut found = row.solve().unwrap();
+        if nut_speed < 0.0 {
+            found.contact_forces.reverse();
+            found.pressing.reverse();
+        }
+        for (ball, force) in state.balls.iter().zip(&found.contact_forces) {
+            // The row is solved to 1e-10 of its largest force, or to the balance of its balls, 1e-8 of their loads.
+            assert!((ball.force - force).abs() < 2e-6, "{} {force}", ball.force);
+        }
+        for (here, there) in state.balls.iter().zip(&found.pressing) {
+            assert!((here.speed / there.motion.orbital_speed - 1.0).abs() < 1e-8);
+            for (a, b) in here.loads.iter().zip(there.loads) {
+                assert!((a - b).abs() < 1e-5, "{a} {b}");
+            }
+        }
+        let size = nut_speed.abs();
+        assert!((state.groove_torque.abs() * size / found.groove_loss() - 1.0).abs() < 1e-7);
+        assert!(
+            (state.ball_torque.abs() * size - found.ball_loss).abs() < 1e-7 * found.groove_loss()
+        );
+    }
+}
+
+/// Balls that meet and part on the way: no state is left without an answer, every one keeps the laws, and both things happen.
+#[test]
+fn balls_meet_and_part_without_overlap() {
+    for (load, nut_speed, clearance) in [(-50.0, TAU, 0.0), (60.0, -1.0, 1e-6), (-40.0, 3.0, -1e-6)]
+    {
+        let mut ring = short_ring(7, 0.2);
+        ring.clearance = clearance;
+        let samples = steady_samples(nut_speed, 7.0 * load, 1.5 * TAU, 90);
+        let states = run(&ring, &samples);
+        let pressing: Vec<usize> = states.iter().map(RingState::pressing).collect();
+        println!("{load} {nut_speed} {clearance}: {pressing:?}");
+        let events: usize = states.iter().map(|state| state.events).sum();
+        assert!(pressing.windows(2).any(|pair| pair[0] < pair[1]));
+        assert!(pressing.windows(2).any(|pair| pair[0] > pair[1]));
+        assert!(events > 0 && states[0].pressing() == 0);
+        assert!(
+            states
+                .iter()
+                .all(|s| s.groove_torque * nut_speed > 0.0 && s.ball_torque * nut_speed >= 0.0)
+        );
+    }
+}
+
+/// Turned about the radial direction: the nut's other way, loads of the other sign, deviations mirrored along the track. Torque is odd.
+#[test]
+fn torque_is_odd_under_mirror() {
+    let ring = short_ring(5, 0.1);
+    let mut mirrored = ring.clone();
+    let length = TAU * ring.turns;
+    let places: Vec<f64> = (0..5)
+        .map(|j| (f64::from(j) + 0.5) * length / 5.0)
+        .collect();
+    let reflect = |values: &GrooveDeviation| match values {
+        GrooveDeviation::Waves { waves, .. } => {
+            let wave = waves[0];
+            // -dev(length - x) over a period of one turn.
+            let (sin, cos) = (wave.order * length).sin_cos();
+            GrooveDeviation::Waves {
+                turns: 1.0,
+                waves: vec![DeviationWave {
+                    order: wave.order,
+                    cosine: -(wave.cosine * cos + wave.sine * sin),
+                    sine: wave.sine * cos - wave.cosine * sin,
+                }],
+            }
+        }
+        GrooveDeviation::Samples { .. } => unreachable!(),
+    };
+    mirrored.nut_deviation = reflect(&ring.nut_deviation);
+    mirrored.screw_deviation = reflect(&ring.screw_deviation);
+    let mut ring = ring;
+    ring.places.clone_from(&places);
+    mirrored.places = places;
+    let here = run(&ring, &steady_samples(TAU, -250.0, 2.0, 20));
+    let there = run(&mirrored, &steady_samples(-TAU, 250.0, 2.0, 20));
+    assert!(here.iter().any(|state| state.pressing() > 0));
+    for (a, b) in here.iter().zip(&there) {
+        // Equations that agree term by term, solved to 1e-12 of the loads, and events located to rounding.
+        assert!((a.torque() + b.torque()).abs() < 1e-9 * a.torque());
+        assert!((a.largest_force() - b.largest_force()).abs() < 1e-6);
+    }
+}
+
+/// What counts is the nut's angle: other speeds in other times give the same balls and torques.
+#[test]
+fn friction_does_not_depend_on_speed() {
+    let ring = short_ring(4, 0.2);
+    let steady = steady_samples(TAU, -200.0, 1.0, 10);
+    let mut time = 0.0;
+    let uneven: Vec<RingSample> = steady
+        .windows(2)
+        .chain(std::iter::once(&steady[9..]))
+        .enumerate()
+        .map(|(at, pair)| {
+            let factor = [0.1, 3.0, 1.0][at % 3];
+            let sample = RingSample {
+                time,
+                nut_speed: TAU * factor,
+                axial_load: -200.0,
+            };
+            time += (pair[1].time - pair[0].time) / factor;
+            sample
+        })
+        .collect();
+    for (a, b) in run(&ring, &steady).iter().zip(&run(&ring, &uneven)) {
+        assert!((a.nut_angle - b.nut_angle).abs() < 1e-12);
+        assert!((a.torque() / b.torque() - 1.0).abs() < 1e-9);
+    }
+}
+
+/// Loads that grow, pass zero and turn, and a nut that stops and turns: torques follow, and only rest has no answer.
+#[test]
+fn loads_and_ways_change_on_the_way() {
+    for clearance in [-2e-6, 1e-6] {
+        let mut ring = short_ring(4, 0.2);
+        ring.clearance = clearance;
+        let samples: Vec<RingSample> = (0..=40)
+            .map(|at| {
+                let part = f64::from(at) / 40.0;
+                RingSample {
+                    time: part,
+                    nut_speed: 2.0 * (1.0 - 2.0 * part),
+                    axial_load: 200.0 * (3.0 * PI * part).cos(),
+                }
+            })
+            .collect();
+        let states = ring.simulate(&samples, |_, _| {}).unwrap();
+        for (state, sample) in states.iter().zip(&samples) {
+            if sample.nut_speed == 0.0 {
+                assert_eq!(state.failure, Some(ReferenceError::Standstill));
+                assert!(state.torque().is_nan());
+                continue;
+            }
+            assert!(state.solved(), "{sample:?}: {:?}", state.failure);
+            assert!(state.torque() * sample.nut_speed > 0.0);
+            check(&ring, state);
+        }
+    }
+}
+
+/// Balls of the return carry nothing and go along; under the load they carry their shares of it.
+#[test]
+fn balls_of_the_return_carry_nothing() {
+    let mut ring = short_ring(6, 0.0);
+    let track = ScrewTrack::from(&SCREW);
+    ring.turns = 4.5 * pitch() / TAU;
+    ring.return_length = 2.0 * pitch() * track.path_radius();
+    ring.load_shares = vec![0.8, 1.2];
+    let length = TAU * ring.turns + 2.0 * pitch();
+    let samples = steady_samples(TAU, -240.0, TAU, 60);
+    let states = run(&ring, &samples);
+    let (_, cos_a) = track.lead_angle();
+    let mut crossings = 0;
+    for pair in states.windows(2) {
+        for (before, after) in pair[0].balls.iter().zip(&pair[1].balls) {
+            crossings += u32::from((before.loads[1] == 0.0) != (after.loads[1] == 0.0));
+        }
+    }
+    for state in &states {
+        for ball in &state.balls {
+            if ball.place >= TAU * ring.turns {
+                assert_eq!(ball.loads, [0.0; 4]);
+                continue;
+            }
+            let part = ball.place / (TAU * ring.turns);
+            let share = if part < 0.5 { 0.8 } else { 1.2 };
+            let axial = 240.0 * share * length / (TAU * ring.turns * 6.0);
+            // 45 degrees; contacts turned by up to 3 degrees, and friction of 0.1 over the lead angle and across.
+            let carried = (ball.loads[1] - ball.loads[0]) * cos_a * SCREW.contact_angle.sin();
+            assert!((carried / axial - 1.0).abs() < 0.2, "{carried} {axial}");
+        }
+    }
+    assert!(crossings > 3, "{crossings}");
+}
+
+/// The force between balls that points outward changes what they carry, and a fixed total of power is still balanced.
+#[test]
+fn outward_force_moves_balls() {
+    let mut ring = short_ring(3, 1.0);
+    ring.places = (0..3).map(|j| 0.1 + pitch() * f64::from(j)).collect();
+    let plain = one(&ring, TAU, -150.0);
+    ring.chord = true;
+    let chord = one(&ring, TAU, -150.0);
+    assert!(plain.largest_force() > 0.5);
+    let (sin, _) = ScrewTrack::from(&SCREW).ball_contact_angle();
+    let change = chord.largest_force() / plain.largest_force() - 1.0;
+    println!("chord: {change:e}, sin b {sin}");
+    // An outward force of a sixth of the force between balls shifts the loads of 70 N by less than 1 N.
+    assert!(change != 0.0 && change.abs() < 0.1, "{change}");
+}
+
+/// Places of the balls converge with the second order of the step, through meeting and parting.
+#[test]
+fn steps_converge() {
+    let mut ring = short_ring(5, 0.1);
+    ring.nut_deviation = GrooveDeviation::NONE;
+    let places = |steps: usize| {
+        let states = run(&ring, &steady_samples(TAU, -250.0, 3.0, steps));
+        assert!(states.iter().any(|state| state.pressing() > 1));
+        let last = &states[steps].balls;
+        last.iter().map(|ball| ball.place).collect::<Vec<_>>()
+    };
+    let fine = places(1280);
+    let off = |steps: usize| {
+        let there = places(steps);
+        let pairs = there.iter().zip(&fine);
+        pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+    };
+    let [coarse, middle] = [20, 80].map(off);
+    println!("{coarse:e} {middle:e}");
+    assert!(coarse < 1e-3 && middle < coarse / 8.0);
+}
+
+/// A screw without lead is a bearing: no slip across the track, no third contact, and no torque by the sign of load or way.
+#[test]
+fn zero_lead_is_a_bearing() {
+    let mut ring = short_ring(3, 0.5);
+    ring.design.lead = 0.0;
+    ring.screw_deviation = GrooveDeviation::NONE;
+    ring.nut_deviation = GrooveDeviation::NONE;
+    ring.clearance = 1e-6;
+    let torque = |nut_speed: f64, load: f64| {
+        let states = ring.simulate(&steady_samples(nut_speed, load, 0.1, 1), |_, _| {});
+        let state = states.unwrap().remove(1);
+        assert!(state.solved());
+        for ball in &state.balls {
+            let [sl, sr, nl, nr] = ball.loads;
+            // Two contacts carry.
+            assert!(sl.min(sr) == 0.0 && nl.min(nr) == 0.0, "{:?}", ball.loads);
+        }
+        state.torque() / nut_speed
+    };
+    let all = [
+        torque(1.0, 150.0),
+        torque(1.0, -150.0),
+        torque(-1.0, 150.0),
+        torque(-1.0, -150.0),
+    ];
+    for other in all {
+        assert!((other / all[0] - 1.0).abs() < 1e-9, "{all:?}");
+    }
+}
+
+#[test]
+fn bad_inputs_are_named() {
+    let good = short_ring(3, 0.5);
+    let samples = steady_samples(TAU, -150.0, 0.1, 1);
+    let refused = |change: &dyn Fn(&mut ElasticRing)| {
+        let mut ring = good.clone();
+        change(&mut ring);
+        let error = ring.simulate(&samples, |_, _| {}).unwrap_err();
+        error.field()
+    };
+    assert_eq!(refused(&|r| r.friction = f64::NAN), Some("friction"));
+    assert_eq!(refused(&|r| r.balls = 0), Some("balls"));
+    assert_eq!(refused(&|r| r.balls = 4), Some("balls"));
+    assert_eq!(refused(&|r| r.turns = f64::NAN), Some("turns"));
+    assert_eq!(refused(&|r| r.return_length = -1.0), Some("return_length"));
+    assert_eq!(refused(&|r| r.clearance = 1.0), Some("clearance"));
+    assert_eq!(
+        refused(&|r| r.load_shares = vec![-1.0]),
+        Some("load_shares")
+    );
+    assert_eq!(refused(&|r| r.places = vec![0.0]), Some("places"));
+    assert_eq!(refused(&|r| r.places = vec![0.0, 0.1, 0.5]), Some("places"));
+    assert_eq!(
+        refused(&|r| r.screw_deviation = GrooveDeviation::sine(1.0, f64::NAN)),
+        Some("screw_deviation")
+    );
+    let values = vec![0.0, f64::NAN];
+    assert_eq!(
+        refused(&|r| r.nut_deviation = GrooveDeviation::Samples {
+            turns: 1.0,
+            values: values.clone()
+        }),
+        Some("nut_deviation")
+    );
+    let mut bad = samples.clone();
+    bad[1].axial_load = f64::INFINITY;
+    let error = good.simulate(&bad, |_, _| {}).unwrap_err();
+    assert_eq!(error.field(), Some("axial_load"));
+    bad = samples;
+    bad[1].time = -1.0;
+    let error = good.simulate(&bad, |_, _| {}).unwrap_err();
+    assert_eq!(error.field(), Some("samples"));
+    let error = good.simulate(&[], |_, _| {}).unwrap_err();
+    assert_eq!(error.field(), Some("samples"));
+}
+
+/// Samples of a wave, many of them, are the wave.
+#[test]
+fn samples_are_lines_between_values() {
+    let values: Vec<f64> = (0..64)
+        .map(|i| 0.01 * (TAU * f64::from(i) / 64.0).sin())
+        .collect();
+    let map = GrooveDeviation::Samples { turns: 2.0, values };
+    for at in 0..100 {
+        let phase = 0.37 * f64::from(at) - 5.0;
+        let wave = 0.01 * (phase / 2.0).sin();
+        // Sagitta of a line between two samples: (2 pi/64)^2/8 of the amplitude.
+        assert!((map.at(phase) - wave).abs() < 0.01 * (TAU / 64.0_f64).powi(2) / 8.0 + 1e-15);
+    }
+}
+
+/// The screw of Figures 3.24 and 3.25 with an amplitude in degrees.
+fn published(degrees: f64) -> ElasticRing {
+    ElasticRing {
+        balls: 37,
+        turns: 2.0,
+        screw_deviation: GrooveDeviation::sine(2.0, degrees * DEGREE),
+        nut_deviation: GrooveDeviation::NONE,
+        ..short_ring(37, 0.0)
+    }
+}
+
+/// Peak of the ball torque over the groove torque in the first turn, per cent, its angle, and where no balls press any more, degrees.
+fn peak_and_release(states: &[(f64, f64, f64)]) -> [f64; 3] {
+    let (mut peak, mut at, mut release) = (0.0, 0.0, f64::NAN);
+    for (angle, groove, ball) in states.iter().filter(|(angle, _, _)| *angle < TAU) {
+        let share = 100.0 * ball / groove;
+        if share > peak {
+            (peak, at, release) = (share, angle.to_degrees(), f64::NAN);
+        }
+        if peak > 1.0 && *ball == 0.0 && release.is_nan() {
+            release = angle.to_degrees();
+        }
+    }
+    [peak, at, release]
+}
+
+/// The closed form beside the exact ring, where it is at its best: 10 N a ball. It has the same three-point contact, and its orbital speeds
+/// leave out that friction shifts the contacts, and that a third contact with less load slides.
+#[test]
+fn closed_form_beside() {
+    let mut ring = published(2.5);
+    ring.balls = 9;
+    ring.turns = 9.15 * pitch() / TAU;
+    let cycles = 2.0 / ring.turns;
+    ring.screw_deviation = GrooveDeviation::sine(cycles, 2.5 * DEGREE);
+    let load = -10.0 * 9.0;
+    let exact = run(&ring, &steady_samples(TAU, load, TAU, 90));
+    let closed = WholeScrew {
+        balls: 9,
+        turns: ring.turns,
+        cycles,
+        axial_load: load,
+        ball_slip: BallSlip::Orbiting,
+        ..whole_screw(2.5 * DEGREE).unwrap()
+    };
+    let closed = closed.simulate(TAU, 90, 8).unwrap();
+    let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
+    let peak = largest(&mut exact.iter().map(|s| s.ball_torque));
+    let closed_peak = largest(&mut closed.iter().map(|s| s.ball_torque));
+    let groove = closed[0].groove_torque() / exact[0].groove_torque;
+    println!("ball torque {}, groove torque {groove}", closed_peak / peak);
+    assert!(peak > 0.0);
+    // Measured: 11 % too much for the force's sign that takes load from the third contact, and 1.4 % of groove torque.
+    assert!((closed_peak / peak - 1.112).abs() < 0.01);
+    assert!((groove - 1.0141).abs() < 1e-3);
+}
+
+/// Figures 3.24 and 3.25 by the exact ring. Published: a peak of 49.6 % of the groove torque at 126 degrees, and no contacts from 306 degrees
+/// on; Figure 3.23 gives no amplitude in the text. By amplitude, at 720 states: peak, its angle, release, all as printed here to the last
+/// digit of the table.
+#[test]
+#[ignore = "half a minute"]
+fn figures_3_24_and_3_25() {
+    for (degrees, load, peak, at, release) in [
+        (2.0, -1500.0, 20.8, 109.0, 246.0),
+        (2.3, -1500.0, 38.2, 104.0, 263.0),
+        (2.5, -1500.0, 49.1, 97.0, 272.0),
+        (3.0, -1500.0, 74.3, 102.0, 298.0),
+        (2.3, 1500.0, 29.1, 108.0, 261.0),
+        (3.0, 1500.0, 51.1, 100.0, 270.0),
+    ] {
+        let ring = published(degrees);
+        let samples = steady_samples(TAU, load, 2.0 * TAU, 720);
+        let states = run(&ring, &samples);
+        let exact: Vec<_> = states
+            .iter()
+            .map(|s| (s.nut_angle, s.groove_torque, s.ball_torque))
+            .collect();
+        let closed = WholeScrew {
+            axial_load: load,
+            ball_slip: BallSlip::Orbiting,
+            ..whole_screw(degrees * DEGREE).unwrap()
+        };
+        let closed: Vec<_> = closed
+            .simulate(2.0 * TAU, 720, 4)
+            .unwrap()
+            .iter()
+            .map(|s| (s.nut_angle, s.groove_torque(), s.ball_torque))
+            .collect();
+        let found = peak_and_release(&exact);
+        println!(
+            "{degrees} deg {load} N: exact {found:?}, closed {:?}",
+            peak_and_release(&closed)
+        );
+        // Two units of the last digit: other rounding may move an event from one state to the next.
+        assert!((found[0] - peak).abs() < 0.2, "{found:?}");
+        assert!(
+            (found[1] - at).abs() < 2.5 && (found[2] - release).abs() < 2.5,
+            "{found:?}"
+        );
+    }
+}
+
+/// Rings over designs, fits, loads of either sign, deviations of both grooves, returns and changes on the way: every state has an answer.
+#[test]
+#[ignore = "minutes"]
+fn random_rings_have_an_answer() {
+    let mut random = Random(7);
+    let (mut failed, mut states) = (0, 0);
+    for _ in 0..60 {
+        let (ring, samples) = random_ring(&mut random);
+        for state in ring.simulate(&samples, |_, _| {}).unwrap() {
+            states += 1;
+            if state.solved() {
+                assert!(state.power_error.abs() <= 1e-7 && state.residual <= 1e-7);
+            } else {
+                failed += 1;
+                println!("{:?}: {ring:?}", state.failure);
+            }
+        }
+    }
+    println!("{failed} of {states} states without an answer");
+    assert!(failed * 1000 <= states, "{failed} of {states}");
+}
+
+fn random_ring(random: &mut Random) -> (ElasticRing, Vec<RingSample>) {
+    let (pitch_radius, lead, ball_radius, conformity) = random.of(&[
+        (8.15e-3, 5e-3, 1.5875e-3, 0.53),
+        (16.5e-3, 20e-3, 2.778e-3, 0.5857),
+        (12.9e-3, 10e-3, 1.9845e-3, 0.54),
+        (32.5e-3, 20e-3, 4.7625e-3, 0.535),
+        (10.5e-3, 7e-3, 1.5e-3, 0.52),
+    ]);
+    let mut ring = published(0.0);
+    ring.design.pitch_radius = pitch_radius;
+    ring.design.lead = lead;
+    ring.design.ball_radius = ball_radius;
+    ring.design.screw_groove_radius = 2.0 * conformity * ball_radius;
+    ring.design.nut_groove_radius = 2.0 * conformity * ball_radius;
+    ring.turns = random.between(0.5, 2.0);
+    ring.return_length = (random.between(-3.0, 3.0) * pitch_radius).max(0.0);
+    ring.clearance = random.between(-5e-6, 8e-6);
+    ring.friction = random.between(0.05, 0.15);
+    ring.ball_friction = random.between(0.0, 0.15);
+    ring.chord = random.sign() > 0.0;
+    let mut deviation = || GrooveDeviation::Waves {
+        turns: 1.0,
+        waves: vec![DeviationWave {
+            order: random.between(0.0, 5.0).floor(),
+            cosine: 0.03 * random.signed(),
+            sine: 0.03 * random.signed(),
+        }],
+    };
+    ring.screw_deviation = deviation();
+    ring.nut_deviation = deviation();
+    ring.balls = 1;
+    ring.balls = ((random.between(0.9, 1.0) / ring.occupation()) as usize).max(2);
+    let load = f64::from(random.sign()) * random.between(5.0, 300.0) * ring.balls as f64;
+    let speed = TAU * f64::from(random.sign());
+    let kind = random.between(0.0, 4.0) as usize;
+    let samples = (0..=90)
+        .map(|at| {
+            let part = f64::from(at) / 90.0;
+            let (faster, heavier) = match kind {
+                0 => (1.0, 1.0),
+                1 => (if part < 0.6 { 1.0 } else { -1.0 }, 1.0),
+                2 => (1.0, 1.0 + 0.8 * (2.0 * TAU * part).sin()),
+                _ => (1.0 - 1.501 * part, if part < 0.4 { 1.0 } else { -0.7 }),
+            };
+            RingSample {
+                time: part,
+                nut_speed: speed * faster,
+                axial_load: load * heavier,
+            }
+        })
+        .collect();
+    (ring, samples)
+}
