@@ -122,10 +122,14 @@ impl Contacts {
     fn change(&self, state: &mut ContactsState) {
         if !state.changes {
             state.changes = true;
-            let place = self.range.place(FIRST_LOAD);
             for ((ball, law), side) in state.balls.iter_mut().zip(&state.laws).zip([1.0, -1.0]) {
                 let load = side * FIRST_LOAD;
-                *ball = NominalBall::new(&self.ball, &state.grooving, load, law.ratio(place));
+                *ball = NominalBall::new(
+                    &self.ball,
+                    &state.grooving,
+                    load,
+                    law.at(self.range, FIRST_LOAD).0,
+                );
             }
         }
     }
@@ -201,8 +205,7 @@ impl Contacts {
                 (false, false) => (opposite, backdrive, -axial),
             };
             // The law is that of another friction coefficient; it is about in proportion.
-            let ratio =
-                law.ratio(self.range.place(size)) * (state.grooving.friction / self.friction);
+            let ratio = law.at(self.range, size).0 * (state.grooving.friction / self.friction);
             *ball = NominalBall::new(&self.ball, &state.grooving, axial, ratio);
         } else if turned {
             opposite.renew(&self.ball, &state.grooving, -axial);
@@ -222,11 +225,7 @@ impl ContactsState {
     fn folded(&self, range: LoadRange, load: f32, other: bool) -> (f32, Faults) {
         let [drive, backdrive] = &self.laws;
         let law = if other { backdrive } else { drive };
-        let place = range.place(load);
-        let beyond = law.is_beyond(place);
-        (
-            law.ratio(place),
-            Faults::NONE.with(beyond, Faults::BEYOND_MODEL),
-        )
+        let (ratio, beyond) = law.at(range, load);
+        (ratio, Faults::NONE.with(beyond, Faults::BEYOND_MODEL))
     }
 }
