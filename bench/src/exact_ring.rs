@@ -2,15 +2,14 @@
 //!
 //! Both follow the same balls, which start at the same places. Balls meet and part in an instant, which the two need not
 //! find in the same state: so a value of the scene is compared with the span of the exact ones of its own state and the
-//! two beside it. States that the scene flags ([`Faults`](epas_friction::Faults)) are counted apart.
+//! two beside it. Rolling resistance, which is added to a ball's loss and moves nothing, is left out of both. States that the scene flags ([`Faults`](epas_friction::Faults)) are counted apart.
 
 use std::f64::consts::TAU;
 
-use epas_friction::contact::RollingResistance;
 use epas_friction::{
     BallScrew, BallScrewParameters, Clearance, DeviationMap, FrictionModel, GrooveSize, Harmonic,
-    Inputs, Limits, LoadShares, Material, UncagedBallScrew, UncagedBallScrewConfiguration,
-    UncagedOutputs,
+    Inputs, Limits, LoadShares, Material, RollingResistance, UncagedBallScrew,
+    UncagedBallScrewConfiguration, UncagedOutputs,
 };
 use epas_reference::design::BallScrewDesign;
 use epas_reference::friction::ball_screw_ring::{
@@ -22,9 +21,8 @@ use epas_reference::material::Elastic;
 /// States before and after one that count as about the same time.
 const NEAR: usize = 1;
 
-/// Part of the track that the balls fill, and part of the track that carries load.
+/// Part of the track that the balls fill, where a case does not say its length.
 const OCCUPATION: f64 = 0.978;
-const LOADED: f64 = 0.95;
 
 const YOUNGS_MODULUS: f64 = 210e9;
 const POISSON_RATIO: f64 = 0.28;
@@ -44,6 +42,10 @@ pub struct Case {
     /// Radial gap of every contact at the centred ball.
     pub clearance: f64,
     pub load_per_ball: f64,
+    /// Length of the whole track in turns; without it as long as lets the balls fill 97.8 % of it.
+    pub track: Option<f64>,
+    /// Part of the track that carries load.
+    pub loaded: f64,
     /// Amplitude of the deviation, and waves in a turn, of screw and nut.
     pub screw: (f64, u8),
     pub nut: (f64, u8),
@@ -68,6 +70,8 @@ impl Case {
         ball_friction: 0.1,
         clearance: 0.0,
         load_per_ball: 50.0,
+        track: None,
+        loaded: 0.95,
         screw: (2.3 * TAU / 360.0, 2),
         nut: (0.7 * TAU / 360.0, 3),
         speed: 1.0,
@@ -201,19 +205,19 @@ impl<const N: usize> Pair<N> {
         .map_err(|error| error.to_string())?;
         let path = f64::from(design.pitch_radius() / design.cos_lead_angle());
         let pitch = 2.0 * (f64::from(design.ball_radius()) / path).asin();
-        let turns = N as f64 * pitch / OCCUPATION / TAU;
-        let return_length = (1.0 - LOADED) * turns * TAU * path;
+        let turns = case.track.unwrap_or(N as f64 * pitch / OCCUPATION / TAU);
+        let return_length = (1.0 - case.loaded) * turns * TAU * path;
         let model = FrictionModel::new(&UncagedBallScrewConfiguration {
             design,
             friction: case.friction as f32,
             ball_friction: case.ball_friction as f32,
             clearance: Clearance::new(case.clearance as f32).map_err(|error| error.to_string())?,
-            rolling_resistance: RollingResistance::NONE,
-            turns: (LOADED * turns) as f32,
+            turns: (case.loaded * turns) as f32,
             return_length: return_length as f32,
             screw_deviation: wave(case.screw)?,
             nut_deviation: wave(case.nut)?,
             load_shares: LoadShares::EVEN,
+            rolling_resistance: RollingResistance::NONE,
             reversal_speed: 1e-6,
             tick: case.tick as f32,
             limits: Limits {
@@ -254,7 +258,7 @@ impl<const N: usize> Pair<N> {
             friction: case.friction,
             ball_friction: case.ball_friction,
             balls: N,
-            turns: LOADED * turns,
+            turns: case.loaded * turns,
             return_length,
             screw_deviation: samples(case.screw),
             nut_deviation: samples(case.nut),
@@ -319,7 +323,7 @@ impl<const N: usize> Pair<N> {
 pub fn compare<const N: usize>(case: &Case) -> Result<Comparison, String> {
     let mut pair = Pair::<N>::new(case)?;
     let nut_speed = case.speed * TAU;
-    let load = case.load_per_ball * N as f64 * LOADED;
+    let load = case.load_per_ball * N as f64 * case.loaded;
     let ticks = (case.turns / case.speed.abs() / case.tick).round() as usize;
     let per_state = (ticks / case.states.max(1)).max(1);
     let asked: Vec<RingSample> = (0..=case.states)

@@ -14,7 +14,7 @@ mod style;
 use plotters::prelude::*;
 
 pub use chart::{Chart, Mark, Note, Series};
-pub use map::ColourMap;
+pub use map::{ColourMap, Colours};
 pub use scale::Axis;
 
 use crate::failure::Failure;

@@ -19,6 +19,7 @@ mod statistics;
 mod summary;
 mod times;
 mod trains;
+mod uncaged;
 
 use std::path::PathBuf;
 
@@ -27,6 +28,7 @@ use crate::target::TargetFigures;
 use crate::timing::compete;
 use context::Context;
 use document::{Document, Section};
+use uncaged::Flagship;
 
 /// Rounds whose medians are a measurement.
 const ROUNDS: usize = 1500;
@@ -65,7 +67,7 @@ impl Default for Arguments {
 type MakeSection = fn(&Context) -> Result<Section, Failure>;
 
 /// Every section, in the order of the report.
-const SECTIONS: [MakeSection; 14] = [
+const SECTIONS: [MakeSection; 15] = [
     summary::section,
     curvature::section,
     hertz::section,
@@ -74,6 +76,7 @@ const SECTIONS: [MakeSection; 14] = [
     loads::section,
     bearings::section,
     trains::section,
+    uncaged::section,
     applications::section,
     published::section,
     measured::section,
@@ -93,6 +96,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         quick: arguments.quick,
         competition: compete(rounds)?,
         target: TargetFigures::new(arguments.quick)?,
+        flagship: Flagship::new(arguments.quick)?,
     };
     let sections = SECTIONS
         .iter()

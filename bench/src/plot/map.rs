@@ -21,11 +21,33 @@ pub struct ColourMap {
     pub y: Axis,
     /// Quantity and unit of the bands.
     pub quantity: String,
+    /// Colours of the bands.
+    pub colours: Colours,
     /// Bounds between bands, rising, each with its text.
     pub bounds: Vec<(f64, String)>,
     /// Rows from bottom to top, each from left to right.
     pub values: Vec<Vec<f64>>,
 }
+
+/// Colours of the bands of a map.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Colours {
+    /// For sizes: from dark to light.
+    Sequential,
+    /// For values with a sign, their bounds even about zero: blue below, red above, and white in the middle.
+    Diverging,
+}
+
+/// RdBu (Brewer 2003) turned round: its ends are told apart by every kind of colour vision.
+const BLUE_TO_RED: [RGBColor; 7] = [
+    RGBColor(33, 102, 172),
+    RGBColor(103, 169, 207),
+    RGBColor(209, 229, 240),
+    RGBColor(247, 247, 247),
+    RGBColor(253, 219, 199),
+    RGBColor(239, 138, 98),
+    RGBColor(178, 24, 43),
+];
 
 /// Cividis (Nunez, Anderton, Renslow 2018): even in lightness, the same for every kind of colour
 /// vision.
@@ -40,11 +62,15 @@ const CIVIDIS: [RGBColor; 7] = [
 ];
 
 /// Colour at `share`, 0 to 1, of the scale.
-fn colour(share: f64) -> RGBColor {
-    let place = share.clamp(0.0, 1.0) * (CIVIDIS.len() - 1) as f64;
-    let index = (place as usize).min(CIVIDIS.len() - 2);
+fn colour(colours: Colours, share: f64) -> RGBColor {
+    let scale = match colours {
+        Colours::Sequential => CIVIDIS,
+        Colours::Diverging => BLUE_TO_RED,
+    };
+    let place = share.clamp(0.0, 1.0) * (scale.len() - 1) as f64;
+    let index = (place as usize).min(scale.len() - 2);
     let rest = place - index as f64;
-    let (low, high) = (CIVIDIS[index], CIVIDIS[index + 1]);
+    let (low, high) = (scale[index], scale[index + 1]);
     let mix = |low: u8, high: u8| {
         (f64::from(low) + rest * (f64::from(high) - f64::from(low))).round() as u8
     };
@@ -84,7 +110,7 @@ impl ColourMap {
     }
 
     fn band_colour(&self, band: usize) -> RGBColor {
-        colour(band as f64 / self.bounds.len().max(1) as f64)
+        colour(self.colours, band as f64 / self.bounds.len().max(1) as f64)
     }
 
     /// Draws the map into its area, its bands in a column at the right.

@@ -13,7 +13,7 @@ use super::context::Context;
 use super::document::{Block, Figure, Section};
 use super::statistics::evenly;
 use crate::failure::Failure;
-use crate::plot::{Axis, Chart, ColourMap, Mark, Panel, Series};
+use crate::plot::{Axis, Chart, ColourMap, Colours, Mark, Panel, Series};
 
 /// The section.
 pub fn section(context: &Context) -> Result<Section, Failure> {
@@ -110,6 +110,7 @@ fn map(
         x: Axis::linear("contact angle deviation (deg)").between(-3.0, 3.0),
         y: Axis::linear("side force ratio").between(-0.6, 0.6),
         quantity: quantity.into(),
+        colours: Colours::Sequential,
         bounds: bounds
             .iter()
             .map(|bound| (*bound, bound.to_string()))

@@ -1,6 +1,7 @@
 //! What every section of the report works with.
 
 use crate::failure::Failure;
+use crate::report::uncaged::Flagship;
 use crate::target::TargetFigures;
 use crate::timing::Competition;
 
@@ -12,6 +13,8 @@ pub struct Context {
     pub competition: Vec<Competition>,
     /// Counts on the target.
     pub target: TargetFigures,
+    /// The ball screw without cage beside the exact one.
+    pub flagship: Flagship,
 }
 
 impl Context {

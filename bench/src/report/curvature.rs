@@ -13,7 +13,7 @@ use super::context::Context;
 use super::document::{Block, Cell, Figure, Section, Table};
 use super::statistics::{Errors, evenly};
 use crate::failure::Failure;
-use crate::plot::{Axis, Chart, ColourMap, Mark, Panel, Series};
+use crate::plot::{Axis, Chart, ColourMap, Colours, Mark, Panel, Series};
 use crate::timing::Competition;
 
 /// The four forms of the crate, in the order in which they are shown.
@@ -278,6 +278,7 @@ fn map(
         x: Axis::linear("contact angle (deg)").between(0.0, 80.0),
         y: Axis::linear("lead angle (deg)").between(0.0, 80.0),
         quantity: quantity.into(),
+        colours: Colours::Sequential,
         bounds: bounds
             .iter()
             .map(|(bound, text)| (*bound, (*text).to_owned()))

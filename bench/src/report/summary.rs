@@ -102,10 +102,41 @@ pub fn section(context: &Context) -> Result<Section, Failure> {
     })
 }
 
-/// Errors of every formula beside its times; the last row is the tick of a whole scene.
+/// The tick of 37 balls that press on each other, against the exact whole screw.
+fn flagship(context: &Context) -> Result<Vec<Vec<Cell>>, Failure> {
+    let unit = &context.times("literature")?.latency;
+    let step = context.times("step_train_37")?;
+    let found = &context.flagship.comparison;
+    let rows = [
+        (
+            "ball screw without cage, 37 balls: step(), force",
+            &found.force,
+        ),
+        ("the same, friction torque", &found.torque),
+    ];
+    Ok(rows
+        .into_iter()
+        .map(|(name, off)| {
+            let [largest, rms, mean] = off.relative().map(Cell::power);
+            vec![
+                Cell::from(name),
+                largest,
+                rms,
+                mean,
+                "of the largest".into(),
+                time(&step.latency, 2),
+                ratio(step.latency.over(unit), 2),
+                time(&step.throughput, 2),
+                "two turns of Table 3.6's screw, 50 N a ball".into(),
+            ]
+        })
+        .collect())
+}
+
+/// Errors of every formula beside its times, the whole screw first; the last row is the tick of a whole scene.
 fn errors_and_times(context: &Context, errors: [&Errors; 8]) -> Result<Table, Failure> {
     let unit = &context.times("literature")?.latency;
-    let mut rows = Vec::new();
+    let mut rows = flagship(context)?;
     for ([key, name, kind, domain], errors) in FORMULAS.into_iter().zip(errors) {
         let times = context.times(key)?;
         rows.push(vec![

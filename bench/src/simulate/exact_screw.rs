@@ -4,10 +4,14 @@
 use std::f64::consts::TAU;
 
 use epas_friction::{DeviationMap, LoadShare};
+use epas_reference::ReferenceError;
+use epas_reference::curvature::Groove;
+use epas_reference::design::BallScrewDesign;
 use epas_reference::friction::ball_screw_ring::{
     ElasticRing, GrooveDeviation, RingSample, RingState,
 };
 use epas_reference::friction::patch::Integration;
+use epas_reference::friction::rolling_resistance::{RollingResistance, relative_radii};
 
 use super::reference::{Friction, drawing, efficiency};
 use super::samples::ScrewSample;
@@ -17,8 +21,8 @@ use crate::designs::train::UncagedDesign;
 use crate::failure::Failure;
 use crate::progress::Progress;
 
-/// Most states of 37 balls, which take less than two minutes on one core; of more balls fewer.
-const MOST_STATES: usize = 720;
+/// Most states of 37 balls, which take a minute at most; of more balls fewer.
+const MOST_STATES: usize = 10_000;
 const BALLS: usize = 37;
 
 /// Samples of a deviation map in its period.
@@ -60,7 +64,12 @@ pub fn exact_screw(
             samples.len()
         ),
     );
-    Ok((friction(design, samples, &chosen, &states), lines))
+    let rolling = Rolling::new(design).map_err(|error| failure(&error))?;
+    let sizes: Vec<f64> = states
+        .iter()
+        .map(|state| state.torque().abs() + rolling.torque(state))
+        .collect();
+    Ok((friction(design, samples, &chosen, &sizes), lines))
 }
 
 /// Speeds and loads as the scene lets them in.
@@ -180,18 +189,69 @@ fn asked(samples: &[ScrewSample], chosen: &[usize]) -> Vec<RingSample> {
         .collect()
 }
 
-/// Friction at every sample, linear between the chosen ones; no number where a state beside it was not found.
+/// Rolling resistance of all contacts, for screw and nut; the grooves run past the contacts as past those of a nominal
+/// ball.
+struct Rolling {
+    resistance: RollingResistance,
+    radii: [f64; 2],
+    /// Semi-minor axes under 1 N, m.
+    semi_minor: [f64; 2],
+    /// Way of a groove past a contact over the angle of the nut, m.
+    travel: f64,
+}
+
+impl Rolling {
+    fn new(design: &UncagedDesign) -> Result<Self, ReferenceError> {
+        let configuration = &design.configuration;
+        let drawing = drawing(configuration.design.parameters());
+        let (path, cos) = (
+            drawing.pitch_radius.hypot(drawing.lead / TAU),
+            drawing.lead_angle().cos(),
+        );
+        let arm = drawing.ball_radius * cos * drawing.contact_angle.cos();
+        let both = |of: fn(&BallScrewDesign, Groove) -> Result<f64, ReferenceError>| {
+            Ok::<_, ReferenceError>([of(&drawing, Groove::Screw)?, of(&drawing, Groove::Nut)?])
+        };
+        Ok(Self {
+            resistance: RollingResistance {
+                hysteresis_loss: configuration.rolling_resistance.hysteresis_loss.into(),
+                lubricant_drag: configuration.rolling_resistance.lubricant_drag.into(),
+            },
+            radii: both(|drawing, groove| Ok(relative_radii(drawing, groove)?[0]))?,
+            semi_minor: both(|drawing, groove| Ok(drawing.contact(groove)?.semi_minor))?,
+            // A nominal ball passes both grooves equally fast: w_B (L_p - c) = (w_N - w_B) (L_p + c).
+            travel: 0.5 * (path * path - arm * arm) / path,
+        })
+    }
+
+    /// Torque on the nut, N m.
+    fn torque(&self, state: &RingState) -> f64 {
+        let of = |load: f64, groove: usize| {
+            let semi_minor = self.semi_minor[groove] * load.cbrt();
+            let hysteresis = self
+                .resistance
+                .hysteresis_force(load, semi_minor, self.radii[groove]);
+            hysteresis + self.resistance.lubricant_force(load)
+        };
+        let forces = state.balls.iter().map(|ball| {
+            let [sl, sr, nl, nr] = ball.loads;
+            of(sl, 0) + of(sr, 0) + of(nl, 1) + of(nr, 1)
+        });
+        self.travel * forces.sum::<f64>()
+    }
+}
+
+/// Friction at every sample from its size at the chosen ones, linear in between; no number where a state beside it was not found.
 fn friction(
     design: &UncagedDesign,
     samples: &[ScrewSample],
     chosen: &[usize],
-    states: &[RingState],
+    sizes: &[f64],
 ) -> Vec<Friction> {
     let configuration = &design.configuration;
     let reduced_lead = f64::from(configuration.design.parameters().lead) / TAU;
     let reversal_speed = f64::from(configuration.reversal_speed);
     let largest = f64::from(configuration.limits.friction_torque);
-    let size = |index: usize| states[index].torque().abs();
     let mut index = 0;
     samples
         .iter()
@@ -206,9 +266,9 @@ fn friction(
                 Some(&next) if place > chosen[index] => {
                     let from = samples[chosen[index]].time;
                     let part = (sample.time - from) / (samples[next].time - from);
-                    (1.0 - part) * size(index) + part * size(index + 1)
+                    (1.0 - part) * sizes[index] + part * sizes[index + 1]
                 }
-                _ => size(index),
+                _ => sizes[index],
             };
             let direction = speed / speed.hypot(reversal_speed);
             let torque = direction * at;

@@ -24,7 +24,7 @@ use crate::failure::Failure;
 /// What runs beside an uncaged ball screw.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum ReferenceModel {
-    /// Every ball in elastic grooves with exact contact integrals; at 720 states at most, within two minutes
+    /// Every ball in elastic grooves with exact contact integrals; at 10,000 states of the trace at most, within two minutes
     Exact,
     /// Closed form of each ball (Lin 2019), at every sample: one speed, one load, one sine on the screw, no play,
     /// preload or return

@@ -231,7 +231,13 @@ fn what_a_train_cannot_run_is_named() {
             "linear bearing",
         ),
         (
-            &["--scene", "uncaged", "--manoeuvre", "weave", "--reference"],
+            &[
+                "--scene",
+                "uncaged",
+                "--manoeuvre",
+                "weave",
+                "--reference=closed-form",
+            ],
             "one speed",
         ),
         (&["--manoeuvre", "stroke", "--reference"], "--reference"),

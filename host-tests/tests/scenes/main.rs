@@ -5,7 +5,6 @@ mod kit;
 
 mod borders;
 mod caged;
-mod exact_ring;
 mod extreme;
 mod faults;
 mod hal;
@@ -13,7 +12,6 @@ mod laws;
 mod linear_scene;
 mod promises;
 mod scene_constants;
-mod scratch_two;
 mod step_promises;
 mod stiff;
 mod two_point_rolling;

@@ -32,6 +32,9 @@ const IMPEDANCES: (f32, f32) = (1e-6, 1e8);
 /// must not push harder than friction can.
 const STIFFER: f32 = 16.0;
 
+/// Load that a ball's contacts carry over what it should be, and the inverse, from which on it begins anew.
+const FAR: f32 = 4.0;
+
 /// Change of a ball's speed in a round over the largest deviation of speed from which on it is no drift.
 const DRIFT: f32 = 0.25;
 
@@ -398,7 +401,10 @@ impl<const N: usize> Ring<N> {
         };
         let found = constants.ball.grooves.renew(&mut settled, &inputs);
         self.two_point = self.two_point.saturating_add(u8::from(found.two_point()));
-        if found.lost {
+        // Newton's method comes from a far larger or smaller load in many steps, a start in a few.
+        let (wanted, carried) = (inputs.axial_load.abs(), found.carried.abs());
+        let far = self.lift_off == 0.0 && (carried > FAR * wanted || FAR * carried < wanted);
+        if found.lost || far {
             let Settled { place, turning, .. } = constants.ball.grooves.start(&inputs);
             (ball.place, ball.turning) = (place, turning);
             return;

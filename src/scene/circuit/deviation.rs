@@ -177,7 +177,7 @@ impl DeviationMap {
         let margin = 1.0 + 4.0 * f32::EPSILON;
         in_range(
             field,
-            self.unit * (LARGEST * 32768.0),
+            self.unit * (LARGEST * (1_u32 << FRACTION_BITS) as f32),
             0.0,
             largest * margin,
         )

@@ -7,7 +7,7 @@ use epas_friction::promises::{self, Promise};
 use serde_json::Value;
 
 use crate::eval;
-use crate::plot::{Axis, ColourMap, Panel};
+use crate::plot::{Axis, ColourMap, Colours, Panel};
 use crate::report::document::Cell;
 use crate::report::statistics::Errors;
 use crate::study::{FRICTION, TRACK, turned_ball};
@@ -586,6 +586,7 @@ impl Map {
             x: Axis::linear(x).between(x_low, x_high),
             y: Axis::linear(y).between(y_low, y_high),
             quantity: "error".into(),
+            colours: Colours::Sequential,
             bounds: BOUNDS
                 .iter()
                 .map(|(bound, text)| (*bound, (*text).to_owned()))

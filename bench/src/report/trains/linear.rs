@@ -8,7 +8,7 @@ use epas_reference::friction::chain::solve_chain;
 use epas_reference::friction::linear_ball::LinearBall;
 
 use crate::failure::Failure;
-use crate::plot::{Axis, Chart, ColourMap, Mark, Note, Panel, Series};
+use crate::plot::{Axis, Chart, ColourMap, Colours, Mark, Note, Panel, Series};
 use crate::report::context::Context;
 use crate::report::document::{Block, Cell, Figure, Table};
 use crate::report::statistics::{Errors, evenly};
@@ -360,6 +360,7 @@ fn map(title: &str, quantity: &str, bounds: &[(f64, &str)], values: Vec<Vec<f64>
         x: Axis::linear("side-force ratio").between(-LARGEST_RATIO, LARGEST_RATIO),
         y: Axis::linear("angle deviation (deg)").between(-LARGEST_TURN, LARGEST_TURN),
         quantity: quantity.into(),
+        colours: Colours::Sequential,
         bounds: bounds
             .iter()
             .map(|(bound, text)| (*bound, (*text).to_owned()))

@@ -1,0 +1,147 @@
+//! Torque of one ball over lead, load and friction: the papers' closed forms, the scene and the exact model.
+
+use std::f64::consts::FRAC_PI_4;
+
+use epas_friction::LoadShare;
+use epas_friction::ball::{GrooveFit, ScrewRow};
+use epas_friction::efficiency::{Drive, EfficiencyGeometry};
+use epas_friction::{BallScrew, BallScrewParameters, GrooveSize, Material};
+use rayon::prelude::*;
+use serde_json::{Value, json};
+
+use crate::eval;
+use crate::failure::Failure;
+use crate::plot::{Axis, Chart, Mark, Panel, Series};
+use crate::report::document::Figure;
+
+/// The ball of Table 3.6, in m, under this load, N, with this friction and lead.
+const PITCH_RADIUS: f64 = 16.5e-3;
+const BALL_RADIUS: f64 = 2.778e-3;
+const GROOVE_RADIUS: f64 = 3.254e-3;
+const LOAD: f64 = 50.0;
+const FRICTION: f64 = 0.1;
+const LEAD: f64 = 20e-3;
+
+/// Name and mark of each model.
+const MODELS: [(&str, Mark); 5] = [
+    ("exact", Mark::Line),
+    ("scene", Mark::Circles),
+    ("three-point closed form, no play", Mark::Dashed),
+    ("two-point closed form, play", Mark::Dashed),
+    ("rolling ball, eq. (3)", Mark::Dashed),
+];
+
+fn design(lead: f64) -> Result<BallScrew, epas_friction::Error> {
+    let material = Material {
+        youngs_modulus: 2.1e11,
+        poisson_ratio: 0.28,
+        ..Material::STEEL
+    };
+    let groove = GrooveSize::Radius(GROOVE_RADIUS as f32);
+    BallScrew::new(BallScrewParameters {
+        pitch_radius: PITCH_RADIUS as f32,
+        lead: lead as f32,
+        ball_radius: BALL_RADIUS as f32,
+        screw_groove: groove,
+        nut_groove: groove,
+        contact_angle: FRAC_PI_4 as f32,
+        ball_material: material,
+        groove_material: material,
+    })
+}
+
+/// Torque of a ball on the nut over its axial load, mm, by every model; no number where one has none.
+fn torques(lead: f64, load: f64, friction: f64) -> Result<[f64; 5], Failure> {
+    let failure = |error: epas_friction::Error| Failure::Data(error.to_string());
+    let design = design(lead).map_err(failure)?;
+    let ball = json!({"screw_deviation": 0.0, "nut_deviation": 0.0, "axial_load": load});
+    let request = json!({
+        "id": 0, "model": "ball_screw_pair", "pitch_radius": PITCH_RADIUS, "lead": lead, "ball_radius": BALL_RADIUS,
+        "groove_radius": GROOVE_RADIUS, "contact_angle": FRAC_PI_4, "youngs_modulus": 2.1e11, "poisson_ratio": 0.28,
+        "friction": friction, "clearance": 0.0, "nut_speed": 1.0, "balls": [ball, ball],
+    });
+    let pair = eval::both(&request.to_string());
+    let of_pair = |side: fn(&(Value, Value)) -> &Value| {
+        pair.as_ref()
+            .and_then(|pair| side(pair)["groove_torque_free"].as_f64())
+            .map_or(f64::NAN, |torque| 0.5 * torque / load)
+    };
+    let closed = |fit: GrooveFit| -> Result<f64, Failure> {
+        let row = ScrewRow::new(&design, friction as f32, fit).map_err(failure)?;
+        let ball = row.at(1.0, load as f32).ball(0.0, 0.0, &LoadShare::MEAN);
+        Ok(f64::from(ball.groove_torque) / load)
+    };
+    let rolling = EfficiencyGeometry::of(&design).rolling_torque_per_load(
+        Drive::Driving,
+        design.pitch_radius(),
+        friction as f32,
+        0.0,
+    );
+    Ok([
+        of_pair(|pair| &pair.1),
+        of_pair(|pair| &pair.0),
+        closed(GrooveFit::Zero)?,
+        closed(GrooveFit::Play)?,
+        rolling.into(),
+    ]
+    .map(|torque| 1e3 * torque))
+}
+
+/// Quantities of a panel: heading, first and last value, and the arguments of [`torques`] at a value.
+type Sweep = (&'static str, f64, f64, fn(f64) -> [f64; 3]);
+
+const SWEEPS: [Sweep; 3] = [
+    ("lead (mm)", 2.0, 50.0, |lead| [1e-3 * lead, LOAD, FRICTION]),
+    ("axial load of a ball (N)", 5.0, 300.0, |load| {
+        [LEAD, load, FRICTION]
+    }),
+    ("friction coefficient", 0.02, 0.15, |friction| {
+        [LEAD, LOAD, friction]
+    }),
+];
+
+/// The figure.
+pub fn figure(quick: bool) -> Result<Figure, Failure> {
+    let parts = if quick { 6 } else { 24 };
+    let mut panels = Vec::new();
+    for (label, first, last, arguments) in SWEEPS {
+        let points = (0..=parts)
+            .into_par_iter()
+            .map(|part| {
+                let value = first + (last - first) * f64::from(part) / f64::from(parts);
+                let [lead, load, friction] = arguments(value);
+                Ok((value, torques(lead, load, friction)?))
+            })
+            .collect::<Result<Vec<_>, Failure>>()?;
+        let series = MODELS
+            .into_iter()
+            .enumerate()
+            .map(|(model, (name, mark))| {
+                let points = points
+                    .iter()
+                    .map(|(value, torques)| (*value, torques[model]))
+                    .collect();
+                Series::new(name, model, mark, points)
+            })
+            .collect();
+        panels.push(Panel::Chart(Chart {
+            title: String::new(),
+            x: Axis::linear(label).between(first.min(0.0), last),
+            y: Axis::linear("torque over axial load (mm)"),
+            series,
+            notes: Vec::new(),
+        }));
+    }
+    Ok(Figure {
+        name: "closed_forms_of_a_ball",
+        caption: format!(
+            "Friction torque of one ball of Table 3.6's screw over its axial load, without deviations: over the lead ({LOAD} N, friction \
+             {FRICTION}), over the load (lead {} mm) and over the friction coefficient. The rolling ball leaves spin out; the three-point closed form \
+             takes the third contact's load from friction alone and spins as geometry has it; the two-point one has no third contact.",
+            1e3 * LEAD
+        ),
+        panels,
+        columns: 1,
+        size: (1080, 400),
+    })
+}

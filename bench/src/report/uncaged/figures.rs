@@ -1,0 +1,191 @@
+//! Figures 3.24 and 3.25 of Lin 2019 again: torque between balls over a turn of the nut, from the exact whole screw.
+
+use std::f64::consts::TAU;
+
+use epas_reference::friction::ball_screw_elastic::BallSlip;
+use epas_reference::friction::whole_screw::WholeScrew;
+use epas_reference::published::balls::whole_screw;
+use rayon::prelude::*;
+
+use crate::exact_ring::{Case, Moment, compare};
+use crate::failure::Failure;
+use crate::plot::{Axis, Chart, Mark, Panel, Series};
+use crate::report::document::{Block, Cell, Figure, Table};
+
+/// Amplitudes of the screw's deviation, degrees: the text does not print that of Figure 3.23.
+const AMPLITUDES: [f64; 4] = [2.0, 2.3, 2.5, 3.0];
+
+/// Axial load on the 37 balls, N.
+const LOAD: f64 = -1500.0;
+
+/// What Figure 3.25 prints: largest torque between balls over that of the grooves, per cent, its angle, and the angle
+/// at which no balls press any more, degrees.
+const PRINTED: [f64; 3] = [49.6, 126.0, 306.0];
+
+/// Nut angle, rad, groove torque and ball torque, N m, of a model.
+type Course = Vec<(f64, f64, f64)>;
+
+/// One amplitude: exact, scene, closed form.
+struct Run {
+    degrees: f64,
+    courses: [Course; 3],
+}
+
+const MODELS: [&str; 3] = ["exact", "scene", "closed form"];
+
+impl Run {
+    fn new(degrees: f64, states: usize) -> Result<Self, Failure> {
+        let found = compare::<37>(&Case {
+            load_per_ball: LOAD / 37.0,
+            track: Some(2.0),
+            loaded: 1.0,
+            screw: (degrees.to_radians(), 2),
+            nut: (0.0, 1),
+            turns: 1.0,
+            states,
+            ..Case::LIN
+        })
+        .map_err(Failure::Data)?;
+        let course = |values: fn(&Moment) -> &[f64; 4]| -> Course {
+            found
+                .course
+                .iter()
+                .map(|moment| {
+                    let [groove, ball, ..] = *values(moment);
+                    (moment.nut_angle, groove, ball)
+                })
+                .collect()
+        };
+        let closed = WholeScrew {
+            ball_slip: BallSlip::Orbiting,
+            ..whole_screw(degrees.to_radians())?
+        };
+        let closed = closed
+            .simulate(TAU, states, 2)?
+            .iter()
+            .map(|state| (state.nut_angle, state.groove_torque(), state.ball_torque))
+            .collect();
+        Ok(Self {
+            degrees,
+            courses: [
+                course(|moment| &moment.exact),
+                course(|moment| &moment.scene),
+                closed,
+            ],
+        })
+    }
+}
+
+/// Largest torque between balls over that of the grooves, per cent, its angle, and where no balls press any more,
+/// degrees.
+fn peak_and_release(course: &Course) -> [f64; 3] {
+    let (mut peak, mut at, mut release) = (0.0, 0.0, f64::NAN);
+    for (angle, groove, ball) in course {
+        let share = 100.0 * ball / groove;
+        if share > peak {
+            (peak, at, release) = (share, angle.to_degrees(), f64::NAN);
+        }
+        if peak > 1.0 && *ball == 0.0 && release.is_nan() {
+            release = angle.to_degrees();
+        }
+    }
+    [peak, at, release]
+}
+
+/// Text, table and figure.
+pub fn blocks(quick: bool) -> Result<Vec<Block>, Failure> {
+    let (amplitudes, states) = if quick {
+        (&AMPLITUDES[2..3], 72)
+    } else {
+        (&AMPLITUDES[..], 360)
+    };
+    let runs = amplitudes
+        .par_iter()
+        .map(|degrees| Run::new(*degrees, states))
+        .collect::<Result<Vec<_>, _>>()?;
+    let mut rows = vec![row("printed", "", PRINTED)];
+    for run in &runs {
+        for (model, course) in MODELS.into_iter().zip(&run.courses) {
+            rows.push(row(
+                model,
+                &run.degrees.to_string(),
+                peak_and_release(course),
+            ));
+        }
+    }
+    Ok(vec![
+        Block::Table(Table {
+            name: "lin_figure_3_25_exact",
+            caption: "Figures 3.24 and 3.25 again: 37 balls, 1500 N on SR and NL, friction 0.1, two waves a turn on the screw, first turn of the nut. The \
+                      amplitude is not printed"
+                .into(),
+            columns: [
+                "model",
+                "amplitude (deg)",
+                "largest ball torque over groove torque (%)",
+                "at (deg)",
+                "no balls press from (deg)",
+            ]
+            .map(String::from)
+            .to_vec(),
+            rows,
+        }),
+        Block::Figure(figure(&runs)),
+    ])
+}
+
+fn row(model: &str, amplitude: &str, values: [f64; 3]) -> Vec<Cell> {
+    let [peak, at, release] = values;
+    vec![
+        model.into(),
+        amplitude.into(),
+        Cell::fixed(peak, 1),
+        Cell::fixed(at, 0),
+        Cell::fixed(release, 0),
+    ]
+}
+
+fn figure(runs: &[Run]) -> Figure {
+    let chart = |title: &str, label: &str, value: fn(&(f64, f64, f64)) -> f64| {
+        let mut series = Vec::new();
+        for (colour, run) in runs.iter().enumerate() {
+            for ((model, course), mark) in
+                MODELS
+                    .into_iter()
+                    .zip(&run.courses)
+                    .zip([Mark::Line, Mark::Circles, Mark::Dashed])
+            {
+                // Points of the scene stand apart, or they hide the line.
+                let stride = if mark == Mark::Circles { 12 } else { 1 };
+                let points = course
+                    .iter()
+                    .step_by(stride)
+                    .map(|moment| (moment.0.to_degrees(), value(moment)))
+                    .collect();
+                let name = format!("{model}, {} degrees", run.degrees);
+                series.push(Series::new(&name, colour, mark, points));
+            }
+        }
+        Panel::Chart(Chart {
+            title: title.into(),
+            x: Axis::linear("nut angle (deg)").between(0.0, 360.0),
+            y: Axis::linear(label),
+            series,
+            notes: Vec::new(),
+        })
+    };
+    Figure {
+        name: "lin_figures_3_24_3_25_exact",
+        caption: "Figures 3.24 and 3.25 from the exact whole screw: torque of the grooves, and torque between balls over it.".into(),
+        panels: vec![
+            chart("Figure 3.24", "groove torque (N m)", |moment| moment.1),
+            chart(
+                "Figure 3.25",
+                "ball torque over groove torque (%)",
+                |moment| 100.0 * moment.2 / moment.1,
+            ),
+        ],
+        columns: 1,
+        size: (1080, 460),
+    }
+}
