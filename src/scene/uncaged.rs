@@ -311,7 +311,6 @@ impl<const N: usize> UncagedConstants<N> {
         } else {
             load_torque
         };
-        let load_opposes = opposing >= 0.0;
         UncagedOutputs {
             friction_torque,
             groove_torque,
@@ -319,10 +318,10 @@ impl<const N: usize> UncagedConstants<N> {
             load_torque,
             contacts: pressing.contacts,
             largest_contact_force: pressing.largest,
-            regime: Regime::of(
+            regime: Regime::under(
                 self.reversal.stands(nut_speed),
-                load_opposes,
-                load_opposes || friction_torque.abs() < -opposing,
+                opposing,
+                friction_torque.abs(),
             ),
             faults: Faults::NONE
                 .with(state.ring.settles(), Faults::SETTLING)
@@ -382,6 +381,28 @@ impl<const N: usize> UncagedConstants<N> {
             behind = force;
         }
         sum + behind * last.unwrap_or(0.0)
+    }
+
+    /// See [`FrictionModel::set_friction`](crate::FrictionModel::set_friction).
+    pub(crate) fn set_friction(
+        &self,
+        state: &mut UncagedState<N>,
+        friction: f32,
+    ) -> Result<(), Error> {
+        let friction = ranges::FRICTION_OF_A_ROW.checked("friction", friction)?;
+        state.ring.set(&self.ring, friction, state.ring.clearance);
+        Ok(())
+    }
+
+    /// See [`FrictionModel::set_clearance`](crate::FrictionModel::set_clearance).
+    pub(crate) fn set_clearance(
+        &self,
+        state: &mut UncagedState<N>,
+        clearance: Clearance,
+    ) -> Result<(), Error> {
+        let clearance = self.ring.ball().checked(clearance)?.gap();
+        state.ring.set(&self.ring, state.ring.friction, clearance);
+        Ok(())
     }
 
     /// See [`FrictionModel::set_nut_angle`](crate::FrictionModel::set_nut_angle).

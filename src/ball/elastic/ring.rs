@@ -23,6 +23,9 @@ const HELD: f32 = 0.3;
 /// Rounds of renewals after a start in which forces between balls are those of balls that still settle.
 pub(crate) const SETTLING_ROUNDS: u16 = 3;
 
+/// Change of the friction coefficient over it, and of the clearance, m, that balls follow without settling anew.
+const SMALL_CHANGE: (f32, f32) = (0.01, 1e-8);
+
 /// Renewals of a nominal ball before the first tick.
 const FIRST_RENEWALS: usize = 16;
 
@@ -141,6 +144,11 @@ pub(crate) struct Ring<const N: usize> {
 }
 
 impl RingConstants {
+    /// What its balls have in common.
+    pub(crate) const fn ball(&self) -> &BallConstants {
+        &self.ball
+    }
+
     /// Of grooves in which no ball's speed deviates by more than `fastest`, over that of a nominal ball against the nut.
     pub(crate) const fn new(ball: BallConstants, fastest: f32) -> Self {
         let grooves = &ball.grooves;
@@ -227,6 +235,19 @@ impl<const N: usize> Ring<N> {
             negative: false,
             begun: false,
         }
+    }
+
+    /// Sets friction coefficient and clearance, m; balls settle where one of them jumps.
+    pub(crate) fn set(&mut self, constants: &RingConstants, friction: f32, clearance: f32) {
+        let (most, widest) = SMALL_CHANGE;
+        let changed = (friction - self.friction).abs() > most * self.friction
+            || (clearance - self.clearance).abs() > widest;
+        if changed {
+            self.settling = SETTLING_ROUNDS * N as u16;
+        }
+        self.friction = friction;
+        self.clearance = clearance;
+        self.lift_off = constants.ball.lift_off(clearance);
     }
 
     /// Speed of a ball without load less the nominal one, over the nominal one against the nut.
