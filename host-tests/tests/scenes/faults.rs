@@ -216,7 +216,7 @@ where
         let outputs = model.step(S::inputs(lost));
         S::check(configuration, lost, &outputs).unwrap();
         assert!(
-            faults(&outputs).any() || tick + 1 < promises::TICKS_TO_FLAG,
+            faults(&outputs).faulty() || tick + 1 < promises::TICKS_TO_FLAG,
             "tick {tick} is not flagged"
         );
     }
@@ -225,7 +225,7 @@ where
         let outputs = model.step(S::inputs(sound));
         let expected = never_failed.step(S::inputs(sound));
         assert!(
-            !faults(&outputs).any() || tick + 1 < promises::TICKS_TO_RECOVER,
+            !faults(&outputs).faulty() || tick + 1 < promises::TICKS_TO_RECOVER,
             "still flagged {tick} ticks after"
         );
         assert_eq!(S::numbers(&outputs), S::numbers(&expected), "tick {tick}");
