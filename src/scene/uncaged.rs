@@ -236,7 +236,7 @@ impl<const N: usize> UncagedConstants<N> {
         let speed = design.pitch_radius() / design.cos_lead_angle() - row.nominal_speed();
         let fastest = attempt!(configuration.check_deviations(&row, speed));
         let ring = RingConstants::new(
-            attempt!(BallConstants::new(design, rolling_resistance)),
+            &attempt!(BallConstants::new(design, rolling_resistance)),
             fastest,
         );
         Ok(Self {

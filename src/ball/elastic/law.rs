@@ -78,7 +78,7 @@ impl RingConstants {
     }
 
     /// Of grooves in which no ball's speed deviates by more than `fastest`, over that of a nominal ball against the nut.
-    pub(crate) const fn new(ball: BallConstants, fastest: f32) -> Self {
+    pub(crate) const fn new(ball: &BallConstants, fastest: f32) -> Self {
         let grooves = &ball.grooves;
         let nominal = 0.5 * (grooves.path + grooves.cos_lead * grooves.cos);
         let reference = grooves.path - nominal;
@@ -88,7 +88,7 @@ impl RingConstants {
             per_reference: 1.0 / reference,
             orbit: nominal * grooves.orbit,
             fastest,
-            ball,
+            ball: *ball,
         }
     }
 }
