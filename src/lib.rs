@@ -74,7 +74,7 @@ pub use geometry::{
 pub use material::Material;
 pub use model::FrictionModel;
 pub use scene::{
-    CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, DeviationMap, Faults,
+    CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, CagedState, DeviationMap, Faults,
     FrictionBranch, Harmonic, Inputs, Limits, LinearBearingConfiguration, LinearBearingTrain,
     LinearConstants, LinearInputs, LinearLimits, LinearOutputs, Outputs, Regime, Scene,
     UncagedBallScrew, UncagedBallScrewConfiguration, UncagedConstants, UncagedOutputs,

@@ -2,9 +2,11 @@
 
 use core::borrow::Borrow;
 
+use crate::ball::Clearance;
 use crate::error::Error;
 use crate::scene::{
-    LinearBearingTrain, LinearConstants, Scene, SceneOutputs, UncagedBallScrew, UncagedConstants,
+    CagedBallScrew, CagedConstants, LinearBearingTrain, LinearConstants, Scene, SceneOutputs,
+    UncagedBallScrew, UncagedConstants,
 };
 
 /// Friction of one scene: configured once, stepped in the interrupt.
@@ -148,7 +150,7 @@ impl<S: Scene, C: Borrow<S::Constants>> FrictionModel<S, C> {
 
     /// Back to the state before the first tick.
     pub fn reset(&mut self) {
-        self.state = S::initial_state(self.constants.borrow());
+        S::reset(self.constants.borrow(), &mut self.state);
         self.faulted_ticks = 0;
     }
 
@@ -169,7 +171,57 @@ impl<S: Scene, C: Borrow<S::Constants>> FrictionModel<S, C> {
     }
 }
 
+impl<C: Borrow<CagedConstants>> FrictionModel<CagedBallScrew, C> {
+    /// Sets the friction coefficient of ball and groove, 1e-6 to 0.5: where temperature or wear change it while the model
+    /// runs. [`FrictionModel::reset`] brings the configuration's back.
+    ///
+    /// From the first call on a ball is renewed in every tick, in the place of the law over the load: a tick then takes the
+    /// cycles of [`STEP_CAGED_CHANGING`](crate::promises::STEP_CAGED_CHANGING). After a change friction is exact within
+    /// some ticks; until then it is flagged [`Faults::SETTLING`](crate::Faults::SETTLING). The closed forms of
+    /// [`FrictionBranch`](crate::FrictionBranch) keep their friction.
+    ///
+    /// # Errors
+    /// [`Error`] naming `friction`; the model goes on as it was.
+    pub fn set_friction(&mut self, friction: f32) -> Result<(), Error> {
+        self.constants
+            .borrow()
+            .set_friction(&mut self.state, friction)
+    }
+
+    /// Sets how balls fit between the grooves, -0.02 to 0.05 ball radii, as [`FrictionModel::set_friction`] sets friction.
+    ///
+    /// # Errors
+    /// [`Error`] naming `clearance`; the model goes on as it was.
+    pub fn set_clearance(&mut self, clearance: Clearance) -> Result<(), Error> {
+        self.constants
+            .borrow()
+            .set_clearance(&mut self.state, clearance)
+    }
+}
+
 impl<const N: usize, C: Borrow<UncagedConstants<N>>> FrictionModel<UncagedBallScrew<N>, C> {
+    /// Sets the friction coefficient of ball and groove, 1e-6 to 0.5: where temperature or wear change it while the model
+    /// runs. Balls take it over as their turn comes; where it jumps they settle, flagged
+    /// [`Faults::SETTLING`](crate::Faults::SETTLING). [`FrictionModel::reset`] brings the configuration's back.
+    ///
+    /// # Errors
+    /// [`Error`] naming `friction`; the model goes on as it was.
+    pub fn set_friction(&mut self, friction: f32) -> Result<(), Error> {
+        self.constants
+            .borrow()
+            .set_friction(&mut self.state, friction)
+    }
+
+    /// Sets how balls fit between the grooves, -0.02 to 0.05 ball radii, as [`FrictionModel::set_friction`] sets friction.
+    ///
+    /// # Errors
+    /// [`Error`] naming `clearance`; the model goes on as it was.
+    pub fn set_clearance(&mut self, clearance: Clearance) -> Result<(), Error> {
+        self.constants
+            .borrow()
+            .set_clearance(&mut self.state, clearance)
+    }
+
     /// Sets the angle of the nut against the screw, rad, from which the screw's deviations are counted:
     /// once after start-up, and again whenever an absolute sensor has it; between, the model integrates
     /// the speed. Ticks without a valid speed are missing in that sum, one beyond its limit counts with the

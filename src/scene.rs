@@ -6,7 +6,7 @@
 //!
 //! | | what it is | links |
 //! |---|---|---|
-//! | [`CagedBallScrew`] | balls that do not touch | [`efficiency`](crate::efficiency) at set-up |
+//! | [`CagedBallScrew`] | balls that do not touch | [`ball`](crate::ball), [`contact`](crate::contact); [`efficiency`](crate::efficiency) at set-up |
 //! | [`UncagedBallScrew`] | balls that press on each other | [`ball`](crate::ball), [`contact`](crate::contact), [`train`](crate::train) |
 //! | [`LinearBearingTrain`] | four-point linear bearing, balls that press on each other | [`ball`](crate::ball), [`train`](crate::train) |
 //!
@@ -22,7 +22,9 @@ pub(crate) mod linear;
 mod outputs;
 mod uncaged;
 
-pub use caged::{CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, FrictionBranch};
+pub use caged::{
+    CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, CagedState, FrictionBranch,
+};
 pub use circuit::{CircuitState, DeviationMap, HIGHEST_ORDER, Harmonic, LARGEST_DEVIATION};
 pub use contract::{Admitted, Inputs, Limits, Regime, Scene, SceneOutputs};
 pub use faults::Faults;

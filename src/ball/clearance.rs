@@ -136,7 +136,11 @@ impl Clearance {
     /// # Errors
     /// [`Error`] naming `clearance`.
     pub const fn checked(self, design: &BallScrew) -> Result<Self, Error> {
-        let radius = design.ball_radius();
+        self.checked_for(design.ball_radius())
+    }
+
+    /// The same for balls of a radius, m.
+    pub(crate) const fn checked_for(self, radius: f32) -> Result<Self, Error> {
         Ok(Self {
             gap: attempt!(in_range(
                 "clearance",

@@ -1,32 +1,43 @@
 //! A ball screw whose balls do not touch: caged, or with spacer balls.
 
-use core::f32::consts::TAU;
+mod closed_form;
+mod contacts;
 
-use super::contract::{Admitted, Inputs, Limits, Regime, Reversal, Scene};
-use super::faults::Faults;
-use super::outputs::{Outputs, efficiency};
-use crate::ball::{Clearance, PreloadSum};
-use crate::efficiency::{Drive, EfficiencyGeometry};
+use super::contract::{Admitted, Inputs, Limits, Reversal, Scene, SceneOutputs};
+use super::outputs::Outputs;
+use crate::ball::Clearance;
+use crate::contact::RollingResistance;
 use crate::error::{Error, attempt, in_range};
 use crate::geometry::BallScrew;
-use crate::ranges;
+use closed_form::ClosedForm;
+use contacts::{Contacts, ContactsState};
 
-/// Friction torque over load and pitch radius from which on a direction counts as locked: no motor of a steering gear
-/// has a thousandth of that.
-const LOCKED_RADII: f32 = 1e3;
-
-/// Which state of the ball the friction torque is computed for (see [`efficiency`](crate::efficiency)).
+/// Which state of the ball the friction torque is computed for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum FrictionBranch {
-    /// The ball rolls and slips across the groove at the screw, eq. (3): the expected value.
+    /// What the contacts of a ball dissipate in its balance between elastic grooves: they spin and slip, along the track and
+    /// across it, all of them that carry; with their rolling resistance. It is the friction of an
+    /// [`UncagedBallScrew`](crate::UncagedBallScrew) whose balls do not press on each other.
+    ///
+    /// Before the first tick the friction torque is folded into a law over the load, 0.01 to 1000 N a ball, for both
+    /// directions. Where friction coefficient or clearance are set while the model runs
+    /// ([`FrictionModel::set_friction`](crate::FrictionModel::set_friction)), a ball is renewed in every tick instead.
     #[default]
+    Contacts,
+    /// The ball rolls and slips across the groove at the screw, eq. (3) of Lin, Velinsky and Ravani 1994: a closed form, for
+    /// comparison. It leaves out spin, the third contact, clearance but for a preload, and the contacts' size: torque is in
+    /// proportion to the load, and without [`rolling_tangent`](CagedBallScrewConfiguration::rolling_tangent) hardly depends
+    /// on the lead.
     Rolling,
-    /// The ball slides along the path at both contacts, eq. (14) and (17): the pessimistic bound.
+    /// The ball slides along the path at both contacts, eq. (14) and (17) of the same: a closed form for comparison, a
+    /// pessimistic bound. It leaves out that balls roll.
     Sliding,
 }
 
-/// A caged ball screw: friction from the grooves alone, in closed form.
+/// A caged ball screw: friction from the grooves alone.
+///
+/// Without a preload there is no friction without a load; with one, that of the preload.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct CagedBallScrew;
@@ -35,16 +46,19 @@ pub struct CagedBallScrew;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct CagedBallScrewConfiguration {
-    /// The validated design.
+    /// The validated design; contact angle 0.05 to 1.5 rad for [`FrictionBranch::Contacts`].
     pub design: BallScrew,
-    /// Coulomb friction coefficient of ball and groove, 0 to 1.
+    /// Coulomb friction coefficient of ball and groove, 1e-6 to 0.5; 0 to 1 for the closed forms.
     pub friction: f32,
-    /// Lever arm of rolling friction over `ball_radius sin(contact_angle)`, eq. (2), 0 to 0.1.
+    /// Rolling resistance of every contact of ball and groove; closed forms know none.
+    pub rolling_resistance: RollingResistance,
+    /// Lever arm of rolling friction over `ball_radius sin(contact_angle)`, eq. (2), 0 to 0.1; for the closed forms alone:
+    /// see [`FrictionBranch`].
     pub rolling_tangent: f32,
     /// Which state of the ball the torque is computed for.
     pub branch: FrictionBranch,
-    /// How balls fit between the grooves, -0.02 to 0.05 ball radii. Oversize presses each flank of the nut with
-    /// [`Clearance::axial_preload`]; play changes nothing, because the papers' closed forms know no third contact.
+    /// How balls fit between the grooves, -0.02 to 0.05 ball radii. The closed forms know no third contact: for them oversize
+    /// presses each flank of the nut with [`Clearance::axial_preload`], and play changes nothing.
     pub clearance: Clearance,
     /// Number of balls that carry load, 1 to 1000.
     pub loaded_balls: u16,
@@ -59,25 +73,35 @@ pub struct CagedBallScrewConfiguration {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct CagedConstants {
-    /// Half the friction torque per load on the flank that opposes the motion, m.
-    half_drive: f32,
-    /// Half the friction torque per load on the flank that assists the motion, m.
-    half_backdrive: f32,
-    /// Torque per axial load without friction, `lead / 2 pi`, m.
-    reduced_lead: f32,
+    law: Law,
     reversal: Reversal,
-    /// Whether no torque drives a load.
-    drive_locked: bool,
-    /// Sum of both flanks' axial loads under the load between them.
-    flanks: PreloadSum,
     limits: Limits,
+}
+
+/// Where friction comes from.
+#[expect(
+    clippy::large_enum_variant,
+    reason = "without a heap there is no box; constants stand in flash"
+)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+enum Law {
+    Contacts(Contacts),
+    Closed(ClosedForm),
+}
+
+/// What a tick reads and changes in a caged ball screw: laws over the load, and balls that are renewed; nothing for a closed
+/// form.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct CagedState {
+    contacts: Option<ContactsState>,
 }
 
 impl Scene for CagedBallScrew {
     type Configuration = CagedBallScrewConfiguration;
     type Constants = CagedConstants;
-    /// Friction of grooves alone has no state.
-    type State = ();
+    type State = CagedState;
     type Inputs = Inputs;
     type Outputs = Outputs;
 
@@ -85,7 +109,20 @@ impl Scene for CagedBallScrew {
         CagedConstants::new(configuration)
     }
 
-    fn initial_state(_: &CagedConstants) {}
+    fn initial_state(constants: &CagedConstants) -> CagedState {
+        CagedState {
+            contacts: match &constants.law {
+                Law::Contacts(contacts) => Some(contacts.initial_state()),
+                Law::Closed(_) => None,
+            },
+        }
+    }
+
+    fn reset(constants: &CagedConstants, state: &mut CagedState) {
+        if let (Law::Contacts(contacts), Some(state)) = (&constants.law, &mut state.contacts) {
+            contacts.reset(state);
+        }
+    }
 
     #[inline(always)]
     fn admit(constants: &CagedConstants, inputs: Inputs) -> Admitted<Inputs> {
@@ -93,8 +130,13 @@ impl Scene for CagedBallScrew {
     }
 
     #[inline(always)]
-    fn outputs(constants: &CagedConstants, (): &mut (), inputs: Inputs) -> Outputs {
-        constants.outputs(inputs)
+    fn outputs(constants: &CagedConstants, state: &mut CagedState, inputs: Inputs) -> Outputs {
+        let reversal = &constants.reversal;
+        match (&constants.law, &mut state.contacts) {
+            (Law::Contacts(contacts), Some(state)) => contacts.outputs(state, reversal, inputs),
+            (Law::Closed(closed), _) => closed.outputs(reversal, inputs),
+            (Law::Contacts(_), None) => Outputs::SAFE,
+        }
     }
 
     #[inline(always)]
@@ -111,110 +153,47 @@ impl CagedConstants {
     /// [`Error`] naming the field out of range.
     pub const fn new(configuration: &CagedBallScrewConfiguration) -> Result<Self, Error> {
         let CagedBallScrewConfiguration {
-            ref design,
-            friction,
-            rolling_tangent: rolling,
             branch,
-            clearance,
+            rolling_tangent,
             loaded_balls,
             reversal_speed,
             limits,
+            ..
         } = *configuration;
-        attempt!(ranges::FRICTION_OR_NONE.checked("friction", friction));
-        attempt!(in_range("rolling_tangent", rolling, 0.0, 0.1));
-        let clearance = attempt!(clearance.checked(design));
+        attempt!(configuration.rolling_resistance.checked());
+        attempt!(in_range("rolling_tangent", rolling_tangent, 0.0, 0.1));
         attempt!(in_range("loaded_balls", loaded_balls as f32, 1.0, 1e3));
         let reversal = attempt!(Reversal::new(reversal_speed, 1e-6, 1e3));
         let limits = attempt!(limits.checked());
-
-        let drive = torque_per_load(design, branch, Drive::Driving, friction, rolling);
-        let backdrive = torque_per_load(design, branch, Drive::BackDriving, friction, rolling);
-        // Beyond its lock the formula turns infinite or negative.
-        let lock = LOCKED_RADII * design.pitch_radius();
-        let drive_locked = !(drive >= 0.0 && drive < lock);
-
         Ok(Self {
-            half_drive: if drive_locked {
-                0.5 * backdrive
-            } else {
-                0.5 * drive
+            law: match branch {
+                FrictionBranch::Contacts => Law::Contacts(attempt!(Contacts::new(configuration))),
+                FrictionBranch::Rolling | FrictionBranch::Sliding => {
+                    Law::Closed(attempt!(ClosedForm::new(configuration)))
+                }
             },
-            half_backdrive: 0.5 * backdrive,
-            reduced_lead: design.lead() / TAU,
             reversal,
-            drive_locked,
-            flanks: PreloadSum::new(clearance.axial_preload(design, loaded_balls)),
             limits,
         })
     }
 
-    /// `T = s [c_d (S + s F) + c_b (S - s F)] / 2` with the blended direction `s = w / sqrt(w² +
-    /// w_s²)`, the flanks' sum `S` and difference `F`: `c_d |F|` driving and `c_b |F|` back-driving
-    /// away from the reversal, zero at standstill, smooth between, odd under reversal of speed and
-    /// load together, and never of the sign that would make friction a source of power.
-    #[inline(always)]
-    fn outputs(&self, inputs: Inputs) -> Outputs {
-        let Inputs {
-            nut_speed: speed,
-            axial_load: load,
-        } = inputs;
-        let direction = self.reversal.direction(speed);
-        let sum = self.flanks.under(load);
-        let load_torque = load * self.reduced_lead;
-
-        // Full friction in the direction of motion, for the efficiency; standstill counts as forward.
-        let opposing = if speed < 0.0 { -load } else { load };
-        let full = self.friction_torque(sum, opposing);
-        let load_work = opposing * self.reduced_lead;
-
-        let locks_driving = self.drive_locked && opposing > 0.0;
-        let friction_torque = if locks_driving {
-            direction * self.limits.friction_torque
-        } else {
-            direction * self.friction_torque(sum, direction * load)
-        };
-        let efficiency = if locks_driving {
-            0.0
-        } else {
-            efficiency(load_work > 0.0, load_work, full)
-        };
-        let load_opposes = !(load_work < 0.0);
-        let moves = if load_opposes {
-            !locks_driving
-        } else {
-            efficiency > 0.0
-        };
-        Outputs {
-            friction_torque,
-            load_torque,
-            efficiency,
-            regime: Regime::of(self.reversal.stands(speed), load_opposes, moves),
-            faults: Faults::NONE.with(locks_driving, Faults::FRICTION_LIMIT),
+    /// See [`FrictionModel::set_friction`](crate::FrictionModel::set_friction).
+    pub(crate) fn set_friction(&self, state: &mut CagedState, friction: f32) -> Result<(), Error> {
+        match (&self.law, &mut state.contacts) {
+            (Law::Contacts(contacts), Some(state)) => contacts.set_friction(state, friction),
+            _ => Ok(()),
         }
     }
 
-    /// Size of the friction torque, N m, from the flanks' sum of loads and their difference, N, positive where it
-    /// opposes the motion: `[c_d (S + F) + c_b (S - F)] / 2`.
-    #[inline(always)]
-    fn friction_torque(&self, sum: f32, difference: f32) -> f32 {
-        self.half_drive * (sum + difference) + self.half_backdrive * (sum - difference)
-    }
-}
-
-/// Friction torque over the axial load in one direction of motion, m.
-const fn torque_per_load(
-    design: &BallScrew,
-    branch: FrictionBranch,
-    drive: Drive,
-    friction: f32,
-    rolling: f32,
-) -> f32 {
-    let geometry = EfficiencyGeometry::of(design);
-    let radius = design.pitch_radius();
-    match branch {
-        FrictionBranch::Rolling => {
-            geometry.rolling_torque_per_load(drive, radius, friction, rolling)
+    /// See [`FrictionModel::set_clearance`](crate::FrictionModel::set_clearance).
+    pub(crate) fn set_clearance(
+        &self,
+        state: &mut CagedState,
+        clearance: Clearance,
+    ) -> Result<(), Error> {
+        match (&self.law, &mut state.contacts) {
+            (Law::Contacts(contacts), Some(state)) => contacts.set_clearance(state, clearance),
+            _ => Ok(()),
         }
-        FrictionBranch::Sliding => geometry.sliding_torque_per_load(drive, radius, friction),
     }
 }

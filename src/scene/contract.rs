@@ -31,6 +31,11 @@ pub trait Scene {
     /// The state before the first tick.
     fn initial_state(constants: &Self::Constants) -> Self::State;
 
+    /// Brings a state back to that before the first tick.
+    fn reset(constants: &Self::Constants, state: &mut Self::State) {
+        *state = Self::initial_state(constants);
+    }
+
     /// The inputs within their limits, with what was wrong with them.
     fn admit(constants: &Self::Constants, inputs: Self::Inputs) -> Admitted<Self::Inputs>;
 
@@ -155,6 +160,13 @@ pub enum Regime {
 }
 
 impl Regime {
+    /// Under a load whose torque against the motion is `opposing`, with friction of this size, N m.
+    #[inline(always)]
+    pub(super) fn under(standing: bool, opposing: f32, friction: f32) -> Self {
+        let load_opposes = opposing >= 0.0;
+        Self::of(standing, load_opposes, load_opposes || friction < -opposing)
+    }
+
     /// From what is known of a tick: whether the mechanism stands, whether the load opposes the motion, and whether
     /// what drives (motor or load) keeps it in motion.
     #[inline(always)]

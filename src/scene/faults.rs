@@ -31,8 +31,8 @@ impl Faults {
     /// The mechanism is where its formulas leave the accuracy that they promise. What is put out is the best estimate, finite
     /// and continuous: not the safe output, and no reason to take the friction away. Where this begins stands with the scene.
     pub const BEYOND_MODEL: Self = Self(1 << 5);
-    /// Balls still settle after a start, a reversal, or a jump of the load by a factor of three: forces between them are
-    /// estimates for some milliseconds.
+    /// Balls still settle after a start, a reversal, or a jump of the load, of friction or of the clearance: friction and
+    /// forces between balls are estimates for some milliseconds.
     pub const SETTLING: Self = Self(1 << 6);
     /// The flags that speak of accuracy alone.
     pub const ACCURACY: Self = Self(Self::BEYOND_MODEL.0 | Self::SETTLING.0);

@@ -10,7 +10,8 @@ use super::contract::{Admitted, Inputs, Limits, Regime, Reversal, Scene};
 use super::faults::Faults;
 use super::outputs::UncagedOutputs;
 use crate::ball::elastic::constants::BallConstants;
-use crate::ball::elastic::ring::{Neighbours, Ring, RingConstants, RingLoad};
+use crate::ball::elastic::law::{Neighbours, RingConstants, RingLoad};
+use crate::ball::elastic::ring::Ring;
 use crate::ball::{Clearance, GrooveFit, LoadShare, LoadShares, ScrewRow};
 use crate::contact::RollingResistance;
 use crate::error::{Error, attempt, in_range};
@@ -235,7 +236,7 @@ impl<const N: usize> UncagedConstants<N> {
         let speed = design.pitch_radius() / design.cos_lead_angle() - row.nominal_speed();
         let fastest = attempt!(configuration.check_deviations(&row, speed));
         let ring = RingConstants::new(
-            attempt!(BallConstants::new(design, rolling_resistance)),
+            &attempt!(BallConstants::new(design, rolling_resistance)),
             fastest,
         );
         Ok(Self {
@@ -311,7 +312,6 @@ impl<const N: usize> UncagedConstants<N> {
         } else {
             load_torque
         };
-        let load_opposes = opposing >= 0.0;
         UncagedOutputs {
             friction_torque,
             groove_torque,
@@ -319,14 +319,14 @@ impl<const N: usize> UncagedConstants<N> {
             load_torque,
             contacts: pressing.contacts,
             largest_contact_force: pressing.largest,
-            regime: Regime::of(
+            regime: Regime::under(
                 self.reversal.stands(nut_speed),
-                load_opposes,
-                load_opposes || friction_torque.abs() < -opposing,
+                opposing,
+                friction_torque.abs(),
             ),
             faults: Faults::NONE
                 .with(state.ring.settles(), Faults::SETTLING)
-                .with(state.ring.in_two_points(), Faults::BEYOND_MODEL),
+                .with(state.ring.beyond_model(), Faults::BEYOND_MODEL),
         }
     }
 
@@ -382,6 +382,28 @@ impl<const N: usize> UncagedConstants<N> {
             behind = force;
         }
         sum + behind * last.unwrap_or(0.0)
+    }
+
+    /// See [`FrictionModel::set_friction`](crate::FrictionModel::set_friction).
+    pub(crate) fn set_friction(
+        &self,
+        state: &mut UncagedState<N>,
+        friction: f32,
+    ) -> Result<(), Error> {
+        let friction = ranges::FRICTION_OF_A_ROW.checked("friction", friction)?;
+        state.ring.set(&self.ring, friction, state.ring.clearance);
+        Ok(())
+    }
+
+    /// See [`FrictionModel::set_clearance`](crate::FrictionModel::set_clearance).
+    pub(crate) fn set_clearance(
+        &self,
+        state: &mut UncagedState<N>,
+        clearance: Clearance,
+    ) -> Result<(), Error> {
+        let clearance = self.ring.ball().checked(clearance)?.gap();
+        state.ring.set(&self.ring, state.ring.friction, clearance);
+        Ok(())
     }
 
     /// See [`FrictionModel::set_nut_angle`](crate::FrictionModel::set_nut_angle).

@@ -3,6 +3,7 @@
 use super::grooves::ElasticGrooves;
 use super::renewal::Renewal;
 use super::resistance::BallResistance;
+use crate::ball::Clearance;
 use crate::contact::RollingResistance;
 use crate::error::{Error, attempt};
 use crate::geometry::BallScrew;
@@ -36,6 +37,14 @@ impl BallConstants {
             deflection: 1.0 / grooves.screw.stiffness + 1.0 / grooves.nut.stiffness,
             grooves,
         })
+    }
+
+    /// Checks a clearance against the balls.
+    ///
+    /// # Errors
+    /// [`Error`] naming `clearance`.
+    pub(crate) const fn checked(&self, clearance: Clearance) -> Result<Clearance, Error> {
+        clearance.checked_for(self.grooves.ball_radius)
     }
 
     /// Contact force of a preload's oversize, N, times the load over it at which a diagonal is lost.

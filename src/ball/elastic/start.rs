@@ -73,7 +73,10 @@ impl ElasticGrooves {
             self.arcs(&self.nut, -1.0, inputs.nut_deviation),
         ];
         let mut place = self.first(inputs, &arcs);
-        let reach = self.deflection(inputs.axial_load) + inputs.clearance.abs() * self.per_radius;
+        // An oversized ball lies by what its contacts give way without a load too.
+        let gap = inputs.clearance * self.per_radius;
+        let squeezed = if gap < 0.0 { -gap } else { 0.0 };
+        let reach = self.deflection(inputs.axial_load) + squeezed;
         for _ in 0..STEPS {
             self.place(&mut place, inputs, &arcs, reach);
         }

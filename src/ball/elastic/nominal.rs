@@ -1,0 +1,158 @@
+//! One ball that stands for all balls of a screw that are alike: no deviations, no neighbour that presses.
+
+use super::constants::BallConstants;
+use super::renewal::{BallInputs, Settled};
+use crate::math;
+
+/// Axial load of a ball below which it counts as this, N: below it friction is in proportion to the load.
+pub(crate) const SMALLEST_LOAD: f32 = 0.01;
+
+/// Change of the load from which on the ball begins anew, as a factor.
+const LOAD_JUMP: f32 = 3.0;
+
+/// Change of the friction torque in a renewal above which the ball still settles.
+const SETTLED: f32 = 1e-3;
+
+/// Change of the friction torque in a renewal below which a law over the load takes it.
+const FOLDED: f32 = 3e-6;
+
+/// Friction and fit of the grooves: what may change while the model runs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(crate) struct Grooving {
+    pub(crate) friction: f32,
+    /// Radial gap of every contact at the centred ball, m.
+    clearance: f32,
+    /// Square of the contact force at which a preload's lost diagonal opens, N^2: 0 without preload.
+    lift_off: f32,
+}
+
+impl Grooving {
+    pub(crate) fn new(ball: &BallConstants, friction: f32, clearance: f32) -> Self {
+        let lift_off = ball.lift_off(clearance);
+        Self {
+            friction,
+            clearance,
+            lift_off: lift_off * lift_off,
+        }
+    }
+
+    /// Contact force of a ball under an axial load, preload counted, N: what its friction torque is about in proportion to.
+    #[inline(always)]
+    pub(crate) fn whole(&self, ball: &BallConstants, axial_load: f32) -> f32 {
+        let normal = ball.normal * axial_load;
+        math::sqrt(normal * normal + self.lift_off)
+    }
+
+    /// What the ball is under.
+    #[inline(always)]
+    const fn inputs(&self, axial_load: f32) -> BallInputs {
+        BallInputs {
+            axial_load,
+            force: 0.0,
+            rubbing: [0.0; 2],
+            screw_deviation: 0.0,
+            nut_deviation: 0.0,
+            friction: self.friction,
+            clearance: self.clearance,
+        }
+    }
+}
+
+/// The ball, with what its last renewal found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(crate) struct NominalBall {
+    settled: Settled,
+    /// Friction torque on the nut over the whole contact force, m.
+    pub(super) ratio: f32,
+    /// Whole contact force for which it is settled, N.
+    whole: f32,
+    /// Change of the ratio in the last renewal, over it.
+    change: f32,
+    two_point: bool,
+}
+
+impl NominalBall {
+    /// A ball that has not settled, under a load in the frame in which the nut turns forward, N, not 0; with a ratio to begin
+    /// with.
+    pub(crate) fn new(
+        ball: &BallConstants,
+        grooving: &Grooving,
+        axial_load: f32,
+        ratio: f32,
+    ) -> Self {
+        Self {
+            settled: ball.grooves.start(&grooving.inputs(axial_load)),
+            ratio,
+            whole: grooving.whole(ball, axial_load),
+            change: 1.0,
+            two_point: false,
+        }
+    }
+
+    /// Whether the ball is settled for a load that is far from this one.
+    #[inline(always)]
+    pub(crate) fn is_far(&self, whole: f32) -> bool {
+        !(whole <= LOAD_JUMP * self.whole && LOAD_JUMP * whole >= self.whole)
+    }
+
+    /// Whether its friction still changes.
+    #[inline(always)]
+    pub(crate) fn settles(&self) -> bool {
+        self.change > SETTLED
+    }
+
+    /// Whether both light contacts are open: friction of such a ball is not known as well as elsewhere.
+    #[inline(always)]
+    pub(crate) const fn in_two_points(&self) -> bool {
+        self.two_point
+    }
+
+    /// Friction torque on the nut over the whole contact force, m.
+    #[inline(always)]
+    pub(crate) const fn ratio(&self) -> f32 {
+        self.ratio
+    }
+
+    /// One Newton step of place and motion.
+    #[inline(always)]
+    pub(crate) fn renew(&mut self, ball: &BallConstants, grooving: &Grooving, axial_load: f32) {
+        let inputs = grooving.inputs(axial_load);
+        let found = ball.grooves.renew(&mut self.settled, &inputs);
+        self.whole = grooving.whole(ball, axial_load);
+        if found.lost {
+            self.settled = ball.grooves.start(&inputs);
+            self.change = 1.0;
+            return;
+        }
+        // The torque is that of the load which the contacts carried before the step.
+        let ratio = ball.torque(&found) / grooving.whole(ball, found.carried);
+        let change = (ratio - self.ratio).abs();
+        self.change = if found.taken < 1.0 || !(change < ratio) {
+            1.0
+        } else {
+            change / ratio
+        };
+        self.ratio = ratio;
+        self.two_point = found.two_point();
+    }
+
+    /// Renewals until friction no longer changes, so many at most.
+    pub(super) fn settle(
+        &mut self,
+        ball: &BallConstants,
+        grooving: &Grooving,
+        axial_load: f32,
+        most: u32,
+    ) {
+        let mut settled = 0;
+        for _ in 0..most {
+            self.renew(ball, grooving, axial_load);
+            settled = if self.change < FOLDED { settled + 1 } else { 0 };
+            if settled == 2 {
+                break;
+            }
+        }
+    }
+}

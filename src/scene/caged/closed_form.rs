@@ -1,0 +1,143 @@
+//! Friction by the papers' closed forms, for comparison.
+
+use core::f32::consts::TAU;
+
+use super::{CagedBallScrewConfiguration, FrictionBranch};
+use crate::ball::PreloadSum;
+use crate::efficiency::{Drive, EfficiencyGeometry};
+use crate::error::{Error, attempt};
+use crate::geometry::BallScrew;
+use crate::ranges;
+use crate::scene::contract::{Inputs, Regime, Reversal};
+use crate::scene::faults::Faults;
+use crate::scene::outputs::{Outputs, efficiency};
+
+/// Friction torque over load and pitch radius from which on a direction counts as locked: no motor of a steering gear
+/// has a thousandth of that.
+const LOCKED_RADII: f32 = 1e3;
+
+/// Constants of a closed form.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(super) struct ClosedForm {
+    /// Half the friction torque per load on the flank that opposes the motion, m.
+    half_drive: f32,
+    /// Half the friction torque per load on the flank that assists the motion, m.
+    half_backdrive: f32,
+    /// Torque per axial load without friction, `lead / 2 pi`, m.
+    reduced_lead: f32,
+    /// Whether no torque drives a load.
+    drive_locked: bool,
+    /// Sum of both flanks' axial loads under the load between them.
+    flanks: PreloadSum,
+    /// What a locked drive holds with, N m.
+    largest_torque: f32,
+}
+
+impl ClosedForm {
+    /// Checks what the closed forms read of a configuration, and folds it.
+    ///
+    /// # Errors
+    /// [`Error`] naming `friction`, `rolling_tangent` or `clearance`.
+    pub(super) const fn new(configuration: &CagedBallScrewConfiguration) -> Result<Self, Error> {
+        let CagedBallScrewConfiguration {
+            ref design,
+            friction,
+            rolling_tangent: rolling,
+            branch,
+            clearance,
+            loaded_balls,
+            limits,
+            ..
+        } = *configuration;
+        attempt!(ranges::FRICTION_OR_NONE.checked("friction", friction));
+        let clearance = attempt!(clearance.checked(design));
+        let drive = torque_per_load(design, branch, Drive::Driving, friction, rolling);
+        let backdrive = torque_per_load(design, branch, Drive::BackDriving, friction, rolling);
+        // Beyond its lock the formula turns infinite or negative.
+        let lock = LOCKED_RADII * design.pitch_radius();
+        let drive_locked = !(drive >= 0.0 && drive < lock);
+        Ok(Self {
+            half_drive: if drive_locked {
+                0.5 * backdrive
+            } else {
+                0.5 * drive
+            },
+            half_backdrive: 0.5 * backdrive,
+            reduced_lead: design.lead() / TAU,
+            drive_locked,
+            flanks: PreloadSum::new(clearance.axial_preload(design, loaded_balls)),
+            largest_torque: limits.friction_torque,
+        })
+    }
+
+    /// `T = s [c_d (S + s F) + c_b (S - s F)] / 2` with the blended direction `s = w / sqrt(w² +
+    /// w_s²)`, the flanks' sum `S` and difference `F`: `c_d |F|` driving and `c_b |F|` back-driving
+    /// away from the reversal, zero at standstill, smooth between, odd under reversal of speed and
+    /// load together, and never of the sign that would make friction a source of power.
+    #[inline(always)]
+    pub(super) fn outputs(&self, reversal: &Reversal, inputs: Inputs) -> Outputs {
+        let Inputs {
+            nut_speed: speed,
+            axial_load: load,
+        } = inputs;
+        let direction = reversal.direction(speed);
+        let sum = self.flanks.under(load);
+        let load_torque = load * self.reduced_lead;
+
+        // Full friction in the direction of motion, for the efficiency; standstill counts as forward.
+        let opposing = if speed < 0.0 { -load } else { load };
+        let full = self.friction_torque(sum, opposing);
+        let load_work = opposing * self.reduced_lead;
+
+        let locks_driving = self.drive_locked && opposing > 0.0;
+        let friction_torque = if locks_driving {
+            direction * self.largest_torque
+        } else {
+            direction * self.friction_torque(sum, direction * load)
+        };
+        let efficiency = if locks_driving {
+            0.0
+        } else {
+            efficiency(load_work > 0.0, load_work, full)
+        };
+        let load_opposes = !(load_work < 0.0);
+        let moves = if load_opposes {
+            !locks_driving
+        } else {
+            efficiency > 0.0
+        };
+        Outputs {
+            friction_torque,
+            load_torque,
+            efficiency,
+            regime: Regime::of(reversal.stands(speed), load_opposes, moves),
+            faults: Faults::NONE.with(locks_driving, Faults::FRICTION_LIMIT),
+        }
+    }
+
+    /// Size of the friction torque, N m, from the flanks' sum of loads and their difference, N, positive where it
+    /// opposes the motion: `[c_d (S + F) + c_b (S - F)] / 2`.
+    #[inline(always)]
+    fn friction_torque(&self, sum: f32, difference: f32) -> f32 {
+        self.half_drive * (sum + difference) + self.half_backdrive * (sum - difference)
+    }
+}
+
+/// Friction torque over the axial load in one direction of motion, m.
+const fn torque_per_load(
+    design: &BallScrew,
+    branch: FrictionBranch,
+    drive: Drive,
+    friction: f32,
+    rolling: f32,
+) -> f32 {
+    let geometry = EfficiencyGeometry::of(design);
+    let radius = design.pitch_radius();
+    match branch {
+        FrictionBranch::Sliding => geometry.sliding_torque_per_load(drive, radius, friction),
+        FrictionBranch::Rolling | FrictionBranch::Contacts => {
+            geometry.rolling_torque_per_load(drive, radius, friction, rolling)
+        }
+    }
+}

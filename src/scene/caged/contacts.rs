@@ -1,0 +1,231 @@
+//! Friction of the contacts of balls that are alike: a law over the load, or a ball that is renewed in every tick.
+
+use core::f32::consts::TAU;
+
+use super::CagedBallScrewConfiguration;
+use crate::ball::Clearance;
+use crate::ball::elastic::constants::BallConstants;
+use crate::ball::elastic::load_law::{LoadLaw, LoadRange};
+use crate::ball::elastic::nominal::{Grooving, NominalBall, SMALLEST_LOAD};
+use crate::error::{Error, attempt};
+use crate::ranges;
+use crate::scene::contract::{Inputs, Regime, Reversal};
+use crate::scene::faults::Faults;
+use crate::scene::outputs::{Outputs, efficiency};
+
+/// Axial load of a ball, N, for which balls are settled before the first tick.
+const FIRST_LOAD: f32 = 50.0;
+
+/// Ticks of which one renews the ball of the other direction.
+const OTHER_TURN: u8 = 4;
+
+/// Constants of the contacts' friction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(super) struct Contacts {
+    ball: BallConstants,
+    friction: f32,
+    clearance: Clearance,
+    range: LoadRange,
+    balls: f32,
+    per_ball: f32,
+    /// Torque per axial load without friction, `lead / 2 pi`, m.
+    reduced_lead: f32,
+}
+
+/// What a tick reads and changes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(super) struct ContactsState {
+    /// Law of a load that opposes the motion, and of one that assists it; for the configuration's friction and clearance.
+    laws: [LoadLaw; 2],
+    /// A ball of each, for those that are set while running.
+    balls: [NominalBall; 2],
+    grooving: Grooving,
+    /// Whether friction or clearance have been set.
+    changes: bool,
+    turn: u8,
+}
+
+impl Contacts {
+    /// Checks what the contacts' friction reads of a configuration, and folds it.
+    ///
+    /// # Errors
+    /// [`Error`] naming the field out of range.
+    pub(super) const fn new(configuration: &CagedBallScrewConfiguration) -> Result<Self, Error> {
+        let CagedBallScrewConfiguration {
+            ref design,
+            friction,
+            rolling_resistance,
+            clearance,
+            loaded_balls,
+            limits,
+            ..
+        } = *configuration;
+        let balls = loaded_balls as f32;
+        Ok(Self {
+            friction: attempt!(ranges::FRICTION_OF_A_ROW.checked("friction", friction)),
+            clearance: attempt!(clearance.checked(design)),
+            ball: attempt!(BallConstants::new(design, rolling_resistance)),
+            range: LoadRange::to(limits.axial_load / balls),
+            balls,
+            per_ball: 1.0 / balls,
+            reduced_lead: design.lead() / TAU,
+        })
+    }
+
+    /// Laws and balls before the first tick: some thousand renewals.
+    pub(super) fn initial_state(&self) -> ContactsState {
+        let grooving = Grooving::new(&self.ball, self.friction, self.clearance.gap());
+        let law = |side| LoadLaw::new(&self.ball, &grooving, self.range, side);
+        let nominal = |side| NominalBall::new(&self.ball, &grooving, side * FIRST_LOAD, 0.0);
+        ContactsState {
+            laws: [law(1.0), law(-1.0)],
+            balls: [nominal(1.0), nominal(-1.0)],
+            grooving,
+            changes: false,
+            turn: 0,
+        }
+    }
+
+    /// Back to the state before the first tick: the laws are as they were.
+    pub(super) fn reset(&self, state: &mut ContactsState) {
+        state.grooving = Grooving::new(&self.ball, self.friction, self.clearance.gap());
+        state.changes = false;
+    }
+
+    /// See [`FrictionModel::set_friction`](crate::FrictionModel::set_friction).
+    pub(super) fn set_friction(
+        &self,
+        state: &mut ContactsState,
+        friction: f32,
+    ) -> Result<(), Error> {
+        state.grooving.friction = ranges::FRICTION_OF_A_ROW.checked("friction", friction)?;
+        self.change(state);
+        Ok(())
+    }
+
+    /// See [`FrictionModel::set_clearance`](crate::FrictionModel::set_clearance).
+    pub(super) fn set_clearance(
+        &self,
+        state: &mut ContactsState,
+        clearance: Clearance,
+    ) -> Result<(), Error> {
+        let clearance = self.ball.checked(clearance)?;
+        let friction = state.grooving.friction;
+        state.grooving = Grooving::new(&self.ball, friction, clearance.gap());
+        self.change(state);
+        Ok(())
+    }
+
+    /// Turns from the laws to balls.
+    fn change(&self, state: &mut ContactsState) {
+        if !state.changes {
+            state.changes = true;
+            for ((ball, law), side) in state.balls.iter_mut().zip(&state.laws).zip([1.0, -1.0]) {
+                let load = side * FIRST_LOAD;
+                *ball = NominalBall::new(
+                    &self.ball,
+                    &state.grooving,
+                    load,
+                    law.at(self.range, FIRST_LOAD).0,
+                );
+            }
+        }
+    }
+
+    /// Friction torque away from the reversal times the direction: zero at standstill, continuous, odd under reversal of
+    /// speed and load together, and never of the sign that would make friction a source of power.
+    #[inline(always)]
+    pub(super) fn outputs(
+        &self,
+        state: &mut ContactsState,
+        reversal: &Reversal,
+        inputs: Inputs,
+    ) -> Outputs {
+        let Inputs {
+            nut_speed,
+            axial_load,
+        } = inputs;
+        // Standstill counts as forward.
+        let opposing = if nut_speed < 0.0 {
+            -axial_load
+        } else {
+            axial_load
+        };
+        let load = opposing.abs() * self.per_ball;
+        let other = opposing < 0.0;
+        let whole = state.grooving.whole(&self.ball, load);
+        let (ratio, accuracy) = if state.changes {
+            self.renewed(state, load, whole, other)
+        } else {
+            state.folded(self.range, load, other)
+        };
+        let full = self.balls * (whole * ratio);
+        let load_work = opposing * self.reduced_lead;
+        Outputs {
+            friction_torque: reversal.direction(nut_speed) * full,
+            load_torque: axial_load * self.reduced_lead,
+            efficiency: efficiency(load_work > 0.0, load_work, full),
+            regime: Regime::under(reversal.stands(nut_speed), load_work, full),
+            faults: accuracy,
+        }
+    }
+
+    /// Friction torque over contact force of a ball that is renewed for this tick, and what it is worth.
+    #[inline(always)]
+    fn renewed(
+        &self,
+        state: &mut ContactsState,
+        load: f32,
+        whole: f32,
+        other: bool,
+    ) -> (f32, Faults) {
+        let size = if load > SMALLEST_LOAD {
+            load
+        } else {
+            SMALLEST_LOAD
+        };
+        let axial = if other { -size } else { size };
+        state.turn = state.turn.wrapping_add(1) % OTHER_TURN;
+        let turned = state.turn == 0;
+        let [drive, backdrive] = &mut state.balls;
+        let (own, opposite) = if other {
+            (backdrive, drive)
+        } else {
+            (drive, backdrive)
+        };
+        let far = own.is_far(whole);
+        if far || turned && opposite.is_far(whole) {
+            let [drive, backdrive] = &state.laws;
+            let (ball, law, axial) = match (far, other) {
+                (true, true) => (&mut *own, backdrive, axial),
+                (true, false) => (&mut *own, drive, axial),
+                (false, true) => (opposite, drive, -axial),
+                (false, false) => (opposite, backdrive, -axial),
+            };
+            // The law is that of another friction coefficient; it is about in proportion.
+            let ratio = law.at(self.range, size).0 * (state.grooving.friction / self.friction);
+            *ball = NominalBall::new(&self.ball, &state.grooving, axial, ratio);
+        } else if turned {
+            opposite.renew(&self.ball, &state.grooving, -axial);
+        } else {
+            own.renew(&self.ball, &state.grooving, axial);
+        }
+        let faults = Faults::NONE
+            .with(own.settles(), Faults::SETTLING)
+            .with(own.in_two_points(), Faults::BEYOND_MODEL);
+        (own.ratio(), faults)
+    }
+}
+
+impl ContactsState {
+    /// Friction torque over contact force by the law of this direction, and what it is worth.
+    #[inline(always)]
+    fn folded(&self, range: LoadRange, load: f32, other: bool) -> (f32, Faults) {
+        let [drive, backdrive] = &self.laws;
+        let law = if other { backdrive } else { drive };
+        let (ratio, beyond) = law.at(range, load);
+        (ratio, Faults::NONE.with(beyond, Faults::BEYOND_MODEL))
+    }
+}
