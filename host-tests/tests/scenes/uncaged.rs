@@ -334,11 +334,15 @@ fn each_sign_of_the_load_has_its_shares() {
     let mut after = 0.0;
     for tick in 0..200 {
         after = step(&mut pair, -1000.0);
-        if tick % 20 == 0 { println!("{tick} {after}"); }
+        if tick % 20 == 0 {
+            println!("{tick} {after}");
+        }
     }
     for tick in 0..600 {
         let a = step(&mut pair, -1000.0);
-        if tick % 100 == 0 { println!("more {tick} {a}"); }
+        if tick % 100 == 0 {
+            println!("more {tick} {a}");
+        }
     }
     // Balls that move on to other places change the sum by a ball's part, 1/37 of it.
     assert!(

@@ -461,8 +461,9 @@ impl RingLoad {
         let normal = constants.ball.normal * axial;
         let whole = math::sqrt(normal * normal + lift_off * lift_off);
         let [inverse, _] = inverse_cube_roots([whole, 1.0]);
-        let square = inverse * inverse;
         let two_thirds = whole * inverse;
+        // A torque that is stored and read under one load is itself to the last bits.
+        let square = 1.0 / two_thirds;
         Self {
             axial,
             whole,
