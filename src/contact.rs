@@ -1,7 +1,7 @@
 //! Friction of one Hertzian contact that slips and spins: force, moment and power loss under Coulomb
 //! friction, all three from one convex dissipation potential.
 //!
-//! Friction across the track runs in the step of the uncaged scene, from a table that its set-up makes. [`FrictionMap`]
+//! A contact that slips in any direction runs in the steps of both ball screws (`slip_map::looped`). [`FrictionMap`]
 //! runs at the set-up of the linear scene. [`SlipMap`] is called directly; no scene links it. [`RollingContact`] adds what a contact
 //! loses that rolls without slip.
 //!

@@ -19,7 +19,7 @@ pub use promise::{Footprint, Promise};
 pub use steps::*;
 
 /// Promises of every `step()`, and of every function that a step calls.
-pub const STEPS: [Promise; 11] = [
+pub const STEPS: [Promise; 10] = [
     STEP_CAGED,
     STEP_UNCAGED,
     STEP_LINEAR,
@@ -27,14 +27,13 @@ pub const STEPS: [Promise; 11] = [
     CBRT_AND_SQUARED,
     DEVIATION_MAP,
     ANALYTIC_BALL,
-    SCREW_ROW,
-    SCREW_BALL,
+    SCREW_RENEWAL,
     TRAIN,
     PRESS,
 ];
 
 /// Promises of functions that firmware calls by their names.
-pub const DIRECT: [Promise; 20] = [
+pub const DIRECT: [Promise; 23] = [
     CBRT,
     CBRT_SQUARED,
     SIN_COS,
@@ -52,6 +51,9 @@ pub const DIRECT: [Promise; 20] = [
     SLIP_RATIOS,
     FRICTION_MAP,
     DISSIPATION,
+    SCREW_START,
+    SCREW_ROW,
+    SCREW_BALL,
     ANALYTIC_PAIR,
     FOUR_POINT_BALL,
     BALL_CHAIN,

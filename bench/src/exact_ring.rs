@@ -2,7 +2,7 @@
 //!
 //! Both follow the same balls, which start at the same places. Balls meet and part in an instant, which the two need not
 //! find in the same state: so a value of the scene is compared with the span of the exact ones of its own state and the
-//! two beside it. Rolling resistance, which is added to a ball's loss and moves nothing, is left out of both. States that the scene flags ([`Faults`](epas_friction::Faults)) are counted apart.
+//! four beside it. Rolling resistance, which is added to a ball's loss and moves nothing, is left out of both. States that the scene flags ([`Faults`](epas_friction::Faults)) are counted apart.
 
 use std::f64::consts::TAU;
 
@@ -19,7 +19,7 @@ use epas_reference::friction::patch::Integration;
 use epas_reference::material::Elastic;
 
 /// States before and after one that count as about the same time.
-const NEAR: usize = 1;
+const NEAR: usize = 2;
 
 /// Part of the track that the balls fill, where a case does not say its length.
 const OCCUPATION: f64 = 0.978;

@@ -6,17 +6,19 @@
 //! | `grooves` | both grooves with their contacts, folded once | set-up |
 //! | `contact` | one contact: load, friction, and what it adds to the equations | every renewal |
 //! | `equations` | the seven equations of a ball and their solution | every renewal |
+//! | `law` | what a ball does between two renewals | every tick |
 //! | `load_law` | friction of a nominal ball over the load | start; every tick |
 //! | `nominal` | a ball that stands for all that are alike | start; every tick |
 //! | `renewal` | one Newton step of place and motion together | every renewal |
 //! | `resistance` | rolling resistance of all contacts | every renewal |
-//! | `ring` | balls that are renewed in turn, and their laws between | every tick |
+//! | `ring` | balls that are renewed in turn | every tick |
 //! | `start` | place and motion from nothing | start, reversal |
 
 pub(crate) mod constants;
 mod contact;
 mod equations;
 mod grooves;
+pub(crate) mod law;
 pub(crate) mod load_law;
 pub(crate) mod nominal;
 mod renewal;

@@ -1,13 +1,14 @@
-//! The ball of a ball screw: a third contact, slip across the track, and what follows from them.
+//! The ball of a ball screw in closed form: a third contact, slip across the track, and what follows from them. No step runs
+//! it: [`elastic`](super::elastic) is the ball of both scenes.
 //!
 //! | file | what | runs in |
 //! |---|---|---|
 //! | `fit` | how balls fit between the grooves | set-up |
-//! | `raceway` | one groove: its contact under any load | every tick |
-//! | `contacts` | loads of the main, third and fourth contact | every tick |
+//! | `raceway` | one groove: its contact under any load | `ScrewRow::at` |
+//! | `contacts` | loads of the main, third and fourth contact | `ScrewRow::at` |
 //! | `speeds` | how speeds follow deviations of the contact angles | set-up |
-//! | `row` | the row under a load ([`ScrewRow::at`]) | every tick |
-//! | `tick` | one ball of the row ([`ScrewLoop::ball`]) | every ball of every tick |
+//! | `row` | the row under a load ([`ScrewRow::at`]) | `ScrewRow::at` |
+//! | `tick` | one ball of the row ([`ScrewLoop::ball`]) | `ScrewLoop::ball` |
 
 mod contacts;
 mod fit;

@@ -217,3 +217,43 @@ pub const BALL_CHAIN: Promise = Promise {
     counted: &["linear_chain_2"],
     ..ANALYTIC_PAIR
 };
+
+/// [`ScrewRow::at`](crate::ball::ScrewRow::at): what all balls have in common at a tick.
+pub const SCREW_ROW: Promise = Promise {
+    function: "ScrewRow::at",
+    domain: "screw of Lin 2019, Table 2.1, 0.1 to 1000 N a ball, friction 0.05 to 0.12",
+    error: "groove torque of a ball under the mean load, relative",
+    largest: 6.5e-3,
+    rms: 1.5e-3,
+    mean: 4e-4,
+    outside: "loads to 1e-3 N a ball as 1e-3 N",
+    not_finite: "no load",
+    tiny: "as 1e-3 N",
+    cycles: 900,
+    counted: &["ball_screw_row"],
+};
+
+/// [`ScrewLoop::ball`](crate::ball::ScrewLoop::ball): one ball in the loop; [`ScrewTick::ball`](crate::ball::ScrewTick::ball)
+/// is the same in SI units.
+pub const SCREW_BALL: Promise = Promise {
+    function: "ScrewLoop::ball",
+    error: "speed over that of the pitch circle, deviations to 3 deg",
+    largest: 2e-7,
+    rms: 5e-8,
+    mean: 4e-8,
+    outside: "deviations beyond the largest one: as that; impedance of shares 0.1 to 3: 6 %",
+    not_finite: "NaN: no deviation; infinity: the largest one",
+    tiny: "no deviation: the nominal speed",
+    cycles: 118,
+    counted: &["ball_screw_ball"],
+    ..SCREW_ROW
+};
+
+/// [`ElasticGrooves::start`](crate::ball::elastic::ElasticGrooves::start): a ball's place and motion from nothing, at a start, a
+/// reversal, or a jump of the load; errors as of [`SCREW_RENEWAL`](super::SCREW_RENEWAL), which has to follow.
+pub const SCREW_START: Promise = Promise {
+    function: "ElasticGrooves::start",
+    cycles: 3100,
+    counted: &["ball_screw_start"],
+    ..super::steps::SCREW_RENEWAL
+};

@@ -79,6 +79,10 @@ pub struct CagedConstants {
 }
 
 /// Where friction comes from.
+#[expect(
+    clippy::large_enum_variant,
+    reason = "without a heap there is no box; constants stand in flash"
+)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 enum Law {

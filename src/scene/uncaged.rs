@@ -10,7 +10,8 @@ use super::contract::{Admitted, Inputs, Limits, Regime, Reversal, Scene};
 use super::faults::Faults;
 use super::outputs::UncagedOutputs;
 use crate::ball::elastic::constants::BallConstants;
-use crate::ball::elastic::ring::{Neighbours, Ring, RingConstants, RingLoad};
+use crate::ball::elastic::law::{Neighbours, RingConstants, RingLoad};
+use crate::ball::elastic::ring::Ring;
 use crate::ball::{Clearance, GrooveFit, LoadShare, LoadShares, ScrewRow};
 use crate::contact::RollingResistance;
 use crate::error::{Error, attempt, in_range};
@@ -235,7 +236,7 @@ impl<const N: usize> UncagedConstants<N> {
         let speed = design.pitch_radius() / design.cos_lead_angle() - row.nominal_speed();
         let fastest = attempt!(configuration.check_deviations(&row, speed));
         let ring = RingConstants::new(
-            attempt!(BallConstants::new(design, rolling_resistance)),
+            &attempt!(BallConstants::new(design, rolling_resistance)),
             fastest,
         );
         Ok(Self {
@@ -325,7 +326,7 @@ impl<const N: usize> UncagedConstants<N> {
             ),
             faults: Faults::NONE
                 .with(state.ring.settles(), Faults::SETTLING)
-                .with(state.ring.in_two_points(), Faults::BEYOND_MODEL),
+                .with(state.ring.beyond_model(), Faults::BEYOND_MODEL),
         }
     }
 

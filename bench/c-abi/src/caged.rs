@@ -6,8 +6,8 @@ use crate::design::{ball_screw, clearance, loaded_balls, rolling_resistance};
 use crate::scene::{CScene, TablePointers, Tables, limits, regime, screw_inputs};
 use crate::status::{EPAS_FIELD_BRANCH, Failure};
 use crate::types::{
-    CagedConfiguration, CagedPlace, EPAS_BRANCH_CONTACTS, EPAS_BRANCH_ROLLING, EPAS_BRANCH_SLIDING, EPAS_FAULT_CALL,
-    EPAS_REGIME_STANDING, Inputs, Outputs,
+    CagedConfiguration, CagedPlace, EPAS_BRANCH_CONTACTS, EPAS_BRANCH_ROLLING, EPAS_BRANCH_SLIDING,
+    EPAS_FAULT_CALL, EPAS_REGIME_STANDING, Inputs, Outputs,
 };
 use crate::version::mark;
 

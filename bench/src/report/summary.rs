@@ -127,7 +127,7 @@ fn flagship(context: &Context) -> Result<Vec<Vec<Cell>>, Failure> {
                 time(&step.latency, 2),
                 ratio(step.latency.over(unit), 2),
                 time(&step.throughput, 2),
-                "two turns of Table 3.6's screw, 50 N a ball".into(),
+                "Table 3.6's screw, 50 N a ball".into(),
             ]
         })
         .collect())

@@ -142,7 +142,12 @@ fn trains_recover_at_once_but_for_where_the_balls_are() {
         2,
         |outputs| outputs.faults,
         |outputs, expected, since| {
-            friction(outputs.groove_torque, expected.groove_torque, since);
+            // What settles says so, and balls that a spike of the speed took too far.
+            let accuracy = (outputs.faults | expected.faults).bits()
+                & (Faults::SETTLING | Faults::BEYOND_MODEL).bits();
+            if accuracy == 0 {
+                friction(outputs.groove_torque, expected.groove_torque, since);
+            }
         },
     );
     suffer::<Rail>(
@@ -211,7 +216,7 @@ where
         let outputs = model.step(S::inputs(lost));
         S::check(configuration, lost, &outputs).unwrap();
         assert!(
-            faults(&outputs).any() || tick + 1 < promises::TICKS_TO_FLAG,
+            faults(&outputs).faulty() || tick + 1 < promises::TICKS_TO_FLAG,
             "tick {tick} is not flagged"
         );
     }
@@ -220,7 +225,7 @@ where
         let outputs = model.step(S::inputs(sound));
         let expected = never_failed.step(S::inputs(sound));
         assert!(
-            !faults(&outputs).any() || tick + 1 < promises::TICKS_TO_RECOVER,
+            !faults(&outputs).faulty() || tick + 1 < promises::TICKS_TO_RECOVER,
             "still flagged {tick} ticks after"
         );
         assert_eq!(S::numbers(&outputs), S::numbers(&expected), "tick {tick}");

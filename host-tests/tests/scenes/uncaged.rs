@@ -332,21 +332,13 @@ fn each_sign_of_the_load_has_its_shares() {
         step(&mut pair, 1000.0);
     }
     let mut after = 0.0;
-    for tick in 0..200 {
+    for _ in 0..200 {
         after = step(&mut pair, -1000.0);
-        if tick % 20 == 0 {
-            println!("{tick} {after}");
-        }
     }
-    for tick in 0..600 {
-        let a = step(&mut pair, -1000.0);
-        if tick % 100 == 0 {
-            println!("more {tick} {a}");
-        }
-    }
-    // Balls that move on to other places change the sum by a ball's part, 1/37 of it.
+    // A ball that moves on from the least share to the largest changes the sum by (2.2^(4/3) - 0.3^(4/3))/37 of its mean
+    // of 1.15: 6.3 %.
     assert!(
-        (after / torques[1] - 1.0).abs() < 1.0 / 37.0,
+        (after / torques[1] - 1.0).abs() < 0.065,
         "{after} {torques:?}"
     );
 }

@@ -134,7 +134,7 @@ impl ElasticGrooves {
     /// One Newton step of the seven equations of a ball.
     ///
     /// A ball that has lost both contacts of a groove, or whose numbers are not finite, stays as it is: see
-    /// [`Renewal::lost`].
+    /// `lost`.
     #[inline]
     pub fn renew(&self, state: &mut Settled, inputs: &BallInputs) -> Renewal {
         let clearance = inputs.clearance * self.per_radius;

@@ -1,14 +1,20 @@
 //! Balls of a ball screw that are renewed in turn, and what each of them would do on its own until its turn comes.
 
-use super::constants::BallConstants;
-use super::renewal::{BallInputs, Renewal, Settled};
-use crate::math::{self, inverse_cube_roots};
+use super::law::{Neighbours, RingBall, RingConstants, RingLoad, between};
+use super::renewal::{BallInputs, Settled};
 
 /// Axial load of a ball below which it counts as this, N.
 const SMALLEST_LOAD: f32 = 1e-3;
 
 /// Change of the load in one round of renewals from which balls begin anew, as a factor.
 const LOAD_JUMP: f32 = 3.0;
+
+/// Change of the load in one round of renewals from which friction is that of balls that still settle, as a factor: its law
+/// from renewal to renewal is that of a power of the load.
+const LOAD_STEP: f32 = 1.25;
+
+/// Angle of the nut in a round of renewals up to which balls follow their laws, rad: 20 turns a second with rounds of 0.93 ms.
+const LONGEST_ROUND: f32 = 0.12;
 
 /// Part of the load that crosses zero below which a preload holds the balls where they are.
 const HELD: f32 = 0.3;
@@ -25,9 +31,6 @@ const FIRST_RENEWALS: usize = 16;
 /// Load of a ball before the first tick, N.
 const FIRST_LOAD: f32 = 50.0;
 
-/// Least and largest impedance of a loaded ball, N: what a train takes.
-const IMPEDANCES: (f32, f32) = (1e-6, 1e8);
-
 /// Impedance of a ball over that of a nominal one, from the least to the largest that counts: a ball that has not settled
 /// must not push harder than friction can.
 const STIFFER: f32 = 16.0;
@@ -37,69 +40,6 @@ const FAR: f32 = 4.0;
 
 /// Change of a ball's speed in a round over the largest deviation of speed from which on it is no drift.
 const DRIFT: f32 = 0.25;
-
-/// A screw's balls: constants.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub(crate) struct RingConstants {
-    ball: BallConstants,
-    /// Speed of a nominal ball and its speed against the nut, over ball radius and nut speed.
-    nominal: f32,
-    reference: f32,
-    per_reference: f32,
-    /// Angular velocity of a nominal ball's orbit about the axis across track and radius.
-    orbit: f32,
-    /// Largest deviation of a ball's speed, over the nominal one against the nut.
-    fastest: f32,
-}
-
-/// One ball: 40 bytes. Lengths over the ball radius, speeds over the nut's.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub(crate) struct RingBall {
-    place: [f32; 3],
-    turning: [f32; 3],
-    /// Speed without forces of neighbours less the nominal one, over the nominal one against the nut.
-    free: f32,
-    /// Its change with the nut's angle, 1/rad.
-    slope: f32,
-    /// Force along the track that changes this by one, over the power 2/3 of the load; 0 of a ball without load.
-    impedance: f32,
-    /// Friction torque on the nut over the power 4/3 of the load.
-    torque: f32,
-    /// Change of the speed with the sum of both neighbours' forces, 1/N.
-    rubbing: f32,
-}
-
-/// The load that all balls have in common, in a tick.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub(crate) struct RingLoad {
-    /// Mean axial load of a ball in the frame in which the nut turns forward, N.
-    pub(crate) axial: f32,
-    /// Mean contact force, preload counted, N.
-    whole: f32,
-    /// Powers 2/3 and 4/3 of the load, preload counted, and inverse ones.
-    two_thirds: f32,
-    four_thirds: f32,
-    per_two_thirds: f32,
-    per_four_thirds: f32,
-}
-
-/// Forces of a ball's neighbours in the frame in which the nut turns forward, N, and the friction coefficient between balls.
-pub(crate) struct Neighbours {
-    pub(crate) behind: f32,
-    pub(crate) ahead: f32,
-    pub(crate) friction: f32,
-}
-
-impl Neighbours {
-    const NONE: Self = Self {
-        behind: 0.0,
-        ahead: 0.0,
-        friction: 0.0,
-    };
-}
 
 /// Balls that are renewed in turn.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -133,46 +73,6 @@ pub(crate) struct Ring<const N: usize> {
     negative: bool,
     /// Whether a tick has said how the nut turns and what the load is.
     begun: bool,
-}
-
-impl RingConstants {
-    /// What its balls have in common.
-    pub(crate) const fn ball(&self) -> &BallConstants {
-        &self.ball
-    }
-
-    /// Of grooves in which no ball's speed deviates by more than `fastest`, over that of a nominal ball against the nut.
-    pub(crate) const fn new(ball: BallConstants, fastest: f32) -> Self {
-        let grooves = &ball.grooves;
-        let nominal = 0.5 * (grooves.path + grooves.cos_lead * grooves.cos);
-        let reference = grooves.path - nominal;
-        Self {
-            nominal,
-            reference,
-            per_reference: 1.0 / reference,
-            orbit: nominal * grooves.orbit,
-            fastest,
-            ball,
-        }
-    }
-}
-
-impl RingBall {
-    const fn is_loaded(&self) -> bool {
-        self.impedance > 0.0
-    }
-}
-
-/// `value`, or the bound that it is beyond; NaN is the least.
-#[inline(always)]
-const fn between(value: f32, least: f32, most: f32) -> f32 {
-    if value > most {
-        most
-    } else if value > least {
-        value
-    } else {
-        least
-    }
 }
 
 impl<const N: usize> Ring<N> {
@@ -253,9 +153,13 @@ impl<const N: usize> Ring<N> {
         self.settling > 0
     }
 
-    /// Whether balls stand in two contacts.
-    pub(crate) const fn in_two_points(&self) -> bool {
-        self.two_point > 0 || self.last_two_point > 0
+    /// Whether friction is not known as well as elsewhere: balls stand in two contacts, of which one sticks, or the nut turns
+    /// so far in a round that balls drift away from their laws.
+    pub(crate) const fn beyond_model(&self) -> bool {
+        self.two_point > 0
+            || self.last_two_point > 0
+            || self.round.abs() > LONGEST_ROUND
+            || self.last_round.abs() > LONGEST_ROUND
     }
 
     /// -1 where the nut turns backward, else 1.
@@ -302,6 +206,10 @@ impl<const N: usize> Ring<N> {
             self.begin_anew(constants, axial, self.begun && crossed && !held);
             self.begun = true;
             self.settled_load = whole;
+        }
+        let old = self.settled_load;
+        if whole > LOAD_STEP * old || LOAD_STEP * whole < old {
+            self.settling = SETTLING_ROUNDS * N as u16;
         }
         self.backward = backward;
         self.negative = negative;
@@ -451,99 +359,5 @@ impl<const N: usize> Ring<N> {
             *ball = neighbour;
             self.entered = index as u8 + 1;
         }
-    }
-}
-
-impl RingLoad {
-    /// Of a mean axial load in the frame in which the nut turns forward, N.
-    #[inline(always)]
-    fn new(constants: &RingConstants, axial: f32, lift_off: f32) -> Self {
-        let normal = constants.ball.normal * axial;
-        let whole = math::sqrt(normal * normal + lift_off * lift_off);
-        let [inverse, _] = inverse_cube_roots([whole, 1.0]);
-        let two_thirds = whole * inverse;
-        // A torque that is stored and read under one load is itself to the last bits.
-        let square = 1.0 / two_thirds;
-        Self {
-            axial,
-            whole,
-            two_thirds,
-            four_thirds: two_thirds * two_thirds,
-            per_two_thirds: square,
-            per_four_thirds: square * square,
-        }
-    }
-
-    /// Impedance of a ball, N.
-    #[inline(always)]
-    pub(crate) fn impedance(&self, ball: &RingBall) -> f32 {
-        ball.impedance * self.two_thirds
-    }
-
-    /// Friction torque of balls on the nut, from the sum of theirs, N m.
-    #[inline(always)]
-    pub(crate) fn torque(&self, sum: f32) -> f32 {
-        sum * self.four_thirds
-    }
-}
-
-impl RingBall {
-    /// Keeps what a renewal found.
-    #[inline(always)]
-    fn keep(
-        &mut self,
-        constants: &RingConstants,
-        load: &RingLoad,
-        settled: &Settled,
-        found: &Renewal,
-        forces: &Neighbours,
-    ) {
-        let force = forces.behind - forces.ahead;
-        let radius = constants.ball.grooves.ball_radius;
-        let impedance = constants.reference * radius / found.compliance;
-        let impedance = between(impedance, IMPEDANCES.0, IMPEDANCES.1);
-        let free =
-            (settled.speed - constants.nominal) * constants.per_reference - force / impedance;
-        self.place = settled.place;
-        self.turning = settled.turning;
-        self.free = between(free, -constants.fastest, constants.fastest);
-        self.impedance = impedance * load.per_two_thirds;
-        self.torque = constants.ball.torque(found) * load.per_four_thirds;
-    }
-
-    /// Free speed at this tick, over the nominal one against the nut; it follows the nut's angle.
-    #[inline(always)]
-    pub(crate) fn follow(&mut self, constants: &RingConstants, angle: f32, pressed: f32) -> f32 {
-        self.free += self.slope * angle;
-        between(
-            self.free + self.rubbing * pressed,
-            -constants.fastest,
-            constants.fastest,
-        )
-    }
-
-    /// Friction torque over the power 4/3 of the load.
-    #[inline(always)]
-    pub(crate) const fn torque(&self) -> f32 {
-        self.torque
-    }
-
-    /// A ball that leaves its load.
-    #[inline(always)]
-    pub(crate) fn leave(&mut self) {
-        self.impedance = 0.0;
-    }
-
-    #[inline(always)]
-    pub(crate) const fn loaded(&self) -> bool {
-        self.is_loaded()
-    }
-
-    /// Half the speed with which balls alike rub, m per unit of nut speed.
-    #[inline(always)]
-    pub(crate) fn rubbing(&self, constants: &RingConstants) -> f32 {
-        let [x, _, z] = self.turning;
-        let z = z - constants.orbit;
-        math::sqrt(x * x + z * z) * constants.ball.grooves.ball_radius
     }
 }

@@ -11,13 +11,7 @@ use crate::report::document::{Block, Cell, Table};
 /// Balls of every screw of the table.
 const BALLS: usize = 16;
 
-/// States of two turns: one every three degrees.
-const STATES: usize = 240;
-
-const LIN: Case = Case {
-    states: STATES,
-    ..Case::LIN
-};
+const LIN: Case = Case::LIN;
 
 /// 16 x 5.
 const SMALL: Case = Case {
@@ -136,6 +130,14 @@ fn cases() -> Vec<(&'static str, &'static str, Case)> {
         ),
         lin("50 N, 5 turns/s", Case { speed: 5.0, ..LIN }),
         lin("50 N, 20 turns/s", Case { speed: 20.0, ..LIN }),
+        lin(
+            "50 N, ticks of 0.2 ms",
+            Case {
+                tick: 0.2e-3,
+                ..LIN
+            },
+        ),
+        lin("50 N, ticks of 1 ms", Case { tick: 1e-3, ..LIN }),
         lin(
             "friction 0.05",
             Case {
@@ -258,9 +260,6 @@ pub fn blocks(quick: bool) -> Result<Vec<Block>, Failure> {
     let mut cases = cases();
     if quick {
         cases.truncate(6);
-        for (_, _, case) in &mut cases {
-            case.states /= 2;
-        }
     }
     let found = cases
         .par_iter()

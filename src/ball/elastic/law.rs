@@ -1,0 +1,206 @@
+//! What a ball of a ring does on its own between two renewals, and what all balls have in common in a tick.
+
+use super::constants::BallConstants;
+use super::renewal::{Renewal, Settled};
+use crate::math::{self, inverse_cube_roots};
+
+/// Least and largest impedance of a loaded ball, N: what a train takes.
+const IMPEDANCES: (f32, f32) = (1e-6, 1e8);
+
+/// A screw's balls: constants.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(crate) struct RingConstants {
+    pub(super) ball: BallConstants,
+    /// Speed of a nominal ball and its speed against the nut, over ball radius and nut speed.
+    pub(super) nominal: f32,
+    pub(super) reference: f32,
+    pub(super) per_reference: f32,
+    /// Angular velocity of a nominal ball's orbit about the axis across track and radius.
+    pub(super) orbit: f32,
+    /// Largest deviation of a ball's speed, over the nominal one against the nut.
+    pub(super) fastest: f32,
+}
+
+/// One ball: 44 bytes. Lengths over the ball radius, speeds over the nut's.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(crate) struct RingBall {
+    pub(super) place: [f32; 3],
+    pub(super) turning: [f32; 3],
+    /// Speed without forces of neighbours less the nominal one, over the nominal one against the nut.
+    pub(super) free: f32,
+    /// Its change with the nut's angle, 1/rad.
+    pub(super) slope: f32,
+    /// Force along the track that changes this by one, over the power 2/3 of the load; 0 of a ball without load.
+    pub(super) impedance: f32,
+    /// Friction torque on the nut over the power 7/6 of the load.
+    pub(super) torque: f32,
+    /// Change of the speed with the sum of both neighbours' forces, 1/N.
+    pub(super) rubbing: f32,
+}
+
+/// The load that all balls have in common, in a tick.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(crate) struct RingLoad {
+    /// Mean axial load of a ball in the frame in which the nut turns forward, N.
+    pub(crate) axial: f32,
+    /// Mean contact force, preload counted, N.
+    pub(super) whole: f32,
+    /// Powers 2/3 and 7/6 of the load, preload counted, and inverse ones. Friction of slip across the track goes with the
+    /// load, that of spin with its power 4/3; a screw's torque has both.
+    pub(super) two_thirds: f32,
+    pub(super) seven_sixths: f32,
+    pub(super) per_two_thirds: f32,
+    pub(super) per_seven_sixths: f32,
+}
+
+/// Forces of a ball's neighbours in the frame in which the nut turns forward, N, and the friction coefficient between balls.
+pub(crate) struct Neighbours {
+    pub(crate) behind: f32,
+    pub(crate) ahead: f32,
+    pub(crate) friction: f32,
+}
+
+impl Neighbours {
+    pub(super) const NONE: Self = Self {
+        behind: 0.0,
+        ahead: 0.0,
+        friction: 0.0,
+    };
+}
+
+impl RingConstants {
+    /// What its balls have in common.
+    pub(crate) const fn ball(&self) -> &BallConstants {
+        &self.ball
+    }
+
+    /// Of grooves in which no ball's speed deviates by more than `fastest`, over that of a nominal ball against the nut.
+    pub(crate) const fn new(ball: &BallConstants, fastest: f32) -> Self {
+        let grooves = &ball.grooves;
+        let nominal = 0.5 * (grooves.path + grooves.cos_lead * grooves.cos);
+        let reference = grooves.path - nominal;
+        Self {
+            nominal,
+            reference,
+            per_reference: 1.0 / reference,
+            orbit: nominal * grooves.orbit,
+            fastest,
+            ball: *ball,
+        }
+    }
+}
+
+/// `value`, or the bound that it is beyond; NaN is the least.
+#[inline(always)]
+pub(super) const fn between(value: f32, least: f32, most: f32) -> f32 {
+    if value > most {
+        most
+    } else if value > least {
+        value
+    } else {
+        least
+    }
+}
+
+impl RingLoad {
+    /// Of a mean axial load in the frame in which the nut turns forward, N.
+    #[inline(always)]
+    pub(super) fn new(constants: &RingConstants, axial: f32, lift_off: f32) -> Self {
+        let normal = constants.ball.normal * axial;
+        let whole = math::sqrt(normal * normal + lift_off * lift_off);
+        let [inverse, _] = inverse_cube_roots([whole, 1.0]);
+        let square = inverse * inverse;
+        let sixth = math::sqrt(inverse);
+        let two_thirds = whole * inverse;
+        Self {
+            axial,
+            whole,
+            two_thirds,
+            seven_sixths: whole * whole * square * sixth,
+            per_two_thirds: square,
+            per_seven_sixths: square * inverse * sixth,
+        }
+    }
+
+    /// Impedance of a ball, N.
+    #[inline(always)]
+    pub(crate) fn impedance(&self, ball: &RingBall) -> f32 {
+        ball.impedance * self.two_thirds
+    }
+
+    /// Friction torque of balls on the nut, from the sum of theirs, N m.
+    #[inline(always)]
+    pub(crate) fn torque(&self, sum: f32) -> f32 {
+        sum * self.seven_sixths
+    }
+}
+
+impl RingBall {
+    pub(super) const fn is_loaded(&self) -> bool {
+        self.impedance > 0.0
+    }
+}
+
+impl RingBall {
+    /// Keeps what a renewal found.
+    #[inline(always)]
+    pub(super) fn keep(
+        &mut self,
+        constants: &RingConstants,
+        load: &RingLoad,
+        settled: &Settled,
+        found: &Renewal,
+        forces: &Neighbours,
+    ) {
+        let force = forces.behind - forces.ahead;
+        let radius = constants.ball.grooves.ball_radius;
+        let impedance = constants.reference * radius / found.compliance;
+        let impedance = between(impedance, IMPEDANCES.0, IMPEDANCES.1);
+        let free =
+            (settled.speed - constants.nominal) * constants.per_reference - force / impedance;
+        self.place = settled.place;
+        self.turning = settled.turning;
+        self.free = between(free, -constants.fastest, constants.fastest);
+        self.impedance = impedance * load.per_two_thirds;
+        self.torque = constants.ball.torque(found) * load.per_seven_sixths;
+    }
+
+    /// Free speed at this tick, over the nominal one against the nut; it follows the nut's angle.
+    #[inline(always)]
+    pub(crate) fn follow(&mut self, constants: &RingConstants, angle: f32, pressed: f32) -> f32 {
+        self.free += self.slope * angle;
+        between(
+            self.free + self.rubbing * pressed,
+            -constants.fastest,
+            constants.fastest,
+        )
+    }
+
+    /// Friction torque over the power 7/6 of the load.
+    #[inline(always)]
+    pub(crate) const fn torque(&self) -> f32 {
+        self.torque
+    }
+
+    /// A ball that leaves its load.
+    #[inline(always)]
+    pub(crate) fn leave(&mut self) {
+        self.impedance = 0.0;
+    }
+
+    #[inline(always)]
+    pub(crate) const fn loaded(&self) -> bool {
+        self.is_loaded()
+    }
+
+    /// Half the speed with which balls alike rub, m per unit of nut speed.
+    #[inline(always)]
+    pub(crate) fn rubbing(&self, constants: &RingConstants) -> f32 {
+        let [x, _, z] = self.turning;
+        let z = z - constants.orbit;
+        math::sqrt(x * x + z * z) * constants.ball.grooves.ball_radius
+    }
+}
