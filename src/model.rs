@@ -14,14 +14,15 @@ use crate::scene::{
 /// ```
 /// use epas_friction::{
 ///     CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, Clearance, FrictionBranch, FrictionModel,
-///     Inputs, Limits, Regime,
+///     Inputs, Limits, Regime, RollingResistance,
 /// };
 ///
 /// let mut model = FrictionModel::<CagedBallScrew>::new(&CagedBallScrewConfiguration {
 ///     design: CATALOGUE[15].design()?, // 32 x 20 x 6.35
-///     friction: 0.075,
+///     friction: 0.1,
+///     rolling_resistance: RollingResistance::STEEL,
 ///     rolling_tangent: 0.0,
-///     branch: FrictionBranch::Rolling,
+///     branch: FrictionBranch::Contacts,
 ///     clearance: Clearance::ZERO,
 ///     loaded_balls: 40,
 ///     reversal_speed: 0.5,
@@ -42,7 +43,7 @@ use crate::scene::{
 /// ```
 /// use epas_friction::{
 ///     CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, Clearance, Error,
-///     FrictionBranch, FrictionModel, Limits,
+///     FrictionBranch, FrictionModel, Limits, RollingResistance,
 /// };
 ///
 /// static GEAR: CagedConstants = match gear() {
@@ -56,9 +57,10 @@ use crate::scene::{
 ///             Ok(design) => design,
 ///             Err(error) => return Err(error),
 ///         },
-///         friction: 0.075,
+///         friction: 0.1,
+///         rolling_resistance: RollingResistance::STEEL,
 ///         rolling_tangent: 0.0,
-///         branch: FrictionBranch::Rolling,
+///         branch: FrictionBranch::Contacts,
 ///         clearance: Clearance::ZERO,
 ///         loaded_balls: 40,
 ///         reversal_speed: 0.5,
@@ -88,8 +90,9 @@ use crate::scene::{
 /// #             Err(error) => return Err(error),
 /// #         },
 ///         friction: 7.5,
+/// #         rolling_resistance: RollingResistance::STEEL,
 /// #         rolling_tangent: 0.0,
-/// #         branch: FrictionBranch::Rolling,
+/// #         branch: FrictionBranch::Contacts,
 /// #         clearance: Clearance::ZERO,
 /// #         loaded_balls: 40,
 /// #         reversal_speed: 0.5,

@@ -11,6 +11,7 @@ use std::str::FromStr;
 use epas_friction::{
     BallScrew, BallScrewParameters, CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration,
     Clearance, DISSERTATION_DESIGNS, FrictionBranch, FrictionModel, GrooveSize, Limits,
+    RollingResistance, defaults,
 };
 use serde::Deserialize;
 
@@ -36,6 +37,7 @@ pub struct Design {
 
 /// Settings that a catalogue does not print.
 const FRICTION: f32 = 0.075;
+const ROLLING_RESISTANCE: RollingResistance = defaults::ROLLING_RESISTANCE;
 const REVERSAL_SPEED: f32 = 0.5;
 const LIMITS: Limits = Limits {
     nut_speed: 2e3,
@@ -50,8 +52,9 @@ impl Design {
             configuration: CagedBallScrewConfiguration {
                 design,
                 friction: FRICTION,
+                rolling_resistance: ROLLING_RESISTANCE,
                 rolling_tangent: 0.0,
-                branch: FrictionBranch::Rolling,
+                branch: FrictionBranch::Contacts,
                 clearance: Clearance::ZERO,
                 loaded_balls: loaded_balls.unwrap_or_else(|| usual_balls(&design)),
                 reversal_speed: REVERSAL_SPEED,
@@ -174,6 +177,8 @@ struct DesignFile {
     ball_material: Option<MaterialTable>,
     groove_material: Option<MaterialTable>,
     friction: Option<f32>,
+    hysteresis_loss: Option<f32>,
+    lubricant_drag: Option<f32>,
     rolling_tangent: Option<f32>,
     branch: Option<BranchName>,
     clearance: Option<f32>,
@@ -205,6 +210,7 @@ struct LimitsTable {
 #[derive(Deserialize)]
 #[serde(rename_all = "lowercase")]
 enum BranchName {
+    Contacts,
     Rolling,
     Sliding,
 }
@@ -264,12 +270,17 @@ impl DesignFile {
         );
         let configuration = &mut design.configuration;
         replace(&mut configuration.friction, self.friction);
+        let rolling = &mut configuration.rolling_resistance;
+        replace(&mut rolling.hysteresis_loss, self.hysteresis_loss);
+        replace(&mut rolling.lubricant_drag, self.lubricant_drag);
         replace(&mut configuration.rolling_tangent, self.rolling_tangent);
         configuration.clearance = clearance;
         replace(&mut configuration.reversal_speed, self.reversal_speed);
-        if matches!(self.branch, Some(BranchName::Sliding)) {
-            configuration.branch = FrictionBranch::Sliding;
-        }
+        configuration.branch = match self.branch {
+            None | Some(BranchName::Contacts) => FrictionBranch::Contacts,
+            Some(BranchName::Rolling) => FrictionBranch::Rolling,
+            Some(BranchName::Sliding) => FrictionBranch::Sliding,
+        };
         if let Some(limits) = self.limits {
             replace(&mut configuration.limits.nut_speed, limits.nut_speed);
             replace(&mut configuration.limits.axial_load, limits.axial_load);
@@ -287,7 +298,7 @@ impl DesignFile {
                     .design(
                         screw,
                         clearance,
-                        configuration.friction,
+                        (configuration.friction, configuration.rolling_resistance),
                         configuration.reversal_speed,
                         configuration.limits,
                     )

@@ -45,7 +45,8 @@ use targets::{refuse_same, targets};
 /// ball_diameter, conformity or groove_radius (for both grooves, or each in a table [screw_groove],
 /// [nut_groove]), contact_angle; and if wanted name, youngs_modulus, poisson_ratio, density (for both
 /// bodies, or each in a table [ball_material], [groove_material]; steel without), friction,
-/// rolling_tangent, branch ("rolling" or "sliding"), clearance (radial gap of every contact, m; play above 0,
+/// hysteresis_loss, lubricant_drag (N a contact under 100 N), branch ("contacts", or a paper's closed form "rolling" or
+/// "sliding"), rolling_tangent (closed forms), clearance (radial gap of every contact, m; play above 0,
 /// oversize below) or preload (force of each contact without a load, N), reversal_speed, loaded_balls
 /// (needed with oversize), a table [limits] with nut_speed, axial_load, friction_torque; and for --scene
 /// uncaged a table [uncaged] with balls (1 to 64), turns, and if wanted ball_friction, return_length,

@@ -2,12 +2,12 @@
 
 use epas_friction::{CagedBallScrew, CagedBallScrewConfiguration, FrictionBranch};
 
-use crate::design::{ball_screw, clearance, loaded_balls};
+use crate::design::{ball_screw, clearance, loaded_balls, rolling_resistance};
 use crate::scene::{CScene, TablePointers, Tables, limits, regime, screw_inputs};
 use crate::status::{EPAS_FIELD_BRANCH, Failure};
 use crate::types::{
-    CagedConfiguration, CagedPlace, EPAS_BRANCH_ROLLING, EPAS_BRANCH_SLIDING, EPAS_FAULT_CALL,
-    EPAS_REGIME_STANDING, Inputs, Outputs,
+    CagedConfiguration, CagedPlace, EPAS_BRANCH_CONTACTS, EPAS_BRANCH_ROLLING, EPAS_BRANCH_SLIDING,
+    EPAS_FAULT_CALL, EPAS_REGIME_STANDING, Inputs, Outputs,
 };
 use crate::version::mark;
 
@@ -41,11 +41,16 @@ impl CScene for Caged {
         Ok(CagedBallScrewConfiguration {
             design: ball_screw(&configuration.design)?,
             friction: configuration.friction,
+            rolling_resistance: rolling_resistance(
+                configuration.hysteresis_loss,
+                configuration.lubricant_drag,
+            ),
             rolling_tangent: configuration.rolling_tangent,
             branch: match configuration.branch {
+                EPAS_BRANCH_CONTACTS => FrictionBranch::Contacts,
                 EPAS_BRANCH_ROLLING => FrictionBranch::Rolling,
                 EPAS_BRANCH_SLIDING => FrictionBranch::Sliding,
-                other => return Err(Failure::count(EPAS_FIELD_BRANCH, other, 0, 1)),
+                other => return Err(Failure::count(EPAS_FIELD_BRANCH, other, 0, 2)),
             },
             clearance: clearance(configuration.clearance)?,
             loaded_balls: loaded_balls(configuration.loaded_balls)?,

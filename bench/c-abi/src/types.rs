@@ -3,10 +3,13 @@
 
 use crate::tables::{Deviation, LoadShare};
 
-/// The ball rolls and slips across the groove at the screw: the expected value.
-pub const EPAS_BRANCH_ROLLING: u32 = 0u32;
-/// The ball slides along the path at both contacts: the pessimistic bound.
-pub const EPAS_BRANCH_SLIDING: u32 = 1u32;
+/// What the contacts of a ball dissipate, by its balance between elastic grooves: the one to take.
+pub const EPAS_BRANCH_CONTACTS: u32 = 0u32;
+/// The ball rolls and slips across the groove at the screw: a paper's closed form, which leaves out spin, the third contact
+/// and most of the lead's effect.
+pub const EPAS_BRANCH_ROLLING: u32 = 1u32;
+/// The ball slides along the path at both contacts: a paper's closed form, a pessimistic bound.
+pub const EPAS_BRANCH_SLIDING: u32 = 2u32;
 
 /// The mechanism is slower than the reversal speed: friction is between its two directions.
 pub const EPAS_REGIME_STANDING: u32 = 0u32;
@@ -118,15 +121,20 @@ pub struct Outputs {
 pub struct CagedConfiguration {
     /// The design.
     pub design: BallScrew,
-    /// Coulomb friction coefficient of ball and groove, 0 to 1.
+    /// Coulomb friction coefficient of ball and groove, 1e-6 to 0.5; 0 to 1 for the closed forms.
     pub friction: f32,
-    /// Lever arm of rolling friction over `ball_radius sin(contact_angle)`, 0 to 0.1.
+    /// Share of the elastic energy that is lost while a contact passes, 0 to 0.2; hardened steel 0.01. Closed forms know
+    /// none.
+    pub hysteresis_loss: f32,
+    /// Drag of the lubricant on one contact under 100 N, N, 0 to 10; 0 for none. Closed forms know none.
+    pub lubricant_drag: f32,
+    /// Lever arm of rolling friction over `ball_radius sin(contact_angle)`, 0 to 0.1; for the closed forms alone.
     pub rolling_tangent: f32,
     /// Which state of the ball the torque is computed for, one of `EPAS_BRANCH_...`.
     pub branch: u32,
     /// Radial gap of every contact at a centred ball without load, m, play above zero, oversize below; -0.02 to
-    /// 0.05 ball radii. `epas_clearance` finds it from a preload or an axial play. Oversize presses on both
-    /// flanks of the nut; play changes nothing.
+    /// 0.05 ball radii. `epas_clearance` finds it from a preload or an axial play. For the closed forms oversize presses
+    /// on both flanks of the nut, and play changes nothing.
     pub clearance: f32,
     /// Number of balls that carry load, 1 to 1000.
     pub loaded_balls: u32,

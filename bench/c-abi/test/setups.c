@@ -18,8 +18,10 @@ const epas_caged_configuration_t test_caged_configuration = {
         .groove_material = STEEL,
     },
     .friction = 0.075f,
-    .rolling_tangent = 0.002f,
-    .branch = EPAS_BRANCH_ROLLING,
+    .hysteresis_loss = 0.01f,
+    .lubricant_drag = 0.006f,
+    .rolling_tangent = 0.0f,
+    .branch = EPAS_BRANCH_CONTACTS,
     .clearance = -2.653692e-7f, /* 100 N on each flank. */
     .loaded_balls = 70u,
     .reversal_speed = 0.5f,

@@ -64,6 +64,8 @@ pub struct Contexts {
     pub rotary_ball: BallState,
     /// Caged ball screw.
     pub caged: FrictionModel<CagedBallScrew>,
+    /// The same with a friction coefficient that changes.
+    pub caged_changing: FrictionModel<CagedBallScrew>,
     /// Deviation of contact angles along a groove.
     pub deviation: &'static DeviationMap,
     /// Balls of a ball screw in closed form.
@@ -159,6 +161,7 @@ impl Contexts {
                 .solve(&rotary.four_point().contacts(&rotary_nominal, &[100.0; 4])),
             rotary,
             caged: FrictionModel::new(&black_box(caged_configuration()?))?,
+            caged_changing: changing(FrictionModel::new(&black_box(caged_configuration()?))?)?,
             deviation: &SCREW_DEVIATION,
             screw_loop: screw_row.at(10.0, 100.0).per_speed(0.5, 2.0, (1.0, 1.0)),
             screw_row,
@@ -182,6 +185,14 @@ impl Contexts {
             }),
         })
     }
+}
+
+/// A caged ball screw whose friction coefficient has been set.
+fn changing(
+    mut model: FrictionModel<CagedBallScrew>,
+) -> Result<FrictionModel<CagedBallScrew>, Error> {
+    model.set_friction(0.08)?;
+    Ok(model)
 }
 
 /// A ball screw that has turned with its load falling.

@@ -192,6 +192,13 @@ counted! {
         model.step(Inputs { nut_speed, axial_load })
     }
 
+    /// One tick of a caged ball screw whose friction coefficient changes.
+    fn count_step_caged_changing(
+        model: &mut FrictionModel<CagedBallScrew>, nut_speed: f32, axial_load: f32
+    ) -> Outputs {
+        model.step(Inputs { nut_speed, axial_load })
+    }
+
     /// Deviation of a contact angle along a groove.
     fn count_deviation_map(map: &DeviationMap, phase: u32) -> f32 {
         map.at(phase)

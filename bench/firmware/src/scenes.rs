@@ -245,8 +245,9 @@ pub const fn caged_configuration() -> Result<CagedBallScrewConfiguration, Error>
     Ok(CagedBallScrewConfiguration {
         design: DESIGN,
         friction: 0.075,
+        rolling_resistance: RollingResistance::STEEL,
         rolling_tangent: 0.0,
-        branch: FrictionBranch::Rolling,
+        branch: FrictionBranch::Contacts,
         clearance: OVERSIZE,
         loaded_balls: 36,
         reversal_speed: 0.5,

@@ -19,9 +19,9 @@ use crate::counted::{
     count_libm_powf, count_libm_sincosf, count_libm_sqrtf, count_linear_ball_analytic,
     count_linear_ball_refined, count_linear_ball_speed, count_linear_chain_2, count_lugre_step,
     count_micromath_cos, count_micromath_powf, count_micromath_sqrt, count_press_37,
-    count_rotary_ball_refined, count_sin_cos, count_sqrt, count_step_caged, count_step_efficiency,
-    count_step_linear, count_step_train_37, count_step_train_37_pressing, count_stribeck_curve,
-    count_train_37,
+    count_rotary_ball_refined, count_sin_cos, count_sqrt, count_step_caged,
+    count_step_caged_changing, count_step_efficiency, count_step_linear, count_step_train_37,
+    count_step_train_37_pressing, count_stribeck_curve, count_train_37,
 };
 use crate::inputs::{
     SPECIAL, angle, contact_angle, four_contacts, impedances, pair, positive, tick, train, wave,
@@ -241,6 +241,11 @@ subjects! {
         |c, [nut_speed, axial_load]| -> [4] outputs(
             &timed!(c, count_step_caged(black_box(&mut c.caged), nut_speed, axial_load))
         );
+    step_caged_changing: |spread| -> [2] [spread.between(-60.0, 60.0), spread.between(1000.0, 2800.0)],
+        |c, [nut_speed, axial_load]| -> [4] {
+            let model = black_box(&mut c.caged_changing);
+            outputs(&timed!(c, count_step_caged_changing(model, nut_speed, axial_load)))
+        };
     deviation_map: |spread| -> [1] [spread.between(0.0, 1.0)],
         |c, [period]| -> [1] {
             let phase = (period * 4_294_967_296.0) as u32;

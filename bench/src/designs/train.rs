@@ -150,7 +150,15 @@ pub fn built_in(name: &str, screw: BallScrew, balls: u16) -> Option<UncagedDesig
         axial_load: 1e5,
         friction_torque: 100.0,
     };
-    table.design(screw, Clearance::ZERO, 0.1, 1e-2, limits).ok()
+    table
+        .design(
+            screw,
+            Clearance::ZERO,
+            (0.1, RollingResistance::NONE),
+            1e-2,
+            limits,
+        )
+        .ok()
 }
 
 impl UncagedTable {
@@ -159,7 +167,7 @@ impl UncagedTable {
         &self,
         screw: BallScrew,
         clearance: Clearance,
-        friction: f32,
+        (friction, rolling_resistance): (f32, RollingResistance),
         reversal_speed: f32,
         limits: Limits,
     ) -> Result<UncagedDesign, String> {
@@ -189,7 +197,7 @@ impl UncagedTable {
                 design: screw,
                 friction,
                 ball_friction: self.ball_friction.unwrap_or(BALL_FRICTION),
-                rolling_resistance: RollingResistance::NONE,
+                rolling_resistance,
                 clearance,
                 turns: self.turns,
                 return_length: self.return_length.unwrap_or(0.0),

@@ -209,7 +209,9 @@ impl CagedReference {
                 };
                 (screw.rolling_screw(), 1.0 / turned.rolling_screw())
             }
-            FrictionBranch::Sliding => (screw.sliding_drive(), screw.sliding_backdrive()),
+            FrictionBranch::Sliding | FrictionBranch::Contacts => {
+                (screw.sliding_drive(), screw.sliding_backdrive())
+            }
         };
         Ok(Self {
             drive: (drive > 0.0).then(|| reduced_lead * (1.0 - drive) / drive),

@@ -10,7 +10,7 @@ use epas_friction::geometry::{ContactAngle, Groove};
 use epas_friction::hertz::HertzContact;
 use epas_friction::{
     BallScrew, CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, Clearance, FrictionBranch,
-    FrictionModel, Inputs, Limits, math,
+    FrictionModel, Inputs, Limits, RollingResistance, math,
 };
 use epas_reference::curvature as reference;
 use epas_reference::published::TABLE_A1;
@@ -165,6 +165,7 @@ fn caged_step(race: &mut Race, list: &mut List, design: BallScrew) -> Result<(),
     let mut model = FrictionModel::<CagedBallScrew>::new(&CagedBallScrewConfiguration {
         design,
         friction: 0.075,
+        rolling_resistance: RollingResistance::NONE,
         rolling_tangent: 0.0,
         branch: FrictionBranch::Rolling,
         clearance: black_box(Clearance::new(-1e-6).map_err(refused)?),

@@ -292,8 +292,13 @@ impl Trial for CagedBallScrew {
         let design = design(random);
         CagedBallScrewConfiguration {
             friction: random.within(0.0, 1.0),
+            rolling_resistance: rolling_resistance(random),
             rolling_tangent: random.of(&[0.0, 0.001, 0.1]),
-            branch: random.of(&[FrictionBranch::Rolling, FrictionBranch::Sliding]),
+            branch: random.of(&[
+                FrictionBranch::Contacts,
+                FrictionBranch::Rolling,
+                FrictionBranch::Sliding,
+            ]),
             clearance: clearance(random, &design),
             loaded_balls: random.of(&[1, 7, 120, 1000]),
             design,

@@ -57,8 +57,9 @@ pub fn caged() -> CagedBallScrewConfiguration {
     CagedBallScrewConfiguration {
         design,
         friction: 0.075,
+        rolling_resistance: RollingResistance::STEEL,
         rolling_tangent: 0.0,
-        branch: FrictionBranch::Rolling,
+        branch: FrictionBranch::Contacts,
         clearance: oversize(&design, 300.0, 41),
         loaded_balls: 41,
         reversal_speed: 0.5,

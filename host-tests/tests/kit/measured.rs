@@ -87,6 +87,7 @@ const TABLES: &[&[Measured]] = &[
     HERTZ,
     KINEMATICS,
     SCENES,
+    CAGED,
     SCREW_REFERENCE,
     CHAIN_REFERENCE,
     LINEAR_REFERENCE,
@@ -102,6 +103,19 @@ const TABLES: &[&[Measured]] = &[
     WHOLE_SCREW_REFERENCE,
     SINES,
     LONG_ROWS,
+];
+
+/// `scenes/caged_contacts.rs`: torques relative, efficiencies, ticks.
+#[rustfmt::skip]
+const CAGED: &[Measured] = &[
+    row("caged and spread balls", [1.0, 1.0, 1.0], [1.0, 1.0, 1.0]),
+    row("law over the load", [1.0, 1.0, 1.0], [1.0, 1.0, 1.0]),
+    row("caged screw and exact ball", [1.0, 1.0, 1.0], [1.0, 1.0, 1.0]),
+    row("efficiency of caged screw and exact ball", [1.0, 1.0, 1.0], [1.0, 1.0, 1.0]),
+    row("friction after a jump", [1.0, 1.0, 1.0], [1.0, 1.0, 1.0]),
+    row("friction on a ramp", [1.0, 1.0, 1.0], [1.0, 1.0, 1.0]),
+    largest("friction set in a screw without cage", 1.0, 1.0),
+    largest("ticks after a jump of friction", 400.0, 400.0),
 ];
 
 /// `balls/screw_ball.rs`: orbital speeds over the nut's, the rest relative; forces of given pairs over the largest force

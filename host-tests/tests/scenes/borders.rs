@@ -107,6 +107,7 @@ fn back_driving_ends_where_the_efficiency_does() {
     let lowered = |rolling_tangent| {
         let configuration = CagedBallScrewConfiguration {
             design,
+            branch: FrictionBranch::Rolling,
             rolling_tangent,
             clearance: Clearance::ZERO,
             ..gears::caged()

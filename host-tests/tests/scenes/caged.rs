@@ -6,6 +6,7 @@ use epas_friction::efficiency::EfficiencyGeometry;
 use epas_friction::{
     BallScrew, CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, Clearance,
     DISSERTATION_DESIGNS, Faults, FrictionBranch, FrictionModel, Inputs, Limits, Outputs, Regime,
+    RollingResistance,
 };
 use epas_reference::efficiency::Screw;
 use proptest::prelude::*;
@@ -14,6 +15,7 @@ fn configuration() -> CagedBallScrewConfiguration {
     CagedBallScrewConfiguration {
         design: BallScrew::new(DISSERTATION_DESIGNS[2].parameters).unwrap(),
         friction: 0.075,
+        rolling_resistance: RollingResistance::NONE,
         rolling_tangent: 0.0,
         branch: FrictionBranch::Rolling,
         clearance: Clearance::ZERO,
@@ -64,6 +66,7 @@ fn torque_is_the_efficiency_of_the_reference() {
             let (drive, backdrive) = match branch {
                 FrictionBranch::Rolling => (screw.rolling_screw(), screw.rolling_backdrive()),
                 FrictionBranch::Sliding => (screw.sliding_drive(), screw.sliding_backdrive()),
+                FrictionBranch::Contacts => unreachable!("no closed form"),
             };
             let arm = lead / std::f64::consts::TAU;
             for (speed, load) in [(100.0, 900.0), (-100.0, -900.0)] {

@@ -13,7 +13,7 @@ use epas_friction::hal::{
 };
 use epas_friction::{
     BallScrew, CagedBallScrew, CagedBallScrewConfiguration, Clearance, DISSERTATION_DESIGNS,
-    Faults, FrictionBranch, FrictionModel, Inputs, Limits, Outputs, Regime,
+    Faults, FrictionBranch, FrictionModel, Inputs, Limits, Outputs, Regime, RollingResistance,
 };
 
 const READ_ANGLE: u16 = 0xFFFF;
@@ -684,6 +684,7 @@ fn a_failed_bus_leaves_the_bridge_neutral() {
     let mut model = FrictionModel::<CagedBallScrew>::new(&CagedBallScrewConfiguration {
         design: BallScrew::new(DISSERTATION_DESIGNS[2].parameters).unwrap(),
         friction: 0.075,
+        rolling_resistance: RollingResistance::NONE,
         rolling_tangent: 0.0,
         branch: FrictionBranch::Rolling,
         clearance: Clearance::ZERO,

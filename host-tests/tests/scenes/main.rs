@@ -5,6 +5,7 @@ mod kit;
 
 mod borders;
 mod caged;
+mod caged_contacts;
 mod extreme;
 mod faults;
 mod hal;

@@ -64,6 +64,7 @@ const fn caged(branch: FrictionBranch, clearance: Clearance) -> CagedBallScrewCo
     CagedBallScrewConfiguration {
         design: folded(CATALOGUE[15].design()),
         friction: 0.075,
+        rolling_resistance: RollingResistance::NONE,
         rolling_tangent: 1e-3,
         branch,
         clearance,

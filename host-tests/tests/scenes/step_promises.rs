@@ -42,6 +42,7 @@ fn caged_step() {
             let mut model = FrictionModel::<CagedBallScrew>::new(&CagedBallScrewConfiguration {
                 design: BallScrew::new(parameters).unwrap(),
                 friction: 0.075,
+                rolling_resistance: RollingResistance::NONE,
                 rolling_tangent: 0.0,
                 branch,
                 clearance: Clearance::ZERO,
@@ -66,6 +67,7 @@ fn caged_step() {
             let (drive, backdrive) = match branch {
                 FrictionBranch::Rolling => (screw.rolling_screw(), screw.rolling_backdrive()),
                 FrictionBranch::Sliding => (screw.sliding_drive(), screw.sliding_backdrive()),
+                FrictionBranch::Contacts => unreachable!("no closed form"),
             };
             // Torque per load in both directions of power.
             let (drive, backdrive) = (arm * (1.0 / drive - 1.0), arm * (1.0 - backdrive));

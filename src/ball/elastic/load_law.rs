@@ -117,7 +117,7 @@ struct Known {
 impl Known {
     /// Whether its friction is known as well as elsewhere.
     fn is_sound(&self) -> bool {
-        !(self.nominal.in_two_points() || self.nominal.settles())
+        !(self.nominal.in_two_points() || self.nominal.changed())
     }
 }
 

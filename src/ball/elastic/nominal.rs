@@ -10,8 +10,9 @@ pub(crate) const SMALLEST_LOAD: f32 = 0.01;
 /// Change of the load from which on the ball begins anew, as a factor.
 const LOAD_JUMP: f32 = 3.0;
 
-/// Change of the friction torque in a renewal above which the ball still settles.
-const SETTLED: f32 = 1e-3;
+/// Change of the friction torque in a renewal above which the ball still settles, and renewals without one that end this.
+const SETTLED: f32 = 3e-4;
+const QUIET: u8 = 4;
 
 /// Change of the friction torque in a renewal below which a law over the load takes it.
 const FOLDED: f32 = 3e-6;
@@ -70,6 +71,8 @@ pub(crate) struct NominalBall {
     whole: f32,
     /// Change of the ratio in the last renewal, over it.
     change: f32,
+    /// Renewals until it counts as settled.
+    unsettled: u8,
     two_point: bool,
 }
 
@@ -87,6 +90,7 @@ impl NominalBall {
             ratio,
             whole: grooving.whole(ball, axial_load),
             change: 1.0,
+            unsettled: QUIET,
             two_point: false,
         }
     }
@@ -99,7 +103,12 @@ impl NominalBall {
 
     /// Whether its friction still changes.
     #[inline(always)]
-    pub(crate) fn settles(&self) -> bool {
+    pub(crate) const fn settles(&self) -> bool {
+        self.unsettled > 0
+    }
+
+    /// Whether its friction changed in the last renewal.
+    pub(super) fn changed(&self) -> bool {
         self.change > SETTLED
     }
 
@@ -124,6 +133,7 @@ impl NominalBall {
         if found.lost {
             self.settled = ball.grooves.start(&inputs);
             self.change = 1.0;
+            self.unsettled = QUIET;
             return;
         }
         // The torque is that of the load which the contacts carried before the step.
@@ -133,6 +143,11 @@ impl NominalBall {
             1.0
         } else {
             change / ratio
+        };
+        self.unsettled = if self.changed() {
+            QUIET
+        } else {
+            self.unsettled.saturating_sub(1)
         };
         self.ratio = ratio;
         self.two_point = found.two_point();

@@ -135,7 +135,7 @@ impl ElasticGrooves {
     ///
     /// A ball that has lost both contacts of a groove, or whose numbers are not finite, stays as it is: see
     /// `lost`.
-    #[inline]
+    #[inline(never)]
     pub fn renew(&self, state: &mut Settled, inputs: &BallInputs) -> Renewal {
         let clearance = inputs.clearance * self.per_radius;
         let friction = inputs.friction;
@@ -207,11 +207,11 @@ impl ElasticGrooves {
         let unbalanced = [screw.force - needed, nut.force + needed + across];
         let mut step = solved(&shared, &screw, &nut, unbalanced, inputs.force, &by_rubbing);
         let reaches = [&a, &b, &c, &d];
-        let mut taken = self.limited(&step, reaches, inputs.axial_load);
+        let mut taken = self.limited(&step, reaches, inputs.axial_load, clearance);
         if taken < LEAST_TAKEN || step.compliance <= 0.0 {
             shared.uncouple(&mut screw, &mut nut);
             step = solved(&shared, &screw, &nut, unbalanced, inputs.force, &by_rubbing);
-            taken = self.limited(&step, reaches, inputs.axial_load);
+            taken = self.limited(&step, reaches, inputs.axial_load, clearance);
         }
         let moved = motion.plus(&step.motion, -taken);
         // Power lost is the ball's forces times its motion, less those in the nut times the nut's.
@@ -267,11 +267,12 @@ impl ElasticGrooves {
 
     /// Part of a step that is taken.
     #[inline(always)]
-    fn limited(&self, step: &Step, reaches: [&Reach; 4], axial_load: f32) -> f32 {
+    fn limited(&self, step: &Step, reaches: [&Reach; 4], axial_load: f32, clearance: f32) -> f32 {
         let Motion { speed, x, y, z } = step.motion;
         let sum = x.abs() + y.abs() + z.abs() + speed.abs();
         let shift = larger(step.radial.abs(), larger(step.screw.abs(), step.nut.abs()));
-        let reach = LARGEST_SHIFT * self.deflection(axial_load);
+        // Contacts of an oversized ball give way without a load too.
+        let reach = LARGEST_SHIFT * (self.deflection(axial_load) + larger(-clearance, 0.0));
         let light = LIGHT * axial_load.abs();
         let [a, b, c, d] = reaches;
         let allows = |reach: &Reach| reach.load <= light || reach.allows(&step.motion);

@@ -22,8 +22,12 @@ pub fn caged() -> Result<FrictionModel<CagedBallScrew>, Error> {
             groove_material: Material::STEEL,
         })?,
         friction: 0.075,
-        rolling_tangent: 0.002,
-        branch: FrictionBranch::Rolling,
+        rolling_resistance: RollingResistance {
+            hysteresis_loss: 0.01,
+            lubricant_drag: 0.006,
+        },
+        rolling_tangent: 0.0,
+        branch: FrictionBranch::Contacts,
         // 100 N on each flank.
         clearance: Clearance::new(-2.653_692e-7)?,
         loaded_balls: 70,
