@@ -20,6 +20,9 @@ use crate::math::elliptic::arc_sine;
 use crate::ranges;
 use crate::train::LARGEST_FREE_SPEED;
 
+/// Balls that are renewed in a tick.
+const RENEWALS: u8 = 1;
+
 /// Largest deviation of a ball's speed over the pitch circle's: a factor, and what is added.
 const ELASTIC_ROOM: (f32, f32) = (1.5, 0.05);
 
@@ -89,8 +92,6 @@ pub struct UncagedConstants<const N: usize> {
     friction: f32,
     /// Radial gap of every contact at the centred ball, m.
     clearance: f32,
-    /// Balls that are renewed in a tick.
-    renewals: u8,
     /// Time between two ticks, s.
     tick: f32,
     ball_friction: f32,
@@ -243,7 +244,6 @@ impl<const N: usize> UncagedConstants<N> {
             ring,
             friction,
             clearance,
-            renewals: 2,
             tick: configuration.tick,
             circuit: attempt!(configuration.circuit(speed, &limits, N)),
             ball_friction,
@@ -266,7 +266,7 @@ impl<const N: usize> UncagedConstants<N> {
         let way = state.ring.way();
         if !anew {
             let shares = self.circuit.shares(axial_load < 0.0);
-            for _ in 0..self.renewals {
+            for _ in 0..RENEWALS {
                 self.renew_next(state, &load, way, shares);
             }
         }

@@ -135,7 +135,7 @@ impl ElasticGrooves {
     ///
     /// A ball that has lost both contacts of a groove, or whose numbers are not finite, stays as it is: see
     /// `lost`.
-    #[inline]
+    #[inline(never)]
     pub fn renew(&self, state: &mut Settled, inputs: &BallInputs) -> Renewal {
         let clearance = inputs.clearance * self.per_radius;
         let friction = inputs.friction;

@@ -66,7 +66,7 @@ impl Side {
 impl ElasticGrooves {
     /// A ball that rolls as a nominal one does, its third contact closed, under the load.
     #[must_use]
-    #[inline]
+    #[inline(never)]
     pub fn start(&self, inputs: &BallInputs) -> Settled {
         let arcs = [
             self.arcs(&self.screw, 1.0, inputs.screw_deviation),
