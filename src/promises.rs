@@ -19,8 +19,9 @@ pub use promise::{Footprint, Promise};
 pub use steps::*;
 
 /// Promises of every `step()`, and of every function that a step calls.
-pub const STEPS: [Promise; 10] = [
+pub const STEPS: [Promise; 11] = [
     STEP_CAGED,
+    STEP_CAGED_CHANGING,
     STEP_UNCAGED,
     STEP_LINEAR,
     SQRT,

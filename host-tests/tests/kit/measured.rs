@@ -110,7 +110,7 @@ const TABLES: &[&[Measured]] = &[
 const CAGED: &[Measured] = &[
     row("caged and spread balls", [1.0, 1.0, 1.0], [1.0, 1.0, 1.0]),
     row("law over the load", [1.0, 1.0, 1.0], [1.0, 1.0, 1.0]),
-    row("caged screw and exact ball", [1.0, 1.0, 1.0], [1.0, 1.0, 1.0]),
+    row("caged screw of 125 mm and exact ball", [1.0, 1.0, 1.0], [1.0, 1.0, 1.0]),
     row("efficiency of caged screw and exact ball", [1.0, 1.0, 1.0], [1.0, 1.0, 1.0]),
     row("friction after a jump", [1.0, 1.0, 1.0], [1.0, 1.0, 1.0]),
     row("friction on a ramp", [1.0, 1.0, 1.0], [1.0, 1.0, 1.0]),

@@ -6,7 +6,7 @@ use epas_friction::{BallScrew, BallScrewParameters};
 use epas_friction::{
     CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, Clearance, DISSERTATION_DESIGNS,
     DeviationMap, Faults, FrictionBranch, FrictionModel, Inputs, Limits, LoadShares, Outputs,
-    Regime, RollingResistance, UncagedBallScrew, UncagedBallScrewConfiguration,
+    Regime, RollingResistance, UncagedBallScrew, UncagedBallScrewConfiguration, promises,
 };
 use epas_reference::friction::ball_screw_efficiency::LoadedScrew;
 use epas_reference::friction::rolling_resistance;
@@ -46,17 +46,22 @@ fn configuration() -> CagedBallScrewConfiguration {
 fn settings() -> impl Iterator<Item = CagedBallScrewConfiguration> {
     let frictions = [0.05_f32, 0.1, 0.15];
     let gaps = [-5e-6_f32, -1e-6, 0.0, 1e-6, 5e-6];
-    [2_usize, 15, 22, 30].into_iter().flat_map(move |size| {
-        frictions.into_iter().flat_map(move |friction| {
-            gaps.into_iter()
-                .map(move |gap| CagedBallScrewConfiguration {
-                    design: CATALOGUE[size].design().unwrap(),
-                    friction,
-                    clearance: Clearance::new(gap).unwrap(),
-                    ..configuration()
-                })
+    let sizes = [10_usize, 15, 22, 30].map(|size| CATALOGUE[size].parameters());
+    let steering = [DISSERTATION_DESIGNS[2].parameters];
+    sizes
+        .into_iter()
+        .chain(steering)
+        .flat_map(move |parameters| {
+            frictions.into_iter().flat_map(move |friction| {
+                gaps.into_iter()
+                    .map(move |gap| CagedBallScrewConfiguration {
+                        design: BallScrew::new(parameters).unwrap(),
+                        friction,
+                        clearance: Clearance::new(gap).unwrap(),
+                        ..configuration()
+                    })
+            })
         })
-    })
 }
 
 fn model(configuration: &CagedBallScrewConfiguration) -> Caged {
@@ -123,7 +128,7 @@ fn spread(configuration: &CagedBallScrewConfiguration) -> UncagedBallScrewConfig
         nut_deviation: &DeviationMap::NONE,
         load_shares: LoadShares::EVEN,
         reversal_speed: configuration.reversal_speed,
-        tick: 1e-5,
+        tick: 1e-3,
         limits: Limits {
             nut_speed: 50.0,
             ..configuration.limits
@@ -148,7 +153,7 @@ fn a_caged_screw_is_one_without_cage_whose_balls_do_not_press() {
                     nut_speed: speed,
                     axial_load: f32::from(BALLS) * load,
                 });
-                for _ in 0..300 {
+                for _ in 0..1200 {
                     other = free.step(Inputs {
                         nut_speed: speed,
                         axial_load: f32::from(BALLS) * load,
@@ -163,13 +168,8 @@ fn a_caged_screw_is_one_without_cage_whose_balls_do_not_press() {
                     (other.load_torque, other.regime)
                 );
                 let error = f64::from(one.friction_torque) / f64::from(other.groove_torque) - 1.0;
-                if error.abs() > 1e-4 {
-                    println!(
-                        "{error:+.2e} {} {:?} {:?}",
-                        case(&configuration, speed, load),
-                        one.faults,
-                        other.faults
-                    );
+                if error.abs() > 2e-5 {
+                    println!("{error:+.2e} {}", case(&configuration, speed, load));
                 }
                 errors.add_case(error, || case(&configuration, speed, load));
             }
@@ -206,8 +206,34 @@ fn the_law_over_the_load_is_that_of_a_ball() {
 /// Against one ball with exact contact integrals in float64, rolling resistance included.
 #[test]
 fn friction_is_that_of_the_exact_ball() {
+    let mut torque = Errors::of("caged screw and exact ball");
+    let mut efficiency = Errors::of("efficiency of caged screw and exact ball");
+    against_the_exact_ball(settings(), &mut torque, &mut efficiency);
+    assert!(torque.count > 350.0, "{}", torque.count);
+    torque.assert_promised(&promises::STEP_CAGED);
+    efficiency.assert_measured();
+}
+
+/// Balls of 12.7 mm in a screw of 125 mm: larger than the promise's.
+#[test]
+fn large_screws_are_known_less_well() {
+    let mut torque = Errors::of("caged screw of 125 mm and exact ball");
+    let mut efficiency = Errors::of("its efficiency");
+    let large = settings().map(|configuration| CagedBallScrewConfiguration {
+        design: CATALOGUE[2].design().unwrap(),
+        ..configuration
+    });
+    against_the_exact_ball(large.take(15), &mut torque, &mut efficiency);
+    torque.assert_measured();
+}
+
+fn against_the_exact_ball(
+    settings: impl Iterator<Item = CagedBallScrewConfiguration>,
+    torque: &mut Errors,
+    efficiency: &mut Errors,
+) {
     let mut cases = Vec::new();
-    for configuration in settings() {
+    for configuration in settings {
         for load in [5.0_f32, -5.0, 50.0, -50.0, 300.0, -300.0] {
             cases.push((configuration, load));
         }
@@ -227,8 +253,6 @@ fn friction_is_that_of_the_exact_ball() {
         })
         .collect();
     let exact = LoadedScrew::solve_all(&screws, &|| ());
-    let mut torque = Errors::of("caged screw and exact ball");
-    let mut efficiency = Errors::of("efficiency of caged screw and exact ball");
     let mut unsolved = 0;
     for ((configuration, load), exact) in cases.iter().zip(exact) {
         let found = step(&mut model(configuration), 10.0, *load);
@@ -242,9 +266,6 @@ fn friction_is_that_of_the_exact_ball() {
         }
         let line = || case(configuration, 10.0, *load);
         let error = f64::from(found.friction_torque) / exact.torque() - 1.0;
-        if error.abs() > 5e-3 {
-            println!("{error:+.2e} {} loads {:?}", line(), exact.ball.loads);
-        }
         torque.add_case(error, line);
         let expected = if *load > 0.0 {
             exact.efficiency()
@@ -256,10 +277,6 @@ fn friction_is_that_of_the_exact_ball() {
         }
     }
     println!("{unsolved} unsolved by the reference");
-    assert!(torque.count > 250.0, "{}", torque.count);
-    assert!(torque.largest < 0.01);
-    torque.assert_measured();
-    efficiency.assert_measured();
 }
 
 /// Turning speed and load round turns the torques round, to the bit: of the law, and of balls that are renewed.

@@ -30,7 +30,7 @@ use epas_reference::friction::patch::Integration;
 use epas_reference::hertz::{Hertz, contact_modulus};
 use epas_reference::material::Elastic;
 
-/// Torque of both branches in all four quadrants by the reference's efficiencies, with the direction that
+/// Torque of both closed forms in all four quadrants by the reference's efficiencies, with the direction that
 /// the scene takes near a reversal.
 #[test]
 fn caged_step() {
@@ -89,7 +89,8 @@ fn caged_step() {
             }
         }
     }
-    errors.assert_promised(&promises::STEP_CAGED);
+    // A dozen roundings of 2^-24, which add up at random.
+    errors.assert(4e-7, 1.4e-7, 3e-8);
 }
 
 /// The same screw in float64; contact laws from the reference's own curvatures and elliptic integrals.

@@ -112,16 +112,17 @@ impl RingLoad {
         let normal = constants.ball.normal * axial;
         let whole = math::sqrt(normal * normal + lift_off * lift_off);
         let [inverse, _] = inverse_cube_roots([whole, 1.0]);
-        let square = inverse * inverse;
-        let sixth = math::sqrt(inverse);
         let two_thirds = whole * inverse;
+        let seven_sixths = two_thirds * two_thirds * math::sqrt(inverse);
+        // What is stored and read under one load is itself to the last bits. One division for both reciprocals.
+        let both = 1.0 / (two_thirds * seven_sixths);
         Self {
             axial,
             whole,
             two_thirds,
-            seven_sixths: whole * whole * square * sixth,
-            per_two_thirds: square,
-            per_seven_sixths: square * inverse * sixth,
+            seven_sixths,
+            per_two_thirds: both * seven_sixths,
+            per_seven_sixths: both * two_thirds,
         }
     }
 
