@@ -248,7 +248,10 @@ proptest! {
         if let (Ok(mut small), Ok(mut large)) = (small, large) {
             let one = small.step(inputs(speed, load));
             let other = large.step(inputs(speed, scale * scale * load));
-            let faults = one.faults.any() || other.faults.any();
+            // The law of the contacts' friction ends where a ball carries next to nothing.
+            let light = f32::from(configuration.loaded_balls) > scale * scale * load.abs();
+            let contacts = matches!(configuration.branch, FrictionBranch::Contacts);
+            let faults = one.faults.any() || other.faults.any() || (contacts && light);
             prop_assert!(faults || alike(one.friction_torque, other.friction_torque), "{one:?} {other:?}");
             // Half of what the torques may differ by; of contacts a law over the load between other points of it, within 1e-3 of
             // the friction.
