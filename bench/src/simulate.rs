@@ -1,6 +1,7 @@
 //! `simulate`: the in-loop model over a trace of speed and load.
 
 mod caged;
+mod caged_exact;
 mod choice;
 mod curves;
 mod exact_screw;

@@ -1,7 +1,10 @@
 //! A ball screw whose balls do not touch.
 
-use epas_friction::{CagedBallScrew, FrictionModel, Inputs, Outputs};
+use epas_friction::{
+    CagedBallScrew, CagedBallScrewConfiguration, FrictionBranch, FrictionModel, Inputs, Outputs,
+};
 
+use super::caged_exact::ExactCaged;
 use super::curves::thin;
 use super::manoeuvre::Manoeuvre;
 use super::reference::{CagedReference, Friction, ReferenceModel};
@@ -18,6 +21,35 @@ use crate::plot::{Axis, Chart, Mark, Panel, Series, render};
 pub struct Caged {
     /// Its design.
     pub design: Design,
+}
+
+/// What runs beside the scene.
+enum Reference {
+    Exact(ExactCaged),
+    ClosedForm(CagedReference),
+}
+
+impl Reference {
+    /// The exact ball of the contacts' friction, or a closed form: that of the configuration, or of rolling balls.
+    fn new(
+        model: ReferenceModel,
+        configuration: &CagedBallScrewConfiguration,
+        trace: &Trace<ScrewSample>,
+    ) -> Result<Self, Failure> {
+        Ok(match (configuration.branch, model) {
+            (FrictionBranch::Contacts, ReferenceModel::Exact) => {
+                Self::Exact(ExactCaged::new(configuration, trace)?)
+            }
+            _ => Self::ClosedForm(CagedReference::new(configuration)?),
+        })
+    }
+
+    fn friction(&self, sample: &ScrewSample) -> Friction {
+        match self {
+            Self::Exact(scene) => scene.friction(sample),
+            Self::ClosedForm(scene) => scene.friction(sample),
+        }
+    }
 }
 
 /// One sample with what the models say to it.
@@ -49,7 +81,7 @@ impl Scene for Caged {
         let mut model = FrictionModel::<CagedBallScrew>::new(configuration)
             .map_err(|error| Failure::Data(format!("{}: {error}", self.name())))?;
         let reference = reference
-            .map(|_| CagedReference::new(configuration))
+            .map(|model| Reference::new(model, configuration, trace))
             .transpose()?;
         let rows = trace
             .samples

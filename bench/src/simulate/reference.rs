@@ -168,7 +168,7 @@ fn flank_preload(configuration: &CagedBallScrewConfiguration) -> Result<f64, Fai
     Ok(f64::from(configuration.loaded_balls) * contact_force * slope)
 }
 
-/// A caged ball screw in float64.
+/// A caged ball screw in float64, by the closed form of its configuration.
 pub struct CagedReference {
     /// Friction torque per load of a driven flank, m; none where driving locks.
     drive: Option<f64>,
@@ -201,7 +201,7 @@ impl CagedReference {
         };
         let (drive, backdrive) = match configuration.branch {
             // Back-driving is driving with every friction turned round, and input and output changed.
-            FrictionBranch::Rolling => {
+            FrictionBranch::Rolling | FrictionBranch::Contacts => {
                 let turned = Screw {
                     friction: -screw.friction,
                     rolling_tangent: -screw.rolling_tangent,
@@ -209,9 +209,7 @@ impl CagedReference {
                 };
                 (screw.rolling_screw(), 1.0 / turned.rolling_screw())
             }
-            FrictionBranch::Sliding | FrictionBranch::Contacts => {
-                (screw.sliding_drive(), screw.sliding_backdrive())
-            }
+            FrictionBranch::Sliding => (screw.sliding_drive(), screw.sliding_backdrive()),
         };
         Ok(Self {
             drive: (drive > 0.0).then(|| reduced_lead * (1.0 - drive) / drive),

@@ -108,14 +108,14 @@ const TABLES: &[&[Measured]] = &[
 /// `scenes/caged_contacts.rs`: torques relative, efficiencies, ticks.
 #[rustfmt::skip]
 const CAGED: &[Measured] = &[
-    row("caged and spread balls", [1.0, 1.0, 1.0], [1.0, 1.0, 1.0]),
-    row("law over the load", [1.0, 1.0, 1.0], [1.0, 1.0, 1.0]),
-    row("caged screw of 125 mm and exact ball", [1.0, 1.0, 1.0], [1.0, 1.0, 1.0]),
-    row("efficiency of caged screw and exact ball", [1.0, 1.0, 1.0], [1.0, 1.0, 1.0]),
-    row("friction after a jump", [1.0, 1.0, 1.0], [1.0, 1.0, 1.0]),
-    row("friction on a ramp", [1.0, 1.0, 1.0], [1.0, 1.0, 1.0]),
-    largest("friction set in a screw without cage", 1.0, 1.0),
-    largest("ticks after a jump of friction", 400.0, 400.0),
+    row("caged and spread balls", [6e-5, 1e-5, 3e-6], [1.9e-5, 3e-6, 1e-6]),
+    row("law over the load", [1e-3, 1.2e-4, 1e-6], [5.0e-4, 7.5e-5, 2.7e-7]),
+    row("caged screw of 125 mm and exact ball", [3e-2, 5e-3, 2e-3], [2.0e-2, 3.3e-3, 1.1e-3]),
+    row("efficiency of caged screw and exact ball", [3e-3, 5e-4, 2e-4], [2e-3, 3e-4, 1e-4]),
+    row("friction after a jump", [3e-5, 3e-6, 3e-7], [7.9e-6, 8.4e-7, 7.3e-8]),
+    row("friction on a ramp", [1.2e-4, 2.1e-5, 1e-5], [8.3e-5, 1.4e-5, 6.9e-6]),
+    largest("friction set in a screw without cage", 1.5e-6, 4.6e-7),
+    largest("ticks after a jump of friction", 120.0, 77.0),
 ];
 
 /// `balls/screw_ball.rs`: orbital speeds over the nut's, the rest relative; forces of given pairs over the largest force

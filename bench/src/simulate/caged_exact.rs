@@ -1,0 +1,110 @@
+//! A caged ball screw in float64 by the exact balance of one of its balls.
+
+use epas_friction::{CagedBallScrewConfiguration, Limits};
+use epas_reference::friction::ball_screw_efficiency::LoadedScrew;
+use epas_reference::friction::rolling_resistance::RollingResistance;
+use std::f64::consts::TAU;
+
+use super::reference::{Friction, drawing, efficiency};
+use super::samples::ScrewSample;
+use super::trace::Trace;
+use crate::failure::Failure;
+
+/// Loads of each sign for which a ball is solved, and how far the smallest lies below the largest.
+const LOADS: u32 = 160;
+const SPAN: f64 = 1e4;
+
+/// Friction torque over the load, between loads for which one ball is solved exactly: within 2e-4 where no contact opens
+/// between two of them.
+pub struct ExactCaged {
+    /// Loads, N, from the smallest, with the friction torque, N m, of one that opposes the motion and of one that assists it.
+    laws: [Vec<(f64, f64)>; 2],
+    preloaded: bool,
+    reduced_lead: f64,
+    reversal_speed: f64,
+    limits: Limits,
+}
+
+impl ExactCaged {
+    /// The scene of a configuration that the in-loop model has accepted, for the loads of a trace.
+    pub fn new(
+        configuration: &CagedBallScrewConfiguration,
+        trace: &Trace<ScrewSample>,
+    ) -> Result<Self, Failure> {
+        let largest = trace
+            .samples
+            .iter()
+            .map(|sample| sample.axial_load.abs())
+            .fold(1.0, f64::max)
+            .min(configuration.limits.axial_load.into());
+        let resistance = configuration.rolling_resistance;
+        let law = |side: f64| {
+            let screws: Vec<LoadedScrew> = (0..LOADS)
+                .map(|number| LoadedScrew {
+                    design: drawing(configuration.design.parameters()),
+                    clearance: configuration.clearance.gap().into(),
+                    friction: configuration.friction.into(),
+                    rolling: RollingResistance {
+                        hysteresis_loss: resistance.hysteresis_loss.into(),
+                        lubricant_drag: resistance.lubricant_drag.into(),
+                    },
+                    balls: configuration.loaded_balls.into(),
+                    axial_load: side
+                        * largest
+                        * SPAN.powf(f64::from(number) / f64::from(LOADS - 1) - 1.0),
+                })
+                .collect();
+            LoadedScrew::solve_all(&screws, &|| ())
+                .into_iter()
+                .zip(&screws)
+                .map(|(friction, screw)| {
+                    let friction =
+                        friction.map_err(|error| Failure::Data(format!("--reference: {error}")))?;
+                    Ok((screw.axial_load.abs(), friction.torque()))
+                })
+                .collect::<Result<Vec<_>, Failure>>()
+        };
+        Ok(Self {
+            laws: [law(1.0)?, law(-1.0)?],
+            preloaded: configuration.clearance.gap() < 0.0,
+            reduced_lead: f64::from(configuration.design.lead()) / TAU,
+            reversal_speed: configuration.reversal_speed.into(),
+            limits: configuration.limits,
+        })
+    }
+
+    /// Friction of one sample, within the same limits as in the loop.
+    pub fn friction(&self, sample: &ScrewSample) -> Friction {
+        let within = |value: f64, limit: f32| value.clamp(-f64::from(limit), limit.into());
+        let speed = within(sample.nut_speed, self.limits.nut_speed);
+        let load = within(sample.axial_load, self.limits.axial_load);
+        let opposing = if speed < 0.0 { -load } else { load };
+        let full = self.torque(opposing);
+        let largest = self.limits.friction_torque;
+        Friction {
+            friction_torque: within(speed / speed.hypot(self.reversal_speed) * full, largest),
+            efficiency: efficiency(opposing * self.reduced_lead, full),
+        }
+    }
+
+    /// Friction torque away from the reversal, N m.
+    fn torque(&self, opposing: f64) -> f64 {
+        let [drive, backdrive] = &self.laws;
+        let law = if opposing < 0.0 { backdrive } else { drive };
+        let load = opposing.abs();
+        let above = law.partition_point(|(known, _)| *known < load);
+        match (
+            above.checked_sub(1).and_then(|below| law.get(below)),
+            law.get(above),
+        ) {
+            (Some((below, low)), Some((above, high))) => {
+                low + (high - low) * (load - below) / (above - below)
+            }
+            // In proportion to a load below the smallest, but for the friction of a preload.
+            (None, Some((_, torque))) if self.preloaded => *torque,
+            (None, Some((smallest, torque))) => torque * load / smallest,
+            (Some((_, torque)), None) => *torque,
+            (None, None) => 0.0,
+        }
+    }
+}
