@@ -221,7 +221,7 @@ impl<const N: usize> Pair<N> {
             reversal_speed: 1e-6,
             tick: case.tick as f32,
             limits: Limits {
-                nut_speed: 500.0,
+                nut_speed: (2.0 * TAU * case.speed.abs()) as f32,
                 axial_load: 1e6,
                 friction_torque: 1e4,
             },

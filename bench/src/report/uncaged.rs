@@ -55,7 +55,7 @@ pub fn section(context: &Context) -> Result<Section, Failure> {
         Block::Table(flagship(context)?),
     ];
     blocks.extend(settings::blocks(context.quick)?);
-    blocks.extend(pairs::blocks(context.quick)?);
+    blocks.extend(pairs::blocks(context.quick));
     blocks.extend(figures::blocks(context.quick)?);
     blocks.push(Block::Figure(closed_forms::figure(context.quick)?));
     Ok(Section {

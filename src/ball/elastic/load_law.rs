@@ -273,6 +273,8 @@ impl LoadLaw {
             .parts
             .get(number)
             .map_or(0.0, |part| part.ratio(octaves));
+        // A parabola may pass below what it goes through; friction never drives.
+        let ratio = if ratio > 0.0 { ratio } else { 0.0 };
         let beyond = self.beyond.get(number).copied().unwrap_or(true);
         (ratio, beyond)
     }

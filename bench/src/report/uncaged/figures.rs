@@ -95,7 +95,7 @@ fn peak_and_release(course: &Course) -> [f64; 3] {
 /// Text, table and figure.
 pub fn blocks(quick: bool) -> Result<Vec<Block>, Failure> {
     let (amplitudes, states) = if quick {
-        (&AMPLITUDES[2..3], 72)
+        (&AMPLITUDES[2..3], 180)
     } else {
         (&AMPLITUDES[..], 360)
     };

@@ -4,7 +4,6 @@ use rayon::prelude::*;
 use serde_json::{Value, json};
 
 use crate::eval;
-use crate::failure::Failure;
 use crate::plot::{Axis, ColourMap, Colours, Panel};
 use crate::report::document::{Block, Cell, Figure, Table};
 use crate::report::statistics::Errors;
@@ -108,7 +107,7 @@ impl Found {
 }
 
 /// Table and figure.
-pub fn blocks(quick: bool) -> Result<Vec<Block>, Failure> {
+pub fn blocks(quick: bool) -> Vec<Block> {
     let (columns, lines) = if quick { (8, 6) } else { (26, 20) };
     let mut panels = Vec::new();
     let mut rows = Vec::new();
@@ -137,7 +136,7 @@ pub fn blocks(quick: bool) -> Result<Vec<Block>, Failure> {
             }
         }
     }
-    Ok(vec![
+    vec![
         Block::Table(Table {
             name: "exact_pairs",
             caption: format!(
@@ -158,7 +157,7 @@ pub fn blocks(quick: bool) -> Result<Vec<Block>, Failure> {
             columns: 2,
             size: (540, 400),
         }),
-    ])
+    ]
 }
 
 /// A quantity and its error.
