@@ -334,6 +334,16 @@ extern "C" {
 #define EPAS_FIELD_GIVEN 51u
 
 /**
+ * `hysteresis_loss`
+ */
+#define EPAS_FIELD_HYSTERESIS_LOSS 52u
+
+/**
+ * `lubricant_drag`
+ */
+#define EPAS_FIELD_LUBRICANT_DRAG 53u
+
+/**
  * Samples in a period of a deviation.
  */
 #define EPAS_DEVIATION_SAMPLES 64
@@ -354,14 +364,20 @@ extern "C" {
 #define EPAS_DEVIATION_WORDS 67
 
 /**
- * The ball rolls and slips across the groove at the screw: the expected value.
+ * What the contacts of a ball dissipate, by its balance between elastic grooves: the one to take.
  */
-#define EPAS_BRANCH_ROLLING 0u
+#define EPAS_BRANCH_CONTACTS 0u
 
 /**
- * The ball slides along the path at both contacts: the pessimistic bound.
+ * The ball rolls and slips across the groove at the screw: a paper's closed form, which leaves out spin, the third contact
+ * and most of the lead's effect.
  */
-#define EPAS_BRANCH_SLIDING 1u
+#define EPAS_BRANCH_ROLLING 1u
+
+/**
+ * The ball slides along the path at both contacts: a paper's closed form, a pessimistic bound.
+ */
+#define EPAS_BRANCH_SLIDING 2u
 
 /**
  * The mechanism is slower than the reversal speed: friction is between its two directions.
@@ -428,7 +444,7 @@ extern "C" {
 /**
  * Size of `epas_caged_t` in words of eight bytes.
  */
-#define EPAS_CAGED_WORDS 8
+#define EPAS_CAGED_WORDS 271
 
 /**
  * Balls in the circuit of `epas_screw_t`, return included. A screw with another number needs the library
@@ -439,7 +455,7 @@ extern "C" {
 /**
  * Size of `epas_screw_t` in words of eight bytes.
  */
-#define EPAS_SCREW_WORDS 212
+#define EPAS_SCREW_WORDS 416
 
 /**
  * Balls in the circuit of `epas_linear_t`, return included. A bearing with another number needs the
@@ -450,7 +466,7 @@ extern "C" {
 /**
  * Size of `epas_linear_t` in words of eight bytes.
  */
-#define EPAS_LINEAR_WORDS 135
+#define EPAS_LINEAR_WORDS 137
 
 /**
  * Version of the structures and functions of this header; `epas_abi_version` returns the library's. It rises
@@ -554,11 +570,20 @@ typedef struct epas_caged_configuration_t {
      */
     struct epas_ball_screw_t design;
     /**
-     * Coulomb friction coefficient of ball and groove, 0 to 1.
+     * Coulomb friction coefficient of ball and groove, 1e-6 to 0.5; 0 to 1 for the closed forms.
      */
     float friction;
     /**
-     * Lever arm of rolling friction over `ball_radius sin(contact_angle)`, 0 to 0.1.
+     * Share of the elastic energy that is lost while a contact passes, 0 to 0.2; hardened steel 0.01. Closed forms know
+     * none.
+     */
+    float hysteresis_loss;
+    /**
+     * Drag of the lubricant on one contact under 100 N, N, 0 to 10; 0 for none. Closed forms know none.
+     */
+    float lubricant_drag;
+    /**
+     * Lever arm of rolling friction over `ball_radius sin(contact_angle)`, 0 to 0.1; for the closed forms alone.
      */
     float rolling_tangent;
     /**
@@ -567,8 +592,8 @@ typedef struct epas_caged_configuration_t {
     uint32_t branch;
     /**
      * Radial gap of every contact at a centred ball without load, m, play above zero, oversize below; -0.02 to
-     * 0.05 ball radii. `epas_clearance` finds it from a preload or an axial play. Oversize presses on both
-     * flanks of the nut; play changes nothing.
+     * 0.05 ball radii. `epas_clearance` finds it from a preload or an axial play. For the closed forms oversize presses
+     * on both flanks of the nut, and play changes nothing.
      */
     float clearance;
     /**
@@ -707,6 +732,14 @@ typedef struct epas_screw_configuration_t {
      * Coulomb friction coefficient of ball and ball, 0 to 1.
      */
     float ball_friction;
+    /**
+     * Share of the elastic energy that is lost while a contact passes, 0 to 0.2; hardened steel 0.01.
+     */
+    float hysteresis_loss;
+    /**
+     * Drag of the lubricant on one contact under 100 N, N, 0 to 10; 0 for none.
+     */
+    float lubricant_drag;
     /**
      * Radial gap of every contact at a centred ball without load, m, play above zero, oversize below; -0.02 to
      * 0.05 ball radii. `epas_clearance` finds it from a preload or an axial play.

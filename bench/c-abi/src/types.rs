@@ -145,7 +145,7 @@ pub struct CagedConfiguration {
 }
 
 /// Size of `epas_caged_t` in words of eight bytes.
-pub const EPAS_CAGED_WORDS: usize = 8;
+pub const EPAS_CAGED_WORDS: usize = 271;
 
 /// Place for the constants and the state of a caged ball screw. The caller provides it, in memory of
 /// static duration or any other; nothing in it is for the caller to read or write. Zero it, or leave it
@@ -203,7 +203,7 @@ pub struct ScrewConfiguration {
 }
 
 /// Size of `epas_screw_t` in words of eight bytes.
-pub const EPAS_SCREW_WORDS: usize = 212;
+pub const EPAS_SCREW_WORDS: usize = 416;
 
 /// Place for the constants and the state of a ball screw whose balls press on each other; as
 /// `epas_caged_t`.
@@ -338,7 +338,7 @@ pub struct LinearOutputs {
 }
 
 /// Size of `epas_linear_t` in words of eight bytes.
-pub const EPAS_LINEAR_WORDS: usize = 135;
+pub const EPAS_LINEAR_WORDS: usize = 137;
 
 /// Place for the constants and the state of a linear bearing; as `epas_caged_t`.
 #[derive(Clone, Copy, Debug)]

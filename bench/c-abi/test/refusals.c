@@ -176,10 +176,10 @@ static void caged_fields(void)
     check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_LOADED_BALLS, "loaded_balls");
 
     wrong = test_caged_configuration;
-    wrong.branch = 2u;
+    wrong.branch = 3u;
     status = epas_caged_init(&place, &wrong, &failure);
     check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_BRANCH, "branch");
-    check((failure.value == 2.0f) && (failure.maximum == 1.0f), "value and range of the branch");
+    check((failure.value == 3.0f) && (failure.maximum == 2.0f), "value and range of the branch");
 
     wrong = test_caged_configuration;
     wrong.limits.friction_torque = 0.0f;
@@ -232,6 +232,7 @@ static void train_fields(void)
     wrong.design.contact_angle = 0.05f;
     status = epas_screw_init(&screw, &wrong, &failure);
     check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_PASSING_DEVIATION, "passing deviation");
+    wrong.nut_deviation = wrong.screw_deviation;
     wrong.screw_deviation = NULL;
     status = epas_screw_init(&screw, &wrong, &failure);
     check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_RECIRCULATING_DEVIATION,
