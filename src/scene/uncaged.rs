@@ -370,18 +370,31 @@ impl<const N: usize> UncagedConstants<N> {
             .renew(&self.ring, load, index, deviations, share, &forces);
     }
 
-    /// Sum over all pairs of their force times the speed with which they rub, N m per unit of nut speed.
+    /// Sum over all pairs of loaded balls of their force times the speed with which they rub, N m per unit of nut speed. A ball
+    /// without load turns as its neighbour makes it.
     #[inline(always)]
     fn rubbing(&self, state: &UncagedState<N>) -> f32 {
-        let (mut sum, mut behind) = (0.0, 0.0);
-        let mut last = None;
-        for (force, ball) in state.circuit.train.forces().zip(&state.ring.balls) {
-            let speed = ball.rubbing(&self.ring);
-            last.get_or_insert(speed);
-            sum += (behind + force) * speed;
-            behind = force;
+        let mut sum = 0.0;
+        let (mut force, mut behind) = (0.0, None);
+        for (ahead, ball) in state.circuit.train.forces().zip(&state.ring.balls) {
+            let speed = if ball.loaded() && force + ahead > 0.0 {
+                Some(ball.rubbing(&self.ring))
+            } else {
+                None
+            };
+            if let (Some(behind), Some(speed)) = (behind, speed) {
+                sum += force * (behind + speed);
+            }
+            (force, behind) = (ahead, speed);
         }
-        sum + behind * last.unwrap_or(0.0)
+        // The last ball presses on the first one.
+        let ball = state.ring.balls.first().filter(|ball| ball.loaded());
+        if let (Some(behind), Some(ball)) = (behind, ball)
+            && force > 0.0
+        {
+            sum += force * (behind + ball.rubbing(&self.ring));
+        }
+        sum
     }
 
     /// See [`FrictionModel::set_friction`](crate::FrictionModel::set_friction).
