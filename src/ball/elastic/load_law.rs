@@ -133,9 +133,8 @@ impl Folding<'_> {
         Known { octaves, nominal }
     }
 
-    /// A law within a tolerance; None where its parts do not suffice.
-    fn law(&self, range: LoadRange, tolerance: f32) -> (LoadLaw, bool) {
-        let mut law = LoadLaw::NONE;
+    /// Folds a law within a tolerance; says whether its parts suffice.
+    fn fold(&self, law: &mut LoadLaw, range: LoadRange, tolerance: f32) -> bool {
         let (top, bottom) = range.ends();
         let axial = self.side * load(top);
         let nominal = NominalBall::new(self.ball, self.grooving, axial, 0.0);
@@ -155,7 +154,7 @@ impl Folding<'_> {
                 *beyond = left > 0.0;
             }
         }
-        (law, high.octaves <= bottom)
+        high.octaves <= bottom
     }
 
     /// The widest part from a load downwards, its lower end, and whether the ball is known well all over it.
@@ -222,32 +221,29 @@ impl Part {
 
 impl LoadLaw {
     /// No friction.
-    const NONE: Self = Self {
+    pub(crate) const NONE: Self = Self {
         parts: [Part::level(0.0); PARTS],
         beyond: [false; PARTS],
     };
 
     /// Settles a ball under every load, from the largest to the smallest, of the sign of `side`.
-    pub(crate) fn new(
+    pub(crate) fn fold(
+        &mut self,
         ball: &BallConstants,
         grooving: &Grooving,
         range: LoadRange,
         side: f32,
-    ) -> Self {
+    ) {
         let folding = Folding {
             ball,
             grooving,
             side,
         };
-        let mut law = Self::NONE;
         for tolerance in TOLERANCES {
-            let (found, complete) = folding.law(range, tolerance);
-            law = found;
-            if complete {
+            if folding.fold(self, range, tolerance) {
                 break;
             }
         }
-        law
     }
 
     /// Friction torque over the whole contact force, m, under a load of a size, N; and whether the ball stands in two

@@ -2,7 +2,6 @@
 
 use super::constants::BallConstants;
 use super::renewal::{BallInputs, Settled};
-use crate::math;
 
 /// Axial load of a ball below which it counts as this, N: below it friction is in proportion to the load.
 pub(crate) const SMALLEST_LOAD: f32 = 0.01;
@@ -24,25 +23,23 @@ pub(crate) struct Grooving {
     pub(crate) friction: f32,
     /// Radial gap of every contact at the centred ball, m.
     clearance: f32,
-    /// Square of the contact force at which a preload's lost diagonal opens, N^2: 0 without preload.
+    /// Contact force at which a preload's lost diagonal opens, N: 0 without preload.
     lift_off: f32,
 }
 
 impl Grooving {
     pub(crate) fn new(ball: &BallConstants, friction: f32, clearance: f32) -> Self {
-        let lift_off = ball.lift_off(clearance);
         Self {
             friction,
             clearance,
-            lift_off: lift_off * lift_off,
+            lift_off: ball.lift_off(clearance),
         }
     }
 
-    /// Contact force of a ball under an axial load, preload counted, N: what its friction torque is about in proportion to.
+    /// Contact force of a ball under an axial load and of a preload, N: what its friction torque is about in proportion to.
     #[inline(always)]
     pub(crate) fn whole(&self, ball: &BallConstants, axial_load: f32) -> f32 {
-        let normal = ball.normal * axial_load;
-        math::sqrt(normal * normal + self.lift_off)
+        ball.normal * axial_load.abs() + self.lift_off
     }
 
     /// What the ball is under.

@@ -77,15 +77,18 @@ impl Contacts {
     /// Laws and balls before the first tick: some thousand renewals.
     pub(super) fn initial_state(&self) -> ContactsState {
         let grooving = Grooving::new(&self.ball, self.friction, self.clearance.gap());
-        let law = |side| LoadLaw::new(&self.ball, &grooving, self.range, side);
         let nominal = |side| NominalBall::new(&self.ball, &grooving, side * FIRST_LOAD, 0.0);
-        ContactsState {
-            laws: [law(1.0), law(-1.0)],
+        let mut state = ContactsState {
+            laws: [LoadLaw::NONE; 2],
             balls: [nominal(1.0), nominal(-1.0)],
             grooving,
             changes: false,
             turn: 0,
+        };
+        for (law, side) in state.laws.iter_mut().zip([1.0, -1.0]) {
+            law.fold(&self.ball, &grooving, self.range, side);
         }
+        state
     }
 
     /// Back to the state before the first tick: the laws are as they were.
