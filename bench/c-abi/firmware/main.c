@@ -10,10 +10,10 @@ static epas_linear_t linear;
 /* ---- Stack ------------------------------------------------------------------------------------------- */
 
 #define PAINT 0x5AFE5AFEu
-#define PAINTED_WORDS 4096u
+#define PAINTED_WORDS 8192u
 
 /* Bytes of stack that a step may take. */
-#define STEP_STACK 512u
+#define STEP_STACK 640u
 
 static const epas_inputs_t inputs = {120.0f, 8000.0f};
 static const epas_linear_inputs_t linear_inputs = {0.3f, 2000.0f, 700.0f};
