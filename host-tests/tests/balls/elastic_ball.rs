@@ -218,9 +218,9 @@ fn stored_pressing_pairs() {
         if exact.abs() >= 0.02 {
             force.add(f64::from(inputs[1].force) / exact - 1.0, line);
         }
-        for ball in 0..2 {
+        for (ball, found) in found.iter().enumerate() {
             let exact = pair.number("groove_torque_pressed_Nm", ball);
-            torque.add(f64::from(found[ball].torque) / exact - 1.0, line);
+            torque.add(f64::from(found.torque) / exact - 1.0, line);
         }
     }
     // Measured: 1.9e-2, 3.3e-3, 5.3e-4, the largest where the third contact all but opens (100 N at a friction of 0.05), all
@@ -313,7 +313,7 @@ impl Case {
     fn row(&self) -> ElasticRow {
         let inputs = &self.inputs;
         ElasticRow {
-            design: self.design.clone(),
+            design: self.design,
             clearance: f64::from(inputs.clearance),
             friction: f64::from(inputs.friction),
             ball_friction: 0.0,

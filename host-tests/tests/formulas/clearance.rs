@@ -18,7 +18,9 @@ use epas_reference::friction::ball_screw_grooves::ElasticGrooves;
 
 /// The catalogue, the designs of the dissertation, and one whose grooves differ.
 fn designs() -> Vec<BallScrew> {
-    let sizes = CATALOGUE.iter().map(|size| size.parameters());
+    let sizes = CATALOGUE
+        .iter()
+        .map(epas_friction::CatalogueSize::parameters);
     let named = DISSERTATION_DESIGNS.iter().map(|design| design.parameters);
     let unequal = BallScrewParameters {
         nut_groove: GrooveSize::Conformity(0.56),
