@@ -26,14 +26,14 @@ pub const FOOTPRINTS: [Footprint; 6] = [
         flash: 20_000,
         flash_small: 19_000,
         ram: 1800,
-        stack: 112,
+        stack: 184,
     },
     Footprint {
         scene: "linear_bearing",
         flash: 8000,
         flash_small: 7800,
         ram: 720,
-        stack: 256,
+        stack: 272,
     },
     Footprint {
         scene: "ball_screw_37",

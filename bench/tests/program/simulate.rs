@@ -108,11 +108,13 @@ fn manoeuvres_run_beside_the_reference() {
             assert_eq!(&record[7], "0");
             largest = largest.max(number(8).abs());
             worst = worst.max((number(3) - number(8)).abs());
-            assert!((number(5) - number(9)).abs() < 1e-6, "{record:?}");
+            // The law over the load and the slip maps against a ball with exact integrals: 1.1 % of the friction, which is a
+            // tenth of the work.
+            assert!((number(5) - number(9)).abs() < 3e-3, "{record:?}");
             count += 1;
         }
         assert!(
-            count > 5000 && worst < 2e-6 * largest,
+            count > 5000 && worst < 1.5e-2 * largest,
             "{worst:e} of {largest}"
         );
         assert!(run.stdout.contains("peak friction torque"));
@@ -372,19 +374,19 @@ fn a_design_without_lead_makes_no_manoeuvre() {
     let folder = folder();
     let design = DESIGN.replace("lead = 0.02", "lead = 0");
     fs::write(folder.path().join("design.toml"), design).unwrap();
-    for arguments in [
-        &["--manoeuvre", "kerb"][..],
-        &["--input", "trace.csv", "--reference"],
-    ] {
-        let all = [
-            &["--design", "design.toml", "--output", "out.csv"],
-            arguments,
-        ]
-        .concat();
-        let run = simulate(folder.path(), &all);
-        assert_eq!(run.code, 1);
-        assert!(run.stderr.contains("lead"));
-    }
+    let run = simulate(
+        folder.path(),
+        &[
+            "--design",
+            "design.toml",
+            "--output",
+            "out.csv",
+            "--manoeuvre",
+            "kerb",
+        ],
+    );
+    assert_eq!(run.code, 1);
+    assert!(run.stderr.contains("lead"));
     // Its friction torque can still be had.
     let run = simulate(
         folder.path(),
