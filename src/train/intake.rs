@@ -39,8 +39,6 @@ struct Ahead {
 #[must_use = "a ball needs its free speed and impedance"]
 pub(crate) struct FreeBall<'intake> {
     ball: &'intake mut Ball,
-    /// Force between the ball and the one behind it in the last tick.
-    behind: f32,
     ahead: &'intake mut Ahead,
 }
 
@@ -143,13 +141,9 @@ impl<const N: usize> Intake<'_, N> {
     #[inline(always)]
     pub(crate) fn next_ball(&mut self) -> Option<FreeBall<'_>> {
         self.left = self.left.checked_sub(1)?;
-        let behind = self.left.wrapping_sub(1);
-        let behind = if behind < N { behind } else { N - 1 };
-        let behind = self.train.press.balls.get(behind).map_or(0.0, Ball::force);
         let ball = self.train.press.balls.get_mut(self.left)?;
         Some(FreeBall {
             ball,
-            behind,
             ahead: &mut self.ahead,
         })
     }
@@ -181,19 +175,13 @@ impl FreeBall<'_> {
         self.ball.position()
     }
 
-    /// Sum of the forces of both neighbours in the last tick, N.
-    #[inline(always)]
-    pub(crate) fn pressed(&self) -> f32 {
-        self.ball.force() + self.behind
-    }
-
     /// What the ball would do on its own: its free speed, a deviation from the nominal one over the size of that, within
     /// [`LARGEST_FREE_SPEED`](super::LARGEST_FREE_SPEED), and its impedance, N, within [`IMPEDANCE_RANGE`]. Neither is
     /// checked here: the scene's set-up has to see to it.
     #[inline(always)]
     pub(crate) fn put(self, speed: f32, impedance: f32) {
         let mut answered = ManuallyDrop::new(self);
-        let Self { ball, ahead, .. } = &mut *answered;
+        let Self { ball, ahead } = &mut *answered;
         ahead.take_in(ball, speed, impedance);
     }
 }

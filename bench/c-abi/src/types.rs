@@ -203,7 +203,7 @@ pub struct ScrewConfiguration {
 }
 
 /// Size of `epas_screw_t` in words of eight bytes.
-pub const EPAS_SCREW_WORDS: usize = 416;
+pub const EPAS_SCREW_WORDS: usize = 397;
 
 /// Place for the constants and the state of a ball screw whose balls press on each other; as
 /// `epas_caged_t`.

@@ -135,8 +135,6 @@ pub(super) struct Step {
     pub(super) motion: Motion,
     /// Change of the speed with a force along the track, 1/N.
     pub(super) compliance: f32,
-    /// Change of the speed with the friction of both neighbours, 1/N.
-    pub(super) by_rubbing: f32,
 }
 
 /// A place in terms of what is eliminated after it: `step = right - place dx - motion dy`.
@@ -200,7 +198,6 @@ pub(super) fn solved(
     nut: &Axial,
     unbalanced: [f32; 2],
     push: f32,
-    against: &Motion,
 ) -> Step {
     // One division for both reciprocals.
     let both = 1.0 / (screw.by_itself * nut.by_itself);
@@ -228,7 +225,6 @@ pub(super) fn solved(
     let row = |x, y, z, speed| Motion { speed, x, y, z };
     let a = Line::of(f.x, row(h.xx, h.xy, h.xz, h.xs), (p.x, u.x, v.x), all);
     let inverse = 1.0 / a.by.x;
-    let a_inverse = inverse;
     let (a1, a2, a3, a4) = (
         inverse * a.by.y,
         inverse * a.by.z,
@@ -238,7 +234,6 @@ pub(super) fn solved(
     let b = Line::of(f.y, row(h.xy, h.yy, h.yz, h.ys), (p.y, u.y, v.y), all);
     let first = b.by.x;
     let inverse = 1.0 / (b.by.y - first * a1);
-    let (b_inverse, b_first) = (inverse, first);
     let (b2, b3, b4) = (
         inverse * (b.by.z - first * a2),
         inverse * (b.by.speed - first * a3),
@@ -248,7 +243,6 @@ pub(super) fn solved(
     let first = c.by.x;
     let second = c.by.y - first * a1;
     let inverse = 1.0 / (c.by.z - first * a2 - second * b2);
-    let (c_first, second_c) = (first, second);
     let (c3, c4) = (
         inverse * (c.by.speed - first * a3 - second * b3),
         inverse * (c.right - first * a4 - second * b4),
@@ -263,11 +257,6 @@ pub(super) fn solved(
     let second = d.by.y - first * a1;
     let third = d.by.z - first * a2 - second * b2;
     let compliance = 1.0 / (d.by.speed - first * a3 - second * b3 - third * c3);
-    // How the speed follows the forces `against`, which have no part about the track.
-    let a5 = a_inverse * against.x;
-    let b5 = -b_inverse * b_first * a5;
-    let c5 = inverse * (against.z - c_first * a5 - second_c * b5);
-    let by_rubbing = -compliance * (against.speed - first * a5 - second * b5 - third * c5);
     let speed = compliance * (d.right - first * a4 - second * b4 - third * c4);
     let z = c4 - c3 * speed;
     let y = b4 - b2 * z - b3 * speed;
@@ -284,6 +273,5 @@ pub(super) fn solved(
         nut: n.step(radial, &motion),
         motion,
         compliance,
-        by_rubbing,
     }
 }

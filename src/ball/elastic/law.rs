@@ -22,7 +22,7 @@ pub(crate) struct RingConstants {
     pub(super) fastest: f32,
 }
 
-/// One ball: 44 bytes. Lengths over the ball radius, speeds over the nut's.
+/// One ball: 40 bytes. Lengths over the ball radius, speeds over the nut's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(crate) struct RingBall {
@@ -36,8 +36,6 @@ pub(crate) struct RingBall {
     pub(super) impedance: f32,
     /// Friction torque on the nut over the power 7/6 of the load.
     pub(super) torque: f32,
-    /// Change of the speed with the sum of both neighbours' forces, 1/N.
-    pub(super) rubbing: f32,
 }
 
 /// The load that all balls have in common, in a tick.
@@ -140,12 +138,6 @@ impl RingLoad {
 }
 
 impl RingBall {
-    pub(super) const fn is_loaded(&self) -> bool {
-        self.impedance > 0.0
-    }
-}
-
-impl RingBall {
     /// Keeps what a renewal found.
     #[inline(always)]
     pub(super) fn keep(
@@ -171,13 +163,9 @@ impl RingBall {
 
     /// Free speed at this tick, over the nominal one against the nut; it follows the nut's angle.
     #[inline(always)]
-    pub(crate) fn follow(&mut self, constants: &RingConstants, angle: f32, pressed: f32) -> f32 {
+    pub(crate) fn follow(&mut self, constants: &RingConstants, angle: f32) -> f32 {
         self.free += self.slope * angle;
-        between(
-            self.free + self.rubbing * pressed,
-            -constants.fastest,
-            constants.fastest,
-        )
+        between(self.free, -constants.fastest, constants.fastest)
     }
 
     /// Friction torque over the power 7/6 of the load.
@@ -192,9 +180,10 @@ impl RingBall {
         self.impedance = 0.0;
     }
 
+    /// Whether the ball carries load.
     #[inline(always)]
     pub(crate) const fn loaded(&self) -> bool {
-        self.is_loaded()
+        self.impedance > 0.0
     }
 
     /// Half the speed with which balls alike rub, m per unit of nut speed.

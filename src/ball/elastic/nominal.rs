@@ -45,15 +45,7 @@ impl Grooving {
     /// What the ball is under.
     #[inline(always)]
     const fn inputs(&self, axial_load: f32) -> BallInputs {
-        BallInputs {
-            axial_load,
-            force: 0.0,
-            rubbing: [0.0; 2],
-            screw_deviation: 0.0,
-            nut_deviation: 0.0,
-            friction: self.friction,
-            clearance: self.clearance,
-        }
+        BallInputs::alone(axial_load, self.friction, self.clearance)
     }
 }
 

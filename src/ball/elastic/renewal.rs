@@ -51,6 +51,22 @@ pub struct BallInputs {
     pub clearance: f32,
 }
 
+impl BallInputs {
+    /// A ball without deviations and neighbours under an axial load, N, with a friction coefficient and a clearance, m.
+    #[inline(always)]
+    pub(super) const fn alone(axial_load: f32, friction: f32, clearance: f32) -> Self {
+        Self {
+            axial_load,
+            force: 0.0,
+            rubbing: [0.0; 2],
+            screw_deviation: 0.0,
+            nut_deviation: 0.0,
+            friction,
+            clearance,
+        }
+    }
+}
+
 /// What a renewal finds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -59,8 +75,6 @@ pub struct Renewal {
     pub speed: f32,
     /// Change of the true speed with the force along the track, m/N per unit of the size of the nut's speed.
     pub compliance: f32,
-    /// Change of the speed with the friction of both neighbours, m/N per unit of nut speed.
-    pub by_rubbing: f32,
     /// Power lost in the contacts, N m: the ball's friction torque on the nut.
     pub torque: f32,
     /// Axial force that the contacts carry, N.
@@ -87,7 +101,6 @@ impl Renewal {
         Self {
             speed,
             compliance: 0.0,
-            by_rubbing: 0.0,
             torque: 0.0,
             carried: 0.0,
             loads,
@@ -201,16 +214,16 @@ impl ElasticGrooves {
         let along = -on_screw.speed;
         let needed = (inputs.axial_load - self.sin_lead * along) * self.per_cos_lead;
         let total = shared.forces;
-        let (on_ball, by_rubbing) = self.rub(&motion, inputs.rubbing, &mut shared);
+        let on_ball = self.rub(&motion, inputs.rubbing, &mut shared);
         let [radial, across] = on_ball;
         shared.radial += radial;
         let unbalanced = [screw.force - needed, nut.force + needed + across];
-        let mut step = solved(&shared, &screw, &nut, unbalanced, inputs.force, &by_rubbing);
+        let mut step = solved(&shared, &screw, &nut, unbalanced, inputs.force);
         let reaches = [&a, &b, &c, &d];
         let mut taken = self.limited(&step, reaches, inputs.axial_load, clearance);
         if taken < LEAST_TAKEN || step.compliance <= 0.0 {
             shared.uncouple(&mut screw, &mut nut);
-            step = solved(&shared, &screw, &nut, unbalanced, inputs.force, &by_rubbing);
+            step = solved(&shared, &screw, &nut, unbalanced, inputs.force);
             taken = self.limited(&step, reaches, inputs.axial_load, clearance);
         }
         let moved = motion.plus(&step.motion, -taken);
@@ -230,7 +243,6 @@ impl ElasticGrooves {
         Renewal {
             speed: moved.speed * self.ball_radius,
             compliance: self.ball_radius * step.compliance,
-            by_rubbing: self.ball_radius * step.by_rubbing,
             torque: power * self.ball_radius,
             carried: self.cos_lead * screw.force + self.sin_lead * along,
             loads,
@@ -240,14 +252,9 @@ impl ElasticGrooves {
     }
 
     /// Adds the friction of both neighbours, which are taken to turn as the ball does: moments against its turning, and what
-    /// this brings along the track. Gives the force on the ball, radial and axial, and the moments over their size.
+    /// this brings along the track. Gives the force on the ball, radial and axial.
     #[inline(always)]
-    fn rub(
-        &self,
-        motion: &Motion,
-        [sum, difference]: [f32; 2],
-        shared: &mut Shared,
-    ) -> ([f32; 2], Motion) {
+    fn rub(&self, motion: &Motion, [sum, difference]: [f32; 2], shared: &mut Shared) -> [f32; 2] {
         let (x, z) = (motion.x, motion.z - self.orbit * motion.speed);
         let inverse = 1.0 / (math::sqrt(x * x + z * z) + 1e-6);
         let (ux, uz) = (x * inverse, z * inverse);
@@ -262,7 +269,7 @@ impl ElasticGrooves {
         shared.hessian.xx += stiffness * uz * uz;
         shared.hessian.xz -= stiffness * ux * uz;
         shared.hessian.zz += stiffness * ux * ux;
-        ([difference * uz, -difference * ux], against)
+        [difference * uz, -difference * ux]
     }
 
     /// Part of a step that is taken.

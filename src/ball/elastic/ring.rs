@@ -78,15 +78,7 @@ pub(crate) struct Ring<const N: usize> {
 impl<const N: usize> Ring<N> {
     /// Nominal balls, under a load.
     pub(crate) fn new(constants: &RingConstants, friction: f32, clearance: f32) -> Self {
-        let inputs = BallInputs {
-            axial_load: FIRST_LOAD,
-            force: 0.0,
-            rubbing: [0.0; 2],
-            screw_deviation: 0.0,
-            nut_deviation: 0.0,
-            friction,
-            clearance,
-        };
+        let inputs = BallInputs::alone(FIRST_LOAD, friction, clearance);
         let mut fresh = constants.ball.grooves.start(&inputs);
         let mut ball = RingBall {
             place: fresh.place,
@@ -95,7 +87,6 @@ impl<const N: usize> Ring<N> {
             slope: 0.0,
             impedance: 1.0,
             torque: 0.0,
-            rubbing: 0.0,
         };
         let lift_off = constants.ball.lift_off(clearance);
         let load = RingLoad::new(constants, FIRST_LOAD, lift_off);
@@ -219,15 +210,11 @@ impl<const N: usize> Ring<N> {
     #[cold]
     #[inline(never)]
     fn begin_anew(&mut self, constants: &RingConstants, axial_load: f32, mirrored: bool) {
-        self.fresh = constants.ball.grooves.start(&BallInputs {
+        self.fresh = constants.ball.grooves.start(&BallInputs::alone(
             axial_load,
-            force: 0.0,
-            rubbing: [0.0; 2],
-            screw_deviation: 0.0,
-            nut_deviation: 0.0,
-            friction: self.friction,
-            clearance: self.clearance,
-        });
+            self.friction,
+            self.clearance,
+        ));
         for ball in &mut self.balls {
             ball.slope = 0.0;
             if mirrored {
@@ -285,11 +272,10 @@ impl<const N: usize> Ring<N> {
         } else {
             (ball.place, ball.turning)
         };
-        if !ball.is_loaded() {
+        if !ball.loaded() {
             return;
         }
-        let pushed = force / (ball.impedance * load.two_thirds)
-            + ball.rubbing * (forces.ahead + forces.behind);
+        let pushed = force / (ball.impedance * load.two_thirds);
         let mut settled = Settled {
             place,
             turning,
@@ -353,7 +339,7 @@ impl<const N: usize> Ring<N> {
         let neighbour = [behind, ahead]
             .into_iter()
             .filter_map(|place| self.balls.get(place))
-            .find(|ball| ball.is_loaded())
+            .find(|ball| ball.loaded())
             .copied();
         if let (Some(neighbour), Some(ball)) = (neighbour, self.balls.get_mut(index)) {
             *ball = neighbour;

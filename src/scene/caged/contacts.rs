@@ -176,7 +176,9 @@ impl Contacts {
     }
 
     /// Friction torque over contact force of a ball that is renewed for this tick, and what it is worth.
-    #[inline(always)]
+    ///
+    /// A function of its own, so that a step by the law needs none of its stack.
+    #[inline(never)]
     fn renewed(
         &self,
         state: &mut ContactsState,
