@@ -30,6 +30,7 @@
 //! | [`refined`] | one ball and chains of balls, refined by Newton steps | direct |
 //! | [`efficiency`] | closed-form efficiency, self-locking; optimum and design procedure | set-up of the caged scene; direct |
 //! | [`kinematics`] | rolling, side and spin slip of a contact, their ratios and friction power | direct |
+//! | [`law`] | friction that remembers; friction coefficient by speed and temperature | step of scenes with memory; direct |
 //! | [`scene`] | what a mechanism needs and what it leaves out | step |
 //! | [`model`] | [`FrictionModel`]: admit, compute, limit, count | step |
 //! | `hal` | adapters for `embedded-hal`: nut speed from an encoder, friction torque to a duty cycle | beside the step |
@@ -55,6 +56,7 @@ pub mod geometry;
 pub mod hal;
 pub mod hertz;
 pub mod kinematics;
+pub mod law;
 pub mod material;
 pub mod math;
 pub mod model;

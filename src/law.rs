@@ -1,0 +1,42 @@
+//! Friction as a law of motion: what a mechanism's friction is between its two directions, and how its coefficient
+//! follows speed and temperature.
+//!
+//! Runs in the step of a scene with memory; its parts are called directly as well. A scene without memory links nothing
+//! of it.
+//!
+//! | module | what |
+//! |---|---|
+//! | [`memory`] | elements that stick and slip: friction as a hysteresis in angle |
+//! | [`motion`] | the turn between two readings of a nut angle, exactly |
+//! | [`breakaway`] | initial stiffness and breakaway angle from a design |
+//! | [`coefficient`] | friction coefficient by speed, temperature and direction; churning drag |
+
+pub mod breakaway;
+pub mod coefficient;
+pub mod memory;
+pub mod motion;
+
+/// Friction of gross sliding in both directions at a tick: between them friction passes with the angle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct SlidingLimits {
+    /// Friction of sliding in the positive direction, N m or N, not negative.
+    pub forward: f32,
+    /// Friction of sliding in the negative direction, as a positive number, N m or N.
+    pub backward: f32,
+    /// Load over the reference load of the elements, not negative; only load-exact elements read it.
+    pub load: f32,
+}
+
+/// Elements of friction that remember: constants of one kind, folded at set-up.
+pub trait Elements {
+    /// What the elements remember.
+    type State: Copy + core::fmt::Debug + PartialEq;
+
+    /// Nothing remembered: no element carries anything.
+    const VIRGIN: Self::State;
+
+    /// Friction after a turn of `turn` rad (m of a bearing) under these limits: between `-backward` and `forward`, with the sign
+    /// of the motion that it opposes. `turn` and the limits are finite; bounded time, no panic.
+    fn follow(&self, state: &mut Self::State, turn: f32, limits: &SlidingLimits) -> f32;
+}

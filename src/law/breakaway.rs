@@ -1,0 +1,1 @@
+//! Initial stiffness and breakaway angle from a design.

@@ -1,0 +1,1 @@
+//! Friction coefficient by speed, temperature and direction; churning drag.

@@ -1,0 +1,1 @@
+//! Elements that stick and slip: friction as a hysteresis in angle.

@@ -1,0 +1,1 @@
+//! The turn between two readings of a nut angle, exactly.
