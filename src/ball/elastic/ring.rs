@@ -313,7 +313,7 @@ impl<const N: usize> Ring<N> {
         }
         // The slope is that of a whole round between two renewals.
         let change = ball.free - before;
-        let drifts = change.abs() < DRIFT * constants.fastest;
+        let drifts = change.abs() < DRIFT * constants.fastest && found.taken >= 1.0;
         ball.slope = if drifts && self.last_round.abs() > 1e-4 && self.stale == 0 && !is_nominal {
             ball.slope + change / self.last_round
         } else {
