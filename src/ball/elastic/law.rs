@@ -3,6 +3,7 @@
 use super::constants::BallConstants;
 use super::renewal::{Renewal, Settled};
 use crate::math::{self, inverse_cube_roots};
+use crate::train::LARGEST_FREE_SPEED;
 
 /// Least and largest impedance of a loaded ball, N: what a train takes.
 const IMPEDANCES: (f32, f32) = (1e-6, 1e8);
@@ -138,7 +139,7 @@ impl RingLoad {
 }
 
 impl RingBall {
-    /// Keeps what a renewal found.
+    /// Keeps what a renewal found; its free speed is no further from the nominal one than `fastest`, over that against the nut.
     #[inline(always)]
     pub(super) fn keep(
         &mut self,
@@ -147,6 +148,7 @@ impl RingBall {
         settled: &Settled,
         found: &Renewal,
         forces: &Neighbours,
+        fastest: f32,
     ) {
         let force = forces.behind - forces.ahead;
         let radius = constants.ball.grooves.ball_radius;
@@ -156,16 +158,16 @@ impl RingBall {
             (settled.speed - constants.nominal) * constants.per_reference - force / impedance;
         self.place = settled.place;
         self.turning = settled.turning;
-        self.free = between(free, -constants.fastest, constants.fastest);
+        self.free = between(free, -fastest, fastest);
         self.impedance = impedance * load.per_two_thirds;
         self.torque = constants.ball.torque(found) * load.per_seven_sixths;
     }
 
     /// Free speed at this tick, over the nominal one against the nut; it follows the nut's angle.
     #[inline(always)]
-    pub(crate) fn follow(&mut self, constants: &RingConstants, angle: f32) -> f32 {
+    pub(crate) fn follow(&mut self, angle: f32) -> f32 {
         self.free += self.slope * angle;
-        between(self.free, -constants.fastest, constants.fastest)
+        between(self.free, -LARGEST_FREE_SPEED, LARGEST_FREE_SPEED)
     }
 
     /// Friction torque over the power 7/6 of the load.

@@ -2,6 +2,7 @@
 
 use super::law::{Neighbours, RingBall, RingConstants, RingLoad, between};
 use super::renewal::{BallInputs, Settled};
+use crate::train::LARGEST_FREE_SPEED;
 
 /// Axial load of a ball below which it counts as this, N.
 const SMALLEST_LOAD: f32 = 1e-3;
@@ -96,7 +97,14 @@ impl<const N: usize> Ring<N> {
                 fresh = constants.ball.grooves.start(&inputs);
                 continue;
             }
-            ball.keep(constants, &load, &fresh, &found, &Neighbours::NONE);
+            ball.keep(
+                constants,
+                &load,
+                &fresh,
+                &found,
+                &Neighbours::NONE,
+                LARGEST_FREE_SPEED,
+            );
         }
         Self {
             balls: [ball; N],
@@ -264,6 +272,12 @@ impl<const N: usize> Ring<N> {
     ) {
         let force = forces.behind - forces.ahead;
         let is_nominal = index >= N;
+        // Play turns the contacts of all balls; how far a ball deviates is known for a screw without.
+        let fastest = between(
+            constants.fastest + self.nominal.free.abs(),
+            0.0,
+            LARGEST_FREE_SPEED,
+        );
         let ball = self.balls.get_mut(index).unwrap_or(&mut self.nominal);
         self.settling = self.settling.saturating_sub(1);
         let (place, turning) = if self.stale > 0 {
@@ -304,7 +318,12 @@ impl<const N: usize> Ring<N> {
             return;
         }
         let before = ball.free;
-        ball.keep(constants, load, &settled, &found, forces);
+        let fastest = if is_nominal {
+            LARGEST_FREE_SPEED
+        } else {
+            fastest
+        };
+        ball.keep(constants, load, &settled, &found, forces, fastest);
         // A ball is stiffer than a nominal one by a factor at most.
         let nominal = self.nominal.impedance;
         let ball = self.balls.get_mut(index).unwrap_or(&mut self.nominal);
