@@ -3,7 +3,6 @@
 use super::constants::BallConstants;
 use super::renewal::{Renewal, Settled};
 use crate::math::{self, inverse_cube_roots};
-use crate::train::LARGEST_FREE_SPEED;
 
 /// Least and largest impedance of a loaded ball, N: what a train takes.
 const IMPEDANCES: (f32, f32) = (1e-6, 1e8);
@@ -23,7 +22,7 @@ pub(crate) struct RingConstants {
     pub(super) fastest: f32,
 }
 
-/// One ball: 40 bytes. Lengths over the ball radius, speeds over the nut's.
+/// One ball: 36 bytes. Lengths over the ball radius, speeds over the nut's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(crate) struct RingBall {
@@ -31,8 +30,6 @@ pub(crate) struct RingBall {
     pub(super) turning: [f32; 3],
     /// Speed without forces of neighbours less the nominal one, over the nominal one against the nut.
     pub(super) free: f32,
-    /// Its change with the nut's angle, 1/rad.
-    pub(super) slope: f32,
     /// Force along the track that changes this by one, over the power 2/3 of the load; 0 of a ball without load.
     pub(super) impedance: f32,
     /// Friction torque on the nut over the power 7/6 of the load.
@@ -139,7 +136,7 @@ impl RingLoad {
 }
 
 impl RingBall {
-    /// Keeps what a renewal found; its free speed is no further from the nominal one than `fastest`, over that against the nut.
+    /// Keeps what a renewal found, with a free speed within `fastest`.
     #[inline(always)]
     pub(super) fn keep(
         &mut self,
@@ -163,11 +160,10 @@ impl RingBall {
         self.torque = constants.ball.torque(found) * load.per_seven_sixths;
     }
 
-    /// Free speed at this tick, over the nominal one against the nut; it follows the nut's angle.
+    /// Free speed, over the nominal one against the nut.
     #[inline(always)]
-    pub(crate) fn follow(&mut self, angle: f32) -> f32 {
-        self.free += self.slope * angle;
-        between(self.free, -LARGEST_FREE_SPEED, LARGEST_FREE_SPEED)
+    pub(crate) const fn free(&self) -> f32 {
+        self.free
     }
 
     /// Friction torque over the power 7/6 of the load.

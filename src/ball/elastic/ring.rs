@@ -39,9 +39,6 @@ const STIFFER: f32 = 16.0;
 /// Load that a ball's contacts carry over what it should be, and the inverse, from which on it begins anew.
 const FAR: f32 = 4.0;
 
-/// Change of a ball's speed in a round over the largest deviation of speed from which on it is no drift.
-const DRIFT: f32 = 0.25;
-
 /// Balls that are renewed in turn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -85,7 +82,6 @@ impl<const N: usize> Ring<N> {
             place: fresh.place,
             turning: fresh.turning,
             free: 0.0,
-            slope: 0.0,
             impedance: 1.0,
             torque: 0.0,
         };
@@ -223,9 +219,8 @@ impl<const N: usize> Ring<N> {
             self.friction,
             self.clearance,
         ));
-        for ball in &mut self.balls {
-            ball.slope = 0.0;
-            if mirrored {
+        if mirrored {
+            for ball in &mut self.balls {
                 ball.free = -ball.free;
             }
         }
@@ -317,7 +312,6 @@ impl<const N: usize> Ring<N> {
             (ball.place, ball.turning) = (place, turning);
             return;
         }
-        let before = ball.free;
         let fastest = if is_nominal {
             LARGEST_FREE_SPEED
         } else {
@@ -330,14 +324,6 @@ impl<const N: usize> Ring<N> {
         if !is_nominal {
             ball.impedance = between(ball.impedance, nominal * (1.0 / STIFFER), nominal * STIFFER);
         }
-        // The slope is that of a whole round between two renewals.
-        let change = ball.free - before;
-        let drifts = change.abs() < DRIFT * constants.fastest && found.taken >= 1.0;
-        ball.slope = if drifts && self.last_round.abs() > 1e-4 && self.stale == 0 && !is_nominal {
-            ball.slope + change / self.last_round
-        } else {
-            0.0
-        };
     }
 
     /// The load for which balls are renewed, once a round is over.
