@@ -187,18 +187,23 @@ fn grid(k: f64, nu: f64, cells: u32) -> [f64; 2] {
         }
     }
     let solver = matrix.lu();
-    let solved = |shift: &dyn Fn(&(f64, f64)) -> (f64, f64)| {
+    // Displacements of the centres: constant along `x`, and turned.
+    let solved = |constant: f64, turned: f64| {
         let part = |place: usize| {
-            let (x, y) = shift(&centres[place % n]);
-            if place < n { x } else { y }
+            let (x, y) = centres[place % n];
+            if place < n {
+                constant - turned * y
+            } else {
+                turned * x
+            }
         };
         solver
             .solve(&DVector::from_fn(2 * n, |place, _| part(place)))
             .unwrap()
     };
-    let slip = solved(&|_| (1.0, 0.0));
+    let slip = solved(1.0, 0.0);
     let force: f64 = slip.iter().take(n).sum();
-    let spin = solved(&|&(x, y)| (-y, x));
+    let spin = solved(0.0, 1.0);
     let moment: f64 = (0..n)
         .map(|place| centres[place].0 * spin[n + place] - centres[place].1 * spin[place])
         .sum();
