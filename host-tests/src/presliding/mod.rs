@@ -1,0 +1,3 @@
+//! Friction before sliding.
+
+pub mod physics;
