@@ -16,6 +16,7 @@ pub mod hertz;
 pub mod kinematics;
 pub mod material;
 pub mod measured;
+pub mod presliding;
 pub mod published;
 pub mod record;
 pub mod rolling_ball;
