@@ -139,7 +139,7 @@ impl<S: Scene, C: Borrow<S::Constants>> FrictionModel<S, C> {
         let constants = self.constants.borrow();
         let admitted = S::admit(constants, inputs);
         let outputs = match admitted.inputs {
-            Some(inputs) => S::outputs(constants, &mut self.state, inputs),
+            Some(known) => S::outputs(constants, &mut self.state, known),
             None => S::Outputs::SAFE,
         };
         let outputs = outputs.limited(S::largest_friction(constants), admitted.faults);
@@ -237,6 +237,17 @@ impl<const N: usize, C: Borrow<UncagedConstants<N>>> FrictionModel<UncagedBallSc
 }
 
 impl<const N: usize, C: Borrow<LinearConstants<N>>> FrictionModel<LinearBearingTrain<N>, C> {
+    /// Sets the friction coefficient of ball and groove, 1e-6 to 1: friction and all forces between balls follow it in
+    /// proportion, from the next tick on. [`FrictionModel::reset`] brings the configuration's back.
+    ///
+    /// # Errors
+    /// [`Error`] naming `friction`; the model goes on as it was.
+    pub fn set_friction(&mut self, friction: f32) -> Result<(), Error> {
+        self.constants
+            .borrow()
+            .set_friction(&mut self.state, friction)
+    }
+
     /// Sets the carriage's place along the rail, m, from which the rail's deviations are counted: once after start-up,
     /// and again whenever an absolute sensor has it; between, the model integrates the speed. Ticks without a valid
     /// speed are missing in that sum, one beyond its limit counts with the limit. A place that is NaN, or beyond

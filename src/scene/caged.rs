@@ -3,14 +3,18 @@
 mod closed_form;
 mod contacts;
 
-use super::contract::{Admitted, Inputs, Limits, Reversal, Scene, SceneOutputs};
+use super::contract::{Admitted, Inputs, Limits, Scene, SceneOutputs};
+use super::faults::Faults;
 use super::outputs::Outputs;
+use super::passage::{Passage, Reversal};
+use super::sliding::Sliding;
 use crate::ball::Clearance;
 use crate::contact::RollingResistance;
 use crate::error::{Error, attempt, in_range};
 use crate::geometry::BallScrew;
+use crate::law::SlidingLimits;
 use closed_form::ClosedForm;
-use contacts::{Contacts, ContactsState};
+use contacts::{Contacts, ContactsState, SecondLaws};
 
 /// Which state of the ball the friction torque is computed for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -103,6 +107,7 @@ impl Scene for CagedBallScrew {
     type Constants = CagedConstants;
     type State = CagedState;
     type Inputs = Inputs;
+    type Known = Inputs;
     type Outputs = Outputs;
 
     fn constants(configuration: &CagedBallScrewConfiguration) -> Result<CagedConstants, Error> {
@@ -133,7 +138,11 @@ impl Scene for CagedBallScrew {
     fn outputs(constants: &CagedConstants, state: &mut CagedState, inputs: Inputs) -> Outputs {
         let reversal = &constants.reversal;
         match (&constants.law, &mut state.contacts) {
-            (Law::Contacts(contacts), Some(state)) => contacts.outputs(state, reversal, inputs),
+            (Law::Contacts(contacts), Some(state)) => {
+                let passage = reversal.passage(inputs.nut_speed);
+                let full = contacts.one_way(state, inputs, passage.way);
+                contacts.passed(inputs.axial_load, &full, passage)
+            }
             (Law::Closed(closed), _) => closed.outputs(reversal, inputs),
             (Law::Contacts(_), None) => Outputs::SAFE,
         }
@@ -142,6 +151,113 @@ impl Scene for CagedBallScrew {
     #[inline(always)]
     fn largest_friction(constants: &CagedConstants) -> f32 {
         constants.limits.friction_torque
+    }
+}
+
+/// Full friction of a caged ball screw in both directions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CagedFull {
+    /// Friction torque of motion forward and backward, N m, not negative.
+    forward: f32,
+    backward: f32,
+    /// Axial load of all balls, preload counted, N.
+    load: f32,
+    faults: Faults,
+}
+
+impl CagedFull {
+    /// Friction torque in the direction of a sign.
+    #[inline(always)]
+    const fn of(&self, way: f32) -> f32 {
+        if way < 0.0 {
+            self.backward
+        } else {
+            self.forward
+        }
+    }
+}
+
+/// What friction coefficients beside the configuration's need: laws for a second one; nothing where there is one alone, or
+/// friction is that of a closed form.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct CagedCoefficients {
+    second: Option<SecondLaws>,
+}
+
+impl Sliding for CagedBallScrew {
+    type Coefficients = CagedCoefficients;
+    type Full = CagedFull;
+
+    fn coefficients(constants: &CagedConstants, least: f32, largest: f32) -> CagedCoefficients {
+        let Law::Contacts(contacts) = &constants.law else {
+            return CagedCoefficients { second: None };
+        };
+        let own = contacts.friction();
+        let farther = if largest - own > own - least {
+            largest
+        } else {
+            least
+        };
+        CagedCoefficients {
+            second: contacts.second_laws(farther),
+        }
+    }
+
+    fn friction(constants: &CagedConstants) -> f32 {
+        match &constants.law {
+            Law::Contacts(contacts) => contacts.friction(),
+            Law::Closed(closed) => closed.friction(),
+        }
+    }
+
+    #[inline(always)]
+    fn full(
+        constants: &CagedConstants,
+        state: &mut CagedState,
+        coefficients: &CagedCoefficients,
+        inputs: Inputs,
+        friction: f32,
+    ) -> CagedFull {
+        match (&constants.law, &mut state.contacts) {
+            (Law::Contacts(contacts), Some(state)) => {
+                contacts.both_ways(state, coefficients.second.as_ref(), inputs, friction)
+            }
+            (Law::Closed(closed), _) => closed.both_ways(inputs.axial_load),
+            (Law::Contacts(_), None) => CagedFull {
+                forward: 0.0,
+                backward: 0.0,
+                load: 0.0,
+                faults: Faults::NONE,
+            },
+        }
+    }
+
+    #[inline(always)]
+    fn limits(full: &CagedFull) -> SlidingLimits {
+        SlidingLimits {
+            forward: full.forward,
+            backward: full.backward,
+            load: full.load,
+        }
+    }
+
+    #[inline(always)]
+    fn passed(
+        constants: &CagedConstants,
+        inputs: Inputs,
+        full: &CagedFull,
+        passage: Passage,
+    ) -> Outputs {
+        match &constants.law {
+            Law::Contacts(contacts) => contacts.passed(inputs.axial_load, full, passage),
+            Law::Closed(closed) => closed.passed(inputs.axial_load, full, passage),
+        }
+    }
+
+    #[inline(always)]
+    fn speed_of(_: &CagedConstants, _: f32, measured: f32) -> f32 {
+        measured
     }
 }
 

@@ -25,6 +25,9 @@ pub(crate) const SETTLING_ROUNDS: u16 = 3;
 /// Change of the friction coefficient over it, and of the clearance, m, that balls follow without settling anew.
 const SMALL_CHANGE: (f32, f32) = (0.01, 1e-8);
 
+/// Difference of the friction coefficient from that of the last renewals, over it, from which on balls count as unsettled.
+const FRICTION_BEHIND: f32 = 0.1;
+
 /// Renewals of a nominal ball before the first tick.
 const FIRST_RENEWALS: usize = 16;
 
@@ -51,6 +54,8 @@ pub(crate) struct Ring<const N: usize> {
     /// Place and motion with which balls begin anew.
     fresh: Settled,
     pub(crate) friction: f32,
+    /// Mean of the friction coefficients with which the balls were renewed last.
+    renewed_friction: f32,
     /// Radial gap of every contact at the centred ball, m.
     pub(crate) clearance: f32,
     /// Contact force of the lost diagonal's last touch, N: 0 without preload.
@@ -103,6 +108,7 @@ impl<const N: usize> Ring<N> {
             nominal: ball,
             fresh,
             friction,
+            renewed_friction: friction,
             clearance,
             lift_off,
             settled_load: FIRST_LOAD,
@@ -131,6 +137,23 @@ impl<const N: usize> Ring<N> {
         self.friction = friction;
         self.clearance = clearance;
         self.lift_off = constants.ball.lift_off(clearance);
+    }
+
+    /// Takes a friction coefficient, 1e-6 to 0.5, that follows speed or temperature; balls take it over as their turn comes.
+    #[inline(always)]
+    pub(crate) fn take_friction(&mut self, friction: f32) {
+        self.friction = friction;
+        self.renewed_friction += (friction - self.renewed_friction) * (1.0 / N as f32);
+        let behind = (friction - self.renewed_friction).abs() > FRICTION_BEHIND * friction;
+        if behind && self.settling == 0 {
+            self.settling = 1;
+        }
+    }
+
+    /// The friction coefficient over that of the last renewals: groove friction is in proportion to it to first order.
+    #[inline(always)]
+    pub(crate) fn friction_ahead(&self) -> f32 {
+        self.friction / self.renewed_friction
     }
 
     /// Speed of a ball without load less the nominal one, over the nominal one against the nut.

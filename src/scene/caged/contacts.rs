@@ -2,16 +2,17 @@
 
 use core::f32::consts::TAU;
 
-use super::CagedBallScrewConfiguration;
+use super::{CagedBallScrewConfiguration, CagedFull};
 use crate::ball::Clearance;
 use crate::ball::elastic::constants::BallConstants;
 use crate::ball::elastic::load_law::{LoadLaw, LoadRange};
 use crate::ball::elastic::nominal::{Grooving, NominalBall, SMALLEST_LOAD};
 use crate::error::{Error, attempt};
 use crate::ranges;
-use crate::scene::contract::{Inputs, Regime, Reversal};
+use crate::scene::contract::{Inputs, Regime};
 use crate::scene::faults::Faults;
 use crate::scene::outputs::{Outputs, efficiency};
+use crate::scene::passage::{Passage, way};
 
 /// Axial load of a ball, N, for which balls are settled before the first tick.
 const FIRST_LOAD: f32 = 50.0;
@@ -25,12 +26,28 @@ const OTHER_TURN: u8 = 4;
 pub(super) struct Contacts {
     ball: BallConstants,
     friction: f32,
+    per_friction: f32,
     clearance: Clearance,
     range: LoadRange,
     balls: f32,
     per_ball: f32,
+    /// Axial load of all balls over the contact force of one.
+    load_per_whole: f32,
     /// Torque per axial load without friction, `lead / 2 pi`, m.
     reduced_lead: f32,
+}
+
+/// Laws for a second friction coefficient, between which and that of the configuration the coefficient may change in every
+/// tick: friction torque over friction coefficient is linear between the two.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(super) struct SecondLaws {
+    /// Of a load that opposes the motion, and of one that assists it.
+    laws: [LoadLaw; 2],
+    /// 1 / the second coefficient.
+    per_friction: f32,
+    /// 1 / (second coefficient - first one).
+    per_span: f32,
 }
 
 /// What a tick reads and changes.
@@ -65,13 +82,37 @@ impl Contacts {
         let balls = loaded_balls as f32;
         Ok(Self {
             friction: attempt!(ranges::FRICTION_OF_A_ROW.checked("friction", friction)),
+            per_friction: 1.0 / friction,
             clearance: attempt!(clearance.checked(design)),
             ball: attempt!(BallConstants::new(design, rolling_resistance)),
             range: LoadRange::to(limits.axial_load / balls),
             balls,
             per_ball: 1.0 / balls,
+            load_per_whole: balls * (design.contact_angle().sin * design.cos_lead_angle()),
             reduced_lead: design.lead() / TAU,
         })
+    }
+
+    /// Friction coefficient of the configuration.
+    pub(super) const fn friction(&self) -> f32 {
+        self.friction
+    }
+
+    /// Laws for a friction coefficient beside that of the configuration: none where the two are the same.
+    pub(super) fn second_laws(&self, friction: f32) -> Option<SecondLaws> {
+        if friction == self.friction {
+            return None;
+        }
+        let grooving = Grooving::new(&self.ball, friction, self.clearance.gap());
+        let mut second = SecondLaws {
+            laws: [LoadLaw::NONE; 2],
+            per_friction: 1.0 / friction,
+            per_span: 1.0 / (friction - self.friction),
+        };
+        for (law, side) in second.laws.iter_mut().zip([1.0, -1.0]) {
+            law.fold(&self.ball, &grooving, self.range, side);
+        }
+        Some(second)
     }
 
     /// Laws and balls before the first tick: some thousand renewals.
@@ -137,25 +178,10 @@ impl Contacts {
         }
     }
 
-    /// Friction torque away from the reversal times the direction: zero at standstill, continuous, odd under reversal of
-    /// speed and load together, and never of the sign that would make friction a source of power.
+    /// Full friction in the direction of motion, which stands for both.
     #[inline(always)]
-    pub(super) fn outputs(
-        &self,
-        state: &mut ContactsState,
-        reversal: &Reversal,
-        inputs: Inputs,
-    ) -> Outputs {
-        let Inputs {
-            nut_speed,
-            axial_load,
-        } = inputs;
-        // Standstill counts as forward.
-        let opposing = if nut_speed < 0.0 {
-            -axial_load
-        } else {
-            axial_load
-        };
+    pub(super) fn one_way(&self, state: &mut ContactsState, inputs: Inputs, way: f32) -> CagedFull {
+        let opposing = way * inputs.axial_load;
         let load = opposing.abs() * self.per_ball;
         let other = opposing < 0.0;
         let whole = state.grooving.whole(&self.ball, load);
@@ -165,13 +191,90 @@ impl Contacts {
             state.folded(self.range, load, other)
         };
         let full = self.balls * (whole * ratio);
-        let load_work = opposing * self.reduced_lead;
+        CagedFull {
+            forward: full,
+            backward: full,
+            load: whole * self.load_per_whole,
+            faults: accuracy,
+        }
+    }
+
+    /// Full friction in both directions, with a friction coefficient.
+    #[inline(always)]
+    pub(super) fn both_ways(
+        &self,
+        state: &mut ContactsState,
+        second: Option<&SecondLaws>,
+        inputs: Inputs,
+        friction: f32,
+    ) -> CagedFull {
+        let way = way(inputs.nut_speed);
+        let opposing = way * inputs.axial_load;
+        let load = opposing.abs() * self.per_ball;
+        let other = opposing < 0.0;
+        let whole = state.grooving.whole(&self.ball, load);
+        let [(own, accuracy), (opposite, _)] = if state.changes {
+            state.grooving.friction = friction;
+            let own = self.renewed(state, load, whole, other);
+            let [drive, backdrive] = &state.balls;
+            let opposite = if other { drive } else { backdrive };
+            [own, (opposite.ratio(), Faults::NONE)]
+        } else {
+            [other, !other].map(|other| self.between(state, second, load, other, friction))
+        };
+        let carried = self.balls * whole;
+        let (forward, backward) = if way < 0.0 {
+            (opposite, own)
+        } else {
+            (own, opposite)
+        };
+        CagedFull {
+            forward: carried * forward,
+            backward: carried * backward,
+            load: whole * self.load_per_whole,
+            faults: accuracy,
+        }
+    }
+
+    /// Friction torque over contact force by the laws, for a friction coefficient.
+    #[inline(always)]
+    fn between(
+        &self,
+        state: &ContactsState,
+        second: Option<&SecondLaws>,
+        load: f32,
+        other: bool,
+        friction: f32,
+    ) -> (f32, Faults) {
+        let (first, faults) = state.folded(self.range, load, other);
+        let part = friction / self.friction;
+        let Some(second) = second else {
+            return (first * part, faults);
+        };
+        let [drive, backdrive] = &second.laws;
+        let law = if other { backdrive } else { drive };
+        let (ratio, beyond) = law.at(self.range, load);
+        // Friction torque over friction coefficient, of both.
+        let (at_first, at_second) = (first * self.per_friction, ratio * second.per_friction);
+        let weight = (friction - self.friction) * second.per_span;
+        (
+            friction * (at_first + weight * (at_second - at_first)),
+            faults.with(beyond, Faults::BEYOND_MODEL),
+        )
+    }
+
+    /// Full friction times its passage: zero at standstill, odd under reversal of speed and load together, and never of the
+    /// sign that would make friction a source of power.
+    #[inline(always)]
+    pub(super) fn passed(&self, axial_load: f32, found: &CagedFull, passage: Passage) -> Outputs {
+        let full = found.of(passage.way);
+        let load_work = passage.way * axial_load * self.reduced_lead;
         Outputs {
-            friction_torque: reversal.direction(nut_speed) * full,
+            friction_torque: passage.share * found.of(passage.share),
             load_torque: axial_load * self.reduced_lead,
             efficiency: efficiency(load_work > 0.0, load_work, full),
-            regime: Regime::under(reversal.stands(nut_speed), load_work, full),
-            faults: accuracy,
+            regime: Regime::under(passage.standing, load_work, full),
+            faults: found.faults,
         }
     }
 
