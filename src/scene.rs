@@ -19,6 +19,7 @@ pub(crate) mod circuit;
 mod contract;
 mod faults;
 pub(crate) mod linear;
+mod memory;
 mod outputs;
 mod passage;
 mod sliding;
@@ -34,6 +35,10 @@ pub use faults::Faults;
 pub use linear::{
     LinearBearingConfiguration, LinearBearingTrain, LinearConstants, LinearFull, LinearInputs,
     LinearLimits, LinearState,
+};
+pub use memory::{
+    Freshness, WithMemory, WithMemoryConfiguration, WithMemoryConstants, WithMemoryInputs,
+    WithMemoryKnown, WithMemoryState,
 };
 pub use outputs::{LinearOutputs, Outputs, UncagedOutputs};
 pub use passage::{Motion, Passage};

@@ -2,6 +2,7 @@
 
 mod closed_form;
 mod contacts;
+mod full;
 
 use super::contract::{Admitted, Inputs, Limits, Scene, SceneOutputs};
 use super::faults::Faults;
@@ -15,6 +16,11 @@ use crate::geometry::BallScrew;
 use crate::law::SlidingLimits;
 use closed_form::ClosedForm;
 use contacts::{Contacts, ContactsState, SecondLaws};
+pub use full::CagedFull;
+
+/// Friction of contacts, and closed forms, as numbers that an error can name.
+const CONTACTS: f32 = 0.0;
+const CLOSED: f32 = 1.0;
 
 /// Which state of the ball the friction torque is computed for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -129,6 +135,18 @@ impl Scene for CagedBallScrew {
         }
     }
 
+    fn take_over(constants: &CagedConstants, state: &mut CagedState) -> Result<(), Error> {
+        match (&constants.law, &mut state.contacts) {
+            (Law::Contacts(contacts), Some(state)) => {
+                contacts.take_over(state);
+                Ok(())
+            }
+            (Law::Closed(_), None) => Ok(()),
+            (Law::Contacts(_), None) => in_range("branch", CONTACTS, CLOSED, CLOSED).map(|_| ()),
+            (Law::Closed(_), Some(_)) => in_range("branch", CLOSED, CONTACTS, CONTACTS).map(|_| ()),
+        }
+    }
+
     #[inline(always)]
     fn admit(constants: &CagedConstants, inputs: Inputs) -> Admitted<Inputs> {
         constants.limits.admit(inputs)
@@ -151,29 +169,6 @@ impl Scene for CagedBallScrew {
     #[inline(always)]
     fn largest_friction(constants: &CagedConstants) -> f32 {
         constants.limits.friction_torque
-    }
-}
-
-/// Full friction of a caged ball screw in both directions.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CagedFull {
-    /// Friction torque of motion forward and backward, N m, not negative.
-    forward: f32,
-    backward: f32,
-    /// Axial load of all balls, preload counted, N.
-    load: f32,
-    faults: Faults,
-}
-
-impl CagedFull {
-    /// Friction torque in the direction of a sign.
-    #[inline(always)]
-    const fn of(&self, way: f32) -> f32 {
-        if way < 0.0 {
-            self.backward
-        } else {
-            self.forward
-        }
     }
 }
 

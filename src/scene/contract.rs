@@ -37,6 +37,13 @@ pub trait Scene {
         *state = Self::initial_state(constants);
     }
 
+    /// Makes a state that other constants left go on under these: balls and memory stay, friction is flagged
+    /// [`Faults::SETTLING`] where it has to settle.
+    ///
+    /// # Errors
+    /// [`Error`] naming what does not fit to the state, which then is as it was.
+    fn take_over(constants: &Self::Constants, state: &mut Self::State) -> Result<(), Error>;
+
     /// The inputs within their limits, with what was wrong with them.
     fn admit(constants: &Self::Constants, inputs: Self::Inputs) -> Admitted<Self::Known>;
 

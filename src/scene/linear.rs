@@ -106,6 +106,12 @@ impl<const N: usize> Scene for LinearBearingTrain<N> {
         }
     }
 
+    fn take_over(constants: &LinearConstants<N>, state: &mut LinearState<N>) -> Result<(), Error> {
+        state.circuit.is_on(&constants.circuit)?;
+        state.friction = 1.0;
+        Ok(())
+    }
+
     #[inline(always)]
     fn admit(constants: &LinearConstants<N>, inputs: LinearInputs) -> Admitted<LinearInputs> {
         constants.limits.admit(inputs)

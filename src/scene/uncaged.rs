@@ -1,11 +1,12 @@
 //! A ball screw without cage: its balls press on each other.
 
 mod configuration;
+mod full;
 
 use core::f32::consts::TAU;
 
 use super::circuit::{Circuit, CircuitState, UNLOADED, per_loaded_ball};
-use super::contract::{Admitted, Inputs, Limits, Regime, Scene};
+use super::contract::{Admitted, Inputs, Limits, Scene};
 use super::faults::Faults;
 use super::outputs::UncagedOutputs;
 use super::passage::{Passage, Reversal};
@@ -19,6 +20,7 @@ use crate::law::SlidingLimits;
 use crate::ranges;
 
 pub use configuration::UncagedBallScrewConfiguration;
+pub use full::UncagedFull;
 
 /// Balls that are renewed in a tick.
 const RENEWALS: u8 = 1;
@@ -85,6 +87,21 @@ impl<const N: usize> Scene for UncagedBallScrew<N> {
         }
     }
 
+    fn take_over(
+        constants: &UncagedConstants<N>,
+        state: &mut UncagedState<N>,
+    ) -> Result<(), Error> {
+        state.circuit.is_on(&constants.circuit)?;
+        let UncagedConstants {
+            ring,
+            friction,
+            clearance,
+            ..
+        } = constants;
+        state.ring.take_over(ring, *friction, *clearance);
+        Ok(())
+    }
+
     #[inline(always)]
     fn admit(constants: &UncagedConstants<N>, inputs: Inputs) -> Admitted<Inputs> {
         constants.limits.admit(inputs)
@@ -97,9 +114,8 @@ impl<const N: usize> Scene for UncagedBallScrew<N> {
         inputs: Inputs,
     ) -> UncagedOutputs {
         let full = constants.full(state, inputs);
-        constants.passed(
-            inputs.axial_load,
-            &full,
+        full.passed(
+            inputs.axial_load * constants.reduced_lead,
             constants.reversal.passage(inputs.nut_speed),
         )
     }
@@ -108,19 +124,6 @@ impl<const N: usize> Scene for UncagedBallScrew<N> {
     fn largest_friction(constants: &UncagedConstants<N>) -> f32 {
         constants.limits.friction_torque
     }
-}
-
-/// Full friction of a ball screw without cage, in the direction in which its balls go.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct UncagedFull {
-    /// Parts of the friction torque from the grooves and from balls that rub against each other, N m.
-    groove: f32,
-    ball: f32,
-    /// Axial load, preload counted, N.
-    load: f32,
-    contacts: u8,
-    largest_contact_force: f32,
-    faults: Faults,
 }
 
 impl<const N: usize> Sliding for UncagedBallScrew<N> {
@@ -166,7 +169,7 @@ impl<const N: usize> Sliding for UncagedBallScrew<N> {
         full: &UncagedFull,
         passage: Passage,
     ) -> UncagedOutputs {
-        constants.passed(inputs.axial_load, full, passage)
+        full.passed(inputs.axial_load * constants.reduced_lead, passage)
     }
 
     #[inline(always)]
@@ -278,28 +281,6 @@ impl<const N: usize> UncagedConstants<N> {
             faults: Faults::NONE
                 .with(state.ring.settles(), Faults::SETTLING)
                 .with(state.ring.beyond_model(), Faults::BEYOND_MODEL),
-        }
-    }
-
-    #[inline(always)]
-    fn passed(&self, axial_load: f32, full: &UncagedFull, passage: Passage) -> UncagedOutputs {
-        let groove_torque = passage.share * full.groove;
-        let ball_torque = passage.share * full.ball;
-        let friction_torque = groove_torque + ball_torque;
-        let load_torque = axial_load * self.reduced_lead;
-        UncagedOutputs {
-            friction_torque,
-            groove_torque,
-            ball_torque,
-            load_torque,
-            contacts: full.contacts,
-            largest_contact_force: full.largest_contact_force,
-            regime: Regime::under(
-                passage.standing,
-                passage.way * load_torque,
-                friction_torque.abs(),
-            ),
-            faults: full.faults,
         }
     }
 

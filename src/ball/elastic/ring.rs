@@ -139,6 +139,12 @@ impl<const N: usize> Ring<N> {
         self.lift_off = constants.ball.lift_off(clearance);
     }
 
+    /// Balls of other constants settle under these.
+    pub(crate) fn take_over(&mut self, constants: &RingConstants, friction: f32, clearance: f32) {
+        self.set(constants, friction, clearance);
+        self.settling = SETTLING_ROUNDS * N as u16;
+    }
+
     /// Takes a friction coefficient, 1e-6 to 0.5, that follows speed or temperature; balls take it over as their turn comes.
     #[inline(always)]
     pub(crate) fn take_friction(&mut self, friction: f32) {

@@ -2,7 +2,8 @@
 
 use core::f32::consts::TAU;
 
-use super::{CagedBallScrewConfiguration, CagedFull, FrictionBranch};
+use super::full::CagedFull;
+use super::{CagedBallScrewConfiguration, FrictionBranch};
 use crate::ball::PreloadSum;
 use crate::efficiency::{Drive, EfficiencyGeometry};
 use crate::error::{Error, attempt};

@@ -2,7 +2,8 @@
 
 use core::f32::consts::TAU;
 
-use super::{CagedBallScrewConfiguration, CagedFull};
+use super::CagedBallScrewConfiguration;
+use super::full::CagedFull;
 use crate::ball::Clearance;
 use crate::ball::elastic::constants::BallConstants;
 use crate::ball::elastic::load_law::{LoadLaw, LoadRange};
@@ -136,6 +137,13 @@ impl Contacts {
     pub(super) fn reset(&self, state: &mut ContactsState) {
         state.grooving = Grooving::new(&self.ball, self.friction, self.clearance.gap());
         state.changes = false;
+    }
+
+    /// Balls go on with the friction coefficient and the clearance of these constants, renewed in every tick: the laws are those
+    /// of other constants.
+    pub(super) fn take_over(&self, state: &mut ContactsState) {
+        state.grooving = Grooving::new(&self.ball, self.friction, self.clearance.gap());
+        self.change(state);
     }
 
     /// See [`FrictionModel::set_friction`](crate::FrictionModel::set_friction).
