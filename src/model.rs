@@ -4,9 +4,12 @@ use core::borrow::Borrow;
 
 use crate::ball::Clearance;
 use crate::error::Error;
+use crate::law::Elements;
+use crate::law::coefficient::CoefficientLaw;
+use crate::law::motion::NutAngle;
 use crate::scene::{
-    CagedBallScrew, CagedConstants, LinearBearingTrain, LinearConstants, Scene, SceneOutputs,
-    UncagedBallScrew, UncagedConstants,
+    CagedBallScrew, CagedConstants, Faults, LinearBearingTrain, LinearConstants, Scene,
+    SceneOutputs, Sliding, UncagedBallScrew, UncagedConstants, WithMemory, WithMemoryConstants,
 };
 
 /// Friction of one scene: configured once, stepped in the interrupt.
@@ -139,7 +142,7 @@ impl<S: Scene, C: Borrow<S::Constants>> FrictionModel<S, C> {
         let constants = self.constants.borrow();
         let admitted = S::admit(constants, inputs);
         let outputs = match admitted.inputs {
-            Some(inputs) => S::outputs(constants, &mut self.state, inputs),
+            Some(known) => S::outputs(constants, &mut self.state, known),
             None => S::Outputs::SAFE,
         };
         let outputs = outputs.limited(S::largest_friction(constants), admitted.faults);
@@ -155,6 +158,21 @@ impl<S: Scene, C: Borrow<S::Constants>> FrictionModel<S, C> {
     pub fn reset(&mut self) {
         S::reset(self.constants.borrow(), &mut self.state);
         self.faulted_ticks = 0;
+    }
+
+    /// Puts other constants in the place of the present ones, as a controller does that switches its calibration page, and
+    /// gives the present ones back. Balls and memory stay; the circuit of balls, where there is one, has to be the same.
+    /// What has to settle is flagged [`Faults::SETTLING`](crate::Faults::SETTLING).
+    ///
+    /// Not in the middle of a step: an interrupt that steps the model has to wait. With constants in flash (`C` a reference)
+    /// it is a pointer that changes. A caged ball screw renews a ball in every tick from then on, until it is set up anew:
+    /// see [`STEP_CAGED_CHANGING`](crate::promises::STEP_CAGED_CHANGING).
+    ///
+    /// # Errors
+    /// [`Error`] naming what does not fit to the state; the model goes on as it was.
+    pub fn swap_constants(&mut self, constants: C) -> Result<C, Error> {
+        S::take_over(constants.borrow(), &mut self.state)?;
+        Ok(core::mem::replace(&mut self.constants, constants))
     }
 
     /// Consecutive ticks with a fault ([`Faults::faulty`](crate::Faults::faulty)), up to `u32::MAX`; 0 after a sound
@@ -236,7 +254,48 @@ impl<const N: usize, C: Borrow<UncagedConstants<N>>> FrictionModel<UncagedBallSc
     }
 }
 
+impl<S, E, A, C> FrictionModel<WithMemory<S, E, A>, C>
+where
+    S: Sliding<Constants: Copy>,
+    E: Elements + Copy,
+    A: NutAngle + Copy,
+    C: Borrow<WithMemoryConstants<S::Constants, E, A>>,
+{
+    /// Friction between two steps, after a new reading of the angle: elements follow it under the limits that the last step
+    /// found. Balls, loads and the friction coefficient stay as they are; the next step takes the balls on by all turns
+    /// since the last one.
+    ///
+    /// For a current loop that runs faster than the balls need: a step every millisecond, this in every tick. It costs what
+    /// the elements do, and some tens of cycles. Before the first step there is no friction.
+    #[inline]
+    pub fn between(&mut self, reading: A::Reading) -> S::Outputs {
+        let constants = self.constants.borrow();
+        let outputs = constants.between::<S>(&mut self.state, reading);
+        outputs.limited(
+            WithMemory::<S, E, A>::largest_friction(constants),
+            Faults::NONE,
+        )
+    }
+
+    /// Sets the law of the friction coefficient: from the next step on friction follows it. [`FrictionModel::reset`] brings
+    /// the configuration's back.
+    pub fn set_coefficient(&mut self, law: CoefficientLaw) {
+        self.state.set_coefficient(law);
+    }
+}
+
 impl<const N: usize, C: Borrow<LinearConstants<N>>> FrictionModel<LinearBearingTrain<N>, C> {
+    /// Sets the friction coefficient of ball and groove, 1e-6 to 1: friction and all forces between balls follow it in
+    /// proportion, from the next tick on. [`FrictionModel::reset`] brings the configuration's back.
+    ///
+    /// # Errors
+    /// [`Error`] naming `friction`; the model goes on as it was.
+    pub fn set_friction(&mut self, friction: f32) -> Result<(), Error> {
+        self.constants
+            .borrow()
+            .set_friction(&mut self.state, friction)
+    }
+
     /// Sets the carriage's place along the rail, m, from which the rail's deviations are counted: once after start-up,
     /// and again whenever an absolute sensor has it; between, the model integrates the speed. Ticks without a valid
     /// speed are missing in that sum, one beyond its limit counts with the limit. A place that is NaN, or beyond

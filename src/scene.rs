@@ -19,17 +19,30 @@ pub(crate) mod circuit;
 mod contract;
 mod faults;
 pub(crate) mod linear;
+mod memory;
 mod outputs;
+mod passage;
+mod sliding;
 mod uncaged;
 
 pub use caged::{
-    CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, CagedState, FrictionBranch,
+    CagedBallScrew, CagedBallScrewConfiguration, CagedCoefficients, CagedConstants, CagedFull,
+    CagedState, FrictionBranch,
 };
 pub use circuit::{CircuitState, DeviationMap, HIGHEST_ORDER, Harmonic, LARGEST_DEVIATION};
 pub use contract::{Admitted, Inputs, Limits, Regime, Scene, SceneOutputs};
 pub use faults::Faults;
 pub use linear::{
-    LinearBearingConfiguration, LinearBearingTrain, LinearConstants, LinearInputs, LinearLimits,
+    LinearBearingConfiguration, LinearBearingTrain, LinearConstants, LinearFull, LinearInputs,
+    LinearLimits, LinearState,
+};
+pub use memory::{
+    Freshness, WithMemory, WithMemoryConfiguration, WithMemoryConstants, WithMemoryInputs,
+    WithMemoryKnown, WithMemoryState,
 };
 pub use outputs::{LinearOutputs, Outputs, UncagedOutputs};
-pub use uncaged::{UncagedBallScrew, UncagedBallScrewConfiguration, UncagedConstants};
+pub use passage::{Motion, Passage};
+pub use sliding::Sliding;
+pub use uncaged::{
+    UncagedBallScrew, UncagedBallScrewConfiguration, UncagedConstants, UncagedFull, UncagedState,
+};

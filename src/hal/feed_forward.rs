@@ -131,7 +131,7 @@ impl<PWM: SetDutyCycle> FrictionFeedForward<PWM> {
     }
 
     fn refuses(&self, faults: Faults) -> bool {
-        const PASSES: u8 = Faults::SPEED_RANGE.bits()
+        const PASSES: u16 = Faults::SPEED_RANGE.bits()
             | Faults::LOAD_RANGE.bits()
             | Faults::FRICTION_LIMIT.bits()
             | Faults::ACCURACY.bits();

@@ -1,1 +1,14 @@
 //! Friction coefficient by speed, temperature and direction; churning drag.
+//!
+//! [`CoefficientLaw`] is folded at set-up; [`CoefficientLaw::at_temperature`] runs where a new temperature comes in, outside
+//! the interrupt; [`CoefficientAtTemperature::at`] runs in the loop.
+
+mod fade;
+mod form;
+mod viscosity;
+
+pub use fade::TemperatureFade;
+pub use form::{
+    CoefficientAtTemperature, CoefficientLaw, CoefficientParameters, DirectionalCoefficient,
+};
+pub use viscosity::{OilData, Viscosity};

@@ -1,1 +1,52 @@
 //! Elements that stick and slip: friction as a hysteresis in angle.
+//!
+//! Runs in the step of a scene with memory, and may be called directly; constants are folded at set-up.
+//!
+//! Friction after a reversal is a matter of angle, not of speed: contacts deflect before they slide. Parallel springs, each
+//! in series with a slider (Maxwell slip; Iwan 1966, Prandtl-Ishlinskii), have that: any number of nested loops, all
+//! of them closed, no drift, and the full friction after enough turn.
+//!
+//! `f_i <- clamp(f_i + k_i dtheta, -lambda_i T-, +lambda_i T+)`, `T = sum f_i`, `sum lambda_i = 1`
+//!
+//! `T+` and `T-` are the friction of gross sliding of the same tick, so that steady motion has exactly the torque of the
+//! law without memory. The clamp is the implicit step (return mapping; Simo and Hughes 1998) and exact for a
+//! turn at constant speed: no tick is too long and no stiffness too high. Stiffnesses `k_i` are constant. That makes the
+//! elements passive: stored energy `sum f_i²/(2 k_i)` never grows by more than the work done, however the limits change.
+//!
+//! | type | shares `lambda_i` | for |
+//! |---|---|---|
+//! | [`ProportionalElements`] | constant, from [tables](backbone) | a preloaded screw, whose load varies by half |
+//! | [`LoadExactElements`] | of the same tick's load: springs come into contact with it | any load, without a preload |
+//! | [`SeatElement`] | one nonlinear spring with free play | a screw with clearance, whose balls go from seat to seat |
+//! | [`Together`] | of two of these | spin beside the seat |
+//!
+//! Turn is an angle, rad, and friction a torque, N m, of a screw; of a linear bearing they are a path, m, and a force, N.
+
+pub mod backbone;
+mod hysteresis;
+mod load_exact;
+mod proportional;
+mod quadrature;
+mod seat;
+mod slider;
+mod state;
+mod together;
+
+pub use backbone::{
+    Backbone, BackboneElement, SLIP_4, SLIP_6, SLIP_8, SLIP_10, SPIN_4, SPIN_6, SPIN_8, SPIN_10,
+};
+pub use hysteresis::Hysteresis;
+pub use load_exact::LoadExactElements;
+pub use proportional::{Part, ProportionalElements};
+pub use seat::{SeatElement, SeatState};
+pub use slider::sticking_share;
+pub use state::MemoryState;
+pub use together::{Together, TogetherState};
+
+use crate::error::Range;
+
+/// Friction of gross sliding at the reference load: 1e-9 to 1e9 N m (N).
+pub const REFERENCE_LIMIT: Range = Range::new(1e-9, 1e9);
+
+/// Turn from no friction to full sliding: 1e-9 to 1e3 rad (m).
+pub const BREAKAWAY: Range = Range::new(1e-9, 1e3);

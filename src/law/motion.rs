@@ -1,1 +1,26 @@
 //! The turn between two readings of a nut angle, exactly.
+//!
+//! Runs in the step of a scene with memory, before the elements; constants are checked at set-up.
+//!
+//! What friction remembers follows the angle, so that its input is a difference of angles, not speed times tick: a
+//! speed with white noise of 0.05 rad/s at 1 kHz is off by 1.6 mrad after a second, a whole breakaway angle; a difference of
+//! angles is never off by more than the sensor. [`SpeedOverTick`] is for what has no angle.
+//!
+//! | type | reading | difference |
+//! |---|---|---|
+//! | [`CountSensor`] | counts of an encoder, wrapped | exact, in integers; one rounding to radians |
+//! | [`WrappedAngle`] | radians, wrapped | one rounding, relative to the turn |
+//! | [`SpeedOverTick`] | speed, rad/s | one rounding |
+//! | [`Play`] | turns | what is left of them after a backlash |
+
+mod angle;
+mod counts;
+mod play;
+mod speed;
+mod turn;
+
+pub use angle::{AngleReading, WrappedAngle, WrappedAngleParameters};
+pub use counts::{CountReading, CountSensor, CountSensorParameters};
+pub use play::{Moved, Play, PlayState};
+pub use speed::SpeedOverTick;
+pub use turn::{LARGEST_TURN, NutAngle, Turn};

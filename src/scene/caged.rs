@@ -1,16 +1,29 @@
 //! A ball screw whose balls do not touch: caged, or with spacer balls.
 
 mod closed_form;
+mod coefficients;
 mod contacts;
+mod full;
 
-use super::contract::{Admitted, Inputs, Limits, Reversal, Scene, SceneOutputs};
+use super::contract::{Admitted, Inputs, Limits, Scene, SceneOutputs};
+use super::faults::Faults;
 use super::outputs::Outputs;
+use super::passage::{Passage, Reversal};
+use super::sliding::Sliding;
 use crate::ball::Clearance;
 use crate::contact::RollingResistance;
 use crate::error::{Error, attempt, in_range};
 use crate::geometry::BallScrew;
+use crate::law::SlidingLimits;
+use crate::law::coefficient::DirectionalCoefficient;
 use closed_form::ClosedForm;
+use coefficients::CoefficientLaws;
 use contacts::{Contacts, ContactsState};
+pub use full::CagedFull;
+
+/// Friction of contacts, and closed forms, as numbers that an error can name.
+const CONTACTS: f32 = 0.0;
+const CLOSED: f32 = 1.0;
 
 /// Which state of the ball the friction torque is computed for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -103,6 +116,7 @@ impl Scene for CagedBallScrew {
     type Constants = CagedConstants;
     type State = CagedState;
     type Inputs = Inputs;
+    type Known = Inputs;
     type Outputs = Outputs;
 
     fn constants(configuration: &CagedBallScrewConfiguration) -> Result<CagedConstants, Error> {
@@ -124,6 +138,18 @@ impl Scene for CagedBallScrew {
         }
     }
 
+    fn take_over(constants: &CagedConstants, state: &mut CagedState) -> Result<(), Error> {
+        match (&constants.law, &mut state.contacts) {
+            (Law::Contacts(contacts), Some(state)) => {
+                contacts.take_over(state);
+                Ok(())
+            }
+            (Law::Closed(_), None) => Ok(()),
+            (Law::Contacts(_), None) => in_range("branch", CONTACTS, CLOSED, CLOSED).map(|_| ()),
+            (Law::Closed(_), Some(_)) => in_range("branch", CLOSED, CONTACTS, CONTACTS).map(|_| ()),
+        }
+    }
+
     #[inline(always)]
     fn admit(constants: &CagedConstants, inputs: Inputs) -> Admitted<Inputs> {
         constants.limits.admit(inputs)
@@ -133,7 +159,11 @@ impl Scene for CagedBallScrew {
     fn outputs(constants: &CagedConstants, state: &mut CagedState, inputs: Inputs) -> Outputs {
         let reversal = &constants.reversal;
         match (&constants.law, &mut state.contacts) {
-            (Law::Contacts(contacts), Some(state)) => contacts.outputs(state, reversal, inputs),
+            (Law::Contacts(contacts), Some(state)) => {
+                let passage = reversal.passage(inputs.nut_speed);
+                let full = contacts.one_way(state, inputs, passage.way);
+                contacts.passed(inputs.axial_load, &full, passage)
+            }
             (Law::Closed(closed), _) => closed.outputs(reversal, inputs),
             (Law::Contacts(_), None) => Outputs::SAFE,
         }
@@ -142,6 +172,84 @@ impl Scene for CagedBallScrew {
     #[inline(always)]
     fn largest_friction(constants: &CagedConstants) -> f32 {
         constants.limits.friction_torque
+    }
+}
+
+/// What friction coefficients beside the configuration's need: laws for two more; nothing where there is one alone, or
+/// friction is that of a closed form.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct CagedCoefficients {
+    laws: Option<CoefficientLaws>,
+}
+
+impl Sliding for CagedBallScrew {
+    type Coefficients = CagedCoefficients;
+    type Full = CagedFull;
+
+    fn coefficients(constants: &CagedConstants, least: f32, largest: f32) -> CagedCoefficients {
+        let Law::Contacts(contacts) = &constants.law else {
+            return CagedCoefficients { laws: None };
+        };
+        CagedCoefficients {
+            laws: contacts.laws_between(least, largest),
+        }
+    }
+
+    fn friction(constants: &CagedConstants) -> f32 {
+        match &constants.law {
+            Law::Contacts(contacts) => contacts.friction(),
+            Law::Closed(closed) => closed.friction(),
+        }
+    }
+
+    #[inline(always)]
+    fn full(
+        constants: &CagedConstants,
+        state: &mut CagedState,
+        coefficients: &CagedCoefficients,
+        inputs: Inputs,
+        friction: DirectionalCoefficient,
+    ) -> CagedFull {
+        match (&constants.law, &mut state.contacts) {
+            (Law::Contacts(contacts), Some(state)) => {
+                contacts.both_ways(state, coefficients.laws.as_ref(), inputs, friction)
+            }
+            (Law::Closed(closed), _) => closed.both_ways(inputs.axial_load),
+            (Law::Contacts(_), None) => CagedFull {
+                forward: 0.0,
+                backward: 0.0,
+                load: 0.0,
+                faults: Faults::NONE,
+            },
+        }
+    }
+
+    #[inline(always)]
+    fn limits(full: &CagedFull) -> SlidingLimits {
+        SlidingLimits {
+            forward: full.forward,
+            backward: full.backward,
+            load: full.load,
+        }
+    }
+
+    #[inline(always)]
+    fn passed(
+        constants: &CagedConstants,
+        inputs: Inputs,
+        full: &CagedFull,
+        passage: Passage,
+    ) -> Outputs {
+        match &constants.law {
+            Law::Contacts(contacts) => contacts.passed(inputs.axial_load, full, passage),
+            Law::Closed(closed) => closed.passed(inputs.axial_load, full, passage),
+        }
+    }
+
+    #[inline(always)]
+    fn speed_of(_: &CagedConstants, _: f32, measured: f32) -> f32 {
+        measured
     }
 }
 

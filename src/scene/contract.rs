@@ -1,9 +1,8 @@
-//! What a scene owes [`FrictionModel`](crate::FrictionModel), and what scenes have in common: inputs, limits, regimes,
-//! the passage of friction through the reversal.
+//! What a scene owes [`FrictionModel`](crate::FrictionModel), and what scenes have in common: inputs, limits, regimes.
 
 use super::faults::{Faults, bounded};
+use super::passage::Motion;
 use crate::error::{Error, attempt, in_range};
-use crate::math;
 
 /// A mechanism with its configuration, its constants, its state and its outputs.
 ///
@@ -19,6 +18,8 @@ pub trait Scene {
     type State;
     /// What the control interrupt knows.
     type Inputs;
+    /// What of it a tick may rely on: numbers within their limits.
+    type Known;
     /// What a tick returns.
     type Outputs: SceneOutputs;
 
@@ -36,14 +37,21 @@ pub trait Scene {
         *state = Self::initial_state(constants);
     }
 
+    /// Makes a state that other constants left go on under these: balls and memory stay, friction is flagged
+    /// [`Faults::SETTLING`] where it has to settle.
+    ///
+    /// # Errors
+    /// [`Error`] naming what does not fit to the state, which then is as it was.
+    fn take_over(constants: &Self::Constants, state: &mut Self::State) -> Result<(), Error>;
+
     /// The inputs within their limits, with what was wrong with them.
-    fn admit(constants: &Self::Constants, inputs: Self::Inputs) -> Admitted<Self::Inputs>;
+    fn admit(constants: &Self::Constants, inputs: Self::Inputs) -> Admitted<Self::Known>;
 
     /// What the mechanism does under admitted inputs, before its friction is limited: bounded time, no panic.
     fn outputs(
         constants: &Self::Constants,
         state: &mut Self::State,
-        inputs: Self::Inputs,
+        known: Self::Known,
     ) -> Self::Outputs;
 
     /// Largest friction that is put out: N m of a screw, N of a bearing.
@@ -103,6 +111,26 @@ pub struct Limits {
     pub axial_load: f32,
     /// Largest friction torque that is put out, N m, 1e-6 to 1e6.
     pub friction_torque: f32,
+}
+
+impl Motion for Inputs {
+    const STILL: Self = Self {
+        nut_speed: 0.0,
+        axial_load: 0.0,
+    };
+
+    #[inline(always)]
+    fn speed(&self) -> f32 {
+        self.nut_speed
+    }
+
+    #[inline(always)]
+    fn with(self, speed: f32, load_factor: f32) -> Self {
+        Self {
+            nut_speed: speed,
+            axial_load: load_factor * self.axial_load,
+        }
+    }
 }
 
 impl Limits {
@@ -180,43 +208,5 @@ impl Regime {
         } else {
             Self::BackDriving
         }
-    }
-}
-
-/// How friction passes through zero with the speed: as `w / sqrt(w^2 + w_s^2)`, 71 % at the reversal speed `w_s`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub(super) struct Reversal {
-    speed: f32,
-    squared: f32,
-}
-
-impl Reversal {
-    /// With a reversal speed in the unit of the scene's speed.
-    ///
-    /// # Errors
-    /// [`Error`] naming `reversal_speed`.
-    pub(super) const fn new(
-        reversal_speed: f32,
-        minimum: f32,
-        maximum: f32,
-    ) -> Result<Self, Error> {
-        let speed = attempt!(in_range("reversal_speed", reversal_speed, minimum, maximum));
-        Ok(Self {
-            speed,
-            squared: speed * speed,
-        })
-    }
-
-    /// Part of full friction at a speed, -1 to 1, with the speed's sign.
-    #[inline(always)]
-    pub(super) fn direction(&self, speed: f32) -> f32 {
-        speed / math::sqrt(speed * speed + self.squared)
-    }
-
-    /// Whether a speed is below the reversal speed, in either direction.
-    #[inline(always)]
-    pub(super) const fn stands(&self, speed: f32) -> bool {
-        speed.abs() < self.speed
     }
 }

@@ -13,7 +13,7 @@
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Faults(u8);
+pub struct Faults(u16);
 
 impl Faults {
     /// Nothing is wrong.
@@ -34,6 +34,14 @@ impl Faults {
     /// Balls still settle after a start, a reversal, or a jump of the load, of friction or of the clearance: friction and
     /// forces between balls are estimates for some milliseconds.
     pub const SETTLING: Self = Self(1 << 6);
+    /// A reading of the angle is missing or cannot be right: friction stays where it is, and the next reading spans the gap.
+    pub const ANGLE_NOT_VALID: Self = Self(1 << 7);
+    /// The temperature is no number, or beyond its range: the last one, or the bound, stands in for it.
+    pub const TEMPERATURE_RANGE: Self = Self(1 << 8);
+    /// A load is older than it may be: its friction fades away.
+    pub const LOAD_STALE: Self = Self(1 << 9);
+    /// A temperature is older than it may be: that of the configuration stands in for it.
+    pub const TEMPERATURE_STALE: Self = Self(1 << 10);
     /// The flags that speak of accuracy alone.
     pub const ACCURACY: Self = Self(Self::BEYOND_MODEL.0 | Self::SETTLING.0);
 
@@ -62,7 +70,7 @@ impl Faults {
     /// The flags as bits, in the order of their constants, for a diagnostic message.
     #[inline]
     #[must_use]
-    pub const fn bits(self) -> u8 {
+    pub const fn bits(self) -> u16 {
         self.0
     }
 

@@ -1,21 +1,27 @@
 //! A linear bearing with four-point contact and balls that press on each other.
 
-use super::circuit::{
-    Circuit, CircuitConfiguration, CircuitState, DeviationMap, LONGEST_TRACK, UNLOADED,
-    per_loaded_ball,
-};
-use super::contract::{Admitted, Regime, Reversal, Scene};
-use super::faults::{Faults, bounded};
+mod configuration;
+mod inputs;
+
+use super::circuit::{Circuit, CircuitState, UNLOADED, per_loaded_ball};
+use super::contract::{Admitted, Regime, Scene};
+use super::faults::Faults;
 use super::outputs::LinearOutputs;
+use super::passage::{Passage, Reversal};
+use super::sliding::Sliding;
 use crate::ball::{
-    AnalyticLinearBall, BorderParameters, GrooveFriction, LoadShare, LoadShares, largest_deviation,
+    AnalyticLinearBall, BorderParameters, GrooveFriction, LoadShare, largest_deviation,
 };
 use crate::contact::FrictionMap;
-use crate::error::{Error, attempt, in_range};
-use crate::geometry::LinearBearing;
+use crate::error::{Error, attempt};
 use crate::hertz::HertzContact;
+use crate::law::SlidingLimits;
+use crate::law::coefficient::DirectionalCoefficient;
 use crate::math;
 use crate::ranges;
+
+pub use configuration::LinearBearingConfiguration;
+pub use inputs::{LinearInputs, LinearLimits};
 
 /// Force of a diagonal below which it does not count, N.
 const SMALLEST_FORCE: f32 = 2e-6;
@@ -49,63 +55,14 @@ pub(crate) const HALF_TO_FOUR_THIRDS: f32 = 0.396_850_26;
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LinearBearingTrain<const N: usize>;
 
-/// What the control interrupt knows of a linear bearing at a tick.
+/// What a tick changes in a linear bearing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct LinearInputs {
-    /// Speed of the carriage on the rail, m/s.
-    pub speed: f32,
-    /// Force that presses the carriage on the row of balls, N, preload included; zero or less lifts it
-    /// off.
-    pub normal_load: f32,
-    /// Force across, N: positive loads the diagonal from bottom left to top right.
-    pub side_load: f32,
-}
-
-/// Bounds that are kept whatever comes in.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct LinearLimits {
-    /// Largest speed that is believed, m/s, 1e-6 to 1e3.
-    pub speed: f32,
-    /// Largest normal and side load that is believed, N, 1e-3 to 1e7.
-    pub load: f32,
-    /// Largest friction force that is put out, N, 1e-6 to 1e6.
-    pub friction_force: f32,
-}
-
-/// What the engineer sets for a linear bearing; unchecked.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct LinearBearingConfiguration {
-    /// The validated design.
-    pub bearing: LinearBearing,
-    /// Coulomb friction coefficient of ball and groove, 1e-6 to 1.
-    pub friction: f32,
-    /// Coulomb friction coefficient of ball and ball, 0 to 1.
-    pub ball_friction: f32,
-    /// Length of the loaded track, m, 1e-4 to 100.
-    pub loaded_length: f32,
-    /// Length of the return, m, 0 to 100, up to 250 times the loaded track: there balls carry no load.
-    pub return_length: f32,
-    /// Length that counts as one turn of the deviation maps, m, 1e-4 to 100, at least a thousandth of the
-    /// track.
-    pub wavelength: f32,
-    /// Deviation of the contact angles along the rail, added on BR, taken off on BL: at most 0.2 rad for
-    /// contact angles from 23 to 68 degrees, beyond half of the contact angle or its cotangent.
-    pub rail_deviation: &'static DeviationMap,
-    /// Deviation of the contact angles along the carriage, added on TR, taken off on TL; as large.
-    pub carriage_deviation: &'static DeviationMap,
-    /// Load of a ball over the mean load, in equal parts of the loaded track from its start; 1 to 256.
-    pub load_shares: &'static [LoadShare],
-    /// Speed over which friction changes its direction, m/s, 1e-9 to 10: at this speed it has 71 % of
-    /// its full value.
-    pub reversal_speed: f32,
-    /// Time between two ticks, s, 1e-6 to 1; at the largest speed the balls may move by 3 % of the track
-    /// in it, and the rail by half a period of its deviation map.
-    pub tick: f32,
-    /// Bounds that are kept whatever comes in.
-    pub limits: LinearLimits,
+pub struct LinearState<const N: usize> {
+    /// Where the balls are, and how they press under the configuration's friction coefficient.
+    pub circuit: CircuitState<N>,
+    /// Friction coefficient over that of the configuration.
+    friction: f32,
 }
 
 /// Constants of a linear bearing with `N` balls.
@@ -113,6 +70,10 @@ pub struct LinearBearingConfiguration {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LinearConstants<const N: usize> {
     circuit: Circuit,
+    /// Friction coefficient of the configuration.
+    friction: f32,
+    /// 1 / time between two ticks, 1/s.
+    per_tick: f32,
     ball: AnalyticLinearBall,
     /// Half the sum of both diagonals' forces over the normal load, `1/(n cos beta)` for `n` loaded balls.
     normal: f32,
@@ -127,61 +88,29 @@ pub struct LinearConstants<const N: usize> {
     limits: LinearLimits,
 }
 
-impl LinearLimits {
-    /// The limits, checked.
-    ///
-    /// # Errors
-    /// [`Error`] naming `speed`, `load` or `friction_force`.
-    pub const fn checked(self) -> Result<Self, Error> {
-        attempt!(in_range("speed", self.speed, 1e-6, 1e3));
-        attempt!(in_range("load", self.load, 1e-3, 1e7));
-        attempt!(in_range("friction_force", self.friction_force, 1e-6, 1e6));
-        Ok(self)
-    }
-
-    /// The inputs within these limits, with what was wrong.
-    #[inline(always)]
-    fn admit(&self, inputs: LinearInputs) -> Admitted<LinearInputs> {
-        let LinearInputs {
-            speed,
-            normal_load,
-            side_load,
-        } = inputs;
-        let loads_are_finite = normal_load.is_finite() && side_load.is_finite();
-        if speed.is_finite() && loads_are_finite {
-            Admitted {
-                inputs: Some(LinearInputs {
-                    speed: bounded(speed, self.speed),
-                    normal_load: bounded(normal_load, self.load),
-                    side_load: bounded(side_load, self.load),
-                }),
-                faults: Faults::beyond(
-                    speed.abs() > self.speed,
-                    normal_load.abs() > self.load || side_load.abs() > self.load,
-                ),
-            }
-        } else {
-            Admitted {
-                inputs: None,
-                faults: Faults::not_finite(!speed.is_finite(), !loads_are_finite),
-            }
-        }
-    }
-}
-
 impl<const N: usize> Scene for LinearBearingTrain<N> {
     type Configuration = LinearBearingConfiguration;
     type Constants = LinearConstants<N>;
-    type State = CircuitState<N>;
+    type State = LinearState<N>;
     type Inputs = LinearInputs;
+    type Known = LinearInputs;
     type Outputs = LinearOutputs;
 
     fn constants(configuration: &LinearBearingConfiguration) -> Result<LinearConstants<N>, Error> {
         LinearConstants::new(configuration)
     }
 
-    fn initial_state(constants: &LinearConstants<N>) -> CircuitState<N> {
-        CircuitState::new(&constants.circuit)
+    fn initial_state(constants: &LinearConstants<N>) -> LinearState<N> {
+        LinearState {
+            circuit: CircuitState::new(&constants.circuit),
+            friction: 1.0,
+        }
+    }
+
+    fn take_over(constants: &LinearConstants<N>, state: &mut LinearState<N>) -> Result<(), Error> {
+        state.circuit.is_on(&constants.circuit)?;
+        state.friction = 1.0;
+        Ok(())
     }
 
     #[inline(always)]
@@ -192,10 +121,11 @@ impl<const N: usize> Scene for LinearBearingTrain<N> {
     #[inline(always)]
     fn outputs(
         constants: &LinearConstants<N>,
-        state: &mut CircuitState<N>,
+        state: &mut LinearState<N>,
         inputs: LinearInputs,
     ) -> LinearOutputs {
-        constants.outputs(state, inputs)
+        let full = constants.full(&mut state.circuit, inputs, state.friction);
+        LinearConstants::<N>::passed(&full, constants.reversal.passage(inputs.speed))
     }
 
     #[inline(always)]
@@ -204,38 +134,69 @@ impl<const N: usize> Scene for LinearBearingTrain<N> {
     }
 }
 
-impl LinearBearingConfiguration {
-    /// The circuit's part, checked and folded for so many balls.
-    const fn circuit(&self, limits: &LinearLimits, balls: usize) -> Result<Circuit, Error> {
-        let Self {
-            loaded_length,
-            return_length,
-            wavelength,
-            tick,
-            ..
-        } = *self;
-        attempt!(in_range("loaded_length", loaded_length, 1e-4, 100.0));
-        attempt!(in_range("return_length", return_length, 0.0, 100.0));
-        attempt!(in_range("tick", tick, 1e-6, 1.0));
-        let shortest = (loaded_length + return_length) / LONGEST_TRACK;
-        let shortest = if shortest > 1e-4 { shortest } else { 1e-4 };
-        attempt!(in_range("wavelength", wavelength, shortest, 100.0));
-        CircuitConfiguration {
-            loaded_length,
-            loaded_turns: loaded_length / wavelength,
-            return_length,
-            turn_length: wavelength,
-            pitch: 2.0 * self.bearing.ball_radius(),
-            // A ball that rolls gets on half as far as the carriage.
-            travel_per_motion: 0.5,
-            motion_per_turn: wavelength,
-            passing_deviation: self.rail_deviation,
-            recirculating_deviation: self.carriage_deviation,
-            load_shares: LoadShares::same(self.load_shares),
-            tick,
-            largest_speed: limits.speed,
+/// Full friction of a linear bearing, which is the same in both directions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LinearFull {
+    /// Parts of the friction force from the grooves and from balls that rub against each other, N.
+    groove: f32,
+    ball: f32,
+    /// The grooves' part forward and backward over it.
+    ways: [f32; 2],
+    /// Normal load that presses the diagonals as hard as they are pressed, N.
+    load: f32,
+    contacts: u8,
+    largest_contact_force: f32,
+    beyond_model: bool,
+}
+
+impl<const N: usize> Sliding for LinearBearingTrain<N> {
+    /// Friction and all forces between balls are in proportion to the friction coefficient.
+    type Coefficients = ();
+    type Full = LinearFull;
+
+    fn coefficients(_: &LinearConstants<N>, _: f32, _: f32) {}
+
+    fn friction(constants: &LinearConstants<N>) -> f32 {
+        constants.friction
+    }
+
+    #[inline(always)]
+    fn full(
+        constants: &LinearConstants<N>,
+        state: &mut LinearState<N>,
+        (): &(),
+        inputs: LinearInputs,
+        friction: DirectionalCoefficient,
+    ) -> LinearFull {
+        let ratio = friction.of(inputs.speed).0 / constants.friction;
+        let mut full = constants.full(&mut state.circuit, inputs, ratio);
+        full.ways = friction.over_own(inputs.speed);
+        full
+    }
+
+    #[inline(always)]
+    fn limits(full: &LinearFull) -> SlidingLimits {
+        let [forward, backward] = full.ways;
+        SlidingLimits {
+            forward: forward * full.groove + full.ball,
+            backward: backward * full.groove + full.ball,
+            load: full.load,
         }
-        .folded(balls)
+    }
+
+    #[inline(always)]
+    fn passed(
+        _: &LinearConstants<N>,
+        _: LinearInputs,
+        full: &LinearFull,
+        passage: Passage,
+    ) -> LinearOutputs {
+        LinearConstants::<N>::passed(full, passage)
+    }
+
+    #[inline(always)]
+    fn speed_of(constants: &LinearConstants<N>, turn: f32, _: f32) -> f32 {
+        turn * constants.per_tick
     }
 }
 
@@ -292,6 +253,8 @@ impl<const N: usize> LinearConstants<N> {
         let per_ball = per_loaded_ball(configuration.loaded_length, configuration.return_length, N);
         Ok(Self {
             circuit,
+            friction,
+            per_tick: 1.0 / configuration.tick,
             ball,
             normal: per_ball / angle.cos,
             side: per_ball / angle.sin,
@@ -305,13 +268,12 @@ impl<const N: usize> LinearConstants<N> {
     }
 
     #[inline(always)]
-    fn outputs(&self, state: &mut CircuitState<N>, inputs: LinearInputs) -> LinearOutputs {
+    fn full(&self, state: &mut CircuitState<N>, inputs: LinearInputs, friction: f32) -> LinearFull {
         let LinearInputs {
             speed,
             normal_load,
             side_load,
         } = inputs;
-        let direction = self.reversal.direction(speed);
         let (normal, side) = (normal_load * self.normal, side_load * self.side);
         let up = at_least(normal + side, SMALLEST_FORCE);
         let down = at_least(normal - side, SMALLEST_FORCE);
@@ -355,22 +317,55 @@ impl<const N: usize> LinearConstants<N> {
             && self
                 .grooves
                 .leaves_four_points(&loss, pressing.largest, mean.compliance);
-        let groove_force = direction * (loss.friction * shares);
-        let ball_force = direction * (self.rubbing * pressing.force);
+        // Losses and forces are in proportion to the friction coefficient, the balls' compliances to its inverse.
+        LinearFull {
+            groove: friction * (loss.friction * shares),
+            ball: friction * (self.rubbing * pressing.force),
+            ways: [1.0; 2],
+            load: (up + down) / (2.0 * self.normal),
+            contacts: pressing.contacts,
+            largest_contact_force: friction * pressing.largest,
+            beyond_model,
+        }
+    }
+
+    #[inline(always)]
+    fn passed(full: &LinearFull, passage: Passage) -> LinearOutputs {
+        let [forward, backward] = full.ways;
+        let way = if passage.share < 0.0 {
+            backward
+        } else {
+            forward
+        };
+        let groove_force = passage.share * (way * full.groove);
+        let ball_force = passage.share * full.ball;
         LinearOutputs {
             friction_force: groove_force + ball_force,
             groove_force,
             ball_force,
-            contacts: pressing.contacts,
-            largest_contact_force: pressing.largest,
-            regime: Regime::of(self.reversal.stands(speed), true, true),
-            faults: Faults::NONE.with(beyond_model, Faults::BEYOND_MODEL),
+            contacts: full.contacts,
+            largest_contact_force: full.largest_contact_force,
+            regime: Regime::of(passage.standing, true, true),
+            faults: Faults::NONE.with(full.beyond_model, Faults::BEYOND_MODEL),
         }
     }
 
+    /// See [`FrictionModel::set_friction`](crate::FrictionModel::set_friction).
+    pub(crate) const fn set_friction(
+        &self,
+        state: &mut LinearState<N>,
+        friction: f32,
+    ) -> Result<(), Error> {
+        let friction = attempt!(ranges::FRICTION.checked("friction", friction));
+        state.friction = friction / self.friction;
+        Ok(())
+    }
+
     /// See [`FrictionModel::set_carriage_position`](crate::FrictionModel::set_carriage_position).
-    pub(crate) fn set_carriage_position(&self, state: &mut CircuitState<N>, position: f32) {
-        state.set_turns(&self.circuit, position / self.wavelength);
+    pub(crate) fn set_carriage_position(&self, state: &mut LinearState<N>, position: f32) {
+        state
+            .circuit
+            .set_turns(&self.circuit, position / self.wavelength);
     }
 }
 

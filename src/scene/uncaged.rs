@@ -1,30 +1,30 @@
 //! A ball screw without cage: its balls press on each other.
 
+mod configuration;
+mod full;
+
 use core::f32::consts::TAU;
 
-use super::circuit::{
-    Circuit, CircuitConfiguration, CircuitState, DeviationMap, LONGEST_TRACK, UNLOADED,
-    per_loaded_ball,
-};
-use super::contract::{Admitted, Inputs, Limits, Regime, Reversal, Scene};
+use super::circuit::{Circuit, CircuitState, UNLOADED, per_loaded_ball};
+use super::contract::{Admitted, Inputs, Limits, Scene};
 use super::faults::Faults;
 use super::outputs::UncagedOutputs;
+use super::passage::{Passage, Reversal};
+use super::sliding::Sliding;
 use crate::ball::elastic::constants::BallConstants;
 use crate::ball::elastic::law::{Neighbour, Neighbours, RingConstants, RingLoad};
 use crate::ball::elastic::ring::Ring;
-use crate::ball::{Clearance, GrooveFit, LoadShare, LoadShares, ScrewRow};
-use crate::contact::RollingResistance;
-use crate::error::{Error, attempt, in_range};
-use crate::geometry::BallScrew;
-use crate::math::elliptic::arc_sine;
+use crate::ball::{Clearance, GrooveFit, LoadShare, ScrewRow};
+use crate::error::{Error, attempt};
+use crate::law::SlidingLimits;
+use crate::law::coefficient::DirectionalCoefficient;
 use crate::ranges;
-use crate::train::LARGEST_FREE_SPEED;
+
+pub use configuration::UncagedBallScrewConfiguration;
+pub use full::UncagedFull;
 
 /// Balls that are renewed in a tick.
 const RENEWALS: u8 = 1;
-
-/// Largest deviation of a ball's speed over the pitch circle's: a factor, and what is added.
-const ELASTIC_ROOM: (f32, f32) = (1.5, 0.05);
 
 /// A ball screw without cage, with `N` balls in one circuit: friction of the grooves and between balls.
 ///
@@ -35,44 +35,6 @@ const ELASTIC_ROOM: (f32, f32) = (1.5, 0.05);
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct UncagedBallScrew<const N: usize>;
-
-/// What the engineer sets for a ball screw without cage; unchecked.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct UncagedBallScrewConfiguration {
-    /// The validated design.
-    pub design: BallScrew,
-    /// Coulomb friction coefficient of ball and groove, 1e-6 to 0.5.
-    pub friction: f32,
-    /// Coulomb friction coefficient of ball and ball, 0 to 1.
-    pub ball_friction: f32,
-    /// Rolling resistance of every contact of ball and groove.
-    pub rolling_resistance: RollingResistance,
-    /// How balls fit between the grooves, -0.02 to 0.05 ball radii.
-    pub clearance: Clearance,
-    /// Turns of the loaded track, 0.1 to 100.
-    pub turns: f32,
-    /// Length of the return, m, 0 to 10, up to 250 times the loaded track, and 1000 turns with it: there
-    /// balls carry no load.
-    pub return_length: f32,
-    /// Deviation of the contact angles along the screw's groove, at most
-    /// [`ScrewRow::largest_deviation`].
-    pub screw_deviation: &'static DeviationMap,
-    /// Deviation of the contact angles along the nut's groove, from the start of the loaded track, at
-    /// most [`ScrewRow::largest_deviation`].
-    pub nut_deviation: &'static DeviationMap,
-    /// Load of a ball over the mean load, in equal parts of the loaded track from its start; 1 to 256 for each sign of
-    /// the load, as many for both.
-    pub load_shares: LoadShares,
-    /// Nut speed over which friction changes its direction, rad/s, 1e-6 to 1e3: at this speed it has
-    /// 71 % of its full value.
-    pub reversal_speed: f32,
-    /// Time between two ticks, s, 1e-6 to 1; at the largest nut speed the balls may move by 3 % of the
-    /// track in it, and the screw by half a period of its deviation map.
-    pub tick: f32,
-    /// Bounds that are kept whatever comes in.
-    pub limits: Limits,
-}
 
 /// What a tick changes in a ball screw without cage.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -92,11 +54,13 @@ pub struct UncagedConstants<const N: usize> {
     friction: f32,
     /// Radial gap of every contact at the centred ball, m.
     clearance: f32,
-    /// Time between two ticks, s.
+    /// Time between two ticks, s, and 1 / it.
     tick: f32,
+    per_tick: f32,
     ball_friction: f32,
-    /// 1 / number of loaded balls.
+    /// 1 / number of loaded balls, and their number.
     per_ball: f32,
+    balls: f32,
     /// Torque per axial load without friction, `lead / 2 pi`, m.
     reduced_lead: f32,
     reversal: Reversal,
@@ -108,6 +72,7 @@ impl<const N: usize> Scene for UncagedBallScrew<N> {
     type Constants = UncagedConstants<N>;
     type State = UncagedState<N>;
     type Inputs = Inputs;
+    type Known = Inputs;
     type Outputs = UncagedOutputs;
 
     fn constants(
@@ -123,6 +88,21 @@ impl<const N: usize> Scene for UncagedBallScrew<N> {
         }
     }
 
+    fn take_over(
+        constants: &UncagedConstants<N>,
+        state: &mut UncagedState<N>,
+    ) -> Result<(), Error> {
+        state.circuit.is_on(&constants.circuit)?;
+        let UncagedConstants {
+            ring,
+            friction,
+            clearance,
+            ..
+        } = constants;
+        state.ring.take_over(ring, *friction, *clearance);
+        Ok(())
+    }
+
     #[inline(always)]
     fn admit(constants: &UncagedConstants<N>, inputs: Inputs) -> Admitted<Inputs> {
         constants.limits.admit(inputs)
@@ -134,7 +114,11 @@ impl<const N: usize> Scene for UncagedBallScrew<N> {
         state: &mut UncagedState<N>,
         inputs: Inputs,
     ) -> UncagedOutputs {
-        constants.outputs(state, inputs)
+        let full = constants.full(state, inputs);
+        full.passed(
+            inputs.axial_load * constants.reduced_lead,
+            constants.reversal.passage(inputs.nut_speed),
+        )
     }
 
     #[inline(always)]
@@ -143,70 +127,56 @@ impl<const N: usize> Scene for UncagedBallScrew<N> {
     }
 }
 
-impl UncagedBallScrewConfiguration {
-    /// The circuit's part, checked and folded for so many balls that move against the nut with `speed`, m per unit of
-    /// nut speed.
-    const fn circuit(&self, speed: f32, limits: &Limits, balls: usize) -> Result<Circuit, Error> {
-        let Self {
-            ref design,
-            turns,
-            return_length,
-            tick,
-            ..
-        } = *self;
-        attempt!(in_range("turns", turns, 0.1, 100.0));
-        attempt!(in_range("return_length", return_length, 0.0, 10.0));
-        attempt!(in_range("tick", tick, 1e-6, 1.0));
-        let path = design.pitch_radius() / design.cos_lead_angle();
-        let per_turn = TAU * path;
-        let loaded_length = self.loaded_length();
-        let longest = LONGEST_TRACK * per_turn - loaded_length;
-        attempt!(in_range("return_length", return_length, 0.0, longest));
-        CircuitConfiguration {
-            loaded_length,
-            loaded_turns: turns,
-            return_length,
-            turn_length: per_turn,
-            pitch: 2.0 * path * arc_sine(design.ball_radius() / path),
-            travel_per_motion: speed,
-            motion_per_turn: TAU,
-            passing_deviation: self.screw_deviation,
-            recirculating_deviation: self.nut_deviation,
-            load_shares: self.load_shares,
-            tick,
-            largest_speed: limits.nut_speed,
-        }
-        .folded(balls)
+impl<const N: usize> Sliding for UncagedBallScrew<N> {
+    /// Balls take a friction coefficient over as their turn comes.
+    type Coefficients = ();
+    type Full = UncagedFull;
+
+    fn coefficients(_: &UncagedConstants<N>, _: f32, _: f32) {}
+
+    fn friction(constants: &UncagedConstants<N>) -> f32 {
+        constants.friction
     }
 
-    /// Length of the loaded track, m.
-    const fn loaded_length(&self) -> f32 {
-        let path = self.design.pitch_radius() / self.design.cos_lead_angle();
-        self.turns * (TAU * path)
+    #[inline(always)]
+    fn full(
+        constants: &UncagedConstants<N>,
+        state: &mut UncagedState<N>,
+        (): &(),
+        inputs: Inputs,
+        friction: DirectionalCoefficient,
+    ) -> UncagedFull {
+        state.ring.take_friction(friction.of(inputs.nut_speed).0);
+        let mut full = constants.full(state, inputs);
+        full.groove *= state.ring.friction_ahead();
+        full.ways = friction.over_own(inputs.nut_speed);
+        full
     }
 
-    /// Checks the deviations of both grooves: what the row's formula holds for, and what keeps every ball within
-    /// [`LARGEST_FREE_SPEED`] of the balls' `speed` against the nut, m per unit of nut speed.
-    ///
-    /// Gives the largest deviation of a ball's speed over that, with room for what elastic contacts add to the pitch circle's.
-    const fn check_deviations(&self, row: &ScrewRow, speed: f32) -> Result<f32, Error> {
-        let largest = row.largest_deviation();
-        let on_screw = attempt!(self.screw_deviation.checked("screw_deviation", largest));
-        let in_nut = attempt!(self.nut_deviation.checked("nut_deviation", largest));
-        // Where balls hardly move against the nut, deviations that are small against the pitch radius
-        // are large against that.
-        let relative = row.fastest_deviation(on_screw, in_nut) / speed;
-        if relative > LARGEST_FREE_SPEED {
-            let part = LARGEST_FREE_SPEED / relative;
-            attempt!(in_range("screw_deviation", on_screw, 0.0, on_screw * part));
-            attempt!(in_range("nut_deviation", in_nut, 0.0, in_nut * part));
+    /// Both directions have the friction of that in which the balls go, times their friction coefficients.
+    #[inline(always)]
+    fn limits(full: &UncagedFull) -> SlidingLimits {
+        let [forward, backward] = full.ways;
+        SlidingLimits {
+            forward: forward * full.groove + full.ball,
+            backward: backward * full.groove + full.ball,
+            load: full.load,
         }
-        let fastest = ELASTIC_ROOM.0 * relative + ELASTIC_ROOM.1;
-        Ok(if fastest < LARGEST_FREE_SPEED {
-            fastest
-        } else {
-            LARGEST_FREE_SPEED
-        })
+    }
+
+    #[inline(always)]
+    fn passed(
+        constants: &UncagedConstants<N>,
+        inputs: Inputs,
+        full: &UncagedFull,
+        passage: Passage,
+    ) -> UncagedOutputs {
+        full.passed(inputs.axial_load * constants.reduced_lead, passage)
+    }
+
+    #[inline(always)]
+    fn speed_of(constants: &UncagedConstants<N>, turn: f32, _: f32) -> f32 {
+        turn * constants.per_tick
     }
 }
 
@@ -245,9 +215,11 @@ impl<const N: usize> UncagedConstants<N> {
             friction,
             clearance,
             tick: configuration.tick,
+            per_tick: 1.0 / configuration.tick,
             circuit: attempt!(configuration.circuit(speed, &limits, N)),
             ball_friction,
             per_ball: per_loaded_ball(configuration.loaded_length(), return_length, N),
+            balls: 1.0 / per_loaded_ball(configuration.loaded_length(), return_length, N),
             reduced_lead: design.lead() / TAU,
             reversal,
             limits,
@@ -255,12 +227,11 @@ impl<const N: usize> UncagedConstants<N> {
     }
 
     #[inline(always)]
-    fn outputs(&self, state: &mut UncagedState<N>, inputs: Inputs) -> UncagedOutputs {
+    fn full(&self, state: &mut UncagedState<N>, inputs: Inputs) -> UncagedFull {
         let Inputs {
             nut_speed,
             axial_load,
         } = inputs;
-        let direction = self.reversal.direction(nut_speed);
         let mean = axial_load * self.per_ball;
         let (load, anew) = state.ring.turn_to(&self.ring, nut_speed, mean);
         let way = state.ring.way();
@@ -297,33 +268,19 @@ impl<const N: usize> UncagedConstants<N> {
         ring.advance(angle, &load);
         circuit.advance(&self.circuit, nut_speed);
 
-        let groove_torque = direction * load.torque(torque);
+        let groove = load.torque(torque);
         let rubbing = if pressing.contacts > 0 {
             self.rubbing(state)
         } else {
             0.0
         };
-        let ball_torque = direction * (self.ball_friction * rubbing);
-        let friction_torque = groove_torque + ball_torque;
-
-        let load_torque = axial_load * self.reduced_lead;
-        let opposing = if nut_speed < 0.0 {
-            -load_torque
-        } else {
-            load_torque
-        };
-        UncagedOutputs {
-            friction_torque,
-            groove_torque,
-            ball_torque,
-            load_torque,
+        UncagedFull {
+            groove,
+            ball: self.ball_friction * rubbing,
+            ways: [1.0; 2],
+            load: load.axial_size(&self.ring) * self.balls,
             contacts: pressing.contacts,
             largest_contact_force: pressing.largest,
-            regime: Regime::under(
-                self.reversal.stands(nut_speed),
-                opposing,
-                friction_torque.abs(),
-            ),
             faults: Faults::NONE
                 .with(state.ring.settles(), Faults::SETTLING)
                 .with(state.ring.beyond_model(), Faults::BEYOND_MODEL),

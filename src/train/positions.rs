@@ -49,6 +49,14 @@ pub struct BallContact {
 }
 
 impl<const N: usize> Train<N> {
+    /// Whether its balls stand on this track.
+    ///
+    /// # Errors
+    /// [`Error`] naming `length` or `pitch`, m, where they stand on another one.
+    pub(crate) const fn is_on(&self, track: &Track) -> Result<(), Error> {
+        self.track.is_same(track)
+    }
+
     /// Balls on a closed track of `length`, m, that stand `pitch`, m, from centre to centre in contact:
     /// on a straight track the ball diameter, on a helix the arc over it. Ball 0 starts at 0; `gaps[j]`,
     /// m, is left in front of ball `j`, in front of the last one whatever is left.

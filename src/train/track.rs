@@ -48,6 +48,24 @@ impl Track {
         })
     }
 
+    /// Whether this is another track to the last bit: balls keep their places on the same one only.
+    ///
+    /// # Errors
+    /// [`Error`] naming `length` or `pitch`, m.
+    pub(super) const fn is_same(&self, other: &Self) -> Result<(), Error> {
+        let (own, others) = (UNITS / self.units_per_metre, UNITS / other.units_per_metre);
+        attempt!(in_range("length", others, own, own));
+        let per_unit = 1.0 / self.units_per_metre;
+        let pitch = self.pitch as f32 * per_unit;
+        attempt!(in_range(
+            "pitch",
+            other.pitch as f32 * per_unit,
+            pitch,
+            pitch
+        ));
+        Ok(())
+    }
+
     /// Distance of the centres of two balls in contact, in units.
     #[inline(always)]
     pub(super) const fn pitch(&self) -> u32 {

@@ -47,7 +47,7 @@ impl<const N: usize> Balls<LinearSample, LinearOutputs> for FrictionModel<Linear
     }
 
     fn pressing(&self) -> u64 {
-        pressing(&self.state().train)
+        pressing(&self.state().circuit.train)
     }
 }
 

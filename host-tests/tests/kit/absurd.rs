@@ -656,7 +656,7 @@ impl<const N: usize> Trial for LinearBearingTrain<N> {
     }
 
     fn check_state(model: &FrictionModel<Self>) -> Result<(), String> {
-        sound_train(&model.state().train)
+        sound_train(&model.state().circuit.train)
     }
 
     fn numbers(outputs: &LinearOutputs) -> Vec<u32> {

@@ -266,12 +266,12 @@ fn recovery_takes_a_tick_and_leaves_the_missed_travel() {
         let (mut model, mut ahead) =
             lose_the_speed::<Rail>(&rail, [1.0, 5e3, 1e3], missed, |outputs| outputs.faults);
         assert_ne!(phase(&model), phase(&ahead));
-        let balls = model.state().train;
+        let balls = model.state().circuit.train;
         let position = rail.tick * (1000 + missed) as f32;
         model.set_carriage_position(position);
         ahead.set_carriage_position(position);
         assert_eq!(phase(&model), phase(&ahead));
-        assert_eq!(model.state().train, balls);
+        assert_eq!(model.state().circuit.train, balls);
         model.set_carriage_position(f32::NAN);
         ahead.set_carriage_position(0.0);
         assert_eq!(phase(&model), phase(&ahead));
@@ -472,7 +472,7 @@ fn a_reversal_every_tick_is_even() {
         }
     }
     sound_train(&screw.state().circuit.train).unwrap();
-    sound_train(&rail.state().train).unwrap();
+    sound_train(&rail.state().circuit.train).unwrap();
     // With deviations balls wander: a load that does not turn with the speed lays them against other
     // flanks. Without, they stay where they are.
     for (before, now) in start.iter().zip(even.state().circuit.train.positions()) {

@@ -129,6 +129,7 @@ fn every_ball_is_in_balance() {
         for _ in 0..2000 {
             let before: Vec<f64> = model
                 .state()
+                .circuit
                 .train
                 .positions()
                 .map(|units| f64::from(units) / 2_f64.powi(32) * (LOADED + RETURN))
@@ -139,7 +140,7 @@ fn every_ball_is_in_balance() {
                 side_load: loads[1] as f32,
             });
             assert!(!output.faults.any());
-            let train = &model.state().train;
+            let train = &model.state().circuit.train;
             let forces: Vec<f64> = train.forces().map(f64::from).collect();
             let speeds: Vec<f64> = train.speeds().map(f64::from).collect();
             let gaps: Vec<f32> = train.gaps().collect();
@@ -219,6 +220,7 @@ fn groove_friction_is_the_spin_of_all_contacts() {
         });
         let loaded = model
             .state()
+            .circuit
             .train
             .positions()
             .filter(|p| f64::from(*p) < 2_f64.powi(32) / 1.2)

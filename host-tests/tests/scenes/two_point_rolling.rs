@@ -299,7 +299,7 @@ fn speeds_without_a_flag() {
                 let mut model = case.model();
                 let faults = model.step(case.inputs(ratio, 1.0)).faults;
                 if faults == Faults::NONE {
-                    let found = f64::from(model.state().train.speeds().next().unwrap());
+                    let found = f64::from(model.state().circuit.train.speeds().next().unwrap());
                     let exact = case.ball([rail, 0.0], ratio).solve(1.0).unwrap();
                     measured::assert_at(
                         name,
@@ -317,7 +317,7 @@ fn deviations(case: &Case, model: &Model, travelled: f64) -> Vec<[f64; 2]> {
     let wave = |(amplitude, order): (f64, u8), at: f64| {
         amplitude * (f64::from(order) * TAU * at / LOADED).cos()
     };
-    let positions = model.state().train.positions();
+    let positions = model.state().circuit.train.positions();
     positions
         .map(|units| f64::from(units) / 2_f64.powi(32) * LOADED)
         .map(|at| [wave(case.rail, at + travelled), wave(case.carriage, at)])
@@ -326,7 +326,7 @@ fn deviations(case: &Case, model: &Model, travelled: f64) -> Vec<[f64; 2]> {
 
 /// Rows of the balls that press on each other in a model's last tick, each from rear to front.
 fn rows(model: &Model) -> Vec<Vec<usize>> {
-    let forces: Vec<f32> = model.state().train.forces().collect();
+    let forces: Vec<f32> = model.state().circuit.train.forces().collect();
     let last = (0..BALLS).find(|ball| forces[*ball] == 0.0).unwrap();
     let mut rows = vec![Vec::new()];
     for step in 1..=BALLS {

@@ -129,6 +129,12 @@ impl RingLoad {
         }
     }
 
+    /// Axial load of a ball that presses as much as load and preload do, N.
+    #[inline(always)]
+    pub(crate) fn axial_size(&self, constants: &RingConstants) -> f32 {
+        self.whole / constants.ball.normal
+    }
+
     /// Impedance of a ball, N.
     #[inline(always)]
     pub(crate) fn impedance(&self, ball: &RingBall) -> f32 {

@@ -26,6 +26,9 @@ pub(crate) const SETTLING_ROUNDS: u16 = 3;
 /// Change of the friction coefficient over it, and of the clearance, m, that balls follow without settling anew.
 const SMALL_CHANGE: (f32, f32) = (0.01, 1e-8);
 
+/// Difference of the friction coefficient from that of the last renewals, over it, from which on balls count as unsettled.
+const FRICTION_BEHIND: f32 = 0.1;
+
 /// Renewals of a nominal ball before the first tick.
 const FIRST_RENEWALS: usize = 16;
 
@@ -49,6 +52,8 @@ pub(crate) struct Ring<const N: usize> {
     /// Place and motion with which balls begin anew.
     fresh: Settled,
     pub(crate) friction: f32,
+    /// Mean of the friction coefficients with which the balls were renewed last.
+    renewed_friction: f32,
     /// Radial gap of every contact at the centred ball, m.
     pub(crate) clearance: f32,
     /// Contact force of the lost diagonal's last touch, N: 0 without preload.
@@ -100,6 +105,7 @@ impl<const N: usize> Ring<N> {
             nominal: ball,
             fresh,
             friction,
+            renewed_friction: friction,
             clearance,
             lift_off,
             settled_load: FIRST_LOAD,
@@ -128,6 +134,29 @@ impl<const N: usize> Ring<N> {
         self.friction = friction;
         self.clearance = clearance;
         self.lift_off = constants.ball.lift_off(clearance);
+    }
+
+    /// Balls of other constants settle under these.
+    pub(crate) fn take_over(&mut self, constants: &RingConstants, friction: f32, clearance: f32) {
+        self.set(constants, friction, clearance);
+        self.settling = SETTLING_ROUNDS * N as u16;
+    }
+
+    /// Takes a friction coefficient, 1e-6 to 0.5, that follows speed or temperature; balls take it over as their turn comes.
+    #[inline(always)]
+    pub(crate) fn take_friction(&mut self, friction: f32) {
+        self.friction = friction;
+        self.renewed_friction += (friction - self.renewed_friction) * (1.0 / N as f32);
+        let behind = (friction - self.renewed_friction).abs() > FRICTION_BEHIND * friction;
+        if behind && self.settling == 0 {
+            self.settling = 1;
+        }
+    }
+
+    /// The friction coefficient over that of the last renewals: groove friction is in proportion to it to first order.
+    #[inline(always)]
+    pub(crate) fn friction_ahead(&self) -> f32 {
+        self.friction / self.renewed_friction
     }
 
     /// Speed of a ball without load less the nominal one, over the nominal one against the nut.

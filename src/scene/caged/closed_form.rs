@@ -2,15 +2,17 @@
 
 use core::f32::consts::TAU;
 
+use super::full::CagedFull;
 use super::{CagedBallScrewConfiguration, FrictionBranch};
 use crate::ball::PreloadSum;
 use crate::efficiency::{Drive, EfficiencyGeometry};
 use crate::error::{Error, attempt};
 use crate::geometry::BallScrew;
 use crate::ranges;
-use crate::scene::contract::{Inputs, Regime, Reversal};
+use crate::scene::contract::{Inputs, Regime};
 use crate::scene::faults::Faults;
 use crate::scene::outputs::{Outputs, efficiency};
+use crate::scene::passage::{Passage, Reversal};
 
 /// Friction torque over load and pitch radius from which on a direction counts as locked: no motor of a steering gear
 /// has a thousandth of that.
@@ -20,6 +22,7 @@ const LOCKED_RADII: f32 = 1e3;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct ClosedForm {
+    friction: f32,
     /// Half the friction torque per load on the flank that opposes the motion, m.
     half_drive: f32,
     /// Half the friction torque per load on the flank that assists the motion, m.
@@ -58,6 +61,7 @@ impl ClosedForm {
         let lock = LOCKED_RADII * design.pitch_radius();
         let drive_locked = !(drive >= 0.0 && drive < lock);
         Ok(Self {
+            friction,
             half_drive: if drive_locked {
                 0.5 * backdrive
             } else {
@@ -71,6 +75,11 @@ impl ClosedForm {
         })
     }
 
+    /// Friction coefficient of the configuration, which no other one replaces.
+    pub(super) const fn friction(&self) -> f32 {
+        self.friction
+    }
+
     /// `T = s [c_d (S + s F) + c_b (S - s F)] / 2` with the blended direction `s = w / sqrt(w² +
     /// w_s²)`, the flanks' sum `S` and difference `F`: `c_d |F|` driving and `c_b |F|` back-driving
     /// away from the reversal, zero at standstill, smooth between, odd under reversal of speed and
@@ -81,21 +90,66 @@ impl ClosedForm {
             nut_speed: speed,
             axial_load: load,
         } = inputs;
-        let direction = reversal.direction(speed);
+        let passage = reversal.passage(speed);
+        let direction = passage.share;
         let sum = self.flanks.under(load);
-        let load_torque = load * self.reduced_lead;
-
         // Full friction in the direction of motion, for the efficiency; standstill counts as forward.
         let opposing = if speed < 0.0 { -load } else { load };
-        let full = self.friction_torque(sum, opposing);
-        let load_work = opposing * self.reduced_lead;
-
-        let locks_driving = self.drive_locked && opposing > 0.0;
-        let friction_torque = if locks_driving {
+        let friction_torque = if self.locks(opposing) {
             direction * self.largest_torque
         } else {
             direction * self.friction_torque(sum, direction * load)
         };
+        let full = self.friction_torque(sum, opposing);
+        self.put_out(load, opposing, full, friction_torque, passage.standing)
+    }
+
+    /// Full friction in both directions.
+    #[inline(always)]
+    pub(super) fn both_ways(&self, load: f32) -> CagedFull {
+        let sum = self.flanks.under(load);
+        let of = |opposing| {
+            if self.locks(opposing) {
+                self.largest_torque
+            } else {
+                self.friction_torque(sum, opposing)
+            }
+        };
+        CagedFull {
+            forward: of(load),
+            backward: of(-load),
+            load: sum,
+            faults: Faults::NONE,
+        }
+    }
+
+    /// Full friction times its passage.
+    #[inline(always)]
+    pub(super) fn passed(&self, load: f32, found: &CagedFull, passage: Passage) -> Outputs {
+        let friction_torque = passage.share * found.of(passage.share);
+        let opposing = passage.way * load;
+        let full = found.of(passage.way);
+        self.put_out(load, opposing, full, friction_torque, passage.standing)
+    }
+
+    /// Whether no torque drives this load.
+    #[inline(always)]
+    fn locks(&self, opposing: f32) -> bool {
+        self.drive_locked && opposing > 0.0
+    }
+
+    /// The outputs under a load that opposes the motion by `opposing`.
+    #[inline(always)]
+    fn put_out(
+        &self,
+        load: f32,
+        opposing: f32,
+        full: f32,
+        friction_torque: f32,
+        standing: bool,
+    ) -> Outputs {
+        let load_work = opposing * self.reduced_lead;
+        let locks_driving = self.locks(opposing);
         let efficiency = if locks_driving {
             0.0
         } else {
@@ -109,9 +163,9 @@ impl ClosedForm {
         };
         Outputs {
             friction_torque,
-            load_torque,
+            load_torque: load * self.reduced_lead,
             efficiency,
-            regime: Regime::of(reversal.stands(speed), load_opposes, moves),
+            regime: Regime::of(standing, load_opposes, moves),
             faults: Faults::NONE.with(locks_driving, Faults::FRICTION_LIMIT),
         }
     }

@@ -3,15 +3,19 @@
 use core::f32::consts::TAU;
 
 use super::CagedBallScrewConfiguration;
+use super::coefficients::CoefficientLaws;
+use super::full::CagedFull;
 use crate::ball::Clearance;
 use crate::ball::elastic::constants::BallConstants;
 use crate::ball::elastic::load_law::{LoadLaw, LoadRange};
 use crate::ball::elastic::nominal::{Grooving, NominalBall, SMALLEST_LOAD};
 use crate::error::{Error, attempt};
+use crate::law::coefficient::DirectionalCoefficient;
 use crate::ranges;
-use crate::scene::contract::{Inputs, Regime, Reversal};
+use crate::scene::contract::{Inputs, Regime};
 use crate::scene::faults::Faults;
 use crate::scene::outputs::{Outputs, efficiency};
+use crate::scene::passage::{Passage, way};
 
 /// Axial load of a ball, N, for which balls are settled before the first tick.
 const FIRST_LOAD: f32 = 50.0;
@@ -29,6 +33,8 @@ pub(super) struct Contacts {
     range: LoadRange,
     balls: f32,
     per_ball: f32,
+    /// Axial load of all balls over the contact force of one.
+    load_per_whole: f32,
     /// Torque per axial load without friction, `lead / 2 pi`, m.
     reduced_lead: f32,
 }
@@ -70,8 +76,20 @@ impl Contacts {
             range: LoadRange::to(limits.axial_load / balls),
             balls,
             per_ball: 1.0 / balls,
+            load_per_whole: balls * (design.contact_angle().sin * design.cos_lead_angle()),
             reduced_lead: design.lead() / TAU,
         })
+    }
+
+    /// Friction coefficient of the configuration.
+    pub(super) const fn friction(&self) -> f32 {
+        self.friction
+    }
+
+    /// Laws for friction coefficients between these two: none where they are that of the configuration.
+    pub(super) fn laws_between(&self, least: f32, largest: f32) -> Option<CoefficientLaws> {
+        let gap = self.clearance.gap();
+        CoefficientLaws::new(&self.ball, gap, self.range, self.friction, (least, largest))
     }
 
     /// Laws and balls before the first tick: some thousand renewals.
@@ -95,6 +113,13 @@ impl Contacts {
     pub(super) fn reset(&self, state: &mut ContactsState) {
         state.grooving = Grooving::new(&self.ball, self.friction, self.clearance.gap());
         state.changes = false;
+    }
+
+    /// Balls go on with the friction coefficient and the clearance of these constants, renewed in every tick: the laws are those
+    /// of other constants.
+    pub(super) fn take_over(&self, state: &mut ContactsState) {
+        state.grooving = Grooving::new(&self.ball, self.friction, self.clearance.gap());
+        self.change(state);
     }
 
     /// See [`FrictionModel::set_friction`](crate::FrictionModel::set_friction).
@@ -137,25 +162,10 @@ impl Contacts {
         }
     }
 
-    /// Friction torque away from the reversal times the direction: zero at standstill, continuous, odd under reversal of
-    /// speed and load together, and never of the sign that would make friction a source of power.
+    /// Full friction in the direction of motion, which stands for both.
     #[inline(always)]
-    pub(super) fn outputs(
-        &self,
-        state: &mut ContactsState,
-        reversal: &Reversal,
-        inputs: Inputs,
-    ) -> Outputs {
-        let Inputs {
-            nut_speed,
-            axial_load,
-        } = inputs;
-        // Standstill counts as forward.
-        let opposing = if nut_speed < 0.0 {
-            -axial_load
-        } else {
-            axial_load
-        };
+    pub(super) fn one_way(&self, state: &mut ContactsState, inputs: Inputs, way: f32) -> CagedFull {
+        let opposing = way * inputs.axial_load;
         let load = opposing.abs() * self.per_ball;
         let other = opposing < 0.0;
         let whole = state.grooving.whole(&self.ball, load);
@@ -165,13 +175,84 @@ impl Contacts {
             state.folded(self.range, load, other)
         };
         let full = self.balls * (whole * ratio);
-        let load_work = opposing * self.reduced_lead;
+        CagedFull {
+            forward: full,
+            backward: full,
+            load: whole * self.load_per_whole,
+            faults: accuracy,
+        }
+    }
+
+    /// Full friction in both directions, with a friction coefficient.
+    #[inline(always)]
+    pub(super) fn both_ways(
+        &self,
+        state: &mut ContactsState,
+        laws: Option<&CoefficientLaws>,
+        inputs: Inputs,
+        friction: DirectionalCoefficient,
+    ) -> CagedFull {
+        let way = way(inputs.nut_speed);
+        let opposing = way * inputs.axial_load;
+        let load = opposing.abs() * self.per_ball;
+        let other = opposing < 0.0;
+        let whole = state.grooving.whole(&self.ball, load);
+        let (own_friction, opposite_friction) = friction.of(way);
+        let [(own, accuracy), (opposite, _)] = if state.changes {
+            state.grooving.friction = own_friction;
+            let own = self.renewed(state, load, whole, other);
+            let [drive, backdrive] = &state.balls;
+            let opposite = if other { drive } else { backdrive };
+            [own, (opposite.ratio(), Faults::NONE)]
+        } else {
+            [(other, own_friction), (!other, opposite_friction)]
+                .map(|(other, friction)| self.between(state, laws, load, other, friction))
+        };
+        let (forward, backward) = if way < 0.0 {
+            (opposite, own)
+        } else {
+            (own, opposite)
+        };
+        CagedFull {
+            forward: self.balls * (whole * forward),
+            backward: self.balls * (whole * backward),
+            load: whole * self.load_per_whole,
+            faults: accuracy,
+        }
+    }
+
+    /// Friction torque over contact force by the laws, for a friction coefficient.
+    #[inline(always)]
+    fn between(
+        &self,
+        state: &ContactsState,
+        laws: Option<&CoefficientLaws>,
+        load: f32,
+        other: bool,
+        friction: f32,
+    ) -> (f32, Faults) {
+        let (first, faults) = state.folded(self.range, load, other);
+        match laws {
+            Some(laws) => {
+                let (ratio, beyond) = laws.at(self.range, load, other, friction, first);
+                (ratio, faults.with(beyond, Faults::BEYOND_MODEL))
+            }
+            None => (first * (friction / self.friction), faults),
+        }
+    }
+
+    /// Full friction times its passage: zero at standstill, odd under reversal of speed and load together, and never of the
+    /// sign that would make friction a source of power.
+    #[inline(always)]
+    pub(super) fn passed(&self, axial_load: f32, found: &CagedFull, passage: Passage) -> Outputs {
+        let full = found.of(passage.way);
+        let load_work = passage.way * axial_load * self.reduced_lead;
         Outputs {
-            friction_torque: reversal.direction(nut_speed) * full,
+            friction_torque: passage.share * found.of(passage.share),
             load_torque: axial_load * self.reduced_lead,
             efficiency: efficiency(load_work > 0.0, load_work, full),
-            regime: Regime::under(reversal.stands(nut_speed), load_work, full),
-            faults: accuracy,
+            regime: Regime::under(passage.standing, load_work, full),
+            faults: found.faults,
         }
     }
 

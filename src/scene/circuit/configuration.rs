@@ -153,6 +153,14 @@ impl<const N: usize> CircuitState<N> {
         }
     }
 
+    /// Whether its balls stand on the track of this circuit, as constants that take the state over need it.
+    ///
+    /// # Errors
+    /// [`Error`] naming `length` or `pitch`, m.
+    pub(crate) const fn is_on(&self, circuit: &Circuit) -> Result<(), Error> {
+        self.train.is_on(&circuit.track)
+    }
+
     /// Phase of the passing groove, in units of 2^-32 of its period.
     #[inline(always)]
     pub(crate) const fn phase(&self) -> u32 {

@@ -1,0 +1,158 @@
+//! Elements that come into contact with the load, as the springs of an elastic contact do.
+
+use super::hysteresis::Hysteresis;
+use super::quadrature::Rule;
+use super::slider::{held, not_negative, sum, turned};
+use super::state::MemoryState;
+use super::{BREAKAWAY, REFERENCE_LIMIT};
+use crate::error::{Error, Range, attempt};
+use crate::law::{Elements, SlidingLimits};
+use crate::math::{cbrt_squared, constant};
+
+/// Largest load of load-exact elements over the reference load: 1e-3 to 1e6.
+pub const LARGEST_LOAD: Range = Range::new(1e-3, 1e6);
+
+/// Beyond this load over the reference all elements are in contact whatever it is; keeps what is not a number out.
+const BOUNDLESS: f32 = 1e12;
+
+/// `N` elements, each in contact from a load of its own on: friction across the path under any load.
+///
+/// `f_i <- clamp(f_i + k_i dtheta, -lambda_i T-, lambda_i T+)`, `lambda_i = l_i / sum l_j`, `l_i = k_i (D - c_i)` where
+/// positive, else 0, `D = (S/S_ref)^(2/3)`, `c_i = x_i²`, `k_i = 1.5 g_i T_ref/theta_b`; `x_i`, `g_i` are nodes and
+/// weights of Gauss and Legendre on 0 to `(S_max/S_ref)^(1/3)`.
+///
+/// A Hertzian contact is a row of springs of constant stiffness that come into contact one after the other (Jaeger 1993,
+/// Ciavarella 1998, Popov and Hess 2015): `x` is the distance from its centre, `D` its approach. 3000 of them have Mindlin's
+/// curve at loads of 0.2, 1 and 5 to 4e-7. Stiffness then grows with the power 1/3 of the load and breakaway with 2/3, though
+/// no spring's stiffness changes, so that the elements stay passive.
+///
+/// Error against 3000 springs over random load and angle, percent of the rms friction, eight elements, by amplitude in
+/// breakaway angles:
+///
+/// | load over the reference | 0.3 | 1 | 3 |
+/// |---|---|---|---|
+/// | 0.5 to 1.6 | 8.1 | 3.8 | 1.3 |
+/// | 0.1 to 4 | 19 | 5.8 | 2.2 |
+///
+/// Within 10 % of one load, amplitude 1: 10, 3.8, 2.5 and 1.8 % with four, six, eight and ten elements. There
+/// [`ProportionalElements`](super::ProportionalElements) have 1.2 %.
+///
+/// In full sliding the friction is `T+` or `-T-` to the bit; below a load of 8e-6 of the largest no element of eight is in
+/// contact, and there is none. 390 cycles for eight elements with the cube root. A turn that is no number is none, a
+/// load that is none is a large one, a negative limit is 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LoadExactElements<const N: usize> {
+    stiffnesses: [f32; N],
+    /// Approach at which an element comes into contact, over that at the reference load.
+    onsets: [f32; N],
+    reference_limit: f32,
+}
+
+impl<const N: usize> LoadExactElements<N> {
+    /// Elements of a mechanism that slides with `reference_limit`, N m (N), after `breakaway_angle`, rad (m), at
+    /// the reference load, for loads up to `largest_load` times that. A larger load is no error: the elements
+    /// then come closer to those in proportion.
+    ///
+    /// # Errors
+    /// The field that is not within [`REFERENCE_LIMIT`], [`BREAKAWAY`] or 1e-3 to 1e6.
+    pub const fn new(
+        reference_limit: f32,
+        breakaway_angle: f32,
+        largest_load: f32,
+    ) -> Result<Self, Error> {
+        let reference_limit = attempt!(REFERENCE_LIMIT.checked("reference_limit", reference_limit));
+        attempt!(BREAKAWAY.checked("breakaway_angle", breakaway_angle));
+        attempt!(LARGEST_LOAD.checked("largest_load", largest_load));
+        let half = 0.5 * constant::cbrt(largest_load);
+        let mut stiffnesses = [0.0; N];
+        let mut onsets = [0.0; N];
+        let mut index = 0;
+        while index < N {
+            let (node, weight) = Rule::<N>::NODES[index];
+            let place = half + half * node;
+            onsets[index] = place * place;
+            stiffnesses[index] = 1.5 * half * weight * (reference_limit / breakaway_angle);
+            index += 1;
+        }
+        Ok(Self {
+            stiffnesses,
+            onsets,
+            reference_limit,
+        })
+    }
+
+    /// Stiffness of each element, N m/rad (N/m).
+    #[must_use]
+    pub const fn stiffnesses(&self) -> [f32; N] {
+        self.stiffnesses
+    }
+
+    /// What each element bears at an approach, N m (N) for the stiffnesses' own breakaway angle of 1; and their sum.
+    #[inline(always)]
+    fn borne(&self, approach: f32) -> ([f32; N], f32) {
+        let mut borne = [0.0; N];
+        let mut sum = 0.0;
+        let constants = self.stiffnesses.iter().zip(&self.onsets);
+        for (borne, (stiffness, onset)) in borne.iter_mut().zip(constants) {
+            *borne = stiffness * not_negative(approach - onset);
+            sum += *borne;
+        }
+        (borne, sum)
+    }
+}
+
+impl<const N: usize> Elements for LoadExactElements<N> {
+    type State = MemoryState<N>;
+
+    const VIRGIN: Self::State = MemoryState::VIRGIN;
+
+    #[inline]
+    fn follow(&self, state: &mut Self::State, turn: f32, limits: &SlidingLimits) -> f32 {
+        let turn = turned(turn);
+        let forward = not_negative(limits.forward);
+        let backward = -not_negative(limits.backward);
+        let load = not_negative(limits.load);
+        let load = if load < BOUNDLESS { load } else { BOUNDLESS };
+        let (borne, whole) = self.borne(cbrt_squared(load));
+        let share = if whole > 0.0 { 1.0 / whole } else { 0.0 };
+        let (high, low) = (share * forward, share * backward);
+        let mut friction = 0.0;
+        let elements = self.stiffnesses.iter().zip(&borne);
+        for (torque, (stiffness, borne)) in state.torques.iter_mut().zip(elements) {
+            *torque = held(*torque + stiffness * turn, borne * low, borne * high);
+            friction += *torque;
+        }
+        sum(friction, N, backward, forward)
+    }
+}
+
+impl<const N: usize> Hysteresis for LoadExactElements<N> {
+    fn stored_energy(&self, state: &Self::State) -> f32 {
+        let springs = state.torques.iter().zip(&self.stiffnesses);
+        springs
+            .map(|(torque, stiffness)| 0.5 * torque * torque / stiffness)
+            .sum()
+    }
+
+    fn initial_stiffness(&self) -> f32 {
+        let springs = self.stiffnesses.iter().zip(&self.onsets);
+        springs.fold(
+            0.0,
+            |sum, (stiffness, &onset)| if onset < 1.0 { sum + stiffness } else { sum },
+        )
+    }
+
+    fn breakaway(&self) -> f32 {
+        // The element that touched first is the last one to slide.
+        let first = self.onsets.iter().fold(
+            1.0,
+            |least, &onset| if onset < least { onset } else { least },
+        );
+        let (_, sum) = self.borne(1.0);
+        if sum > 0.0 {
+            (1.0 - first) * self.reference_limit / sum
+        } else {
+            0.0
+        }
+    }
+}

@@ -1,0 +1,88 @@
+//! A backlash: what follows a turn only beyond it.
+
+use crate::error::{Error, attempt, in_range};
+
+/// A play of `half_width` to either side: the output follows the turn only after it has gone through the play.
+///
+/// `p <- clamp(p + dtheta, -h, h)`, moved `= dtheta - dp`. As wide as the noise of an encoder, it keeps a row of balls from
+/// turning round with every count. What has moved and what is in the play add up to the turn, to rounding. 25 cycles. A turn that is
+/// no number is none.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Play {
+    half_width: f32,
+}
+
+/// Where a play is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct PlayState {
+    place: f32,
+    way: f32,
+}
+
+/// What the output does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Moved {
+    /// How far it moves, rad (m).
+    pub turn: f32,
+    /// Which way it moved last: 1 or -1; 0 before it moved at all.
+    pub way: f32,
+}
+
+impl PlayState {
+    /// In the middle of the play, and not moved yet.
+    pub const FRESH: Self = Self {
+        place: 0.0,
+        way: 0.0,
+    };
+
+    /// Turn from the middle of the play, rad (m), within its half width.
+    #[must_use]
+    pub const fn place(&self) -> f32 {
+        self.place
+    }
+
+    /// Which way the output moved last: 1 or -1; 0 before it moved at all.
+    #[must_use]
+    pub const fn way(&self) -> f32 {
+        self.way
+    }
+}
+
+impl Play {
+    /// A play of `half_width`, rad (m): 0 to 1e3. Without width the output follows every turn.
+    ///
+    /// # Errors
+    /// `half_width` out of range.
+    pub const fn new(half_width: f32) -> Result<Self, Error> {
+        let half_width = attempt!(in_range("half_width", half_width, 0.0, 1e3));
+        Ok(Self { half_width })
+    }
+
+    /// What the output does under a turn, rad (m).
+    #[inline]
+    pub fn follow(&self, state: &mut PlayState, turn: f32) -> Moved {
+        let place = state.place + turn;
+        let turn = if place > self.half_width {
+            state.place = self.half_width;
+            state.way = 1.0;
+            place - self.half_width
+        } else if place < -self.half_width {
+            state.place = -self.half_width;
+            state.way = -1.0;
+            place + self.half_width
+        } else {
+            // A turn that is no number stays outside.
+            if !place.is_nan() {
+                state.place = place;
+            }
+            0.0
+        };
+        Moved {
+            turn,
+            way: state.way,
+        }
+    }
+}

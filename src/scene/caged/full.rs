@@ -1,0 +1,26 @@
+//! Full friction of a caged ball screw.
+
+use crate::scene::faults::Faults;
+
+/// Full friction of a caged ball screw in both directions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CagedFull {
+    /// Friction torque of motion forward and backward, N m, not negative.
+    pub(super) forward: f32,
+    pub(super) backward: f32,
+    /// Axial load of all balls, preload counted, N.
+    pub(super) load: f32,
+    pub(super) faults: Faults,
+}
+
+impl CagedFull {
+    /// Friction torque in the direction of a sign.
+    #[inline(always)]
+    pub(super) const fn of(&self, way: f32) -> f32 {
+        if way < 0.0 {
+            self.backward
+        } else {
+            self.forward
+        }
+    }
+}

@@ -1,0 +1,80 @@
+//! What the engineer sets for a linear bearing, and its checks.
+
+use super::inputs::LinearLimits;
+use crate::ball::{LoadShare, LoadShares};
+use crate::error::{Error, attempt, in_range};
+use crate::geometry::LinearBearing;
+use crate::scene::circuit::{Circuit, CircuitConfiguration, DeviationMap, LONGEST_TRACK};
+
+/// What the engineer sets for a linear bearing; unchecked.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct LinearBearingConfiguration {
+    /// The validated design.
+    pub bearing: LinearBearing,
+    /// Coulomb friction coefficient of ball and groove, 1e-6 to 1.
+    pub friction: f32,
+    /// Coulomb friction coefficient of ball and ball, 0 to 1.
+    pub ball_friction: f32,
+    /// Length of the loaded track, m, 1e-4 to 100.
+    pub loaded_length: f32,
+    /// Length of the return, m, 0 to 100, up to 250 times the loaded track: there balls carry no load.
+    pub return_length: f32,
+    /// Length that counts as one turn of the deviation maps, m, 1e-4 to 100, at least a thousandth of the
+    /// track.
+    pub wavelength: f32,
+    /// Deviation of the contact angles along the rail, added on BR, taken off on BL: at most 0.2 rad for
+    /// contact angles from 23 to 68 degrees, beyond half of the contact angle or its cotangent.
+    pub rail_deviation: &'static DeviationMap,
+    /// Deviation of the contact angles along the carriage, added on TR, taken off on TL; as large.
+    pub carriage_deviation: &'static DeviationMap,
+    /// Load of a ball over the mean load, in equal parts of the loaded track from its start; 1 to 256.
+    pub load_shares: &'static [LoadShare],
+    /// Speed over which friction changes its direction, m/s, 1e-9 to 10: at this speed it has 71 % of
+    /// its full value.
+    pub reversal_speed: f32,
+    /// Time between two ticks, s, 1e-6 to 1; at the largest speed the balls may move by 3 % of the track
+    /// in it, and the rail by half a period of its deviation map.
+    pub tick: f32,
+    /// Bounds that are kept whatever comes in.
+    pub limits: LinearLimits,
+}
+
+impl LinearBearingConfiguration {
+    /// The circuit's part, checked and folded for so many balls.
+    pub(super) const fn circuit(
+        &self,
+        limits: &LinearLimits,
+        balls: usize,
+    ) -> Result<Circuit, Error> {
+        let Self {
+            loaded_length,
+            return_length,
+            wavelength,
+            tick,
+            ..
+        } = *self;
+        attempt!(in_range("loaded_length", loaded_length, 1e-4, 100.0));
+        attempt!(in_range("return_length", return_length, 0.0, 100.0));
+        attempt!(in_range("tick", tick, 1e-6, 1.0));
+        let shortest = (loaded_length + return_length) / LONGEST_TRACK;
+        let shortest = if shortest > 1e-4 { shortest } else { 1e-4 };
+        attempt!(in_range("wavelength", wavelength, shortest, 100.0));
+        CircuitConfiguration {
+            loaded_length,
+            loaded_turns: loaded_length / wavelength,
+            return_length,
+            turn_length: wavelength,
+            pitch: 2.0 * self.bearing.ball_radius(),
+            // A ball that rolls gets on half as far as the carriage.
+            travel_per_motion: 0.5,
+            motion_per_turn: wavelength,
+            passing_deviation: self.rail_deviation,
+            recirculating_deviation: self.carriage_deviation,
+            load_shares: LoadShares::same(self.load_shares),
+            tick,
+            largest_speed: limits.speed,
+        }
+        .folded(balls)
+    }
+}

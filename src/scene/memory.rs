@@ -1,0 +1,367 @@
+//! A scene whose friction remembers: a hysteresis in the nut's angle, with a friction coefficient that follows speed and
+//! temperature.
+
+mod inputs;
+
+use core::marker::PhantomData;
+
+use super::contract::{Admitted, Scene, SceneOutputs};
+use super::faults::Faults;
+use super::passage::{Motion, Passage, way};
+use super::sliding::Sliding;
+use crate::error::{Error, attempt, in_range};
+use crate::law::coefficient::{CoefficientAtTemperature, CoefficientLaw, TemperatureFade};
+use crate::law::motion::{NutAngle, Play, PlayState};
+use crate::law::{Elements, SlidingLimits};
+
+pub use inputs::{Freshness, WithMemoryInputs, WithMemoryKnown};
+
+/// Part of full friction below which the mechanism counts as standing.
+const SLIDES: f32 = 0.99;
+
+/// Speed that stands for a way without motion: forces between balls are then those with which motion sets in.
+const CREEP: f32 = 1e-9;
+
+/// A scene `S` with memory elements `E`, which follow the readings of an angle sensor `A`.
+///
+/// Friction passes between its two directions with the angle: elements stick and slip under the limits that full friction
+/// of the same tick sets them. In steady sliding it is the friction of `S` away from its reversal; its reversal speed has no
+/// meaning here. Standing is where elements still stick.
+///
+/// What an input that is wrong does: without a sound speed and load the last ones stand in, flagged; without a sound
+/// reading of the angle friction stays where it is, flagged, and the next reading spans the gap. A load that is too old fades
+/// away, a temperature that is too old gives way to the configuration's.
+///
+/// Balls of a train go only where the angle leaves a play ([`WithMemoryConfiguration::play`]): noise of the encoder does not turn
+/// them round.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct WithMemory<S, E, A>(PhantomData<(S, E, A)>);
+
+/// What the engineer sets for a scene with memory; elements, sensor and law are checked already.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WithMemoryConfiguration<C, E, A> {
+    /// Configuration of the scene without memory. Its friction coefficient is one that the law gives, best the boundary
+    /// coefficient; its tick is that of [`FrictionModel::step`](crate::FrictionModel::step).
+    pub scene: C,
+    /// Elements of the memory.
+    pub elements: E,
+    /// Sensor of the nut's angle, or of the carriage's place.
+    pub angle: A,
+    /// Axial load of a screw, or normal load of a bearing, N, at which the elements are designed; 1e-3 to 1e7. Only
+    /// load-exact elements read it.
+    pub reference_load: f32,
+    /// Turn, rad (m), that the motion has to go back before balls go back too, over two; 0 to 1e3. The breakaway angle is
+    /// right: where friction has turned round.
+    pub play: f32,
+    /// Friction coefficient by speed, temperature and direction.
+    pub coefficient: CoefficientLaw,
+    /// How old a temperature may be, and what stands in for it then.
+    pub temperature: TemperatureFade,
+    /// How old loads may be.
+    pub freshness: Freshness,
+}
+
+/// Constants of a scene with memory.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WithMemoryConstants<C, E, A> {
+    scene: C,
+    elements: E,
+    angle: A,
+    per_reference_load: f32,
+    play: Play,
+    coefficient: CoefficientLaw,
+    temperature: TemperatureFade,
+    freshness: Freshness,
+}
+
+/// What a tick changes in a scene with memory.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WithMemoryState<S: Sliding, E: Elements, A: NutAngle> {
+    /// State of the scene without memory.
+    pub scene: S::State,
+    coefficients: S::Coefficients,
+    /// What the elements remember.
+    pub elements: E::State,
+    reading: A::State,
+    play: PlayState,
+    /// Turn that the balls have still to go, rad (m).
+    moved: f32,
+    coefficient: CoefficientLaw,
+    temperature: f32,
+    at_temperature: CoefficientAtTemperature,
+    /// The last sound inputs, and the last full friction with its limits and the churning drag beside it.
+    inputs: S::Inputs,
+    full: Option<S::Full>,
+    limits: SlidingLimits,
+    churning: f32,
+}
+
+impl<S: Sliding, E: Elements + Copy, A: NutAngle + Copy> Scene for WithMemory<S, E, A>
+where
+    S::Constants: Copy,
+{
+    type Configuration = WithMemoryConfiguration<S::Configuration, E, A>;
+    type Constants = WithMemoryConstants<S::Constants, E, A>;
+    type State = WithMemoryState<S, E, A>;
+    type Inputs = WithMemoryInputs<S::Inputs, A::Reading>;
+    type Known = WithMemoryKnown<S::Inputs, A::Reading>;
+    type Outputs = S::Outputs;
+
+    fn constants(configuration: &Self::Configuration) -> Result<Self::Constants, Error> {
+        let scene = S::constants(&configuration.scene)?;
+        WithMemoryConstants::new(scene, configuration)
+    }
+
+    fn initial_state(constants: &Self::Constants) -> Self::State {
+        let WithMemoryConstants {
+            scene,
+            coefficient,
+            temperature,
+            ..
+        } = constants;
+        let (least, largest) = coefficient.extremes();
+        WithMemoryState {
+            scene: S::initial_state(scene),
+            coefficients: S::coefficients(scene, least, largest),
+            elements: E::VIRGIN,
+            reading: A::FRESH,
+            play: PlayState::FRESH,
+            moved: 0.0,
+            coefficient: *coefficient,
+            temperature: temperature.fallback(),
+            at_temperature: coefficient.at_temperature(temperature.fallback()),
+            inputs: S::Inputs::STILL,
+            full: None,
+            limits: NONE,
+            churning: 0.0,
+        }
+    }
+
+    fn reset(constants: &Self::Constants, state: &mut Self::State) {
+        S::reset(&constants.scene, &mut state.scene);
+        state.elements = E::VIRGIN;
+        state.reading = A::FRESH;
+        state.play = PlayState::FRESH;
+        state.moved = 0.0;
+        state.coefficient = constants.coefficient;
+        state.temperature = constants.temperature.fallback();
+        state.at_temperature = constants.coefficient.at_temperature(state.temperature);
+        state.inputs = S::Inputs::STILL;
+        state.full = None;
+        state.limits = NONE;
+        state.churning = 0.0;
+    }
+
+    fn take_over(constants: &Self::Constants, state: &mut Self::State) -> Result<(), Error> {
+        S::take_over(&constants.scene, &mut state.scene)?;
+        state.set_coefficient(constants.coefficient);
+        Ok(())
+    }
+
+    /// Inputs of the scene that are no numbers leave the others as they are.
+    #[inline(always)]
+    fn admit(constants: &Self::Constants, inputs: Self::Inputs) -> Admitted<Self::Known> {
+        let WithMemoryInputs {
+            scene,
+            reading,
+            load_age,
+            temperature,
+            temperature_age,
+        } = inputs;
+        let Admitted {
+            inputs: scene,
+            faults,
+        } = S::admit(&constants.scene, scene);
+        Admitted {
+            inputs: Some(WithMemoryKnown {
+                scene,
+                reading,
+                load_age,
+                temperature,
+                temperature_age,
+            }),
+            faults,
+        }
+    }
+
+    #[inline(always)]
+    fn outputs(
+        constants: &Self::Constants,
+        state: &mut Self::State,
+        known: Self::Known,
+    ) -> S::Outputs {
+        let mut faults = constants.take_temperature(state, &known);
+        let inputs = known.scene.unwrap_or(state.inputs);
+        state.inputs = inputs;
+        let factor = constants.freshness.load_factor(known.load_age);
+        faults = faults.with(factor < 1.0, Faults::LOAD_STALE);
+        let (turn, angle_faults) = constants.turn(state, known.reading);
+
+        let way = state.way();
+        let measured = inputs.speed();
+        let speed = S::speed_of(&constants.scene, state.moved, measured);
+        state.moved = 0.0;
+        let speed = if speed * way > CREEP {
+            speed
+        } else {
+            way * CREEP
+        };
+        let full = S::full(
+            &constants.scene,
+            &mut state.scene,
+            &state.coefficients,
+            inputs.with(speed, factor),
+            state.at_temperature.both(measured),
+        );
+        let limits = S::limits(&full);
+        state.limits = SlidingLimits {
+            load: limits.load * constants.per_reference_load,
+            ..limits
+        };
+        state.full = Some(full);
+        state.churning = state.at_temperature.churning_torque(measured);
+        constants.follow(state, turn, inputs, faults | angle_faults)
+    }
+
+    #[inline(always)]
+    fn largest_friction(constants: &Self::Constants) -> f32 {
+        S::largest_friction(&constants.scene)
+    }
+}
+
+/// No friction.
+const NONE: SlidingLimits = SlidingLimits {
+    forward: 0.0,
+    backward: 0.0,
+    load: 0.0,
+};
+
+impl<S: Sliding, E: Elements, A: NutAngle> WithMemoryState<S, E, A> {
+    /// See [`FrictionModel::set_coefficient`](crate::FrictionModel::set_coefficient).
+    pub(crate) fn set_coefficient(&mut self, law: CoefficientLaw) {
+        self.coefficient = law;
+        self.at_temperature = law.at_temperature(self.temperature);
+    }
+
+    /// -1 where the balls went backward last, else 1.
+    #[inline(always)]
+    const fn way(&self) -> f32 {
+        way(self.play.way())
+    }
+}
+
+impl<C: Copy, E: Copy, A: Copy> WithMemoryConstants<C, E, A> {
+    /// Checks what memory adds to the constants of a scene: at set-up, or in a constant when firmware is compiled.
+    ///
+    /// # Errors
+    /// [`Error`] naming `reference_load`, `half_width` (of the play) or a time of the freshness.
+    pub const fn new<B>(
+        scene: C,
+        configuration: &WithMemoryConfiguration<B, E, A>,
+    ) -> Result<Self, Error> {
+        let reference_load = attempt!(in_range(
+            "reference_load",
+            configuration.reference_load,
+            1e-3,
+            1e7
+        ));
+        Ok(Self {
+            scene,
+            elements: configuration.elements,
+            angle: configuration.angle,
+            per_reference_load: 1.0 / reference_load,
+            play: attempt!(Play::new(configuration.play)),
+            coefficient: configuration.coefficient,
+            temperature: configuration.temperature,
+            freshness: attempt!(configuration.freshness.checked()),
+        })
+    }
+}
+
+impl<C, E: Elements, A: NutAngle> WithMemoryConstants<C, E, A> {
+    /// The friction coefficient's law at the temperature of this tick: computed anew where that changes.
+    #[inline(always)]
+    fn take_temperature<S: Sliding>(
+        &self,
+        state: &mut WithMemoryState<S, E, A>,
+        known: &WithMemoryKnown<S::Inputs, A::Reading>,
+    ) -> Faults {
+        let fade = &self.temperature;
+        let temperature = fade.at(known.temperature, known.temperature_age);
+        if temperature != state.temperature {
+            state.temperature = temperature;
+            state.at_temperature = state.coefficient.at_temperature(temperature);
+        }
+        Faults::NONE
+            .with(
+                !fade.is_temperature(known.temperature),
+                Faults::TEMPERATURE_RANGE,
+            )
+            .with(
+                !fade.holds(known.temperature_age),
+                Faults::TEMPERATURE_STALE,
+            )
+    }
+
+    /// The turn since the last sound reading, of which the balls take what is beyond the play.
+    #[inline(always)]
+    fn turn<S: Sliding>(
+        &self,
+        state: &mut WithMemoryState<S, E, A>,
+        reading: A::Reading,
+    ) -> (f32, Faults) {
+        let turn = self.angle.turn(&mut state.reading, reading);
+        let faults = Faults::NONE.with(!turn.is_measured(), Faults::ANGLE_NOT_VALID);
+        let turn = turn.angle();
+        state.moved += self.play.follow(&mut state.play, turn).turn;
+        (turn, faults)
+    }
+
+    /// See [`FrictionModel::between`](crate::FrictionModel::between).
+    #[inline(always)]
+    pub(crate) fn between<S: Sliding<Constants = C>>(
+        &self,
+        state: &mut WithMemoryState<S, E, A>,
+        reading: A::Reading,
+    ) -> S::Outputs {
+        let (turn, faults) = self.turn(state, reading);
+        self.follow(state, turn, state.inputs, faults)
+    }
+
+    /// Friction after a turn, between the limits of the last full friction.
+    #[inline(always)]
+    fn follow<S: Sliding<Constants = C>>(
+        &self,
+        state: &mut WithMemoryState<S, E, A>,
+        turn: f32,
+        inputs: S::Inputs,
+        faults: Faults,
+    ) -> S::Outputs {
+        let Some(full) = &state.full else {
+            return S::Outputs::SAFE.limited(f32::MAX, faults);
+        };
+        let limits = &state.limits;
+        let friction = self.elements.follow(&mut state.elements, turn, limits);
+        let limit = if friction < 0.0 {
+            limits.backward
+        } else {
+            limits.forward
+        };
+        let share = if limit > 0.0 { friction / limit } else { 0.0 };
+        let passage = Passage {
+            share,
+            way: if state.play.way() == 0.0 {
+                way(friction)
+            } else {
+                state.play.way()
+            },
+            standing: share.abs() < SLIDES,
+        };
+        let mut outputs = S::passed(&self.scene, inputs, full, passage);
+        let (torque, flags) = outputs.friction_and_faults();
+        *torque += state.churning;
+        *flags |= faults;
+        outputs
+    }
+}

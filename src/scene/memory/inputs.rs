@@ -1,0 +1,71 @@
+//! What the control interrupt knows of a scene with memory, and how old it may be.
+
+use crate::error::{Error, attempt, in_range};
+
+/// What the control interrupt knows of a scene with memory at a tick.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct WithMemoryInputs<I, R> {
+    /// Speed and loads. The friction coefficient follows this speed; the memory follows the angle.
+    pub scene: I,
+    /// Reading of the angle sensor.
+    pub reading: R,
+    /// Time since the loads were found, s; 0 where they are of this tick.
+    pub load_age: f32,
+    /// Temperature of the screw, K, 150 to 500.
+    pub temperature: f32,
+    /// Time since the temperature was found, s.
+    pub temperature_age: f32,
+}
+
+/// Inputs of which the scene's own are within their limits; `None` where one of them is no number.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WithMemoryKnown<I, R> {
+    pub(super) scene: Option<I>,
+    pub(super) reading: R,
+    pub(super) load_age: f32,
+    pub(super) temperature: f32,
+    pub(super) temperature_age: f32,
+}
+
+/// How old a load may be.
+///
+/// An age that is no number is too old; one below zero counts as none.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Freshness {
+    /// Age up to which a load counts as it is, s, 0 to 1e3.
+    pub load_hold: f32,
+    /// Time after that in which it fades to none, s, 1e-6 to 1e3.
+    pub load_fade: f32,
+}
+
+impl Freshness {
+    /// Loads of the last 10 ms as they are, which fade in 90 ms.
+    pub const DEFAULT: Self = Self {
+        load_hold: 0.01,
+        load_fade: 0.09,
+    };
+
+    /// These times, checked.
+    ///
+    /// # Errors
+    /// [`Error`] naming `load_hold` or `load_fade`.
+    pub const fn checked(self) -> Result<Self, Error> {
+        attempt!(in_range("load_hold", self.load_hold, 0.0, 1e3));
+        attempt!(in_range("load_fade", self.load_fade, 1e-6, 1e3));
+        Ok(self)
+    }
+
+    /// Part of a load of an age that counts: 1 while it is held, 0 once it has faded.
+    #[inline(always)]
+    pub(super) fn load_factor(&self, age: f32) -> f32 {
+        if age <= self.load_hold {
+            1.0
+        } else if age < self.load_hold + self.load_fade {
+            (self.load_hold + self.load_fade - age) / self.load_fade
+        } else {
+            0.0
+        }
+    }
+}

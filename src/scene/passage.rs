@@ -1,0 +1,83 @@
+//! How friction passes between its two directions, and what moves.
+
+use crate::error::{Error, attempt, in_range};
+use crate::math;
+
+/// Where friction is between its two directions in a tick.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Passage {
+    /// Part of full friction, -1 to 1, with the sign of the direction in which friction opposes motion.
+    pub share: f32,
+    /// -1 where the motion goes, or went last, in the negative direction, else 1.
+    pub way: f32,
+    /// Whether the mechanism stands: friction is between its two directions.
+    pub standing: bool,
+}
+
+/// Inputs of a scene that moves under loads.
+pub trait Motion: Copy + core::fmt::Debug + PartialEq {
+    /// Neither speed nor loads.
+    const STILL: Self;
+
+    /// Speed of the nut, rad/s, or of the carriage, m/s.
+    fn speed(&self) -> f32;
+
+    /// The same under these loads times a factor, with another speed.
+    #[must_use]
+    fn with(self, speed: f32, load_factor: f32) -> Self;
+}
+
+/// How friction passes through zero with the speed: as `w / sqrt(w^2 + w_s^2)`, 71 % at the reversal speed `w_s`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(super) struct Reversal {
+    speed: f32,
+    squared: f32,
+}
+
+impl Reversal {
+    /// With a reversal speed in the unit of the scene's speed.
+    ///
+    /// # Errors
+    /// [`Error`] naming `reversal_speed`.
+    pub(super) const fn new(
+        reversal_speed: f32,
+        minimum: f32,
+        maximum: f32,
+    ) -> Result<Self, Error> {
+        let speed = attempt!(in_range("reversal_speed", reversal_speed, minimum, maximum));
+        Ok(Self {
+            speed,
+            squared: speed * speed,
+        })
+    }
+
+    /// Part of full friction at a speed, -1 to 1, with the speed's sign.
+    #[inline(always)]
+    pub(super) fn direction(&self, speed: f32) -> f32 {
+        speed / math::sqrt(speed * speed + self.squared)
+    }
+
+    /// The passage at a speed; standstill counts as forward.
+    #[inline(always)]
+    pub(super) fn passage(&self, speed: f32) -> Passage {
+        Passage {
+            share: self.direction(speed),
+            way: way(speed),
+            standing: self.stands(speed),
+        }
+    }
+
+    /// Whether a speed is below the reversal speed, in either direction.
+    #[inline(always)]
+    pub(super) const fn stands(&self, speed: f32) -> bool {
+        speed.abs() < self.speed
+    }
+}
+
+/// -1 where a speed is negative, else 1.
+#[inline(always)]
+pub(super) const fn way(speed: f32) -> f32 {
+    if speed < 0.0 { -1.0 } else { 1.0 }
+}

@@ -1,0 +1,47 @@
+//! Full friction of a scene in both directions, apart from how friction passes between them: by the speed in a scene
+//! without memory, by the angle in one with it.
+
+use super::contract::Scene;
+use super::passage::{Motion, Passage};
+use crate::law::SlidingLimits;
+use crate::law::coefficient::DirectionalCoefficient;
+
+/// A scene whose full friction can be had apart from its passage through the reversal.
+///
+/// What [`WithMemory`](super::WithMemory) needs of a scene.
+pub trait Sliding: Scene<Known = <Self as Scene>::Inputs, Inputs: Motion> {
+    /// What friction coefficients beside the configuration's need: folded before the first tick.
+    type Coefficients: Copy + core::fmt::Debug + PartialEq;
+    /// Full friction in a tick, in both directions, with what else the tick found.
+    type Full: Copy;
+
+    /// What a friction coefficient between these two needs.
+    fn coefficients(constants: &Self::Constants, least: f32, largest: f32) -> Self::Coefficients;
+
+    /// Friction coefficient of the configuration.
+    fn friction(constants: &Self::Constants) -> f32;
+
+    /// Full friction with friction coefficients of ball and groove in both directions; balls move on by a tick. A speed of 0 counts as forward.
+    fn full(
+        constants: &Self::Constants,
+        state: &mut Self::State,
+        coefficients: &Self::Coefficients,
+        inputs: Self::Inputs,
+        friction: DirectionalCoefficient,
+    ) -> Self::Full;
+
+    /// Its sizes in both directions; the load is the axial load of a screw or the normal load of a bearing, N, preload
+    /// counted.
+    fn limits(full: &Self::Full) -> SlidingLimits;
+
+    /// What the scene puts out at this passage.
+    fn passed(
+        constants: &Self::Constants,
+        inputs: Self::Inputs,
+        full: &Self::Full,
+        passage: Passage,
+    ) -> Self::Outputs;
+
+    /// Speed of a turn (rad; m of a bearing) in a tick; of a scene that has no tick the speed that was measured.
+    fn speed_of(constants: &Self::Constants, turn: f32, measured: f32) -> f32;
+}
