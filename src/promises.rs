@@ -21,9 +21,12 @@ pub use promise::{Footprint, Promise};
 pub use steps::*;
 
 /// Promises of every `step()`, and of every function that a step calls.
-pub const STEPS: [Promise; 17] = [
+pub const STEPS: [Promise; 20] = [
     STEP_CAGED,
     STEP_CAGED_CHANGING,
+    STEP_CAGED_MEMORY,
+    BETWEEN,
+    SET_FRICTION,
     STEP_UNCAGED,
     STEP_LINEAR,
     SQRT,

@@ -33,7 +33,8 @@ use epas_friction::{
 
 use crate::peers::{LuGre, Stribeck};
 use crate::scenes::{
-    BALLS, ROW, SCREW_DEVIATION, caged_configuration, linear_configuration, uncaged_configuration,
+    BALLS, CagedMemory, ROW, SCREW_DEVIATION, caged_configuration, caged_memory_configuration,
+    linear_configuration, uncaged_configuration,
 };
 
 /// Everything that is set up once.
@@ -72,6 +73,8 @@ pub struct Contexts {
     pub rotary_ball: BallState,
     /// Caged ball screw.
     pub caged: FrictionModel<CagedBallScrew>,
+    /// The same with a memory, and a friction coefficient by speed and temperature.
+    pub caged_memory: FrictionModel<CagedMemory>,
     /// The same with a friction coefficient that changes.
     pub caged_changing: FrictionModel<CagedBallScrew>,
     /// Deviation of contact angles along a groove.
@@ -88,6 +91,8 @@ pub struct Contexts {
     pub train: Train<BALLS>,
     /// Ball screw without cage.
     pub uncaged: FrictionModel<UncagedBallScrew<BALLS>>,
+    /// The same, whose friction coefficient is set.
+    pub set: FrictionModel<UncagedBallScrew<BALLS>>,
     /// The same after turns under a falling load: most balls press on each other.
     pub pressing: FrictionModel<UncagedBallScrew<BALLS>>,
     /// Linear bearing.
@@ -193,6 +198,7 @@ impl Contexts {
                 .solve(&rotary.four_point().contacts(&rotary_nominal, &[100.0; 4])),
             rotary,
             caged: FrictionModel::new(&black_box(caged_configuration()?))?,
+            caged_memory: FrictionModel::new(&black_box(caged_memory_configuration()?))?,
             caged_changing: changing(FrictionModel::new(&black_box(caged_configuration()?))?)?,
             deviation: &SCREW_DEVIATION,
             screw_loop: screw_row.at(10.0, 100.0).per_speed(0.5, 2.0, (1.0, 1.0)),
@@ -201,6 +207,7 @@ impl Contexts {
             press: Press::new(),
             train: Train::evenly_spaced(0.2248, 0.00594)?,
             uncaged: FrictionModel::new(&black_box(uncaged_configuration()?))?,
+            set: FrictionModel::new(&black_box(uncaged_configuration()?))?,
             pressing: pressing(FrictionModel::new(&black_box(uncaged_configuration()?))?),
             carriage: FrictionModel::new(&black_box(linear_configuration()?))?,
             proportional: ProportionalElements::new(

@@ -472,7 +472,7 @@ fn a_reversal_every_tick_is_even() {
         }
     }
     sound_train(&screw.state().circuit.train).unwrap();
-    sound_train(&rail.state().train).unwrap();
+    sound_train(&rail.state().circuit.train).unwrap();
     // With deviations balls wander: a load that does not turn with the speed lays them against other
     // flanks. Without, they stay where they are.
     for (before, now) in start.iter().zip(even.state().circuit.train.positions()) {

@@ -612,7 +612,7 @@ proptest::proptest! {
         ];
         let mut faults = Faults::NONE;
         for flag in all {
-            if flags & flag.bits() != 0 {
+            if u16::from(flags) & flag.bits() != 0 {
                 faults |= flag;
             }
         }

@@ -11,6 +11,7 @@ mod faults;
 mod hal;
 mod laws;
 mod linear_scene;
+mod memory;
 mod promises;
 mod scene_constants;
 mod step_promises;
