@@ -254,7 +254,7 @@ impl<const N: usize> UncagedConstants<N> {
                 next.put(idle, UNLOADED);
             } else if ball.loaded() {
                 torque += ball.torque();
-                let speed = ball.follow(&self.ring, angle);
+                let speed = ball.free();
                 next.put(way * speed, load.impedance(ball));
             } else {
                 entered = Some(index);
