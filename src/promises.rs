@@ -9,17 +9,19 @@
 mod direct;
 mod footprints;
 mod kernels;
+mod law;
 mod promise;
 mod steps;
 
 pub use direct::*;
 pub use footprints::{FOOTPRINTS, STEP_SPREAD};
 pub use kernels::*;
+pub use law::*;
 pub use promise::{Footprint, Promise};
 pub use steps::*;
 
 /// Promises of every `step()`, and of every function that a step calls.
-pub const STEPS: [Promise; 11] = [
+pub const STEPS: [Promise; 17] = [
     STEP_CAGED,
     STEP_CAGED_CHANGING,
     STEP_UNCAGED,
@@ -31,6 +33,12 @@ pub const STEPS: [Promise; 11] = [
     SCREW_RENEWAL,
     TRAIN,
     PRESS,
+    MEMORY,
+    MEMORY_LOAD_EXACT,
+    MEMORY_SEAT,
+    TURN_OF_COUNTS,
+    TURN_OF_ANGLES,
+    PLAY,
 ];
 
 /// Promises of functions that firmware calls by their names.

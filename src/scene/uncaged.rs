@@ -17,6 +17,7 @@ use crate::ball::elastic::ring::Ring;
 use crate::ball::{Clearance, GrooveFit, LoadShare, ScrewRow};
 use crate::error::{Error, attempt};
 use crate::law::SlidingLimits;
+use crate::law::coefficient::DirectionalCoefficient;
 use crate::ranges;
 
 pub use configuration::UncagedBallScrewConfiguration;
@@ -143,21 +144,22 @@ impl<const N: usize> Sliding for UncagedBallScrew<N> {
         state: &mut UncagedState<N>,
         (): &(),
         inputs: Inputs,
-        friction: f32,
+        friction: DirectionalCoefficient,
     ) -> UncagedFull {
-        state.ring.take_friction(friction);
+        state.ring.take_friction(friction.of(inputs.nut_speed).0);
         let mut full = constants.full(state, inputs);
         full.groove *= state.ring.friction_ahead();
+        full.ways = friction.over_own(inputs.nut_speed);
         full
     }
 
-    /// Both directions have the friction of that in which the balls go.
+    /// Both directions have the friction of that in which the balls go, times their friction coefficients.
     #[inline(always)]
     fn limits(full: &UncagedFull) -> SlidingLimits {
-        let both = full.groove + full.ball;
+        let [forward, backward] = full.ways;
         SlidingLimits {
-            forward: both,
-            backward: both,
+            forward: forward * full.groove + full.ball,
+            backward: backward * full.groove + full.ball,
             load: full.load,
         }
     }
@@ -252,7 +254,7 @@ impl<const N: usize> UncagedConstants<N> {
                 next.put(idle, UNLOADED);
             } else if ball.loaded() {
                 torque += ball.torque();
-                let speed = ball.follow(&self.ring, angle);
+                let speed = ball.free();
                 next.put(way * speed, load.impedance(ball));
             } else {
                 entered = Some(index);
@@ -275,6 +277,7 @@ impl<const N: usize> UncagedConstants<N> {
         UncagedFull {
             groove,
             ball: self.ball_friction * rubbing,
+            ways: [1.0; 2],
             load: load.axial_size(&self.ring) * self.balls,
             contacts: pressing.contacts,
             largest_contact_force: pressing.largest,

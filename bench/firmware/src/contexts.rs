@@ -14,6 +14,14 @@ use epas_friction::efficiency::EfficiencyGeometry;
 use epas_friction::geometry::Groove;
 use epas_friction::hertz::HertzContact;
 use epas_friction::kinematics::{ContactKinematics, KinematicsParameters};
+use epas_friction::law::Elements;
+use epas_friction::law::memory::{
+    LoadExactElements, MemoryState, Part, ProportionalElements, SLIP_8, SeatElement, SeatState,
+};
+use epas_friction::law::motion::{
+    AngleReading, CountReading, CountSensor, CountSensorParameters, NutAngle, Play, PlayState,
+    WrappedAngle, WrappedAngleParameters,
+};
 use epas_friction::refined::{
     BallChain, BallState, FourPointBall, RotaryBall, RotaryBallParameters,
 };
@@ -84,6 +92,30 @@ pub struct Contexts {
     pub pressing: FrictionModel<UncagedBallScrew<BALLS>>,
     /// Linear bearing.
     pub carriage: FrictionModel<LinearBearingTrain<ROW>>,
+    /// Elements in proportion.
+    pub proportional: ProportionalElements<8>,
+    /// What they remember.
+    pub proportional_state: MemoryState<8>,
+    /// Elements that touch by load.
+    pub load_exact: LoadExactElements<8>,
+    /// What they remember.
+    pub load_exact_state: MemoryState<8>,
+    /// A seat with free play.
+    pub seat: SeatElement,
+    /// Where it is.
+    pub seat_state: SeatState,
+    /// Counts of an encoder.
+    pub counts: CountSensor,
+    /// The last one.
+    pub last_count: CountReading,
+    /// Angle in radians.
+    pub angles: WrappedAngle,
+    /// The last one.
+    pub last_angle: AngleReading,
+    /// A backlash.
+    pub play: Play,
+    /// Where it is.
+    pub play_state: PlayState,
     /// What others run.
     pub lugre: LuGre,
 }
@@ -171,6 +203,33 @@ impl Contexts {
             uncaged: FrictionModel::new(&black_box(uncaged_configuration()?))?,
             pressing: pressing(FrictionModel::new(&black_box(uncaged_configuration()?))?),
             carriage: FrictionModel::new(&black_box(linear_configuration()?))?,
+            proportional: ProportionalElements::new(
+                black_box(0.04),
+                &[Part {
+                    backbone: &SLIP_8.elements,
+                    share: 1.0,
+                    breakaway_angle: 2e-3,
+                }],
+            )?,
+            proportional_state: ProportionalElements::VIRGIN,
+            load_exact: LoadExactElements::new(black_box(0.04), 2e-3, 4.0)?,
+            load_exact_state: LoadExactElements::VIRGIN,
+            seat: SeatElement::new(black_box(0.04), 1e-3, 2e-3)?,
+            seat_state: SeatElement::VIRGIN,
+            counts: CountSensor::new(CountSensorParameters {
+                period: black_box(16_384),
+                turn_per_count: core::f32::consts::TAU / 16_384.0,
+                largest_turn: 1.0,
+            })?,
+            last_count: CountSensor::FRESH,
+            angles: WrappedAngle::new(WrappedAngleParameters {
+                lowest: black_box(0.0),
+                period: core::f32::consts::TAU,
+                largest_turn: 1.0,
+            })?,
+            last_angle: WrappedAngle::FRESH,
+            play: Play::new(black_box(1e-3))?,
+            play_state: PlayState::FRESH,
             lugre: black_box(LuGre {
                 stribeck: Stribeck {
                     coulomb: 0.3,

@@ -18,6 +18,13 @@ use epas_friction::efficiency::EfficiencyGeometry;
 use epas_friction::geometry::ContactAngle;
 use epas_friction::hertz::{ContactEllipse, HertzContact};
 use epas_friction::kinematics::{BallKinematics, ContactKinematics, EllipticContact, SlipRatios};
+use epas_friction::law::memory::{
+    LoadExactElements, MemoryState, ProportionalElements, SeatElement, SeatState,
+};
+use epas_friction::law::motion::{
+    AngleReading, CountReading, CountSensor, NutAngle, Play, PlayState, WrappedAngle,
+};
+use epas_friction::law::{Elements, SlidingLimits};
 use epas_friction::refined::{BallChain, BallState, FourPointBall, RotaryBall};
 use epas_friction::train::{Press, Train};
 use epas_friction::{
@@ -197,6 +204,42 @@ counted! {
         model: &mut FrictionModel<CagedBallScrew>, nut_speed: f32, axial_load: f32
     ) -> Outputs {
         model.step(Inputs { nut_speed, axial_load })
+    }
+
+    /// One tick of elements in proportion.
+    fn count_memory_8(
+        elements: &ProportionalElements<8>, state: &mut MemoryState<8>, turn: f32, limits: &SlidingLimits
+    ) -> f32 {
+        elements.follow(state, turn, limits)
+    }
+
+    /// One tick of elements that touch by load.
+    fn count_memory_load_exact_8(
+        elements: &LoadExactElements<8>, state: &mut MemoryState<8>, turn: f32, limits: &SlidingLimits
+    ) -> f32 {
+        elements.follow(state, turn, limits)
+    }
+
+    /// One tick of a seat.
+    fn count_memory_seat(
+        seat: &SeatElement, state: &mut SeatState, turn: f32, limits: &SlidingLimits
+    ) -> f32 {
+        seat.follow(state, turn, limits)
+    }
+
+    /// Turn between two counts of an encoder.
+    fn count_turn_of_counts(sensor: &CountSensor, last: &mut CountReading, reading: u32) -> f32 {
+        sensor.turn(last, reading).angle()
+    }
+
+    /// Turn between two angles.
+    fn count_turn_of_angles(sensor: &WrappedAngle, last: &mut AngleReading, reading: f32) -> f32 {
+        sensor.turn(last, reading).angle()
+    }
+
+    /// What a play lets through.
+    fn count_play(play: &Play, state: &mut PlayState, turn: f32) -> f32 {
+        play.follow(state, turn).turn
     }
 
     /// Deviation of a contact angle along a groove.

@@ -13,6 +13,7 @@
 //! | [`elements`] | a few elements in place of either, with the energy that they store |
 //! | [`tables`] | angles and shares of elements that follow a backbone |
 //! | [`brush`] | bristles on a contact ellipse with slip across and spin, at rest and rolling |
+//! | [`physics`] | stiffness of a contact, and breakaway of a screw, from first principles |
 //! | [`answers`] | torques over a path, as asked for by a request or a stored case |
 //!
 //! Units: an angle is one over the breakaway angle of gross slip across, a torque one over the limit under the reference load, a load one
@@ -24,6 +25,7 @@ pub mod brush;
 pub mod elements;
 pub mod load_exact;
 pub mod masing;
+pub mod physics;
 pub mod tables;
 
 /// Limits of sliding at a tick, over the limit under the reference load.

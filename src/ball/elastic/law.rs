@@ -22,7 +22,7 @@ pub(crate) struct RingConstants {
     pub(super) fastest: f32,
 }
 
-/// One ball: 40 bytes. Lengths over the ball radius, speeds over the nut's.
+/// One ball: 36 bytes. Lengths over the ball radius, speeds over the nut's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(crate) struct RingBall {
@@ -30,8 +30,6 @@ pub(crate) struct RingBall {
     pub(super) turning: [f32; 3],
     /// Speed without forces of neighbours less the nominal one, over the nominal one against the nut.
     pub(super) free: f32,
-    /// Its change with the nut's angle, 1/rad.
-    pub(super) slope: f32,
     /// Force along the track that changes this by one, over the power 2/3 of the load; 0 of a ball without load.
     pub(super) impedance: f32,
     /// Friction torque on the nut over the power 7/6 of the load.
@@ -144,7 +142,7 @@ impl RingLoad {
 }
 
 impl RingBall {
-    /// Keeps what a renewal found.
+    /// Keeps what a renewal found, with a free speed within `fastest`.
     #[inline(always)]
     pub(super) fn keep(
         &mut self,
@@ -153,6 +151,7 @@ impl RingBall {
         settled: &Settled,
         found: &Renewal,
         forces: &Neighbours,
+        fastest: f32,
     ) {
         let force = forces.behind - forces.ahead;
         let radius = constants.ball.grooves.ball_radius;
@@ -162,16 +161,15 @@ impl RingBall {
             (settled.speed - constants.nominal) * constants.per_reference - force / impedance;
         self.place = settled.place;
         self.turning = settled.turning;
-        self.free = between(free, -constants.fastest, constants.fastest);
+        self.free = between(free, -fastest, fastest);
         self.impedance = impedance * load.per_two_thirds;
         self.torque = constants.ball.torque(found) * load.per_seven_sixths;
     }
 
-    /// Free speed at this tick, over the nominal one against the nut; it follows the nut's angle.
+    /// Free speed, over the nominal one against the nut.
     #[inline(always)]
-    pub(crate) fn follow(&mut self, constants: &RingConstants, angle: f32) -> f32 {
-        self.free += self.slope * angle;
-        between(self.free, -constants.fastest, constants.fastest)
+    pub(crate) const fn free(&self) -> f32 {
+        self.free
     }
 
     /// Friction torque over the power 7/6 of the load.

@@ -2,6 +2,7 @@
 
 use super::law::{Neighbours, RingBall, RingConstants, RingLoad, between};
 use super::renewal::{BallInputs, Settled};
+use crate::train::LARGEST_FREE_SPEED;
 
 /// Axial load of a ball below which it counts as this, N.
 const SMALLEST_LOAD: f32 = 1e-3;
@@ -40,9 +41,6 @@ const STIFFER: f32 = 16.0;
 
 /// Load that a ball's contacts carry over what it should be, and the inverse, from which on it begins anew.
 const FAR: f32 = 4.0;
-
-/// Change of a ball's speed in a round over the largest deviation of speed from which on it is no drift.
-const DRIFT: f32 = 0.25;
 
 /// Balls that are renewed in turn.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -89,7 +87,6 @@ impl<const N: usize> Ring<N> {
             place: fresh.place,
             turning: fresh.turning,
             free: 0.0,
-            slope: 0.0,
             impedance: 1.0,
             torque: 0.0,
         };
@@ -101,7 +98,14 @@ impl<const N: usize> Ring<N> {
                 fresh = constants.ball.grooves.start(&inputs);
                 continue;
             }
-            ball.keep(constants, &load, &fresh, &found, &Neighbours::NONE);
+            ball.keep(
+                constants,
+                &load,
+                &fresh,
+                &found,
+                &Neighbours::NONE,
+                LARGEST_FREE_SPEED,
+            );
         }
         Self {
             balls: [ball; N],
@@ -244,9 +248,8 @@ impl<const N: usize> Ring<N> {
             self.friction,
             self.clearance,
         ));
-        for ball in &mut self.balls {
-            ball.slope = 0.0;
-            if mirrored {
+        if mirrored {
+            for ball in &mut self.balls {
                 ball.free = -ball.free;
             }
         }
@@ -293,6 +296,12 @@ impl<const N: usize> Ring<N> {
     ) {
         let force = forces.behind - forces.ahead;
         let is_nominal = index >= N;
+        // Play turns the contacts of all balls; how far a ball deviates is known for a screw without.
+        let fastest = between(
+            constants.fastest + self.nominal.free.abs(),
+            0.0,
+            LARGEST_FREE_SPEED,
+        );
         let ball = self.balls.get_mut(index).unwrap_or(&mut self.nominal);
         self.settling = self.settling.saturating_sub(1);
         let (place, turning) = if self.stale > 0 {
@@ -332,22 +341,18 @@ impl<const N: usize> Ring<N> {
             (ball.place, ball.turning) = (place, turning);
             return;
         }
-        let before = ball.free;
-        ball.keep(constants, load, &settled, &found, forces);
+        let fastest = if is_nominal {
+            LARGEST_FREE_SPEED
+        } else {
+            fastest
+        };
+        ball.keep(constants, load, &settled, &found, forces, fastest);
         // A ball is stiffer than a nominal one by a factor at most.
         let nominal = self.nominal.impedance;
         let ball = self.balls.get_mut(index).unwrap_or(&mut self.nominal);
         if !is_nominal {
             ball.impedance = between(ball.impedance, nominal * (1.0 / STIFFER), nominal * STIFFER);
         }
-        // The slope is that of a whole round between two renewals.
-        let change = ball.free - before;
-        let drifts = change.abs() < DRIFT * constants.fastest;
-        ball.slope = if drifts && self.last_round.abs() > 1e-4 && self.stale == 0 && !is_nominal {
-            ball.slope + change / self.last_round
-        } else {
-            0.0
-        };
     }
 
     /// The load for which balls are renewed, once a round is over.

@@ -54,6 +54,24 @@ impl TemperatureFade {
         })
     }
 
+    /// Whether a reading, K, is a temperature of a lubricant.
+    #[must_use]
+    pub const fn is_temperature(&self, temperature: f32) -> bool {
+        TEMPERATURE.contains(temperature)
+    }
+
+    /// Whether a reading of an age, s, counts as it is.
+    #[must_use]
+    pub const fn holds(&self, age: f32) -> bool {
+        age <= self.hold
+    }
+
+    /// The fallback, K.
+    #[must_use]
+    pub const fn fallback(&self) -> f32 {
+        self.fallback
+    }
+
     /// Temperature to take, K, from the last reading, K, and its age, s. A reading that is no temperature of a lubricant (150
     /// to 500 K), or an age that is no number, gives the fallback; an age below 0 is a fresh reading.
     #[must_use]

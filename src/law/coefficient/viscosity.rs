@@ -51,14 +51,15 @@ pub struct OilData {
 ///
 /// | oil | 0 to 100 C | -20 to 120 C | -40 to 120 C |
 /// |---|---|---|---|
-/// | Vogel, 0.088 and 0.0095 Pa s, pole at -150 C | 8.3 % | 15 % | 16 % |
-/// | the same, `T_s` fitted over -20 to 120 C (-64 C) | 5.4 % | 7.9 % | 26 % |
-/// | Walther, 100 and 11.2 mm²/s (mineral, viscosity index 98) | 37 % | 70 % | 98 % |
-/// | Walther, 100 and 14.5 mm²/s (synthetic, viscosity index 150) | 27 % | 54 % | 90 % |
+/// | Vogel, 0.088 and 0.0095 Pa s, its pole at -150 C | 12 % | 16 % | 16 % |
+/// | the same, `T_s` fitted over -20 to 120 C (-64 C) | 5 % | 6 % | 87 % |
+/// | Walther, 100 and 11.2 mm²/s (mineral, viscosity index 98) | 43 % | 67 % | 81 % |
+/// | Walther, 100 and 14.5 mm²/s (synthetic, viscosity index 150) | 35 % | 59 % | 77 % |
 ///
-/// Walther's oils are stiffer in the cold than the formula. A coefficient follows viscosity weakly: twice the viscosity shifts
-/// it by at most 0.17 of the difference of both coefficients. Where cold matters, take [`Viscosity::through`] with the
-/// temperatures that matter: through 0 and 40 degrees the mineral oil of the table is within 32 % from -20 to 60 degrees.
+/// Walther's oils are stiffer in the cold than the formula, three times at -20 degrees. A coefficient follows viscosity weakly:
+/// twice the viscosity shifts it by at most 0.17 of the difference of both coefficients, three times by 0.27. Where cold matters,
+/// take [`Viscosity::through`] with the temperatures that matter: through 0 and 40 degrees the mineral oil of the table is within
+/// 20 % from -20 to 60 degrees.
 ///
 /// ```
 /// use epas_friction::law::coefficient::{OilData, Viscosity};

@@ -2,7 +2,7 @@
 
 use super::hysteresis::Hysteresis;
 use super::quadrature::Rule;
-use super::slider::{excess, held, not_negative, turned};
+use super::slider::{held, not_negative, sum, turned};
 use super::state::MemoryState;
 use super::{BREAKAWAY, REFERENCE_LIMIT};
 use crate::error::{Error, Range, attempt};
@@ -113,8 +113,8 @@ impl<const N: usize> Elements for LoadExactElements<N> {
         let backward = -not_negative(limits.backward);
         let load = not_negative(limits.load);
         let load = if load < BOUNDLESS { load } else { BOUNDLESS };
-        let (borne, sum) = self.borne(cbrt_squared(load));
-        let share = if sum > 0.0 { excess(N) / sum } else { 0.0 };
+        let (borne, whole) = self.borne(cbrt_squared(load));
+        let share = if whole > 0.0 { 1.0 / whole } else { 0.0 };
         let (high, low) = (share * forward, share * backward);
         let mut friction = 0.0;
         let elements = self.stiffnesses.iter().zip(&borne);
@@ -122,7 +122,7 @@ impl<const N: usize> Elements for LoadExactElements<N> {
             *torque = held(*torque + stiffness * turn, borne * low, borne * high);
             friction += *torque;
         }
-        held(friction, backward, forward)
+        sum(friction, N, backward, forward)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::backbone::BackboneElement;
 use super::hysteresis::Hysteresis;
-use super::slider::{excess, held, not_negative, turned};
+use super::slider::{held, not_negative, sum, turned};
 use super::state::MemoryState;
 use super::{BREAKAWAY, REFERENCE_LIMIT};
 use crate::error::{Error, attempt, in_range};
@@ -103,7 +103,7 @@ impl<const N: usize> ProportionalElements<N> {
         attempt!(in_range("shares", sum, 0.999, 1.001));
         let mut index = 0;
         while index < N {
-            shares[index] = shares[index] / sum * excess(N);
+            shares[index] /= sum;
             stiffnesses[index] /= sum;
             index += 1;
         }
@@ -141,7 +141,7 @@ impl<const N: usize> Elements for ProportionalElements<N> {
             );
             friction += *torque;
         }
-        held(friction, backward, forward)
+        sum(friction, N, backward, forward)
     }
 }
 

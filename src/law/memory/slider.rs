@@ -21,12 +21,23 @@ pub(super) fn turned(turn: f32) -> f32 {
     if turn.is_nan() { 0.0 } else { turn }
 }
 
-/// How much over 1 the shares of `count` elements add up to, so that rounding cannot leave the sum of full sliding
-/// below the limit; the sum is then cut to the limit.
+/// The sum of `count` elements: the limit itself where all of them slide, whatever rounding has made of their sum.
 ///
-/// `2^-24` for each addition, and six for the roundings of a share, its product and the excess itself.
-pub(super) const fn excess(count: usize) -> f32 {
-    1.0 + 0.5 * f32::EPSILON * (count as f32 + 6.0)
+/// Rounding takes from the sum at most `2^-24` for each addition, and five for the roundings of a share (three), its
+/// product and the comparison. A sum as near to the limit without all elements sliding is off by as little.
+#[inline(always)]
+pub(super) fn sum(friction: f32, count: usize, low: f32, high: f32) -> f32 {
+    let almost = 1.0 - 0.5 * f32::EPSILON * (count as f32 + 4.0);
+    let friction = if friction < almost * high {
+        friction
+    } else {
+        high
+    };
+    if friction > almost * low {
+        friction
+    } else {
+        low
+    }
 }
 
 /// How much of the limit `friction` leaves: 1 at no friction, 0 in full sliding, and 0 without a limit.
