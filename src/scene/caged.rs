@@ -3,6 +3,7 @@
 mod closed_form;
 mod contacts;
 mod full;
+mod stored;
 
 use super::contract::{Admitted, Inputs, Limits, Scene, SceneOutputs};
 use super::faults::Faults;

@@ -54,8 +54,8 @@ pub struct Part<'a> {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ProportionalElements<const N: usize> {
-    stiffnesses: [f32; N],
-    shares: [f32; N],
+    pub(super) stiffnesses: [f32; N],
+    pub(super) shares: [f32; N],
     reference_limit: f32,
 }
 

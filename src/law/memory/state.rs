@@ -3,7 +3,7 @@
 use crate::error::{Error, attempt, in_range};
 
 /// Largest torque of an element that a state may hold, N m or N.
-const LARGEST: f32 = 1e12;
+pub(super) const LARGEST: f32 = 1e12;
 
 /// The friction that each of `N` elements carries.
 #[derive(Clone, Copy, Debug, PartialEq)]
