@@ -17,6 +17,7 @@ mod angle;
 mod counts;
 mod play;
 mod speed;
+mod stored;
 mod turn;
 
 pub use angle::{AngleReading, WrappedAngle, WrappedAngleParameters};
