@@ -1,7 +1,7 @@
 //! Every law that is compared, with its constants.
 
 use epas_friction::law::memory::{SLIP_4, SLIP_6, SLIP_8, SLIP_10};
-use epas_reference::presliding::tables::Table;
+use epas_reference::presliding::tables;
 
 use super::dahl::{Explicit, Implicit};
 use super::elasto_plastic::ElastoPlastic;
@@ -169,9 +169,14 @@ pub fn ours() -> Vec<Candidate> {
         Candidate::ours("this crate, 6 elements", Cycles::expected("141"), || {
             remembered::proportional(&SLIP_6.elements)
         }),
-        Candidate::ours("this crate, 8 elements", Cycles::expected("185"), || {
-            remembered::proportional(&SLIP_8.elements)
-        }),
+        Candidate::ours(
+            "this crate, 8 elements",
+            Cycles {
+                counted: Some("memory_8"),
+                expected: "185",
+            },
+            || remembered::proportional(&SLIP_8.elements),
+        ),
         Candidate::ours("this crate, 10 elements", Cycles::expected("229"), || {
             remembered::proportional(&SLIP_10.elements)
         }),
@@ -183,9 +188,6 @@ pub fn under_load(largest_load: f64) -> Vec<(&'static str, Result<Box<dyn Law>, 
     let checked = |law: Result<Box<dyn Law>, epas_friction::Error>| {
         law.map_err(|error| Failure::Data(error.to_string()))
     };
-    let multiplied = Table::named("slip8")
-        .map(Multiplied::new)
-        .ok_or_else(|| Failure::Data("no table slip8".into()));
     vec![
         (
             "in proportion, 8",
@@ -193,7 +195,7 @@ pub fn under_load(largest_load: f64) -> Vec<(&'static str, Result<Box<dyn Law>, 
         ),
         (
             "multiplied, 8",
-            multiplied.map(|law| Box::new(law) as Box<dyn Law>),
+            Ok(Box::new(Multiplied::new(&tables::SLIP_8))),
         ),
         (
             "load-exact, 4",
