@@ -1,9 +1,9 @@
 //! `presliding`: friction with a memory along a path of angles.
 //!
-//! `exact` is what the elements stand for: Masing's rules by a stack of turning points where limits are constant; under load-exact limits
-//! 4000 elements, as the stored cases were made with, within 7e-7 of the closed form there
-//! ([`answers`](epas_reference::presliding::answers)).
+//! `exact` is what the elements stand for: Masing's rules by a stack of turning points where limits are constant; with load-exact elements the answer of
+//! 4000 of them, as the stored cases were made with, within 7e-7 of the closed form there (`epas_reference::presliding::load_exact`).
 
+use std::iter::repeat;
 use std::num::NonZeroUsize;
 
 use epas_friction::law::SlidingLimits;
@@ -12,15 +12,12 @@ use epas_friction::law::memory::{
     SLIP_8, SLIP_10, SPIN_4, SPIN_6, SPIN_8, SPIN_10,
 };
 use epas_reference::presliding::Limits;
-use epas_reference::presliding::answers::{self, Answers, answers};
-use epas_reference::presliding::tables::{self, Table};
+use epas_reference::presliding::answers::{Form as Asked, Path as Ticks, answers};
+use epas_reference::presliding::tables::Table;
 use serde::Serialize;
 
 use super::answer::Answer;
 use super::fields::{BadField, Fields, in_range};
-
-/// Load-exact elements of a request.
-const EIGHT: NonZeroUsize = NonZeroUsize::new(8).unwrap();
 
 /// Most values of `angle`.
 const LONGEST: usize = 100_000;
@@ -28,16 +25,16 @@ const LONGEST: usize = 100_000;
 /// Most that an angle may be, over the breakaway angle; and a load and a limit, over the reference.
 const LARGEST: f64 = 1e6;
 
-/// Every table by its name, the crate's and the reference's.
-const TABLES: [(&str, (&[BackboneElement], Table)); 8] = [
-    ("slip4", (&SLIP_4.elements, tables::SLIP_4)),
-    ("slip6", (&SLIP_6.elements, tables::SLIP_6)),
-    ("slip8", (&SLIP_8.elements, tables::SLIP_8)),
-    ("slip10", (&SLIP_10.elements, tables::SLIP_10)),
-    ("spin4", (&SPIN_4.elements, tables::SPIN_4)),
-    ("spin6", (&SPIN_6.elements, tables::SPIN_6)),
-    ("spin8", (&SPIN_8.elements, tables::SPIN_8)),
-    ("spin10", (&SPIN_10.elements, tables::SPIN_10)),
+/// Every table by its name.
+const TABLES: [(&str, &[BackboneElement]); 8] = [
+    ("slip4", &SLIP_4.elements),
+    ("slip6", &SLIP_6.elements),
+    ("slip8", &SLIP_8.elements),
+    ("slip10", &SLIP_10.elements),
+    ("spin4", &SPIN_4.elements),
+    ("spin6", &SPIN_6.elements),
+    ("spin8", &SPIN_8.elements),
+    ("spin10", &SPIN_10.elements),
 ];
 
 #[derive(Clone, Copy)]
@@ -52,16 +49,17 @@ struct Torques {
 }
 
 #[derive(Serialize)]
-struct Reference {
+struct Exact {
     torque: Vec<f64>,
-    /// None where elements in proportion follow a load.
     exact: Option<Vec<f64>>,
 }
+
+/// Elements of the load-exact form.
+const BY_LOAD: NonZeroUsize = NonZeroUsize::new(8).unwrap();
 
 /// Angles over the breakaway angle, loads over the reference, one a tick; and either limit over the load.
 struct Path {
     angles: Vec<f64>,
-    /// None for the reference load throughout.
     loads: Option<Vec<f64>>,
     limit_ratio: [f64; 2],
 }
@@ -72,14 +70,12 @@ impl Path {
         for &angle in &angles {
             in_range("angle", angle, -LARGEST, LARGEST)?;
         }
-        let loads = match fields.optional_list("load", LONGEST)? {
-            Some(loads) if loads.len() == angles.len() => Some(loads),
-            Some(loads) => {
-                let message = format!("{} values; angle has {}", loads.len(), angles.len());
-                return Err(BadField::new("load", message));
-            }
-            None => None,
-        };
+        let loads = fields.optional_list("load", LONGEST)?;
+        let given = loads.as_ref().map_or(angles.len(), Vec::len);
+        if given != angles.len() {
+            let message = format!("{given} values; angle has {}", angles.len());
+            return Err(BadField::new("load", message));
+        }
         for &load in loads.iter().flatten() {
             in_range("load", load, 0.0, LARGEST)?;
         }
@@ -94,12 +90,26 @@ impl Path {
         })
     }
 
+    /// Friction at each angle, by the reference.
+    fn exact(&self, form: &Asked) -> Exact {
+        let [forward, backward] = self.limit_ratio;
+        let ticks = Ticks {
+            angle: &self.angles,
+            load: self.loads.as_deref(),
+            ratio: Limits { forward, backward },
+        };
+        let found = answers(&ticks, form);
+        Exact {
+            torque: found.torque,
+            exact: found.exact,
+        }
+    }
+
     /// Friction at each angle, by the crate: turns are differences of angles.
     fn torques<E: Hysteresis>(&self, elements: &E) -> Torques {
         let mut state = E::VIRGIN;
-        let loads = self.loads.as_deref().unwrap_or(&[]).iter().skip(1);
-        let loads = loads.copied().chain(std::iter::repeat(1.0));
-        let ticks = self.angles.windows(2).zip(loads);
+        let loads = self.loads.iter().flatten().copied().skip(1);
+        let ticks = self.angles.windows(2).zip(loads.chain(repeat(1.0)));
         let torques = ticks.map(|(angles, load)| {
             let [forward, backward] = self.limit_ratio.map(|ratio| (ratio * load) as f32);
             let limits = SlidingLimits {
@@ -113,18 +123,6 @@ impl Path {
         Torques {
             torque: std::iter::once(0.0).chain(torques).collect(),
         }
-    }
-
-    /// Friction at each angle, by the reference.
-    fn reference(&self, form: &answers::Form) -> Reference {
-        let [forward, backward] = self.limit_ratio;
-        let path = answers::Path {
-            angle: &self.angles,
-            load: self.loads.as_deref(),
-            ratio: Limits { forward, backward },
-        };
-        let Answers { torque, exact } = answers(&path, form);
-        Reference { torque, exact }
     }
 
     fn proportional(&self, backbone: &[BackboneElement]) -> Result<Torques, BadField> {
@@ -144,31 +142,31 @@ impl Path {
 
 /// Answers one request.
 pub fn evaluate(mut fields: Fields) -> Result<Answer, BadField> {
-    let form = fields.choice(
-        "form",
-        &[
-            ("proportional", Form::Proportional),
-            ("load_exact", Form::LoadExact),
-        ],
-    )?;
+    let forms = [
+        ("proportional", Form::Proportional),
+        ("load_exact", Form::LoadExact),
+    ];
+    let form = fields.choice("form", &forms)?;
     let path = Path::take(&mut fields)?;
-    let (in_loop, reference) = match form {
+    match form {
         Form::Proportional => {
-            let (backbone, table) = fields.choice("table", &TABLES)?;
+            let names = TABLES.map(|(name, elements)| (name, (name, elements)));
+            let (name, elements) = fields.choice("table", &names)?;
             fields.finish()?;
-            let form = answers::Form::Proportional(table);
-            (path.proportional(backbone)?, path.reference(&form))
+            let table = Table::named(name)
+                .ok_or_else(|| BadField::new("table", "is unknown to the reference"))?;
+            let in_loop = path.proportional(elements)?;
+            Answer::both(&in_loop, &path.exact(&Asked::Proportional(table)))
         }
         Form::LoadExact => {
             let largest_load = fields.number("largest_load")?;
             fields.finish()?;
             let elements = LoadExactElements::<8>::new(1.0, 1.0, largest_load as f32)?;
-            let form = answers::Form::LoadExact {
-                count: EIGHT,
+            let asked = Asked::LoadExact {
+                count: BY_LOAD,
                 largest_load,
             };
-            (path.torques(&elements), path.reference(&form))
+            Answer::both(&path.torques(&elements), &path.exact(&asked))
         }
-    };
-    Answer::both(&in_loop, &reference)
+    }
 }
