@@ -231,19 +231,19 @@ pub fn errors_under_load(
     let course = Course::random(2, amplitude, 0.5 * amplitude, Some(loads));
     let truth = exact_under_load(&course.path());
     let size = rms(&truth, &vec![0.0; truth.len()]);
-    under_load(loads.1)
-        .into_iter()
-        .map(|(name, law)| {
-            let found = torques(law?.as_mut(), &course.path());
-            Ok((name, rms(&found, &truth) / size))
+    let laws = under_load(loads.1)?.into_iter();
+    Ok(laws
+        .map(|mut entry| {
+            let found = torques(entry.law.as_mut(), &course.path());
+            (entry.name, rms(&found, &truth) / size)
         })
-        .collect()
+        .collect())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::peers::candidates::{best, ours, published};
+    use crate::peers::candidates::{LOAD_EXACT, MULTIPLIED, PROPORTIONAL, best, ours, published};
 
     /// What is expected of a law: areas in per cent, rms over random strokes in per cent, openings, drift.
     struct Expected {
@@ -373,10 +373,12 @@ mod tests {
 
     #[test]
     fn multiplied_bristles_give_out_energy_and_elements_do_not() {
-        for ((name, one), (_, other)) in under_load(3.0).into_iter().zip(under_load(1.8)) {
-            let least = least_loss(one.unwrap().as_mut(), 200_000);
-            let work = work_of_a_load_cycle(other.unwrap().as_mut());
-            if name == "multiplied, 8" {
+        let laws = under_load(3.0).unwrap().into_iter();
+        for (mut one, mut other) in laws.zip(under_load(1.8).unwrap()) {
+            let name = one.name;
+            let least = least_loss(one.law.as_mut(), 200_000);
+            let work = work_of_a_load_cycle(other.law.as_mut());
+            if name == MULTIPLIED {
                 // Known: 0.035 of limit times breakaway angle a cycle.
                 assert!((work + 0.035).abs() < 0.001, "{work}");
                 assert!(least < -0.28, "{least}");
@@ -414,15 +416,14 @@ mod tests {
                     "{loads:?} {amplitude}: {found} {known}"
                 );
             };
-            near(of("in proportion, 8"), proportional[index], 1.6);
-            near(of("load-exact, 8"), load_exact[index], 2.3);
-            near(of("multiplied, 8"), multiplied[index], 2.6);
-            assert!(of("multiplied, 8") > of("load-exact, 8"));
-            assert!(of("multiplied, 8") > of("in proportion, 8"));
+            near(of(PROPORTIONAL), proportional[index], 1.6);
+            near(of(LOAD_EXACT), load_exact[index], 2.3);
+            near(of(MULTIPLIED), multiplied[index], 2.6);
+            assert!(of(MULTIPLIED) > of(LOAD_EXACT));
+            assert!(of(MULTIPLIED) > of(PROPORTIONAL));
             // More elements are better, but where hardly any slips.
             assert!(
-                of("load-exact, 10") < of("load-exact, 6")
-                    && of("load-exact, 8") < of("load-exact, 4")
+                of("load-exact, 10") < of("load-exact, 6") && of(LOAD_EXACT) < of("load-exact, 4")
             );
         }
     }

@@ -65,17 +65,22 @@ fn row(context: &Context, candidate: &Candidate, found: &Comparison) -> Vec<Cell
             .map_or_else(|| "any".into(), |turn| Cell::fixed(turn, 2)),
     );
     cells.push(Cell::power(found.least_loss));
-    cells.push(match counted(context, &candidate.cycles) {
-        Some(cycles) => Cell::fixed(cycles, 0),
-        None => format!("({})", candidate.cycles.expected).into(),
-    });
+    cells.push(shown(context, &candidate.cycles));
     cells
+}
+
+/// Cycles counted on the target, or those expected in brackets.
+pub fn shown(context: &Context, cycles: &Cycles) -> Cell {
+    match counted(context, cycles) {
+        Some(cycles) => Cell::fixed(cycles, 0),
+        None => format!("({})", cycles.expected).into(),
+    }
 }
 
 /// Cycles counted on the target.
 fn counted(context: &Context, cycles: &Cycles) -> Option<f64> {
     let function = context.target.figures.function(cycles.counted?)?;
-    Some(function.cycles_max as f64)
+    Some(function.cycles_max.into())
 }
 
 fn picture(context: &Context, found: &[(&Candidate, Comparison)]) -> Figure {
