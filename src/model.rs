@@ -1,5 +1,7 @@
 //! The model that runs in the interrupt: constants folded at set-up, a small state, one `step`.
 
+mod stored;
+
 use core::borrow::Borrow;
 
 use crate::ball::Clearance;

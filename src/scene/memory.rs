@@ -2,6 +2,7 @@
 //! temperature.
 
 mod inputs;
+mod stored;
 
 use core::marker::PhantomData;
 

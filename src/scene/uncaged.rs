@@ -2,6 +2,7 @@
 
 mod configuration;
 mod full;
+mod stored;
 
 use core::f32::consts::TAU;
 

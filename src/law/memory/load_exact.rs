@@ -42,9 +42,9 @@ const BOUNDLESS: f32 = 1e12;
 /// beyond 1e6 is none. 380 cycles for eight elements with the cube root.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoadExactElements<const N: usize> {
-    stiffnesses: [f32; N],
+    pub(super) stiffnesses: [f32; N],
     /// Approach at which an element comes into contact, over that at the reference load.
-    onsets: [f32; N],
+    pub(super) onsets: [f32; N],
     reference_limit: f32,
 }
 

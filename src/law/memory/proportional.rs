@@ -56,9 +56,9 @@ pub struct Part<'a> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ProportionalElements<const N: usize> {
     /// Stiffness over share.
-    rates: [f32; N],
+    pub(super) rates: [f32; N],
     /// The largest one first.
-    shares: [f32; N],
+    pub(super) shares: [f32; N],
     reference_limit: f32,
 }
 

@@ -28,12 +28,12 @@ pub const FREE_PLAY: Range = Range::new(0.0, 1e3);
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SeatElement {
-    free_play: f32,
+    pub(super) free_play: f32,
     /// Turn from the end of the play to sliding at the reference.
     breakaway_angle: f32,
     reference_limit: f32,
     /// Friction over turn to the power 3/2.
-    stiffness: f32,
+    pub(super) stiffness: f32,
     inverse_stiffness: f32,
 }
 
@@ -41,7 +41,7 @@ pub struct SeatElement {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SeatState {
-    place: f32,
+    pub(super) place: f32,
 }
 
 impl SeatState {

@@ -3,7 +3,7 @@
 use crate::error::{Error, attempt, in_range};
 
 /// Largest number that a state may hold, N m or N.
-const LARGEST: f32 = 1e12;
+pub(super) const LARGEST: f32 = 1e12;
 
 /// What each of `N` elements holds, N m (N), in the order of the elements.
 ///

@@ -23,8 +23,8 @@ pub struct WrappedAngleParameters {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct WrappedAngle {
-    lowest: f32,
-    highest: f32,
+    pub(super) lowest: f32,
+    pub(super) highest: f32,
     half: f32,
     largest_turn: f32,
 }
@@ -32,7 +32,7 @@ pub struct WrappedAngle {
 /// The last angle, where there was one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct AngleReading(Option<f32>);
+pub struct AngleReading(pub(super) Option<f32>);
 
 impl WrappedAngle {
     /// Constants of an angle.
@@ -85,6 +85,12 @@ impl NutAngle for WrappedAngle {
     type State = AngleReading;
 
     const FRESH: Self::State = AngleReading(None);
+
+    fn gave(&self, state: &Self::State) -> bool {
+        state
+            .0
+            .is_none_or(|last| last >= self.lowest && last <= self.highest)
+    }
 
     #[inline]
     fn turn(&self, state: &mut Self::State, reading: f32) -> Turn {

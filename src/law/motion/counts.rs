@@ -40,15 +40,15 @@ pub struct CountSensorParameters {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct CountSensor {
-    period: u32,
-    turn_per_count: f32,
+    pub(super) period: u32,
+    pub(super) turn_per_count: f32,
     largest_turn: f32,
 }
 
 /// The last count, where there was one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct CountReading(Option<u32>);
+pub struct CountReading(pub(super) Option<u32>);
 
 impl CountSensor {
     /// Constants of a counter.
@@ -119,6 +119,12 @@ impl NutAngle for CountSensor {
     type State = CountReading;
 
     const FRESH: Self::State = CountReading(None);
+
+    fn gave(&self, state: &Self::State) -> bool {
+        state
+            .0
+            .is_none_or(|last| self.period == 0 || last < self.period)
+    }
 
     #[inline]
     fn turn(&self, state: &mut Self::State, reading: u32) -> Turn {

@@ -10,15 +10,15 @@ use crate::error::{Error, attempt, in_range};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Play {
-    half_width: f32,
+    pub(super) half_width: f32,
 }
 
 /// Where a play is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct PlayState {
-    place: f32,
-    way: f32,
+    pub(super) place: f32,
+    pub(super) way: f32,
 }
 
 /// What the output does.
