@@ -3,7 +3,7 @@
 use super::{Ring, SETTLING_ROUNDS};
 use crate::ball::elastic::law::{RingBall, RingConstants};
 use crate::ball::elastic::renewal::Settled;
-use crate::ball::elastic::stored::{CLEARANCE, NOT_NEGATIVE};
+use crate::ball::elastic::stored::CLEARANCE;
 use crate::error::Range;
 use crate::ranges;
 use crate::stored::{Port, Refusal, Stored};
@@ -46,16 +46,19 @@ impl<const N: usize> Ring<N> {
     /// Puts in what follows from the clearance.
     ///
     /// # Errors
-    /// [`Refusal::OutOfRange`] naming `clearance`, or `impedance` of the nominal ball, which is never without load.
+    /// [`Refusal::OutOfRange`] naming `clearance`; of the nominal ball `impedance`, which is never without load, or `free`,
+    /// which balls without load take as it is.
     pub(crate) fn complete(&mut self, constants: &RingConstants) -> Result<(), Refusal> {
         constants.ball.takes(self.clearance)?;
         self.lift_off = constants.ball.lift_off(self.clearance);
-        if self.nominal.loaded() {
+        let Self { nominal, .. } = self;
+        if !nominal.loaded() {
+            return Err(Refusal::OutOfRange { field: "impedance" });
+        }
+        if nominal.free.abs() <= constants.fastest {
             Ok(())
         } else {
-            Err(Refusal::OutOfRange { field: "impedance" })
+            Err(Refusal::OutOfRange { field: "free" })
         }
     }
 }
-
-const _: () = assert!(NOT_NEGATIVE.minimum == 0.0);
