@@ -25,7 +25,7 @@ mod integrals;
 mod rolling;
 pub(crate) mod slip_map;
 
-pub(crate) use across::{Across, AcrossTable};
+pub(crate) use across::{Across, AcrossTable, slip_and_spin};
 pub use along::{Dissipation, FrictionMap, NormalizedFriction, SMALLEST_AXIS_RATIO};
 pub use rolling::{RollingContact, RollingResistance};
 pub use slip_map::{SlipFriction, SlipMap};

@@ -258,7 +258,7 @@ impl<const N: usize, C: Borrow<UncagedConstants<N>>> FrictionModel<UncagedBallSc
 
 impl<S, E, A, C> FrictionModel<WithMemory<S, E, A>, C>
 where
-    S: Sliding<Constants: Clone>,
+    S: Sliding<Constants: Copy>,
     E: Elements + Copy,
     A: NutAngle + Copy,
     C: Borrow<WithMemoryConstants<S::Constants, E, A>>,

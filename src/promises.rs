@@ -9,19 +9,24 @@
 mod direct;
 mod footprints;
 mod kernels;
+mod law;
 mod promise;
 mod steps;
 
 pub use direct::*;
 pub use footprints::{FOOTPRINTS, STEP_SPREAD};
 pub use kernels::*;
+pub use law::*;
 pub use promise::{Footprint, Promise};
 pub use steps::*;
 
 /// Promises of every `step()`, and of every function that a step calls.
-pub const STEPS: [Promise; 11] = [
+pub const STEPS: [Promise; 20] = [
     STEP_CAGED,
     STEP_CAGED_CHANGING,
+    STEP_CAGED_MEMORY,
+    BETWEEN,
+    SET_FRICTION,
     STEP_UNCAGED,
     STEP_LINEAR,
     SQRT,
@@ -31,10 +36,16 @@ pub const STEPS: [Promise; 11] = [
     SCREW_RENEWAL,
     TRAIN,
     PRESS,
+    MEMORY,
+    MEMORY_LOAD_EXACT,
+    MEMORY_SEAT,
+    TURN_OF_COUNTS,
+    TURN_OF_ANGLES,
+    PLAY,
 ];
 
 /// Promises of functions that firmware calls by their names.
-pub const DIRECT: [Promise; 23] = [
+pub const DIRECT: [Promise; 25] = [
     CBRT,
     CBRT_SQUARED,
     SIN_COS,
@@ -52,6 +63,8 @@ pub const DIRECT: [Promise; 23] = [
     SLIP_RATIOS,
     FRICTION_MAP,
     DISSIPATION,
+    FRICTION_COEFFICIENT,
+    FRICTION_COEFFICIENT_WARMING,
     SCREW_START,
     SCREW_ROW,
     SCREW_BALL,

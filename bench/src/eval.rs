@@ -11,6 +11,7 @@ mod groove_curvature;
 mod hertz;
 mod linear_train;
 mod lines;
+mod presliding;
 mod screw_scene;
 mod static_load;
 mod steady_state;
@@ -98,6 +99,12 @@ use lines::{Line, Lines};
 /// radii, and where a ball loses its grooves. Its object `closed_form` has the same by a closed form that no scene
 /// runs: it knows no play, preload and two-point contact, and takes of them what is nearest to the clearance; with
 /// it balls that press do not change the torque.
+///
+/// presliding: form ("proportional" or "load_exact"), table (proportional: "slip4", "slip6", "slip8", "slip10", "spin4",
+/// "spin6", "spin8" or "spin10") or largest_load (load_exact, eight elements), angle (list, over the breakaway angle, the
+/// first one the start, where nothing is remembered), [load (list as long, over the reference load; 1)], limit_ratio
+/// ([forward, backward], over the load). Answers with torque, over the limit at the reference load, one for each angle,
+/// the first one 0. The reference also has exact: what the elements stand for; null for proportional with a load.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// File with the requests; stdin without it or for -
@@ -108,7 +115,7 @@ pub struct Arguments {
 type Model = fn(Fields) -> Result<Answer, BadField>;
 
 /// Every model by its name.
-const MODELS: [(&str, Model); 10] = [
+const MODELS: [(&str, Model); 11] = [
     ("groove_curvature", groove_curvature::evaluate),
     ("efficiency", efficiency::evaluate),
     ("steady_state", steady_state::evaluate),
@@ -119,6 +126,7 @@ const MODELS: [(&str, Model); 10] = [
     ("static_load", static_load::evaluate),
     ("ball_screw_train", ball_screw_train::evaluate),
     ("ball_screw_pair", ball_screw_pair::evaluate),
+    ("presliding", presliding::evaluate),
 ];
 
 /// A line of the output.

@@ -316,27 +316,50 @@ impl<const N: usize> Pair<N> {
     }
 }
 
+/// Angular velocity of the nut, rad/s, axial load, N, and ticks between two states of a case.
+fn drive<const N: usize>(case: &Case) -> (f64, f64, usize) {
+    let ticks = (case.turns / case.speed.abs() / case.tick).round() as usize;
+    (
+        case.speed * TAU,
+        case.load_per_ball * N as f64 * case.loaded,
+        (ticks / case.states.max(1)).max(1),
+    )
+}
+
+/// The exact screw over the turns of a case.
+///
+/// # Errors
+/// What is out of range.
+pub fn exact<const N: usize>(case: &Case) -> Result<Vec<RingState>, String> {
+    let (nut_speed, axial_load, per_state) = drive::<N>(case);
+    let asked: Vec<RingSample> = (0..=case.states)
+        .map(|state| RingSample {
+            time: (state * per_state) as f64 * case.tick,
+            nut_speed,
+            axial_load,
+        })
+        .collect();
+    Pair::<N>::new(case)?
+        .ring
+        .simulate(&asked, |_, _| ())
+        .map_err(|error| error.to_string())
+}
+
 /// Follows both over the turns of a case.
 ///
 /// # Errors
 /// What is out of range.
 pub fn compare<const N: usize>(case: &Case) -> Result<Comparison, String> {
+    follow::<N>(case, &exact::<N>(case)?)
+}
+
+/// Follows the scene beside the states of the exact screw.
+///
+/// # Errors
+/// What is out of range.
+pub fn follow<const N: usize>(case: &Case, states: &[RingState]) -> Result<Comparison, String> {
     let mut pair = Pair::<N>::new(case)?;
-    let nut_speed = case.speed * TAU;
-    let load = case.load_per_ball * N as f64 * case.loaded;
-    let ticks = (case.turns / case.speed.abs() / case.tick).round() as usize;
-    let per_state = (ticks / case.states.max(1)).max(1);
-    let asked: Vec<RingSample> = (0..=case.states)
-        .map(|state| RingSample {
-            time: (state * per_state) as f64 * case.tick,
-            nut_speed,
-            axial_load: load,
-        })
-        .collect();
-    let states = pair
-        .ring
-        .simulate(&asked, |_, _| ())
-        .map_err(|error| error.to_string())?;
+    let (nut_speed, load, per_state) = drive::<N>(case);
     let mut comparison = Comparison::default();
     for (at, state) in states.iter().enumerate() {
         let mut step = || {

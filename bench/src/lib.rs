@@ -12,6 +12,7 @@ mod eval;
 pub mod exact_ring;
 mod failure;
 mod files;
+mod peers;
 mod plot;
 mod progress;
 mod report;

@@ -7,6 +7,7 @@
 
 mod ball_motion;
 pub mod bearing_study;
+pub mod coefficient;
 pub mod curvature;
 pub mod design;
 pub mod efficiency;
@@ -16,6 +17,7 @@ pub mod hertz;
 pub mod kinematics;
 pub mod material;
 pub mod measured;
+pub mod presliding;
 pub mod published;
 pub mod record;
 pub mod rolling_ball;

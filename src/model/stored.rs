@@ -115,7 +115,7 @@ impl<S: StoredScene, C: Borrow<S::Constants>> FrictionModel<S, C> {
 
 impl<S, E, A, C> FrictionModel<WithMemory<S, E, A>, C>
 where
-    S: StoredScene + Sliding<Constants: Clone, Inputs: Stored, Full: Stored + Default> + Copy,
+    S: StoredScene + Sliding<Constants: Copy, Inputs: Stored, Full: Stored + Default> + Copy,
     E: Elements<State: Stored> + Fingerprinted + Copy,
     A: NutAngle<State: Stored> + Fingerprinted + Copy,
     C: Borrow<WithMemoryConstants<S::Constants, E, A>>,

@@ -1,6 +1,7 @@
 //! A ball screw whose balls do not touch: caged, or with spacer balls.
 
 mod closed_form;
+mod coefficients;
 mod contacts;
 mod full;
 mod stored;
@@ -15,8 +16,10 @@ use crate::contact::RollingResistance;
 use crate::error::{Error, attempt, in_range};
 use crate::geometry::BallScrew;
 use crate::law::SlidingLimits;
+use crate::law::coefficient::DirectionalCoefficient;
 use closed_form::ClosedForm;
-use contacts::{Contacts, ContactsState, SecondLaws};
+use coefficients::CoefficientLaws;
+use contacts::{Contacts, ContactsState};
 pub use full::CagedFull;
 
 /// Friction of contacts, and closed forms, as numbers that an error can name.
@@ -173,12 +176,12 @@ impl Scene for CagedBallScrew {
     }
 }
 
-/// What friction coefficients beside the configuration's need: laws for a second one; nothing where there is one alone, or
+/// What friction coefficients beside the configuration's need: laws for two more; nothing where there is one alone, or
 /// friction is that of a closed form.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct CagedCoefficients {
-    second: Option<SecondLaws>,
+    laws: Option<CoefficientLaws>,
 }
 
 impl Sliding for CagedBallScrew {
@@ -187,16 +190,10 @@ impl Sliding for CagedBallScrew {
 
     fn coefficients(constants: &CagedConstants, least: f32, largest: f32) -> CagedCoefficients {
         let Law::Contacts(contacts) = &constants.law else {
-            return CagedCoefficients { second: None };
-        };
-        let own = contacts.friction();
-        let farther = if largest - own > own - least {
-            largest
-        } else {
-            least
+            return CagedCoefficients { laws: None };
         };
         CagedCoefficients {
-            second: contacts.second_laws(farther),
+            laws: contacts.laws_between(least, largest),
         }
     }
 
@@ -213,11 +210,11 @@ impl Sliding for CagedBallScrew {
         state: &mut CagedState,
         coefficients: &CagedCoefficients,
         inputs: Inputs,
-        friction: f32,
+        friction: DirectionalCoefficient,
     ) -> CagedFull {
         match (&constants.law, &mut state.contacts) {
             (Law::Contacts(contacts), Some(state)) => {
-                contacts.both_ways(state, coefficients.second.as_ref(), inputs, friction)
+                contacts.both_ways(state, coefficients.laws.as_ref(), inputs, friction)
             }
             (Law::Closed(closed), _) => closed.both_ways(inputs.axial_load),
             (Law::Contacts(_), None) => CagedFull {

@@ -17,6 +17,7 @@ use crate::contact::FrictionMap;
 use crate::error::{Error, attempt};
 use crate::hertz::HertzContact;
 use crate::law::SlidingLimits;
+use crate::law::coefficient::DirectionalCoefficient;
 use crate::math;
 use crate::ranges;
 
@@ -140,6 +141,8 @@ pub struct LinearFull {
     /// Parts of the friction force from the grooves and from balls that rub against each other, N.
     groove: f32,
     ball: f32,
+    /// The grooves' part forward and backward over it.
+    ways: [f32; 2],
     /// Normal load that presses the diagonals as hard as they are pressed, N.
     load: f32,
     contacts: u8,
@@ -164,18 +167,20 @@ impl<const N: usize> Sliding for LinearBearingTrain<N> {
         state: &mut LinearState<N>,
         (): &(),
         inputs: LinearInputs,
-        friction: f32,
+        friction: DirectionalCoefficient,
     ) -> LinearFull {
-        let ratio = friction / constants.friction;
-        constants.full(&mut state.circuit, inputs, ratio)
+        let ratio = friction.of(inputs.speed).0 / constants.friction;
+        let mut full = constants.full(&mut state.circuit, inputs, ratio);
+        full.ways = friction.over_own(inputs.speed);
+        full
     }
 
     #[inline(always)]
     fn limits(full: &LinearFull) -> SlidingLimits {
-        let both = full.groove + full.ball;
+        let [forward, backward] = full.ways;
         SlidingLimits {
-            forward: both,
-            backward: both,
+            forward: forward * full.groove + full.ball,
+            backward: backward * full.groove + full.ball,
             load: full.load,
         }
     }
@@ -317,6 +322,7 @@ impl<const N: usize> LinearConstants<N> {
         LinearFull {
             groove: friction * (loss.friction * shares),
             ball: friction * (self.rubbing * pressing.force),
+            ways: [1.0; 2],
             load: (up + down) / (2.0 * self.normal),
             contacts: pressing.contacts,
             largest_contact_force: friction * pressing.largest,
@@ -326,7 +332,13 @@ impl<const N: usize> LinearConstants<N> {
 
     #[inline(always)]
     fn passed(full: &LinearFull, passage: Passage) -> LinearOutputs {
-        let groove_force = passage.share * full.groove;
+        let [forward, backward] = full.ways;
+        let way = if passage.share < 0.0 {
+            backward
+        } else {
+            forward
+        };
+        let groove_force = passage.share * (way * full.groove);
         let ball_force = passage.share * full.ball;
         LinearOutputs {
             friction_force: groove_force + ball_force,

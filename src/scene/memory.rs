@@ -8,10 +8,10 @@ use core::marker::PhantomData;
 
 use super::contract::{Admitted, Scene, SceneOutputs};
 use super::faults::Faults;
-use super::passage::{Motion, Passage};
+use super::passage::{Motion, Passage, way};
 use super::sliding::Sliding;
-use crate::error::{Error, in_range};
-use crate::law::coefficient::{CoefficientAtTemperature, CoefficientLaw};
+use crate::error::{Error, attempt, in_range};
+use crate::law::coefficient::{CoefficientAtTemperature, CoefficientLaw, TemperatureFade};
 use crate::law::motion::{NutAngle, Play, PlayState};
 use crate::law::{Elements, SlidingLimits};
 
@@ -19,9 +19,6 @@ pub use inputs::{Freshness, WithMemoryInputs, WithMemoryKnown};
 
 /// Part of full friction below which the mechanism counts as standing.
 const SLIDES: f32 = 0.99;
-
-/// Coldest and hottest temperature that counts, K.
-const TEMPERATURES: (f32, f32) = (200.0, 450.0);
 
 /// Speed that stands for a way without motion: forces between balls are then those with which motion sets in.
 const CREEP: f32 = 1e-9;
@@ -60,9 +57,9 @@ pub struct WithMemoryConfiguration<C, E, A> {
     pub play: f32,
     /// Friction coefficient by speed, temperature and direction.
     pub coefficient: CoefficientLaw,
-    /// Temperature, K, that stands in where none is known; 200 to 450.
-    pub temperature: f32,
-    /// How old loads and temperatures may be.
+    /// How old a temperature may be, and what stands in for it then.
+    pub temperature: TemperatureFade,
+    /// How old loads may be.
     pub freshness: Freshness,
 }
 
@@ -75,7 +72,7 @@ pub struct WithMemoryConstants<C, E, A> {
     per_reference_load: f32,
     play: Play,
     coefficient: CoefficientLaw,
-    temperature: f32,
+    temperature: TemperatureFade,
     freshness: Freshness,
 }
 
@@ -103,7 +100,7 @@ pub struct WithMemoryState<S: Sliding, E: Elements, A: NutAngle> {
 
 impl<S: Sliding, E: Elements + Copy, A: NutAngle + Copy> Scene for WithMemory<S, E, A>
 where
-    S::Constants: Clone,
+    S::Constants: Copy,
 {
     type Configuration = WithMemoryConfiguration<S::Configuration, E, A>;
     type Constants = WithMemoryConstants<S::Constants, E, A>;
@@ -133,8 +130,8 @@ where
             play: PlayState::FRESH,
             moved: 0.0,
             coefficient: *coefficient,
-            temperature: *temperature,
-            at_temperature: coefficient.at_temperature(*temperature),
+            temperature: temperature.fallback(),
+            at_temperature: coefficient.at_temperature(temperature.fallback()),
             inputs: S::Inputs::STILL,
             full: None,
             limits: NONE,
@@ -149,8 +146,8 @@ where
         state.play = PlayState::FRESH;
         state.moved = 0.0;
         state.coefficient = constants.coefficient;
-        state.temperature = constants.temperature;
-        state.at_temperature = constants.coefficient.at_temperature(constants.temperature);
+        state.temperature = constants.temperature.fallback();
+        state.at_temperature = constants.coefficient.at_temperature(state.temperature);
         state.inputs = S::Inputs::STILL;
         state.full = None;
         state.limits = NONE;
@@ -211,13 +208,12 @@ where
         } else {
             way * CREEP
         };
-        let directed = way * measured.abs();
         let full = S::full(
             &constants.scene,
             &mut state.scene,
             &state.coefficients,
             inputs.with(speed, factor),
-            state.at_temperature.at(directed),
+            state.at_temperature.both(measured),
         );
         let limits = S::limits(&full);
         state.limits = SlidingLimits {
@@ -225,7 +221,7 @@ where
             ..limits
         };
         state.full = Some(full);
-        state.churning = state.at_temperature.churning(measured);
+        state.churning = state.at_temperature.churning_torque(measured);
         constants.follow(state, turn, inputs, faults | angle_faults)
     }
 
@@ -252,30 +248,34 @@ impl<S: Sliding, E: Elements, A: NutAngle> WithMemoryState<S, E, A> {
     /// -1 where the balls went backward last, else 1.
     #[inline(always)]
     const fn way(&self) -> f32 {
-        if self.play.way() < 0.0 { -1.0 } else { 1.0 }
+        way(self.play.way())
     }
 }
 
-impl<C, E: Copy, A: Copy> WithMemoryConstants<C, E, A> {
+impl<C: Copy, E: Copy, A: Copy> WithMemoryConstants<C, E, A> {
     /// Checks what memory adds to the constants of a scene: at set-up, or in a constant when firmware is compiled.
     ///
     /// # Errors
-    /// [`Error`] naming `reference_load`, `half_width` (of the play), `temperature` or a time of the freshness.
-    pub fn new<B>(
+    /// [`Error`] naming `reference_load`, `half_width` (of the play) or a time of the freshness.
+    pub const fn new<B>(
         scene: C,
         configuration: &WithMemoryConfiguration<B, E, A>,
     ) -> Result<Self, Error> {
-        let reference_load = in_range("reference_load", configuration.reference_load, 1e-3, 1e7)?;
-        let (coldest, hottest) = TEMPERATURES;
+        let reference_load = attempt!(in_range(
+            "reference_load",
+            configuration.reference_load,
+            1e-3,
+            1e7
+        ));
         Ok(Self {
             scene,
             elements: configuration.elements,
             angle: configuration.angle,
             per_reference_load: 1.0 / reference_load,
-            play: Play::new(configuration.play)?,
+            play: attempt!(Play::new(configuration.play)),
             coefficient: configuration.coefficient,
-            temperature: in_range("temperature", configuration.temperature, coldest, hottest)?,
-            freshness: configuration.freshness.checked()?,
+            temperature: configuration.temperature,
+            freshness: attempt!(configuration.freshness.checked()),
         })
     }
 }
@@ -288,24 +288,21 @@ impl<C, E: Elements, A: NutAngle> WithMemoryConstants<C, E, A> {
         state: &mut WithMemoryState<S, E, A>,
         known: &WithMemoryKnown<S::Inputs, A::Reading>,
     ) -> Faults {
-        let (coldest, hottest) = TEMPERATURES;
-        let temperature = known.temperature;
-        let (temperature, faults) = if !self.freshness.counts(known.temperature_age) {
-            (self.temperature, Faults::TEMPERATURE_STALE)
-        } else if temperature > hottest {
-            (hottest, Faults::TEMPERATURE_RANGE)
-        } else if temperature < coldest {
-            (coldest, Faults::TEMPERATURE_RANGE)
-        } else if temperature.is_nan() {
-            (state.temperature, Faults::TEMPERATURE_RANGE)
-        } else {
-            (temperature, Faults::NONE)
-        };
+        let fade = &self.temperature;
+        let temperature = fade.at(known.temperature, known.temperature_age);
         if temperature != state.temperature {
             state.temperature = temperature;
             state.at_temperature = state.coefficient.at_temperature(temperature);
         }
-        faults
+        Faults::NONE
+            .with(
+                !fade.is_temperature(known.temperature),
+                Faults::TEMPERATURE_RANGE,
+            )
+            .with(
+                !fade.holds(known.temperature_age),
+                Faults::TEMPERATURE_STALE,
+            )
     }
 
     /// The turn since the last sound reading, of which the balls take what is beyond the play.
@@ -355,7 +352,11 @@ impl<C, E: Elements, A: NutAngle> WithMemoryConstants<C, E, A> {
         let share = if limit > 0.0 { friction / limit } else { 0.0 };
         let passage = Passage {
             share,
-            way: state.way(),
+            way: if state.play.way() == 0.0 {
+                way(friction)
+            } else {
+                state.play.way()
+            },
             standing: share.abs() < SLIDES,
         };
         let mut outputs = S::passed(&self.scene, inputs, full, passage);

@@ -4,6 +4,7 @@
 use super::contract::Scene;
 use super::passage::{Motion, Passage};
 use crate::law::SlidingLimits;
+use crate::law::coefficient::DirectionalCoefficient;
 
 /// A scene whose full friction can be had apart from its passage through the reversal.
 ///
@@ -20,13 +21,13 @@ pub trait Sliding: Scene<Known = <Self as Scene>::Inputs, Inputs: Motion> {
     /// Friction coefficient of the configuration.
     fn friction(constants: &Self::Constants) -> f32;
 
-    /// Full friction with a friction coefficient of ball and groove; balls move on by a tick. A speed of 0 counts as forward.
+    /// Full friction with friction coefficients of ball and groove in both directions; balls move on by a tick. A speed of 0 counts as forward.
     fn full(
         constants: &Self::Constants,
         state: &mut Self::State,
         coefficients: &Self::Coefficients,
         inputs: Self::Inputs,
-        friction: f32,
+        friction: DirectionalCoefficient,
     ) -> Self::Full;
 
     /// Its sizes in both directions; the load is the axial load of a screw or the normal load of a bearing, N, preload

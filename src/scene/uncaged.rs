@@ -13,11 +13,12 @@ use super::outputs::UncagedOutputs;
 use super::passage::{Passage, Reversal};
 use super::sliding::Sliding;
 use crate::ball::elastic::constants::BallConstants;
-use crate::ball::elastic::law::{Neighbours, RingConstants, RingLoad};
+use crate::ball::elastic::law::{Neighbour, Neighbours, RingConstants, RingLoad};
 use crate::ball::elastic::ring::Ring;
 use crate::ball::{Clearance, GrooveFit, LoadShare, ScrewRow};
 use crate::error::{Error, attempt};
 use crate::law::SlidingLimits;
+use crate::law::coefficient::DirectionalCoefficient;
 use crate::ranges;
 
 pub use configuration::UncagedBallScrewConfiguration;
@@ -144,21 +145,22 @@ impl<const N: usize> Sliding for UncagedBallScrew<N> {
         state: &mut UncagedState<N>,
         (): &(),
         inputs: Inputs,
-        friction: f32,
+        friction: DirectionalCoefficient,
     ) -> UncagedFull {
-        state.ring.take_friction(friction);
+        state.ring.take_friction(friction.of(inputs.nut_speed).0);
         let mut full = constants.full(state, inputs);
         full.groove *= state.ring.friction_ahead();
+        full.ways = friction.over_own(inputs.nut_speed);
         full
     }
 
-    /// Both directions have the friction of that in which the balls go.
+    /// Both directions have the friction of that in which the balls go, times their friction coefficients.
     #[inline(always)]
     fn limits(full: &UncagedFull) -> SlidingLimits {
-        let both = full.groove + full.ball;
+        let [forward, backward] = full.ways;
         SlidingLimits {
-            forward: both,
-            backward: both,
+            forward: forward * full.groove + full.ball,
+            backward: backward * full.groove + full.ball,
             load: full.load,
         }
     }
@@ -253,7 +255,7 @@ impl<const N: usize> UncagedConstants<N> {
                 next.put(idle, UNLOADED);
             } else if ball.loaded() {
                 torque += ball.torque();
-                let speed = ball.follow(&self.ring, angle);
+                let speed = ball.free();
                 next.put(way * speed, load.impedance(ball));
             } else {
                 entered = Some(index);
@@ -276,6 +278,7 @@ impl<const N: usize> UncagedConstants<N> {
         UncagedFull {
             groove,
             ball: self.ball_friction * rubbing,
+            ways: [1.0; 2],
             load: load.axial_size(&self.ring) * self.balls,
             contacts: pressing.contacts,
             largest_contact_force: pressing.largest,
@@ -297,7 +300,7 @@ impl<const N: usize> UncagedConstants<N> {
         let index = state.ring.next();
         let train = &state.circuit.train;
         let (passing, recirculating) = self.circuit.deviation_units();
-        let (deviations, share, [behind, ahead]) = if index < N {
+        let (deviations, share, forces, beside) = if index < N {
             let position = train.position(index);
             let Some(place) = self.circuit.place(position, state.circuit.phase(), shares) else {
                 return;
@@ -306,23 +309,39 @@ impl<const N: usize> UncagedConstants<N> {
                 way * passing * place.passing,
                 way * recirculating * place.recirculating,
             );
-            (deviations, place.share.share(), train.forces_on(index))
+            (
+                deviations,
+                place.share.share(),
+                train.forces_on(index),
+                state.ring.loaded_beside(index),
+            )
         } else {
-            ((0.0, 0.0), 1.0, [0.0; 2])
+            ((0.0, 0.0), 1.0, [0.0; 2], [false; 2])
         };
-        let (behind, ahead) = if way < 0.0 {
-            (ahead, behind)
+        let neighbour = |force, loaded| Neighbour {
+            force,
+            friction: if loaded {
+                self.ball_friction * force
+            } else {
+                0.0
+            },
+        };
+        let [first, second] = forces;
+        let first = neighbour(first, beside[0]);
+        let second = neighbour(second, beside[1]);
+        let neighbours = if way < 0.0 {
+            Neighbours {
+                behind: second,
+                ahead: first,
+            }
         } else {
-            (behind, ahead)
+            Neighbours {
+                behind: first,
+                ahead: second,
+            }
         };
-        let forces = Neighbours {
-            behind,
-            ahead,
-            friction: self.ball_friction,
-        };
-        state
-            .ring
-            .renew(&self.ring, load, index, deviations, share, &forces);
+        let ring = &mut state.ring;
+        ring.renew(&self.ring, load, index, deviations, share, &neighbours);
     }
 
     /// Sum over all pairs of loaded balls of their force times the speed with which they rub, N m per unit of nut speed. A ball

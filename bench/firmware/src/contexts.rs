@@ -14,18 +14,28 @@ use epas_friction::efficiency::EfficiencyGeometry;
 use epas_friction::geometry::Groove;
 use epas_friction::hertz::HertzContact;
 use epas_friction::kinematics::{ContactKinematics, KinematicsParameters};
+use epas_friction::law::Elements;
+use epas_friction::law::coefficient::{CoefficientAtTemperature, CoefficientLaw};
+use epas_friction::law::memory::{
+    LoadExactElements, MemoryState, Part, ProportionalElements, SLIP_8, SeatElement, SeatState,
+};
+use epas_friction::law::motion::{
+    AngleReading, CountReading, CountSensor, CountSensorParameters, NutAngle, Play, PlayState,
+    WrappedAngle, WrappedAngleParameters,
+};
 use epas_friction::refined::{
     BallChain, BallState, FourPointBall, RotaryBall, RotaryBallParameters,
 };
 use epas_friction::train::{Press, Train};
 use epas_friction::{
     BallScrew, CATALOGUE, CagedBallScrew, DeviationMap, Error, FrictionModel, Inputs,
-    LinearBearingTrain, UncagedBallScrew,
+    LinearBearingTrain, UncagedBallScrew, defaults,
 };
 
 use crate::peers::{LuGre, Stribeck};
 use crate::scenes::{
-    BALLS, ROW, SCREW_DEVIATION, caged_configuration, linear_configuration, uncaged_configuration,
+    BALLS, CagedMemory, ROW, SCREW_DEVIATION, caged_configuration, caged_memory_configuration,
+    linear_configuration, uncaged_configuration,
 };
 
 /// Everything that is set up once.
@@ -50,6 +60,10 @@ pub struct Contexts {
     pub kinematics: ContactKinematics,
     /// Friction of a contact with spin.
     pub map: FrictionMap,
+    /// Friction coefficient by speed and temperature.
+    pub coefficient: CoefficientLaw,
+    /// The same at one temperature.
+    pub at_temperature: CoefficientAtTemperature,
     /// Published closed form of a ball.
     pub analytic: AnalyticLinearBall,
     /// Ball in a linear bearing.
@@ -64,6 +78,8 @@ pub struct Contexts {
     pub rotary_ball: BallState,
     /// Caged ball screw.
     pub caged: FrictionModel<CagedBallScrew>,
+    /// The same with a memory, and a friction coefficient by speed and temperature.
+    pub caged_memory: FrictionModel<CagedMemory>,
     /// The same with a friction coefficient that changes.
     pub caged_changing: FrictionModel<CagedBallScrew>,
     /// Deviation of contact angles along a groove.
@@ -80,10 +96,36 @@ pub struct Contexts {
     pub train: Train<BALLS>,
     /// Ball screw without cage.
     pub uncaged: FrictionModel<UncagedBallScrew<BALLS>>,
+    /// The same, whose friction coefficient is set.
+    pub set: FrictionModel<UncagedBallScrew<BALLS>>,
     /// The same after turns under a falling load: most balls press on each other.
     pub pressing: FrictionModel<UncagedBallScrew<BALLS>>,
     /// Linear bearing.
     pub carriage: FrictionModel<LinearBearingTrain<ROW>>,
+    /// Elements in proportion.
+    pub proportional: ProportionalElements<8>,
+    /// What they remember.
+    pub proportional_state: MemoryState<8>,
+    /// Elements that touch by load.
+    pub load_exact: LoadExactElements<8>,
+    /// What they remember.
+    pub load_exact_state: MemoryState<8>,
+    /// A seat with free play.
+    pub seat: SeatElement,
+    /// Where it is.
+    pub seat_state: SeatState,
+    /// Counts of an encoder.
+    pub counts: CountSensor,
+    /// The last one.
+    pub last_count: CountReading,
+    /// Angle in radians.
+    pub angles: WrappedAngle,
+    /// The last one.
+    pub last_angle: AngleReading,
+    /// A backlash.
+    pub play: Play,
+    /// Where it is.
+    pub play_state: PlayState,
     /// What others run.
     pub lugre: LuGre,
 }
@@ -140,6 +182,7 @@ impl Contexts {
         let nominal = [linear_parameters.contact_angle; 4];
         let rotary = RotaryBall::new(&rotary_parameters)?;
         let rotary_nominal = [rotary_parameters.contact_angle; 4];
+        let coefficient = CoefficientLaw::new(&black_box(defaults::COEFFICIENT))?;
         let screw_row = ScrewRow::new(&design, 0.1, GrooveFit::Zero)?;
         Ok(Self {
             clock,
@@ -152,6 +195,8 @@ impl Contexts {
             efficiency: EfficiencyGeometry::of(&design),
             kinematics: ContactKinematics::new(&kinematics_parameters)?,
             map: FrictionMap::new(black_box(0.2321))?,
+            coefficient,
+            at_temperature: coefficient.at_temperature(300.0),
             analytic: AnalyticLinearBall::new(&linear_parameters, PUBLISHED_SLOPE)?,
             ball: linear.solve(&linear.contacts(&nominal, &[100.0; 4])),
             linear,
@@ -161,6 +206,7 @@ impl Contexts {
                 .solve(&rotary.four_point().contacts(&rotary_nominal, &[100.0; 4])),
             rotary,
             caged: FrictionModel::new(&black_box(caged_configuration()?))?,
+            caged_memory: FrictionModel::new(&black_box(caged_memory_configuration()?))?,
             caged_changing: changing(FrictionModel::new(&black_box(caged_configuration()?))?)?,
             deviation: &SCREW_DEVIATION,
             screw_loop: screw_row.at(10.0, 100.0).per_speed(0.5, 2.0, (1.0, 1.0)),
@@ -169,8 +215,36 @@ impl Contexts {
             press: Press::new(),
             train: Train::evenly_spaced(0.2248, 0.00594)?,
             uncaged: FrictionModel::new(&black_box(uncaged_configuration()?))?,
+            set: FrictionModel::new(&black_box(uncaged_configuration()?))?,
             pressing: pressing(FrictionModel::new(&black_box(uncaged_configuration()?))?),
             carriage: FrictionModel::new(&black_box(linear_configuration()?))?,
+            proportional: ProportionalElements::new(
+                black_box(0.04),
+                &[Part {
+                    backbone: &SLIP_8.elements,
+                    share: 1.0,
+                    breakaway_angle: 2e-3,
+                }],
+            )?,
+            proportional_state: ProportionalElements::VIRGIN,
+            load_exact: LoadExactElements::new(black_box(0.04), 2e-3, 4.0)?,
+            load_exact_state: LoadExactElements::VIRGIN,
+            seat: SeatElement::new(black_box(0.04), 1e-3, 2e-3)?,
+            seat_state: SeatElement::VIRGIN,
+            counts: CountSensor::new(CountSensorParameters {
+                period: black_box(16_384),
+                turn_per_count: core::f32::consts::TAU / 16_384.0,
+                largest_turn: 1.0,
+            })?,
+            last_count: CountSensor::FRESH,
+            angles: WrappedAngle::new(WrappedAngleParameters {
+                lowest: black_box(0.0),
+                period: core::f32::consts::TAU,
+                largest_turn: 1.0,
+            })?,
+            last_angle: WrappedAngle::FRESH,
+            play: Play::new(black_box(1e-3))?,
+            play_state: PlayState::FRESH,
             lugre: black_box(LuGre {
                 stribeck: Stribeck {
                     coulomb: 0.3,

@@ -77,6 +77,18 @@ pub fn tick(spread: &mut Spread) -> [f32; 2] {
     ]
 }
 
+/// A turn and the limits of sliding either way, of friction that slides fully after 2 mrad under 0.04 N m.
+pub fn memory(spread: &mut Spread) -> [f32; 3] {
+    let turn = spread.between(-4e-3, 4e-3);
+    let (forward, backward) = (spread.between(0.0, 0.08), spread.between(0.0, 0.08));
+    let extreme = [0.0, 1e9, -1e9, f32::NAN];
+    [
+        spread.special(&extreme, SPECIAL).unwrap_or(turn),
+        forward,
+        backward,
+    ]
+}
+
 /// Free speeds of a train as a triangular wave: its amplitude, the waves in the train and where it starts;
 /// every fourth case a ramp on which all balls run into each other or away from each other.
 pub fn train(spread: &mut Spread) -> [f32; 3] {

@@ -132,6 +132,21 @@ impl<'a> Fields<'a> {
         Ok(numbers)
     }
 
+    /// Takes a list of `1..=largest` numbers.
+    pub fn list(&mut self, field: &str, largest: usize) -> Result<Vec<f64>, BadField> {
+        list(field, self.take(field)?, largest)
+    }
+
+    /// Takes a list of `1..=largest` numbers that may be left out.
+    pub fn optional_list(
+        &mut self,
+        field: &str,
+        largest: usize,
+    ) -> Result<Option<Vec<f64>>, BadField> {
+        let raw = self.values.remove(field);
+        raw.map(|raw| list(field, raw, largest)).transpose()
+    }
+
     /// Takes a list of `1..=largest` objects.
     pub fn objects(&mut self, field: &str, largest: usize) -> Result<Vec<Fields<'a>>, BadField> {
         let raw = self.take(field)?;
@@ -240,6 +255,23 @@ impl<'a> Fields<'a> {
             .remove(field)
             .ok_or_else(|| BadField::new(field, "is missing"))
     }
+}
+
+/// A JSON list of `1..=largest` numbers.
+fn list(field: &str, raw: &RawValue, largest: usize) -> Result<Vec<f64>, BadField> {
+    let Ok(values) = serde_json::from_str::<Vec<&RawValue>>(raw.get()) else {
+        return Err(BadField::new(
+            field,
+            format!("must be a list of numbers, not {}", shown(raw)),
+        ));
+    };
+    if values.is_empty() || values.len() > largest {
+        return Err(BadField::new(
+            field,
+            format!("{} of them; allowed: 1 to {largest}", values.len()),
+        ));
+    }
+    values.into_iter().map(|raw| number(field, raw)).collect()
 }
 
 /// A JSON number as float64. What is beyond its range reads as infinity and is refused here, so that

@@ -14,6 +14,7 @@ mod kinematics_reference;
 mod linear_ball_reference;
 mod load_shares;
 mod long_chain;
+mod presliding_reference;
 mod published_records;
 mod recorded_runs;
 mod rolling_ball;

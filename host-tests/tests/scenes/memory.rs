@@ -3,7 +3,8 @@
 
 use std::f32::consts::TAU;
 
-use epas_friction::law::coefficient::CoefficientLaw;
+use epas_friction::defaults::COEFFICIENT;
+use epas_friction::law::coefficient::{CoefficientLaw, TemperatureFade};
 use epas_friction::law::memory::{MemoryState, Part, ProportionalElements, SLIP_8};
 use epas_friction::law::motion::{
     CountSensor, CountSensorParameters, NutAngle, SpeedOverTick, WrappedAngle,
@@ -14,10 +15,11 @@ use epas_friction::scene::{
     Freshness, Motion, Sliding, WithMemory, WithMemoryConfiguration, WithMemoryInputs,
 };
 use epas_friction::{
-    CagedBallScrew, Faults, FrictionModel, Inputs, LinearBearingTrain, LinearInputs, Regime,
-    UncagedBallScrew,
+    CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, Clearance, Faults, FrictionModel,
+    Inputs, LinearBearingTrain, LinearInputs, Regime, UncagedBallScrew,
 };
 
+use crate::kit::errors::Errors;
 use crate::kit::gears::{LINEAR_BALLS, SCREW_BALLS, caged, linear, uncaged};
 use crate::kit::random::Random;
 
@@ -53,8 +55,8 @@ fn with_memory<C, A>(
         angle,
         reference_load: 1000.0,
         play: BREAKAWAY,
-        coefficient: CoefficientLaw::constant(friction),
-        temperature: TEMPERATURE,
+        coefficient: CoefficientLaw::constant(friction).unwrap(),
+        temperature: TemperatureFade::new(TEMPERATURE, 60.0, 60.0).unwrap(),
         freshness: Freshness::DEFAULT,
     }
 }
@@ -88,7 +90,7 @@ fn caged_by_angle() -> Caged<WrappedAngle> {
     let configuration = caged();
     Caged::new(&with_memory(
         configuration,
-        slip(0.05, BREAKAWAY),
+        slip(0.5, BREAKAWAY),
         angle_sensor(),
         configuration.friction,
     ))
@@ -106,12 +108,12 @@ fn screw(nut_speed: f32, axial_load: f32) -> Inputs {
 fn slides_as_without<S>(
     configuration: S::Configuration,
     friction: f32,
-    breakaway: f32,
+    (reference, breakaway): (f32, f32),
     loads: &[S::Inputs],
     speed: f32,
     tolerance: f32,
 ) where
-    S: Sliding<Constants: Clone, Configuration: Copy>,
+    S: Sliding<Constants: Copy, Configuration: Copy>,
     S::Outputs: Into<Friction>,
 {
     let mut without = FrictionModel::<S>::new(&configuration).unwrap();
@@ -120,7 +122,7 @@ fn slides_as_without<S>(
             play: 0.0,
             ..with_memory(
                 configuration,
-                slip(0.05, breakaway),
+                slip(reference, breakaway),
                 speed_sensor(),
                 friction,
             )
@@ -195,7 +197,14 @@ fn steady_sliding_is_the_scene_without_memory() {
     configuration.reversal_speed = 1e-6;
     let loads = [screw(0.0, 3000.0), screw(0.0, -500.0), screw(0.0, 0.0)];
     let friction = configuration.friction;
-    slides_as_without::<CagedBallScrew>(configuration, friction, BREAKAWAY, &loads, 20.0, 3e-7);
+    slides_as_without::<CagedBallScrew>(
+        configuration,
+        friction,
+        (0.5, BREAKAWAY),
+        &loads,
+        20.0,
+        3e-7,
+    );
     let mut configuration = uncaged();
     configuration.reversal_speed = 1e-6;
     let friction = configuration.friction;
@@ -203,7 +212,7 @@ fn steady_sliding_is_the_scene_without_memory() {
     slides_as_without::<UncagedBallScrew<SCREW_BALLS>>(
         configuration,
         friction,
-        BREAKAWAY,
+        (0.5, BREAKAWAY),
         &loads,
         20.0,
         2e-3,
@@ -219,7 +228,7 @@ fn steady_sliding_is_the_scene_without_memory() {
     slides_as_without::<LinearBearingTrain<LINEAR_BALLS>>(
         configuration,
         friction,
-        1e-5,
+        (200.0, 1e-5),
         &[load],
         0.2,
         2e-3,
@@ -240,7 +249,7 @@ fn friction_follows_the_angle_as_its_elements_do() {
         load: 1.0,
     };
     assert!((limits.forward - limits.backward).abs() > 1e-3 * limits.forward);
-    let elements = slip(0.05, BREAKAWAY);
+    let elements = slip(0.5, BREAKAWAY);
     let mut state = MemoryState::VIRGIN;
     let mut model = caged_by_angle();
     let mut random = Random(17);
@@ -414,14 +423,17 @@ fn between_steps_the_memory_goes_on() {
     .unwrap();
     let configuration = with_memory(
         configuration,
-        slip(0.05, BREAKAWAY),
+        slip(0.5, BREAKAWAY),
         sensor,
         configuration.friction,
     );
     let mut fast = Model::new(&configuration).unwrap();
     let mut slow = Model::new(&configuration).unwrap();
     assert_eq!(fast.between(7).friction_torque, 0.0);
-    let mut counts = 0_u32;
+    let mut counts = 7_u32;
+    for model in [&mut fast, &mut slow] {
+        model.step(fresh(screw(5.0, 2000.0), counts));
+    }
     let mut largest: f32 = 0.0;
     for step in 0..400 {
         // Ten counts a step, each in a tick of its own; back after 200 steps.
@@ -481,7 +493,7 @@ fn changes_while_it_runs_keep_the_memory() {
     let of = |friction: f32, turns: f32| {
         let mut scene = configuration;
         (scene.friction, scene.turns) = (friction, turns);
-        let whole = with_memory(scene, slip(0.05, BREAKAWAY), speed_sensor(), friction);
+        let whole = with_memory(scene, slip(0.5, BREAKAWAY), speed_sensor(), friction);
         <Scene as epas_friction::Scene>::constants(&whole).unwrap()
     };
     let (first, second, other) = (of(0.075, 2.5), of(0.1, 2.5), of(0.075, 2.6));
@@ -513,4 +525,54 @@ fn changes_while_it_runs_keep_the_memory() {
     let grown = step(&mut model, 20.0).friction_torque / before.friction_torque;
     // In proportion but for the third contact: measured 1.36.
     assert!((1.2..1.5).contains(&grown), "{grown}");
+}
+
+/// Friction under a coefficient that follows speed and temperature is that of a screw that is set up with this coefficient.
+///
+/// Friction torque over coefficient is a parabola through the law's two ends, 0.05 and 0.12, and the middle: measured over
+/// designs, gaps and loads of 5 to 300 N a ball, unflagged; largest 2.9e-2 (where a third contact comes to carry between two
+/// of them), rms 5.3e-3, mean -1.7e-4.
+#[test]
+fn coefficients_between_two_laws() {
+    let law = CoefficientLaw::new(&COEFFICIENT).unwrap();
+    let mut errors = Errors::of("friction between two coefficients");
+    for size in [10_usize, 15, 22] {
+        for gap in [-2e-6_f32, 0.0, 2e-6] {
+            let mut plain = caged();
+            plain.design = CATALOGUE[size].design().unwrap();
+            plain.clearance = Clearance::new(gap).unwrap();
+            plain.reversal_speed = 1e-6;
+            plain.friction = COEFFICIENT.boundary;
+            let configuration = WithMemoryConfiguration {
+                coefficient: law,
+                ..with_memory(plain, slip(0.5, 1e-9), speed_sensor(), COEFFICIENT.boundary)
+            };
+            let mut model = FrictionModel::<WithMemory<CagedBallScrew, Slip, SpeedOverTick>>::new(
+                &configuration,
+            )
+            .unwrap();
+            let at = law.at_temperature(TEMPERATURE);
+            for speed in [0.5_f32, 5.0, 20.0, 100.0, 400.0] {
+                let friction = at.at(speed);
+                let direct = CagedBallScrewConfiguration { friction, ..plain };
+                let mut direct = FrictionModel::<CagedBallScrew>::new(&direct).unwrap();
+                for load in [5.0_f32, 50.0, 300.0] {
+                    for load in [load, -load] {
+                        let inputs = screw(speed, 41.0 * load);
+                        let expected = direct.step(inputs);
+                        let mut found = model.step(fresh(inputs, speed));
+                        for _ in 0..3 {
+                            found = model.step(fresh(inputs, speed));
+                        }
+                        if !(found.faults | expected.faults).any() {
+                            let expected = f64::from(expected.friction_torque);
+                            let error = f64::from(found.friction_torque) / expected - 1.0;
+                            errors.add_case(error, || format!("{size} {gap:e} {speed} {load}"));
+                        }
+                    }
+                }
+            }
+        }
+    }
+    errors.assert(3.2e-2, 6e-3, 1e-3);
 }

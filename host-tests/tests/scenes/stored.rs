@@ -3,7 +3,8 @@
 use std::f32::consts::TAU;
 use std::fmt::Debug;
 
-use epas_friction::law::coefficient::CoefficientLaw;
+use epas_friction::defaults::COEFFICIENT;
+use epas_friction::law::coefficient::{CoefficientLaw, TemperatureFade};
 use epas_friction::law::memory::{
     LoadExactElements, Part, ProportionalElements, SLIP_8, SPIN_4, SeatElement, Together,
 };
@@ -186,7 +187,6 @@ fn with_memory<C, E, A>(
     scene: C,
     elements: E,
     angle: A,
-    friction: f32,
 ) -> WithMemoryConfiguration<C, E, A> {
     WithMemoryConfiguration {
         scene,
@@ -194,8 +194,8 @@ fn with_memory<C, E, A>(
         angle,
         reference_load: 1000.0,
         play: 2e-3,
-        coefficient: CoefficientLaw::constant(friction),
-        temperature: TEMPERATURE,
+        coefficient: CoefficientLaw::new(COEFFICIENT).unwrap(),
+        temperature: TemperatureFade::new(TEMPERATURE, 60.0, 60.0).unwrap(),
         freshness: Freshness::DEFAULT,
     }
 }
@@ -220,7 +220,7 @@ impl Kept for CagedByAngle {
             largest_turn: 1.0,
         })
         .unwrap();
-        FrictionModel::new(&with_memory(caged(), slip(0.05), angle, 0.075)).unwrap()
+        FrictionModel::new(&with_memory(caged(), slip(0.05), angle)).unwrap()
     }
 
     fn drive(model: &mut FrictionModel<Self>, manoeuvre: &Manoeuvre, tick: u32) -> Self::Outputs {
@@ -255,7 +255,7 @@ impl Kept for UncagedByCounts {
         .unwrap();
         let seat = SeatElement::new(0.03, 1e-3, 5e-3).unwrap();
         let elements = Together::new(spin, seat, 0.4).unwrap();
-        FrictionModel::new(&with_memory(uncaged(), elements, sensor, 0.075)).unwrap()
+        FrictionModel::new(&with_memory(uncaged(), elements, sensor)).unwrap()
     }
 
     fn drive(model: &mut FrictionModel<Self>, manoeuvre: &Manoeuvre, tick: u32) -> Self::Outputs {
@@ -276,7 +276,7 @@ impl Kept for LinearBySpeed {
     fn model() -> FrictionModel<Self> {
         let elements = LoadExactElements::new(20.0, 1e-4, 4.0).unwrap();
         let sensor = SpeedOverTick::new(TICK, 0.1).unwrap();
-        FrictionModel::new(&with_memory(linear(), elements, sensor, 0.1)).unwrap()
+        FrictionModel::new(&with_memory(linear(), elements, sensor)).unwrap()
     }
 
     fn drive(model: &mut FrictionModel<Self>, manoeuvre: &Manoeuvre, tick: u32) -> Self::Outputs {
@@ -634,7 +634,7 @@ fn blocks_of_other_constants_are_refused() {
     let import = |elements, angle, play| {
         let configuration = WithMemoryConfiguration {
             play,
-            ..with_memory(caged(), elements, angle, 0.075)
+            ..with_memory(caged(), elements, angle)
         };
         FrictionModel::<CagedByAngle>::new(&configuration)
             .unwrap()
@@ -850,7 +850,7 @@ fn blocks_are_as_small_as_said() {
         FrictionModel::<S>::STATE_BYTES
     }
     assert_eq!(bytes::<CagedBallScrew>(), 114);
-    assert_eq!(bytes::<Uncaged>(), 1949);
+    assert_eq!(bytes::<Uncaged>(), 1797);
     assert_eq!(bytes::<Linear>(), 181);
     fn with<S: StoredScene + Sliding>() -> usize {
         bytes::<S>()

@@ -22,7 +22,7 @@ pub(crate) struct RingConstants {
     pub(super) fastest: f32,
 }
 
-/// One ball: 40 bytes. Lengths over the ball radius, speeds over the nut's.
+/// One ball: 36 bytes. Lengths over the ball radius, speeds over the nut's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(crate) struct RingBall {
@@ -30,8 +30,6 @@ pub(crate) struct RingBall {
     pub(super) turning: [f32; 3],
     /// Speed without forces of neighbours less the nominal one, over the nominal one against the nut.
     pub(super) free: f32,
-    /// Its change with the nut's angle, 1/rad.
-    pub(super) slope: f32,
     /// Force along the track that changes this by one, over the power 2/3 of the load; 0 of a ball without load.
     pub(super) impedance: f32,
     /// Friction torque on the nut over the power 7/6 of the load.
@@ -54,19 +52,26 @@ pub(crate) struct RingLoad {
     pub(super) per_seven_sixths: f32,
 }
 
-/// Forces of a ball's neighbours in the frame in which the nut turns forward, N, and the friction coefficient between balls.
-pub(crate) struct Neighbours {
-    pub(crate) behind: f32,
-    pub(crate) ahead: f32,
+/// What a ball next to another one does to it, N.
+pub(crate) struct Neighbour {
+    /// Force along the track.
+    pub(crate) force: f32,
+    /// Largest friction force; 0 of a neighbour without load, which turns as the ball makes it.
     pub(crate) friction: f32,
 }
 
+/// A ball's neighbours in the frame in which the nut turns forward.
+pub(crate) struct Neighbours {
+    pub(crate) behind: Neighbour,
+    pub(crate) ahead: Neighbour,
+}
+
 impl Neighbours {
-    pub(super) const NONE: Self = Self {
-        behind: 0.0,
-        ahead: 0.0,
-        friction: 0.0,
-    };
+    /// Force of both along the track, N.
+    #[inline(always)]
+    pub(super) fn force(&self) -> f32 {
+        self.behind.force - self.ahead.force
+    }
 }
 
 impl RingConstants {
@@ -144,7 +149,7 @@ impl RingLoad {
 }
 
 impl RingBall {
-    /// Keeps what a renewal found.
+    /// Keeps what a renewal under a force of both neighbours found, with a free speed within `fastest`.
     #[inline(always)]
     pub(super) fn keep(
         &mut self,
@@ -152,9 +157,9 @@ impl RingBall {
         load: &RingLoad,
         settled: &Settled,
         found: &Renewal,
-        forces: &Neighbours,
+        force: f32,
+        fastest: f32,
     ) {
-        let force = forces.behind - forces.ahead;
         let radius = constants.ball.grooves.ball_radius;
         let impedance = constants.reference * radius / found.compliance;
         let impedance = between(impedance, IMPEDANCES.0, IMPEDANCES.1);
@@ -162,16 +167,15 @@ impl RingBall {
             (settled.speed - constants.nominal) * constants.per_reference - force / impedance;
         self.place = settled.place;
         self.turning = settled.turning;
-        self.free = between(free, -constants.fastest, constants.fastest);
+        self.free = between(free, -fastest, fastest);
         self.impedance = impedance * load.per_two_thirds;
         self.torque = constants.ball.torque(found) * load.per_seven_sixths;
     }
 
-    /// Free speed at this tick, over the nominal one against the nut; it follows the nut's angle.
+    /// Free speed, over the nominal one against the nut.
     #[inline(always)]
-    pub(crate) fn follow(&mut self, constants: &RingConstants, angle: f32) -> f32 {
-        self.free += self.slope * angle;
-        between(self.free, -constants.fastest, constants.fastest)
+    pub(crate) const fn free(&self) -> f32 {
+        self.free
     }
 
     /// Friction torque over the power 7/6 of the load.

@@ -4,6 +4,7 @@ mod stored;
 
 use super::law::{Neighbours, RingBall, RingConstants, RingLoad, between};
 use super::renewal::{BallInputs, Settled};
+use crate::train::LARGEST_FREE_SPEED;
 
 /// Axial load of a ball below which it counts as this, N.
 const SMALLEST_LOAD: f32 = 1e-3;
@@ -42,9 +43,6 @@ const STIFFER: f32 = 16.0;
 
 /// Load that a ball's contacts carry over what it should be, and the inverse, from which on it begins anew.
 const FAR: f32 = 4.0;
-
-/// Change of a ball's speed in a round over the largest deviation of speed from which on it is no drift.
-const DRIFT: f32 = 0.25;
 
 /// Balls that are renewed in turn.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -91,7 +89,6 @@ impl<const N: usize> Ring<N> {
             place: fresh.place,
             turning: fresh.turning,
             free: 0.0,
-            slope: 0.0,
             impedance: 1.0,
             torque: 0.0,
         };
@@ -103,7 +100,7 @@ impl<const N: usize> Ring<N> {
                 fresh = constants.ball.grooves.start(&inputs);
                 continue;
             }
-            ball.keep(constants, &load, &fresh, &found, &Neighbours::NONE);
+            ball.keep(constants, &load, &fresh, &found, 0.0, LARGEST_FREE_SPEED);
         }
         Self {
             balls: [ball; N],
@@ -246,9 +243,8 @@ impl<const N: usize> Ring<N> {
             self.friction,
             self.clearance,
         ));
-        for ball in &mut self.balls {
-            ball.slope = 0.0;
-            if mirrored {
+        if mirrored {
+            for ball in &mut self.balls {
                 ball.free = -ball.free;
             }
         }
@@ -291,10 +287,16 @@ impl<const N: usize> Ring<N> {
         index: usize,
         (screw_deviation, nut_deviation): (f32, f32),
         share: f32,
-        forces: &Neighbours,
+        neighbours: &Neighbours,
     ) {
-        let force = forces.behind - forces.ahead;
+        let force = neighbours.force();
         let is_nominal = index >= N;
+        // Play turns the contacts of all balls; how far a ball deviates is known for a screw without.
+        let fastest = between(
+            constants.fastest + self.nominal.free.abs(),
+            0.0,
+            LARGEST_FREE_SPEED,
+        );
         let ball = self.balls.get_mut(index).unwrap_or(&mut self.nominal);
         self.settling = self.settling.saturating_sub(1);
         let (place, turning) = if self.stale > 0 {
@@ -316,8 +318,8 @@ impl<const N: usize> Ring<N> {
             axial_load: load.axial * share,
             force,
             rubbing: [
-                forces.friction * (forces.ahead + forces.behind),
-                forces.friction * -force,
+                neighbours.ahead.friction + neighbours.behind.friction,
+                neighbours.ahead.friction - neighbours.behind.friction,
             ],
             screw_deviation,
             nut_deviation,
@@ -334,22 +336,18 @@ impl<const N: usize> Ring<N> {
             (ball.place, ball.turning) = (place, turning);
             return;
         }
-        let before = ball.free;
-        ball.keep(constants, load, &settled, &found, forces);
+        let fastest = if is_nominal {
+            LARGEST_FREE_SPEED
+        } else {
+            fastest
+        };
+        ball.keep(constants, load, &settled, &found, force, fastest);
         // A ball is stiffer than a nominal one by a factor at most.
         let nominal = self.nominal.impedance;
         let ball = self.balls.get_mut(index).unwrap_or(&mut self.nominal);
         if !is_nominal {
             ball.impedance = between(ball.impedance, nominal * (1.0 / STIFFER), nominal * STIFFER);
         }
-        // The slope is that of a whole round between two renewals.
-        let change = ball.free - before;
-        let drifts = change.abs() < DRIFT * constants.fastest;
-        ball.slope = if drifts && self.last_round.abs() > 1e-4 && self.stale == 0 && !is_nominal {
-            ball.slope + change / self.last_round
-        } else {
-            0.0
-        };
     }
 
     /// The load for which balls are renewed, once a round is over.
@@ -361,13 +359,26 @@ impl<const N: usize> Ring<N> {
         }
     }
 
+    /// Whether the balls behind and ahead carry load.
+    #[inline(always)]
+    pub(crate) fn loaded_beside(&self, index: usize) -> [bool; 2] {
+        Self::beside(index).map(|place| self.balls.get(place).is_some_and(RingBall::loaded))
+    }
+
+    /// The places behind and ahead of a ball.
+    #[inline(always)]
+    const fn beside(index: usize) -> [usize; 2] {
+        let behind = index.wrapping_sub(1);
+        [
+            if behind < N { behind } else { N - 1 },
+            if index + 1 < N { index + 1 } else { 0 },
+        ]
+    }
+
     /// Marks a ball as loaded that was not: it takes over what its neighbour does.
     #[inline(always)]
     pub(crate) fn enter(&mut self, index: usize) {
-        let behind = index.wrapping_sub(1);
-        let behind = if behind < N { behind } else { N - 1 };
-        let ahead = if index + 1 < N { index + 1 } else { 0 };
-        let neighbour = [behind, ahead]
+        let neighbour = Self::beside(index)
             .into_iter()
             .filter_map(|place| self.balls.get(place))
             .find(|ball| ball.loaded())

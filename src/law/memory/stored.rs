@@ -18,14 +18,14 @@ impl<const N: usize> Stored for MemoryState<N> {
     const BYTES: usize = 4 * N;
 
     fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
-        port.numbers("torques", &mut self.torques, Range::new(-LARGEST, LARGEST))
+        port.numbers("held", &mut self.held, Range::new(-LARGEST, LARGEST))
     }
 }
 
 impl<const N: usize> Fingerprinted for ProportionalElements<N> {
     fn fingerprint(&self, fingerprint: &mut Fingerprint) {
         fingerprint.count(PROPORTIONAL);
-        fingerprint.numbers(&self.stiffnesses);
+        fingerprint.numbers(&self.rates);
         fingerprint.numbers(&self.shares);
     }
 }

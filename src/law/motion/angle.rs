@@ -19,7 +19,7 @@ pub struct WrappedAngleParameters {
 ///
 /// Differences of neighbours are exact (Sterbenz) where neither is over twice the other; across the end both distances
 /// from it are, and the turn is rounded once. What is left is the readings' own resolution: half an ulp, 2e-7 rad near a
-/// full turn. An angle outside `lowest` to `lowest + period`, or no number, is no reading. 30 cycles.
+/// full turn. An angle outside `lowest` to `lowest + period`, or no number, is no reading. 65 cycles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct WrappedAngle {

@@ -19,7 +19,7 @@ pub struct CountSensorParameters {
 /// Nut angle from a counter: `dtheta = ((n - n_last + P/2) mod P - P/2) turn_per_count`, the shorter way round.
 ///
 /// The difference is exact, the turn rounded once (below 2^24 counts). A count of the period or more is no reading. Half
-/// a period is taken as backwards. 35 cycles.
+/// a period is taken as backwards. 60 cycles.
 ///
 /// ```
 /// use epas_friction::law::motion::{CountSensor, CountSensorParameters, NutAngle, Turn};

@@ -5,12 +5,14 @@ mod stored;
 use core::f32::consts::TAU;
 
 use super::CagedBallScrewConfiguration;
+use super::coefficients::CoefficientLaws;
 use super::full::CagedFull;
 use crate::ball::Clearance;
 use crate::ball::elastic::constants::BallConstants;
 use crate::ball::elastic::load_law::{LoadLaw, LoadRange};
 use crate::ball::elastic::nominal::{Grooving, NominalBall, SMALLEST_LOAD};
 use crate::error::{Error, attempt};
+use crate::law::coefficient::DirectionalCoefficient;
 use crate::ranges;
 use crate::scene::contract::{Inputs, Regime};
 use crate::scene::faults::Faults;
@@ -29,7 +31,6 @@ const OTHER_TURN: u8 = 4;
 pub(super) struct Contacts {
     ball: BallConstants,
     friction: f32,
-    per_friction: f32,
     clearance: Clearance,
     range: LoadRange,
     balls: f32,
@@ -38,19 +39,6 @@ pub(super) struct Contacts {
     load_per_whole: f32,
     /// Torque per axial load without friction, `lead / 2 pi`, m.
     reduced_lead: f32,
-}
-
-/// Laws for a second friction coefficient, between which and that of the configuration the coefficient may change in every
-/// tick: friction torque over friction coefficient is linear between the two.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub(super) struct SecondLaws {
-    /// Of a load that opposes the motion, and of one that assists it.
-    laws: [LoadLaw; 2],
-    /// 1 / the second coefficient.
-    per_friction: f32,
-    /// 1 / (second coefficient - first one).
-    per_span: f32,
 }
 
 /// What a tick reads and changes.
@@ -85,7 +73,6 @@ impl Contacts {
         let balls = loaded_balls as f32;
         Ok(Self {
             friction: attempt!(ranges::FRICTION_OF_A_ROW.checked("friction", friction)),
-            per_friction: 1.0 / friction,
             clearance: attempt!(clearance.checked(design)),
             ball: attempt!(BallConstants::new(design, rolling_resistance)),
             range: LoadRange::to(limits.axial_load / balls),
@@ -101,21 +88,10 @@ impl Contacts {
         self.friction
     }
 
-    /// Laws for a friction coefficient beside that of the configuration: none where the two are the same.
-    pub(super) fn second_laws(&self, friction: f32) -> Option<SecondLaws> {
-        if friction == self.friction {
-            return None;
-        }
-        let grooving = Grooving::new(&self.ball, friction, self.clearance.gap());
-        let mut second = SecondLaws {
-            laws: [LoadLaw::NONE; 2],
-            per_friction: 1.0 / friction,
-            per_span: 1.0 / (friction - self.friction),
-        };
-        for (law, side) in second.laws.iter_mut().zip([1.0, -1.0]) {
-            law.fold(&self.ball, &grooving, self.range, side);
-        }
-        Some(second)
+    /// Laws for friction coefficients between these two: none where they are that of the configuration.
+    pub(super) fn laws_between(&self, least: f32, largest: f32) -> Option<CoefficientLaws> {
+        let gap = self.clearance.gap();
+        CoefficientLaws::new(&self.ball, gap, self.range, self.friction, (least, largest))
     }
 
     /// Laws and balls before the first tick: some thousand renewals.
@@ -214,33 +190,34 @@ impl Contacts {
     pub(super) fn both_ways(
         &self,
         state: &mut ContactsState,
-        second: Option<&SecondLaws>,
+        laws: Option<&CoefficientLaws>,
         inputs: Inputs,
-        friction: f32,
+        friction: DirectionalCoefficient,
     ) -> CagedFull {
         let way = way(inputs.nut_speed);
         let opposing = way * inputs.axial_load;
         let load = opposing.abs() * self.per_ball;
         let other = opposing < 0.0;
         let whole = state.grooving.whole(&self.ball, load);
+        let (own_friction, opposite_friction) = friction.of(way);
         let [(own, accuracy), (opposite, _)] = if state.changes {
-            state.grooving.friction = friction;
+            state.grooving.friction = own_friction;
             let own = self.renewed(state, load, whole, other);
             let [drive, backdrive] = &state.balls;
             let opposite = if other { drive } else { backdrive };
             [own, (opposite.ratio(), Faults::NONE)]
         } else {
-            [other, !other].map(|other| self.between(state, second, load, other, friction))
+            [(other, own_friction), (!other, opposite_friction)]
+                .map(|(other, friction)| self.between(state, laws, load, other, friction))
         };
-        let carried = self.balls * whole;
         let (forward, backward) = if way < 0.0 {
             (opposite, own)
         } else {
             (own, opposite)
         };
         CagedFull {
-            forward: carried * forward,
-            backward: carried * backward,
+            forward: self.balls * (whole * forward),
+            backward: self.balls * (whole * backward),
             load: whole * self.load_per_whole,
             faults: accuracy,
         }
@@ -251,26 +228,19 @@ impl Contacts {
     fn between(
         &self,
         state: &ContactsState,
-        second: Option<&SecondLaws>,
+        laws: Option<&CoefficientLaws>,
         load: f32,
         other: bool,
         friction: f32,
     ) -> (f32, Faults) {
         let (first, faults) = state.folded(self.range, load, other);
-        let part = friction / self.friction;
-        let Some(second) = second else {
-            return (first * part, faults);
-        };
-        let [drive, backdrive] = &second.laws;
-        let law = if other { backdrive } else { drive };
-        let (ratio, beyond) = law.at(self.range, load);
-        // Friction torque over friction coefficient, of both.
-        let (at_first, at_second) = (first * self.per_friction, ratio * second.per_friction);
-        let weight = (friction - self.friction) * second.per_span;
-        (
-            friction * (at_first + weight * (at_second - at_first)),
-            faults.with(beyond, Faults::BEYOND_MODEL),
-        )
+        match laws {
+            Some(laws) => {
+                let (ratio, beyond) = laws.at(self.range, load, other, friction, first);
+                (ratio, faults.with(beyond, Faults::BEYOND_MODEL))
+            }
+            None => (first * (friction / self.friction), faults),
+        }
     }
 
     /// Full friction times its passage: zero at standstill, odd under reversal of speed and load together, and never of the

@@ -12,7 +12,7 @@ pub struct WithMemoryInputs<I, R> {
     pub reading: R,
     /// Time since the loads were found, s; 0 where they are of this tick.
     pub load_age: f32,
-    /// Temperature of the screw, K, 200 to 450.
+    /// Temperature of the screw, K, 150 to 500.
     pub temperature: f32,
     /// Time since the temperature was found, s.
     pub temperature_age: f32,
@@ -28,7 +28,7 @@ pub struct WithMemoryKnown<I, R> {
     pub(super) temperature_age: f32,
 }
 
-/// How old a load and a temperature may be.
+/// How old a load may be.
 ///
 /// An age that is no number is too old; one below zero counts as none.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,31 +38,22 @@ pub struct Freshness {
     pub load_hold: f32,
     /// Time after that in which it fades to none, s, 1e-6 to 1e3.
     pub load_fade: f32,
-    /// Age up to which a temperature counts, s, 0 to 1e6.
-    pub temperature_hold: f32,
 }
 
 impl Freshness {
-    /// Loads of the last 10 ms as they are, which fade in 90 ms; temperatures of the last minute.
+    /// Loads of the last 10 ms as they are, which fade in 90 ms.
     pub const DEFAULT: Self = Self {
         load_hold: 0.01,
         load_fade: 0.09,
-        temperature_hold: 60.0,
     };
 
     /// These times, checked.
     ///
     /// # Errors
-    /// [`Error`] naming `load_hold`, `load_fade` or `temperature_hold`.
+    /// [`Error`] naming `load_hold` or `load_fade`.
     pub const fn checked(self) -> Result<Self, Error> {
         attempt!(in_range("load_hold", self.load_hold, 0.0, 1e3));
         attempt!(in_range("load_fade", self.load_fade, 1e-6, 1e3));
-        attempt!(in_range(
-            "temperature_hold",
-            self.temperature_hold,
-            0.0,
-            1e6
-        ));
         Ok(self)
     }
 
@@ -76,11 +67,5 @@ impl Freshness {
         } else {
             0.0
         }
-    }
-
-    /// Whether a temperature of an age counts.
-    #[inline(always)]
-    pub(super) fn counts(&self, age: f32) -> bool {
-        age <= self.temperature_hold
     }
 }

@@ -1,7 +1,8 @@
 //! A scene with memory as bytes. The law of the friction coefficient is that of the constants, or what was set last.
 
-use super::{Sliding, TEMPERATURES, WithMemory, WithMemoryConstants, WithMemoryState};
+use super::{Sliding, WithMemory, WithMemoryConstants, WithMemoryState};
 use crate::error::Range;
+use crate::law::coefficient::TEMPERATURE;
 use crate::law::motion::{NutAngle, PlayState};
 use crate::law::{Elements, SlidingLimits};
 use crate::scene::contract::Scene;
@@ -13,7 +14,7 @@ const MEMORY: u16 = 0x100;
 
 impl<S, E, A> StoredScene for WithMemory<S, E, A>
 where
-    S: StoredScene + Sliding<Constants: Clone, Inputs: Stored, Full: Stored + Default> + Copy,
+    S: StoredScene + Sliding<Constants: Copy, Inputs: Stored, Full: Stored + Default> + Copy,
     E: Elements<State: Stored> + Fingerprinted + Copy,
     A: NutAngle<State: Stored> + Fingerprinted + Copy,
 {
@@ -77,9 +78,7 @@ where
         self.play.exchange(port)?;
         self.inputs.exchange(port)?;
         self.limits.exchange(port)?;
-        let (coldest, hottest) = TEMPERATURES;
-        let temperatures = Range::new(coldest, hottest);
-        port.number("temperature", &mut self.temperature, temperatures)?;
+        port.number("temperature", &mut self.temperature, TEMPERATURE)?;
         port.number("moved", &mut self.moved, Range::new(-1e9, 1e9))?;
         port.number("churning", &mut self.churning, Range::new(-1e9, 1e9))?;
         self.full.exchange(port)

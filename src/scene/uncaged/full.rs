@@ -11,6 +11,8 @@ pub struct UncagedFull {
     /// Parts of the friction torque from the grooves and from balls that rub against each other, N m.
     pub(super) groove: f32,
     pub(super) ball: f32,
+    /// The grooves' part forward and backward over it.
+    pub(super) ways: [f32; 2],
     /// Axial load, preload counted, N.
     pub(super) load: f32,
     pub(super) contacts: u8,
@@ -22,7 +24,13 @@ impl UncagedFull {
     /// The outputs under a load that is held by this torque, N m.
     #[inline(always)]
     pub(super) fn passed(&self, load_torque: f32, passage: Passage) -> UncagedOutputs {
-        let groove_torque = passage.share * self.groove;
+        let [forward, backward] = self.ways;
+        let way = if passage.share < 0.0 {
+            backward
+        } else {
+            forward
+        };
+        let groove_torque = passage.share * (way * self.groove);
         let ball_torque = passage.share * self.ball;
         let friction_torque = groove_torque + ball_torque;
         UncagedOutputs {

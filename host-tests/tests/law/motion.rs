@@ -1,0 +1,258 @@
+//! The turn between two readings: across ends and gaps, of bad readings; and the play.
+
+use std::f64::consts::TAU;
+
+use epas_friction::law::motion::{
+    CountReading, CountSensor, CountSensorParameters, NutAngle, Play, PlayState, SpeedOverTick,
+    Turn, WrappedAngle, WrappedAngleParameters,
+};
+use epas_friction::promises;
+
+use crate::kit::errors::Errors;
+use crate::kit::random::Random;
+
+fn counter(period: u32, turn_per_count: f32, largest_turn: f32) -> CountSensor {
+    let parameters = CountSensorParameters {
+        period,
+        turn_per_count,
+        largest_turn,
+    };
+    CountSensor::new(parameters).unwrap()
+}
+
+fn angle(lowest: f32, period: f32, largest_turn: f32) -> WrappedAngle {
+    let parameters = WrappedAngleParameters {
+        lowest,
+        period,
+        largest_turn,
+    };
+    WrappedAngle::new(parameters).unwrap()
+}
+
+/// A random walk of counts, some of them across the end of the counter: every turn is the count, rounded once.
+#[test]
+fn counts_are_exact_across_the_end() {
+    let mut random = Random(1);
+    let mut errors = Errors::default();
+    for period in [2, 3, 1000, 16_384, 16_385, 1 << 31, u32::MAX, 0] {
+        let whole = if period == 0 {
+            1_i64 << 32
+        } else {
+            i64::from(period)
+        };
+        let sensor = counter(
+            period,
+            1e-6,
+            1e-6_f32.max(whole as f32 * 0.49e-6).min(1000.0),
+        );
+        let (mut state, mut count) = (CountSensor::FRESH, whole - 1);
+        assert_eq!(sensor.turn(&mut state, count as u32), Turn::Measured(0.0));
+        for _ in 0..20_000 {
+            let most = (whole as f64 * 0.48).max(0.0);
+            let step = random.between(-most, most) as i64;
+            count = (count + step).rem_euclid(whole);
+            let turn = sensor.turn(&mut state, count as u32);
+            // In f32 as the counter is in counts: the constant's own rounding is not the difference's.
+            let exact = step as f64 * f64::from(1e-6_f32);
+            if exact.abs() < 1000.0 {
+                let relative = if step == 0 {
+                    f64::from(turn.angle())
+                } else {
+                    f64::from(turn.angle()) / exact - 1.0
+                };
+                assert!(turn.is_measured());
+                // Beyond 2^24 counts they round, too.
+                assert!(relative.abs() < 1.2e-7);
+                if step.abs() < 1 << 24 {
+                    errors.add_case(relative, || format!("{step}"));
+                }
+            } else {
+                assert_eq!(turn, Turn::Limited(1000_f32.copysign(exact as f32)));
+            }
+        }
+    }
+    errors.assert_promised(&promises::TURN_OF_COUNTS);
+}
+
+#[test]
+fn a_counter_of_all_bits_overflows_without_a_jump() {
+    const COUNT: f32 = 1.0 / 1024.0;
+    let sensor = counter(0, -COUNT, 1.0);
+    let mut state = CountSensor::FRESH;
+    for (reading, turn) in [
+        (u32::MAX - 1, 0.0),
+        (3, -5.0 * COUNT),
+        (u32::MAX, 4.0 * COUNT),
+        (0x7fff_ffff, 1.0),
+    ] {
+        assert_eq!(sensor.turn(&mut state, reading).angle(), turn, "{reading}");
+    }
+}
+
+/// Not an angle: friction holds, and the next turn spans the gap.
+#[test]
+fn gaps_are_spanned() {
+    let sensor = counter(16_384, 1e-3, 1.0);
+    let mut state = CountSensor::FRESH;
+    assert_eq!(sensor.turn(&mut state, 20_000), Turn::Unknown);
+    assert_eq!(state, CountSensor::FRESH);
+    sensor.turn(&mut state, 16_300);
+    for bad in [16_384, u32::MAX, 99_999] {
+        let before: CountReading = state;
+        assert_eq!(sensor.turn(&mut state, bad), Turn::Unknown);
+        assert_eq!(Turn::Unknown.angle(), 0.0);
+        assert_eq!(state, before);
+    }
+    assert_eq!(sensor.turn(&mut state, 16), Turn::Measured(0.1));
+    assert_eq!(sensor.turn(&mut state, 5_000), Turn::Limited(1.0));
+    assert_eq!(sensor.turn(&mut state, 0), Turn::Limited(-1.0));
+
+    let sensor = angle(-3.0, 6.0, 0.5);
+    let mut state = WrappedAngle::FRESH;
+    sensor.turn(&mut state, 2.875);
+    for bad in [
+        f32::NAN,
+        f32::INFINITY,
+        f32::NEG_INFINITY,
+        3.1,
+        -3.1,
+        f32::MAX,
+    ] {
+        assert_eq!(sensor.turn(&mut state, bad), Turn::Unknown);
+    }
+    assert_eq!(sensor.turn(&mut state, -2.75), Turn::Measured(0.375));
+    assert_eq!(sensor.turn(&mut state, -1.0), Turn::Limited(0.5));
+
+    let speed = SpeedOverTick::new(1e-3, 0.5).unwrap();
+    assert_eq!(speed.turn(&mut (), 100.0), Turn::Measured(0.1));
+    assert_eq!(speed.turn(&mut (), f32::NAN), Turn::Unknown);
+    assert_eq!(speed.turn(&mut (), f32::INFINITY), Turn::Limited(0.5));
+    assert_eq!(speed.turn(&mut (), -1e9), Turn::Limited(-0.5));
+}
+
+/// Angles that wrap at either end: the difference of the readings, which are what they are.
+#[test]
+fn angles_lose_nothing_across_either_end() {
+    let mut random = Random(2);
+    let mut errors = Errors::default();
+    let full = TAU as f32;
+    for lowest in [0.0, -0.5 * full] {
+        let sensor = angle(lowest, full, 3.0);
+        let (low, period) = (f64::from(lowest), f64::from(full));
+        let (mut state, mut last) = (WrappedAngle::FRESH, f64::from(lowest));
+        sensor.turn(&mut state, lowest);
+        let mut crossings = 0;
+        for _ in 0..100_000 {
+            let size = 10_f64.powf(random.between(-5.0, 0.45));
+            let step = f64::from(random.sign()) * size;
+            let reading = (low + (last + step - low).rem_euclid(period)) as f32;
+            let turn = sensor.turn(&mut state, reading);
+            let direct = f64::from(reading) - last;
+            let exact = direct - period * (direct / period).round();
+            crossings += u32::from(exact != direct);
+            assert!(turn.is_measured());
+            let error = f64::from(turn.angle()) - exact;
+            // One rounding of the turn; across the end the readings' ends are rounded, too.
+            assert!(error.abs() <= exact.abs() * 6e-8 + if exact == direct { 0.0 } else { 2.4e-7 });
+            errors.add_case(error / period, || format!("{last} {reading}"));
+            last = f64::from(reading);
+        }
+        assert!(crossings > 1000);
+    }
+    errors.assert_promised(&promises::TURN_OF_ANGLES);
+}
+
+#[test]
+fn a_play_lets_through_what_it_does_not_take() {
+    let play = Play::new(1e-3).unwrap();
+    let mut state = PlayState::FRESH;
+    let mut moved = |turn| {
+        let moved = play.follow(&mut state, turn);
+        (moved.turn, moved.way)
+    };
+    let near = |found: (f32, f32), turn: f32, way: f32| {
+        assert!((found.0 - turn).abs() < 1e-9 && found.1 == way, "{found:?}");
+    };
+    near(moved(0.5e-3), 0.0, 0.0);
+    near(moved(1.5e-3), 1e-3, 1.0);
+    near(moved(0.25e-3), 0.25e-3, 1.0);
+    // Back through the whole play, of twice the half width, with nothing moved.
+    near(moved(-0.5e-3), 0.0, 1.0);
+    near(moved(0.5e-3), 0.0, 1.0);
+    near(moved(-2e-3), 0.0, 1.0);
+    near(moved(-0.5e-3), -0.5e-3, -1.0);
+    near(moved(2e-3), 0.0, -1.0);
+    near(moved(f32::NAN), 0.0, -1.0);
+    near(moved(0.25e-3), 0.25e-3, 1.0);
+}
+
+/// Noise within the play never turns the output round, and what moves and what stays add up to the turn.
+#[test]
+fn a_play_keeps_noise_away() {
+    let play = Play::new(1.0).unwrap();
+    let mut random = Random(3);
+    let (mut state, mut turned) = (PlayState::FRESH, 0.0);
+    let mut errors = Errors::default();
+    let mut place = 0.0_f64;
+    for tick in 0..200_000 {
+        let turn = random.between(-2.0, 2.0) as f32;
+        let before = f64::from(state.place());
+        let moved = play.follow(&mut state, turn);
+        errors.add_case(
+            before + f64::from(turn) - f64::from(state.place()) - f64::from(moved.turn),
+            || tick.to_string(),
+        );
+        place += f64::from(moved.turn);
+        turned += f64::from(turn);
+        assert!((turned - place).abs() < 1.0 + 1e-2);
+    }
+    errors.assert_promised(&promises::PLAY);
+    let mut way = 0.0;
+    for tick in 0..10_000 {
+        // A slow turn with counts of noise of 0.9 of the play's width.
+        let noise = if tick % 2 == 0 { 0.9 } else { -0.9 };
+        let moved = play.follow(&mut state, noise + 0.01);
+        assert!(tick < 400 || moved.turn >= 0.0);
+        way = moved.way;
+    }
+    assert_eq!(way, 1.0);
+    let none = Play::new(0.0).unwrap();
+    let mut state = PlayState::FRESH;
+    assert_eq!(none.follow(&mut state, 0.3).turn, 0.3);
+    assert_eq!(none.follow(&mut state, -0.1).turn, -0.1);
+}
+
+#[test]
+fn set_ups_are_refused_by_field() {
+    let count = |period, turn_per_count, largest_turn| {
+        let parameters = CountSensorParameters {
+            period,
+            turn_per_count,
+            largest_turn,
+        };
+        CountSensor::new(parameters).unwrap_err().field()
+    };
+    assert_eq!(count(1, 1e-3, 1e-3), "period");
+    assert_eq!(count(100, 0.0, 1e-3), "turn_per_count");
+    assert_eq!(count(100, f32::NAN, 1e-3), "turn_per_count");
+    assert_eq!(count(100, -1e-3, 0.06), "largest_turn");
+    assert_eq!(count(0, 1e-3, f32::INFINITY), "largest_turn");
+    let wrapped = |lowest, period, largest_turn| {
+        let parameters = WrappedAngleParameters {
+            lowest,
+            period,
+            largest_turn,
+        };
+        WrappedAngle::new(parameters).unwrap_err().field()
+    };
+    assert_eq!(wrapped(f32::NAN, 6.0, 1.0), "lowest");
+    assert_eq!(wrapped(0.0, 0.0, 1.0), "period");
+    assert_eq!(wrapped(0.0, 6.0, 3.5), "largest_turn");
+    assert_eq!(SpeedOverTick::new(0.0, 1.0).unwrap_err().field(), "tick");
+    assert_eq!(
+        SpeedOverTick::new(1e-3, 0.0).unwrap_err().field(),
+        "largest_turn"
+    );
+    assert_eq!(Play::new(-1.0).unwrap_err().field(), "half_width");
+    assert_eq!(Play::new(f32::NAN).unwrap_err().field(), "half_width");
+}

@@ -1,0 +1,150 @@
+//! The seat, and kinds of elements side by side.
+
+use epas_friction::law::memory::{
+    Hysteresis, SLIP_8, SPIN_8, SeatElement, SeatState, Together, sticking_share,
+};
+use epas_friction::law::{Elements, SlidingLimits};
+use epas_friction::promises;
+
+use crate::elements::proportional;
+use crate::kit::errors::Errors;
+use crate::kit::random::Random;
+
+fn virgin<E: Elements>(_: &E) -> E::State {
+    E::VIRGIN
+}
+
+/// `x <- clamp(x + dtheta)`, `T = ((|x| - g)+)^(3/2) sgn x`.
+#[test]
+fn friction_is_that_of_the_formula() {
+    let seat = SeatElement::new(1.0, 0.5, 1.0).unwrap();
+    let (mut random, mut state, mut exact) = (Random(1), SeatElement::VIRGIN, 0.0_f64);
+    let mut errors = Errors::default();
+    for tick in 0..200_000 {
+        let turn = random.between(-2.5, 2.5) as f32;
+        let [forward, backward] = [(); 2].map(|()| random.between(0.0, 3.0) as f32);
+        let limits = SlidingLimits {
+            forward,
+            backward,
+            load: 1.0,
+        };
+        let friction = f64::from(seat.follow(&mut state, turn, &limits));
+        let end = |limit: f32| 0.5 + f64::from(limit).powf(2.0 / 3.0);
+        exact = (exact + f64::from(turn)).clamp(-end(backward), end(forward));
+        let true_friction = (exact.abs() - 0.5).max(0.0).powf(1.5) * exact.signum();
+        errors.add_case(friction - true_friction, || tick.to_string());
+        assert!(friction <= forward.into() && friction >= f64::from(-backward));
+        // Play and place are wiped out by no element: they follow the turn, to rounding, as long as they do.
+        exact = f64::from(state.place());
+    }
+    errors.assert_promised(&promises::MEMORY_SEAT);
+}
+
+#[test]
+fn play_is_free_and_sliding_is_full() {
+    let seat = SeatElement::new(0.04, 1e-3, 2e-3).unwrap();
+    let limits = SlidingLimits {
+        forward: 0.04,
+        backward: 0.03,
+        load: 1.0,
+    };
+    let mut state = SeatElement::VIRGIN;
+    assert_eq!(seat.follow(&mut state, 1e-3, &limits), 0.0);
+    assert_eq!(seat.follow(&mut state, -2e-3, &limits), 0.0);
+    assert_eq!(seat.follow(&mut state, 1.0, &limits), 0.04);
+    assert!((state.place() / seat.breakaway() - 1.0).abs() < 3e-7);
+    assert_eq!(seat.follow(&mut state, -1.0, &limits), -0.03);
+    // Formed again from the place: a cube root, a square root and four products.
+    for turn in [0.0, f32::NAN, f32::INFINITY, 1e7] {
+        assert!((seat.follow(&mut state, turn, &limits) / -0.03 - 1.0).abs() < 5e-7);
+    }
+    assert_eq!(seat.stored_energy(&SeatElement::VIRGIN), 0.0);
+    for (turn, friction) in [(1e6, 0.04), (-1e6, -0.03), (1e5, 0.04)] {
+        assert_eq!(seat.follow(&mut state, turn, &limits), friction);
+    }
+    let none = SlidingLimits {
+        forward: 0.0,
+        backward: 0.0,
+        load: f32::NAN,
+    };
+    assert_eq!(seat.follow(&mut state, -1.0, &none), 0.0);
+    // Limits that are no numbers do no lasting harm.
+    for limit in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -1.0] {
+        let [forward, backward] = [limit; 2];
+        for turn in [1.0, -2.0] {
+            let load = limit;
+            seat.follow(
+                &mut state,
+                turn,
+                &SlidingLimits {
+                    forward,
+                    backward,
+                    load,
+                },
+            );
+        }
+        assert_eq!(seat.follow(&mut state, 1e3, &limits), 0.04);
+    }
+    assert_eq!(sticking_share(0.01, &limits), 0.75);
+    assert_eq!(sticking_share(-0.03, &limits), 0.0);
+    assert_eq!(sticking_share(f32::NAN, &limits), 0.0);
+}
+
+#[test]
+fn together_they_share_the_limit() {
+    let spin = proportional(&SPIN_8, 0.012, 0.1e-3);
+    let seat = SeatElement::new(0.028, 1e-3, 2e-3).unwrap();
+    let both = Together::new(spin, seat, 0.3).unwrap();
+    let limits = SlidingLimits {
+        forward: 0.04,
+        backward: 0.03,
+        load: 1.0,
+    };
+    let mut state = virgin(&both);
+    // In the play only spin holds.
+    let friction = both.follow(&mut state, 0.9e-3, &limits);
+    assert!((friction - 0.012).abs() < 1e-8, "{friction}");
+    for (turn, limit) in [(1.0, 0.04), (-1.0, -0.03)] {
+        let friction = both.follow(&mut state, turn, &limits);
+        // Two parts that are rounded on their own.
+        assert!((friction - limit).abs() < 4e-9, "{friction}");
+    }
+    assert_eq!(both.breakaway(), seat.breakaway());
+    assert_eq!(both.initial_stiffness(), spin.initial_stiffness());
+    assert_eq!(Together::new(spin, seat, 1.5).unwrap_err().field(), "share");
+    assert_eq!(
+        Together::new(spin, seat, f32::NAN).unwrap_err().field(),
+        "share"
+    );
+    let half = Together::new(
+        proportional(&SLIP_8, 0.5, 1.0),
+        proportional(&SLIP_8, 0.5, 1.0),
+        0.5,
+    );
+    let (half, whole) = (half.unwrap(), proportional(&SLIP_8, 1.0, 1.0));
+    let unit = SlidingLimits {
+        forward: 1.0,
+        backward: 1.0,
+        load: 1.0,
+    };
+    let mut halves = virgin(&half);
+    let mut state = epas_friction::law::memory::MemoryState::VIRGIN;
+    for turn in [0.3, -0.4, 0.9, -2.0, 0.1] {
+        let difference =
+            half.follow(&mut halves, turn, &unit) - whole.follow(&mut state, turn, &unit);
+        assert!(difference.abs() < 3e-7);
+    }
+}
+
+#[test]
+fn set_ups_and_states_are_refused_by_field() {
+    let field = |limit, play, angle| SeatElement::new(limit, play, angle).unwrap_err().field();
+    assert_eq!(field(0.0, 0.0, 1.0), "reference_limit");
+    assert_eq!(field(1.0, -1e-3, 1.0), "free_play");
+    assert_eq!(field(1.0, 0.0, f32::NAN), "breakaway_angle");
+    assert_eq!(
+        SeatState::from_place(f32::NAN).unwrap_err().field(),
+        "place"
+    );
+    assert_eq!(SeatState::from_place(1e-3).unwrap().place(), 1e-3);
+}

@@ -1,0 +1,76 @@
+//! The elements' update in f64, straight from its formula, and their stored energy.
+
+/// Springs of constant stiffness, and how the limits are shared among them.
+pub struct Elements {
+    pub stiffnesses: Vec<f64>,
+    pub shares: Shares,
+    pub torques: Vec<f64>,
+}
+
+/// Shares of the limit.
+pub enum Shares {
+    Constant(Vec<f64>),
+    /// Squares of the places at which springs touch.
+    ByLoad(Vec<f64>),
+}
+
+impl Elements {
+    /// Elements of a table, angles over the breakaway angle and limits over the reference.
+    pub fn of_table(angles: &[f64], weights: &[f64]) -> Self {
+        Self {
+            stiffnesses: weights.iter().zip(angles).map(|(w, z)| w / z).collect(),
+            torques: vec![0.0; angles.len()],
+            shares: Shares::Constant(weights.to_vec()),
+        }
+    }
+
+    /// Elements that touch by load, `count` of them.
+    pub fn by_load(count: usize, largest_load: f64) -> Self {
+        let half = 0.5 * largest_load.cbrt();
+        let rule = gauss_quad::GaussLegendre::new(count.try_into().unwrap());
+        let nodes = rule.as_node_weight_pairs();
+        Self {
+            stiffnesses: nodes.iter().map(|(_, g)| 1.5 * g * half).collect(),
+            torques: vec![0.0; count],
+            shares: Shares::ByLoad(
+                nodes
+                    .iter()
+                    .map(|(u, _)| ((u + 1.0) * half).powi(2))
+                    .collect(),
+            ),
+        }
+    }
+
+    fn shares(&self, load: f64) -> Vec<f64> {
+        match &self.shares {
+            Shares::Constant(shares) => shares.clone(),
+            Shares::ByLoad(onsets) => {
+                let approach = load.powf(2.0 / 3.0);
+                let springs = onsets.iter().zip(&self.stiffnesses);
+                let borne: Vec<f64> = springs.map(|(c, k)| k * (approach - c).max(0.0)).collect();
+                let sum: f64 = borne.iter().sum();
+                borne
+                    .iter()
+                    .map(|l| if sum > 0.0 { l / sum } else { 0.0 })
+                    .collect()
+            }
+        }
+    }
+
+    /// Friction after a turn.
+    pub fn follow(&mut self, turn: f64, forward: f64, backward: f64, load: f64) -> f64 {
+        let shares = self.shares(load);
+        for ((f, k), share) in self.torques.iter_mut().zip(&self.stiffnesses).zip(shares) {
+            *f = (*f + k * turn).clamp(-share * backward, share * forward);
+        }
+        self.torques.iter().sum()
+    }
+}
+
+/// Energy of springs.
+pub fn energy(torques: &[f32], stiffnesses: &[f32]) -> f64 {
+    let springs = torques.iter().zip(stiffnesses);
+    springs
+        .map(|(&f, &k)| f64::from(f).powi(2) / (2.0 * f64::from(k)))
+        .sum()
+}

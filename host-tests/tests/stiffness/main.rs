@@ -1,0 +1,9 @@
+//! Stiffness before sliding, breakaway angles, and the friction coefficient by speed and temperature, against the float64
+//! reference, published limits and tabulated figures.
+
+#[path = "../kit/mod.rs"]
+mod kit;
+
+mod coefficient;
+mod contact;
+mod screw;

@@ -1,0 +1,378 @@
+//! The friction coefficient by a rational form.
+
+use super::viscosity::{TEMPERATURE, Viscosity, fifth_root};
+use crate::error::{Error, Range, attempt, in_range};
+use crate::ranges;
+
+/// Least and largest half-share speed, rad/s: at set-up and at every temperature.
+const HALF_SHARE_SPEED: Range = Range::new(1e-3, 1e4);
+
+/// Factor of the coefficient in one direction.
+const DIRECTION: Range = Range::new(0.1, 10.0);
+
+/// Churning torque over viscosity and speed, m³.
+const CHURNING: Range = Range::new(0.0, 1.0);
+
+/// Largest speed that churns, rad/s.
+const LARGEST_SPEED: f32 = 1e6;
+
+/// What a friction coefficient follows from; unchecked.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct CoefficientParameters {
+    /// Coefficient `mu_b` at standstill, 1e-6 to 1: boundary lubrication, asperities carry.
+    pub boundary: f32,
+    /// Coefficient `mu_f` at high speed, 1e-6 to 1: a film carries. Below `boundary` friction falls with speed; above it rises,
+    /// as measured on machine tools with preloaded screws.
+    pub full_film: f32,
+    /// Speed of the nut at which half of the difference is gone, at the reference temperature, rad/s, 1e-3 to 1e4. In
+    /// proportion to 1/(viscosity x pitch radius) and to roughness to the power of 3/2.
+    pub half_share_speed: f32,
+    /// Temperature of the half-share speed, K, from 10 K above the pole of the viscosity's formula to 500.
+    pub reference_temperature: f32,
+    /// The lubricant's viscosity by temperature.
+    pub viscosity: Viscosity,
+    /// Factor of both coefficients in the positive direction, 0.1 to 10; the product is within 1e-6 to 1.
+    pub forward: f32,
+    /// Factor in the negative direction.
+    pub backward: f32,
+    /// Torque of churned lubricant over its viscosity and the nut's speed, m³, 0 to 1. Not Coulomb friction: it is to be added
+    /// by itself.
+    pub churning: f32,
+}
+
+/// Friction coefficient by speed, temperature and direction: constants.
+///
+/// ```text
+/// mu(w, T) = d [mu_f + (mu_b - mu_f)/(1 + |w|/w_m(T))]        w_m(T) = w_ref ((T - T_s)/(T_ref - T_s))^5
+/// ```
+///
+/// `d` is the factor of the direction, `T_s` the pole of [`Viscosity`]: the speed at which a film has formed goes with the
+/// inverse of the viscosity. `w_m` stays within 1e-3 to 1e4 rad/s, the temperature between [`Viscosity::floor`] and 500 K.
+///
+/// Largest errors over the difference of both coefficients, 0.1 to 500 rad/s, against the film's thickness by Hamrock and Dowson
+/// 1977 with the asperities' share `1/(1 + film/roughness)^2` of Olver and Spikes 1998: the form alone 0.068 (rms 0.039), with
+/// the default viscosity's own error 0.080 from -20 to 120 degrees Celsius and 0.057 below. Starvation, thinning by shear, and
+/// the growth of friction at rest are in neither.
+///
+/// Where both coefficients are equal, and the direction's factors 1, the coefficient is that number, to the last bit.
+///
+/// ```
+/// use epas_friction::defaults;
+/// use epas_friction::law::coefficient::CoefficientLaw;
+/// let law = CoefficientLaw::new(&defaults::COEFFICIENT)?;
+/// let (cold, warm) = (law.at_temperature(253.15), law.at_temperature(353.15));
+/// // At 5 rad/s a cold film carries, a warm one does not.
+/// assert!(cold.at(5.0) < 0.055 && warm.at(5.0) > 0.11);
+/// # Ok::<(), epas_friction::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct CoefficientLaw {
+    forward: Sides,
+    backward: Sides,
+    /// `w_ref^(1/5)/(T_ref - T_s)`: its product with `T - T_s` to the power of 5 is the half-share speed.
+    scale: f32,
+    /// `T_s`, K.
+    pole: f32,
+    /// Coldest temperature, K.
+    floor: f32,
+    /// Temperature where none is known, K.
+    reference: f32,
+    /// Churning torque over the speed, times the half-share speed, N m.
+    churning: f32,
+}
+
+/// Coefficients of one direction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+struct Sides {
+    full_film: f32,
+    /// Boundary less full film.
+    difference: f32,
+}
+
+/// Friction coefficient by speed and direction at one temperature.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct CoefficientAtTemperature {
+    forward: Sides,
+    backward: Sides,
+    /// `w_m`, rad/s.
+    half_share_speed: f32,
+    /// Churning torque over the speed, N m s.
+    churning: f32,
+}
+
+/// Friction coefficients of both directions at one speed: what the limits of a memory need.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct DirectionalCoefficient {
+    /// In the positive direction.
+    pub forward: f32,
+    /// In the negative direction.
+    pub backward: f32,
+}
+
+impl DirectionalCoefficient {
+    /// That of the direction of a sign, and that of the opposite one.
+    #[inline(always)]
+    #[must_use]
+    pub const fn of(&self, way: f32) -> (f32, f32) {
+        if way < 0.0 {
+            (self.backward, self.forward)
+        } else {
+            (self.forward, self.backward)
+        }
+    }
+
+    /// Both over that of the direction of a sign, forward first.
+    #[inline(always)]
+    #[must_use]
+    pub const fn over_own(&self, way: f32) -> [f32; 2] {
+        let (own, opposite) = self.of(way);
+        let ratio = opposite / own;
+        if way < 0.0 {
+            [ratio, 1.0]
+        } else {
+            [1.0, ratio]
+        }
+    }
+}
+
+impl CoefficientParameters {
+    /// One coefficient at every speed and temperature, in both directions, without churning.
+    #[must_use]
+    pub const fn constant(friction: f32, viscosity: Viscosity) -> Self {
+        Self {
+            boundary: friction,
+            full_film: friction,
+            half_share_speed: 1.0,
+            reference_temperature: 293.15,
+            viscosity,
+            forward: 1.0,
+            backward: 1.0,
+            churning: 0.0,
+        }
+    }
+}
+
+impl Sides {
+    const fn new(parameters: &CoefficientParameters, factor: f32) -> Result<Self, Error> {
+        let boundary = attempt!(ranges::FRICTION.checked("boundary", factor * parameters.boundary));
+        let full_film =
+            attempt!(ranges::FRICTION.checked("full_film", factor * parameters.full_film));
+        Ok(Self {
+            full_film,
+            difference: boundary - full_film,
+        })
+    }
+
+    /// The lesser one and the larger one.
+    const fn ends(&self) -> (f32, f32) {
+        let boundary = self.full_film + self.difference;
+        if self.difference < 0.0 {
+            (boundary, self.full_film)
+        } else {
+            (self.full_film, boundary)
+        }
+    }
+
+    #[inline(always)]
+    const fn at(&self, share: f32) -> f32 {
+        self.full_film + self.difference * share
+    }
+}
+
+impl CoefficientLaw {
+    /// Checks and folds a law. At set-up, or in a constant.
+    ///
+    /// # Errors
+    /// [`Error`] naming `boundary`, `full_film`, `half_share_speed`, `reference_temperature`, `forward`, `backward` or
+    /// `churning`.
+    pub const fn new(parameters: &CoefficientParameters) -> Result<Self, Error> {
+        let CoefficientParameters {
+            boundary,
+            full_film,
+            half_share_speed,
+            reference_temperature,
+            viscosity,
+            forward,
+            backward,
+            churning,
+        } = *parameters;
+        attempt!(ranges::FRICTION.checked("boundary", boundary));
+        attempt!(ranges::FRICTION.checked("full_film", full_film));
+        let speed = attempt!(HALF_SHARE_SPEED.checked("half_share_speed", half_share_speed));
+        let reference = attempt!(in_range(
+            "reference_temperature",
+            reference_temperature,
+            viscosity.floor(),
+            TEMPERATURE.maximum
+        ));
+        attempt!(DIRECTION.checked("forward", forward));
+        attempt!(DIRECTION.checked("backward", backward));
+        let churning = attempt!(CHURNING.checked("churning", churning));
+        let pole = viscosity.pole();
+        Ok(Self {
+            forward: attempt!(Sides::new(parameters, forward)),
+            backward: attempt!(Sides::new(parameters, backward)),
+            scale: fifth_root(speed) / (reference - pole),
+            pole,
+            floor: viscosity.floor(),
+            reference,
+            churning: churning * viscosity.at(reference) * speed,
+        })
+    }
+
+    /// One coefficient, 1e-6 to 1, at every speed and temperature, in both directions, without churning.
+    ///
+    /// # Errors
+    /// [`Error`] naming `boundary`.
+    pub const fn constant(friction: f32) -> Result<Self, Error> {
+        // Any lubricant will do: what it scales has no effect.
+        let viscosity = attempt!(Viscosity::through((313.15, 0.1), (373.15, 0.01), 233.15));
+        Self::new(&CoefficientParameters::constant(friction, viscosity))
+    }
+
+    /// Least and largest coefficient that the law gives, in either direction.
+    #[must_use]
+    pub const fn extremes(&self) -> (f32, f32) {
+        let (mut least, mut largest) = (f32::INFINITY, 0.0);
+        let all = [self.forward.ends(), self.backward.ends()];
+        let mut side = 0;
+        while side < 2 {
+            let (low, high) = all[side];
+            least = if low < least { low } else { least };
+            largest = if high > largest { high } else { largest };
+            side += 1;
+        }
+        (least, largest)
+    }
+
+    /// The law at a temperature, K: where a new one comes in, a few times a second.
+    ///
+    /// Beyond [`Viscosity::floor`] to 500 K as there; NaN is the reference temperature. Cost: 4 multiplications, 1 division.
+    #[inline]
+    #[must_use]
+    pub const fn at_temperature(&self, temperature: f32) -> CoefficientAtTemperature {
+        let temperature = if temperature >= TEMPERATURE.maximum {
+            TEMPERATURE.maximum
+        } else if temperature > self.floor {
+            temperature
+        } else if temperature <= self.floor {
+            self.floor
+        } else {
+            self.reference
+        };
+        let ratio = self.scale * (temperature - self.pole);
+        let square = ratio * ratio;
+        let speed = square * square * ratio;
+        let half_share_speed = if speed > HALF_SHARE_SPEED.maximum {
+            HALF_SHARE_SPEED.maximum
+        } else if speed < HALF_SHARE_SPEED.minimum {
+            HALF_SHARE_SPEED.minimum
+        } else {
+            speed
+        };
+        CoefficientAtTemperature {
+            forward: self.forward,
+            backward: self.backward,
+            half_share_speed,
+            churning: self.churning / speed,
+        }
+    }
+}
+
+impl CoefficientAtTemperature {
+    /// Friction coefficient at a speed of the nut, rad/s, in its direction; standstill counts as forward.
+    ///
+    /// NaN counts as standstill, infinity as a full film. Monotone in the speed's size, also in f32. Cost: one division; both
+    /// this and [`CoefficientLaw::at_temperature`] in the same tick are at most 70 modelled cycles.
+    #[inline(always)]
+    #[must_use]
+    pub const fn at(&self, speed: f32) -> f32 {
+        let share = self.share(speed);
+        if speed < 0.0 {
+            self.backward.at(share)
+        } else {
+            self.forward.at(share)
+        }
+    }
+
+    /// Friction coefficients that either direction would have at a speed of this size.
+    #[inline(always)]
+    #[must_use]
+    pub const fn both(&self, speed: f32) -> DirectionalCoefficient {
+        let share = self.share(speed);
+        DirectionalCoefficient {
+            forward: self.forward.at(share),
+            backward: self.backward.at(share),
+        }
+    }
+
+    /// Torque of churned lubricant, N m, with the sign of the speed that it opposes, rad/s: viscosity times speed. Speeds beyond
+    /// 1e6 rad/s as that; NaN gives 0.
+    #[inline]
+    #[must_use]
+    pub const fn churning_torque(&self, speed: f32) -> f32 {
+        let speed = if speed >= LARGEST_SPEED {
+            LARGEST_SPEED
+        } else if speed <= -LARGEST_SPEED {
+            -LARGEST_SPEED
+        } else if speed >= 0.0 || speed < 0.0 {
+            speed
+        } else {
+            0.0
+        };
+        self.churning * speed
+    }
+
+    /// Speed at which half of the difference is gone, rad/s.
+    #[inline]
+    #[must_use]
+    pub const fn half_share_speed(&self) -> f32 {
+        self.half_share_speed
+    }
+
+    /// Steepest change of the coefficient with the speed, s/rad, at standstill; above 0 where friction rises.
+    #[must_use]
+    pub const fn steepest(&self) -> f32 {
+        let difference = if self.forward.difference.abs() > self.backward.difference.abs() {
+            self.forward.difference
+        } else {
+            self.backward.difference
+        };
+        -difference / self.half_share_speed
+    }
+
+    /// Largest negative damping of a friction torque that is `torque`, N m, at standstill, N m s/rad, not below 0: a loop with
+    /// less damping than this may hum.
+    ///
+    /// ```text
+    /// torque (1 - mu_f/mu_b)/w_m
+    /// ```
+    ///
+    /// It is there at standstill, and `1/(1 + |w|/w_m)^2` of it at a speed; friction that rises has none. Churning adds damping
+    /// of its own.
+    #[must_use]
+    pub const fn largest_negative_damping(&self, torque: f32) -> f32 {
+        let Sides {
+            full_film,
+            difference,
+        } = self.forward;
+        if difference > 0.0 && torque > 0.0 {
+            torque * (difference / ((full_film + difference) * self.half_share_speed))
+        } else {
+            0.0
+        }
+    }
+
+    /// What is left of the difference at a speed: 1 at standstill, one half at the half-share speed.
+    #[inline(always)]
+    const fn share(&self, speed: f32) -> f32 {
+        let share = self.half_share_speed / (self.half_share_speed + speed.abs());
+        // False for NaN.
+        if share <= 1.0 { share } else { 1.0 }
+    }
+}

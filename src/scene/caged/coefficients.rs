@@ -1,0 +1,104 @@
+//! Friction under a coefficient that changes in every tick: between laws for three coefficients.
+
+use crate::ball::elastic::constants::BallConstants;
+use crate::ball::elastic::load_law::{LoadLaw, LoadRange};
+use crate::ball::elastic::nominal::Grooving;
+
+/// Part of the range of coefficients that lies between two laws at least.
+const APART: f32 = 0.2;
+
+/// Laws for two friction coefficients beside that of the configuration.
+///
+/// Friction torque over friction coefficient is a parabola of the coefficient through all three. It is no constant: with more
+/// friction a ball is held off its seat, more of it spins. Beyond the outermost coefficients it stays as there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(super) struct CoefficientLaws {
+    /// Of each: that of a load that opposes the motion, and of one that assists it.
+    laws: [[LoadLaw; 2]; 2],
+    /// The three coefficients, that of the configuration first.
+    nodes: [f32; 3],
+    /// Of each: 1 / its distances from the other two and from 0, `1/((m - m') (m - m'') m)`.
+    weights: [f32; 3],
+    least: f32,
+    largest: f32,
+}
+
+impl CoefficientLaws {
+    /// Laws for coefficients between `least` and `largest`, beside those for `own`; none where there is one coefficient alone.
+    pub(super) fn new(
+        ball: &BallConstants,
+        gap: f32,
+        range: LoadRange,
+        own: f32,
+        (least, largest): (f32, f32),
+    ) -> Option<Self> {
+        let least = if least < own { least } else { own };
+        let largest = if largest > own { largest } else { own };
+        let span = largest - least;
+        // Not above 0 where all are the same.
+        if !(span > 0.0) {
+            return None;
+        }
+        let middle = 0.5 * (least + largest);
+        let others = if own - least < APART * span {
+            [middle, largest]
+        } else if largest - own < APART * span {
+            [middle, least]
+        } else {
+            [least, largest]
+        };
+        let nodes = [own, others[0], others[1]];
+        let [a, b, c] = nodes;
+        let mut laws = [[LoadLaw::NONE; 2]; 2];
+        for (pair, friction) in laws.iter_mut().zip(others) {
+            let grooving = Grooving::new(ball, friction, gap);
+            for (law, side) in pair.iter_mut().zip([1.0, -1.0]) {
+                law.fold(ball, &grooving, range, side);
+            }
+        }
+        Some(Self {
+            laws,
+            nodes,
+            weights: [
+                1.0 / ((a - b) * (a - c) * a),
+                1.0 / ((b - a) * (b - c) * b),
+                1.0 / ((c - a) * (c - b) * c),
+            ],
+            least,
+            largest,
+        })
+    }
+
+    /// Friction torque over contact force, m, under a load of a size, N, that assists the motion where `assists`, and a friction
+    /// coefficient; `first` is that of the configuration's. And whether balls are not known well there.
+    #[inline(always)]
+    pub(super) fn at(
+        &self,
+        range: LoadRange,
+        load: f32,
+        assists: bool,
+        friction: f32,
+        first: f32,
+    ) -> (f32, bool) {
+        let [second, third] = &self.laws;
+        let [(second, second_beyond), (third, third_beyond)] =
+            [second, third].map(|[drive, backdrive]| {
+                let law = if assists { backdrive } else { drive };
+                law.at(range, load)
+            });
+        let at = if friction > self.largest {
+            self.largest
+        } else if friction > self.least {
+            friction
+        } else {
+            self.least
+        };
+        let [a, b, c] = self.nodes.map(|node| at - node);
+        let [first_weight, second_weight, third_weight] = self.weights;
+        let over = b * c * (first_weight * first)
+            + a * c * (second_weight * second)
+            + a * b * (third_weight * third);
+        (friction * over, second_beyond || third_beyond)
+    }
+}
