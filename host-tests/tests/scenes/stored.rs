@@ -183,18 +183,14 @@ impl Kept for Linear {
     }
 }
 
-fn with_memory<C, E, A>(
-    scene: C,
-    elements: E,
-    angle: A,
-) -> WithMemoryConfiguration<C, E, A> {
+fn with_memory<C, E, A>(scene: C, elements: E, angle: A) -> WithMemoryConfiguration<C, E, A> {
     WithMemoryConfiguration {
         scene,
         elements,
         angle,
         reference_load: 1000.0,
         play: 2e-3,
-        coefficient: CoefficientLaw::new(COEFFICIENT).unwrap(),
+        coefficient: CoefficientLaw::new(&COEFFICIENT).unwrap(),
         temperature: TemperatureFade::new(TEMPERATURE, 60.0, 60.0).unwrap(),
         freshness: Freshness::DEFAULT,
     }
