@@ -6,6 +6,7 @@ mod kit;
 mod borders;
 mod caged;
 mod caged_contacts;
+mod compensation;
 mod extreme;
 mod faults;
 mod hal;
