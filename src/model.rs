@@ -1,5 +1,7 @@
 //! The model that runs in the interrupt: constants folded at set-up, a small state, one `step`.
 
+mod stored;
+
 use core::borrow::Borrow;
 
 use crate::ball::Clearance;
@@ -256,7 +258,7 @@ impl<const N: usize, C: Borrow<UncagedConstants<N>>> FrictionModel<UncagedBallSc
 
 impl<S, E, A, C> FrictionModel<WithMemory<S, E, A>, C>
 where
-    S: Sliding<Constants: Clone>,
+    S: Sliding<Constants: Copy>,
     E: Elements + Copy,
     A: NutAngle + Copy,
     C: Borrow<WithMemoryConstants<S::Constants, E, A>>,

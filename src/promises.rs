@@ -21,9 +21,12 @@ pub use promise::{Footprint, Promise};
 pub use steps::*;
 
 /// Promises of every `step()`, and of every function that a step calls.
-pub const STEPS: [Promise; 17] = [
+pub const STEPS: [Promise; 20] = [
     STEP_CAGED,
     STEP_CAGED_CHANGING,
+    STEP_CAGED_MEMORY,
+    BETWEEN,
+    SET_FRICTION,
     STEP_UNCAGED,
     STEP_LINEAR,
     SQRT,
@@ -42,7 +45,7 @@ pub const STEPS: [Promise; 17] = [
 ];
 
 /// Promises of functions that firmware calls by their names.
-pub const DIRECT: [Promise; 23] = [
+pub const DIRECT: [Promise; 25] = [
     CBRT,
     CBRT_SQUARED,
     SIN_COS,
@@ -60,6 +63,8 @@ pub const DIRECT: [Promise; 23] = [
     SLIP_RATIOS,
     FRICTION_MAP,
     DISSIPATION,
+    FRICTION_COEFFICIENT,
+    FRICTION_COEFFICIENT_WARMING,
     SCREW_START,
     SCREW_ROW,
     SCREW_BALL,

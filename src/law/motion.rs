@@ -19,6 +19,7 @@ mod counts;
 mod play;
 mod speed;
 mod steady;
+mod stored;
 mod turn;
 
 pub use angle::{AngleReading, WrappedAngle, WrappedAngleParameters};

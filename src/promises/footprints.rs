@@ -6,7 +6,7 @@ use super::promise::Footprint;
 pub const STEP_SPREAD: f64 = 1.5;
 
 /// Sizes of programs with one scene each, and of one with all of them, on the reference board.
-pub const FOOTPRINTS: [Footprint; 6] = [
+pub const FOOTPRINTS: [Footprint; 8] = [
     Footprint {
         scene: "curvature",
         flash: 2600,
@@ -29,6 +29,13 @@ pub const FOOTPRINTS: [Footprint; 6] = [
         stack: 184,
     },
     Footprint {
+        scene: "caged_with_memory",
+        flash: 21_000,
+        flash_small: 20_000,
+        ram: 2100,
+        stack: 300,
+    },
+    Footprint {
         scene: "linear_bearing",
         flash: 8000,
         flash_small: 7800,
@@ -41,6 +48,13 @@ pub const FOOTPRINTS: [Footprint; 6] = [
         flash_small: 23_000,
         ram: 2880,
         stack: 1200,
+    },
+    Footprint {
+        scene: "ball_screw_37_with_memory",
+        flash: 27_000,
+        flash_small: 24_500,
+        ram: 3000,
+        stack: 1300,
     },
     Footprint {
         scene: "everything",

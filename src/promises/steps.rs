@@ -28,6 +28,45 @@ pub const STEP_CAGED_CHANGING: Promise = Promise {
     ..STEP_CAGED
 };
 
+/// [`FrictionModel::step`](crate::FrictionModel::step) of a [`CagedBallScrew`](crate::CagedBallScrew)
+/// [`WithMemory`](crate::scene::WithMemory): eight elements, a friction coefficient by speed and temperature.
+pub const STEP_CAGED_MEMORY: Promise = Promise {
+    function: "WithMemory<CagedBallScrew>: step",
+    domain: "as without memory; friction coefficient 0.05 to 0.12 by speed and temperature",
+    largest: 3.2e-2,
+    rms: 6e-3,
+    mean: 1e-3,
+    outside: "beyond a limit: the limit, flagged; old loads fade, old temperatures give way, flagged",
+    not_finite: "the last sound inputs, friction within their limits, flagged",
+    tiny: "no turn: friction stays; without load that of the preload",
+    cycles: 1400,
+    counted: &["step_caged_memory"],
+    ..STEP_CAGED
+};
+
+/// [`FrictionModel::between`](crate::FrictionModel::between) of the same.
+pub const BETWEEN: Promise = Promise {
+    function: "WithMemory<CagedBallScrew>: between",
+    cycles: 350,
+    counted: &["between_caged"],
+    ..STEP_CAGED_MEMORY
+};
+
+/// [`FrictionModel::set_friction`](crate::FrictionModel::set_friction) of 37 balls.
+pub const SET_FRICTION: Promise = Promise {
+    function: "UncagedBallScrew: set_friction",
+    domain: "37 balls, friction 0.05 to 0.15",
+    error: "none: balls take it over as their turn comes",
+    largest: 0.0,
+    rms: 0.0,
+    mean: 0.0,
+    outside: "an error that names the field; the model goes on as it was",
+    not_finite: "an error",
+    tiny: "an error below 1e-6",
+    cycles: 200,
+    counted: &["set_friction_37"],
+};
+
 /// [`FrictionModel::step`](crate::FrictionModel::step) of an [`UncagedBallScrew`](crate::UncagedBallScrew).
 pub const STEP_UNCAGED: Promise = Promise {
     function: "UncagedBallScrew: step",

@@ -2,6 +2,7 @@
 //! temperature.
 
 mod inputs;
+mod stored;
 
 use core::marker::PhantomData;
 
@@ -9,7 +10,7 @@ use super::contract::{Admitted, Scene, SceneOutputs};
 use super::faults::Faults;
 use super::passage::{Motion, Passage, way};
 use super::sliding::Sliding;
-use crate::error::{Error, in_range};
+use crate::error::{Error, attempt, in_range};
 use crate::law::coefficient::{CoefficientAtTemperature, CoefficientLaw, TemperatureFade};
 use crate::law::motion::{NutAngle, Play, PlayState};
 use crate::law::{Elements, SlidingLimits};
@@ -99,7 +100,7 @@ pub struct WithMemoryState<S: Sliding, E: Elements, A: NutAngle> {
 
 impl<S: Sliding, E: Elements + Copy, A: NutAngle + Copy> Scene for WithMemory<S, E, A>
 where
-    S::Constants: Clone,
+    S::Constants: Copy,
 {
     type Configuration = WithMemoryConfiguration<S::Configuration, E, A>;
     type Constants = WithMemoryConstants<S::Constants, E, A>;
@@ -251,25 +252,30 @@ impl<S: Sliding, E: Elements, A: NutAngle> WithMemoryState<S, E, A> {
     }
 }
 
-impl<C, E: Copy, A: Copy> WithMemoryConstants<C, E, A> {
+impl<C: Copy, E: Copy, A: Copy> WithMemoryConstants<C, E, A> {
     /// Checks what memory adds to the constants of a scene: at set-up, or in a constant when firmware is compiled.
     ///
     /// # Errors
     /// [`Error`] naming `reference_load`, `half_width` (of the play) or a time of the freshness.
-    pub fn new<B>(
+    pub const fn new<B>(
         scene: C,
         configuration: &WithMemoryConfiguration<B, E, A>,
     ) -> Result<Self, Error> {
-        let reference_load = in_range("reference_load", configuration.reference_load, 1e-3, 1e7)?;
+        let reference_load = attempt!(in_range(
+            "reference_load",
+            configuration.reference_load,
+            1e-3,
+            1e7
+        ));
         Ok(Self {
             scene,
             elements: configuration.elements,
             angle: configuration.angle,
             per_reference_load: 1.0 / reference_load,
-            play: Play::new(configuration.play)?,
+            play: attempt!(Play::new(configuration.play)),
             coefficient: configuration.coefficient,
             temperature: configuration.temperature,
-            freshness: configuration.freshness.checked()?,
+            freshness: attempt!(configuration.freshness.checked()),
         })
     }
 }

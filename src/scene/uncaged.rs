@@ -2,6 +2,7 @@
 
 mod configuration;
 mod full;
+mod stored;
 
 use core::f32::consts::TAU;
 
@@ -12,7 +13,7 @@ use super::outputs::UncagedOutputs;
 use super::passage::{Passage, Reversal};
 use super::sliding::Sliding;
 use crate::ball::elastic::constants::BallConstants;
-use crate::ball::elastic::law::{Neighbours, RingConstants, RingLoad};
+use crate::ball::elastic::law::{Neighbour, Neighbours, RingConstants, RingLoad};
 use crate::ball::elastic::ring::Ring;
 use crate::ball::{Clearance, GrooveFit, LoadShare, ScrewRow};
 use crate::error::{Error, attempt};
@@ -299,7 +300,7 @@ impl<const N: usize> UncagedConstants<N> {
         let index = state.ring.next();
         let train = &state.circuit.train;
         let (passing, recirculating) = self.circuit.deviation_units();
-        let (deviations, share, [behind, ahead]) = if index < N {
+        let (deviations, share, forces, beside) = if index < N {
             let position = train.position(index);
             let Some(place) = self.circuit.place(position, state.circuit.phase(), shares) else {
                 return;
@@ -308,23 +309,40 @@ impl<const N: usize> UncagedConstants<N> {
                 way * passing * place.passing,
                 way * recirculating * place.recirculating,
             );
-            (deviations, place.share.share(), train.forces_on(index))
+            (
+                deviations,
+                place.share.share(),
+                train.forces_on(index),
+                state.ring.loaded_beside(index),
+            )
         } else {
-            ((0.0, 0.0), 1.0, [0.0; 2])
+            ((0.0, 0.0), 1.0, [0.0; 2], [false; 2])
         };
-        let (behind, ahead) = if way < 0.0 {
-            (ahead, behind)
+        let neighbour = |force, loaded| Neighbour {
+            force,
+            friction: if loaded {
+                self.ball_friction * force
+            } else {
+                0.0
+            },
+        };
+        let [first, second] = forces;
+        let first = neighbour(first, beside[0]);
+        let second = neighbour(second, beside[1]);
+        let neighbours = if way < 0.0 {
+            Neighbours {
+                behind: second,
+                ahead: first,
+            }
         } else {
-            (behind, ahead)
-        };
-        let forces = Neighbours {
-            behind,
-            ahead,
-            friction: self.ball_friction,
+            Neighbours {
+                behind: first,
+                ahead: second,
+            }
         };
         state
             .ring
-            .renew(&self.ring, load, index, deviations, share, &forces);
+            .renew(&self.ring, load, index, deviations, share, &neighbours);
     }
 
     /// Sum over all pairs of loaded balls of their force times the speed with which they rub, N m per unit of nut speed. A ball

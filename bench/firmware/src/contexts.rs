@@ -15,6 +15,7 @@ use epas_friction::geometry::Groove;
 use epas_friction::hertz::HertzContact;
 use epas_friction::kinematics::{ContactKinematics, KinematicsParameters};
 use epas_friction::law::Elements;
+use epas_friction::law::coefficient::{CoefficientAtTemperature, CoefficientLaw};
 use epas_friction::law::memory::{
     LoadExactElements, MemoryState, Part, ProportionalElements, SLIP_8, SeatElement, SeatState,
 };
@@ -28,12 +29,13 @@ use epas_friction::refined::{
 use epas_friction::train::{Press, Train};
 use epas_friction::{
     BallScrew, CATALOGUE, CagedBallScrew, DeviationMap, Error, FrictionModel, Inputs,
-    LinearBearingTrain, UncagedBallScrew,
+    LinearBearingTrain, UncagedBallScrew, defaults,
 };
 
 use crate::peers::{LuGre, Stribeck};
 use crate::scenes::{
-    BALLS, ROW, SCREW_DEVIATION, caged_configuration, linear_configuration, uncaged_configuration,
+    BALLS, CagedMemory, ROW, SCREW_DEVIATION, caged_configuration, caged_memory_configuration,
+    linear_configuration, uncaged_configuration,
 };
 
 /// Everything that is set up once.
@@ -58,6 +60,10 @@ pub struct Contexts {
     pub kinematics: ContactKinematics,
     /// Friction of a contact with spin.
     pub map: FrictionMap,
+    /// Friction coefficient by speed and temperature.
+    pub coefficient: CoefficientLaw,
+    /// The same at one temperature.
+    pub at_temperature: CoefficientAtTemperature,
     /// Published closed form of a ball.
     pub analytic: AnalyticLinearBall,
     /// Ball in a linear bearing.
@@ -72,6 +78,8 @@ pub struct Contexts {
     pub rotary_ball: BallState,
     /// Caged ball screw.
     pub caged: FrictionModel<CagedBallScrew>,
+    /// The same with a memory, and a friction coefficient by speed and temperature.
+    pub caged_memory: FrictionModel<CagedMemory>,
     /// The same with a friction coefficient that changes.
     pub caged_changing: FrictionModel<CagedBallScrew>,
     /// Deviation of contact angles along a groove.
@@ -88,6 +96,8 @@ pub struct Contexts {
     pub train: Train<BALLS>,
     /// Ball screw without cage.
     pub uncaged: FrictionModel<UncagedBallScrew<BALLS>>,
+    /// The same, whose friction coefficient is set.
+    pub set: FrictionModel<UncagedBallScrew<BALLS>>,
     /// The same after turns under a falling load: most balls press on each other.
     pub pressing: FrictionModel<UncagedBallScrew<BALLS>>,
     /// Linear bearing.
@@ -172,6 +182,7 @@ impl Contexts {
         let nominal = [linear_parameters.contact_angle; 4];
         let rotary = RotaryBall::new(&rotary_parameters)?;
         let rotary_nominal = [rotary_parameters.contact_angle; 4];
+        let coefficient = CoefficientLaw::new(&black_box(defaults::COEFFICIENT))?;
         let screw_row = ScrewRow::new(&design, 0.1, GrooveFit::Zero)?;
         Ok(Self {
             clock,
@@ -184,6 +195,8 @@ impl Contexts {
             efficiency: EfficiencyGeometry::of(&design),
             kinematics: ContactKinematics::new(&kinematics_parameters)?,
             map: FrictionMap::new(black_box(0.2321))?,
+            coefficient,
+            at_temperature: coefficient.at_temperature(300.0),
             analytic: AnalyticLinearBall::new(&linear_parameters, PUBLISHED_SLOPE)?,
             ball: linear.solve(&linear.contacts(&nominal, &[100.0; 4])),
             linear,
@@ -193,6 +206,7 @@ impl Contexts {
                 .solve(&rotary.four_point().contacts(&rotary_nominal, &[100.0; 4])),
             rotary,
             caged: FrictionModel::new(&black_box(caged_configuration()?))?,
+            caged_memory: FrictionModel::new(&black_box(caged_memory_configuration()?))?,
             caged_changing: changing(FrictionModel::new(&black_box(caged_configuration()?))?)?,
             deviation: &SCREW_DEVIATION,
             screw_loop: screw_row.at(10.0, 100.0).per_speed(0.5, 2.0, (1.0, 1.0)),
@@ -201,6 +215,7 @@ impl Contexts {
             press: Press::new(),
             train: Train::evenly_spaced(0.2248, 0.00594)?,
             uncaged: FrictionModel::new(&black_box(uncaged_configuration()?))?,
+            set: FrictionModel::new(&black_box(uncaged_configuration()?))?,
             pressing: pressing(FrictionModel::new(&black_box(uncaged_configuration()?))?),
             carriage: FrictionModel::new(&black_box(linear_configuration()?))?,
             proportional: ProportionalElements::new(

@@ -18,6 +18,7 @@ use epas_friction::efficiency::EfficiencyGeometry;
 use epas_friction::geometry::ContactAngle;
 use epas_friction::hertz::{ContactEllipse, HertzContact};
 use epas_friction::kinematics::{BallKinematics, ContactKinematics, EllipticContact, SlipRatios};
+use epas_friction::law::coefficient::{CoefficientAtTemperature, CoefficientLaw};
 use epas_friction::law::memory::{
     LoadExactElements, MemoryState, ProportionalElements, SeatElement, SeatState,
 };
@@ -26,6 +27,7 @@ use epas_friction::law::motion::{
 };
 use epas_friction::law::{Elements, SlidingLimits};
 use epas_friction::refined::{BallChain, BallState, FourPointBall, RotaryBall};
+use epas_friction::scene::WithMemoryInputs;
 use epas_friction::train::{Press, Train};
 use epas_friction::{
     CagedBallScrew, DeviationMap, FrictionModel, Inputs, LinearBearingTrain, LinearInputs,
@@ -33,7 +35,7 @@ use epas_friction::{
 };
 
 use crate::peers::{LuGre, Stribeck};
-use crate::scenes::{BALLS, EfficiencyStep, ROW, efficiency_step};
+use crate::scenes::{BALLS, CagedMemory, EfficiencyStep, ROW, efficiency_step};
 
 /// Angles and forces of four contacts.
 #[derive(Clone, Copy, Debug)]
@@ -92,6 +94,16 @@ counted! {
     /// Full-sliding efficiency of back-driving.
     fn count_efficiency_backdrive(screw: &EfficiencyGeometry, friction: f32) -> f32 {
         screw.sliding_backdrive_efficiency(friction)
+    }
+
+    /// Friction coefficient by speed.
+    fn count_friction_coefficient(law: &CoefficientAtTemperature, speed: f32) -> f32 {
+        law.at(speed)
+    }
+
+    /// The same with a new temperature.
+    fn count_friction_coefficient_warming(law: &CoefficientLaw, speed: f32, temperature: f32) -> f32 {
+        law.at_temperature(temperature).at(speed)
     }
 
     /// New contact angles and ellipses.
@@ -197,6 +209,25 @@ counted! {
     /// One tick of a caged ball screw.
     fn count_step_caged(model: &mut FrictionModel<CagedBallScrew>, nut_speed: f32, axial_load: f32) -> Outputs {
         model.step(Inputs { nut_speed, axial_load })
+    }
+
+    /// One tick of a caged ball screw with a memory and a friction coefficient by speed and temperature.
+    fn count_step_caged_memory(
+        model: &mut FrictionModel<CagedMemory>, inputs: &WithMemoryInputs<Inputs, f32>
+    ) -> Outputs {
+        model.step(*inputs)
+    }
+
+    /// Friction between two of its steps.
+    fn count_between_caged(model: &mut FrictionModel<CagedMemory>, reading: f32) -> Outputs {
+        model.between(reading)
+    }
+
+    /// A new friction coefficient of 37 balls that run.
+    fn count_set_friction_37(
+        model: &mut FrictionModel<UncagedBallScrew<BALLS>>, friction: f32
+    ) -> bool {
+        model.set_friction(friction).is_ok()
     }
 
     /// One tick of a caged ball screw whose friction coefficient changes.

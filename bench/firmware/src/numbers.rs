@@ -29,7 +29,7 @@ fn condition(regime: Regime, faults: Faults) -> f32 {
         Regime::BackDriving => 2,
         Regime::Locked => 3,
     };
-    f32::from(regime + 4 * u16::from(faults.bits()))
+    f32::from(regime + 4 * faults.bits())
 }
 
 /// What a caged ball screw puts out, as numbers.

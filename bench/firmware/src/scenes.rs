@@ -4,8 +4,15 @@
 //! theirs set up at run time, or the compiler would fold them into the functions.
 
 use epas_friction::curvature::FittedCurvature;
+use epas_friction::defaults::COEFFICIENT;
 use epas_friction::efficiency::{Drive, EfficiencyGeometry};
 use epas_friction::geometry::{ContactAngle, Groove};
+use epas_friction::law::coefficient::{CoefficientLaw, TemperatureFade};
+use epas_friction::law::memory::{Part, ProportionalElements, SLIP_8};
+use epas_friction::law::motion::SpeedOverTick;
+use epas_friction::scene::{
+    Freshness, WithMemory, WithMemoryConfiguration, WithMemoryConstants, WithMemoryInputs,
+};
 use epas_friction::{
     BallScrew, CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, Clearance,
     DISSERTATION_DESIGNS, DeviationMap, Error, FrictionBranch, FrictionModel, GrooveSize, Harmonic,
@@ -67,6 +74,49 @@ static CAGED: CagedConstants = folded(CagedConstants::new(&folded(caged_configur
 static LINEAR: LinearConstants<ROW> = folded(LinearConstants::new(&folded(linear_configuration())));
 static UNCAGED: UncagedConstants<BALLS> =
     folded(UncagedConstants::new(&folded(uncaged_configuration())));
+
+static CAGED_WITH_MEMORY: CagedMemoryConstants = folded(WithMemoryConstants::new(
+    CAGED,
+    &folded(with_memory(folded(caged_configuration()), 0.075)),
+));
+static UNCAGED_WITH_MEMORY: UncagedMemoryConstants = folded(WithMemoryConstants::new(
+    UNCAGED,
+    &folded(with_memory(folded(uncaged_configuration()), 0.1)),
+));
+
+/// Constants of scenes with memory.
+pub type CagedMemoryConstants =
+    WithMemoryConstants<CagedConstants, ProportionalElements<8>, SpeedOverTick>;
+/// The same without cage.
+pub type UncagedMemoryConstants =
+    WithMemoryConstants<UncagedConstants<BALLS>, ProportionalElements<8>, SpeedOverTick>;
+
+/// A scene with a memory of eight elements, and one friction coefficient.
+///
+/// # Errors
+/// None with the scenes here.
+pub const fn with_memory<C: Copy>(
+    scene: C,
+    friction: f32,
+) -> Result<WithMemoryConfiguration<C, ProportionalElements<8>, SpeedOverTick>, Error> {
+    Ok(WithMemoryConfiguration {
+        scene,
+        elements: folded(ProportionalElements::new(
+            0.2,
+            &[Part {
+                backbone: &SLIP_8.elements,
+                share: 1.0,
+                breakaway_angle: 2e-3,
+            }],
+        )),
+        angle: folded(SpeedOverTick::new(TICK, 1.0)),
+        reference_load: 1_000.0,
+        play: 2e-3,
+        coefficient: folded(CoefficientLaw::constant(friction)),
+        temperature: folded(TemperatureFade::new(313.15, 60.0, 60.0)),
+        freshness: Freshness::DEFAULT,
+    })
+}
 
 /// The constants of a set-up at compile time; a field out of range is an error of the compiler.
 const fn folded<T: Copy>(set_up: Result<T, Error>) -> T {
@@ -189,6 +239,62 @@ impl Run for Caged {
     }
 }
 
+/// A ball screw with a cage whose friction remembers: eight elements, one friction coefficient.
+pub struct CagedWithMemory;
+
+/// Its scene.
+pub type CagedMemory = WithMemory<CagedBallScrew, ProportionalElements<8>, SpeedOverTick>;
+
+impl Run for CagedWithMemory {
+    const NAME: &'static str = "caged_with_memory";
+    type Model = FrictionModel<CagedMemory, &'static CagedMemoryConstants>;
+
+    fn set_up() -> Result<Self::Model, Error> {
+        Ok(FrictionModel::of(&CAGED_WITH_MEMORY))
+    }
+
+    fn tick(model: &mut Self::Model, nut_speed: f32, axial_load: f32, digest: &mut Digest) {
+        digest.take(&outputs(&model.step(remembered(nut_speed, axial_load))));
+    }
+}
+
+/// A ball screw with 37 balls, without cage, whose friction remembers.
+pub struct UncagedWithMemory;
+
+/// Its scene.
+pub type UncagedMemory =
+    WithMemory<UncagedBallScrew<BALLS>, ProportionalElements<8>, SpeedOverTick>;
+
+impl Run for UncagedWithMemory {
+    const NAME: &'static str = "ball_screw_37_with_memory";
+    type Model = FrictionModel<UncagedMemory, &'static UncagedMemoryConstants>;
+
+    fn set_up() -> Result<Self::Model, Error> {
+        Ok(FrictionModel::of(&UNCAGED_WITH_MEMORY))
+    }
+
+    fn tick(model: &mut Self::Model, nut_speed: f32, axial_load: f32, digest: &mut Digest) {
+        digest.take(&uncaged_outputs(
+            &model.step(remembered(nut_speed, axial_load)),
+        ));
+    }
+}
+
+/// Speed and load of this tick at a usual temperature, the speed as reading too.
+#[must_use]
+pub const fn remembered(nut_speed: f32, axial_load: f32) -> WithMemoryInputs<Inputs, f32> {
+    WithMemoryInputs {
+        scene: Inputs {
+            nut_speed,
+            axial_load,
+        },
+        reading: nut_speed,
+        load_age: 0.0,
+        temperature: 313.15,
+        temperature_age: 0.0,
+    }
+}
+
 /// A linear bearing without cage.
 pub struct Linear;
 
@@ -253,6 +359,19 @@ pub const fn caged_configuration() -> Result<CagedBallScrewConfiguration, Error>
         reversal_speed: 0.5,
         limits: LIMITS,
     })
+}
+
+/// The caged form with a memory, and with the friction coefficient that is the default.
+///
+/// # Errors
+/// None.
+pub fn caged_memory_configuration()
+-> Result<<CagedMemory as epas_friction::Scene>::Configuration, Error> {
+    let mut caged = caged_configuration()?;
+    caged.friction = COEFFICIENT.boundary;
+    let mut configuration = with_memory(caged, caged.friction)?;
+    configuration.coefficient = CoefficientLaw::new(&COEFFICIENT)?;
+    Ok(configuration)
 }
 
 /// Its form without a cage: all 37 balls under load, as in the dissertation; this takes the most cycles.

@@ -7,31 +7,33 @@ use epas_friction::ball::LoopSums;
 use epas_friction::ball::elastic::BallInputs;
 use epas_friction::kinematics::EllipticContact;
 use epas_friction::law::SlidingLimits;
+use epas_friction::scene::WithMemoryInputs;
 
 use crate::contexts::Contexts;
 use crate::counted::{
     FourContacts, count_ball_screw_ball, count_ball_screw_renewal, count_ball_screw_row,
-    count_ball_screw_start, count_cbrt, count_cbrt_and_squared, count_cbrt_squared,
-    count_curvature_circular_groove, count_curvature_exact, count_curvature_fitted,
-    count_curvature_literature, count_deviation_map, count_efficiency_backdrive,
-    count_efficiency_rolling, count_efficiency_sliding, count_friction_dissipation,
+    count_ball_screw_start, count_between_caged, count_cbrt, count_cbrt_and_squared,
+    count_cbrt_squared, count_curvature_circular_groove, count_curvature_exact,
+    count_curvature_fitted, count_curvature_literature, count_deviation_map,
+    count_efficiency_backdrive, count_efficiency_rolling, count_efficiency_sliding,
+    count_friction_coefficient, count_friction_coefficient_warming, count_friction_dissipation,
     count_friction_map, count_hertz_ellipse, count_idsp_sin_cos, count_kinematics_ratios,
     count_kinematics_tick, count_kinematics_update, count_libm_cbrtf, count_libm_cosf,
     count_libm_powf, count_libm_sincosf, count_libm_sqrtf, count_linear_ball_analytic,
     count_linear_ball_refined, count_linear_ball_speed, count_linear_chain_2, count_lugre_step,
     count_memory_8, count_memory_load_exact_8, count_memory_seat, count_micromath_cos,
     count_micromath_powf, count_micromath_sqrt, count_play, count_press_37,
-    count_rotary_ball_refined, count_sin_cos, count_sqrt, count_step_caged,
-    count_step_caged_changing, count_step_efficiency, count_step_linear, count_step_train_37,
-    count_step_train_37_pressing, count_stribeck_curve, count_train_37, count_turn_of_angles,
-    count_turn_of_counts,
+    count_rotary_ball_refined, count_set_friction_37, count_sin_cos, count_sqrt, count_step_caged,
+    count_step_caged_changing, count_step_caged_memory, count_step_efficiency, count_step_linear,
+    count_step_train_37, count_step_train_37_pressing, count_stribeck_curve, count_train_37,
+    count_turn_of_angles, count_turn_of_counts,
 };
 use crate::inputs::{
     SPECIAL, angle, contact_angle, four_contacts, impedances, memory, pair, positive, tick, train,
     wave,
 };
 use crate::numbers::{all, linear_outputs, motion, outputs, screw_ball, two, uncaged_outputs};
-use crate::scenes::{BALLS, EfficiencyStep};
+use crate::scenes::{BALLS, EfficiencyStep, remembered};
 use crate::spread::Spread;
 
 /// Most inputs and most outputs that a function has.
@@ -180,6 +182,17 @@ subjects! {
             let at = timed!(c, count_friction_dissipation(black_box(&c.map), slip, spin, semi_major, stick));
             [at.potential, at.power, at.force, at.moment, at.stiffness, at.tilt, at.stick, at.end_speed]
         };
+    friction_coefficient: |spread| -> [1] {
+            let speed = spread.between(-500.0, 500.0);
+            [spread.special(&[0.0, 1e6, f32::INFINITY, f32::NAN], SPECIAL).unwrap_or(speed)]
+        },
+        |c, [speed]| -> [1] [timed!(c, count_friction_coefficient(black_box(&c.at_temperature), speed))];
+    friction_coefficient_warming: |spread| -> [2] [
+            spread.between(-500.0, 500.0), spread.between(213.0, 423.0),
+        ],
+        |c, [speed, temperature]| -> [1] [
+            timed!(c, count_friction_coefficient_warming(black_box(&c.coefficient), speed, temperature))
+        ];
     sqrt: |spread| -> [1] positive(spread),
         |c, [x]| -> [1] [timed!(c, count_sqrt(x))];
     cbrt: |spread| -> [1] positive(spread),
@@ -249,6 +262,29 @@ subjects! {
         |c, [nut_speed, axial_load]| -> [4] {
             let model = black_box(&mut c.caged_changing);
             outputs(&timed!(c, count_step_caged_changing(model, nut_speed, axial_load)))
+        };
+    step_caged_memory: |spread| -> [3] {
+            let [nut_speed, axial_load] = tick(spread);
+            [nut_speed, axial_load, spread.between(250.0, 400.0)]
+        },
+        |c, [nut_speed, axial_load, temperature]| -> [4] {
+            let model = black_box(&mut c.caged_memory);
+            let inputs = black_box(WithMemoryInputs {
+                temperature,
+                ..remembered(nut_speed, axial_load)
+            });
+            outputs(&timed!(c, count_step_caged_memory(model, &inputs)))
+        };
+    between_caged: |spread| -> [1] [spread.between(-60.0, 60.0)],
+        |c, [reading]| -> [4] {
+            let model = black_box(&mut c.caged_memory);
+            outputs(&timed!(c, count_between_caged(model, reading)))
+        };
+    set_friction_37: |spread| -> [1] [spread.between(0.05, 0.15)],
+        |c, [friction]| -> [1] {
+            let model = black_box(&mut c.set);
+            let done = timed!(c, count_set_friction_37(model, friction));
+            [f32::from(u8::from(done))]
         };
     memory_8: |spread| -> [3] memory(spread),
         |c, [turn, forward, backward]| -> [1] {

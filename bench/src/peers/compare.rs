@@ -106,7 +106,7 @@ fn tick(turn: f64) -> Tick {
 }
 
 /// Turns until the torque reaches `target`; the whole turn. What is left below the resolution of an f32 is taken along the last slope.
-fn turn_to(law: &mut dyn Law, target: f64) -> f64 {
+pub fn turn_to(law: &mut dyn Law, target: f64) -> f64 {
     const STEP: f64 = 2e-4;
     const RESOLUTION: f64 = 2e-7;
     let mut torque = law.follow(&tick(0.0));
@@ -201,7 +201,8 @@ pub fn work_of_a_load_cycle(law: &mut dyn Law) -> f64 {
         .sum()
 }
 
-fn load_cycle(ticks: u32, cycles: u32) -> Course {
+/// A cycle in angle and load: out by 0.2 under a load of 1 less up to 0.8, back under 1 and up to 0.8 more.
+pub fn load_cycle(ticks: u32, cycles: u32) -> Course {
     let phases =
         (0..=ticks * cycles).map(|tick| std::f64::consts::TAU * f64::from(tick) / f64::from(ticks));
     let (angle, load) = phases

@@ -3,7 +3,7 @@
 /// Scenes, each with an image of its own, a module of the crate that it has, and those that it leaves out.
 ///
 /// Whatever runs once is folded by the compiler: an image has of a module what its step calls.
-pub const SCENES: [(&str, &str, &[&str]); 6] = [
+pub const SCENES: [(&str, &str, &[&str]); 8] = [
     (
         "curvature",
         "curvature",
@@ -45,6 +45,25 @@ pub const SCENES: [(&str, &str, &[&str]); 6] = [
             "ball::elastic::ring",
             "refined",
             "kinematics",
+            "law",
+            "scene::circuit",
+            "scene::linear",
+            "scene::uncaged",
+        ],
+    ),
+    (
+        "caged_with_memory",
+        "scene::memory",
+        &[
+            "contact::across",
+            "contact::along",
+            "train",
+            "ball::linear",
+            "ball::screw",
+            "ball::elastic::ring",
+            "refined",
+            "kinematics",
+            "law::breakaway",
             "scene::circuit",
             "scene::linear",
             "scene::uncaged",
@@ -62,6 +81,7 @@ pub const SCENES: [(&str, &str, &[&str]); 6] = [
             "refined",
             "efficiency",
             "kinematics",
+            "law",
             "scene::caged",
             "scene::uncaged",
         ],
@@ -78,6 +98,24 @@ pub const SCENES: [(&str, &str, &[&str]); 6] = [
             "refined",
             "efficiency",
             "kinematics",
+            "law",
+            "scene::caged",
+            "scene::linear",
+        ],
+    ),
+    (
+        "ball_screw_37_with_memory",
+        "scene::memory",
+        &[
+            "geometry::linear_bearing",
+            "contact::across",
+            "contact::along",
+            "ball::linear",
+            "ball::screw",
+            "refined",
+            "efficiency",
+            "kinematics",
+            "law::breakaway",
             "scene::caged",
             "scene::linear",
         ],

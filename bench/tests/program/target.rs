@@ -78,8 +78,10 @@ fn figures_are_one_object() {
             "curvature",
             "efficiency",
             "caged_ball_screw",
+            "caged_with_memory",
             "linear_bearing",
             "ball_screw_37",
+            "ball_screw_37_with_memory",
             "everything"
         ]
     );

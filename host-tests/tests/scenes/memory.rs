@@ -113,7 +113,7 @@ fn slides_as_without<S>(
     speed: f32,
     tolerance: f32,
 ) where
-    S: Sliding<Constants: Clone, Configuration: Copy>,
+    S: Sliding<Constants: Copy, Configuration: Copy>,
     S::Outputs: Into<Friction>,
 {
     let mut without = FrictionModel::<S>::new(&configuration).unwrap();

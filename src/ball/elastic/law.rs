@@ -52,19 +52,26 @@ pub(crate) struct RingLoad {
     pub(super) per_seven_sixths: f32,
 }
 
-/// Forces of a ball's neighbours in the frame in which the nut turns forward, N, and the friction coefficient between balls.
-pub(crate) struct Neighbours {
-    pub(crate) behind: f32,
-    pub(crate) ahead: f32,
+/// What a ball next to another one does to it, N.
+pub(crate) struct Neighbour {
+    /// Force along the track.
+    pub(crate) force: f32,
+    /// Largest friction force; 0 of a neighbour without load, which turns as the ball makes it.
     pub(crate) friction: f32,
 }
 
+/// A ball's neighbours in the frame in which the nut turns forward.
+pub(crate) struct Neighbours {
+    pub(crate) behind: Neighbour,
+    pub(crate) ahead: Neighbour,
+}
+
 impl Neighbours {
-    pub(super) const NONE: Self = Self {
-        behind: 0.0,
-        ahead: 0.0,
-        friction: 0.0,
-    };
+    /// Force of both along the track, N.
+    #[inline(always)]
+    pub(super) fn force(&self) -> f32 {
+        self.behind.force - self.ahead.force
+    }
 }
 
 impl RingConstants {
@@ -142,7 +149,7 @@ impl RingLoad {
 }
 
 impl RingBall {
-    /// Keeps what a renewal found, with a free speed within `fastest`.
+    /// Keeps what a renewal under a force of both neighbours found, with a free speed within `fastest`.
     #[inline(always)]
     pub(super) fn keep(
         &mut self,
@@ -150,10 +157,9 @@ impl RingBall {
         load: &RingLoad,
         settled: &Settled,
         found: &Renewal,
-        forces: &Neighbours,
+        force: f32,
         fastest: f32,
     ) {
-        let force = forces.behind - forces.ahead;
         let radius = constants.ball.grooves.ball_radius;
         let impedance = constants.reference * radius / found.compliance;
         let impedance = between(impedance, IMPEDANCES.0, IMPEDANCES.1);

@@ -1,5 +1,7 @@
 //! Balls of a ball screw that are renewed in turn, and what each of them would do on its own until its turn comes.
 
+mod stored;
+
 use super::law::{Neighbours, RingBall, RingConstants, RingLoad, between};
 use super::renewal::{BallInputs, Settled};
 use crate::train::LARGEST_FREE_SPEED;
@@ -98,14 +100,7 @@ impl<const N: usize> Ring<N> {
                 fresh = constants.ball.grooves.start(&inputs);
                 continue;
             }
-            ball.keep(
-                constants,
-                &load,
-                &fresh,
-                &found,
-                &Neighbours::NONE,
-                LARGEST_FREE_SPEED,
-            );
+            ball.keep(constants, &load, &fresh, &found, 0.0, LARGEST_FREE_SPEED);
         }
         Self {
             balls: [ball; N],
@@ -292,9 +287,9 @@ impl<const N: usize> Ring<N> {
         index: usize,
         (screw_deviation, nut_deviation): (f32, f32),
         share: f32,
-        forces: &Neighbours,
+        neighbours: &Neighbours,
     ) {
-        let force = forces.behind - forces.ahead;
+        let force = neighbours.force();
         let is_nominal = index >= N;
         // Play turns the contacts of all balls; how far a ball deviates is known for a screw without.
         let fastest = between(
@@ -323,8 +318,8 @@ impl<const N: usize> Ring<N> {
             axial_load: load.axial * share,
             force,
             rubbing: [
-                forces.friction * (forces.ahead + forces.behind),
-                forces.friction * -force,
+                neighbours.ahead.friction + neighbours.behind.friction,
+                neighbours.ahead.friction - neighbours.behind.friction,
             ],
             screw_deviation,
             nut_deviation,
@@ -346,7 +341,7 @@ impl<const N: usize> Ring<N> {
         } else {
             fastest
         };
-        ball.keep(constants, load, &settled, &found, forces, fastest);
+        ball.keep(constants, load, &settled, &found, force, fastest);
         // A ball is stiffer than a nominal one by a factor at most.
         let nominal = self.nominal.impedance;
         let ball = self.balls.get_mut(index).unwrap_or(&mut self.nominal);
@@ -364,13 +359,26 @@ impl<const N: usize> Ring<N> {
         }
     }
 
+    /// Whether the balls behind and ahead carry load.
+    #[inline(always)]
+    pub(crate) fn loaded_beside(&self, index: usize) -> [bool; 2] {
+        Self::beside(index).map(|place| self.balls.get(place).is_some_and(RingBall::loaded))
+    }
+
+    /// The places behind and ahead of a ball.
+    #[inline(always)]
+    const fn beside(index: usize) -> [usize; 2] {
+        let behind = index.wrapping_sub(1);
+        [
+            if behind < N { behind } else { N - 1 },
+            if index + 1 < N { index + 1 } else { 0 },
+        ]
+    }
+
     /// Marks a ball as loaded that was not: it takes over what its neighbour does.
     #[inline(always)]
     pub(crate) fn enter(&mut self, index: usize) {
-        let behind = index.wrapping_sub(1);
-        let behind = if behind < N { behind } else { N - 1 };
-        let ahead = if index + 1 < N { index + 1 } else { 0 };
-        let neighbour = [behind, ahead]
+        let neighbour = Self::beside(index)
             .into_iter()
             .filter_map(|place| self.balls.get(place))
             .find(|ball| ball.loaded())
