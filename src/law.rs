@@ -10,9 +10,11 @@
 //! | [`motion`] | the turn between two readings of a nut angle, exactly |
 //! | [`breakaway`] | initial stiffness and breakaway angle from a design |
 //! | [`coefficient`] | friction coefficient by speed, temperature and direction; churning drag |
+//! | [`compensation`] | how much of a friction that remembers may be compensated |
 
 pub mod breakaway;
 pub mod coefficient;
+pub mod compensation;
 pub mod memory;
 pub mod motion;
 

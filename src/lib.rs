@@ -11,13 +11,14 @@
 //! # Where things are, and where they run
 //!
 //! In the order of use: a module imports only from those above it. "Step" means that the control interrupt runs it;
-//! "set-up" that it runs once, or in the compiler; "direct" that no scene links it: firmware or a tool that wants it
+//! "set-up" that it runs once, or in the compiler; "around ignition" that firmware calls it outside the interrupt; "direct" that no scene links it: firmware or a tool that wants it
 //! calls it by its own name.
 //!
 //! | module | what | runs in |
 //! |---|---|---|
 //! | [`error`] | field, value and allowed range of what was refused | set-up |
 //! | [`ranges`] | one range for one quantity: friction coefficient, load, radii | set-up |
+//! | [`stored`] | state as bytes: layout, checksum, reasons to refuse a block | around ignition |
 //! | [`math`] | square root, cube root, sine and cosine; elliptic integrals and arcsine | step; set-up |
 //! | [`material`] | elastic constants | set-up |
 //! | [`geometry`] | validated designs, built-in sizes | set-up |
@@ -64,6 +65,7 @@ pub mod promises;
 pub mod ranges;
 pub mod refined;
 pub mod scene;
+pub mod stored;
 pub mod train;
 
 pub use ball::{Clearance, LoadShare, LoadShares};
@@ -81,3 +83,4 @@ pub use scene::{
     LinearConstants, LinearInputs, LinearLimits, LinearOutputs, Outputs, Regime, Scene,
     UncagedBallScrew, UncagedBallScrewConfiguration, UncagedConstants, UncagedOutputs,
 };
+pub use stored::Refusal;

@@ -45,7 +45,7 @@ pub const STEPS: [Promise; 20] = [
 ];
 
 /// Promises of functions that firmware calls by their names.
-pub const DIRECT: [Promise; 23] = [
+pub const DIRECT: [Promise; 25] = [
     CBRT,
     CBRT_SQUARED,
     SIN_COS,
@@ -63,6 +63,8 @@ pub const DIRECT: [Promise; 23] = [
     SLIP_RATIOS,
     FRICTION_MAP,
     DISSIPATION,
+    FRICTION_COEFFICIENT,
+    FRICTION_COEFFICIENT_WARMING,
     SCREW_START,
     SCREW_ROW,
     SCREW_BALL,

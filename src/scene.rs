@@ -23,6 +23,7 @@ mod memory;
 mod outputs;
 mod passage;
 mod sliding;
+mod stored;
 mod uncaged;
 
 pub use caged::{
@@ -43,6 +44,7 @@ pub use memory::{
 pub use outputs::{LinearOutputs, Outputs, UncagedOutputs};
 pub use passage::{Motion, Passage};
 pub use sliding::Sliding;
+pub use stored::StoredScene;
 pub use uncaged::{
     UncagedBallScrew, UncagedBallScrewConfiguration, UncagedConstants, UncagedFull, UncagedState,
 };

@@ -78,6 +78,7 @@ mod positions;
 mod press;
 mod ring;
 mod settle;
+mod stored;
 mod track;
 
 pub use positions::{BallContact, Train};

@@ -13,6 +13,7 @@ mod kernels;
 mod kinematics;
 mod loads;
 mod measured;
+mod memory;
 mod published;
 mod stability;
 mod statistics;
@@ -67,7 +68,7 @@ impl Default for Arguments {
 type MakeSection = fn(&Context) -> Result<Section, Failure>;
 
 /// Every section, in the order of the report.
-const SECTIONS: [MakeSection; 15] = [
+const SECTIONS: [MakeSection; 16] = [
     summary::section,
     curvature::section,
     hertz::section,
@@ -77,6 +78,7 @@ const SECTIONS: [MakeSection; 15] = [
     bearings::section,
     trains::section,
     uncaged::section,
+    memory::section,
     applications::section,
     published::section,
     measured::section,

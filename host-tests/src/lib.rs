@@ -7,6 +7,7 @@
 
 mod ball_motion;
 pub mod bearing_study;
+pub mod closed_loop;
 pub mod coefficient;
 pub mod curvature;
 pub mod design;

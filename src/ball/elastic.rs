@@ -13,6 +13,7 @@
 //! | `resistance` | rolling resistance of all contacts | every renewal |
 //! | `ring` | balls that are renewed in turn | every tick |
 //! | `start` | place and motion from nothing | start, reversal |
+//! | `stored` | states as bytes | around ignition |
 
 pub(crate) mod constants;
 mod contact;
@@ -25,6 +26,7 @@ mod renewal;
 mod resistance;
 pub(crate) mod ring;
 mod start;
+mod stored;
 
 pub use grooves::ElasticGrooves;
 pub use renewal::{BallInputs, Renewal, Settled};

@@ -3,7 +3,8 @@
 use embedded_hal::pwm::SetDutyCycle;
 
 use crate::error::{Error, in_range};
-use crate::scene::{Faults, Outputs};
+use crate::law::compensation::CompensationMargin;
+use crate::scene::{Faults, Outputs, UncagedOutputs};
 
 /// Which flagged outputs take the torque away.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -30,6 +31,8 @@ pub struct FeedForwardConfiguration {
     pub largest_torque: f32,
     /// Share of the friction torque that is put out, 0 to 1. Less than 1 leaves some friction to the
     /// driver and keeps an estimate that is too large from turning the wheel by itself.
+    /// With a model that has a memory the largest share follows from its margin:
+    /// [`FrictionFeedForward::with_memory`].
     pub share: f32,
     /// Which flagged outputs take the torque away.
     pub reaction: FaultReaction,
@@ -89,13 +92,42 @@ impl<PWM: SetDutyCycle> FrictionFeedForward<PWM> {
         })
     }
 
+    /// For a model with memory: checks the share against what its breakaway and its play allow as well.
+    ///
+    /// Where friction is a spring in angle, its compensation is a negative one, and more of it than the true friction has makes the
+    /// motor hum: see [`compensation`](crate::law::compensation) for the three bounds.
+    ///
+    /// # Errors
+    /// [`Error`] as from [`FrictionFeedForward::new`]; `share` with the range that the margin leaves it; the margin's
+    /// own fields.
+    pub fn with_memory(
+        pwm: PWM,
+        configuration: &FeedForwardConfiguration,
+        margin: &CompensationMargin,
+    ) -> Result<Self, Error> {
+        margin.checked_share(configuration.share)?;
+        Self::new(pwm, configuration)
+    }
+
     /// Puts out the friction torque of a tick.
     ///
     /// # Errors
     /// The channel's own error.
     pub fn apply(&mut self, outputs: &Outputs) -> Result<AppliedDuty, PWM::Error> {
-        let value = outputs.friction_torque * self.scale;
-        if !value.is_finite() || self.refuses(outputs.faults) {
+        self.apply_torque(outputs.friction_torque, outputs.faults)
+    }
+
+    /// Puts out the friction torque of a tick of a screw without cage.
+    ///
+    /// # Errors
+    /// The channel's own error.
+    pub fn apply_uncaged(&mut self, outputs: &UncagedOutputs) -> Result<AppliedDuty, PWM::Error> {
+        self.apply_torque(outputs.friction_torque, outputs.faults)
+    }
+
+    fn apply_torque(&mut self, torque: f32, faults: Faults) -> Result<AppliedDuty, PWM::Error> {
+        let value = torque * self.scale;
+        if !value.is_finite() || self.refuses(faults) {
             let duty = self.put(0.0)?;
             return Ok(AppliedDuty {
                 duty,

@@ -11,4 +11,4 @@ pub use fade::TemperatureFade;
 pub use form::{
     CoefficientAtTemperature, CoefficientLaw, CoefficientParameters, DirectionalCoefficient,
 };
-pub use viscosity::{OilData, Viscosity};
+pub use viscosity::{OilData, TEMPERATURE, Viscosity};

@@ -30,6 +30,7 @@ mod quadrature;
 mod seat;
 mod slider;
 mod state;
+mod stored;
 mod together;
 
 pub use backbone::{

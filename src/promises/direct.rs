@@ -176,6 +176,29 @@ pub const DISSIPATION: Promise = Promise {
     ..FRICTION_MAP
 };
 
+/// [`CoefficientAtTemperature::at`](crate::law::coefficient::CoefficientAtTemperature::at).
+pub const FRICTION_COEFFICIENT: Promise = Promise {
+    function: "CoefficientAtTemperature::at",
+    domain: "0.1 to 500 rad/s, -20 to 120 C, the default's film and lubricant",
+    error: "over boundary less full film, against a film by Hamrock and Dowson",
+    largest: 8.1e-2,
+    rms: 3.8e-2,
+    mean: 1.5e-2,
+    outside: "boundary at standstill, full film at any higher speed; temperatures: those of the ends",
+    not_finite: "NaN: standstill, the warmest; infinity: full film, the warmest",
+    tiny: "standstill",
+    cycles: 52,
+    counted: &["friction_coefficient"],
+};
+
+/// [`CoefficientLaw::at_temperature`](crate::law::coefficient::CoefficientLaw::at_temperature), then the same.
+pub const FRICTION_COEFFICIENT_WARMING: Promise = Promise {
+    function: "CoefficientLaw::at_temperature, then at",
+    cycles: 76,
+    counted: &["friction_coefficient_warming"],
+    ..FRICTION_COEFFICIENT
+};
+
 /// [`AnalyticLinearBall::speed_deviation`](crate::ball::AnalyticLinearBall::speed_deviation) of two balls and the force between them.
 pub const ANALYTIC_PAIR: Promise = Promise {
     function: "AnalyticLinearBall::speed_deviation, twice, with the force",

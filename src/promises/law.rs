@@ -11,8 +11,8 @@ pub const MEMORY: Promise = Promise {
     largest: 2e-6,
     rms: 2e-7,
     mean: 2e-8,
-    outside: "any turn: within the limits; negative limits as 0",
-    not_finite: "a turn that is NaN is none, an infinite one slides; nothing stays for the next tick",
+    outside: "any turn: within the limits, which are not negative",
+    not_finite: "a turn that is none, or beyond 1e6 rad, is no turn; limits are numbers, and if not, nothing stays for the next tick",
     tiny: "no limit: no friction; no turn: what is remembered, within the limits",
     cycles: 190,
     counted: &["memory_8"],
@@ -23,7 +23,7 @@ pub const MEMORY_LOAD_EXACT: Promise = Promise {
     function: "LoadExactElements: follow",
     domain: "turns of 1e-6 to 10 breakaway angles, limits and loads to 4 times the reference, eight elements",
     largest: 4e-6,
-    outside: "any turn: within the limits; negative limits and loads as 0; loads beyond the largest nearly in proportion",
+    outside: "any turn: within the limits, which are not negative; loads beyond the largest nearly in proportion",
     tiny: "no limit, no load: no friction; no turn: what is remembered, within the limits",
     cycles: 390,
     counted: &["memory_load_exact_8"],
@@ -54,7 +54,7 @@ pub const TURN_OF_COUNTS: Promise = Promise {
     outside: "a count beyond the period: no reading, and it says so; beyond the largest turn: that, and it says so",
     not_finite: "counts are integers",
     tiny: "no count: no turn",
-    cycles: 40,
+    cycles: 70,
     counted: &["turn_of_counts"],
 };
 
@@ -69,7 +69,7 @@ pub const TURN_OF_ANGLES: Promise = Promise {
     outside: "an angle beyond the period: no reading, and it says so; beyond the largest turn: that, and it says so",
     not_finite: "no reading, and it says so",
     tiny: "no difference: no turn",
-    cycles: 40,
+    cycles: 70,
     counted: &["turn_of_angles"],
 };
 
@@ -84,6 +84,6 @@ pub const PLAY: Promise = Promise {
     outside: "any turn: less what the play takes",
     not_finite: "a turn that is NaN is none, an infinite one moves as far",
     tiny: "no width: every turn",
-    cycles: 30,
+    cycles: 40,
     counted: &["play"],
 };

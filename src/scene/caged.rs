@@ -4,6 +4,7 @@ mod closed_form;
 mod coefficients;
 mod contacts;
 mod full;
+mod stored;
 
 use super::contract::{Admitted, Inputs, Limits, Scene, SceneOutputs};
 use super::faults::Faults;

@@ -4,6 +4,7 @@
 mod configuration;
 pub(crate) mod deviation;
 mod phase;
+mod stored;
 mod zone;
 
 pub use configuration::CircuitState;

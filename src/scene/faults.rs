@@ -74,6 +74,11 @@ impl Faults {
         self.0
     }
 
+    /// The set with these bits.
+    pub(super) const fn of_bits(bits: u16) -> Self {
+        Self(bits)
+    }
+
     /// What is wrong with numbers that are too large: the speed, a load.
     #[inline(always)]
     pub(super) const fn beyond(speed: bool, load: bool) -> Self {

@@ -2,6 +2,7 @@
 
 mod configuration;
 mod inputs;
+mod stored;
 
 use super::circuit::{Circuit, CircuitState, UNLOADED, per_loaded_ball};
 use super::contract::{Admitted, Regime, Scene};
@@ -135,7 +136,7 @@ impl<const N: usize> Scene for LinearBearingTrain<N> {
 }
 
 /// Full friction of a linear bearing, which is the same in both directions.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LinearFull {
     /// Parts of the friction force from the grooves and from balls that rub against each other, N.
     groove: f32,

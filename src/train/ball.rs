@@ -1,5 +1,11 @@
 //! What a train keeps of one ball.
 
+use crate::error::Range;
+use crate::stored::{Port, Refusal, Stored};
+
+/// Forces that balls may press with, in the unit of speed times impedance: what 255 balls of the largest impedance do.
+const FORCES: Range = Range::new(0.0, 1e12);
+
 /// One ball of a train: 28 bytes, of which two words hold one thing after the other in the phases of a tick.
 ///
 /// | | taken in | at the end of a cluster | settled |
@@ -204,5 +210,29 @@ impl Ball {
     #[inline(always)]
     pub(super) fn keep_sixteenths(&mut self, sixteenths: i32) {
         self.sixteenths = (sixteenths & 15) as u8;
+    }
+}
+
+/// Place and force are kept; the rest is of one tick.
+impl Stored for Ball {
+    const BYTES: usize = 9;
+
+    fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
+        let Self {
+            mut position,
+            mut sixteenths,
+            mut force,
+            ..
+        } = *self;
+        port.word(&mut position)?;
+        port.count("sixteenths", &mut sixteenths, 15)?;
+        port.number("force", &mut force, FORCES)?;
+        *self = Self {
+            force,
+            position,
+            sixteenths,
+            ..Self::IDLE
+        };
+        Ok(())
     }
 }

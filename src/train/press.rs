@@ -69,7 +69,7 @@ impl InputCheck {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Press<const N: usize> {
     pub(super) balls: [Ball; N],
-    foremost: u8,
+    pub(super) foremost: u8,
 }
 
 impl<const N: usize> Press<N> {

@@ -15,6 +15,7 @@ use epas_friction::geometry::Groove;
 use epas_friction::hertz::HertzContact;
 use epas_friction::kinematics::{ContactKinematics, KinematicsParameters};
 use epas_friction::law::Elements;
+use epas_friction::law::coefficient::{CoefficientAtTemperature, CoefficientLaw};
 use epas_friction::law::memory::{
     LoadExactElements, MemoryState, Part, ProportionalElements, SLIP_8, SeatElement, SeatState,
 };
@@ -28,7 +29,7 @@ use epas_friction::refined::{
 use epas_friction::train::{Press, Train};
 use epas_friction::{
     BallScrew, CATALOGUE, CagedBallScrew, DeviationMap, Error, FrictionModel, Inputs,
-    LinearBearingTrain, UncagedBallScrew,
+    LinearBearingTrain, UncagedBallScrew, defaults,
 };
 
 use crate::peers::{LuGre, Stribeck};
@@ -59,6 +60,10 @@ pub struct Contexts {
     pub kinematics: ContactKinematics,
     /// Friction of a contact with spin.
     pub map: FrictionMap,
+    /// Friction coefficient by speed and temperature.
+    pub coefficient: CoefficientLaw,
+    /// The same at one temperature.
+    pub at_temperature: CoefficientAtTemperature,
     /// Published closed form of a ball.
     pub analytic: AnalyticLinearBall,
     /// Ball in a linear bearing.
@@ -177,6 +182,7 @@ impl Contexts {
         let nominal = [linear_parameters.contact_angle; 4];
         let rotary = RotaryBall::new(&rotary_parameters)?;
         let rotary_nominal = [rotary_parameters.contact_angle; 4];
+        let coefficient = CoefficientLaw::new(&black_box(defaults::COEFFICIENT))?;
         let screw_row = ScrewRow::new(&design, 0.1, GrooveFit::Zero)?;
         Ok(Self {
             clock,
@@ -189,6 +195,8 @@ impl Contexts {
             efficiency: EfficiencyGeometry::of(&design),
             kinematics: ContactKinematics::new(&kinematics_parameters)?,
             map: FrictionMap::new(black_box(0.2321))?,
+            coefficient,
+            at_temperature: coefficient.at_temperature(300.0),
             analytic: AnalyticLinearBall::new(&linear_parameters, PUBLISHED_SLOPE)?,
             ball: linear.solve(&linear.contacts(&nominal, &[100.0; 4])),
             linear,

@@ -18,6 +18,7 @@ use epas_friction::efficiency::EfficiencyGeometry;
 use epas_friction::geometry::ContactAngle;
 use epas_friction::hertz::{ContactEllipse, HertzContact};
 use epas_friction::kinematics::{BallKinematics, ContactKinematics, EllipticContact, SlipRatios};
+use epas_friction::law::coefficient::{CoefficientAtTemperature, CoefficientLaw};
 use epas_friction::law::memory::{
     LoadExactElements, MemoryState, ProportionalElements, SeatElement, SeatState,
 };
@@ -93,6 +94,16 @@ counted! {
     /// Full-sliding efficiency of back-driving.
     fn count_efficiency_backdrive(screw: &EfficiencyGeometry, friction: f32) -> f32 {
         screw.sliding_backdrive_efficiency(friction)
+    }
+
+    /// Friction coefficient by speed.
+    fn count_friction_coefficient(law: &CoefficientAtTemperature, speed: f32) -> f32 {
+        law.at(speed)
+    }
+
+    /// The same with a new temperature.
+    fn count_friction_coefficient_warming(law: &CoefficientLaw, speed: f32, temperature: f32) -> f32 {
+        law.at_temperature(temperature).at(speed)
     }
 
     /// New contact angles and ellipses.

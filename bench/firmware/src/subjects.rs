@@ -16,16 +16,17 @@ use crate::counted::{
     count_cbrt_squared, count_curvature_circular_groove, count_curvature_exact,
     count_curvature_fitted, count_curvature_literature, count_deviation_map,
     count_efficiency_backdrive, count_efficiency_rolling, count_efficiency_sliding,
-    count_friction_dissipation, count_friction_map, count_hertz_ellipse, count_idsp_sin_cos,
-    count_kinematics_ratios, count_kinematics_tick, count_kinematics_update, count_libm_cbrtf,
-    count_libm_cosf, count_libm_powf, count_libm_sincosf, count_libm_sqrtf,
-    count_linear_ball_analytic, count_linear_ball_refined, count_linear_ball_speed,
-    count_linear_chain_2, count_lugre_step, count_memory_8, count_memory_load_exact_8,
-    count_memory_seat, count_micromath_cos, count_micromath_powf, count_micromath_sqrt, count_play,
-    count_press_37, count_rotary_ball_refined, count_set_friction_37, count_sin_cos, count_sqrt,
-    count_step_caged, count_step_caged_changing, count_step_caged_memory, count_step_efficiency,
-    count_step_linear, count_step_train_37, count_step_train_37_pressing, count_stribeck_curve,
-    count_train_37, count_turn_of_angles, count_turn_of_counts,
+    count_friction_coefficient, count_friction_coefficient_warming, count_friction_dissipation,
+    count_friction_map, count_hertz_ellipse, count_idsp_sin_cos, count_kinematics_ratios,
+    count_kinematics_tick, count_kinematics_update, count_libm_cbrtf, count_libm_cosf,
+    count_libm_powf, count_libm_sincosf, count_libm_sqrtf, count_linear_ball_analytic,
+    count_linear_ball_refined, count_linear_ball_speed, count_linear_chain_2, count_lugre_step,
+    count_memory_8, count_memory_load_exact_8, count_memory_seat, count_micromath_cos,
+    count_micromath_powf, count_micromath_sqrt, count_play, count_press_37,
+    count_rotary_ball_refined, count_set_friction_37, count_sin_cos, count_sqrt, count_step_caged,
+    count_step_caged_changing, count_step_caged_memory, count_step_efficiency, count_step_linear,
+    count_step_train_37, count_step_train_37_pressing, count_stribeck_curve, count_train_37,
+    count_turn_of_angles, count_turn_of_counts,
 };
 use crate::inputs::{
     SPECIAL, angle, contact_angle, four_contacts, impedances, memory, pair, positive, tick, train,
@@ -181,6 +182,17 @@ subjects! {
             let at = timed!(c, count_friction_dissipation(black_box(&c.map), slip, spin, semi_major, stick));
             [at.potential, at.power, at.force, at.moment, at.stiffness, at.tilt, at.stick, at.end_speed]
         };
+    friction_coefficient: |spread| -> [1] {
+            let speed = spread.between(-500.0, 500.0);
+            [spread.special(&[0.0, 1e6, f32::INFINITY, f32::NAN], SPECIAL).unwrap_or(speed)]
+        },
+        |c, [speed]| -> [1] [timed!(c, count_friction_coefficient(black_box(&c.at_temperature), speed))];
+    friction_coefficient_warming: |spread| -> [2] [
+            spread.between(-500.0, 500.0), spread.between(213.0, 423.0),
+        ],
+        |c, [speed, temperature]| -> [1] [
+            timed!(c, count_friction_coefficient_warming(black_box(&c.coefficient), speed, temperature))
+        ];
     sqrt: |spread| -> [1] positive(spread),
         |c, [x]| -> [1] [timed!(c, count_sqrt(x))];
     cbrt: |spread| -> [1] positive(spread),

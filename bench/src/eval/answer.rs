@@ -22,14 +22,6 @@ impl Answer {
         })
     }
 
-    /// The answer of a model that only the crate has.
-    pub fn in_loop_only(in_loop: &impl Serialize) -> Result<Self, BadField> {
-        Ok(Self {
-            in_loop: Some(json(in_loop)?),
-            reference: Some(json(&())?),
-        })
-    }
-
     /// The answer of a model that only the reference has.
     pub fn reference_only(reference: &impl Serialize) -> Result<Self, BadField> {
         Ok(Self {

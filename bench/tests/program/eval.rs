@@ -98,6 +98,119 @@ fn literature_formula_needs_the_ball_radius() {
     assert!(relative(&answers[0]["reference"]["kappa1"], 1.0 / 6.3) < 1e-15);
 }
 
+/// A path of a golden case, tick by tick: strokes, or sines that count from where they start.
+fn path(of: &Value) -> Vec<f64> {
+    let list =
+        |name: &str| -> Vec<f64> { of[name].as_array().unwrap().iter().map(number).collect() };
+    if of["kind"] == "points" {
+        let ticks = number(&of["ticks"]);
+        let mut path = vec![number(&of["points"][0])];
+        for pair in list("points").windows(2) {
+            let strokes = (1..=ticks as u32).map(|tick| f64::from(tick) / ticks);
+            path.extend(strokes.map(|share| pair[0] + (pair[1] - pair[0]) * share));
+        }
+        return path;
+    }
+    let count = number(&of["n"]);
+    let wave = |tick: u32| -> f64 {
+        let terms = of["terms"].as_array().unwrap().iter();
+        let sine = |term: &Value| {
+            let turns = number(&term[1]) * f64::from(tick) / count;
+            number(&term[0]) * (std::f64::consts::TAU * turns + number(&term[2])).sin()
+        };
+        terms.map(sine).sum()
+    };
+    (0..=count as u32)
+        .map(|tick| number(&of["start"]) + (wave(tick) - wave(0)))
+        .collect()
+}
+
+/// Both within what the golden file demands: f32 within 5e-6 of the elements' torque, the reference within its nine digits; and
+/// the exact torque within the golden one's.
+#[test]
+fn presliding_is_that_of_the_golden_cases() {
+    let cases = golden("presliding.json");
+    let cases = cases["cases"].as_array().unwrap();
+    let request = |case: &Value| {
+        let mut request = json!({
+            "id": case["name"], "model": "presliding", "angle": path(&case["angle"]),
+            "limit_ratio": case["limit_ratio"],
+        });
+        if case["element_table"].is_string() {
+            request["form"] = "proportional".into();
+            request["table"] = case["element_table"].clone();
+        } else {
+            request["form"] = "load_exact".into();
+            request["largest_load"] = case["element_table"]["largest_load"].clone();
+        }
+        if !case["load"].is_null() {
+            request["load"] = path(&case["load"]).into();
+        }
+        request.to_string()
+    };
+    let (code, answers) = ask(&cases.iter().map(request).collect::<Vec<_>>());
+    assert_eq!((code, answers.len()), (0, cases.len()));
+    for (case, answer) in cases.iter().zip(&answers) {
+        let samples = case["samples"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|at| at.as_u64().unwrap() as usize);
+        let (in_loop, reference) = (&answer["in_loop"], &answer["reference"]);
+        assert_eq!(
+            in_loop["torque"].as_array().unwrap().len(),
+            path(&case["angle"]).len()
+        );
+        assert_eq!(reference["exact"].is_null(), case["law"] == "proportional");
+        for (place, at) in samples.enumerate() {
+            let off =
+                |found: &Value, of: &str| (number(&found[at]) - number(&case[of][place])).abs();
+            assert!(
+                off(&in_loop["torque"], "expected_elements") < 5e-6
+                    && off(&reference["torque"], "expected_elements") < 6e-9
+                    && (reference["exact"].is_null()
+                        || off(&reference["exact"], "expected_exact") < 6e-9),
+                "{} {at}",
+                case["name"]
+            );
+        }
+    }
+}
+
+#[test]
+fn presliding_names_what_is_wrong() {
+    let sound = json!({
+        "id": 1, "model": "presliding", "form": "proportional", "table": "slip8",
+        "angle": [0.0, 1.0], "limit_ratio": [1.0, 1.0],
+    });
+    for (field, value) in [
+        ("form", json!("elastic")),
+        ("table", json!("slip9")),
+        ("angle", json!([])),
+        ("angle", json!(1.0)),
+        ("angle", json!([0.0, 1e9])),
+        ("load", json!([1.0])),
+        ("load", json!([1.0, -1.0])),
+        ("limit_ratio", json!([1.0])),
+        ("limit_ratio", json!([1.0, -1.0])),
+        ("largest_load", json!(1.0)),
+    ] {
+        let mut request = sound.clone();
+        request[field] = value;
+        let (code, answers) = ask(&[request.to_string()]);
+        assert_eq!(code, 1);
+        assert_eq!(answers[0]["error"]["field"], field, "{}", answers[0]);
+    }
+    let mut request = sound.clone();
+    request["form"] = "load_exact".into();
+    request.as_object_mut().unwrap().remove("table");
+    request["largest_load"] = 0.0.into();
+    assert_eq!(
+        ask(&[request.to_string()]).1[0]["error"]["field"],
+        "largest_load"
+    );
+}
+
 /// Efficiencies within 1e-6 absolute and losses within 1e-6 relative, apart from what rounding the
 /// angles to f32 changes: next to 90 degrees of contact angle the cosine loses its digits, by
 /// 2^-24 beta / cos(beta).

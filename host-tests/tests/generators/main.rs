@@ -5,6 +5,7 @@
 //! | module | stored in |
 //! |---|---|
 //! | `axis_ratio` | `hertz` |
+//! | `backbones` | `law::memory` |
 //! | `cube_roots` | `math::own`, `math::powers` |
 //! | `sine` | `math::own` |
 //! | `nodes` | nodes of interpolation and quadrature, tables of sines, numbers with a name |
@@ -17,6 +18,7 @@
 mod kit;
 
 mod axis_ratio;
+mod backbones;
 mod cube_roots;
 mod lines;
 mod nodes;

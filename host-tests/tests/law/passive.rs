@@ -60,7 +60,8 @@ impl Ticks {
     }
 }
 
-/// Least of work less the growth of stored energy in a tick, over the reference limit times the breakaway angle.
+/// Least of work less the growth of stored energy in a tick, over the reference limit times the breakaway angle. Their sum from
+/// the start on is never below -1e-6.
 fn least<E: Hysteresis>(
     elements: &E,
     stored: impl Fn(&E::State) -> f64,
@@ -87,10 +88,9 @@ fn least<E: Hysteresis>(
 
 /// Energy lost by every kind of elements, at the least.
 fn every_kind(count: u64) {
-    // The snap to the limit is worth 12 2^-24 of friction (up to five times the reference) over the turn within which it acts,
-    // and each element's rounding as little over its own: squares of 1e-6. What is left is half an ulp of friction
-    // times a turn of up to a few breakaway angles that stick: 3e-7 times 3.
-    const ACCEPTED: f64 = -1e-6;
+    // Of the scale: the largest limit, 5.1 times the reference, over a breakaway angle. Half an ulp of such a friction times a
+    // turn of up to a few breakaway angles that stick is 3e-7 of it times 3.
+    const ACCEPTED: f64 = -1e-6 * 5.1;
     let check = |name: &str, found: f64| {
         println!("{name}: least {found:.1e} a tick");
         assert!(found >= ACCEPTED, "{name}: {found:e}");
@@ -99,7 +99,7 @@ fn every_kind(count: u64) {
         let stiffnesses = elements.stiffnesses();
         least(
             elements,
-            |state| energy(&state.torques(), &stiffnesses),
+            |state| energy(&elements.torques(state), &stiffnesses),
             seed,
             count,
         )
@@ -112,7 +112,7 @@ fn every_kind(count: u64) {
         "load-exact",
         least(
             &by_load,
-            |state| energy(&state.torques(), &stiffnesses),
+            |state| energy(&state.held(), &stiffnesses),
             3,
             count,
         ),
@@ -128,7 +128,7 @@ fn every_kind(count: u64) {
     let seat = SeatElement::new(0.7, 0.5, 1.0).unwrap();
     let both = Together::new(spin, seat, 0.3).unwrap();
     let stored = |state: &TogetherState<MemoryState<8>, SeatState>| {
-        energy(&state.first.torques(), &stiffnesses) + 0.7 * seated(state.second.place())
+        energy(&spin.torques(&state.first), &stiffnesses) + 0.7 * seated(state.second.place())
     };
     check("spin beside the seat", least(&both, stored, 5, count));
 }

@@ -55,21 +55,36 @@ fn play_is_free_and_sliding_is_full() {
     assert!((state.place() / seat.breakaway() - 1.0).abs() < 3e-7);
     assert_eq!(seat.follow(&mut state, -1.0, &limits), -0.03);
     // Formed again from the place: a cube root, a square root and four products.
-    assert!((seat.hold(&mut state, &limits) / -0.03 - 1.0).abs() < 5e-7);
+    for turn in [0.0, f32::NAN, f32::INFINITY, 1e7] {
+        assert!((seat.follow(&mut state, turn, &limits) / -0.03 - 1.0).abs() < 5e-7);
+    }
     assert_eq!(seat.stored_energy(&SeatElement::VIRGIN), 0.0);
-    for (turn, friction) in [
-        (f32::INFINITY, 0.04),
-        (f32::NEG_INFINITY, -0.03),
-        (1e9, 0.04),
-    ] {
+    for (turn, friction) in [(1e6, 0.04), (-1e6, -0.03), (1e5, 0.04)] {
         assert_eq!(seat.follow(&mut state, turn, &limits), friction);
     }
     let none = SlidingLimits {
         forward: 0.0,
-        backward: f32::NAN,
+        backward: 0.0,
         load: f32::NAN,
     };
     assert_eq!(seat.follow(&mut state, -1.0, &none), 0.0);
+    // Limits that are no numbers do no lasting harm.
+    for limit in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -1.0] {
+        let [forward, backward] = [limit; 2];
+        for turn in [1.0, -2.0] {
+            let load = limit;
+            seat.follow(
+                &mut state,
+                turn,
+                &SlidingLimits {
+                    forward,
+                    backward,
+                    load,
+                },
+            );
+        }
+        assert_eq!(seat.follow(&mut state, 1e3, &limits), 0.04);
+    }
     assert_eq!(sticking_share(0.01, &limits), 0.75);
     assert_eq!(sticking_share(-0.03, &limits), 0.0);
     assert_eq!(sticking_share(f32::NAN, &limits), 0.0);

@@ -8,10 +8,17 @@ use epas_friction::geometry::{CATALOGUE, Groove, NamedDesign};
 use epas_friction::hertz::HertzContact;
 use epas_friction::law::breakaway::{
     BearingBreakaway, BearingContacts, Breakaway, BreakawayConfiguration, ContactStiffness,
-    Mechanism, Rolling, ScrewContacts, Seat,
+    Mechanism, Rolling, ScrewContacts, Seat, Tables,
 };
+use epas_friction::law::memory::{
+    MemoryState, ProportionalElements, SLIP_4, SLIP_8, SPIN_8, SeatElement, Together,
+};
+use epas_friction::law::{Elements, SlidingLimits};
 use epas_friction::material::contact_modulus;
-use epas_friction::{BallScrew, Clearance, DISSERTATION_DESIGNS, LinearBearing, Material};
+use epas_friction::{
+    BallScrew, CagedBallScrew, CagedBallScrewConfiguration, Clearance, DISSERTATION_DESIGNS,
+    FrictionBranch, FrictionModel, Inputs, Limits, LinearBearing, Material,
+};
 use epas_reference::design::BallScrewDesign;
 use epas_reference::hertz::Hertz;
 use epas_reference::material::Elastic;
@@ -294,8 +301,8 @@ fn tabulated_physics() {
     println!("reference {:.1e}, crate {:.1e}", largest[0], largest[1]);
 }
 
-/// Axial loads of a ball from 1 to 1000 N, all sizes: ellipse, compliance and torsion by exact curvatures. Three times the axis
-/// ratio's error 1.1e-5, in the seat's drift 4e-5 of a root of three such figures.
+/// Axial loads of a ball from 1 to 1000 N, all sizes: ellipse, compliance and torsion by exact curvatures. Bound: three
+/// times the axis ratio's error, 3.3e-5; measured, of these ratios, 1.2e-5.
 #[test]
 fn every_catalogue_size_is_that_of_the_reference() {
     let mut errors = ["slip", "slip stiffness", "spin", "spin stiffness", "drift"].map(Errors::of);
@@ -329,7 +336,7 @@ fn every_catalogue_size_is_that_of_the_reference() {
         }
     }
     for errors in errors {
-        errors.assert(4e-5, 2e-5, 2e-5);
+        errors.assert(1.5e-5, 1.3e-5, 1.3e-5);
     }
 }
 
@@ -360,6 +367,29 @@ fn tabulated_angles_with_a_seat() {
                     "{found}"
                 );
             }
+        }
+    }
+}
+
+/// The same with a gap of 20 um that is left to the third contact; and what one of 2 um adds. In the second screw the grooves' slope
+/// holds the ball before it has gone 20 um.
+#[test]
+fn tabulated_angles_with_play() {
+    for (name, whole, added) in [
+        ("lin-3.6", [77.0, 78.0, 82.0], 7.5),
+        ("lin-4.1", [210.0, 211.0, 215.0], 26.0),
+    ] {
+        let named = named(name);
+        let design = BallScrew::new(named.parameters).unwrap();
+        let contacts = ScrewContacts::of(&design);
+        for (axial, printed) in [300.0, 1000.0, 5000.0].into_iter().zip(whole) {
+            let load = contacts.contact_load(axial, named.loaded_balls);
+            let [none, little, play] = [0.0, 2e-6, 20e-6]
+                .map(|gap| 1e3 * Seat::with_gap(&design, &contacts, gap, 0.1, load).angle(1.0));
+            println!("{name} {axial} N: {none} {little} {play}");
+            assert!((play - printed).abs() < 0.51, "{play} for {printed}");
+            // Some of the force goes over to the grooves' slope.
+            assert!((little - none) / added > 0.9 && (little - none) / added < 1.02);
         }
     }
 }
@@ -596,4 +626,173 @@ fn a_linear_bearing_spins_on_four_points() {
         let error = BearingBreakaway::of(&bearing, 0.1, RollingResistance::STEEL, 24, [bad, 1.0]);
         assert_eq!(error.unwrap_err().field(), "contact_load");
     }
+}
+
+/// Friction torque of a caged screw whose balls find their own loads and motion, N m: mean of drive and backdrive.
+fn scene_torque(design: BallScrew, clearance: Clearance, axial_load: f32, balls: u16) -> f32 {
+    let configuration = CagedBallScrewConfiguration {
+        design,
+        friction: 0.1,
+        rolling_resistance: RollingResistance::STEEL,
+        rolling_tangent: 0.0,
+        branch: FrictionBranch::Contacts,
+        clearance,
+        loaded_balls: balls,
+        reversal_speed: 1e-6,
+        limits: Limits {
+            nut_speed: 500.0,
+            axial_load: 7000.0,
+            friction_torque: 1e3,
+        },
+    };
+    let mut model = FrictionModel::<CagedBallScrew>::new(&configuration).unwrap();
+    let [forward, backward] = [1.0, -1.0].map(|nut_speed| {
+        let inputs = Inputs {
+            nut_speed,
+            axial_load,
+        };
+        model.step(inputs).friction_torque.abs()
+    });
+    0.5 * (forward + backward)
+}
+
+/// Torque of gross sliding by the mechanisms against that of the scene. Measured: the closed forms hold the contact angle, leave
+/// out the third contact's slip across, and lose a few per cent where balls just reach it. With play, 20 um, the contact angle has
+/// grown by up to a tenth; the worst of the rest is the border where the third contact closes.
+#[test]
+fn the_whole_torque_is_near_that_of_the_scene() {
+    let dissertation = DISSERTATION_DESIGNS[1..]
+        .iter()
+        .map(|design| (design.name, design.parameters));
+    let catalogue = [15, 2, 29].map(|place| (CATALOGUE[place].name, CATALOGUE[place].parameters()));
+    let mut errors = Errors::of("torque by mechanisms over that of the scene");
+    let mut small = 0.0;
+    for (name, parameters) in dissertation.chain(catalogue) {
+        let design = BallScrew::new(parameters).unwrap();
+        let contacts = ScrewContacts::of(&design);
+        for gap in [-5e-6_f32, -1e-6, 0.0, 1e-6, 3e-6, 5e-6, 10e-6, 20e-6] {
+            let clearance = Clearance::new(gap).unwrap();
+            for load in [10.0_f32, 40.0, 200.0] {
+                let axial = 7.0 * load / contacts.contact_load(1.0, 1);
+                let contact_load = contacts.preloaded(axial, 7, clearance);
+                let found = Breakaway::of(&design, &configuration(gap, contact_load, 7)).unwrap();
+                let truth = scene_torque(design, clearance, axial, 7);
+                let error = f64::from(found.torque / truth - 1.0);
+                small += f64::from(u8::from(error.abs() < 0.05));
+                errors.add_at(error, format!("{name} {gap} m {load} N"));
+            }
+        }
+    }
+    errors.assert(0.34, 0.09, 0.03);
+    println!("within 5 %: {:.2}", small / errors.count);
+    assert!(small > 0.5 * errors.count);
+}
+
+/// Loads of both diagonals of a preloaded ball: the preload without axial load, more than the load without preload, and that where the
+/// other diagonal is lost.
+#[test]
+fn preloaded_contacts() {
+    let design = CATALOGUE[15].design().unwrap();
+    let contacts = ScrewContacts::of(&design);
+    let clearance = Clearance::of_preload(&design, 50.0).unwrap();
+    let none = contacts.preloaded(0.0, 20, clearance);
+    assert!((none / 50.0 - 1.0).abs() < 1e-5, "{none}");
+    assert_eq!(contacts.preloaded(f32::NAN, 20, clearance), none);
+    let mut last = none;
+    for step in 1..=100_u8 {
+        let axial = 30.0 * f32::from(step);
+        let (load, alone) = (
+            contacts.preloaded(axial, 20, clearance),
+            contacts.contact_load(axial, 20),
+        );
+        let other = (2.0 * 50_f32.powf(2.0 / 3.0) - load.powf(2.0 / 3.0))
+            .max(0.0)
+            .powf(1.5);
+        assert!(
+            load > last && (load - other - alone).abs() < 1e-5 * load + 1e-4,
+            "{axial}"
+        );
+        last = load;
+    }
+    for clearance in [Clearance::ZERO, Clearance::new(1e-5).unwrap()] {
+        assert_eq!(
+            contacts.preloaded(900.0, 20, clearance),
+            contacts.contact_load(900.0, 20)
+        );
+    }
+}
+
+/// Elements start with the stiffness of the parts, within 4 % of a table with few elements, and slide at the friction of all.
+#[test]
+fn elements_have_the_parts_stiffness() {
+    let design = CATALOGUE[15].design().unwrap();
+    let tables = Tables {
+        slip: &SLIP_8.elements,
+        spin: &SPIN_8.elements,
+        rolling_resistance: &SLIP_4.elements,
+    };
+    let breakaway = Breakaway::of(&design, &configuration(-1e-6, 30.0, 37)).unwrap();
+    let elements: ProportionalElements<20> = breakaway.elements(&tables).unwrap();
+    let sum: f32 = elements.stiffnesses().iter().sum();
+    assert!((sum / breakaway.stiffness() - 1.0).abs() < 0.05, "{sum}");
+    let fewer: Result<ProportionalElements<20>, _> = breakaway.elements(&Tables {
+        rolling_resistance: &[],
+        ..tables
+    });
+    assert_eq!(fewer.unwrap_err().field(), "parts");
+    let fewer: ProportionalElements<16> = breakaway
+        .elements(&Tables {
+            rolling_resistance: &[],
+            ..tables
+        })
+        .unwrap();
+    let limits = SlidingLimits {
+        forward: breakaway.torque,
+        backward: breakaway.torque,
+        load: 1.0,
+    };
+    let mut state = MemoryState::VIRGIN;
+    assert_eq!(fewer.follow(&mut state, 1.0, &limits), breakaway.torque);
+
+    // With play: free to either side, then a stop.
+    let loose = Breakaway::of(&design, &configuration(2e-6, 30.0, 37)).unwrap();
+    let seat = loose.seat_element().unwrap();
+    let beside: ProportionalElements<8> = loose
+        .elements_beside_seat(&Tables {
+            rolling_resistance: &[],
+            ..tables
+        })
+        .unwrap();
+    let share = loose.part(Mechanism::Slip).share;
+    let both = Together::new(seat, beside, share).unwrap();
+    let mut state = <Together<SeatElement, ProportionalElements<8>> as Elements>::VIRGIN;
+    let limits = SlidingLimits {
+        forward: loose.torque,
+        backward: loose.torque,
+        load: 1.0,
+    };
+    let free = both.follow(&mut state, 0.99 * loose.seat.free_play(), &limits);
+    assert!(
+        free > 0.0 && free <= 1.001 * (1.0 - share) * loose.torque,
+        "{free}"
+    );
+    let whole = both.follow(
+        &mut state,
+        loose.part(Mechanism::Slip).breakaway_angle,
+        &limits,
+    );
+    assert!((whole / loose.torque - 1.0).abs() < 1e-3, "{whole}");
+
+    let bearing = LinearBearing::new(LINEAR_BEARING).unwrap();
+    let bearing =
+        BearingBreakaway::of(&bearing, 0.1, RollingResistance::STEEL, 24, [100.0, 50.0]).unwrap();
+    let elements: ProportionalElements<8> = bearing
+        .elements(&Tables {
+            slip: &[],
+            rolling_resistance: &[],
+            ..tables
+        })
+        .unwrap();
+    let sum: f32 = elements.stiffnesses().iter().sum();
+    assert!((sum / bearing.stiffness() - 1.0).abs() < 0.06, "{sum}");
 }

@@ -2,6 +2,10 @@
 
 use super::constants::BallConstants;
 use super::renewal::{BallInputs, Settled};
+use super::stored::{CLEARANCE, NOT_NEGATIVE};
+use crate::error::Range;
+use crate::ranges;
+use crate::stored::{Port, Refusal, Stored};
 
 /// Axial load of a ball below which it counts as this, N: below it friction is in proportion to the load.
 pub(crate) const SMALLEST_LOAD: f32 = 0.01;
@@ -158,5 +162,39 @@ impl NominalBall {
                 break;
             }
         }
+    }
+}
+
+impl Stored for Grooving {
+    const BYTES: usize = 8;
+
+    fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
+        port.number("friction", &mut self.friction, ranges::FRICTION_OF_A_ROW)?;
+        port.number("clearance", &mut self.clearance, CLEARANCE)
+    }
+}
+
+impl Grooving {
+    /// Puts in what follows from the clearance.
+    ///
+    /// # Errors
+    /// [`Refusal::OutOfRange`] naming `clearance`.
+    pub(crate) fn complete(&mut self, ball: &BallConstants) -> Result<(), Refusal> {
+        ball.takes(self.clearance)?;
+        self.lift_off = ball.lift_off(self.clearance);
+        Ok(())
+    }
+}
+
+impl Stored for NominalBall {
+    const BYTES: usize = Settled::BYTES + 3 * 4 + 2;
+
+    fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
+        self.settled.exchange(port)?;
+        port.number("ratio", &mut self.ratio, NOT_NEGATIVE)?;
+        port.number("whole", &mut self.whole, NOT_NEGATIVE)?;
+        port.number("change", &mut self.change, Range::new(0.0, 1.0))?;
+        port.count("unsettled", &mut self.unsettled, QUIET)?;
+        port.flag("two_point", &mut self.two_point)
     }
 }

@@ -1,5 +1,7 @@
 //! Balls of a ball screw that are renewed in turn, and what each of them would do on its own until its turn comes.
 
+mod stored;
+
 use super::law::{Neighbours, RingBall, RingConstants, RingLoad, between};
 use super::renewal::{BallInputs, Settled};
 use crate::train::LARGEST_FREE_SPEED;

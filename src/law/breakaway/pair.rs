@@ -2,10 +2,14 @@
 
 use super::contact::ContactStiffness;
 use super::resistance::Resistance;
+use crate::ball::Clearance;
 use crate::contact::{RollingContact, RollingResistance, slip_and_spin};
 use crate::error::{Error, Range, attempt};
 use crate::geometry::{BallScrew, Groove};
 use crate::math::constant;
+
+/// Halvings with which a load is found.
+const HALVINGS: u8 = 40;
 
 /// Least and largest axis ratio with which the limit surface is evaluated: it hardly changes beyond.
 const AXIS_RATIO: Range = Range::new(0.02, 0.95);
@@ -14,9 +18,10 @@ const AXIS_RATIO: Range = Range::new(0.02, 0.95);
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Rolling {
-    /// On the two contacts of the loaded diagonal: they spin with `sin(beta) cos(alpha)/2` of the nut's angle.
+    /// On the two contacts of the loaded diagonal: they spin with `sin(beta) cos(alpha)/2` of the nut's angle, and a third one
+    /// slides.
     TwoPoint,
-    /// On these two and a third one that does not slide: they spin with `r_m tan(beta)/(2 r_b cos(alpha))`.
+    /// On these two and a third one, or a fourth, that do not slide: all spin with `r_m tan(beta)/(2 r_b cos(alpha))`.
     ThreePoint,
 }
 
@@ -87,10 +92,53 @@ impl ScrewContacts {
         }
     }
 
-    /// Load of each of the two loaded contacts of a ball, N, under an axial load, N, that so many balls share evenly.
+    /// Load of each of the two loaded contacts of a ball, N, under an axial load, N, that so many balls share evenly, without
+    /// preload.
     #[must_use]
     pub const fn contact_load(&self, axial_load: f32, loaded_balls: u16) -> f32 {
         self.per_axial_load * axial_load / loaded_balls as f32
+    }
+
+    /// The same with balls of a size: an oversized ball presses on the other diagonal as well, whose load `D` its own `Q` has to
+    /// bear, `Q^(2/3) + D^(2/3) = 2 P^(2/3)` and `Q - D` the load without preload. The preload [`Clearance::preload`] where no
+    /// axial load acts.
+    ///
+    /// Cost: 40 halvings; set-up only. An axial load that is not above zero is none.
+    #[must_use]
+    pub const fn preloaded(&self, axial_load: f32, loaded_balls: u16, clearance: Clearance) -> f32 {
+        let load = self.contact_load(axial_load, loaded_balls);
+        let load = if load > 0.0 { load } else { 0.0 };
+        let deflection = self.mean_deflection();
+        let sum = -2.0 * clearance.gap() / deflection;
+        if !(sum > 0.0) {
+            return load;
+        }
+        let half = 0.5 * sum;
+        let (mut low, mut high) = (load, load + half * constant::sqrt(half));
+        let mut halving = 0;
+        while halving < HALVINGS {
+            let middle = 0.5 * (low + high);
+            let left = sum - constant::cbrt_squared(middle);
+            let other = if left > 0.0 {
+                left * constant::sqrt(left)
+            } else {
+                0.0
+            };
+            if middle - other < load {
+                low = middle;
+            } else {
+                high = middle;
+            }
+            halving += 1;
+        }
+        high
+    }
+
+    /// Mean deflection of both contacts over the load to the power of 2/3, m/N^(2/3).
+    #[must_use]
+    pub const fn mean_deflection(&self) -> f32 {
+        let (screw, nut) = (self.screw.contact(), self.nut.contact());
+        0.5 * (screw.deflection_coefficient() + nut.deflection_coefficient())
     }
 
     /// Slip of both contacts across the path, together, over the nut's angle, m: `l`.
@@ -145,15 +193,26 @@ impl ScrewContacts {
         load: f32,
         rolling: Rolling,
     ) -> (Resistance, Resistance) {
-        let screw = self.limits(&self.screw, friction, load, rolling);
-        let nut = self.limits(&self.nut, friction, load, rolling);
+        self.spinning(friction, load, self.spin_per_angle(rolling))
+    }
+
+    /// The same with any spin of both contacts over the nut's angle, above 0.
+    pub(super) const fn spinning(
+        &self,
+        friction: f32,
+        load: f32,
+        spin: f32,
+    ) -> (Resistance, Resistance) {
+        let screw = self.limits(&self.screw, friction, load, spin);
+        let nut = self.limits(&self.nut, friction, load, spin);
         let slip = Resistance {
             limit: screw.0 + nut.0,
             ..self.slip(friction, load)
         };
+        let torsion = self.screw.torsion_stiffness(load) + self.nut.torsion_stiffness(load);
         let spin = Resistance {
             limit: screw.1 + nut.1,
-            ..self.spin(friction, load, rolling)
+            stiffness: torsion * (spin * spin),
         };
         (slip, spin)
     }
@@ -164,11 +223,10 @@ impl ScrewContacts {
         contact: &ContactStiffness,
         friction: f32,
         load: f32,
-        rolling: Rolling,
+        spin: f32,
     ) -> (f32, f32) {
         let ellipse = contact.contact();
-        let end_speed =
-            ellipse.semi_major_coefficient() * constant::cbrt(load) * self.spin_per_angle(rolling);
+        let end_speed = ellipse.semi_major_coefficient() * constant::cbrt(load) * spin;
         let axis_ratio = ellipse.axis_ratio();
         let axis_ratio = if axis_ratio < AXIS_RATIO.minimum {
             AXIS_RATIO.minimum

@@ -57,11 +57,8 @@ impl Seat {
         friction: f32,
         load: f32,
     ) -> Self {
-        let screw = contacts.contact(Groove::Screw).contact();
-        let nut = contacts.contact(Groove::Nut).contact();
-        let deflections = (screw.deflection_coefficient() + nut.deflection_coefficient())
-            * constant::cbrt_squared(load);
-        let gap = 2.0 * clearance.gap() + 0.5 * deflections;
+        let deflection = contacts.mean_deflection() * constant::cbrt_squared(load);
+        let gap = 2.0 * clearance.gap() + deflection;
         Self::with_gap(design, contacts, gap, friction, load)
     }
 
@@ -150,10 +147,26 @@ impl Seat {
         self.contact_angle * (1.0 - constant::cbrt_squared(left)) + self.drift_angle(share)
     }
 
-    /// Load of the third contact in gross slip, N.
+    /// Loads of the third contact and of the fourth one, N, where slip has so much of its gross friction, 0 to 1; the fourth one
+    /// carries in preloaded balls only.
     #[must_use]
-    pub const fn third_contact(&self) -> f32 {
-        self.pressed(self.drift(1.0) - self.gap)
+    pub const fn side_contacts(&self, share: f32) -> [f32; 2] {
+        let drift = self.drift(share);
+        [
+            self.pressed(drift - self.gap),
+            self.pressed(-drift - self.gap),
+        ]
+    }
+
+    /// Nut angle in which a ball goes from the middle of its drift to the third contact, with nothing but the grooves' slope to hold
+    /// it, rad; 0 where that contact carries from the beginning.
+    #[must_use]
+    pub const fn free_play(&self) -> f32 {
+        if self.gap > 0.0 && self.per_angle > 0.0 {
+            self.gap / self.per_angle
+        } else {
+            0.0
+        }
     }
 
     /// Force that holds the ball at a drift, N; 0 in the middle, rising.

@@ -3,7 +3,7 @@
 use crate::error::{Error, Range, attempt, in_range};
 
 /// Temperature, K, of a lubricant: -123 to 227 degrees Celsius.
-pub(super) const TEMPERATURE: Range = Range::new(150.0, 500.0);
+pub const TEMPERATURE: Range = Range::new(150.0, 500.0);
 
 /// Dynamic viscosity, Pa s.
 const VISCOSITY: Range = Range::new(1e-4, 1e4);

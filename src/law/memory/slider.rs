@@ -1,43 +1,45 @@
-//! What a slider lets through, by comparisons in an order that ends at a limit where a number is none.
+//! What a slider lets through.
+//!
+//! Comparisons in an order that leaves a finite number finite, whatever the limits are: what is no number never stays in
+//! a state.
 
 use crate::law::SlidingLimits;
 
-/// `force`, or the limit that it is beyond; `high` where it is no number.
-#[inline(always)]
-pub(super) fn held(force: f32, low: f32, high: f32) -> f32 {
-    let force = if force < high { force } else { high };
-    if force > low { force } else { low }
-}
+/// Turns up to this size, rad (m), are turns: far beyond any sensor's.
+const LARGEST_TURN: f32 = 1e6;
 
-/// A quantity that is not negative: 0 where it is, and where it is no number.
-#[inline(always)]
-pub(super) fn not_negative(value: f32) -> f32 {
-    if value > 0.0 { value } else { 0.0 }
-}
-
-/// A turn: none where it is no number.
+/// A turn: none where it is no number, or beyond any sensor's.
 #[inline(always)]
 pub(super) fn turned(turn: f32) -> f32 {
-    if turn.is_nan() { 0.0 } else { turn }
+    if turn.abs() <= LARGEST_TURN {
+        turn
+    } else {
+        0.0
+    }
 }
 
-/// The sum of `count` elements: the limit itself where all of them slide, whatever rounding has made of their sum.
-///
-/// Rounding takes from the sum at most `2^-24` for each addition, and five for the roundings of a share (three), its
-/// product and the comparison. A sum as near to the limit without all elements sliding is off by as little.
+/// A force, or the limit that it is beyond.
 #[inline(always)]
-pub(super) fn sum(friction: f32, count: usize, low: f32, high: f32) -> f32 {
-    let almost = 1.0 - 0.5 * f32::EPSILON * (count as f32 + 4.0);
-    let friction = if friction < almost * high {
-        friction
-    } else {
-        high
-    };
-    if friction > almost * low {
-        friction
-    } else {
-        low
-    }
+pub(super) fn held(force: f32, low: f32, high: f32) -> f32 {
+    let force = if force > high { high } else { force };
+    if force < low { low } else { force }
+}
+
+/// Two at once, operation by operation: a core without reordering waits a cycle where an operation needs the result
+/// of the one before.
+#[inline(always)]
+pub(super) fn held_pair([f, g]: [f32; 2], low: [f32; 2], high: [f32; 2]) -> [f32; 2] {
+    let f = if f > high[0] { high[0] } else { f };
+    let g = if g > high[1] { high[1] } else { g };
+    let f = if f < low[0] { low[0] } else { f };
+    let g = if g < low[1] { low[1] } else { g };
+    [f, g]
+}
+
+/// A quantity that is not negative: 0 where it is.
+#[inline(always)]
+pub(super) fn not_negative(value: f32) -> f32 {
+    if value < 0.0 { 0.0 } else { value }
 }
 
 /// How much of the limit `friction` leaves: 1 at no friction, 0 in full sliding, and 0 without a limit.

@@ -2,46 +2,46 @@
 
 use crate::error::{Error, attempt, in_range};
 
-/// Largest torque of an element that a state may hold, N m or N.
-const LARGEST: f32 = 1e12;
+/// Largest number that a state may hold, N m or N.
+pub(super) const LARGEST: f32 = 1e12;
 
-/// The friction that each of `N` elements carries.
+/// What each of `N` elements holds, N m (N), in the order of the elements.
+///
+/// Of [`ProportionalElements`](super::ProportionalElements) the friction over the element's share, so that a set of elements can
+/// be swapped for one with another table and the friction stays nearly as it was; of
+/// [`LoadExactElements`](super::LoadExactElements) the friction itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MemoryState<const N: usize> {
-    pub(super) torques: [f32; N],
+    pub(super) held: [f32; N],
 }
 
 impl<const N: usize> MemoryState<N> {
-    /// No element carries anything.
-    pub const VIRGIN: Self = Self { torques: [0.0; N] };
+    /// No element holds anything.
+    pub const VIRGIN: Self = Self { held: [0.0; N] };
 
-    /// What each element carries, N m (N), in the order of the elements.
+    /// What each element holds, for export.
     #[must_use]
-    pub const fn torques(&self) -> [f32; N] {
-        self.torques
+    pub const fn held(&self) -> [f32; N] {
+        self.held
     }
 
-    /// A state from what each element carries. Torques beyond an element's limit are cut in the next tick.
+    /// A state from what each element holds. What is beyond an element's limit is cut in the next tick.
     ///
     /// # Errors
-    /// `torques`, where one is not a number within 1e12.
-    pub const fn from_torques(torques: [f32; N]) -> Result<Self, Error> {
+    /// `held`, where one is not a number within 1e12.
+    pub const fn from_held(held: [f32; N]) -> Result<Self, Error> {
         let mut index = 0;
         while index < N {
-            attempt!(in_range("torques", torques[index], -LARGEST, LARGEST));
+            attempt!(in_range("held", held[index], -LARGEST, LARGEST));
             index += 1;
         }
-        Ok(Self { torques })
+        Ok(Self { held })
     }
 }
 
 #[cfg(feature = "defmt")]
 impl<const N: usize> defmt::Format for MemoryState<N> {
     fn format(&self, formatter: defmt::Formatter<'_>) {
-        defmt::write!(
-            formatter,
-            "MemoryState {{ torques: {=[?]} }}",
-            &self.torques[..]
-        );
+        defmt::write!(formatter, "MemoryState {{ held: {=[?]} }}", &self.held[..]);
     }
 }

@@ -9,9 +9,9 @@ use crate::law::{Elements, SlidingLimits};
 /// `T = A(share T±) + B((1 - share) T±)`. Both remember their own; as passive as both are. Cost: both, and 6 cycles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Together<A, B> {
-    first: A,
-    second: B,
-    share: f32,
+    pub(super) first: A,
+    pub(super) second: B,
+    pub(super) share: f32,
 }
 
 /// What two kinds of elements remember.

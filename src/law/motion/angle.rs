@@ -19,12 +19,12 @@ pub struct WrappedAngleParameters {
 ///
 /// Differences of neighbours are exact (Sterbenz) where neither is over twice the other; across the end both distances
 /// from it are, and the turn is rounded once. What is left is the readings' own resolution: half an ulp, 2e-7 rad near a
-/// full turn. An angle outside `lowest` to `lowest + period`, or no number, is no reading. 30 cycles.
+/// full turn. An angle outside `lowest` to `lowest + period`, or no number, is no reading. 65 cycles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct WrappedAngle {
-    lowest: f32,
-    highest: f32,
+    pub(super) lowest: f32,
+    pub(super) highest: f32,
     half: f32,
     largest_turn: f32,
 }
@@ -32,7 +32,7 @@ pub struct WrappedAngle {
 /// The last angle, where there was one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct AngleReading(Option<f32>);
+pub struct AngleReading(pub(super) Option<f32>);
 
 impl WrappedAngle {
     /// Constants of an angle.
@@ -85,6 +85,12 @@ impl NutAngle for WrappedAngle {
     type State = AngleReading;
 
     const FRESH: Self::State = AngleReading(None);
+
+    fn gave(&self, state: &Self::State) -> bool {
+        state
+            .0
+            .is_none_or(|last| last >= self.lowest && last <= self.highest)
+    }
 
     #[inline]
     fn turn(&self, state: &mut Self::State, reading: f32) -> Turn {

@@ -19,7 +19,7 @@ pub struct CountSensorParameters {
 /// Nut angle from a counter: `dtheta = ((n - n_last + P/2) mod P - P/2) turn_per_count`, the shorter way round.
 ///
 /// The difference is exact, the turn rounded once (below 2^24 counts). A count of the period or more is no reading. Half
-/// a period is taken as backwards. 35 cycles.
+/// a period is taken as backwards. 60 cycles.
 ///
 /// ```
 /// use epas_friction::law::motion::{CountSensor, CountSensorParameters, NutAngle, Turn};
@@ -40,15 +40,15 @@ pub struct CountSensorParameters {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct CountSensor {
-    period: u32,
-    turn_per_count: f32,
+    pub(super) period: u32,
+    pub(super) turn_per_count: f32,
     largest_turn: f32,
 }
 
 /// The last count, where there was one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct CountReading(Option<u32>);
+pub struct CountReading(pub(super) Option<u32>);
 
 impl CountSensor {
     /// Constants of a counter.
@@ -119,6 +119,12 @@ impl NutAngle for CountSensor {
     type State = CountReading;
 
     const FRESH: Self::State = CountReading(None);
+
+    fn gave(&self, state: &Self::State) -> bool {
+        state
+            .0
+            .is_none_or(|last| self.period == 0 || last < self.period)
+    }
 
     #[inline]
     fn turn(&self, state: &mut Self::State, reading: u32) -> Turn {

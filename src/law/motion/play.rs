@@ -5,20 +5,20 @@ use crate::error::{Error, attempt, in_range};
 /// A play of `half_width` to either side: the output follows the turn only after it has gone through the play.
 ///
 /// `p <- clamp(p + dtheta, -h, h)`, moved `= dtheta - dp`. As wide as the noise of an encoder, it keeps a row of balls from
-/// turning round with every count. What has moved and what is in the play add up to the turn, to rounding. 25 cycles. A turn that is
+/// turning round with every count. What has moved and what is in the play add up to the turn, to rounding. 35 cycles. A turn that is
 /// no number is none.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Play {
-    half_width: f32,
+    pub(super) half_width: f32,
 }
 
 /// Where a play is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct PlayState {
-    place: f32,
-    way: f32,
+    pub(super) place: f32,
+    pub(super) way: f32,
 }
 
 /// What the output does.

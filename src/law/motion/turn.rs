@@ -58,6 +58,12 @@ pub trait NutAngle {
     /// No reading yet.
     const FRESH: Self::State;
 
+    /// Whether this sensor leaves such a state: one that has been read from bytes may be another.
+    fn gave(&self, state: &Self::State) -> bool {
+        let _ = state;
+        true
+    }
+
     /// The turn since the last good reading; bounded time, no panic.
     fn turn(&self, state: &mut Self::State, reading: Self::Reading) -> Turn;
 }

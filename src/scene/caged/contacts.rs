@@ -1,5 +1,7 @@
 //! Friction of the contacts of balls that are alike: a law over the load, or a ball that is renewed in every tick.
 
+mod stored;
+
 use core::f32::consts::TAU;
 
 use super::CagedBallScrewConfiguration;

@@ -3,7 +3,7 @@
 use crate::scene::faults::Faults;
 
 /// Full friction of a caged ball screw in both directions.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CagedFull {
     /// Friction torque of motion forward and backward, N m, not negative.
     pub(super) forward: f32,

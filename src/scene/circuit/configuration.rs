@@ -53,8 +53,8 @@ pub(crate) struct CircuitConfiguration {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(crate) struct Circuit {
-    zone: LoadedZone,
-    track: Track,
+    pub(super) zone: LoadedZone,
+    pub(super) track: Track,
     /// Travel of the balls along the track in a tick, over the speed of the motion: negative, because the track runs
     /// along with the body that moves.
     travel: f32,
@@ -68,7 +68,7 @@ pub(crate) struct Circuit {
 pub struct CircuitState<const N: usize> {
     /// The balls.
     pub train: Train<N>,
-    phase: Phase,
+    pub(super) phase: Phase,
 }
 
 impl CircuitConfiguration {

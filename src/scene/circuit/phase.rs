@@ -1,5 +1,8 @@
 //! The phase of the groove that passes by.
 
+use crate::error::Range;
+use crate::stored::{Port, Refusal, Stored};
+
 /// Units of a period.
 pub(super) const UNITS: f32 = 4_294_967_296.0;
 
@@ -40,5 +43,14 @@ impl Phase {
         let half = (fraction * (0.5 * UNITS)) as i32;
         self.units = (half as u32).wrapping_mul(2);
         self.remainder = 0.0;
+    }
+}
+
+impl Stored for Phase {
+    const BYTES: usize = 8;
+
+    fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
+        port.word(&mut self.units)?;
+        port.number("remainder", &mut self.remainder, Range::new(-1.0, 1.0))
     }
 }

@@ -6,7 +6,7 @@ use crate::scene::outputs::UncagedOutputs;
 use crate::scene::passage::Passage;
 
 /// Full friction of a ball screw without cage, in the direction in which its balls go.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct UncagedFull {
     /// Parts of the friction torque from the grooves and from balls that rub against each other, N m.
     pub(super) groove: f32,

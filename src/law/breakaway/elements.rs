@@ -1,0 +1,146 @@
+//! Elements of a memory from the parts of a screw or a bearing.
+
+use super::bearing::BearingBreakaway;
+use super::parts::{BreakawayPart, Mechanism};
+use super::screw::Breakaway;
+use crate::error::Error;
+use crate::law::memory::{BackboneElement, Part, ProportionalElements, SeatElement};
+
+/// Least share of a part with a table: that of [`ProportionalElements::new`].
+const LEAST_SHARE: f32 = 1e-6;
+
+/// Tables of elements, one for each mechanism; an empty one leaves its mechanism out, whose share goes to the others.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tables<'a> {
+    /// Slip across the path, as [`SLIP_6`](crate::law::memory::SLIP_6)`.elements`; empty for a linear bearing.
+    pub slip: &'a [BackboneElement],
+    /// Spin, as [`SPIN_4`](crate::law::memory::SPIN_4)`.elements`.
+    pub spin: &'a [BackboneElement],
+    /// Rolling resistance: a table of slip, by analogy. About one per cent of the friction; empty costs nothing.
+    pub rolling_resistance: &'a [BackboneElement],
+}
+
+impl<'a> Tables<'a> {
+    const fn of(&self, mechanism: Mechanism) -> &'a [BackboneElement] {
+        match mechanism {
+            Mechanism::Slip => self.slip,
+            Mechanism::Spin => self.spin,
+            Mechanism::RollingResistance => self.rolling_resistance,
+        }
+    }
+
+    /// Elements of the parts that have a table, `N` together, with a friction of gross sliding `whole`, N m or N.
+    const fn elements<const N: usize>(
+        &self,
+        parts: [BreakawayPart; 3],
+        whole: f32,
+    ) -> Result<ProportionalElements<N>, Error> {
+        let mut taken = [Part {
+            backbone: &[],
+            share: 0.0,
+            breakaway_angle: 1.0,
+        }; 3];
+        let mut sum = 0.0;
+        let (mut count, mut place) = (0, 0);
+        while place < parts.len() {
+            let part = parts[place];
+            let backbone = self.of(part.mechanism);
+            if !backbone.is_empty() {
+                let share = if part.share > LEAST_SHARE {
+                    part.share
+                } else {
+                    LEAST_SHARE
+                };
+                taken[count] = Part {
+                    backbone,
+                    share,
+                    breakaway_angle: part.breakaway_angle,
+                };
+                sum += share;
+                count += 1;
+            }
+            place += 1;
+        }
+        place = 0;
+        while place < count {
+            taken[place].share /= sum;
+            place += 1;
+        }
+        let (taken, _) = taken.split_at(count);
+        ProportionalElements::new(whole, taken)
+    }
+}
+
+impl Breakaway {
+    /// `N` elements in these tables, for [`Self::parts`].
+    ///
+    /// ```
+    /// use epas_friction::law::breakaway::{Breakaway, BreakawayConfiguration, ScrewContacts, Tables};
+    /// use epas_friction::law::memory::{ProportionalElements, SLIP_4, SPIN_4};
+    /// use epas_friction::{CATALOGUE, defaults};
+    /// let design = CATALOGUE[15].design()?; // 32 x 20 x 6.35
+    /// let breakaway = Breakaway::of(&design, &BreakawayConfiguration {
+    ///     friction: defaults::FRICTION,
+    ///     clearance: defaults::CLEARANCE,
+    ///     rolling_resistance: defaults::ROLLING_RESISTANCE,
+    ///     loaded_balls: 37,
+    ///     contact_load: ScrewContacts::of(&design).preloaded(1000.0, 37, defaults::CLEARANCE),
+    /// })?;
+    /// let elements: ProportionalElements<8> = breakaway.elements(&Tables {
+    ///     slip: &SLIP_4.elements,
+    ///     spin: &SPIN_4.elements,
+    ///     rolling_resistance: &[],
+    /// })?;
+    /// # Ok::<(), epas_friction::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`ProportionalElements::new`]: `parts` where the tables have not `N` elements together.
+    pub const fn elements<const N: usize>(
+        &self,
+        tables: &Tables<'_>,
+    ) -> Result<ProportionalElements<N>, Error> {
+        tables.elements(self.parts(), self.torque)
+    }
+
+    /// The seat as an element of its own, with the share of slip: for a screw with play, in
+    /// [`Together`](crate::law::memory::Together) with [`Self::elements_beside_seat`].
+    ///
+    /// # Errors
+    /// As [`SeatElement::new`]: `reference_limit` where nothing slips, `breakaway_angle` where the grooves' slope holds the ball
+    /// before it comes to its seat.
+    pub const fn seat_element(&self) -> Result<SeatElement, Error> {
+        let slip = self.part(Mechanism::Slip);
+        let play = self.seat.free_play();
+        SeatElement::new(slip.share * self.torque, play, slip.breakaway_angle - play)
+    }
+
+    /// `N` elements of the other parts, to stand beside [`Self::seat_element`]; the table of slip is not used.
+    ///
+    /// # Errors
+    /// As [`ProportionalElements::new`].
+    pub const fn elements_beside_seat<const N: usize>(
+        &self,
+        tables: &Tables<'_>,
+    ) -> Result<ProportionalElements<N>, Error> {
+        let tables = Tables {
+            slip: &[],
+            ..*tables
+        };
+        let rest = 1.0 - self.part(Mechanism::Slip).share;
+        tables.elements(self.parts(), rest * self.torque)
+    }
+}
+
+impl BearingBreakaway {
+    /// `N` elements in these tables; that of slip is to be empty.
+    ///
+    /// # Errors
+    /// As [`ProportionalElements::new`].
+    pub const fn elements<const N: usize>(
+        &self,
+        tables: &Tables<'_>,
+    ) -> Result<ProportionalElements<N>, Error> {
+        tables.elements(self.parts(), self.force)
+    }
+}

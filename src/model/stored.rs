@@ -1,0 +1,137 @@
+//! A model's state across ignition.
+
+use core::borrow::Borrow;
+
+use super::FrictionModel;
+use crate::law::Elements;
+use crate::law::motion::NutAngle;
+use crate::scene::{Sliding, StoredScene, WithMemory, WithMemoryConstants};
+use crate::stored::{Block, Fingerprint, Fingerprinted, Label, OVERHEAD, Refusal, Stored};
+
+impl<S: StoredScene, C: Borrow<S::Constants>> FrictionModel<S, C> {
+    /// Bytes of a block that holds the state: see [`stored`](crate::stored) for its layout.
+    pub const STATE_BYTES: usize = OVERHEAD + <S::State as Stored>::BYTES;
+
+    /// Writes the state as a block to the begin of `bytes` and gives its length,
+    /// [`STATE_BYTES`](FrictionModel::STATE_BYTES): when the ignition goes off.
+    ///
+    /// The block has balls, memory and what has been set while the model ran; not the constants, nor the number of faulted
+    /// ticks. Outside the interrupt: 30 cycles a byte, and the stack of one state. Where an interrupt still steps the model, copy it
+    /// in a critical section and export the copy.
+    ///
+    /// ```
+    /// # use epas_friction::{
+    /// #     CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, Clearance, Error,
+    /// #     FrictionBranch, FrictionModel, Inputs, Limits, RollingResistance,
+    /// # };
+    /// # let configuration = CagedBallScrewConfiguration {
+    /// #     design: CATALOGUE[15].design().unwrap(),
+    /// #     friction: 0.1,
+    /// #     rolling_resistance: RollingResistance::STEEL,
+    /// #     rolling_tangent: 0.0,
+    /// #     branch: FrictionBranch::Contacts,
+    /// #     clearance: Clearance::ZERO,
+    /// #     loaded_balls: 40,
+    /// #     reversal_speed: 0.5,
+    /// #     limits: Limits { nut_speed: 500.0, axial_load: 20_000.0, friction_torque: 5.0 },
+    /// # };
+    /// type Screw = FrictionModel<CagedBallScrew>;
+    ///
+    /// // What the non-volatile memory keeps.
+    /// let mut kept = [0xFF; Screw::STATE_BYTES];
+    ///
+    /// // Ignition on: whatever is wrong with the block, the model runs on from its first state.
+    /// let mut model = Screw::new(&configuration)?;
+    /// if let Err(refusal) = model.import(&kept) {
+    ///     println!("friction starts anew: {refusal}"); // a diagnostic message
+    /// }
+    /// model.set_friction(0.08)?;
+    /// model.step(Inputs { nut_speed: 40.0, axial_load: 3_000.0 });
+    ///
+    /// // Ignition off.
+    /// model.export(&mut kept).expect("the block is large enough");
+    ///
+    /// // Ignition on: the friction that was set is there again.
+    /// let mut next = Screw::new(&configuration)?;
+    /// assert_eq!(next.import(&kept), Ok(()));
+    /// # let inputs = Inputs { nut_speed: 40.0, axial_load: 3_000.0 };
+    /// # assert_eq!(model.step(inputs), next.step(inputs));
+    /// # Ok::<(), epas_friction::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Refusal::Length`] where `bytes` are too short; [`Refusal::OutOfRange`] where a number of the state is none: such
+    /// a block could not be read again.
+    pub fn export(&self, bytes: &mut [u8]) -> Result<usize, Refusal> {
+        // A state has one description, which also reads: it works on a copy.
+        let mut state = self.state;
+        self.block().seal(&mut state, bytes)
+    }
+
+    /// Takes over the state of a block that a model of the same constants exported: when the ignition goes on, before the first
+    /// step. From then on steps give the same bits as those of the model that was exported.
+    ///
+    /// Memory and balls are as they were. An angle sensor begins anew: the first reading is no turn, whatever the nut did while the
+    /// power was off. If somebody turned the wheel then, the true friction has forgotten more than the model; after a turn of
+    /// twice the breakaway angle both are the same again. See
+    /// [`FrictionModel::import_with_reading`] for a sensor that spans the gap.
+    ///
+    /// On a refusal the model is as it was: the block is read into a copy of the state, on the stack, as large as the state;
+    /// setting up a model takes more. Outside the interrupt, 40 cycles a byte.
+    ///
+    /// # Errors
+    /// The [`Refusal`].
+    pub fn import(&mut self, block: &[u8]) -> Result<(), Refusal> {
+        let mut state = self.read(block)?;
+        S::forget_readings(&mut state);
+        self.take(state);
+        Ok(())
+    }
+
+    /// The block around states of these constants.
+    fn block(&self) -> Block {
+        let mut fingerprint = Fingerprint::default();
+        S::fingerprint(self.constants.borrow(), &mut fingerprint);
+        let label = Label {
+            kind: S::KIND,
+            balls: S::BALLS,
+            fingerprint,
+        };
+        Block::new(label, <S::State as Stored>::BYTES)
+    }
+
+    fn read(&self, block: &[u8]) -> Result<S::State, Refusal> {
+        let mut state = self.state;
+        self.block().open(&mut state, block)?;
+        S::complete(self.constants.borrow(), &mut state)?;
+        Ok(state)
+    }
+
+    fn take(&mut self, state: S::State) {
+        self.state = state;
+        self.faulted_ticks = 0;
+    }
+}
+
+impl<S, E, A, C> FrictionModel<WithMemory<S, E, A>, C>
+where
+    S: StoredScene + Sliding<Constants: Copy, Inputs: Stored, Full: Stored + Default> + Copy,
+    E: Elements<State: Stored> + Fingerprinted + Copy,
+    A: NutAngle<State: Stored> + Fingerprinted + Copy,
+    C: Borrow<WithMemoryConstants<S::Constants, E, A>>,
+{
+    /// Takes over a state as [`FrictionModel::import`] does, with the last reading of the angle sensor: the turn of the next reading
+    /// spans the time without power.
+    ///
+    /// Right only for a sensor that is absolute over all that the nut may have turned by: a counter that begins at 0 with the
+    /// power would give a turn that was none, one that is absolute within a turn loses whole turns. A turn beyond the
+    /// sensor's largest one is cut to that and flagged.
+    ///
+    /// # Errors
+    /// The [`Refusal`]; the model is as it was.
+    pub fn import_with_reading(&mut self, block: &[u8]) -> Result<(), Refusal> {
+        let state = self.read(block)?;
+        self.take(state);
+        Ok(())
+    }
+}

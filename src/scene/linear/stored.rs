@@ -1,0 +1,62 @@
+//! A linear bearing as bytes.
+
+use super::{LinearBearingTrain, LinearConstants, LinearFull, LinearState};
+use crate::error::Range;
+use crate::ranges;
+use crate::scene::circuit::CircuitState;
+use crate::scene::stored::{FRICTION, StoredScene, WAYS};
+use crate::stored::{Fingerprint, Port, Refusal, Stored};
+
+impl<const N: usize> StoredScene for LinearBearingTrain<N> {
+    const KIND: u16 = 3;
+    const BALLS: u16 = N as u16;
+
+    fn fingerprint(constants: &LinearConstants<N>, fingerprint: &mut Fingerprint) {
+        constants.circuit.fingerprint(fingerprint);
+        fingerprint.numbers(&[
+            constants.friction,
+            constants.normal,
+            constants.side,
+            constants.wavelength,
+        ]);
+    }
+
+    fn complete(_: &LinearConstants<N>, state: &mut LinearState<N>) -> Result<(), Refusal> {
+        state.circuit.train.in_order()
+    }
+
+    fn forget_readings(_: &mut LinearState<N>) {}
+}
+
+impl<const N: usize> Stored for LinearState<N> {
+    const BYTES: usize = CircuitState::<N>::BYTES + 4;
+
+    fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
+        self.circuit.exchange(port)?;
+        // Any friction coefficient over any other.
+        let largest = ranges::FRICTION.maximum / ranges::FRICTION.minimum;
+        port.number(
+            "friction",
+            &mut self.friction,
+            Range::new(0.5 / largest, 2.0 * largest),
+        )
+    }
+}
+
+impl Stored for LinearFull {
+    const BYTES: usize = 6 * 4 + 1 + 1;
+
+    fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
+        port.number("groove", &mut self.groove, FRICTION)?;
+        port.number("ball", &mut self.ball, FRICTION)?;
+        port.numbers("ways", &mut self.ways, WAYS)?;
+        port.number("load", &mut self.load, Range::new(0.0, 1e13))?;
+        port.count("contacts", &mut self.contacts, u8::MAX)?;
+        port.number(
+            "largest_contact_force",
+            &mut self.largest_contact_force,
+            Range::new(0.0, 1e12),
+        )?;
+        port.flag("beyond_model", &mut self.beyond_model)
+    }
+}

@@ -1,0 +1,86 @@
+//! A scene with memory as bytes. The law of the friction coefficient is that of the constants, or what was set last.
+
+use super::{Sliding, WithMemory, WithMemoryConstants, WithMemoryState};
+use crate::error::Range;
+use crate::law::coefficient::TEMPERATURE;
+use crate::law::motion::{NutAngle, PlayState};
+use crate::law::{Elements, SlidingLimits};
+use crate::scene::contract::Scene;
+use crate::scene::stored::StoredScene;
+use crate::stored::{Fingerprint, Fingerprinted, Port, Refusal, Stored};
+
+/// Added to the kind of the scene without memory.
+const MEMORY: u16 = 0x100;
+
+impl<S, E, A> StoredScene for WithMemory<S, E, A>
+where
+    S: StoredScene + Sliding<Constants: Copy, Inputs: Stored, Full: Stored + Default> + Copy,
+    E: Elements<State: Stored> + Fingerprinted + Copy,
+    A: NutAngle<State: Stored> + Fingerprinted + Copy,
+{
+    const KIND: u16 = MEMORY + S::KIND;
+    const BALLS: u16 = S::BALLS;
+
+    fn fingerprint(
+        constants: &WithMemoryConstants<S::Constants, E, A>,
+        fingerprint: &mut Fingerprint,
+    ) {
+        S::fingerprint(&constants.scene, fingerprint);
+        constants.elements.fingerprint(fingerprint);
+        constants.angle.fingerprint(fingerprint);
+        fingerprint.number(constants.per_reference_load);
+        constants.play.fingerprint(fingerprint);
+    }
+
+    fn complete(
+        constants: &WithMemoryConstants<S::Constants, E, A>,
+        state: &mut WithMemoryState<S, E, A>,
+    ) -> Result<(), Refusal> {
+        S::complete(&constants.scene, &mut state.scene)?;
+        if !constants.angle.gave(&state.reading) {
+            return Err(Refusal::OutOfRange { field: "reading" });
+        }
+        if !constants.play.holds(&state.play) {
+            return Err(Refusal::OutOfRange { field: "play" });
+        }
+        if S::admit(&constants.scene, state.inputs).faults.any() {
+            return Err(Refusal::OutOfRange { field: "inputs" });
+        }
+        state.at_temperature = state.coefficient.at_temperature(state.temperature);
+        Ok(())
+    }
+
+    fn forget_readings(state: &mut WithMemoryState<S, E, A>) {
+        S::forget_readings(&mut state.scene);
+        state.reading = A::FRESH;
+    }
+}
+
+impl<S, E, A> Stored for WithMemoryState<S, E, A>
+where
+    S: Sliding<State: Stored, Inputs: Stored, Full: Stored + Default>,
+    E: Elements<State: Stored>,
+    A: NutAngle<State: Stored>,
+{
+    const BYTES: usize = <S::State as Stored>::BYTES
+        + <E::State as Stored>::BYTES
+        + <A::State as Stored>::BYTES
+        + PlayState::BYTES
+        + <<S as Scene>::Inputs as Stored>::BYTES
+        + (1 + <S::Full as Stored>::BYTES)
+        + SlidingLimits::BYTES
+        + 3 * 4;
+
+    fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
+        self.scene.exchange(port)?;
+        self.elements.exchange(port)?;
+        self.reading.exchange(port)?;
+        self.play.exchange(port)?;
+        self.inputs.exchange(port)?;
+        self.limits.exchange(port)?;
+        port.number("temperature", &mut self.temperature, TEMPERATURE)?;
+        port.number("moved", &mut self.moved, Range::new(-1e9, 1e9))?;
+        port.number("churning", &mut self.churning, Range::new(-1e9, 1e9))?;
+        self.full.exchange(port)
+    }
+}

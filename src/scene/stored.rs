@@ -1,0 +1,83 @@
+//! Scenes whose state can be kept as bytes.
+
+use super::contract::{Inputs, Scene};
+use super::faults::Faults;
+use super::linear::LinearInputs;
+use crate::error::Range;
+use crate::law::SlidingLimits;
+use crate::stored::{Fingerprint, Port, Refusal, Stored};
+
+/// A scene whose state can be kept as bytes.
+pub trait StoredScene: Scene<State: Stored + Copy> {
+    /// Number of the kind of scene in a block.
+    const KIND: u16;
+    /// Balls in the circuit, 0 without one.
+    const BALLS: u16;
+
+    /// Takes in all of the constants that a state's numbers are read with: geometry, elasticity, circuit, friction coefficient
+    /// and clearance. Limits, the reversal speed, the tick, loads' shares and deviations may change from one ignition to
+    /// the next.
+    fn fingerprint(constants: &Self::Constants, fingerprint: &mut Fingerprint);
+
+    /// Puts in what follows from a state that has been read, and checks how its numbers fit to each other and to the
+    /// constants.
+    ///
+    /// # Errors
+    /// [`Refusal::OutOfRange`] naming what does not fit.
+    fn complete(constants: &Self::Constants, state: &mut Self::State) -> Result<(), Refusal>;
+
+    /// Forgets what does not last while the power is off: the reading of an angle sensor.
+    fn forget_readings(state: &mut Self::State);
+}
+
+/// Friction torques and forces, loads: N m, N.
+pub(super) const FRICTION: Range = Range::new(0.0, 1e9);
+
+/// A friction coefficient over any other.
+pub(super) const WAYS: Range = Range::new(0.0, 1e9);
+
+/// Every flag.
+const FLAGS: u16 = (Faults::TEMPERATURE_STALE.bits() << 1) - 1;
+
+impl Stored for Faults {
+    const BYTES: usize = 2;
+
+    fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
+        let mut bits = self.bits();
+        port.long_count("faults", &mut bits, FLAGS)?;
+        *self = Self::of_bits(bits);
+        Ok(())
+    }
+}
+
+impl Stored for SlidingLimits {
+    const BYTES: usize = 12;
+
+    fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
+        port.number("forward", &mut self.forward, FRICTION)?;
+        port.number("backward", &mut self.backward, FRICTION)?;
+        port.number("load", &mut self.load, Range::new(0.0, 1e13))
+    }
+}
+
+/// Within the limits of the constants they are checked where those are known.
+const ANY: Range = Range::new(f32::MIN, f32::MAX);
+
+impl Stored for Inputs {
+    const BYTES: usize = 8;
+
+    fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
+        port.number("nut_speed", &mut self.nut_speed, ANY)?;
+        port.number("axial_load", &mut self.axial_load, ANY)
+    }
+}
+
+impl Stored for LinearInputs {
+    const BYTES: usize = 12;
+
+    fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
+        port.number("speed", &mut self.speed, ANY)?;
+        port.number("normal_load", &mut self.normal_load, ANY)?;
+        port.number("side_load", &mut self.side_load, ANY)
+    }
+}

@@ -1,0 +1,56 @@
+//! A ball screw without cage as bytes.
+
+use super::{Ring, UncagedBallScrew, UncagedConstants, UncagedFull, UncagedState};
+use crate::error::Range;
+use crate::scene::circuit::CircuitState;
+use crate::scene::faults::Faults;
+use crate::scene::stored::{FRICTION, StoredScene, WAYS};
+use crate::stored::{Fingerprint, Port, Refusal, Stored};
+
+impl<const N: usize> StoredScene for UncagedBallScrew<N> {
+    const KIND: u16 = 2;
+    const BALLS: u16 = N as u16;
+
+    fn fingerprint(constants: &UncagedConstants<N>, fingerprint: &mut Fingerprint) {
+        constants.ring.fingerprint(fingerprint);
+        constants.circuit.fingerprint(fingerprint);
+        fingerprint.numbers(&[constants.friction, constants.clearance, constants.per_ball]);
+    }
+
+    fn complete(
+        constants: &UncagedConstants<N>,
+        state: &mut UncagedState<N>,
+    ) -> Result<(), Refusal> {
+        state.circuit.train.in_order()?;
+        state.ring.complete(&constants.ring)
+    }
+
+    fn forget_readings(_: &mut UncagedState<N>) {}
+}
+
+impl<const N: usize> Stored for UncagedState<N> {
+    const BYTES: usize = CircuitState::<N>::BYTES + Ring::<N>::BYTES;
+
+    fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
+        self.circuit.exchange(port)?;
+        self.ring.exchange(port)
+    }
+}
+
+impl Stored for UncagedFull {
+    const BYTES: usize = 6 * 4 + 1 + Faults::BYTES;
+
+    fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
+        port.number("groove", &mut self.groove, FRICTION)?;
+        port.number("ball", &mut self.ball, FRICTION)?;
+        port.numbers("ways", &mut self.ways, WAYS)?;
+        port.number("load", &mut self.load, Range::new(0.0, 1e13))?;
+        port.count("contacts", &mut self.contacts, u8::MAX)?;
+        port.number(
+            "largest_contact_force",
+            &mut self.largest_contact_force,
+            Range::new(0.0, 1e12),
+        )?;
+        self.faults.exchange(port)
+    }
+}
