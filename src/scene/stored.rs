@@ -33,6 +33,9 @@ pub trait StoredScene: Scene<State: Stored + Copy> {
 /// Friction torques and forces, loads: N m, N.
 pub(super) const FRICTION: Range = Range::new(0.0, 1e9);
 
+/// A friction coefficient over any other.
+pub(super) const WAYS: Range = Range::new(0.0, 1e9);
+
 /// Every flag.
 const FLAGS: u16 = (Faults::TEMPERATURE_STALE.bits() << 1) - 1;
 

@@ -340,9 +340,8 @@ impl<const N: usize> UncagedConstants<N> {
                 ahead: second,
             }
         };
-        state
-            .ring
-            .renew(&self.ring, load, index, deviations, share, &neighbours);
+        let ring = &mut state.ring;
+        ring.renew(&self.ring, load, index, deviations, share, &neighbours);
     }
 
     /// Sum over all pairs of loaded balls of their force times the speed with which they rub, N m per unit of nut speed. A ball

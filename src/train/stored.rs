@@ -22,7 +22,8 @@ impl<const N: usize> Stored for Train<N> {
 }
 
 impl<const N: usize> Train<N> {
-    /// Whether the balls follow each other once around the track, none of them within the next by more than rounding leaves.
+    /// Whether the balls follow each other once around the track, none of them within the next; the last ball and the foremost
+    /// one may be by what rounding leaves: these two are moved before the balls in front of them.
     ///
     /// # Errors
     /// [`Refusal::OutOfRange`] naming `position`.
@@ -31,9 +32,11 @@ impl<const N: usize> Train<N> {
         let around: i64 = self
             .positions()
             .zip(ahead)
-            .map(|(position, ahead)| {
+            .enumerate()
+            .map(|(index, (position, ahead))| {
                 let gap = self.track.gap(position, ahead);
-                let gap = if gap > u32::MAX - OVERLAP {
+                let rounds = index + 1 == N || index == self.press.foremost();
+                let gap = if rounds && gap > u32::MAX - OVERLAP {
                     i64::from(gap.cast_signed())
                 } else {
                     i64::from(gap)

@@ -18,5 +18,6 @@ mod promises;
 mod scene_constants;
 mod step_promises;
 mod stiff;
+mod stored;
 mod two_point_rolling;
 mod uncaged;

@@ -6,9 +6,14 @@ use super::renewal::Settled;
 use crate::ball::Clearance;
 use crate::error::Range;
 use crate::stored::{Fingerprint, Port, Refusal, Stored};
+use crate::train::LARGEST_FREE_SPEED;
 
-/// Places over the ball radius: contacts give way by less than one.
-const PLACE: Range = Range::new(-2.0, 2.0);
+/// Places over the ball radius: hundredths, but thousands where a ball under the largest load has not settled between the
+/// softest grooves.
+const PLACE: Range = Range::new(-1e6, 1e6);
+
+/// Speeds without forces, which a train takes as they are.
+const FREE: Range = Range::new(-LARGEST_FREE_SPEED, LARGEST_FREE_SPEED);
 
 /// Motions over the nut's: a ball 1/5000 as large as its path (the extreme design) turns so fast.
 pub(super) const MOTION: Range = Range::new(-1e5, 1e5);
@@ -35,7 +40,7 @@ impl Stored for RingBall {
     fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
         port.numbers("place", &mut self.place, PLACE)?;
         port.numbers("turning", &mut self.turning, MOTION)?;
-        port.number("free", &mut self.free, Range::new(-1e9, 1e9))?;
+        port.number("free", &mut self.free, FREE)?;
         port.number("impedance", &mut self.impedance, NOT_NEGATIVE)?;
         port.number("torque", &mut self.torque, NOT_NEGATIVE)
     }

@@ -4,7 +4,7 @@ use super::{LinearBearingTrain, LinearConstants, LinearFull, LinearState};
 use crate::error::Range;
 use crate::ranges;
 use crate::scene::circuit::CircuitState;
-use crate::scene::stored::{FRICTION, StoredScene};
+use crate::scene::stored::{FRICTION, StoredScene, WAYS};
 use crate::stored::{Fingerprint, Port, Refusal, Stored};
 
 impl<const N: usize> StoredScene for LinearBearingTrain<N> {
@@ -44,11 +44,12 @@ impl<const N: usize> Stored for LinearState<N> {
 }
 
 impl Stored for LinearFull {
-    const BYTES: usize = 4 * 4 + 1 + 1;
+    const BYTES: usize = 6 * 4 + 1 + 1;
 
     fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
         port.number("groove", &mut self.groove, FRICTION)?;
         port.number("ball", &mut self.ball, FRICTION)?;
+        port.numbers("ways", &mut self.ways, WAYS)?;
         port.number("load", &mut self.load, Range::new(0.0, 1e13))?;
         port.count("contacts", &mut self.contacts, u8::MAX)?;
         port.number(

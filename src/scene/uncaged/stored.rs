@@ -4,7 +4,7 @@ use super::{Ring, UncagedBallScrew, UncagedConstants, UncagedFull, UncagedState}
 use crate::error::Range;
 use crate::scene::circuit::CircuitState;
 use crate::scene::faults::Faults;
-use crate::scene::stored::{FRICTION, StoredScene};
+use crate::scene::stored::{FRICTION, StoredScene, WAYS};
 use crate::stored::{Fingerprint, Port, Refusal, Stored};
 
 impl<const N: usize> StoredScene for UncagedBallScrew<N> {
@@ -38,11 +38,12 @@ impl<const N: usize> Stored for UncagedState<N> {
 }
 
 impl Stored for UncagedFull {
-    const BYTES: usize = 4 * 4 + 1 + Faults::BYTES;
+    const BYTES: usize = 6 * 4 + 1 + Faults::BYTES;
 
     fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
         port.number("groove", &mut self.groove, FRICTION)?;
         port.number("ball", &mut self.ball, FRICTION)?;
+        port.numbers("ways", &mut self.ways, WAYS)?;
         port.number("load", &mut self.load, Range::new(0.0, 1e13))?;
         port.count("contacts", &mut self.contacts, u8::MAX)?;
         port.number(

@@ -3,7 +3,7 @@
 use super::{Ring, SETTLING_ROUNDS};
 use crate::ball::elastic::law::{RingBall, RingConstants};
 use crate::ball::elastic::renewal::Settled;
-use crate::ball::elastic::stored::{CLEARANCE, NOT_NEGATIVE};
+use crate::ball::elastic::stored::CLEARANCE;
 use crate::error::Range;
 use crate::ranges;
 use crate::stored::{Port, Refusal, Stored};
@@ -57,5 +57,3 @@ impl<const N: usize> Ring<N> {
         }
     }
 }
-
-const _: () = assert!(NOT_NEGATIVE.minimum == 0.0);

@@ -1,0 +1,855 @@
+//! State across ignition: a model that takes a block over goes on to the bit, and a block that is not its own changes nothing.
+
+use std::f32::consts::TAU;
+use std::fmt::Debug;
+
+use epas_friction::defaults::COEFFICIENT;
+use epas_friction::law::coefficient::{CoefficientLaw, TemperatureFade};
+use epas_friction::law::memory::{
+    LoadExactElements, Part, ProportionalElements, SLIP_8, SPIN_4, SeatElement, Together,
+};
+use epas_friction::law::motion::{
+    CountSensor, CountSensorParameters, SpeedOverTick, WrappedAngle, WrappedAngleParameters,
+};
+use epas_friction::scene::{
+    Freshness, Sliding, StoredScene, WithMemory, WithMemoryConfiguration, WithMemoryInputs,
+};
+use epas_friction::stored::{VERSION, crc32};
+use epas_friction::{
+    CagedBallScrew, CagedBallScrewConfiguration, Clearance, FrictionBranch, FrictionModel, Inputs,
+    LinearBearingTrain, LinearInputs, Refusal, UncagedBallScrew,
+};
+
+use crate::kit::absurd::{Trial, accepted};
+use crate::kit::gears::{LINEAR_BALLS, SCREW_BALLS, caged, linear, uncaged};
+use crate::kit::random::Random;
+
+type Uncaged = UncagedBallScrew<SCREW_BALLS>;
+type Linear = LinearBearingTrain<LINEAR_BALLS>;
+type Slip = ProportionalElements<8>;
+type CagedByAngle = WithMemory<CagedBallScrew, Slip, WrappedAngle>;
+type UncagedByCounts =
+    WithMemory<Uncaged, Together<ProportionalElements<4>, SeatElement>, CountSensor>;
+type LinearBySpeed = WithMemory<Linear, LoadExactElements<8>, SpeedOverTick>;
+
+const TICK: f32 = 1e-4;
+const COUNTS: u32 = 16_384;
+const TEMPERATURE: f32 = 313.15;
+
+/// Offsets in a block.
+const VERSION_AT: usize = 4;
+const KIND_AT: usize = 6;
+const BALLS_AT: usize = 8;
+const LENGTH_AT: usize = 10;
+const FINGERPRINT_AT: usize = 12;
+const STATE_AT: usize = 16;
+
+/// A manoeuvre by lot: speed, loads and temperature wander, jump and turn round.
+#[derive(Clone)]
+struct Manoeuvre {
+    random: Random,
+    speed: f32,
+    load: f32,
+    temperature: f32,
+    angle: f32,
+}
+
+impl Manoeuvre {
+    fn new(seed: u64) -> Self {
+        Self {
+            random: Random(seed),
+            speed: 0.0,
+            load: 1000.0,
+            temperature: TEMPERATURE,
+            angle: 0.0,
+        }
+    }
+
+    fn next(&mut self) {
+        let random = &mut self.random;
+        match random.below(200) {
+            0 => self.speed = -self.speed,
+            1 => self.load = -self.load,
+            2 => self.load = 8000.0 * (2.0 * random.unit() - 1.0),
+            3 => self.speed = 40.0 * (2.0 * random.unit() - 1.0),
+            4 => self.speed *= 0.01,
+            5 => self.temperature = 250.0 + 100.0 * random.unit(),
+            _ => {
+                self.speed += 0.5 * (2.0 * random.unit() - 1.0);
+                self.load += 20.0 * (2.0 * random.unit() - 1.0);
+            }
+        }
+        self.angle = (self.angle + self.speed * TICK).rem_euclid(TAU);
+    }
+
+    fn screw(&self) -> Inputs {
+        Inputs {
+            nut_speed: self.speed,
+            axial_load: self.load,
+        }
+    }
+
+    fn bearing(&self) -> LinearInputs {
+        LinearInputs {
+            speed: 0.02 * self.speed,
+            normal_load: 2000.0 + 0.2 * self.load,
+            side_load: 0.05 * self.load,
+        }
+    }
+
+    fn with<I, R>(&self, scene: I, reading: R) -> WithMemoryInputs<I, R> {
+        WithMemoryInputs {
+            scene,
+            reading,
+            load_age: 0.0,
+            temperature: self.temperature,
+            temperature_age: 0.0,
+        }
+    }
+}
+
+/// A kind of scene with what the tests do to it.
+trait Kept: StoredScene<Outputs: Debug, State: Debug + PartialEq> {
+    /// Whether the state changes only where something has been set.
+    const STILL: bool = false;
+
+    fn model() -> FrictionModel<Self>
+    where
+        Self: Sized;
+    /// One tick; every second one of a scene with memory lies between steps.
+    fn drive(model: &mut FrictionModel<Self>, manoeuvre: &Manoeuvre, tick: u32) -> Self::Outputs
+    where
+        Self: Sized;
+    /// Sets what may be set while the model runs.
+    fn set(_: &mut FrictionModel<Self>)
+    where
+        Self: Sized,
+    {
+    }
+    /// Takes a block over as if no time had passed.
+    fn import(model: &mut FrictionModel<Self>, block: &[u8]) -> Result<(), Refusal>
+    where
+        Self: Sized,
+    {
+        model.import(block)
+    }
+}
+
+impl Kept for CagedBallScrew {
+    const STILL: bool = true;
+
+    fn model() -> FrictionModel<Self> {
+        FrictionModel::new(&caged()).unwrap()
+    }
+
+    fn drive(model: &mut FrictionModel<Self>, manoeuvre: &Manoeuvre, _: u32) -> Self::Outputs {
+        model.step(manoeuvre.screw())
+    }
+
+    fn set(model: &mut FrictionModel<Self>) {
+        model.set_friction(0.06).unwrap();
+        model.set_clearance(Clearance::new(-1e-6).unwrap()).unwrap();
+    }
+}
+
+impl Kept for Uncaged {
+    fn model() -> FrictionModel<Self> {
+        FrictionModel::new(&uncaged()).unwrap()
+    }
+
+    fn drive(model: &mut FrictionModel<Self>, manoeuvre: &Manoeuvre, _: u32) -> Self::Outputs {
+        model.step(manoeuvre.screw())
+    }
+
+    fn set(model: &mut FrictionModel<Self>) {
+        model.set_friction(0.06).unwrap();
+        model.set_clearance(Clearance::new(-1e-6).unwrap()).unwrap();
+        model.set_nut_angle(1.0);
+    }
+}
+
+impl Kept for Linear {
+    fn model() -> FrictionModel<Self> {
+        FrictionModel::new(&linear()).unwrap()
+    }
+
+    fn drive(model: &mut FrictionModel<Self>, manoeuvre: &Manoeuvre, _: u32) -> Self::Outputs {
+        model.step(manoeuvre.bearing())
+    }
+
+    fn set(model: &mut FrictionModel<Self>) {
+        model.set_friction(0.06).unwrap();
+        model.set_carriage_position(0.01);
+    }
+}
+
+fn with_memory<C, E, A>(scene: C, elements: E, angle: A) -> WithMemoryConfiguration<C, E, A> {
+    WithMemoryConfiguration {
+        scene,
+        elements,
+        angle,
+        reference_load: 1000.0,
+        play: 2e-3,
+        coefficient: CoefficientLaw::new(&COEFFICIENT).unwrap(),
+        temperature: TemperatureFade::new(TEMPERATURE, 60.0, 60.0).unwrap(),
+        freshness: Freshness::DEFAULT,
+    }
+}
+
+fn slip(limit: f32) -> Slip {
+    ProportionalElements::new(
+        limit,
+        &[Part {
+            backbone: &SLIP_8.elements,
+            share: 1.0,
+            breakaway_angle: 2e-3,
+        }],
+    )
+    .unwrap()
+}
+
+impl Kept for CagedByAngle {
+    fn model() -> FrictionModel<Self> {
+        let angle = WrappedAngle::new(WrappedAngleParameters {
+            lowest: 0.0,
+            period: TAU,
+            largest_turn: 1.0,
+        })
+        .unwrap();
+        FrictionModel::new(&with_memory(caged(), slip(0.05), angle)).unwrap()
+    }
+
+    fn drive(model: &mut FrictionModel<Self>, manoeuvre: &Manoeuvre, tick: u32) -> Self::Outputs {
+        if tick % 2 == 1 {
+            model.between(manoeuvre.angle)
+        } else {
+            model.step(manoeuvre.with(manoeuvre.screw(), manoeuvre.angle))
+        }
+    }
+
+    fn import(model: &mut FrictionModel<Self>, block: &[u8]) -> Result<(), Refusal> {
+        model.import_with_reading(block)
+    }
+}
+
+impl Kept for UncagedByCounts {
+    fn model() -> FrictionModel<Self> {
+        let sensor = CountSensor::new(CountSensorParameters {
+            period: COUNTS,
+            turn_per_count: TAU / COUNTS as f32,
+            largest_turn: 1.0,
+        })
+        .unwrap();
+        let spin = ProportionalElements::new(
+            0.02,
+            &[Part {
+                backbone: &SPIN_4.elements,
+                share: 1.0,
+                breakaway_angle: 1e-3,
+            }],
+        )
+        .unwrap();
+        let seat = SeatElement::new(0.03, 1e-3, 5e-3).unwrap();
+        let elements = Together::new(spin, seat, 0.4).unwrap();
+        FrictionModel::new(&with_memory(uncaged(), elements, sensor)).unwrap()
+    }
+
+    fn drive(model: &mut FrictionModel<Self>, manoeuvre: &Manoeuvre, tick: u32) -> Self::Outputs {
+        let count = (manoeuvre.angle / TAU * COUNTS as f32) as u32 % COUNTS;
+        if tick % 2 == 1 {
+            model.between(count)
+        } else {
+            model.step(manoeuvre.with(manoeuvre.screw(), count))
+        }
+    }
+
+    fn import(model: &mut FrictionModel<Self>, block: &[u8]) -> Result<(), Refusal> {
+        model.import_with_reading(block)
+    }
+}
+
+impl Kept for LinearBySpeed {
+    fn model() -> FrictionModel<Self> {
+        let elements = LoadExactElements::new(20.0, 1e-4, 4.0).unwrap();
+        let sensor = SpeedOverTick::new(TICK, 0.1).unwrap();
+        FrictionModel::new(&with_memory(linear(), elements, sensor)).unwrap()
+    }
+
+    fn drive(model: &mut FrictionModel<Self>, manoeuvre: &Manoeuvre, tick: u32) -> Self::Outputs {
+        let inputs = manoeuvre.bearing();
+        if tick % 2 == 1 {
+            model.between(inputs.speed)
+        } else {
+            model.step(manoeuvre.with(inputs, inputs.speed))
+        }
+    }
+
+    fn import(model: &mut FrictionModel<Self>, block: &[u8]) -> Result<(), Refusal> {
+        model.import_with_reading(block)
+    }
+}
+
+fn export<S: StoredScene>(model: &FrictionModel<S>) -> Vec<u8> {
+    let mut block = vec![0xA5; FrictionModel::<S>::STATE_BYTES];
+    assert_eq!(model.export(&mut block), Ok(block.len()));
+    block
+}
+
+/// A block with another checksum that fits to it, by a crate's.
+fn sealed(mut block: Vec<u8>) -> Vec<u8> {
+    let body = block.len() - 4;
+    let checksum = crc32fast::hash(&block[..body]);
+    block[body..].copy_from_slice(&checksum.to_le_bytes());
+    block
+}
+
+/// A model after so many ticks of a manoeuvre.
+fn driven<S: Kept>(seed: u64, ticks: u32) -> (FrictionModel<S>, Manoeuvre) {
+    let (mut model, mut manoeuvre) = (S::model(), Manoeuvre::new(seed));
+    for tick in 0..ticks {
+        manoeuvre.next();
+        S::drive(&mut model, &manoeuvre, tick);
+    }
+    (model, manoeuvre)
+}
+
+fn goes_on<S: Kept>(set: bool) {
+    let (mut moved, mut known) = (0, 0);
+    for seed in 0..6 {
+        let ticks = 1 + Random(seed).below(3000) as u32;
+        let (mut model, mut manoeuvre) = driven::<S>(seed, ticks);
+        if set {
+            S::set(&mut model);
+            for tick in ticks..ticks + 7 {
+                manoeuvre.next();
+                S::drive(&mut model, &manoeuvre, tick);
+            }
+        }
+        let block = export(&model);
+        let mut next = S::model();
+        known += u32::from(export(&next) != block);
+        assert_eq!(S::import(&mut next, &block), Ok(()));
+        assert_eq!(export(&next), block);
+        let mut last = String::new();
+        for tick in 0..1000 {
+            manoeuvre.next();
+            // The shortest decimal of an f32 tells every two of them apart.
+            let was = format!("{:?}", S::drive(&mut model, &manoeuvre, tick));
+            let is = format!("{:?}", S::drive(&mut next, &manoeuvre, tick));
+            assert_eq!(was, is, "seed {seed}, tick {tick}");
+            moved += u32::from(is != last);
+            last = is;
+        }
+        assert_eq!(export(&next), export(&model), "seed {seed}");
+    }
+    assert!(moved > 3000, "{moved} ticks differ from those before");
+    // A caged screw under its first friction reads laws alone.
+    assert_eq!(known, if S::STILL && !set { 0 } else { 6 });
+}
+
+#[test]
+fn a_scene_goes_on_to_the_bit() {
+    for set in [false, true] {
+        goes_on::<CagedBallScrew>(set);
+        goes_on::<Uncaged>(set);
+        goes_on::<Linear>(set);
+    }
+}
+
+#[test]
+fn a_scene_with_memory_goes_on_to_the_bit() {
+    goes_on::<CagedByAngle>(false);
+    goes_on::<UncagedByCounts>(false);
+    goes_on::<LinearBySpeed>(false);
+}
+
+/// A model that has run takes a block over as a fresh one does.
+#[test]
+fn what_a_model_did_before_an_import_does_not_count() {
+    fn check<S: Kept>() {
+        let (model, mut manoeuvre) = driven::<S>(5, 700);
+        let block = export(&model);
+        let (mut fresh, mut used) = (S::model(), driven::<S>(9, 411).0);
+        assert_eq!(S::import(&mut fresh, &block), Ok(()));
+        assert_eq!(S::import(&mut used, &block), Ok(()));
+        for tick in 0..500 {
+            manoeuvre.next();
+            let [one, other] = [&mut fresh, &mut used]
+                .map(|model| format!("{:?}", S::drive(model, &manoeuvre, tick)));
+            assert_eq!(one, other, "tick {tick}");
+        }
+    }
+    check::<CagedBallScrew>();
+    check::<Uncaged>();
+    check::<Linear>();
+    check::<CagedByAngle>();
+    check::<UncagedByCounts>();
+    check::<LinearBySpeed>();
+}
+
+/// A closed form has no state; its block is as long as that of the contacts, and not the same.
+#[test]
+fn closed_forms_are_kept_too() {
+    let of = |branch| {
+        FrictionModel::<CagedBallScrew>::new(&CagedBallScrewConfiguration { branch, ..caged() })
+            .unwrap()
+    };
+    let mut rolling = of(FrictionBranch::Rolling);
+    let block = export(&rolling);
+    assert_eq!(rolling.import(&block), Ok(()));
+    let mut contacts = of(FrictionBranch::Contacts);
+    assert_eq!(contacts.import(&block), Err(Refusal::OtherConstants));
+    assert_eq!(
+        rolling.import(&export(&contacts)),
+        Err(Refusal::OtherConstants)
+    );
+    let mut unused = block;
+    unused[STATE_AT + 5] = 1;
+    assert_eq!(
+        rolling.import(&sealed(unused)),
+        Err(Refusal::OutOfRange { field: "unused" })
+    );
+}
+
+/// What the nut did without power is no turn; only an absolute sensor knows it.
+#[test]
+fn the_turn_of_the_time_without_power_is_the_callers_choice() {
+    let (mut model, mut manoeuvre) = driven::<CagedByAngle>(3, 900);
+    manoeuvre.speed = 0.0;
+    let still = CagedByAngle::drive(&mut model, &manoeuvre, 0).friction_torque;
+    let block = export(&model);
+    let mut turned = manoeuvre.clone();
+    turned.angle = (turned.angle + 1e-3).rem_euclid(TAU);
+
+    let mut fresh = CagedByAngle::model();
+    fresh.import(&block).unwrap();
+    let first = CagedByAngle::drive(&mut fresh, &turned, 0).friction_torque;
+    assert_eq!(first, still);
+
+    let mut spanning = CagedByAngle::model();
+    spanning.import_with_reading(&block).unwrap();
+    CagedByAngle::drive(&mut model, &turned, 0);
+    let first = CagedByAngle::drive(&mut spanning, &turned, 0).friction_torque;
+    assert_ne!(first, still);
+    assert_eq!(export(&spanning), export(&model));
+}
+
+/// The reason, and a model that is as it was.
+fn refused<S: Kept>(model: &mut FrictionModel<S>, block: &[u8]) -> Refusal {
+    let before = export(model);
+    let faulted = model.faulted_ticks();
+    let state = format!("{:?}", model.state());
+    let refusal = model.import(block).expect_err("the block is wrong");
+    assert_eq!(export(model), before, "{refusal}");
+    assert_eq!(format!("{:?}", model.state()), state, "{refusal}");
+    assert_eq!(model.faulted_ticks(), faulted);
+    refusal
+}
+
+#[test]
+fn every_flipped_bit_is_found() {
+    let (mut model, _) = driven::<CagedBallScrew>(1, 200);
+    let mut other = CagedBallScrew::model();
+    CagedBallScrew::set(&mut other);
+    let block = export(&other);
+    for bit in 0..8 * block.len() {
+        let mut flipped = block.clone();
+        flipped[bit / 8] ^= 1 << (bit % 8);
+        let refusal = refused(&mut model, &flipped);
+        let expected = match bit / 8 {
+            0..VERSION_AT => refusal == Refusal::NotAState,
+            VERSION_AT..KIND_AT => matches!(refusal, Refusal::Version { .. }),
+            LENGTH_AT..FINGERPRINT_AT => matches!(refusal, Refusal::Length { .. }),
+            _ => refusal == Refusal::Damaged,
+        };
+        assert!(expected, "bit {bit}: {refusal}");
+    }
+}
+
+#[test]
+fn blocks_of_another_length_are_refused() {
+    let (mut model, _) = driven::<Linear>(1, 50);
+    let block = export(&Linear::model());
+    for length in 0..block.len() {
+        assert!(
+            matches!(refused(&mut model, &block[..length]), Refusal::Length { found, .. } if found == length)
+        );
+    }
+    for more in [1, 4, 1000] {
+        let mut long = block.clone();
+        long.resize(block.len() + more, 0);
+        assert_eq!(
+            refused(&mut model, &long),
+            Refusal::Length {
+                found: long.len(),
+                expected: block.len()
+            }
+        );
+    }
+    // Erased flash, and a cleared memory.
+    for fill in [0xFF, 0x00] {
+        let erased = vec![fill; block.len()];
+        assert_eq!(refused(&mut model, &erased), Refusal::NotAState);
+    }
+    // No room, and more than is needed.
+    let mut short = vec![7; block.len() - 1];
+    assert_eq!(
+        model.export(&mut short),
+        Err(Refusal::Length {
+            found: block.len() - 1,
+            expected: block.len()
+        })
+    );
+    assert!(short.iter().all(|&byte| byte == 7));
+    let mut room = vec![7; block.len() + 9];
+    assert_eq!(model.export(&mut room), Ok(block.len()));
+    assert_eq!(room[..block.len()], export(&model));
+    assert!(room[block.len()..].iter().all(|&byte| byte == 7));
+}
+
+#[test]
+fn foreign_and_old_blocks_are_refused() {
+    let (mut model, _) = driven::<CagedBallScrew>(1, 50);
+    let block = export(&model);
+    let with = |at: usize, byte: u8| {
+        let mut other = block.clone();
+        other[at] = other[at].wrapping_add(byte);
+        sealed(other)
+    };
+    assert_eq!(
+        refused(&mut model, &with(VERSION_AT, 1)),
+        Refusal::Version {
+            found: VERSION + 1,
+            expected: VERSION
+        }
+    );
+    assert_eq!(refused(&mut model, &with(KIND_AT, 1)), Refusal::OtherScene);
+    assert_eq!(
+        refused(&mut model, &with(BALLS_AT, 37)),
+        Refusal::OtherBalls {
+            found: 37,
+            expected: 0
+        }
+    );
+    assert_eq!(
+        refused(&mut model, &with(FINGERPRINT_AT, 1)),
+        Refusal::OtherConstants
+    );
+    let uncaged = export(&Uncaged::model());
+    assert_eq!(refused(&mut model, &uncaged), Refusal::OtherScene);
+    let mut seven = FrictionModel::<UncagedBallScrew<7>>::new(&uncaged_of_seven()).unwrap();
+    assert_eq!(
+        seven.import(&uncaged),
+        Err(Refusal::OtherBalls {
+            found: 37,
+            expected: 7
+        })
+    );
+    let (mut remembers, _) = driven::<CagedByAngle>(1, 50);
+    assert_eq!(refused(&mut remembers, &block), Refusal::OtherScene);
+}
+
+fn uncaged_of_seven() -> epas_friction::UncagedBallScrewConfiguration {
+    epas_friction::UncagedBallScrewConfiguration {
+        turns: 1.0,
+        ..uncaged()
+    }
+}
+
+/// Constants with which a state's numbers mean something else, and those that may change from one ignition to the next.
+#[test]
+fn blocks_of_other_constants_are_refused() {
+    let own = caged();
+    let block = export(&CagedBallScrew::model());
+    let import = |configuration: CagedBallScrewConfiguration| {
+        FrictionModel::<CagedBallScrew>::new(&configuration)
+            .unwrap()
+            .import(&block)
+    };
+    for other in [
+        CagedBallScrewConfiguration {
+            design: epas_friction::CATALOGUE[14].design().unwrap(),
+            ..own
+        },
+        CagedBallScrewConfiguration {
+            friction: 0.0751,
+            ..own
+        },
+        CagedBallScrewConfiguration {
+            clearance: Clearance::ZERO,
+            ..own
+        },
+        CagedBallScrewConfiguration {
+            loaded_balls: 40,
+            ..own
+        },
+    ] {
+        assert_eq!(import(other), Err(Refusal::OtherConstants), "{other:?}");
+    }
+    let mut limits = own.limits;
+    limits.friction_torque = 1.0;
+    for same in [
+        CagedBallScrewConfiguration { limits, ..own },
+        CagedBallScrewConfiguration {
+            reversal_speed: 0.1,
+            ..own
+        },
+    ] {
+        assert_eq!(import(same), Ok(()), "{same:?}");
+    }
+
+    let block = export(&Uncaged::model());
+    let mut longer = uncaged();
+    longer.return_length = 0.02;
+    let mut model = FrictionModel::<Uncaged>::new(&longer).unwrap();
+    assert_eq!(model.import(&block), Err(Refusal::OtherConstants));
+    let mut slower = uncaged();
+    slower.tick = 2e-5;
+    let mut model = FrictionModel::<Uncaged>::new(&slower).unwrap();
+    assert_eq!(model.import(&block), Ok(()));
+
+    let block = export(&Linear::model());
+    let mut wavier = linear();
+    wavier.wavelength = 0.05;
+    let mut model = FrictionModel::<Linear>::new(&wavier).unwrap();
+    assert_eq!(model.import(&block), Err(Refusal::OtherConstants));
+
+    let block = export(&CagedByAngle::model());
+    let angle = WrappedAngle::new(WrappedAngleParameters {
+        lowest: 0.0,
+        period: TAU,
+        largest_turn: 0.5,
+    })
+    .unwrap();
+    let other = WrappedAngle::new(WrappedAngleParameters {
+        lowest: -3.0,
+        period: TAU,
+        largest_turn: 0.5,
+    })
+    .unwrap();
+    let import = |elements, angle, play| {
+        let configuration = WithMemoryConfiguration {
+            play,
+            ..with_memory(caged(), elements, angle)
+        };
+        FrictionModel::<CagedByAngle>::new(&configuration)
+            .unwrap()
+            .import(&block)
+    };
+    assert_eq!(import(slip(0.05), angle, 2e-3), Ok(()));
+    for (elements, angle, play) in [
+        (slip(0.06), angle, 2e-3),
+        (slip(0.05), other, 2e-3),
+        (slip(0.05), angle, 1e-3),
+    ] {
+        let refusal = import(elements, angle, play);
+        assert_eq!(refusal, Err(Refusal::OtherConstants));
+    }
+}
+
+/// Numbers that no state has, in a block that is whole.
+#[test]
+fn absurd_numbers_are_refused() {
+    let field = |refusal| match refusal {
+        Refusal::OutOfRange { field } => field,
+        other => panic!("{other}"),
+    };
+    // Two balls in one place.
+    let (mut model, _) = driven::<Linear>(1, 50);
+    let mut block = export(&model);
+    let first = STATE_AT + 5;
+    let ball: [u8; 4] = block[first..first + 4].try_into().unwrap();
+    block[first + 9..first + 13].copy_from_slice(&ball);
+    assert_eq!(field(refused(&mut model, &sealed(block))), "position");
+
+    // Every number of a caged screw's balls is none.
+    let (mut model, _) = driven::<CagedBallScrew>(1, 50);
+    let block = export(&model);
+    for (at, name) in [
+        (0, "place"),
+        (12, "turning"),
+        (24, "speed"),
+        (28, "ratio"),
+        (32, "whole"),
+        (36, "change"),
+        (84, "friction"),
+        (88, "clearance"),
+    ] {
+        for number in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1e30, -1e30] {
+            let mut block = block.clone();
+            let at = STATE_AT + at;
+            block[at..at + 4].copy_from_slice(&number.to_le_bytes());
+            assert_eq!(field(refused(&mut model, &sealed(block))), name, "{number}");
+        }
+    }
+    // A count and flags.
+    for (at, value, name) in [
+        (40, 5, "unsettled"),
+        (41, 2, "two_point"),
+        (92, 2, "changes"),
+        (93, 4, "turn"),
+    ] {
+        let mut block = block.clone();
+        block[STATE_AT + at] = value;
+        assert_eq!(field(refused(&mut model, &sealed(block))), name);
+    }
+
+    // A count beyond the sensor's, and a play beyond its width, as the last state of a sensor with memory.
+    let (mut model, _) = driven::<UncagedByCounts>(1, 50);
+    let block = export(&model);
+    let scene = FrictionModel::<Uncaged>::STATE_BYTES - 4;
+    let reading = scene + 4 * 5 + 1;
+    let mut beyond = block.clone();
+    beyond[reading..reading + 4].copy_from_slice(&COUNTS.to_le_bytes());
+    assert_eq!(field(refused(&mut model, &sealed(beyond))), "reading");
+    let play = reading + 4;
+    let mut beyond = block.clone();
+    beyond[play..play + 4].copy_from_slice(&3e-3_f32.to_le_bytes());
+    assert_eq!(field(refused(&mut model, &sealed(beyond))), "play");
+    let inputs = play + 8;
+    let mut beyond = block;
+    beyond[inputs..inputs + 4].copy_from_slice(&501.0_f32.to_le_bytes());
+    assert_eq!(field(refused(&mut model, &sealed(beyond))), "inputs");
+}
+
+/// Every model leaves blocks that it takes, and where a block of random numbers is taken the model goes on as sound as ever.
+#[test]
+fn random_blocks_are_refused_or_harmless() {
+    fn check<S: Trial + StoredScene>(models: u64) -> (u32, u32)
+    where
+        S::State: Debug,
+    {
+        let (mut taken, mut refused, mut lost) = (0, 0, 0);
+        for seed in 0..models {
+            let mut random = Random(seed);
+            let (configuration, mut model, _) = accepted::<S>(&mut random);
+            let mut sensors = [0.0; 3];
+            for tick in 0..60 {
+                sensors = S::sensors(&mut random, &configuration, sensors);
+                model.step(S::inputs(sensors));
+                if tick % 20 != 19 {
+                    continue;
+                }
+                let mut block = vec![0; FrictionModel::<S>::STATE_BYTES];
+                if let Err(refusal) = model.export(&mut block) {
+                    // Under some hundred kN on a ball its place is no number until the load falls.
+                    let state = format!("{:?}", model.state());
+                    assert!(state.contains("NaN"), "{refusal}: {state}");
+                    lost += 1;
+                    continue;
+                }
+                let copy = &mut FrictionModel::<S>::new(&configuration).unwrap();
+                assert_eq!(copy.import(&block), Ok(()), "{}, seed {seed}", S::name());
+                for trial in 0..30 {
+                    let mut wrong = block.clone();
+                    for _ in 0..=random.below(4) {
+                        let at = STATE_AT + random.below(block.len() - STATE_AT - 8);
+                        let number = random.signal(1e6, 1.0).to_le_bytes();
+                        let width = 1 + random.below(4);
+                        wrong[at..at + width].copy_from_slice(&number[4 - width..]);
+                    }
+                    let before = format!("{:?}", copy.state());
+                    if copy.import(&sealed(wrong)).is_err() {
+                        refused += 1;
+                        assert_eq!(format!("{:?}", copy.state()), before);
+                        continue;
+                    }
+                    taken += 1;
+                    let mut sensors = sensors;
+                    for _ in 0..40 {
+                        sensors = S::sensors(&mut random, &configuration, sensors);
+                        let outputs = copy.step(S::inputs(sensors));
+                        let sound = S::check(&configuration, sensors, &outputs)
+                            .and_then(|()| S::check_state(copy));
+                        if let Err(error) = sound {
+                            panic!(
+                                "{}, seed {seed}, tick {tick}, trial {trial}, {sensors:?}: {error}",
+                                S::name()
+                            );
+                        }
+                    }
+                }
+            }
+        }
+        assert!(
+            lost < models,
+            "{lost} of {} states without a block",
+            3 * models
+        );
+        (taken, refused)
+    }
+    for (taken, refused) in [
+        check::<CagedBallScrew>(8),
+        check::<UncagedBallScrew<2>>(30),
+        check::<UncagedBallScrew<7>>(30),
+        check::<UncagedBallScrew<37>>(30),
+        check::<LinearBearingTrain<1>>(30),
+        check::<LinearBearingTrain<16>>(60),
+    ] {
+        assert!(
+            taken > 20 && refused > 20,
+            "{taken} taken, {refused} refused"
+        );
+    }
+}
+
+#[test]
+fn checksum_is_the_one_of_a_crate() {
+    let mut random = Random(3);
+    for length in 0..300 {
+        let bytes: Vec<u8> = (0..length).map(|_| random.bits() as u8).collect();
+        assert_eq!(crc32(&bytes), crc32fast::hash(&bytes));
+    }
+}
+
+#[test]
+fn a_refusal_says_what_is_wrong() {
+    for (refusal, text) in [
+        (
+            Refusal::Length {
+                found: 3,
+                expected: 114,
+            },
+            "3 bytes; the block has 114",
+        ),
+        (Refusal::NotAState, "the bytes are no state"),
+        (
+            Refusal::Version {
+                found: 2,
+                expected: 1,
+            },
+            "version 2; 1 is read",
+        ),
+        (Refusal::Damaged, "the checksum is wrong"),
+        (Refusal::OtherScene, "the state is of another kind of scene"),
+        (
+            Refusal::OtherBalls {
+                found: 2,
+                expected: 37,
+            },
+            "the state has 2 balls, the model 37",
+        ),
+        (Refusal::OtherConstants, "the state is of other constants"),
+        (
+            Refusal::OutOfRange { field: "torque" },
+            "torque is out of range",
+        ),
+    ] {
+        assert_eq!(refusal.to_string(), text);
+    }
+}
+
+/// What of a block of this scene is in `Sliding` scenes: a scene with memory holds the block of the one without.
+#[test]
+fn blocks_are_as_small_as_said() {
+    fn bytes<S: StoredScene>() -> usize {
+        FrictionModel::<S>::STATE_BYTES
+    }
+    assert_eq!(bytes::<CagedBallScrew>(), 114);
+    assert_eq!(bytes::<Uncaged>(), 1797);
+    assert_eq!(bytes::<Linear>(), 181);
+    fn with<S: StoredScene + Sliding>() -> usize {
+        bytes::<S>()
+    }
+    assert!(with::<CagedBallScrew>() < bytes::<CagedByAngle>());
+}
