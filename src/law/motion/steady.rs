@@ -19,12 +19,12 @@ use crate::error::{Error, attempt};
 ///     turn_per_count: 1e-3,
 ///     largest_turn: 0.5,
 /// })?;
-/// let sensor = Steady::new(counts, 2e-3)?;
+/// let sensor = Steady::new(counts, 2.5e-3)?;
 /// let mut last = Steady::<CountSensor>::FRESH;
 /// for noisy in [100, 101, 99, 102, 98, 100] {
 ///     assert_eq!(sensor.turn(&mut last, noisy), Turn::Measured(0.0));
 /// }
-/// assert!(matches!(sensor.turn(&mut last, 110), Turn::Measured(turn) if (turn - 8e-3).abs() < 1e-9));
+/// assert!(matches!(sensor.turn(&mut last, 110), Turn::Measured(turn) if (turn - 7.5e-3).abs() < 1e-8));
 /// # Ok::<(), epas_friction::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
