@@ -9,7 +9,7 @@ use epas_friction::law::memory::{
     LoadExactElements, Part, ProportionalElements, SLIP_8, SPIN_4, SeatElement, Together,
 };
 use epas_friction::law::motion::{
-    CountSensor, CountSensorParameters, SpeedOverTick, WrappedAngle, WrappedAngleParameters,
+    CountSensor, CountSensorParameters, SpeedOverTick, Steady, WrappedAngle, WrappedAngleParameters,
 };
 use epas_friction::scene::{
     Freshness, Sliding, StoredScene, WithMemory, WithMemoryConfiguration, WithMemoryInputs,
@@ -29,7 +29,7 @@ type Linear = LinearBearingTrain<LINEAR_BALLS>;
 type Slip = ProportionalElements<8>;
 type CagedByAngle = WithMemory<CagedBallScrew, Slip, WrappedAngle>;
 type UncagedByCounts =
-    WithMemory<Uncaged, Together<ProportionalElements<4>, SeatElement>, CountSensor>;
+    WithMemory<Uncaged, Together<ProportionalElements<4>, SeatElement>, Steady<CountSensor>>;
 type LinearBySpeed = WithMemory<Linear, LoadExactElements<8>, SpeedOverTick>;
 
 const TICK: f32 = 1e-4;
@@ -240,6 +240,7 @@ impl Kept for UncagedByCounts {
             largest_turn: 1.0,
         })
         .unwrap();
+        let sensor = Steady::new(sensor, 2e-4).unwrap();
         let spin = ProportionalElements::new(
             0.02,
             &[Part {
@@ -702,11 +703,13 @@ fn absurd_numbers_are_refused() {
     let mut beyond = block.clone();
     beyond[reading..reading + 4].copy_from_slice(&COUNTS.to_le_bytes());
     assert_eq!(field(refused(&mut model, &sealed(beyond))), "reading");
-    let play = reading + 4;
-    let mut beyond = block.clone();
-    beyond[play..play + 4].copy_from_slice(&3e-3_f32.to_le_bytes());
-    assert_eq!(field(refused(&mut model, &sealed(beyond))), "play");
-    let inputs = play + 8;
+    // The sensor's own play, and that of the balls.
+    for (play, name) in [(reading + 4, "reading"), (reading + 12, "play")] {
+        let mut beyond = block.clone();
+        beyond[play..play + 4].copy_from_slice(&3e-3_f32.to_le_bytes());
+        assert_eq!(field(refused(&mut model, &sealed(beyond))), name);
+    }
+    let inputs = reading + 20;
     let mut beyond = block;
     beyond[inputs..inputs + 4].copy_from_slice(&501.0_f32.to_le_bytes());
     assert_eq!(field(refused(&mut model, &sealed(beyond))), "inputs");
