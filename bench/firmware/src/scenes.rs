@@ -75,6 +75,16 @@ static LINEAR: LinearConstants<ROW> = folded(LinearConstants::new(&folded(linear
 static UNCAGED: UncagedConstants<BALLS> =
     folded(UncagedConstants::new(&folded(uncaged_configuration())));
 
+/// `?` of a constant function.
+macro_rules! tried {
+    ($set_up:expr) => {
+        match $set_up {
+            Ok(value) => value,
+            Err(error) => return Err(error),
+        }
+    };
+}
+
 static CAGED_WITH_MEMORY: CagedMemoryConstants = folded(WithMemoryConstants::new(
     CAGED,
     &folded(with_memory(folded(caged_configuration()), 0.075)),
@@ -101,7 +111,7 @@ pub const fn with_memory<C: Copy>(
 ) -> Result<WithMemoryConfiguration<C, ProportionalElements<8>, SpeedOverTick>, Error> {
     Ok(WithMemoryConfiguration {
         scene,
-        elements: folded(ProportionalElements::new(
+        elements: tried!(ProportionalElements::new(
             0.2,
             &[Part {
                 backbone: &SLIP_8.elements,
@@ -109,11 +119,11 @@ pub const fn with_memory<C: Copy>(
                 breakaway_angle: 2e-3,
             }],
         )),
-        angle: folded(SpeedOverTick::new(TICK, 1.0)),
+        angle: tried!(SpeedOverTick::new(TICK, 1.0)),
         reference_load: 1_000.0,
         play: 2e-3,
-        coefficient: folded(CoefficientLaw::constant(friction)),
-        temperature: folded(TemperatureFade::new(313.15, 60.0, 60.0)),
+        coefficient: tried!(CoefficientLaw::constant(friction)),
+        temperature: TemperatureFade::DEFAULT,
         freshness: Freshness::DEFAULT,
     })
 }

@@ -119,16 +119,24 @@ impl<const N: usize> ProportionalElements<N> {
     /// The sum of differences stays within the limits where the first element has not a vanishing share: by the rounding
     /// of what it does not carry.
     const fn with_largest_first(mut self) -> Self {
-        let mut largest = 0;
-        let mut index = 1;
+        let (mut largest, mut most) = (0, 0.0);
+        let mut index = 0;
         while index < N {
-            if self.shares[index] > self.shares[largest] {
-                largest = index;
+            if self.shares[index] > most {
+                (largest, most) = (index, self.shares[index]);
             }
             index += 1;
         }
-        self.shares.swap(0, largest);
-        self.rates.swap(0, largest);
+        // In a walk, whose index the compiler knows to be within the array: set-up on a target must not panic either.
+        let (shares, rates) = (self.shares, self.rates);
+        index = 0;
+        while index < N {
+            if index == largest {
+                (self.shares[0], self.shares[index]) = (shares[index], shares[0]);
+                (self.rates[0], self.rates[index]) = (rates[index], rates[0]);
+            }
+            index += 1;
+        }
         self
     }
 

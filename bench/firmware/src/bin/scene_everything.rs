@@ -3,6 +3,16 @@
 #![no_std]
 #![no_main]
 
-use epas_firmware::scenes::{Caged, Curvature, Efficiency, Linear, Uncaged};
+use epas_firmware::scenes::{
+    Caged, CagedWithMemory, Curvature, Efficiency, Linear, Uncaged, UncagedWithMemory,
+};
 
-epas_firmware::image!(Curvature, Efficiency, Caged, Linear, Uncaged);
+epas_firmware::image!(
+    Curvature,
+    Efficiency,
+    Caged,
+    CagedWithMemory,
+    Linear,
+    Uncaged,
+    UncagedWithMemory
+);
