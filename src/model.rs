@@ -1,17 +1,15 @@
 //! The model that runs in the interrupt: constants folded at set-up, a small state, one `step`.
 
+mod memory;
 mod stored;
 
 use core::borrow::Borrow;
 
 use crate::ball::Clearance;
 use crate::error::Error;
-use crate::law::Elements;
-use crate::law::coefficient::CoefficientLaw;
-use crate::law::motion::NutAngle;
 use crate::scene::{
-    CagedBallScrew, CagedConstants, Faults, LinearBearingTrain, LinearConstants, Scene,
-    SceneOutputs, Sliding, UncagedBallScrew, UncagedConstants, WithMemory, WithMemoryConstants,
+    CagedBallScrew, CagedConstants, LinearBearingTrain, LinearConstants, Scene, SceneOutputs,
+    UncagedBallScrew, UncagedConstants,
 };
 
 /// Friction of one scene: configured once, stepped in the interrupt.
@@ -253,36 +251,6 @@ impl<const N: usize, C: Borrow<UncagedConstants<N>>> FrictionModel<UncagedBallSc
         self.constants
             .borrow()
             .set_nut_angle(&mut self.state, angle);
-    }
-}
-
-impl<S, E, A, C> FrictionModel<WithMemory<S, E, A>, C>
-where
-    S: Sliding<Constants: Copy>,
-    E: Elements + Copy,
-    A: NutAngle + Copy,
-    C: Borrow<WithMemoryConstants<S::Constants, E, A>>,
-{
-    /// Friction between two steps, after a new reading of the angle: elements follow it under the limits that the last step
-    /// found. Balls, loads and the friction coefficient stay as they are; the next step takes the balls on by all turns
-    /// since the last one.
-    ///
-    /// For a current loop that runs faster than the balls need: a step every millisecond, this in every tick. It costs what
-    /// the elements do, and some tens of cycles. Before the first step there is no friction.
-    #[inline]
-    pub fn between(&mut self, reading: A::Reading) -> S::Outputs {
-        let constants = self.constants.borrow();
-        let outputs = constants.between::<S>(&mut self.state, reading);
-        outputs.limited(
-            WithMemory::<S, E, A>::largest_friction(constants),
-            Faults::NONE,
-        )
-    }
-
-    /// Sets the law of the friction coefficient: from the next step on friction follows it. [`FrictionModel::reset`] brings
-    /// the configuration's back.
-    pub fn set_coefficient(&mut self, law: CoefficientLaw) {
-        self.state.set_coefficient(law);
     }
 }
 

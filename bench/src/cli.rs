@@ -5,6 +5,7 @@ use clap::{Parser, Subcommand};
 use crate::eval;
 use crate::failure::Failure;
 use crate::report;
+use crate::screws;
 use crate::simulate;
 use crate::target;
 
@@ -25,6 +26,7 @@ enum Command {
     Simulate(Box<simulate::Arguments>),
     Eval(eval::Arguments),
     Target(target::Arguments),
+    Screws(screws::Arguments),
 }
 
 /// Reads the arguments and runs what they ask for.
@@ -33,6 +35,7 @@ pub fn run() -> Result<(), Failure> {
         Some(Command::Simulate(arguments)) => simulate::run(&arguments),
         Some(Command::Eval(arguments)) => eval::run(&arguments),
         Some(Command::Target(arguments)) => target::run(&arguments),
+        Some(Command::Screws(arguments)) => screws::run(&arguments),
         Some(Command::Report(arguments)) => report::run(&arguments),
         None => report::run(&report::Arguments::default()),
     }

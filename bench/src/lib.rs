@@ -16,6 +16,7 @@ mod peers;
 mod plot;
 mod progress;
 mod report;
+mod screws;
 mod simulate;
 mod study;
 mod target;

@@ -8,6 +8,7 @@ mod exact_screw;
 mod linear;
 mod loads;
 mod manoeuvre;
+mod memory;
 mod progress;
 mod reference;
 mod samples;
@@ -120,6 +121,10 @@ pub struct Arguments {
         default_missing_value = "exact"
     )]
     reference: Option<ReferenceModel>,
+    /// Friction that remembers: it passes through a reversal with the angle, by elements of the design at the trace's mean
+    /// load, in place of the reversal speed
+    #[arg(long)]
+    memory: bool,
     /// Replace files that exist
     #[arg(long)]
     force: bool,
@@ -151,6 +156,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         arguments.scene,
         arguments.design.as_ref(),
         arguments.manoeuvre,
+        arguments.memory,
     )? {
         Chosen::Caged(scene) => simulate(&*scene, arguments, existing),
         Chosen::Uncaged(scene) => simulate(&*scene, arguments, existing),

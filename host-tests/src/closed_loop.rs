@@ -24,6 +24,8 @@ pub struct ClosedLoop {
     pub delay: usize,
     /// Nut speed at the start, rad/s.
     pub kick: f64,
+    /// Amplitude of a torque that swings with [`Self::PUSHES`] for the first half second, N m.
+    pub push: f64,
     /// Time that transients are given, s, and time in which the nut is watched.
     pub settling: f64,
     /// See `settling`.
@@ -42,6 +44,9 @@ pub struct Swing {
 impl ClosedLoop {
     /// Counts of a turn of a rotor with an encoder of 14 bits behind a belt of ratio 2.5: 0.153 mrad of the nut.
     pub const COUNT: f64 = std::f64::consts::TAU / 16384.0 / 2.5;
+
+    /// Frequency of the push, Hz: that of a steering wheel that shakes.
+    pub const PUSHES: f64 = 25.0;
 
     /// Longest step of the motion, s: 1 % of a period of the stiffest screw here.
     const LONGEST_STEP: f64 = 2e-5;
@@ -65,7 +70,10 @@ impl ClosedLoop {
             let count = (angle / self.count + noise()).floor();
             torques.rotate_right(1);
             torques[0] = compensation(count as i64);
-            let torque = torques[self.delay];
+            let time = tick as f64 * self.tick;
+            let push = if time < 0.5 { self.push } else { 0.0 };
+            let push = push * (std::f64::consts::TAU * Self::PUSHES * time).sin();
+            let torque = torques[self.delay] + push;
             for _ in 0..steps as usize {
                 // Half a step of the angle before the speed and half after it: no energy comes from the steps.
                 angle += 0.5 * step * speed;

@@ -185,16 +185,16 @@ pub const FRICTION_COEFFICIENT: Promise = Promise {
     rms: 3.8e-2,
     mean: 1.5e-2,
     outside: "boundary at standstill, full film at any higher speed; temperatures: those of the ends",
-    not_finite: "NaN: standstill, the reference temperature; infinity: full film, the warmest",
+    not_finite: "NaN: standstill, the warmest; infinity: full film, the warmest",
     tiny: "standstill",
-    cycles: 40,
+    cycles: 52,
     counted: &["friction_coefficient"],
 };
 
 /// [`CoefficientLaw::at_temperature`](crate::law::coefficient::CoefficientLaw::at_temperature), then the same.
 pub const FRICTION_COEFFICIENT_WARMING: Promise = Promise {
     function: "CoefficientLaw::at_temperature, then at",
-    cycles: 70,
+    cycles: 76,
     counted: &["friction_coefficient_warming"],
     ..FRICTION_COEFFICIENT
 };

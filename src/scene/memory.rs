@@ -1,6 +1,7 @@
 //! A scene whose friction remembers: a hysteresis in the nut's angle, with a friction coefficient that follows speed and
 //! temperature.
 
+mod configuration;
 mod inputs;
 mod stored;
 
@@ -15,6 +16,7 @@ use crate::law::coefficient::{CoefficientAtTemperature, CoefficientLaw, Temperat
 use crate::law::motion::{NutAngle, Play, PlayState};
 use crate::law::{Elements, SlidingLimits};
 
+pub use configuration::WithMemoryConfiguration;
 pub use inputs::{Freshness, WithMemoryInputs, WithMemoryKnown};
 
 /// Part of full friction below which the mechanism counts as standing.
@@ -38,30 +40,6 @@ const CREEP: f32 = 1e-9;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct WithMemory<S, E, A>(PhantomData<(S, E, A)>);
-
-/// What the engineer sets for a scene with memory; elements, sensor and law are checked already.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct WithMemoryConfiguration<C, E, A> {
-    /// Configuration of the scene without memory. Its friction coefficient is one that the law gives, best the boundary
-    /// coefficient; its tick is that of [`FrictionModel::step`](crate::FrictionModel::step).
-    pub scene: C,
-    /// Elements of the memory.
-    pub elements: E,
-    /// Sensor of the nut's angle, or of the carriage's place.
-    pub angle: A,
-    /// Axial load of a screw, or normal load of a bearing, N, at which the elements are designed; 1e-3 to 1e7. Only
-    /// load-exact elements read it.
-    pub reference_load: f32,
-    /// Turn, rad (m), that the motion has to go back before balls go back too, over two; 0 to 1e3. The breakaway angle is
-    /// right: where friction has turned round.
-    pub play: f32,
-    /// Friction coefficient by speed, temperature and direction.
-    pub coefficient: CoefficientLaw,
-    /// How old a temperature may be, and what stands in for it then.
-    pub temperature: TemperatureFade,
-    /// How old loads may be.
-    pub freshness: Freshness,
-}
 
 /// Constants of a scene with memory.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -281,6 +259,12 @@ impl<C: Copy, E: Copy, A: Copy> WithMemoryConstants<C, E, A> {
 }
 
 impl<C, E: Elements, A: NutAngle> WithMemoryConstants<C, E, A> {
+    /// Constants of the scene without memory.
+    #[inline(always)]
+    pub const fn scene(&self) -> &C {
+        &self.scene
+    }
+
     /// The friction coefficient's law at the temperature of this tick: computed anew where that changes.
     #[inline(always)]
     fn take_temperature<S: Sliding>(

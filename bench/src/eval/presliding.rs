@@ -1,4 +1,7 @@
 //! `presliding`: friction with a memory along a path of angles.
+//!
+//! `exact` is what the elements stand for: Masing's rules by a stack of turning points where limits are constant; with load-exact elements the answer of
+//! 4000 of them, as the stored cases were made with, within 7e-7 of the closed form there (`epas_reference::presliding::load_exact`).
 
 use std::iter::repeat;
 use std::num::NonZeroUsize;

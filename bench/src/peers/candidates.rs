@@ -1,7 +1,7 @@
 //! Every law that is compared, with its constants.
 
 use epas_friction::law::memory::{SLIP_4, SLIP_6, SLIP_8, SLIP_10};
-use epas_reference::presliding::tables::Table;
+use epas_reference::presliding::tables;
 
 use super::dahl::{Explicit, Implicit};
 use super::elasto_plastic::ElastoPlastic;
@@ -74,6 +74,11 @@ const ATTRACTION: f64 = 0.02;
 const LUGRE: Cycles = Cycles {
     counted: Some("lugre_step"),
     expected: "40",
+};
+/// Eight elements in proportion.
+const EIGHT: Cycles = Cycles {
+    counted: Some("memory_8"),
+    expected: "185",
 };
 const DAHL: Cycles = Cycles::expected("38");
 const POWER: Cycles = Cycles::expected("a power");
@@ -169,7 +174,7 @@ pub fn ours() -> Vec<Candidate> {
         Candidate::ours("this crate, 6 elements", Cycles::expected("141"), || {
             remembered::proportional(&SLIP_6.elements)
         }),
-        Candidate::ours("this crate, 8 elements", Cycles::expected("185"), || {
+        Candidate::ours("this crate, 8 elements", EIGHT, || {
             remembered::proportional(&SLIP_8.elements)
         }),
         Candidate::ours("this crate, 10 elements", Cycles::expected("229"), || {
@@ -178,38 +183,61 @@ pub fn ours() -> Vec<Candidate> {
     ]
 }
 
+/// A law that may follow a load, nothing remembered.
+pub struct UnderLoad {
+    /// Name.
+    pub name: &'static str,
+    /// What a step costs.
+    pub cycles: Cycles,
+    /// The law.
+    pub law: Box<dyn Law>,
+}
+
+/// Names of [`under_load`].
+pub const PROPORTIONAL: &str = "in proportion, 8";
+/// As [`PROPORTIONAL`].
+pub const MULTIPLIED: &str = "multiplied, 8";
+/// As [`PROPORTIONAL`].
+pub const LOAD_EXACT: &str = "load-exact, 8";
+
 /// Laws under a load that changes, up to `largest_load`.
-pub fn under_load(largest_load: f64) -> Vec<(&'static str, Result<Box<dyn Law>, Failure>)> {
-    let checked = |law: Result<Box<dyn Law>, epas_friction::Error>| {
-        law.map_err(|error| Failure::Data(error.to_string()))
-    };
-    let multiplied = Table::named("slip8")
-        .map(Multiplied::new)
-        .ok_or_else(|| Failure::Data("no table slip8".into()));
-    vec![
-        (
-            "in proportion, 8",
-            checked(remembered::proportional(&SLIP_8.elements)),
+pub fn under_load(largest_load: f64) -> Result<Vec<UnderLoad>, Failure> {
+    let failed = |error: epas_friction::Error| Failure::Data(error.to_string());
+    let law = |name, cycles, law| UnderLoad { name, cycles, law };
+    let expected = Cycles::expected;
+    Ok(vec![
+        law(
+            PROPORTIONAL,
+            EIGHT,
+            remembered::proportional(&SLIP_8.elements).map_err(failed)?,
         ),
-        (
-            "multiplied, 8",
-            multiplied.map(|law| Box::new(law) as Box<dyn Law>),
+        law(
+            MULTIPLIED,
+            expected("as in proportion"),
+            Box::new(Multiplied::new(&tables::SLIP_8)),
         ),
-        (
+        law(
             "load-exact, 4",
-            checked(remembered::load_exact::<4>(largest_load)),
+            expected("252"),
+            remembered::load_exact::<4>(largest_load).map_err(failed)?,
         ),
-        (
+        law(
             "load-exact, 6",
-            checked(remembered::load_exact::<6>(largest_load)),
+            expected("314"),
+            remembered::load_exact::<6>(largest_load).map_err(failed)?,
         ),
-        (
-            "load-exact, 8",
-            checked(remembered::load_exact::<8>(largest_load)),
+        law(
+            LOAD_EXACT,
+            Cycles {
+                counted: Some("memory_load_exact_8"),
+                expected: "382",
+            },
+            remembered::load_exact::<8>(largest_load).map_err(failed)?,
         ),
-        (
+        law(
             "load-exact, 10",
-            checked(remembered::load_exact::<10>(largest_load)),
+            expected("450"),
+            remembered::load_exact::<10>(largest_load).map_err(failed)?,
         ),
-    ]
+    ])
 }

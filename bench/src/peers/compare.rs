@@ -231,72 +231,214 @@ pub fn errors_under_load(
     let course = Course::random(2, amplitude, 0.5 * amplitude, Some(loads));
     let truth = exact_under_load(&course.path());
     let size = rms(&truth, &vec![0.0; truth.len()]);
-    under_load(loads.1)
-        .into_iter()
-        .map(|(name, law)| {
-            let found = torques(law?.as_mut(), &course.path());
-            Ok((name, rms(&found, &truth) / size))
+    let laws = under_load(loads.1)?.into_iter();
+    Ok(laws
+        .map(|mut entry| {
+            let found = torques(entry.law.as_mut(), &course.path());
+            (entry.name, rms(&found, &truth) / size)
         })
-        .collect()
+        .collect())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::peers::candidates::{best, ours, published};
+    use crate::peers::candidates::{LOAD_EXACT, MULTIPLIED, PROPORTIONAL, best, ours, published};
 
-    fn all() -> Vec<(String, Comparison)> {
+    /// What is expected of a law: areas in per cent, rms over random strokes in per cent, openings, drift.
+    struct Expected {
+        name: &'static str,
+        areas: [f64; 4],
+        rms: f64,
+        opening: (f64, f64),
+        drift: [f64; 2],
+    }
+
+    const NONE: (f64, f64) = (0.0, 0.0);
+    /// Resolution of an f32 over twelve cycles, and more.
+    const REST: [f64; 2] = [0.0; 2];
+
+    /// Expected figures are known apart from this program, from other code with random strokes of its own.
+    const EXPECTED: [Expected; 8] = [
+        Expected {
+            name: "Dahl, LuGre, implicit",
+            areas: [413.0, 228.0, 98.0, 6.0],
+            rms: 39.0,
+            opening: (0.155, 0.20),
+            drift: [0.185, 0.84],
+        },
+        Expected {
+            name: "LuGre, explicit",
+            areas: [413.0, 228.0, 98.0, 6.0],
+            rms: 39.0,
+            opening: (0.155, 0.20),
+            drift: [0.185, 0.84],
+        },
+        Expected {
+            name: "Dahl, exponent 1/3, explicit",
+            areas: [95.0, 82.0, 83.0, 8.0],
+            rms: 29.0,
+            opening: (0.048, 0.11),
+            drift: [0.0574, 0.2056],
+        },
+        Expected {
+            name: "elasto-plastic, sticks to 0.7",
+            areas: [-100.0, 23.0, 64.0, 5.0],
+            rms: 13.0,
+            opening: NONE,
+            drift: [0.0, 0.0203],
+        },
+        Expected {
+            name: "elasto-plastic, sticks to 0.3",
+            areas: [-91.0, 73.0, 58.0, 3.0],
+            rms: 19.0,
+            opening: (0.004, 0.0194),
+            drift: [0.00409, 0.2109],
+        },
+        Expected {
+            name: "this crate, 4 elements",
+            areas: [-26.0, 0.4, -1.3, -0.1],
+            rms: 0.64,
+            opening: NONE,
+            drift: REST,
+        },
+        Expected {
+            name: "this crate, 6 elements",
+            areas: [0.1, -2.0, -0.6, -0.1],
+            rms: 0.31,
+            opening: NONE,
+            drift: REST,
+        },
+        Expected {
+            name: "this crate, 8 elements",
+            areas: [-6.0, -1.3, -0.3, 0.0],
+            rms: 0.19,
+            opening: NONE,
+            drift: REST,
+        },
+    ];
+
+    #[test]
+    fn laws_reproduce_the_known_figures() {
         let mut laws = published();
-        laws.extend(best().unwrap());
         laws.extend(ours());
-        laws.iter()
-            .map(|law| (law.name.clone(), Comparison::new(law).unwrap()))
-            .collect()
+        for expected in &EXPECTED {
+            let law = laws.iter().find(|law| law.name == expected.name).unwrap();
+            let found = Comparison::new(law).unwrap();
+            for (found, expected) in found.areas.iter().zip(expected.areas) {
+                // Printed in whole per cents or tenths; explicit steps err by their size, 6e-4 of a breakaway angle against an area of 0.02.
+                let digit = if expected.abs() > 10.0 { 1.2 } else { 0.6 };
+                assert!(
+                    (100.0 * found - expected).abs() < digit,
+                    "{}: {found} {expected}",
+                    law.name
+                );
+            }
+            // Other random strokes: the known figure's path is not known. Measured: 5 % less to 42 % more.
+            let ratio = 100.0 * found.random.0 / expected.rms;
+            assert!((0.85..1.45).contains(&ratio), "{}: {ratio}", law.name);
+            // Three digits.
+            assert!(
+                (found.opening.0 - expected.opening.0).abs() < 2.5e-3,
+                "{}",
+                law.name
+            );
+            assert!(
+                (found.opening.1 - expected.opening.1).abs() < 2.5e-3,
+                "{}",
+                law.name
+            );
+            for (found, expected) in found.drift.iter().zip(expected.drift) {
+                assert!(
+                    (found - expected).abs() < 2e-7 + 2e-3 * expected,
+                    "{}: {found} {expected}",
+                    law.name
+                );
+            }
+        }
     }
 
     #[test]
-    fn explore() {
-        for (name, c) in all() {
-            println!("{name} {c:?}");
+    fn only_implicit_steps_and_elements_take_any_tick() {
+        for law in published().iter().chain(&ours()) {
+            let largest = Comparison::new(law).unwrap().largest_turn;
+            match law.name.as_str() {
+                // An explicit step of dT = 1.5 dtheta (1 - T) is stable to 2 / 1.5.
+                "LuGre, explicit" => assert!((largest.unwrap() - 4.0 / 3.0).abs() < 0.01),
+                "Dahl, exponent 1/3, explicit" => assert!(largest.unwrap() < 0.1),
+                _ => assert_eq!(largest, None, "{}", law.name),
+            }
         }
-        for (range, a) in [
+    }
+
+    #[test]
+    fn multiplied_bristles_give_out_energy_and_elements_do_not() {
+        let laws = under_load(3.0).unwrap().into_iter();
+        for (mut one, mut other) in laws.zip(under_load(1.8).unwrap()) {
+            let name = one.name;
+            let least = least_loss(one.law.as_mut(), 200_000);
+            let work = work_of_a_load_cycle(other.law.as_mut());
+            if name == MULTIPLIED {
+                // Known: 0.035 of limit times breakaway angle a cycle.
+                assert!((work + 0.035).abs() < 0.001, "{work}");
+                assert!(least < -0.28, "{least}");
+            } else {
+                assert!(work > 0.0, "{name}: {work}");
+                // A stored energy of at most 3 x 3 in f32: 9 x 6e-8.
+                assert!(least > -5e-7, "{name}: {least}");
+            }
+        }
+    }
+
+    /// Known figures, per cent, from other random paths; load-exact ones are met within a factor of 2.3, in proportion within 1.6. Multiplied ones depend
+    /// on the path most: only that they are worst is held.
+    #[test]
+    fn errors_under_load_are_those_known() {
+        let proportional = [1.2, 7.1, 8.2, 7.2, 27.0, 19.0, 16.0];
+        let load_exact = [2.5, 8.1, 3.8, 1.3, 19.0, 5.8, 2.2];
+        let multiplied = [2.1, 23.0, 16.0, 15.0, 38.0, 44.0, 40.0];
+        let cases = [
             ((0.9, 1.1), 1.0),
             ((0.5, 1.6), 0.3),
             ((0.5, 1.6), 1.0),
             ((0.5, 1.6), 3.0),
             ((0.1, 4.0), 0.3),
             ((0.1, 4.0), 1.0),
-            ((0.1, 4.0), 3.0_f64),
-        ] {
-            println!(
-                "{range:?} {a} {:?}",
-                errors_under_load(a, range)
-                    .unwrap()
-                    .iter()
-                    .map(|x| (1e3 * x.1).round() / 10.0)
-                    .collect::<Vec<_>>()
+            ((0.1, 4.0), 3.0),
+        ];
+        for (index, (loads, amplitude)) in cases.into_iter().enumerate() {
+            let found = errors_under_load(amplitude, loads).unwrap();
+            let of =
+                |wanted: &str| 100.0 * found.iter().find(|(name, _)| *name == wanted).unwrap().1;
+            let near = |found: f64, known: f64, factor: f64| {
+                assert!(
+                    (known / factor..known * factor).contains(&found),
+                    "{loads:?} {amplitude}: {found} {known}"
+                );
+            };
+            near(of(PROPORTIONAL), proportional[index], 1.6);
+            near(of(LOAD_EXACT), load_exact[index], 2.3);
+            near(of(MULTIPLIED), multiplied[index], 2.6);
+            assert!(of(MULTIPLIED) > of(LOAD_EXACT));
+            assert!(of(MULTIPLIED) > of(PROPORTIONAL));
+            // More elements are better, but where hardly any slips.
+            assert!(
+                of("load-exact, 10") < of("load-exact, 6") && of(LOAD_EXACT) < of("load-exact, 4")
             );
         }
-        use crate::peers::noise;
-        for b in [1e-3, 2e-3, 5e-3] {
-            let c = &ours()[2];
-            let r = noise::by_angle(c.start().unwrap().as_mut(), b).unwrap();
-            println!(
-                "counts {b} {} rest {} {}",
-                noise::error_of_counts(|| c.start(), b).unwrap(),
-                r.changes,
-                r.largest_step
-            );
-        }
-        for w in [0.01, 0.05, 0.1, 0.2, 0.5] {
-            let r = noise::by_speed(w).unwrap();
-            println!("speed {w} {} {}", r.changes, r.largest_step);
-        }
-        for (name, law) in under_load(1.8) {
-            println!("{name} {:e}", work_of_a_load_cycle(law.unwrap().as_mut()));
-        }
-        for (name, law) in under_load(3.0) {
-            println!("{name} {:e}", least_loss(law.unwrap().as_mut(), 200_000));
+    }
+
+    /// No constants make a law of one state remember: fitted ones still miss random strokes by 10 % and more, elements by less than 1 %.
+    #[test]
+    fn the_best_constants_do_not_help_a_law_without_memory() {
+        for law in &best().unwrap() {
+            let found = Comparison::new(law).unwrap().random.0;
+            if law.name.starts_with("generalized") {
+                // Four elements with an optimum of their own: 0.0076 beside the crate's 0.0078.
+                assert!(found < 0.009, "{found}");
+            } else {
+                assert!(found > 0.1, "{}: {found}", law.name);
+            }
         }
     }
 }

@@ -3,8 +3,7 @@
 use std::f64::consts::TAU;
 
 use epas_reference::presliding::Limits;
-use epas_reference::presliding::answers::{Path, Tick};
-use rand::RngExt;
+use epas_reference::presliding::answers::Tick;
 use rand_distr::{Distribution, Normal};
 use rand_pcg::Pcg64;
 
@@ -126,4 +125,40 @@ pub fn by_angle(law: &mut dyn Law, breakaway: f64) -> Result<AtRest, Failure> {
         })
         .collect();
     Ok(AtRest::new(torques, &regimes))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::peers::candidates::ours;
+
+    #[test]
+    fn noise_changes_no_regime_by_angle() {
+        let law = &ours()[2];
+        for breakaway in [1e-3, 2e-3, 5e-3] {
+            let found = by_angle(law.start().unwrap().as_mut(), breakaway).unwrap();
+            assert_eq!(found.changes, 0);
+            // At most the encoder's own step: one count times the first stiffness.
+            assert!(found.largest_step > 0.0);
+            assert!(
+                found.largest_step <= 1.5 * COUNT / breakaway,
+                "{}",
+                found.largest_step
+            );
+        }
+        // By speed, at a reversal speed of twice the noise: 457 changes in this run, and steps from limit to limit.
+        let found = by_speed(0.1).unwrap();
+        assert!((350..600).contains(&found.changes), "{}", found.changes);
+        assert!(found.largest_step > 1.0);
+    }
+
+    /// Known: 0.054 to 0.063 at 1 mrad, 0.02 to 0.03 at 2, 0.01 at 5. Over these strokes, which turn more often, 0.097, 0.032 and 0.018.
+    #[test]
+    fn counts_matter_below_a_breakaway_angle_of_two_milliradians() {
+        let law = &ours()[2];
+        for (breakaway, low, high) in [(1e-3, 0.05, 0.11), (2e-3, 0.02, 0.04), (5e-3, 0.01, 0.02)] {
+            let found = error_of_counts(|| law.start(), breakaway).unwrap();
+            assert!((low..high).contains(&found), "{breakaway}: {found}");
+        }
+    }
 }

@@ -30,7 +30,7 @@ pub fn section(context: &Context) -> Result<Section, Failure> {
     blocks.push(Block::Figure(loops::picture()?));
     blocks.extend(laws::blocks(context, &candidates)?);
     blocks.push(Block::Figure(loops::drift()?));
-    blocks.extend(loads::blocks(context.quick)?);
+    blocks.extend(loads::blocks(context)?);
     blocks.extend(noise::blocks()?);
     blocks.extend(breakaway::blocks()?);
     Ok(Section {

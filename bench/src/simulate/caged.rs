@@ -1,12 +1,16 @@
 //! A ball screw whose balls do not touch.
 
+use epas_friction::law::motion::WrappedAngle;
+use epas_friction::scene::WithMemory;
 use epas_friction::{
-    CagedBallScrew, CagedBallScrewConfiguration, FrictionBranch, FrictionModel, Inputs, Outputs,
+    CagedBallScrew, CagedBallScrewConfiguration, Error, FrictionBranch, FrictionModel, Inputs,
+    Outputs,
 };
 
 use super::caged_exact::ExactCaged;
 use super::curves::thin;
 use super::manoeuvre::Manoeuvre;
+use super::memory::{self, Elements};
 use super::reference::{CagedReference, Friction, ReferenceModel};
 use super::samples::ScrewSample;
 use super::scene::Scene;
@@ -21,6 +25,8 @@ use crate::plot::{Axis, Chart, Mark, Panel, Series, render};
 pub struct Caged {
     /// Its design.
     pub design: Design,
+    /// Whether friction remembers.
+    pub memory: bool,
 }
 
 /// What runs beside the scene.
@@ -52,6 +58,58 @@ impl Reference {
     }
 }
 
+/// The model that runs.
+#[expect(clippy::large_enum_variant, reason = "one of it is built")]
+enum Model {
+    Plain(FrictionModel<CagedBallScrew>),
+    Memory(FrictionModel<WithMemory<CagedBallScrew, Elements, WrappedAngle>>),
+}
+
+impl Model {
+    /// The model of a configuration over a trace, and what of its memory the summary tells.
+    fn new(
+        configuration: &CagedBallScrewConfiguration,
+        trace: &Trace<ScrewSample>,
+        with_memory: bool,
+    ) -> Result<(Self, Lines), Error> {
+        if !with_memory {
+            let model = Self::Plain(FrictionModel::new(configuration)?);
+            return Ok((model, Lines::default()));
+        }
+        let CagedBallScrewConfiguration {
+            ref design,
+            friction,
+            clearance,
+            rolling_resistance,
+            loaded_balls,
+            ..
+        } = *configuration;
+        let remembered = memory::Screw {
+            design,
+            friction,
+            clearance,
+            rolling_resistance,
+            loaded_balls: f32::from(loaded_balls),
+        }
+        .remembered(memory::mean_load(trace))?;
+        let whole = memory::configuration(*configuration, &remembered, memory::angle()?, friction)?;
+        let model = Self::Memory(FrictionModel::new(&whole)?);
+        Ok((model, remembered.lines))
+    }
+
+    /// What it says to a moment at an angle of the nut, rad.
+    fn step(&mut self, inputs: Inputs, angle: f64) -> Outputs {
+        match self {
+            Self::Plain(model) => model.step(inputs),
+            Self::Memory(model) => {
+                let half = std::f64::consts::PI;
+                let wrapped = (angle + half).rem_euclid(2.0 * half) - half;
+                model.step(memory::fresh(inputs, wrapped as f32))
+            }
+        }
+    }
+}
+
 /// One sample with what the models say to it.
 pub struct CagedRow {
     sample: ScrewSample,
@@ -78,19 +136,25 @@ impl Scene for Caged {
         done: &dyn Fn(),
     ) -> Result<(Vec<CagedRow>, Lines), Failure> {
         let configuration = &self.design.configuration;
-        let mut model = FrictionModel::<CagedBallScrew>::new(configuration)
+        let (mut model, lines) = Model::new(configuration, trace, self.memory)
             .map_err(|error| Failure::Data(format!("{}: {error}", self.name())))?;
         let reference = reference
             .map(|model| Reference::new(model, configuration, trace))
             .transpose()?;
+        let mut angle = 0.0;
+        let mut last = trace.samples.first().copied();
         let rows = trace
             .samples
             .iter()
             .map(|&sample| {
-                let outputs = model.step(Inputs {
+                if let Some(last) = last.replace(sample) {
+                    angle += 0.5 * (last.nut_speed + sample.nut_speed) * (sample.time - last.time);
+                }
+                let inputs = Inputs {
                     nut_speed: sample.nut_speed as f32,
                     axial_load: sample.axial_load as f32,
-                });
+                };
+                let outputs = model.step(inputs, angle);
                 done();
                 CagedRow {
                     sample,
@@ -99,7 +163,7 @@ impl Scene for Caged {
                 }
             })
             .collect();
-        Ok((rows, Lines::default()))
+        Ok((rows, lines))
     }
 
     fn columns(with_reference: bool) -> Vec<&'static str> {

@@ -34,6 +34,7 @@ pub fn choose(
     scene: Option<SceneName>,
     source: Option<&DesignSource>,
     manoeuvre: Option<Manoeuvre>,
+    memory: bool,
 ) -> Result<Chosen, Failure> {
     let scene = scene.unwrap_or(match (source, manoeuvre) {
         (Some(DesignSource::LinearBearing), _) | (_, Some(Manoeuvre::Stroke)) => SceneName::Linear,
@@ -50,6 +51,7 @@ pub fn choose(
     match scene {
         SceneName::Caged => Ok(Chosen::Caged(Box::new(Caged {
             design: screw("lin-4.1")?,
+            memory,
         }))),
         SceneName::Uncaged => {
             let design = screw("lin-3.6")?;
@@ -60,9 +62,13 @@ pub fn choose(
                     design.name
                 )));
             };
-            Ok(Chosen::Uncaged(Box::new(Uncaged { design, balls })))
+            Ok(Chosen::Uncaged(Box::new(Uncaged {
+                design,
+                balls,
+                memory,
+            })))
         }
-        SceneName::Linear => linear(source).map(|design| Chosen::Linear(Linear { design })),
+        SceneName::Linear => linear(source).map(|design| Chosen::Linear(Linear { design, memory })),
     }
 }
 

@@ -3,6 +3,7 @@
 use epas_friction::{FrictionModel, LinearBearingTrain, LinearInputs, LinearOutputs};
 
 use super::manoeuvre::Manoeuvre;
+use super::memory::{self, Remembered, Remembering};
 use super::reference::ReferenceModel;
 use super::samples::LinearSample;
 use super::scene::Scene;
@@ -17,6 +18,8 @@ use crate::failure::Failure;
 pub struct Linear {
     /// Its design.
     pub design: LinearDesign,
+    /// Whether friction remembers.
+    pub memory: bool,
 }
 
 /// One sample with what the model says to it.
@@ -34,16 +37,18 @@ const WORDS: Words = Words {
     unit: "N",
 };
 
+/// Inputs of a moment.
+const fn inputs(sample: &LinearSample) -> LinearInputs {
+    LinearInputs {
+        speed: sample.speed as f32,
+        normal_load: sample.normal_load as f32,
+        side_load: sample.side_load as f32,
+    }
+}
+
 impl<const N: usize> Balls<LinearSample, LinearOutputs> for FrictionModel<LinearBearingTrain<N>> {
     fn step(&mut self, sample: &LinearSample) -> LinearOutputs {
-        FrictionModel::step(
-            self,
-            LinearInputs {
-                speed: sample.speed as f32,
-                normal_load: sample.normal_load as f32,
-                side_load: sample.side_load as f32,
-            },
-        )
+        FrictionModel::step(self, inputs(sample))
     }
 
     fn pressing(&self) -> u64 {
@@ -51,17 +56,51 @@ impl<const N: usize> Balls<LinearSample, LinearOutputs> for FrictionModel<Linear
     }
 }
 
+impl<const N: usize> Balls<LinearSample, LinearOutputs>
+    for FrictionModel<Remembering<LinearBearingTrain<N>>>
+{
+    fn step(&mut self, sample: &LinearSample) -> LinearOutputs {
+        let inputs = memory::fresh(inputs(sample), sample.speed as f32);
+        FrictionModel::step(self, inputs)
+    }
+
+    fn pressing(&self) -> u64 {
+        pressing(&self.state().scene.circuit.train)
+    }
+}
+
 impl Linear {
     fn train(
         &self,
         trace: &Trace<LinearSample>,
+        remembered: Option<&Remembered>,
     ) -> Result<Train<LinearSample, LinearOutputs>, Failure> {
         let build = |tick| -> Built<LinearSample, LinearOutputs> {
             let mut configuration = self.design.configuration;
             configuration.tick = tick;
-            with_balls!(LinearBearingTrain, self.design.balls, &configuration)
+            let Some(remembered) = remembered else {
+                return with_balls!(plain LinearBearingTrain, self.design.balls, &configuration);
+            };
+            let friction = configuration.friction;
+            let angle = memory::speed(tick)?;
+            let whole = memory::configuration(configuration, remembered, angle, friction)?;
+            with_balls!(remembering LinearBearingTrain, self.design.balls, &whole)
         };
         Train::new(trace, build).map_err(|failure| failure.of(self.name()))
+    }
+}
+
+impl Linear {
+    /// Elements at the trace's mean load, where friction remembers.
+    fn remembered(&self, trace: &Trace<LinearSample>) -> Result<Option<Remembered>, Failure> {
+        let configuration = &self.design.configuration;
+        let loaded = configuration.loaded_length;
+        let part = loaded / (loaded + configuration.return_length);
+        let balls = f32::from(self.design.balls) * part;
+        self.memory
+            .then(|| memory::of_bearing(configuration, balls, memory::mean_load(trace)))
+            .transpose()
+            .map_err(|error| Failure::Data(format!("{}: {error}", self.name())))
     }
 }
 
@@ -83,7 +122,8 @@ impl Scene for Linear {
         reference: Option<ReferenceModel>,
         done: &dyn Fn(),
     ) -> Result<(Vec<LinearRow>, Lines), Failure> {
-        let mut train = self.train(trace)?;
+        let remembered = self.remembered(trace)?;
+        let mut train = self.train(trace, remembered.as_ref())?;
         if reference.is_some() {
             return Err(Failure::Data(
                 "--reference follows ball screws; rows of balls in a linear bearing are compared by eval's \
@@ -103,7 +143,8 @@ impl Scene for Linear {
                 row
             })
             .collect();
-        Ok((rows, Lines::default()))
+        let lines = remembered.map_or_else(Lines::default, |remembered| remembered.lines);
+        Ok((rows, lines))
     }
 
     fn columns(_: bool) -> Vec<&'static str> {

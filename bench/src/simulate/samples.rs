@@ -50,6 +50,10 @@ impl Sample for ScrewSample {
     fn speed(&self) -> f64 {
         self.nut_speed
     }
+
+    fn load(&self) -> f64 {
+        self.axial_load
+    }
 }
 
 impl Sample for LinearSample {
@@ -76,5 +80,9 @@ impl Sample for LinearSample {
 
     fn speed(&self) -> f64 {
         self.speed
+    }
+
+    fn load(&self) -> f64 {
+        self.normal_load
     }
 }

@@ -16,6 +16,11 @@ impl Lines {
         self.0.push((name.into(), text.into()));
     }
 
+    /// Others after these.
+    pub fn append(&mut self, mut others: Self) {
+        self.0.append(&mut others.0);
+    }
+
     /// Prints them.
     pub fn print(&self, out: &mut impl Write) -> io::Result<()> {
         for (name, text) in &self.0 {

@@ -25,6 +25,9 @@ pub trait Sample: Copy {
 
     /// Speed of what moves, rad/s of a nut and m/s of a carriage.
     fn speed(&self) -> f64;
+
+    /// Axial load of a screw, normal load of a bearing, N.
+    fn load(&self) -> f64;
 }
 
 /// A trace, never empty, its times never going back.

@@ -29,15 +29,22 @@ pub fn pressing<const N: usize>(train: &epas_friction::train::Train<N>) -> u64 {
 
 /// A scene with the number of balls that is known only when the program runs; none where it is out of range.
 macro_rules! with_balls {
-    ($scene:ident, $balls:expr, $configuration:expr; $($count:literal)*) => {
+    (plain $scene:ident, $balls:expr, $configuration:expr; $($count:literal)*) => {
         match $balls {
             $($count => FrictionModel::<$scene<$count>>::new($configuration)
                 .map(|model| Some(Box::new(model) as _)),)*
             _ => Ok(None),
         }
     };
-    ($scene:ident, $balls:expr, $configuration:expr) => {
-        with_balls!($scene, $balls, $configuration;
+    (remembering $scene:ident, $balls:expr, $configuration:expr; $($count:literal)*) => {
+        match $balls {
+            $($count => FrictionModel::<Remembering<$scene<$count>>>::new($configuration)
+                .map(|model| Some(Box::new(model) as _)),)*
+            _ => Ok(None),
+        }
+    };
+    ($kind:ident $scene:ident, $balls:expr, $configuration:expr) => {
+        with_balls!($kind $scene, $balls, $configuration;
             1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24 25 26 27 28 29 30 31 32
             33 34 35 36 37 38 39 40 41 42 43 44 45 46 47 48 49 50 51 52 53 54 55 56 57 58 59 60 61
             62 63 64)

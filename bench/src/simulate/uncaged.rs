@@ -1,9 +1,12 @@
 //! A ball screw whose balls press on each other.
 
-use epas_friction::{FrictionModel, Inputs, Outputs, UncagedBallScrew, UncagedOutputs};
+use epas_friction::{
+    FrictionModel, Inputs, Outputs, UncagedBallScrew, UncagedBallScrewConfiguration, UncagedOutputs,
+};
 
 use super::exact_screw::exact_screw;
 use super::manoeuvre::Manoeuvre;
+use super::memory::{self, Remembered, Remembering};
 use super::reference::{Friction, ReferenceModel, whole_screw};
 use super::samples::ScrewSample;
 use super::scene::Scene;
@@ -22,6 +25,8 @@ pub struct Uncaged {
     pub design: Design,
     /// Its balls.
     pub balls: UncagedDesign,
+    /// Whether friction remembers.
+    pub memory: bool,
 }
 
 /// One sample with what the models say to it.
@@ -31,15 +36,17 @@ pub struct UncagedRow {
     reference: Option<Friction>,
 }
 
+/// Inputs of a moment.
+const fn inputs(sample: &ScrewSample) -> Inputs {
+    Inputs {
+        nut_speed: sample.nut_speed as f32,
+        axial_load: sample.axial_load as f32,
+    }
+}
+
 impl<const N: usize> Balls<ScrewSample, UncagedOutputs> for FrictionModel<UncagedBallScrew<N>> {
     fn step(&mut self, sample: &ScrewSample) -> UncagedOutputs {
-        FrictionModel::step(
-            self,
-            Inputs {
-                nut_speed: sample.nut_speed as f32,
-                axial_load: sample.axial_load as f32,
-            },
-        )
+        FrictionModel::step(self, inputs(sample))
     }
 
     fn pressing(&self) -> u64 {
@@ -47,17 +54,65 @@ impl<const N: usize> Balls<ScrewSample, UncagedOutputs> for FrictionModel<Uncage
     }
 }
 
+impl<const N: usize> Balls<ScrewSample, UncagedOutputs>
+    for FrictionModel<Remembering<UncagedBallScrew<N>>>
+{
+    fn step(&mut self, sample: &ScrewSample) -> UncagedOutputs {
+        let inputs = memory::fresh(inputs(sample), sample.nut_speed as f32);
+        FrictionModel::step(self, inputs)
+    }
+
+    fn pressing(&self) -> u64 {
+        pressing(&self.state().scene.circuit.train)
+    }
+}
+
 impl Uncaged {
     fn train(
         &self,
         trace: &Trace<ScrewSample>,
+        remembered: Option<&Remembered>,
     ) -> Result<Train<ScrewSample, UncagedOutputs>, Failure> {
         let build = |tick| -> Built<ScrewSample, UncagedOutputs> {
             let mut configuration = self.balls.configuration;
             configuration.tick = tick;
-            with_balls!(UncagedBallScrew, self.balls.balls, &configuration)
+            let Some(remembered) = remembered else {
+                return with_balls!(plain UncagedBallScrew, self.balls.balls, &configuration);
+            };
+            let friction = configuration.friction;
+            let angle = memory::speed(tick)?;
+            let whole = memory::configuration(configuration, remembered, angle, friction)?;
+            with_balls!(remembering UncagedBallScrew, self.balls.balls, &whole)
         };
         Train::new(trace, build).map_err(|failure| failure.of(self.name()))
+    }
+}
+
+impl Uncaged {
+    /// Elements at the trace's mean load, where friction remembers.
+    fn remembered(&self, trace: &Trace<ScrewSample>) -> Result<Option<Remembered>, Failure> {
+        let UncagedBallScrewConfiguration {
+            ref design,
+            friction,
+            clearance,
+            rolling_resistance,
+            turns,
+            return_length,
+            ..
+        } = self.balls.configuration;
+        let loaded =
+            turns * std::f32::consts::TAU * design.pitch_radius() / design.cos_lead_angle();
+        let screw = memory::Screw {
+            design,
+            friction,
+            clearance,
+            rolling_resistance,
+            loaded_balls: f32::from(self.balls.balls) * loaded / (loaded + return_length),
+        };
+        self.memory
+            .then(|| screw.remembered(memory::mean_load(trace)))
+            .transpose()
+            .map_err(|error| Failure::Data(format!("{}: {error}", self.name())))
     }
 }
 
@@ -79,8 +134,9 @@ impl Scene for Uncaged {
         reference: Option<ReferenceModel>,
         done: &dyn Fn(),
     ) -> Result<(Vec<UncagedRow>, Lines), Failure> {
-        let mut train = self.train(trace)?;
-        let (reference, lines) = match reference {
+        let remembered = self.remembered(trace)?;
+        let mut train = self.train(trace, remembered.as_ref())?;
+        let (reference, mut lines) = match reference {
             None => Default::default(),
             Some(ReferenceModel::Exact) => exact_screw(&self.balls, trace)?,
             Some(ReferenceModel::ClosedForm) => {
@@ -103,6 +159,9 @@ impl Scene for Uncaged {
                 row
             })
             .collect();
+        if let Some(remembered) = remembered {
+            lines.append(remembered.lines);
+        }
         Ok((rows, lines))
     }
 

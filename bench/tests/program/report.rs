@@ -56,6 +56,12 @@ fn the_report_reproduces_the_printed_tables_and_writes_every_figure() {
         "what_decides_picture",
         "stability_maps",
         "two_point_contact",
+        "memory_loops",
+        "memory_error_against_cycles",
+        "memory_drift",
+        "memory_energy_picture",
+        "memory_load_maps",
+        "memory_noise_picture",
     ];
     for figure in figures {
         assert!(read(&format!("{figure}.svg")).starts_with("<svg"));
@@ -97,6 +103,11 @@ fn the_report_reproduces_the_printed_tables_and_writes_every_figure() {
         "mended",
         "known_limits",
         "promises",
+        "memory_laws",
+        "memory_under_load",
+        "memory_energy",
+        "memory_noise",
+        "memory_breakaway",
     ] {
         let rows = json[table]["rows"].as_array().unwrap();
         assert!(!rows.is_empty());

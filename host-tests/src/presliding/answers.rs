@@ -24,9 +24,9 @@ pub const DENSE: usize = 4000;
 
 /// How elements divide the limit among themselves.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Form<'a> {
+pub enum Form {
     /// In proportion, by a table.
-    Proportional(&'a Table),
+    Proportional(Table),
     /// As a Hertzian contact does, up to a largest load.
     LoadExact {
         /// Elements.
@@ -36,7 +36,7 @@ pub enum Form<'a> {
     },
 }
 
-impl Form<'_> {
+impl Form {
     /// Elements with nothing remembered.
     #[must_use]
     pub fn elements(&self) -> Elements {
@@ -88,7 +88,7 @@ impl Path<'_> {
     /// Torques that the elements of `form` stand for: by the stack of turning points under constant limits in proportion, by the broken line under
     /// limits of a Hertzian contact. None for elements in proportion under a load: what they stand for is not one law.
     #[must_use]
-    pub fn exact(&self, form: &Form<'_>) -> Option<Vec<f64>> {
+    pub fn exact(&self, form: &Form) -> Option<Vec<f64>> {
         let torques: Vec<f64> = match form {
             Form::Proportional(table) => {
                 if self.load.is_some() {
@@ -122,7 +122,7 @@ pub struct Answers {
 /// Torques over a path by the elements of `form`, and what these stand for. Under a Hertzian contact's limits the exact torques are those
 /// of [`DENSE`] elements up to the form's largest load, as in the stored cases: within 7e-7 of the closed form ([`Path::exact`]) there.
 #[must_use]
-pub fn answers(path: &Path<'_>, form: &Form<'_>) -> Answers {
+pub fn answers(path: &Path<'_>, form: &Form) -> Answers {
     Answers {
         torque: path.torque(form.elements()),
         exact: match *form {

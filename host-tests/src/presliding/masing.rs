@@ -28,7 +28,7 @@ pub struct Masing {
 }
 
 impl Masing {
-    /// Nothing remembered, at angle `start`, which first loading starts from. The limits must be positive.
+    /// Nothing remembered, at angle zero, which first loading starts from. The limits are not negative.
     #[must_use]
     pub fn new(backbone: Backbone, limits: Limits) -> Self {
         Self {
@@ -83,8 +83,13 @@ impl Masing {
     }
 
     fn branch(&self, angle: f64) -> f64 {
-        let rise =
-            |from: f64, width: f64| width * self.backbone.torque((angle - from).abs() / width);
+        let rise = |from: f64, width: f64| {
+            if width > 0.0 {
+                width * self.backbone.torque((angle - from).abs() / width)
+            } else {
+                0.0
+            }
+        };
         match self.turns.last() {
             None => angle.signum() * rise(0.0, self.limit(angle)),
             Some(turn) => {

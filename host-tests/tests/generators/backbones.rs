@@ -171,14 +171,15 @@ fn chords_are_within_their_closed_form() {
     }
 }
 
+/// The stored ones were fitted to loops, by a search that stopped. They are what stored cases were made with.
 #[test]
 fn stored_tables_are_near_the_best_ones() {
-    SLIP.holds("slip4", &SLIP_4, 9.9);
-    SLIP.holds("slip6", &SLIP_6, 9.9);
-    SLIP.holds("slip8", &SLIP_8, 9.9);
-    SLIP.holds("slip10", &SLIP_10, 9.9);
-    SPIN.holds("spin4", &SPIN_4, 9.9);
-    SPIN.holds("spin6", &SPIN_6, 9.9);
-    SPIN.holds("spin8", &SPIN_8, 9.9);
-    SPIN.holds("spin10", &SPIN_10, 9.9);
+    SLIP.holds("slip4", &SLIP_4, 1.12);
+    SLIP.holds("slip6", &SLIP_6, 1.14);
+    SLIP.holds("slip8", &SLIP_8, 1.28);
+    SLIP.holds("slip10", &SLIP_10, 1.32);
+    SPIN.holds("spin4", &SPIN_4, 1.45);
+    SPIN.holds("spin6", &SPIN_6, 1.6);
+    SPIN.holds("spin8", &SPIN_8, 2.1);
+    SPIN.holds("spin10", &SPIN_10, 1.63);
 }

@@ -291,7 +291,7 @@ fn what_is_no_number_does_no_harm() {
                         );
                         // An infinite limit may have been taken for friction: it takes a tick more.
                         let friction = elements.follow(&mut state, 0.1, &LIMITS);
-                        assert!(friction <= LIMITS.forward && friction >= -LIMITS.backward);
+                        assert!((-LIMITS.backward..=LIMITS.forward).contains(&friction));
                         let friction = elements.follow(&mut state, 0.1, &LIMITS);
                         assert_eq!(friction, LIMITS.forward, "{turn} {limits:?}");
                     }

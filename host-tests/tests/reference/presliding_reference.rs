@@ -93,7 +93,7 @@ struct Case<'a> {
     angle: Vec<f64>,
     load: Option<Vec<f64>>,
     ratio: Limits,
-    form: Form<'a>,
+    form: Form,
 }
 
 impl<'a> Case<'a> {

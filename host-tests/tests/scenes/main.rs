@@ -13,6 +13,7 @@ mod hal;
 mod laws;
 mod linear_scene;
 mod memory;
+mod noise;
 mod promises;
 mod scene_constants;
 mod step_promises;

@@ -269,7 +269,7 @@ fn equal_coefficients_are_constant() {
     }
 }
 
-/// NaN is standstill, or the reference temperature; what lies beyond counts as the end.
+/// NaN is standstill, or the warmest temperature; what lies beyond counts as the end. The half-share speed keeps its range.
 #[test]
 fn faulty_inputs() {
     let law = CoefficientLaw::new(&CoefficientParameters {
@@ -278,12 +278,27 @@ fn faulty_inputs() {
     })
     .unwrap();
     let now = law.at_temperature(293.15);
-    assert_eq!(law.at_temperature(f32::NAN), now);
-    assert_eq!(law.at_temperature(-f32::NAN), now);
-    assert_eq!(law.at_temperature(f32::INFINITY), law.at_temperature(500.0));
+    let warmest = law.at_temperature(500.0);
+    assert_eq!(law.at_temperature(f32::NAN), warmest);
+    assert_eq!(law.at_temperature(-f32::NAN), warmest);
+    assert_eq!(law.at_temperature(f32::INFINITY), warmest);
     let coldest = law.at_temperature(defaults::VISCOSITY.floor());
     for cold in [f32::NEG_INFINITY, -40.0, 0.0, 20.0, 200.0] {
         assert_eq!(law.at_temperature(cold), coldest);
+    }
+    for half_share_speed in [1e-3, 1e4] {
+        let law = CoefficientLaw::new(&CoefficientParameters {
+            half_share_speed,
+            ..defaults::COEFFICIENT
+        })
+        .unwrap();
+        for temperature in [0.0, 250.0, 293.15, 400.0, 1e3] {
+            let speed = law.at_temperature(temperature).half_share_speed();
+            assert!(
+                (9.999e-4..=1.0001e4).contains(&speed),
+                "{temperature}: {speed}"
+            );
+        }
     }
     assert_eq!(now.at(f32::NAN), now.at(0.0));
     assert_eq!(now.at(f32::INFINITY), 0.05);

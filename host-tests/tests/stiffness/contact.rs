@@ -112,7 +112,7 @@ fn the_circle_is_that_of_the_textbooks() {
     }
 }
 
-/// At the crate's own axis ratio: f32 of some twenty operations, of which the means' five steps err together (measured 7e-7).
+/// At the crate's own axis ratio: f32 of some twenty operations, of which the means' five steps err together (measured 3.2e-7).
 /// Unlike bodies: steel with ceramic, rubber and a body without contraction.
 #[test]
 fn stiffnesses_are_those_of_the_rays() {
@@ -141,7 +141,7 @@ fn stiffnesses_are_those_of_the_rays() {
         }
     }
     for errors in errors {
-        errors.assert(1.2e-6, 4e-7, 2e-7);
+        errors.assert(4e-7, 1.5e-7, 6e-8);
     }
 }
 

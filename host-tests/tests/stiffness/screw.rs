@@ -301,8 +301,8 @@ fn tabulated_physics() {
     println!("reference {:.1e}, crate {:.1e}", largest[0], largest[1]);
 }
 
-/// Axial loads of a ball from 1 to 1000 N, all sizes: ellipse, compliance and torsion by exact curvatures. Three times the axis
-/// ratio's error 1.1e-5, in the seat's drift 4e-5 of a root of three such figures.
+/// Axial loads of a ball from 1 to 1000 N, all sizes: ellipse, compliance and torsion by exact curvatures. Bound: three
+/// times the axis ratio's error, 3.3e-5; measured, of these ratios, 1.2e-5.
 #[test]
 fn every_catalogue_size_is_that_of_the_reference() {
     let mut errors = ["slip", "slip stiffness", "spin", "spin stiffness", "drift"].map(Errors::of);
@@ -336,7 +336,7 @@ fn every_catalogue_size_is_that_of_the_reference() {
         }
     }
     for errors in errors {
-        errors.assert(4e-5, 2e-5, 2e-5);
+        errors.assert(1.5e-5, 1.3e-5, 1.3e-5);
     }
 }
 
@@ -367,6 +367,29 @@ fn tabulated_angles_with_a_seat() {
                     "{found}"
                 );
             }
+        }
+    }
+}
+
+/// The same with a gap of 20 um that is left to the third contact; and what one of 2 um adds. In the second screw the grooves' slope
+/// holds the ball before it has gone 20 um.
+#[test]
+fn tabulated_angles_with_play() {
+    for (name, whole, added) in [
+        ("lin-3.6", [77.0, 78.0, 82.0], 7.5),
+        ("lin-4.1", [210.0, 211.0, 215.0], 26.0),
+    ] {
+        let named = named(name);
+        let design = BallScrew::new(named.parameters).unwrap();
+        let contacts = ScrewContacts::of(&design);
+        for (axial, printed) in [300.0, 1000.0, 5000.0].into_iter().zip(whole) {
+            let load = contacts.contact_load(axial, named.loaded_balls);
+            let [none, little, play] = [0.0, 2e-6, 20e-6]
+                .map(|gap| 1e3 * Seat::with_gap(&design, &contacts, gap, 0.1, load).angle(1.0));
+            println!("{name} {axial} N: {none} {little} {play}");
+            assert!((play - printed).abs() < 0.51, "{play} for {printed}");
+            // Some of the force goes over to the grooves' slope.
+            assert!((little - none) / added > 0.9 && (little - none) / added < 1.02);
         }
     }
 }

@@ -36,6 +36,13 @@ pub struct TemperatureFade {
 }
 
 impl TemperatureFade {
+    /// Readings of the last minute as they are, which fade in another one to 40 degrees Celsius.
+    pub const DEFAULT: Self = Self {
+        fallback: 313.15,
+        hold: 60.0,
+        rate: 1.0 / 60.0,
+    };
+
     /// Fallback, K, 150 to 500; time for which a reading holds, s, 0 to 86400; time in which it fades after that, s, 1e-3 to
     /// 86400.
     ///

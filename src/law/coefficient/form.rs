@@ -75,10 +75,8 @@ pub struct CoefficientLaw {
     scale: f32,
     /// `T_s`, K.
     pole: f32,
-    /// Coldest temperature, K.
-    floor: f32,
-    /// Temperature where none is known, K.
-    reference: f32,
+    /// Coldest and warmest temperature, K.
+    temperatures: [f32; 2],
     /// Churning torque over the speed, times the half-share speed, N m.
     churning: f32,
 }
@@ -214,13 +212,26 @@ impl CoefficientLaw {
         attempt!(DIRECTION.checked("backward", backward));
         let churning = attempt!(CHURNING.checked("churning", churning));
         let pole = viscosity.pole();
+        let scale = fifth_root(speed) / (reference - pole);
+        let coldest = pole + fifth_root(HALF_SHARE_SPEED.minimum) / scale;
+        let warmest = pole + fifth_root(HALF_SHARE_SPEED.maximum) / scale;
         Ok(Self {
             forward: attempt!(Sides::new(parameters, forward)),
             backward: attempt!(Sides::new(parameters, backward)),
-            scale: fifth_root(speed) / (reference - pole),
+            scale,
             pole,
-            floor: viscosity.floor(),
-            reference,
+            temperatures: [
+                if coldest > viscosity.floor() {
+                    coldest
+                } else {
+                    viscosity.floor()
+                },
+                if warmest < TEMPERATURE.maximum {
+                    warmest
+                } else {
+                    TEMPERATURE.maximum
+                },
+            ],
             churning: churning * viscosity.at(reference) * speed,
         })
     }
@@ -252,34 +263,31 @@ impl CoefficientLaw {
 
     /// The law at a temperature, K: where a new one comes in, a few times a second.
     ///
-    /// Beyond [`Viscosity::floor`] to 500 K as there; NaN is the reference temperature. Cost: 4 multiplications, 1 division.
+    /// Below [`Viscosity::floor`] and above 500 K as there, and beyond where the half-share speed comes to 1e-3 or 1e4 rad/s; NaN is
+    /// the warmest. Cost: 4 multiplications, and 1 division where there is churning.
     #[inline]
     #[must_use]
     pub const fn at_temperature(&self, temperature: f32) -> CoefficientAtTemperature {
-        let temperature = if temperature >= TEMPERATURE.maximum {
-            TEMPERATURE.maximum
-        } else if temperature > self.floor {
+        let [coldest, warmest] = self.temperatures;
+        let temperature = if temperature < warmest {
             temperature
-        } else if temperature <= self.floor {
-            self.floor
         } else {
-            self.reference
+            warmest
+        };
+        // False for what is colder; what is no number has become the warmest.
+        let temperature = if temperature > coldest {
+            temperature
+        } else {
+            coldest
         };
         let ratio = self.scale * (temperature - self.pole);
         let square = ratio * ratio;
-        let speed = square * square * ratio;
-        let half_share_speed = if speed > HALF_SHARE_SPEED.maximum {
-            HALF_SHARE_SPEED.maximum
-        } else if speed < HALF_SHARE_SPEED.minimum {
-            HALF_SHARE_SPEED.minimum
-        } else {
-            speed
-        };
+        let half_share_speed = square * square * ratio;
         CoefficientAtTemperature {
             forward: self.forward,
             backward: self.backward,
             half_share_speed,
-            churning: self.churning / speed,
+            churning: self.churning / half_share_speed,
         }
     }
 }
@@ -287,17 +295,17 @@ impl CoefficientLaw {
 impl CoefficientAtTemperature {
     /// Friction coefficient at a speed of the nut, rad/s, in its direction; standstill counts as forward.
     ///
-    /// NaN counts as standstill, infinity as a full film. Monotone in the speed's size, also in f32. Cost: one division; both
-    /// this and [`CoefficientLaw::at_temperature`] in the same tick are at most 70 modelled cycles.
+    /// NaN counts as standstill, infinity as a full film. Monotone in the speed's size, also in f32. Cost: one division, at most 52 modelled
+    /// cycles; 76 with [`CoefficientLaw::at_temperature`] in the same tick.
     #[inline(always)]
     #[must_use]
     pub const fn at(&self, speed: f32) -> f32 {
-        let share = self.share(speed);
-        if speed < 0.0 {
-            self.backward.at(share)
+        let sides = if speed < 0.0 {
+            &self.backward
         } else {
-            self.forward.at(share)
-        }
+            &self.forward
+        };
+        sides.at(self.share(speed))
     }
 
     /// Friction coefficients that either direction would have at a speed of this size.

@@ -9,7 +9,7 @@ use crate::error::{Error, attempt};
 /// For friction that is compensated. Elements that follow a noisy angle are shaken: springs with short ways slip to and fro,
 /// friction sets in earlier than it should, and the compensation drives what it ought to follow
 /// ([`compensation`](crate::law::compensation)). Behind a play as wide as the noise they stand still with the nut; after a reversal they
-/// are late by its width, `2 half_width`. 25 cycles beyond the sensor's.
+/// are late by its width, `2 half_width`. 35 cycles beyond the sensor's.
 ///
 /// ```
 /// use epas_friction::law::motion::{CountSensor, CountSensorParameters, NutAngle, Steady, Turn};
@@ -19,27 +19,27 @@ use crate::error::{Error, attempt};
 ///     turn_per_count: 1e-3,
 ///     largest_turn: 0.5,
 /// })?;
-/// let sensor = Steady::new(counts, 2e-3)?;
+/// let sensor = Steady::new(counts, 2.5e-3)?;
 /// let mut last = Steady::<CountSensor>::FRESH;
 /// for noisy in [100, 101, 99, 102, 98, 100] {
 ///     assert_eq!(sensor.turn(&mut last, noisy), Turn::Measured(0.0));
 /// }
-/// assert!(matches!(sensor.turn(&mut last, 110), Turn::Measured(turn) if (turn - 8e-3).abs() < 1e-9));
+/// assert!(matches!(sensor.turn(&mut last, 110), Turn::Measured(turn) if (turn - 7.5e-3).abs() < 1e-8));
 /// # Ok::<(), epas_friction::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Steady<A> {
-    angle: A,
-    play: Play,
+    pub(super) angle: A,
+    pub(super) play: Play,
 }
 
 /// The last good reading, and where the play is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SteadyReading<S> {
-    reading: S,
-    play: PlayState,
+    pub(super) reading: S,
+    pub(super) play: PlayState,
 }
 
 impl<A: Copy> Steady<A> {
@@ -61,6 +61,10 @@ impl<A: NutAngle> NutAngle for Steady<A> {
         reading: A::FRESH,
         play: PlayState::FRESH,
     };
+
+    fn gave(&self, state: &Self::State) -> bool {
+        self.angle.gave(&state.reading) && self.play.holds(&state.play)
+    }
 
     #[inline]
     fn turn(&self, state: &mut Self::State, reading: A::Reading) -> Turn {

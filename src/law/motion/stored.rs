@@ -4,6 +4,7 @@ use super::angle::{AngleReading, WrappedAngle};
 use super::counts::{CountReading, CountSensor};
 use super::play::{Play, PlayState};
 use super::speed::SpeedOverTick;
+use super::steady::{Steady, SteadyReading};
 use crate::error::Range;
 use crate::stored::{Fingerprint, Fingerprinted, Port, Refusal, Stored};
 
@@ -11,6 +12,7 @@ use crate::stored::{Fingerprint, Fingerprinted, Port, Refusal, Stored};
 const COUNTS: u32 = 1;
 const ANGLE: u32 = 2;
 const SPEED: u32 = 3;
+const STEADY: u32 = 4;
 
 impl Stored for CountReading {
     const BYTES: usize = 5;
@@ -54,6 +56,23 @@ impl Fingerprinted for WrappedAngle {
 impl Fingerprinted for SpeedOverTick {
     fn fingerprint(&self, fingerprint: &mut Fingerprint) {
         fingerprint.count(SPEED);
+    }
+}
+
+impl<S: Stored> Stored for SteadyReading<S> {
+    const BYTES: usize = S::BYTES + PlayState::BYTES;
+
+    fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
+        self.reading.exchange(port)?;
+        self.play.exchange(port)
+    }
+}
+
+impl<A: Fingerprinted> Fingerprinted for Steady<A> {
+    fn fingerprint(&self, fingerprint: &mut Fingerprint) {
+        fingerprint.count(STEADY);
+        self.angle.fingerprint(fingerprint);
+        self.play.fingerprint(fingerprint);
     }
 }
 

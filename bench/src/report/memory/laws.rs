@@ -65,17 +65,22 @@ fn row(context: &Context, candidate: &Candidate, found: &Comparison) -> Vec<Cell
             .map_or_else(|| "any".into(), |turn| Cell::fixed(turn, 2)),
     );
     cells.push(Cell::power(found.least_loss));
-    cells.push(match counted(context, &candidate.cycles) {
-        Some(cycles) => Cell::fixed(cycles, 0),
-        None => format!("({})", candidate.cycles.expected).into(),
-    });
+    cells.push(shown(context, &candidate.cycles));
     cells
+}
+
+/// Cycles counted on the target, or those expected in brackets.
+pub fn shown(context: &Context, cycles: &Cycles) -> Cell {
+    match counted(context, cycles) {
+        Some(cycles) => Cell::fixed(cycles, 0),
+        None => format!("({})", cycles.expected).into(),
+    }
 }
 
 /// Cycles counted on the target.
 fn counted(context: &Context, cycles: &Cycles) -> Option<f64> {
     let function = context.target.figures.function(cycles.counted?)?;
-    Some(function.cycles_max as f64)
+    Some(function.cycles_max.into())
 }
 
 fn picture(context: &Context, found: &[(&Candidate, Comparison)]) -> Figure {
@@ -89,8 +94,10 @@ fn picture(context: &Context, found: &[(&Candidate, Comparison)]) -> Figure {
         for (candidate, comparison) in found {
             let cycles = counted(context, &candidate.cycles)
                 .or_else(|| candidate.cycles.expected.parse().ok());
-            let Some(cycles) = cycles.filter(|_| candidate.name.starts_with("this crate") == ours)
-            else {
+            // With its best constants a law stands where it stands with others.
+            let drawn = candidate.name.starts_with("this crate") == ours
+                && !candidate.name.contains("best");
+            let Some(cycles) = cycles.filter(|_| drawn) else {
                 continue;
             };
             let at = (cycles, 100.0 * comparison.random.0);
@@ -105,7 +112,7 @@ fn picture(context: &Context, found: &[(&Candidate, Comparison)]) -> Figure {
     }
     Figure {
         name: "memory_error_against_cycles",
-        caption: "Error over random strokes against cycles of a step, where these are known."
+        caption: "Error over random strokes against cycles of a step, where these are known; LuGre with its Stribeck curve."
             .into(),
         panels: vec![Panel::Chart(Chart {
             title: "Friction laws: error against cost".into(),

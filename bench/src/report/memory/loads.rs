@@ -3,13 +3,15 @@
 use rayon::prelude::*;
 
 use super::PANEL;
+use super::laws::shown;
 use crate::failure::Failure;
-use crate::peers::candidates::under_load;
+use crate::peers::candidates::{LOAD_EXACT, MULTIPLIED, PROPORTIONAL, under_load};
 use crate::peers::compare::{
     errors_under_load, exact_under_load, least_loss, load_cycle, work_of_a_load_cycle,
 };
 use crate::peers::torques;
 use crate::plot::{Axis, Chart, ColourMap, Colours, Mark, Panel, Series};
+use crate::report::context::Context;
 use crate::report::document::{Block, Cell, Figure, Table};
 
 /// Ranges of the load and longest strokes.
@@ -24,7 +26,7 @@ pub const CASES: [((f64, f64), f64); 7] = [
 ];
 
 /// Tables and pictures.
-pub fn blocks(quick: bool) -> Result<Vec<Block>, Failure> {
+pub fn blocks(context: &Context) -> Result<Vec<Block>, Failure> {
     Ok(vec![
         Block::Text(
             "Under a load that changes, a contact is a row of springs of constant stiffness that meet the surface one after the other; elements may do the same (load-exact), or have limits in \
@@ -33,15 +35,16 @@ pub fn blocks(quick: bool) -> Result<Vec<Block>, Failure> {
                 .into(),
         ),
         Block::Table(errors()?),
-        Block::Table(energies()?),
+        Block::Table(energies(context)?),
         Block::Figure(work()?),
-        Block::Figure(maps(if quick { 8 } else { 20 })?),
+        Block::Figure(maps(if context.quick { 8 } else { 20 })?),
     ])
 }
 
 fn errors() -> Result<Table, Failure> {
     let mut columns = vec!["load".to_owned(), "longest stroke".into()];
-    columns.extend(under_load(1.0).into_iter().map(|(name, _)| name.to_owned()));
+    let laws = under_load(1.0)?;
+    columns.extend(laws.iter().map(|entry| entry.name.to_owned()));
     let rows = CASES
         .par_iter()
         .map(|&((least, most), amplitude)| {
@@ -68,26 +71,27 @@ fn errors() -> Result<Table, Failure> {
     })
 }
 
-fn energies() -> Result<Table, Failure> {
-    let rows = under_load(3.0)
+fn energies(context: &Context) -> Result<Table, Failure> {
+    let rows = under_load(3.0)?
         .into_iter()
-        .zip(under_load(1.8))
-        .map(|((name, one), (_, other))| {
-            let least = least_loss(one?.as_mut(), 200_000);
-            let work = work_of_a_load_cycle(other?.as_mut());
-            Ok(vec![
-                Cell::from(name),
+        .zip(under_load(1.8)?)
+        .map(|(mut one, mut other)| {
+            let least = least_loss(one.law.as_mut(), 200_000);
+            let work = work_of_a_load_cycle(other.law.as_mut());
+            vec![
+                Cell::from(one.name),
                 Cell::power(least),
                 Cell::fixed(work, 4),
-            ])
+                shown(context, &one.cycles),
+            ]
         })
-        .collect::<Result<_, Failure>>()?;
+        .collect();
     Ok(Table {
         name: "memory_energy",
         caption: "Energy under a changing load, over limit times breakaway angle: least loss of a tick over 200,000 random ticks with loads of 0.1 to 3, and work in a cycle that goes \
-                  out by 0.2 under a load of 0.2 to 1 and back under 1 to 1.8. A torque given out is below zero"
+                  out by 0.2 under a load of 0.2 to 1 and back under 1 to 1.8. Energy given out is below zero; cycles as in the table of laws"
             .into(),
-        columns: ["elements", "least loss in a tick", "work in a cycle"].map(String::from).to_vec(),
+        columns: ["elements", "least loss in a tick", "work in a cycle", "cycles"].map(String::from).to_vec(),
         rows,
     })
 }
@@ -114,21 +118,13 @@ fn work() -> Result<Figure, Failure> {
         Mark::Line,
         taken(exact_under_load(&path)),
     )];
-    for (colour, wanted) in [
-        (1, "load-exact, 8"),
-        (2, "in proportion, 8"),
-        (3, "multiplied, 8"),
-    ] {
-        for (name, law) in under_load(1.8)
-            .into_iter()
-            .filter(|(name, _)| *name == wanted)
+    for (colour, wanted) in [(1, LOAD_EXACT), (2, PROPORTIONAL), (3, MULTIPLIED)] {
+        for entry in under_load(1.8)?
+            .iter_mut()
+            .filter(|entry| entry.name == wanted)
         {
-            series.push(Series::new(
-                name,
-                colour,
-                Mark::Line,
-                taken(torques(law?.as_mut(), &path)),
-            ));
+            let found = torques(entry.law.as_mut(), &path);
+            series.push(Series::new(wanted, colour, Mark::Line, taken(found)));
         }
     }
     Ok(Figure {
@@ -177,7 +173,7 @@ fn maps(cells: u32) -> Result<Figure, Failure> {
                 .collect::<Result<Vec<_>, Failure>>()
         })
         .collect::<Result<Vec<_>, Failure>>()?;
-    let panels = ["in proportion, 8", "load-exact, 8", "multiplied, 8"]
+    let panels = [PROPORTIONAL, LOAD_EXACT, MULTIPLIED]
         .into_iter()
         .map(|wanted| {
             let error = |errors: &Vec<(&str, f64)>| {

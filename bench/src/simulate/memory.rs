@@ -1,0 +1,226 @@
+//! Friction that remembers, for every scene of a simulation: elements by the design, at the trace's mean load.
+
+use epas_friction::law::breakaway::{
+    BearingBreakaway, Breakaway, BreakawayConfiguration, BreakawayPart, Mechanism, ScrewContacts,
+    Tables,
+};
+use epas_friction::law::coefficient::{CoefficientLaw, TemperatureFade};
+use epas_friction::law::memory::{Hysteresis, ProportionalElements, SLIP_4, SPIN_4, SPIN_8};
+use epas_friction::law::motion::{SpeedOverTick, WrappedAngle, WrappedAngleParameters};
+use epas_friction::scene::{Freshness, WithMemory, WithMemoryConfiguration, WithMemoryInputs};
+use epas_friction::{BallScrew, Clearance, Error, LinearBearingConfiguration, RollingResistance};
+
+use super::summary::Lines;
+use super::trace::{Sample, Trace};
+
+/// Elements of every simulation.
+pub const ELEMENTS: usize = 8;
+
+/// What they are.
+pub type Elements = ProportionalElements<ELEMENTS>;
+
+/// A row of balls with them, which follows the speed of every tick.
+pub type Remembering<S> = WithMemory<S, Elements, SpeedOverTick>;
+
+/// Temperature of every simulation, K. The friction coefficient does not follow it.
+const TEMPERATURE: f32 = 293.15;
+
+/// Least load of a contact for which elements are designed, N.
+const LEAST_LOAD: f32 = 0.1;
+
+/// What elements of a screw follow from.
+pub struct Screw<'a> {
+    /// Its design.
+    pub design: &'a BallScrew,
+    /// Friction coefficient of ball and groove.
+    pub friction: f32,
+    /// How its balls fit.
+    pub clearance: Clearance,
+    /// Rolling resistance of its contacts.
+    pub rolling_resistance: RollingResistance,
+    /// Balls that carry load.
+    pub loaded_balls: f32,
+}
+
+/// Elements with the lines that tell of them.
+pub struct Remembered {
+    /// The elements.
+    pub elements: Elements,
+    /// Load at which they are designed, N.
+    pub reference_load: f32,
+    /// What the summary says.
+    pub lines: Lines,
+}
+
+/// Mean size of the load of a trace, N.
+pub fn mean_load<S: Sample>(trace: &Trace<S>) -> f32 {
+    let sum: f64 = trace.samples.iter().map(|sample| sample.load().abs()).sum();
+    (sum / trace.samples.len() as f64) as f32
+}
+
+impl Screw<'_> {
+    /// Its elements at an axial load, N.
+    ///
+    /// # Errors
+    /// [`Error`] naming a field out of range.
+    pub fn remembered(&self, axial_load: f32) -> Result<Remembered, Error> {
+        let loaded_balls = self.loaded_balls.round().max(1.0) as u16;
+        let contacts = ScrewContacts::of(self.design);
+        let contact_load = contacts.preloaded(axial_load, loaded_balls, self.clearance);
+        let breakaway = Breakaway::of(
+            self.design,
+            &BreakawayConfiguration {
+                friction: self.friction,
+                clearance: self.clearance,
+                rolling_resistance: self.rolling_resistance,
+                loaded_balls,
+                contact_load: contact_load.max(LEAST_LOAD),
+            },
+        )?;
+        let elements = breakaway.elements(&Tables {
+            slip: &SLIP_4.elements,
+            spin: &SPIN_4.elements,
+            rolling_resistance: &[],
+        })?;
+        let mut lines = Lines::default();
+        tell(
+            &mut lines,
+            &elements,
+            &breakaway.parts(),
+            format!("{:.1} N a contact", contact_load.max(LEAST_LOAD)),
+            ("N m/rad", "mrad"),
+        );
+        Ok(Remembered {
+            elements,
+            reference_load: axial_load.max(1e-3),
+            lines,
+        })
+    }
+}
+
+/// Elements of a linear bearing under a normal load, N, shared by so many balls.
+///
+/// # Errors
+/// [`Error`] naming a field out of range.
+pub fn of_bearing(
+    configuration: &LinearBearingConfiguration,
+    loaded_balls: f32,
+    normal_load: f32,
+) -> Result<Remembered, Error> {
+    let loaded_balls = loaded_balls.round().max(1.0) as u16;
+    let cos = configuration.bearing.contact_angle().cos;
+    let load = (0.5 * normal_load / (f32::from(loaded_balls) * cos)).max(LEAST_LOAD);
+    let breakaway = BearingBreakaway::of(
+        &configuration.bearing,
+        configuration.friction,
+        RollingResistance::NONE,
+        loaded_balls,
+        [load; 2],
+    )?;
+    let elements = breakaway.elements(&Tables {
+        slip: &[],
+        spin: &SPIN_8.elements,
+        rolling_resistance: &[],
+    })?;
+    let mut lines = Lines::default();
+    tell(
+        &mut lines,
+        &elements,
+        &breakaway.parts(),
+        format!("{load:.1} N a contact"),
+        ("N/m", "mm"),
+    );
+    Ok(Remembered {
+        elements,
+        reference_load: normal_load.max(1e-3),
+        lines,
+    })
+}
+
+/// Lines on initial stiffness and breakaway.
+fn tell(
+    lines: &mut Lines,
+    elements: &Elements,
+    parts: &[BreakawayPart],
+    at: String,
+    (stiffness, motion): (&str, &str),
+) {
+    lines.add(
+        "memory",
+        format!(
+            "{ELEMENTS} elements, initial stiffness {:.4} {stiffness}, full sliding after {:.4} {motion}, at {at}",
+            elements.initial_stiffness(),
+            1e3 * elements.breakaway(),
+        ),
+    );
+    for part in parts {
+        let name = match part.mechanism {
+            Mechanism::Slip => "  slip across the path",
+            Mechanism::Spin => "  spin",
+            Mechanism::RollingResistance => "  rolling resistance (left out)",
+        };
+        if part.share > 0.0 {
+            lines.add(
+                name,
+                format!(
+                    "{:.1} % of the friction, breakaway angle {:.4} {motion}",
+                    100.0 * part.share,
+                    1e3 * part.breakaway_angle
+                ),
+            );
+        }
+    }
+}
+
+/// A scene with these elements and one friction coefficient; balls turn round once the elements have.
+///
+/// # Errors
+/// [`Error`] naming the friction coefficient.
+pub fn configuration<C, A>(
+    scene: C,
+    remembered: &Remembered,
+    angle: A,
+    friction: f32,
+) -> Result<WithMemoryConfiguration<C, Elements, A>, Error> {
+    Ok(WithMemoryConfiguration {
+        scene,
+        elements: remembered.elements,
+        angle,
+        reference_load: remembered.reference_load,
+        play: remembered.elements.breakaway(),
+        coefficient: CoefficientLaw::constant(friction)?,
+        temperature: TemperatureFade::new(TEMPERATURE, 1.0, 1.0)?,
+        freshness: Freshness::DEFAULT,
+    })
+}
+
+/// A sensor of a speed that has a tick, s.
+///
+/// # Errors
+/// [`Error`] naming `tick`.
+pub fn speed(tick: f32) -> Result<SpeedOverTick, Error> {
+    SpeedOverTick::new(tick, 1e3)
+}
+
+/// A sensor of an angle of half a turn either way, rad.
+///
+/// # Errors
+/// None.
+pub fn angle() -> Result<WrappedAngle, Error> {
+    WrappedAngle::new(WrappedAngleParameters {
+        lowest: -std::f32::consts::PI,
+        period: std::f32::consts::TAU,
+        largest_turn: std::f32::consts::PI,
+    })
+}
+
+/// Inputs of this moment, at one temperature.
+pub const fn fresh<I, R>(scene: I, reading: R) -> WithMemoryInputs<I, R> {
+    WithMemoryInputs {
+        scene,
+        reading,
+        load_age: 0.0,
+        temperature: TEMPERATURE,
+        temperature_age: 0.0,
+    }
+}

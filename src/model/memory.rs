@@ -1,0 +1,84 @@
+//! What a model can do whose friction remembers.
+
+use core::borrow::Borrow;
+
+use super::FrictionModel;
+use crate::ball::Clearance;
+use crate::error::Error;
+use crate::law::Elements;
+use crate::law::coefficient::CoefficientLaw;
+use crate::law::motion::NutAngle;
+use crate::scene::{
+    CagedBallScrew, CagedConstants, Faults, Scene, SceneOutputs, Sliding, UncagedBallScrew,
+    UncagedConstants, WithMemory, WithMemoryConstants,
+};
+
+impl<S, E, A, C> FrictionModel<WithMemory<S, E, A>, C>
+where
+    S: Sliding<Constants: Copy>,
+    E: Elements + Copy,
+    A: NutAngle + Copy,
+    C: Borrow<WithMemoryConstants<S::Constants, E, A>>,
+{
+    /// Friction between two steps, after a new reading of the angle: elements follow it under the limits that the last step
+    /// found. Balls, loads and the friction coefficient stay as they are; the next step takes the balls on by all turns
+    /// since the last one.
+    ///
+    /// For a current loop that runs faster than the balls need: a step every millisecond, this in every tick. It costs what
+    /// the elements do, and some tens of cycles. Before the first step there is no friction.
+    #[inline]
+    pub fn between(&mut self, reading: A::Reading) -> S::Outputs {
+        let constants = self.constants.borrow();
+        let outputs = constants.between::<S>(&mut self.state, reading);
+        outputs.limited(
+            WithMemory::<S, E, A>::largest_friction(constants),
+            Faults::NONE,
+        )
+    }
+
+    /// Sets the law of the friction coefficient: from the next step on friction follows it. [`FrictionModel::reset`] brings
+    /// the configuration's back.
+    pub fn set_coefficient(&mut self, law: CoefficientLaw) {
+        self.state.set_coefficient(law);
+    }
+}
+
+impl<E, A, C> FrictionModel<WithMemory<CagedBallScrew, E, A>, C>
+where
+    E: Elements + Copy,
+    A: NutAngle + Copy,
+    C: Borrow<WithMemoryConstants<CagedConstants, E, A>>,
+{
+    /// Sets how balls fit between the grooves, as
+    /// [`FrictionModel::set_clearance`](FrictionModel#method.set_clearance) of the screw without memory does; the memory stays.
+    ///
+    /// # Errors
+    /// [`Error`] naming `clearance`; the model goes on as it was.
+    pub fn set_clearance(&mut self, clearance: Clearance) -> Result<(), Error> {
+        let scene = self.constants.borrow().scene();
+        scene.set_clearance(&mut self.state.scene, clearance)
+    }
+}
+
+impl<const N: usize, E, A, C> FrictionModel<WithMemory<UncagedBallScrew<N>, E, A>, C>
+where
+    E: Elements + Copy,
+    A: NutAngle + Copy,
+    C: Borrow<WithMemoryConstants<UncagedConstants<N>, E, A>>,
+{
+    /// Sets how balls fit between the grooves, as
+    /// [`FrictionModel::set_clearance`](FrictionModel#method.set_clearance) of the screw without memory does; the memory stays.
+    ///
+    /// # Errors
+    /// [`Error`] naming `clearance`; the model goes on as it was.
+    pub fn set_clearance(&mut self, clearance: Clearance) -> Result<(), Error> {
+        let scene = self.constants.borrow().scene();
+        scene.set_clearance(&mut self.state.scene, clearance)
+    }
+
+    /// Sets the angle of the nut against the screw, rad, from which the screw's deviations are counted, as without memory.
+    pub fn set_nut_angle(&mut self, angle: f32) {
+        let scene = self.constants.borrow().scene();
+        scene.set_nut_angle(&mut self.state.scene, angle);
+    }
+}

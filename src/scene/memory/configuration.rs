@@ -1,0 +1,56 @@
+//! What the engineer sets for a scene with memory.
+
+use super::inputs::Freshness;
+use crate::error::Error;
+use crate::law::coefficient::{CoefficientLaw, TemperatureFade};
+use crate::law::memory::Hysteresis;
+
+/// What the engineer sets for a scene with memory; elements, sensor and law are checked already.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WithMemoryConfiguration<C, E, A> {
+    /// Configuration of the scene without memory. Its friction coefficient is one that the law gives, best the boundary
+    /// coefficient; its tick is that of [`FrictionModel::step`](crate::FrictionModel::step).
+    pub scene: C,
+    /// Elements of the memory.
+    pub elements: E,
+    /// Sensor of the nut's angle, or of the carriage's place.
+    pub angle: A,
+    /// Axial load of a screw, or normal load of a bearing, N, at which the elements are designed; 1e-3 to 1e7. Only
+    /// load-exact elements read it.
+    pub reference_load: f32,
+    /// Turn, rad (m), that the motion has to go back before balls go back too, over two; 0 to 1e3. The breakaway angle is
+    /// right: where friction has turned round.
+    pub play: f32,
+    /// Friction coefficient by speed, temperature and direction.
+    pub coefficient: CoefficientLaw,
+    /// How old a temperature may be, and what stands in for it then.
+    pub temperature: TemperatureFade,
+    /// How old loads may be.
+    pub freshness: Freshness,
+}
+
+impl<C: Copy, E: Hysteresis + Copy, A: Copy> WithMemoryConfiguration<C, E, A> {
+    /// A scene with one friction coefficient, 1e-6 to 1, at every speed and temperature: that of its own configuration. The
+    /// play is the elements' breakaway.
+    ///
+    /// # Errors
+    /// [`Error`] naming `boundary`, the friction coefficient.
+    pub fn new(
+        scene: C,
+        friction: f32,
+        elements: E,
+        angle: A,
+        reference_load: f32,
+    ) -> Result<Self, Error> {
+        Ok(Self {
+            scene,
+            elements,
+            angle,
+            reference_load,
+            play: elements.breakaway(),
+            coefficient: CoefficientLaw::constant(friction)?,
+            temperature: TemperatureFade::DEFAULT,
+            freshness: Freshness::DEFAULT,
+        })
+    }
+}
