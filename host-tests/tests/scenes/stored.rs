@@ -9,7 +9,7 @@ use epas_friction::law::memory::{
     LoadExactElements, Part, ProportionalElements, SLIP_8, SPIN_4, SeatElement, Together,
 };
 use epas_friction::law::motion::{
-    CountSensor, CountSensorParameters, SpeedOverTick, WrappedAngle, WrappedAngleParameters,
+    CountSensor, CountSensorParameters, SpeedOverTick, Steady, WrappedAngle, WrappedAngleParameters,
 };
 use epas_friction::scene::{
     Freshness, Sliding, StoredScene, WithMemory, WithMemoryConfiguration, WithMemoryInputs,
@@ -30,7 +30,7 @@ type Slip = ProportionalElements<8>;
 type CagedByAngle = WithMemory<CagedBallScrew, Slip, WrappedAngle>;
 type UncagedByCounts =
     WithMemory<Uncaged, Together<ProportionalElements<4>, SeatElement>, CountSensor>;
-type LinearBySpeed = WithMemory<Linear, LoadExactElements<8>, SpeedOverTick>;
+type LinearBySpeed = WithMemory<Linear, LoadExactElements<8>, Steady<SpeedOverTick>>;
 
 const TICK: f32 = 1e-4;
 const COUNTS: u32 = 16_384;
@@ -271,7 +271,7 @@ impl Kept for UncagedByCounts {
 impl Kept for LinearBySpeed {
     fn model() -> FrictionModel<Self> {
         let elements = LoadExactElements::new(20.0, 1e-4, 4.0).unwrap();
-        let sensor = SpeedOverTick::new(TICK, 0.1).unwrap();
+        let sensor = Steady::new(SpeedOverTick::new(TICK, 0.1).unwrap(), 1e-5).unwrap();
         FrictionModel::new(&with_memory(linear(), elements, sensor)).unwrap()
     }
 
