@@ -253,6 +253,10 @@ mod tests {
         fn speed(&self) -> f64 {
             self.speed
         }
+
+        fn load(&self) -> f64 {
+            0.0
+        }
     }
 
     fn parse(text: &[u8]) -> Result<Vec<Moment>, Fault> {
