@@ -1,6 +1,7 @@
 //! Friction with a memory: the crate's elements beside the exact hysteresis and the laws in use today.
 
 mod breakaway;
+mod compensation;
 mod laws;
 mod loads;
 mod loops;
@@ -32,6 +33,7 @@ pub fn section(context: &Context) -> Result<Section, Failure> {
     blocks.push(Block::Figure(loops::drift()?));
     blocks.extend(loads::blocks(context)?);
     blocks.extend(noise::blocks()?);
+    blocks.extend(compensation::blocks()?);
     blocks.extend(breakaway::blocks()?);
     Ok(Section {
         title: "Friction with a memory",

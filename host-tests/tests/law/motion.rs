@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use epas_friction::law::motion::{
     CountReading, CountSensor, CountSensorParameters, NutAngle, Play, PlayState, SpeedOverTick,
-    Turn, WrappedAngle, WrappedAngleParameters,
+    Steady, Turn, WrappedAngle, WrappedAngleParameters,
 };
 use epas_friction::promises;
 
@@ -220,6 +220,37 @@ fn a_play_keeps_noise_away() {
     let mut state = PlayState::FRESH;
     assert_eq!(none.follow(&mut state, 0.3).turn, 0.3);
     assert_eq!(none.follow(&mut state, -0.1).turn, -0.1);
+}
+
+/// A sensor behind a play is the play of the sensor's turns; a bad reading leaves both as they were, a limited one stays limited.
+#[test]
+fn a_steady_sensor_is_a_play_of_its_turns() {
+    let sensor = counter(16_384, 1e-3, 0.5);
+    let play = Play::new(3e-3).unwrap();
+    let steady = Steady::new(sensor, 3e-3).unwrap();
+    let (mut raw, mut place) = (CountSensor::FRESH, PlayState::FRESH);
+    let mut reading = Steady::<CountSensor>::FRESH;
+    let mut random = Random(5);
+    let (mut count, mut moved) = (0_i64, 0);
+    for _ in 0..10_000 {
+        if random.one_in(50) {
+            let before = reading;
+            assert_eq!(steady.turn(&mut reading, 20_000), Turn::Unknown);
+            assert_eq!(reading, before);
+        }
+        count += random.between(-6.0, 6.0) as i64;
+        let now = count.rem_euclid(16_384) as u32;
+        let turn = play.follow(&mut place, sensor.turn(&mut raw, now).angle());
+        assert_eq!(steady.turn(&mut reading, now), Turn::Measured(turn.turn));
+        moved += usize::from(turn.turn != 0.0);
+    }
+    assert!(moved > 1000 && moved < 9000, "{moved}");
+    let far = (count + 4000).rem_euclid(16_384) as u32;
+    assert!(matches!(steady.turn(&mut reading, far), Turn::Limited(turn) if turn > 0.49));
+    for half_width in [-1e-9, 2e3, f32::NAN] {
+        let error = Steady::new(sensor, half_width).unwrap_err();
+        assert_eq!(error.field(), "half_width");
+    }
 }
 
 #[test]

@@ -9,8 +9,13 @@ use epas_friction::law::coefficient::{CoefficientLaw, TemperatureFade};
 use epas_friction::law::compensation::CompensationMargin;
 use epas_friction::law::memory::{LoadExactElements, Part, ProportionalElements, SLIP_8};
 use epas_friction::law::motion::{CountSensor, CountSensorParameters, Steady};
-use epas_friction::scene::{Freshness, WithMemory, WithMemoryConfiguration, WithMemoryInputs};
-use epas_friction::{CagedBallScrew, CagedBallScrewConfiguration, FrictionModel, Inputs};
+use epas_friction::scene::{
+    Freshness, SceneOutputs, WithMemory, WithMemoryConfiguration, WithMemoryInputs,
+};
+use epas_friction::{
+    CagedBallScrew, CagedBallScrewConfiguration, Faults, FrictionModel, Inputs, Outputs,
+    UncagedOutputs,
+};
 use epas_reference::closed_loop::{ClosedLoop, Swing};
 
 use crate::kit::gears::caged;
@@ -477,6 +482,30 @@ fn friction_by_the_speed_hums() {
                 "{rate} {reversal_speed} {breakaway}: {swing:?}"
             );
         }
+    }
+}
+
+/// Torque and flags of a screw without cage are put out as those of a caged one.
+#[test]
+fn outputs_of_both_screws_are_put_out_alike() {
+    let mut stage = stage(1.0, 0.5);
+    for (torque, faults) in [
+        (0.3, Faults::NONE),
+        (-2.5, Faults::NONE),
+        (0.3, Faults::LOAD_RANGE),
+        (f32::NAN, Faults::NONE),
+    ] {
+        let caged = Outputs {
+            friction_torque: torque,
+            faults,
+            ..Outputs::SAFE
+        };
+        let uncaged = UncagedOutputs {
+            friction_torque: torque,
+            faults,
+            ..UncagedOutputs::SAFE
+        };
+        assert_eq!(stage.apply_uncaged(&uncaged), stage.apply(&caged));
     }
 }
 

@@ -29,8 +29,8 @@ type Linear = LinearBearingTrain<LINEAR_BALLS>;
 type Slip = ProportionalElements<8>;
 type CagedByAngle = WithMemory<CagedBallScrew, Slip, WrappedAngle>;
 type UncagedByCounts =
-    WithMemory<Uncaged, Together<ProportionalElements<4>, SeatElement>, CountSensor>;
-type LinearBySpeed = WithMemory<Linear, LoadExactElements<8>, Steady<SpeedOverTick>>;
+    WithMemory<Uncaged, Together<ProportionalElements<4>, SeatElement>, Steady<CountSensor>>;
+type LinearBySpeed = WithMemory<Linear, LoadExactElements<8>, SpeedOverTick>;
 
 const TICK: f32 = 1e-4;
 const COUNTS: u32 = 16_384;
@@ -240,6 +240,7 @@ impl Kept for UncagedByCounts {
             largest_turn: 1.0,
         })
         .unwrap();
+        let sensor = Steady::new(sensor, 2e-4).unwrap();
         let spin = ProportionalElements::new(
             0.02,
             &[Part {
@@ -271,7 +272,7 @@ impl Kept for UncagedByCounts {
 impl Kept for LinearBySpeed {
     fn model() -> FrictionModel<Self> {
         let elements = LoadExactElements::new(20.0, 1e-4, 4.0).unwrap();
-        let sensor = Steady::new(SpeedOverTick::new(TICK, 0.1).unwrap(), 1e-5).unwrap();
+        let sensor = SpeedOverTick::new(TICK, 0.1).unwrap();
         FrictionModel::new(&with_memory(linear(), elements, sensor)).unwrap()
     }
 
@@ -702,11 +703,13 @@ fn absurd_numbers_are_refused() {
     let mut beyond = block.clone();
     beyond[reading..reading + 4].copy_from_slice(&COUNTS.to_le_bytes());
     assert_eq!(field(refused(&mut model, &sealed(beyond))), "reading");
-    let play = reading + 4;
-    let mut beyond = block.clone();
-    beyond[play..play + 4].copy_from_slice(&3e-3_f32.to_le_bytes());
-    assert_eq!(field(refused(&mut model, &sealed(beyond))), "play");
-    let inputs = play + 8;
+    // The sensor's own play, and that of the balls.
+    for (play, name) in [(reading + 4, "reading"), (reading + 12, "play")] {
+        let mut beyond = block.clone();
+        beyond[play..play + 4].copy_from_slice(&3e-3_f32.to_le_bytes());
+        assert_eq!(field(refused(&mut model, &sealed(beyond))), name);
+    }
+    let inputs = reading + 20;
     let mut beyond = block;
     beyond[inputs..inputs + 4].copy_from_slice(&501.0_f32.to_le_bytes());
     assert_eq!(field(refused(&mut model, &sealed(beyond))), "inputs");

@@ -50,6 +50,15 @@ const SLIM: Case = Case {
     ..LIN
 };
 
+/// 29 x 7 of a rack.
+const RACK: Case = Case {
+    pitch_radius: 14.5e-3,
+    lead: 7e-3,
+    ball_radius: 2e-3,
+    groove_radius: 2.16e-3,
+    ..LIN
+};
+
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
 
 /// Name and case of every row; the first ones are those of a quick look.
@@ -172,6 +181,15 @@ fn cases() -> Vec<(&'static str, &'static str, Case)> {
             Case {
                 clearance: 10e-6,
                 ..LIN
+            },
+        ),
+        (
+            "29 x 7 x 4",
+            "5 N, play 5 um",
+            Case {
+                load_per_ball: 5.0,
+                clearance: 5e-6,
+                ..RACK
             },
         ),
         lin(
