@@ -90,6 +90,7 @@ impl Block {
     }
 
     /// The bytes of the state in a block that is whole and of these constants.
+    #[inline(never)]
     fn checked<'a>(&self, bytes: &'a [u8]) -> Result<Reader<'a>, Refusal> {
         let wrong = Refusal::Length {
             found: bytes.len(),

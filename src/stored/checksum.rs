@@ -22,7 +22,7 @@ const NIBBLES: [u32; 16] = {
 };
 
 /// Checksum of bytes, CRC-32 as in IEEE 802.3 and zip files: any one to three wrong bits, and any burst of up to 32, are found in
-/// blocks of this size. 12 cycles a byte.
+/// blocks of this size. 10 instructions a byte.
 ///
 /// ```
 /// assert_eq!(epas_friction::stored::crc32(b"123456789"), 0xCBF4_3926);
@@ -32,6 +32,8 @@ pub fn crc32(bytes: &[u8]) -> u32 {
     !continued(u32::MAX, bytes)
 }
 
+/// A loop of its own: unrolled for every number of the constants it would be kilobytes.
+#[inline(never)]
 fn continued(state: u32, bytes: &[u8]) -> u32 {
     let half = |rest: u32| (rest >> 4) ^ NIBBLES[(rest & 15) as usize];
     bytes

@@ -74,6 +74,36 @@ extern "C" {
 #define EPAS_FOLDED_GROOVE 6u
 
 /**
+ * The block has not the length of a state.
+ */
+#define EPAS_STATE_LENGTH 7u
+
+/**
+ * The bytes are no state.
+ */
+#define EPAS_NOT_A_STATE 8u
+
+/**
+ * The state is of another version of the library.
+ */
+#define EPAS_STATE_VERSION 9u
+
+/**
+ * The state's checksum is wrong.
+ */
+#define EPAS_STATE_DAMAGED 10u
+
+/**
+ * The state is of another scene, another number of balls, another design, friction coefficient or clearance.
+ */
+#define EPAS_STATE_FOREIGN 11u
+
+/**
+ * A number of the state is none, or one that no state has.
+ */
+#define EPAS_STATE_OUT_OF_RANGE 12u
+
+/**
  * No field is wrong.
  */
 #define EPAS_FIELD_NONE 0u
@@ -442,6 +472,11 @@ extern "C" {
 #define EPAS_FAULT_CALL 2147483648u
 
 /**
+ * Bytes of a state of this scene, as `epas_caged_export` writes it.
+ */
+#define EPAS_CAGED_STATE_BYTES 114u
+
+/**
  * Size of `epas_caged_t` in words of eight bytes.
  */
 #define EPAS_CAGED_WORDS 271
@@ -453,9 +488,14 @@ extern "C" {
 #define EPAS_SCREW_BALLS 37
 
 /**
+ * Bytes of a state of this scene, as `epas_screw_export` writes it.
+ */
+#define EPAS_SCREW_STATE_BYTES 1797u
+
+/**
  * Size of `epas_screw_t` in words of eight bytes.
  */
-#define EPAS_SCREW_WORDS 397
+#define EPAS_SCREW_WORDS 380
 
 /**
  * Balls in the circuit of `epas_linear_t`, return included. A bearing with another number needs the
@@ -464,15 +504,20 @@ extern "C" {
 #define EPAS_LINEAR_BALLS 32
 
 /**
+ * Bytes of a state of this scene, as `epas_linear_export` writes it.
+ */
+#define EPAS_LINEAR_STATE_BYTES 325u
+
+/**
  * Size of `epas_linear_t` in words of eight bytes.
  */
-#define EPAS_LINEAR_WORDS 137
+#define EPAS_LINEAR_WORDS 138
 
 /**
  * Version of the structures and functions of this header; `epas_abi_version` returns the library's. It rises
  * whenever a structure, a function or what a place holds changes.
  */
-#define EPAS_ABI_VERSION 3u
+#define EPAS_ABI_VERSION 4u
 
 /**
  * Place for the constants and the state of a caged ball screw. The caller provides it, in memory of
@@ -1245,6 +1290,42 @@ uint32_t epas_linear_reset(struct epas_linear_t *place);
  * accuracy alone (`EPAS_FAULT_BEYOND_MODEL`, `EPAS_FAULT_SETTLING`).
  */
 uint32_t epas_linear_faulted_ticks(const struct epas_linear_t *place, uint32_t *ticks);
+
+/**
+ * Writes the state as a block of `EPAS_CAGED_STATE_BYTES` bytes to the begin of `bytes`, which are `length` long: for the next
+ * ignition. Outside the interrupt.
+ */
+uint32_t epas_caged_export(const struct epas_caged_t *place,
+                           uint8_t *bytes,
+                           uint32_t length);
+
+/**
+ * Takes the state of a block over, of the same configuration and the exact length: before the first step. A block that is
+ * foreign, old or damaged is refused, and the model is as it was. Outside the interrupt.
+ */
+uint32_t epas_caged_import(struct epas_caged_t *place,
+                           const uint8_t *bytes,
+                           uint32_t length);
+
+/**
+ * Writes the state as a block of `EPAS_SCREW_STATE_BYTES` bytes; as `epas_caged_export`.
+ */
+uint32_t epas_screw_export(const struct epas_screw_t *place, uint8_t *bytes, uint32_t length);
+
+/**
+ * Takes the state of a block over; as `epas_caged_import`.
+ */
+uint32_t epas_screw_import(struct epas_screw_t *place, const uint8_t *bytes, uint32_t length);
+
+/**
+ * Writes the state as a block of `EPAS_LINEAR_STATE_BYTES` bytes; as `epas_caged_export`.
+ */
+uint32_t epas_linear_export(const struct epas_linear_t *place, uint8_t *bytes, uint32_t length);
+
+/**
+ * Takes the state of a block over; as `epas_caged_import`.
+ */
+uint32_t epas_linear_import(struct epas_linear_t *place, const uint8_t *bytes, uint32_t length);
 
 /**
  * Version of the library: the header's where it equals `EPAS_ABI_VERSION`.

@@ -7,7 +7,7 @@ use crate::scene::{CScene, TablePointers, Tables, limits, regime, screw_inputs};
 use crate::status::{EPAS_FIELD_BRANCH, Failure};
 use crate::types::{
     CagedConfiguration, CagedPlace, EPAS_BRANCH_CONTACTS, EPAS_BRANCH_ROLLING, EPAS_BRANCH_SLIDING,
-    EPAS_FAULT_CALL, EPAS_REGIME_STANDING, Inputs, Outputs,
+    EPAS_CAGED_STATE_BYTES, EPAS_FAULT_CALL, EPAS_REGIME_STANDING, Inputs, Outputs,
 };
 use crate::version::mark;
 
@@ -22,6 +22,7 @@ impl CScene for Caged {
     type Outputs = Outputs;
 
     const MARK: u32 = mark(1);
+    const STATE_BYTES: u32 = EPAS_CAGED_STATE_BYTES;
     const REFUSED: Outputs = Outputs {
         friction_torque: 0.0,
         load_torque: 0.0,

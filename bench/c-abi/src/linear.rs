@@ -6,8 +6,8 @@ use crate::design::linear_bearing;
 use crate::scene::{CScene, TablePointers, Tables, regime};
 use crate::status::Failure;
 use crate::types::{
-    EPAS_FAULT_CALL, EPAS_LINEAR_BALLS, EPAS_REGIME_STANDING, LinearConfiguration, LinearInputs,
-    LinearOutputs, LinearPlace,
+    EPAS_FAULT_CALL, EPAS_LINEAR_BALLS, EPAS_LINEAR_STATE_BYTES, EPAS_REGIME_STANDING,
+    LinearConfiguration, LinearInputs, LinearOutputs, LinearPlace,
 };
 use crate::version::mark;
 
@@ -22,6 +22,7 @@ impl CScene for Linear {
     type Outputs = LinearOutputs;
 
     const MARK: u32 = mark(3);
+    const STATE_BYTES: u32 = EPAS_LINEAR_STATE_BYTES;
     const REFUSED: LinearOutputs = LinearOutputs {
         friction_force: 0.0,
         groove_force: 0.0,

@@ -1,6 +1,6 @@
 //! What a scene of the crate needs to be one in C.
 
-use epas_friction::scene::Scene;
+use epas_friction::scene::{Scene, StoredScene};
 use epas_friction::{
     DeviationMap, FrictionModel, Limits as CrateLimits, LoadShare as CrateLoadShare, Regime,
 };
@@ -62,7 +62,7 @@ impl Tables {
 /// A scene with the structures that stand for it in C.
 pub(crate) trait CScene {
     /// The crate's scene.
-    type Scene: Scene;
+    type Scene: StoredScene;
     /// Where the caller keeps it.
     type Place;
     /// What the engineer sets.
@@ -74,6 +74,8 @@ pub(crate) trait CScene {
 
     /// Says that a place holds this scene, as this version of the library has it.
     const MARK: u32;
+    /// Bytes of a state, as the header has them.
+    const STATE_BYTES: u32;
     /// What a refused call puts out: no friction, flagged.
     const REFUSED: Self::Outputs;
 
@@ -82,6 +84,12 @@ pub(crate) trait CScene {
         size_of::<Placed<Self::Scene>>() <= size_of::<Self::Place>()
             && align_of::<Placed<Self::Scene>>() <= align_of::<Self::Place>(),
         "the place is too small: its number of words in types.rs"
+    );
+
+    /// The header's bytes of a state are the crate's.
+    const STATE_FITS: () = assert!(
+        FrictionModel::<Self::Scene>::STATE_BYTES == Self::STATE_BYTES as usize,
+        "EPAS_..._STATE_BYTES in types.rs"
     );
 
     fn tables(configuration: &Self::Configuration) -> TablePointers;

@@ -6,8 +6,8 @@ use crate::design::{ball_screw, clearance, rolling_resistance};
 use crate::scene::{CScene, TablePointers, Tables, limits, regime, screw_inputs};
 use crate::status::Failure;
 use crate::types::{
-    EPAS_FAULT_CALL, EPAS_REGIME_STANDING, EPAS_SCREW_BALLS, Inputs, ScrewConfiguration,
-    ScrewOutputs, ScrewPlace,
+    EPAS_FAULT_CALL, EPAS_REGIME_STANDING, EPAS_SCREW_BALLS, EPAS_SCREW_STATE_BYTES, Inputs,
+    ScrewConfiguration, ScrewOutputs, ScrewPlace,
 };
 use crate::version::mark;
 
@@ -22,6 +22,7 @@ impl CScene for Screw {
     type Outputs = ScrewOutputs;
 
     const MARK: u32 = mark(2);
+    const STATE_BYTES: u32 = EPAS_SCREW_STATE_BYTES;
     const REFUSED: ScrewOutputs = ScrewOutputs {
         friction_torque: 0.0,
         groove_torque: 0.0,

@@ -2,7 +2,7 @@
 
 use core::ffi::CStr;
 
-use epas_friction::Error;
+use epas_friction::{Error, Refusal};
 
 /// Everything went well.
 pub const EPAS_OK: u32 = 0u32;
@@ -18,6 +18,18 @@ pub const EPAS_NOT_FINITE: u32 = 4u32;
 pub const EPAS_OUT_OF_RANGE: u32 = 5u32;
 /// The screw's groove would reach past the axis of the screw.
 pub const EPAS_FOLDED_GROOVE: u32 = 6u32;
+/// The block has not the length of a state.
+pub const EPAS_STATE_LENGTH: u32 = 7u32;
+/// The bytes are no state.
+pub const EPAS_NOT_A_STATE: u32 = 8u32;
+/// The state is of another version of the library.
+pub const EPAS_STATE_VERSION: u32 = 9u32;
+/// The state's checksum is wrong.
+pub const EPAS_STATE_DAMAGED: u32 = 10u32;
+/// The state is of another scene, another number of balls, another design, friction coefficient or clearance.
+pub const EPAS_STATE_FOREIGN: u32 = 11u32;
+/// A number of the state is none, or one that no state has.
+pub const EPAS_STATE_OUT_OF_RANGE: u32 = 12u32;
 
 /// No field is wrong.
 pub const EPAS_FIELD_NONE: u32 = 0u32;
@@ -252,7 +264,7 @@ const FIELDS: [(u32, &CStr, &str); 55] = [
     (EPAS_FIELD_GIVEN, c"given", ""),
 ];
 
-const STATUS_NAMES: [(u32, &CStr); 7] = [
+const STATUS_NAMES: [(u32, &CStr); 13] = [
     (EPAS_OK, c"ok"),
     (EPAS_NULL_POINTER, c"null pointer"),
     (EPAS_MISALIGNED, c"misaligned pointer"),
@@ -260,6 +272,12 @@ const STATUS_NAMES: [(u32, &CStr); 7] = [
     (EPAS_NOT_FINITE, c"not a finite number"),
     (EPAS_OUT_OF_RANGE, c"out of range"),
     (EPAS_FOLDED_GROOVE, c"groove folded past the axis"),
+    (EPAS_STATE_LENGTH, c"wrong length of a state"),
+    (EPAS_NOT_A_STATE, c"no state"),
+    (EPAS_STATE_VERSION, c"state of another version"),
+    (EPAS_STATE_DAMAGED, c"damaged state"),
+    (EPAS_STATE_FOREIGN, c"state of other constants"),
+    (EPAS_STATE_OUT_OF_RANGE, c"state out of range"),
 ];
 
 pub(crate) fn field_name(field: u32) -> &'static CStr {
@@ -274,6 +292,21 @@ pub(crate) fn status_name(status: u32) -> &'static CStr {
         .iter()
         .find(|known| known.0 == status)
         .map_or(c"unknown status", |known| known.1)
+}
+
+/// Status of a refused state.
+pub(crate) const fn refused(refusal: Refusal) -> u32 {
+    match refusal {
+        Refusal::Length { .. } => EPAS_STATE_LENGTH,
+        Refusal::NotAState => EPAS_NOT_A_STATE,
+        Refusal::Version { .. } => EPAS_STATE_VERSION,
+        Refusal::Damaged => EPAS_STATE_DAMAGED,
+        Refusal::OtherScene | Refusal::OtherBalls { .. } | Refusal::OtherConstants => {
+            EPAS_STATE_FOREIGN
+        }
+        // `Refusal` may grow; what is wrong is then still a number.
+        _ => EPAS_STATE_OUT_OF_RANGE,
+    }
 }
 
 /// Number of a field that the crate names.

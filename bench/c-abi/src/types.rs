@@ -144,6 +144,9 @@ pub struct CagedConfiguration {
     pub limits: Limits,
 }
 
+/// Bytes of a state of this scene, as `epas_caged_export` writes it.
+pub const EPAS_CAGED_STATE_BYTES: u32 = 114u32;
+
 /// Size of `epas_caged_t` in words of eight bytes.
 pub const EPAS_CAGED_WORDS: usize = 271;
 
@@ -202,8 +205,11 @@ pub struct ScrewConfiguration {
     pub limits: Limits,
 }
 
+/// Bytes of a state of this scene, as `epas_screw_export` writes it.
+pub const EPAS_SCREW_STATE_BYTES: u32 = 1797u32;
+
 /// Size of `epas_screw_t` in words of eight bytes.
-pub const EPAS_SCREW_WORDS: usize = 397;
+pub const EPAS_SCREW_WORDS: usize = 380;
 
 /// Place for the constants and the state of a ball screw whose balls press on each other; as
 /// `epas_caged_t`.
@@ -337,8 +343,11 @@ pub struct LinearOutputs {
     pub faults: u32,
 }
 
+/// Bytes of a state of this scene, as `epas_linear_export` writes it.
+pub const EPAS_LINEAR_STATE_BYTES: u32 = 325u32;
+
 /// Size of `epas_linear_t` in words of eight bytes.
-pub const EPAS_LINEAR_WORDS: usize = 137;
+pub const EPAS_LINEAR_WORDS: usize = 138;
 
 /// Place for the constants and the state of a linear bearing; as `epas_caged_t`.
 #[derive(Clone, Copy, Debug)]

@@ -117,6 +117,56 @@ static void inputs(void)
           "no force, flagged");
 }
 
+/* A block that is taken over gives the same ticks; one that is refused changes nothing. */
+static void states(void)
+{
+    static epas_screw_t screw;
+    static epas_screw_t next;
+    static epas_caged_t caged;
+    static epas_linear_t linear;
+    static uint8_t block[EPAS_SCREW_STATE_BYTES];
+    static uint8_t caged_block[EPAS_CAGED_STATE_BYTES];
+    static uint8_t linear_block[EPAS_LINEAR_STATE_BYTES];
+    const epas_inputs_t inputs = {10.0f, 1000.0f};
+    epas_screw_outputs_t one = {0};
+    epas_screw_outputs_t other = {0};
+    uint32_t tick;
+
+    check(epas_screw_export(&screw, block, sizeof block) == EPAS_NOT_INITIALISED, "export of a screw of zeros");
+    check((test_setup_screw(&screw) == EPAS_OK) && (test_setup_screw(&next) == EPAS_OK), "screws");
+    for (tick = 0u; tick < 50u; tick++) {
+        (void)epas_screw_step(&screw, &inputs, &one);
+    }
+    check(epas_screw_import(&next, block, sizeof block) == EPAS_NOT_A_STATE, "a block of zeros");
+    check(epas_screw_export(&screw, NULL, sizeof block) == EPAS_NULL_POINTER, "no block");
+    check(epas_screw_export(&screw, block, sizeof block - 1u) == EPAS_STATE_LENGTH, "no room");
+    check(epas_screw_export(&screw, block, sizeof block) == EPAS_OK, "export");
+    block[100] ^= 1u;
+    check(epas_screw_import(&next, block, sizeof block) == EPAS_STATE_DAMAGED, "a damaged block");
+    block[100] ^= 1u;
+    block[4]++;
+    check(epas_screw_import(&next, block, sizeof block) == EPAS_STATE_VERSION, "a block of another version");
+    block[4]--;
+    check(epas_screw_import(&next, block, sizeof block - 1u) == EPAS_STATE_LENGTH, "a short block");
+    check(epas_screw_import(&next, block, sizeof block) == EPAS_OK, "import");
+    for (tick = 0u; tick < 50u; tick++) {
+        (void)epas_screw_step(&screw, &inputs, &one);
+        (void)epas_screw_step(&next, &inputs, &other);
+        check((one.friction_torque == other.friction_torque) && (one.contacts == other.contacts)
+                  && (one.faults == other.faults),
+              "a tick after an import");
+    }
+
+    (void)test_setup_caged(&caged);
+    check(epas_caged_import(&caged, block, sizeof block) == EPAS_STATE_FOREIGN, "another scene's block");
+    check(epas_caged_export(&caged, caged_block, sizeof caged_block) == EPAS_OK, "caged export");
+    check(epas_caged_import(&caged, caged_block, sizeof caged_block) == EPAS_OK, "caged import");
+    (void)test_setup_linear(&linear);
+    check(epas_linear_export(&linear, linear_block, sizeof linear_block) == EPAS_OK, "linear export");
+    check(epas_linear_import(&linear, linear_block, sizeof linear_block) == EPAS_OK, "linear import");
+    check(same_text(epas_status_name(EPAS_STATE_DAMAGED), "damaged state"), "name of a state's status");
+}
+
 static void caged_fields(void)
 {
     static epas_caged_t place;
@@ -358,6 +408,7 @@ uint32_t test_refusals(void)
     failed = 0u;
     pointers();
     inputs();
+    states();
     caged_fields();
     train_fields();
     tables_and_requests();

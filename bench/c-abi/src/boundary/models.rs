@@ -3,7 +3,7 @@
 use super::pointers::{bare, read, report, usable};
 use super::tables::tables;
 use crate::scene::{CScene, Placed, model};
-use crate::status::{EPAS_NOT_INITIALISED, EPAS_OK, Failure};
+use crate::status::{EPAS_NOT_INITIALISED, EPAS_OK, Failure, refused};
 
 /// The model in a place, if it is this scene's.
 pub(super) unsafe fn placed<'a, C: CScene>(
@@ -82,6 +82,40 @@ pub(super) unsafe fn faulted_ticks<C: CScene>(place: *const C::Place, ticks: *mu
         Ok(placed) => {
             unsafe { ticks.write(placed.model.faulted_ticks()) };
             EPAS_OK
+        }
+        Err(status) => status,
+    }
+}
+
+/// Writes the state as a block.
+pub(super) unsafe fn export<C: CScene>(place: *const C::Place, bytes: *mut u8, length: u32) -> u32 {
+    let () = C::STATE_FITS;
+    if let Err(status) = usable(bytes) {
+        return status;
+    }
+    // Only read.
+    match unsafe { placed::<C>(place.cast_mut()) } {
+        Ok(placed) => {
+            let bytes = unsafe { core::slice::from_raw_parts_mut(bytes, length as usize) };
+            placed.model.export(bytes).map_or_else(refused, |_| EPAS_OK)
+        }
+        Err(status) => status,
+    }
+}
+
+/// Takes the state of a block over; where it is refused the model is as it was.
+pub(super) unsafe fn import<C: CScene>(place: *mut C::Place, bytes: *const u8, length: u32) -> u32 {
+    let () = C::STATE_FITS;
+    if let Err(status) = usable(bytes) {
+        return status;
+    }
+    match unsafe { placed::<C>(place) } {
+        Ok(placed) => {
+            let bytes = unsafe { core::slice::from_raw_parts(bytes, length as usize) };
+            placed
+                .model
+                .import(bytes)
+                .map_or_else(refused, |()| EPAS_OK)
         }
         Err(status) => status,
     }

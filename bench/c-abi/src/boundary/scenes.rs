@@ -1,6 +1,6 @@
 //! The exported functions of the scenes, each one line that calls the generic one.
 
-use super::models::{faulted_ticks, init, placed, reset, step};
+use super::models::{export, faulted_ticks, import, init, placed, reset, step};
 use crate::caged::Caged;
 use crate::linear::Linear;
 use crate::screw::Screw;
@@ -149,4 +149,66 @@ pub unsafe extern "C" fn epas_linear_faulted_ticks(
     ticks: *mut u32,
 ) -> u32 {
     unsafe { faulted_ticks::<Linear>(place, ticks) }
+}
+
+/// Writes the state as a block of `EPAS_CAGED_STATE_BYTES` bytes to the begin of `bytes`, which are `length` long: for the next
+/// ignition. Outside the interrupt.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn epas_caged_export(
+    place: *const CagedPlace,
+    bytes: *mut u8,
+    length: u32,
+) -> u32 {
+    unsafe { export::<Caged>(place, bytes, length) }
+}
+
+/// Takes the state of a block over, of the same configuration and the exact length: before the first step. A block that is
+/// foreign, old or damaged is refused, and the model is as it was. Outside the interrupt.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn epas_caged_import(
+    place: *mut CagedPlace,
+    bytes: *const u8,
+    length: u32,
+) -> u32 {
+    unsafe { import::<Caged>(place, bytes, length) }
+}
+
+/// Writes the state as a block of `EPAS_SCREW_STATE_BYTES` bytes; as `epas_caged_export`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn epas_screw_export(
+    place: *const ScrewPlace,
+    bytes: *mut u8,
+    length: u32,
+) -> u32 {
+    unsafe { export::<Screw>(place, bytes, length) }
+}
+
+/// Takes the state of a block over; as `epas_caged_import`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn epas_screw_import(
+    place: *mut ScrewPlace,
+    bytes: *const u8,
+    length: u32,
+) -> u32 {
+    unsafe { import::<Screw>(place, bytes, length) }
+}
+
+/// Writes the state as a block of `EPAS_LINEAR_STATE_BYTES` bytes; as `epas_caged_export`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn epas_linear_export(
+    place: *const LinearPlace,
+    bytes: *mut u8,
+    length: u32,
+) -> u32 {
+    unsafe { export::<Linear>(place, bytes, length) }
+}
+
+/// Takes the state of a block over; as `epas_caged_import`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn epas_linear_import(
+    place: *mut LinearPlace,
+    bytes: *const u8,
+    length: u32,
+) -> u32 {
+    unsafe { import::<Linear>(place, bytes, length) }
 }
