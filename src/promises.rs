@@ -21,10 +21,11 @@ pub use promise::{Footprint, Promise};
 pub use steps::*;
 
 /// Promises of every `step()`, and of every function that a step calls.
-pub const STEPS: [Promise; 20] = [
+pub const STEPS: [Promise; 21] = [
     STEP_CAGED,
     STEP_CAGED_CHANGING,
     STEP_CAGED_MEMORY,
+    STEP_CAGED_LAW,
     BETWEEN,
     SET_FRICTION,
     STEP_UNCAGED,

@@ -5,10 +5,12 @@
 
 mod fade;
 mod form;
+mod model;
 mod viscosity;
 
 pub use fade::TemperatureFade;
 pub use form::{
     CoefficientAtTemperature, CoefficientLaw, CoefficientParameters, DirectionalCoefficient,
 };
+pub use model::{CoefficientModel, OneCoefficient};
 pub use viscosity::{OilData, TEMPERATURE, Viscosity};

@@ -6,19 +6,20 @@ use super::FrictionModel;
 use crate::ball::Clearance;
 use crate::error::Error;
 use crate::law::Elements;
-use crate::law::coefficient::CoefficientLaw;
+use crate::law::coefficient::CoefficientModel;
 use crate::law::motion::NutAngle;
 use crate::scene::{
     CagedBallScrew, CagedConstants, Faults, Scene, SceneOutputs, Sliding, UncagedBallScrew,
     UncagedConstants, WithMemory, WithMemoryConstants,
 };
 
-impl<S, E, A, C> FrictionModel<WithMemory<S, E, A>, C>
+impl<S, E, A, L, C> FrictionModel<WithMemory<S, E, A, L>, C>
 where
     S: Sliding<Constants: Copy>,
     E: Elements + Copy,
     A: NutAngle + Copy,
-    C: Borrow<WithMemoryConstants<S::Constants, E, A>>,
+    L: CoefficientModel,
+    C: Borrow<WithMemoryConstants<S::Constants, E, A, L>>,
 {
     /// Friction between two steps, after a new reading of the angle: elements follow it under the limits that the last step
     /// found. Balls, loads and the friction coefficient stay as they are; the next step takes the balls on by all turns
@@ -31,23 +32,24 @@ where
         let constants = self.constants.borrow();
         let outputs = constants.between::<S>(&mut self.state, reading);
         outputs.limited(
-            WithMemory::<S, E, A>::largest_friction(constants),
+            WithMemory::<S, E, A, L>::largest_friction(constants),
             Faults::NONE,
         )
     }
 
     /// Sets the law of the friction coefficient: from the next step on friction follows it. [`FrictionModel::reset`] brings
     /// the configuration's back.
-    pub fn set_coefficient(&mut self, law: CoefficientLaw) {
+    pub fn set_coefficient(&mut self, law: L) {
         self.state.set_coefficient(law);
     }
 }
 
-impl<E, A, C> FrictionModel<WithMemory<CagedBallScrew, E, A>, C>
+impl<E, A, L, C> FrictionModel<WithMemory<CagedBallScrew, E, A, L>, C>
 where
     E: Elements + Copy,
     A: NutAngle + Copy,
-    C: Borrow<WithMemoryConstants<CagedConstants, E, A>>,
+    L: CoefficientModel,
+    C: Borrow<WithMemoryConstants<CagedConstants, E, A, L>>,
 {
     /// Sets how balls fit between the grooves, as
     /// [`FrictionModel::set_clearance`](FrictionModel#method.set_clearance) of the screw without memory does; the memory stays.
@@ -60,11 +62,12 @@ where
     }
 }
 
-impl<const N: usize, E, A, C> FrictionModel<WithMemory<UncagedBallScrew<N>, E, A>, C>
+impl<const N: usize, E, A, L, C> FrictionModel<WithMemory<UncagedBallScrew<N>, E, A, L>, C>
 where
     E: Elements + Copy,
     A: NutAngle + Copy,
-    C: Borrow<WithMemoryConstants<UncagedConstants<N>, E, A>>,
+    L: CoefficientModel,
+    C: Borrow<WithMemoryConstants<UncagedConstants<N>, E, A, L>>,
 {
     /// Sets how balls fit between the grooves, as
     /// [`FrictionModel::set_clearance`](FrictionModel#method.set_clearance) of the screw without memory does; the memory stays.

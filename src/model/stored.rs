@@ -4,6 +4,7 @@ use core::borrow::Borrow;
 
 use super::FrictionModel;
 use crate::law::Elements;
+use crate::law::coefficient::CoefficientModel;
 use crate::law::motion::NutAngle;
 use crate::scene::{Sliding, StoredScene, WithMemory, WithMemoryConstants};
 use crate::stored::{Block, Fingerprint, Fingerprinted, Label, OVERHEAD, Refusal, Stored};
@@ -118,12 +119,13 @@ impl<S: StoredScene, C: Borrow<S::Constants>> FrictionModel<S, C> {
     }
 }
 
-impl<S, E, A, C> FrictionModel<WithMemory<S, E, A>, C>
+impl<S, E, A, L, C> FrictionModel<WithMemory<S, E, A, L>, C>
 where
     S: StoredScene + Sliding<Constants: Copy, Inputs: Stored, Full: Stored + Default> + Copy,
     E: Elements<State: Stored> + Fingerprinted + Copy,
     A: NutAngle<State: Stored> + Fingerprinted + Copy,
-    C: Borrow<WithMemoryConstants<S::Constants, E, A>>,
+    L: CoefficientModel,
+    C: Borrow<WithMemoryConstants<S::Constants, E, A, L>>,
 {
     /// Takes over a state as [`FrictionModel::import`] does, with the last reading of the angle sensor: the turn of the next reading
     /// spans the time without power.

@@ -208,13 +208,14 @@ impl Sliding for CagedBallScrew {
     fn full(
         constants: &CagedConstants,
         state: &mut CagedState,
-        coefficients: &CagedCoefficients,
+        coefficients: Option<&CagedCoefficients>,
         inputs: Inputs,
         friction: DirectionalCoefficient,
     ) -> CagedFull {
         match (&constants.law, &mut state.contacts) {
             (Law::Contacts(contacts), Some(state)) => {
-                contacts.both_ways(state, coefficients.laws.as_ref(), inputs, friction)
+                let laws = coefficients.and_then(|known| known.laws.as_ref());
+                contacts.both_ways(state, laws, inputs, friction)
             }
             (Law::Closed(closed), _) => closed.both_ways(inputs.axial_load),
             (Law::Contacts(_), None) => CagedFull {

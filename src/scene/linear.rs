@@ -165,7 +165,7 @@ impl<const N: usize> Sliding for LinearBearingTrain<N> {
     fn full(
         constants: &LinearConstants<N>,
         state: &mut LinearState<N>,
-        (): &(),
+        _: Option<&()>,
         inputs: LinearInputs,
         friction: DirectionalCoefficient,
     ) -> LinearFull {

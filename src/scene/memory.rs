@@ -12,7 +12,7 @@ use super::faults::Faults;
 use super::passage::{Motion, Passage, way};
 use super::sliding::Sliding;
 use crate::error::{Error, attempt, in_range};
-use crate::law::coefficient::{CoefficientAtTemperature, CoefficientLaw, TemperatureFade};
+use crate::law::coefficient::{CoefficientLaw, CoefficientModel, TemperatureFade};
 use crate::law::motion::{NutAngle, Play, PlayState};
 use crate::law::{Elements, SlidingLimits};
 
@@ -25,7 +25,7 @@ const SLIDES: f32 = 0.99;
 /// Speed that stands for a way without motion: forces between balls are then those with which motion sets in.
 const CREEP: f32 = 1e-9;
 
-/// A scene `S` with memory elements `E`, which follow the readings of an angle sensor `A`.
+/// A scene `S` with memory elements `E`, which follow the readings of an angle sensor `A`, and a friction coefficient by `L`.
 ///
 /// Friction passes between its two directions with the angle: elements stick and slip under the limits that full friction
 /// of the same tick sets them. In steady sliding it is the friction of `S` away from its reversal; its reversal speed has no
@@ -39,36 +39,41 @@ const CREEP: f32 = 1e-9;
 /// them round.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct WithMemory<S, E, A>(PhantomData<(S, E, A)>);
+pub struct WithMemory<S, E, A, L = CoefficientLaw>(PhantomData<(S, E, A, L)>);
 
 /// Constants of a scene with memory.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct WithMemoryConstants<C, E, A> {
+pub struct WithMemoryConstants<C, E, A, L = CoefficientLaw> {
     scene: C,
     elements: E,
     angle: A,
     per_reference_load: f32,
     play: Play,
-    coefficient: CoefficientLaw,
+    coefficient: L,
     temperature: TemperatureFade,
     freshness: Freshness,
 }
 
 /// What a tick changes in a scene with memory.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct WithMemoryState<S: Sliding, E: Elements, A: NutAngle> {
+pub struct WithMemoryState<
+    S: Sliding,
+    E: Elements,
+    A: NutAngle,
+    L: CoefficientModel = CoefficientLaw,
+> {
     /// State of the scene without memory.
     pub scene: S::State,
-    coefficients: S::Coefficients,
+    coefficients: L::Kept<S::Coefficients>,
     /// What the elements remember.
     pub elements: E::State,
     reading: A::State,
     play: PlayState,
     /// Turn that the balls have still to go, rad (m).
     moved: f32,
-    coefficient: CoefficientLaw,
+    coefficient: L,
     temperature: f32,
-    at_temperature: CoefficientAtTemperature,
+    at_temperature: L::At,
     /// The last sound inputs, and the last full friction with its limits and the churning drag beside it.
     inputs: S::Inputs,
     full: Option<S::Full>,
@@ -76,13 +81,17 @@ pub struct WithMemoryState<S: Sliding, E: Elements, A: NutAngle> {
     churning: f32,
 }
 
-impl<S: Sliding, E: Elements + Copy, A: NutAngle + Copy> Scene for WithMemory<S, E, A>
+impl<S, E, A, L> Scene for WithMemory<S, E, A, L>
 where
+    S: Sliding,
+    E: Elements + Copy,
+    A: NutAngle + Copy,
+    L: CoefficientModel,
     S::Constants: Copy,
 {
-    type Configuration = WithMemoryConfiguration<S::Configuration, E, A>;
-    type Constants = WithMemoryConstants<S::Constants, E, A>;
-    type State = WithMemoryState<S, E, A>;
+    type Configuration = WithMemoryConfiguration<S::Configuration, E, A, L>;
+    type Constants = WithMemoryConstants<S::Constants, E, A, L>;
+    type State = WithMemoryState<S, E, A, L>;
     type Inputs = WithMemoryInputs<S::Inputs, A::Reading>;
     type Known = WithMemoryKnown<S::Inputs, A::Reading>;
     type Outputs = S::Outputs;
@@ -99,10 +108,9 @@ where
             temperature,
             ..
         } = constants;
-        let (least, largest) = coefficient.extremes();
         WithMemoryState {
             scene: S::initial_state(scene),
-            coefficients: S::coefficients(scene, least, largest),
+            coefficients: coefficient.keep(|least, largest| S::coefficients(scene, least, largest)),
             elements: E::VIRGIN,
             reading: A::FRESH,
             play: PlayState::FRESH,
@@ -189,9 +197,9 @@ where
         let full = S::full(
             &constants.scene,
             &mut state.scene,
-            &state.coefficients,
+            L::kept(&state.coefficients),
             inputs.with(speed, factor),
-            state.at_temperature.both(measured),
+            L::both(&state.at_temperature, measured),
         );
         let limits = S::limits(&full);
         state.limits = SlidingLimits {
@@ -199,7 +207,7 @@ where
             ..limits
         };
         state.full = Some(full);
-        state.churning = state.at_temperature.churning_torque(measured);
+        state.churning = L::churning_torque(&state.at_temperature, measured);
         constants.follow(state, turn, inputs, faults | angle_faults)
     }
 
@@ -216,9 +224,9 @@ const NONE: SlidingLimits = SlidingLimits {
     load: 0.0,
 };
 
-impl<S: Sliding, E: Elements, A: NutAngle> WithMemoryState<S, E, A> {
+impl<S: Sliding, E: Elements, A: NutAngle, L: CoefficientModel> WithMemoryState<S, E, A, L> {
     /// See [`FrictionModel::set_coefficient`](crate::FrictionModel::set_coefficient).
-    pub(crate) fn set_coefficient(&mut self, law: CoefficientLaw) {
+    pub(crate) fn set_coefficient(&mut self, law: L) {
         self.coefficient = law;
         self.at_temperature = law.at_temperature(self.temperature);
     }
@@ -230,14 +238,14 @@ impl<S: Sliding, E: Elements, A: NutAngle> WithMemoryState<S, E, A> {
     }
 }
 
-impl<C: Copy, E: Copy, A: Copy> WithMemoryConstants<C, E, A> {
+impl<C: Copy, E: Copy, A: Copy, L: Copy> WithMemoryConstants<C, E, A, L> {
     /// Checks what memory adds to the constants of a scene: at set-up, or in a constant when firmware is compiled.
     ///
     /// # Errors
     /// [`Error`] naming `reference_load`, `half_width` (of the play) or a time of the freshness.
     pub const fn new<B>(
         scene: C,
-        configuration: &WithMemoryConfiguration<B, E, A>,
+        configuration: &WithMemoryConfiguration<B, E, A, L>,
     ) -> Result<Self, Error> {
         let reference_load = attempt!(in_range(
             "reference_load",
@@ -258,7 +266,7 @@ impl<C: Copy, E: Copy, A: Copy> WithMemoryConstants<C, E, A> {
     }
 }
 
-impl<C, E: Elements, A: NutAngle> WithMemoryConstants<C, E, A> {
+impl<C, E: Elements, A: NutAngle, L: CoefficientModel> WithMemoryConstants<C, E, A, L> {
     /// Constants of the scene without memory.
     #[inline(always)]
     pub const fn scene(&self) -> &C {
@@ -269,7 +277,7 @@ impl<C, E: Elements, A: NutAngle> WithMemoryConstants<C, E, A> {
     #[inline(always)]
     fn take_temperature<S: Sliding>(
         &self,
-        state: &mut WithMemoryState<S, E, A>,
+        state: &mut WithMemoryState<S, E, A, L>,
         known: &WithMemoryKnown<S::Inputs, A::Reading>,
     ) -> Faults {
         let fade = &self.temperature;
@@ -293,7 +301,7 @@ impl<C, E: Elements, A: NutAngle> WithMemoryConstants<C, E, A> {
     #[inline(always)]
     fn turn<S: Sliding>(
         &self,
-        state: &mut WithMemoryState<S, E, A>,
+        state: &mut WithMemoryState<S, E, A, L>,
         reading: A::Reading,
     ) -> (f32, Faults) {
         let turn = self.angle.turn(&mut state.reading, reading);
@@ -307,7 +315,7 @@ impl<C, E: Elements, A: NutAngle> WithMemoryConstants<C, E, A> {
     #[inline(always)]
     pub(crate) fn between<S: Sliding<Constants = C>>(
         &self,
-        state: &mut WithMemoryState<S, E, A>,
+        state: &mut WithMemoryState<S, E, A, L>,
         reading: A::Reading,
     ) -> S::Outputs {
         let (turn, faults) = self.turn(state, reading);
@@ -318,7 +326,7 @@ impl<C, E: Elements, A: NutAngle> WithMemoryConstants<C, E, A> {
     #[inline(always)]
     fn follow<S: Sliding<Constants = C>>(
         &self,
-        state: &mut WithMemoryState<S, E, A>,
+        state: &mut WithMemoryState<S, E, A, L>,
         turn: f32,
         inputs: S::Inputs,
         faults: Faults,

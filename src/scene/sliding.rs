@@ -21,11 +21,12 @@ pub trait Sliding: Scene<Known = <Self as Scene>::Inputs, Inputs: Motion> {
     /// Friction coefficient of the configuration.
     fn friction(constants: &Self::Constants) -> f32;
 
-    /// Full friction with friction coefficients of ball and groove in both directions; balls move on by a tick. A speed of 0 counts as forward.
+    /// Full friction with friction coefficients of ball and groove in both directions, in proportion to that of the
+    /// configuration where nothing was folded for others; balls move on by a tick. A speed of 0 counts as forward.
     fn full(
         constants: &Self::Constants,
         state: &mut Self::State,
-        coefficients: &Self::Coefficients,
+        coefficients: Option<&Self::Coefficients>,
         inputs: Self::Inputs,
         friction: DirectionalCoefficient,
     ) -> Self::Full;

@@ -143,7 +143,7 @@ impl<const N: usize> Sliding for UncagedBallScrew<N> {
     fn full(
         constants: &UncagedConstants<N>,
         state: &mut UncagedState<N>,
-        (): &(),
+        _: Option<&()>,
         inputs: Inputs,
         friction: DirectionalCoefficient,
     ) -> UncagedFull {

@@ -34,8 +34,9 @@ use epas_friction::{
 
 use crate::peers::{LuGre, Stribeck};
 use crate::scenes::{
-    BALLS, CagedMemory, ROW, SCREW_DEVIATION, caged_configuration, caged_memory_configuration,
-    linear_configuration, uncaged_configuration,
+    BALLS, CagedByLaw, CagedMemory, ROW, SCREW_DEVIATION, caged_configuration,
+    caged_law_configuration, caged_memory_configuration, linear_configuration,
+    uncaged_configuration,
 };
 
 /// Everything that is set up once.
@@ -78,8 +79,10 @@ pub struct Contexts {
     pub rotary_ball: BallState,
     /// Caged ball screw.
     pub caged: FrictionModel<CagedBallScrew>,
-    /// The same with a memory, and a friction coefficient by speed and temperature.
+    /// The same with a memory.
     pub caged_memory: FrictionModel<CagedMemory>,
+    /// The same with a friction coefficient by speed and temperature.
+    pub caged_law: FrictionModel<CagedByLaw>,
     /// The same with a friction coefficient that changes.
     pub caged_changing: FrictionModel<CagedBallScrew>,
     /// Deviation of contact angles along a groove.
@@ -207,6 +210,7 @@ impl Contexts {
             rotary,
             caged: FrictionModel::new(&black_box(caged_configuration()?))?,
             caged_memory: FrictionModel::new(&black_box(caged_memory_configuration()?))?,
+            caged_law: FrictionModel::new(&black_box(caged_law_configuration()?))?,
             caged_changing: changing(FrictionModel::new(&black_box(caged_configuration()?))?)?,
             deviation: &SCREW_DEVIATION,
             screw_loop: screw_row.at(10.0, 100.0).per_speed(0.5, 2.0, (1.0, 1.0)),

@@ -35,7 +35,7 @@ use epas_friction::{
 };
 
 use crate::peers::{LuGre, Stribeck};
-use crate::scenes::{BALLS, CagedMemory, EfficiencyStep, ROW, efficiency_step};
+use crate::scenes::{BALLS, CagedByLaw, CagedMemory, EfficiencyStep, ROW, efficiency_step};
 
 /// Angles and forces of four contacts.
 #[derive(Clone, Copy, Debug)]
@@ -211,9 +211,16 @@ counted! {
         model.step(Inputs { nut_speed, axial_load })
     }
 
-    /// One tick of a caged ball screw with a memory and a friction coefficient by speed and temperature.
+    /// One tick of a caged ball screw with a memory.
     fn count_step_caged_memory(
         model: &mut FrictionModel<CagedMemory>, inputs: &WithMemoryInputs<Inputs, f32>
+    ) -> Outputs {
+        model.step(*inputs)
+    }
+
+    /// The same with a friction coefficient by speed and temperature.
+    fn count_step_caged_law(
+        model: &mut FrictionModel<CagedByLaw>, inputs: &WithMemoryInputs<Inputs, f32>
     ) -> Outputs {
         model.step(*inputs)
     }

@@ -7,7 +7,7 @@ use epas_friction::curvature::FittedCurvature;
 use epas_friction::defaults::COEFFICIENT;
 use epas_friction::efficiency::{Drive, EfficiencyGeometry};
 use epas_friction::geometry::{ContactAngle, Groove};
-use epas_friction::law::coefficient::{CoefficientLaw, TemperatureFade};
+use epas_friction::law::coefficient::{CoefficientLaw, OneCoefficient, TemperatureFade};
 use epas_friction::law::memory::{Part, ProportionalElements, SLIP_8};
 use epas_friction::law::motion::SpeedOverTick;
 use epas_friction::scene::{
@@ -87,28 +87,38 @@ macro_rules! tried {
 
 static CAGED_WITH_MEMORY: CagedMemoryConstants = folded(WithMemoryConstants::new(
     CAGED,
-    &folded(with_memory(folded(caged_configuration()), 0.075)),
+    &folded(with_memory(
+        folded(caged_configuration()),
+        folded(OneCoefficient::new(0.075)),
+    )),
 ));
 static UNCAGED_WITH_MEMORY: UncagedMemoryConstants = folded(WithMemoryConstants::new(
     UNCAGED,
-    &folded(with_memory(folded(uncaged_configuration()), 0.1)),
+    &folded(with_memory(
+        folded(uncaged_configuration()),
+        folded(OneCoefficient::new(0.1)),
+    )),
 ));
 
 /// Constants of scenes with memory.
 pub type CagedMemoryConstants =
-    WithMemoryConstants<CagedConstants, ProportionalElements<8>, SpeedOverTick>;
+    WithMemoryConstants<CagedConstants, ProportionalElements<8>, SpeedOverTick, OneCoefficient>;
 /// The same without cage.
-pub type UncagedMemoryConstants =
-    WithMemoryConstants<UncagedConstants<BALLS>, ProportionalElements<8>, SpeedOverTick>;
+pub type UncagedMemoryConstants = WithMemoryConstants<
+    UncagedConstants<BALLS>,
+    ProportionalElements<8>,
+    SpeedOverTick,
+    OneCoefficient,
+>;
 
-/// A scene with a memory of eight elements, and one friction coefficient.
+/// A scene with a memory of eight elements.
 ///
 /// # Errors
 /// None with the scenes here.
-pub const fn with_memory<C: Copy>(
+pub const fn with_memory<C: Copy, L: Copy>(
     scene: C,
-    friction: f32,
-) -> Result<WithMemoryConfiguration<C, ProportionalElements<8>, SpeedOverTick>, Error> {
+    coefficient: L,
+) -> Result<WithMemoryConfiguration<C, ProportionalElements<8>, SpeedOverTick, L>, Error> {
     Ok(WithMemoryConfiguration {
         scene,
         elements: tried!(ProportionalElements::new(
@@ -122,7 +132,7 @@ pub const fn with_memory<C: Copy>(
         angle: tried!(SpeedOverTick::new(TICK, 1.0)),
         reference_load: 1_000.0,
         play: 2e-3,
-        coefficient: tried!(CoefficientLaw::constant(friction)),
+        coefficient,
         temperature: TemperatureFade::DEFAULT,
         freshness: Freshness::DEFAULT,
     })
@@ -253,7 +263,11 @@ impl Run for Caged {
 pub struct CagedWithMemory;
 
 /// Its scene.
-pub type CagedMemory = WithMemory<CagedBallScrew, ProportionalElements<8>, SpeedOverTick>;
+pub type CagedMemory =
+    WithMemory<CagedBallScrew, ProportionalElements<8>, SpeedOverTick, OneCoefficient>;
+
+/// The same with a friction coefficient by speed and temperature.
+pub type CagedByLaw = WithMemory<CagedBallScrew, ProportionalElements<8>, SpeedOverTick>;
 
 impl Run for CagedWithMemory {
     const NAME: &'static str = "caged_with_memory";
@@ -273,7 +287,7 @@ pub struct UncagedWithMemory;
 
 /// Its scene.
 pub type UncagedMemory =
-    WithMemory<UncagedBallScrew<BALLS>, ProportionalElements<8>, SpeedOverTick>;
+    WithMemory<UncagedBallScrew<BALLS>, ProportionalElements<8>, SpeedOverTick, OneCoefficient>;
 
 impl Run for UncagedWithMemory {
     const NAME: &'static str = "ball_screw_37_with_memory";
@@ -371,17 +385,25 @@ pub const fn caged_configuration() -> Result<CagedBallScrewConfiguration, Error>
     })
 }
 
-/// The caged form with a memory, and with the friction coefficient that is the default.
+/// The caged form with a memory.
 ///
 /// # Errors
 /// None.
-pub fn caged_memory_configuration()
+pub const fn caged_memory_configuration()
 -> Result<<CagedMemory as epas_friction::Scene>::Configuration, Error> {
-    let mut caged = caged_configuration()?;
+    let caged = tried!(caged_configuration());
+    with_memory(caged, tried!(OneCoefficient::new(caged.friction)))
+}
+
+/// The same with the friction coefficient that is the default, by speed and temperature.
+///
+/// # Errors
+/// None.
+pub const fn caged_law_configuration()
+-> Result<<CagedByLaw as epas_friction::Scene>::Configuration, Error> {
+    let mut caged = tried!(caged_configuration());
     caged.friction = COEFFICIENT.boundary;
-    let mut configuration = with_memory(caged, caged.friction)?;
-    configuration.coefficient = CoefficientLaw::new(&COEFFICIENT)?;
-    Ok(configuration)
+    with_memory(caged, tried!(CoefficientLaw::new(&COEFFICIENT)))
 }
 
 /// Its form without a cage: all 37 balls under load, as in the dissertation; this takes the most cycles.

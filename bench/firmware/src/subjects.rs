@@ -24,9 +24,9 @@ use crate::counted::{
     count_memory_8, count_memory_load_exact_8, count_memory_seat, count_micromath_cos,
     count_micromath_powf, count_micromath_sqrt, count_play, count_press_37,
     count_rotary_ball_refined, count_set_friction_37, count_sin_cos, count_sqrt, count_step_caged,
-    count_step_caged_changing, count_step_caged_memory, count_step_efficiency, count_step_linear,
-    count_step_train_37, count_step_train_37_pressing, count_stribeck_curve, count_train_37,
-    count_turn_of_angles, count_turn_of_counts,
+    count_step_caged_changing, count_step_caged_law, count_step_caged_memory,
+    count_step_efficiency, count_step_linear, count_step_train_37, count_step_train_37_pressing,
+    count_stribeck_curve, count_train_37, count_turn_of_angles, count_turn_of_counts,
 };
 use crate::inputs::{
     SPECIAL, angle, contact_angle, four_contacts, impedances, memory, pair, positive, tick, train,
@@ -263,17 +263,23 @@ subjects! {
             let model = black_box(&mut c.caged_changing);
             outputs(&timed!(c, count_step_caged_changing(model, nut_speed, axial_load)))
         };
-    step_caged_memory: |spread| -> [3] {
+    step_caged_memory: |spread| -> [2] tick(spread),
+        |c, [nut_speed, axial_load]| -> [4] {
+            let model = black_box(&mut c.caged_memory);
+            let inputs = black_box(remembered(nut_speed, axial_load));
+            outputs(&timed!(c, count_step_caged_memory(model, &inputs)))
+        };
+    step_caged_law: |spread| -> [3] {
             let [nut_speed, axial_load] = tick(spread);
             [nut_speed, axial_load, spread.between(250.0, 400.0)]
         },
         |c, [nut_speed, axial_load, temperature]| -> [4] {
-            let model = black_box(&mut c.caged_memory);
+            let model = black_box(&mut c.caged_law);
             let inputs = black_box(WithMemoryInputs {
                 temperature,
                 ..remembered(nut_speed, axial_load)
             });
-            outputs(&timed!(c, count_step_caged_memory(model, &inputs)))
+            outputs(&timed!(c, count_step_caged_law(model, &inputs)))
         };
     between_caged: |spread| -> [1] [spread.between(-60.0, 60.0)],
         |c, [reading]| -> [4] {

@@ -1,5 +1,6 @@
 //! A ball screw whose balls do not touch.
 
+use epas_friction::law::coefficient::OneCoefficient;
 use epas_friction::law::motion::WrappedAngle;
 use epas_friction::scene::WithMemory;
 use epas_friction::{
@@ -62,7 +63,7 @@ impl Reference {
 #[expect(clippy::large_enum_variant, reason = "one of it is built")]
 enum Model {
     Plain(FrictionModel<CagedBallScrew>),
-    Memory(FrictionModel<WithMemory<CagedBallScrew, Elements, WrappedAngle>>),
+    Memory(FrictionModel<WithMemory<CagedBallScrew, Elements, WrappedAngle, OneCoefficient>>),
 }
 
 impl Model {

@@ -4,7 +4,7 @@ use epas_friction::law::breakaway::{
     BearingBreakaway, Breakaway, BreakawayConfiguration, BreakawayPart, Mechanism, ScrewContacts,
     Tables,
 };
-use epas_friction::law::coefficient::{CoefficientLaw, TemperatureFade};
+use epas_friction::law::coefficient::{OneCoefficient, TemperatureFade};
 use epas_friction::law::memory::{Hysteresis, ProportionalElements, SLIP_4, SPIN_4, SPIN_8};
 use epas_friction::law::motion::{SpeedOverTick, WrappedAngle, WrappedAngleParameters};
 use epas_friction::scene::{Freshness, WithMemory, WithMemoryConfiguration, WithMemoryInputs};
@@ -20,7 +20,7 @@ pub const ELEMENTS: usize = 8;
 pub type Elements = ProportionalElements<ELEMENTS>;
 
 /// A row of balls with them, which follows the speed of every tick.
-pub type Remembering<S> = WithMemory<S, Elements, SpeedOverTick>;
+pub type Remembering<S> = WithMemory<S, Elements, SpeedOverTick, OneCoefficient>;
 
 /// Temperature of every simulation, K. The friction coefficient does not follow it.
 const TEMPERATURE: f32 = 293.15;
@@ -87,7 +87,7 @@ impl Screw<'_> {
             &mut lines,
             &elements,
             &breakaway.parts(),
-            format!("{:.1} N a contact", contact_load.max(LEAST_LOAD)),
+            &format!("{:.1} N a contact", contact_load.max(LEAST_LOAD)),
             ("N m/rad", "mrad"),
         );
         Ok(Remembered {
@@ -127,7 +127,7 @@ pub fn of_bearing(
         &mut lines,
         &elements,
         &breakaway.parts(),
-        format!("{load:.1} N a contact"),
+        &format!("{load:.1} N a contact"),
         ("N/m", "mm"),
     );
     Ok(Remembered {
@@ -142,7 +142,7 @@ fn tell(
     lines: &mut Lines,
     elements: &Elements,
     parts: &[BreakawayPart],
-    at: String,
+    at: &str,
     (stiffness, motion): (&str, &str),
 ) {
     lines.add(
@@ -181,14 +181,14 @@ pub fn configuration<C, A>(
     remembered: &Remembered,
     angle: A,
     friction: f32,
-) -> Result<WithMemoryConfiguration<C, Elements, A>, Error> {
+) -> Result<WithMemoryConfiguration<C, Elements, A, OneCoefficient>, Error> {
     Ok(WithMemoryConfiguration {
         scene,
         elements: remembered.elements,
         angle,
         reference_load: remembered.reference_load,
         play: remembered.elements.breakaway(),
-        coefficient: CoefficientLaw::constant(friction)?,
+        coefficient: OneCoefficient::new(friction)?,
         temperature: TemperatureFade::new(TEMPERATURE, 1.0, 1.0)?,
         freshness: Freshness::DEFAULT,
     })

@@ -4,7 +4,7 @@
 use std::f32::consts::TAU;
 
 use epas_friction::defaults::COEFFICIENT;
-use epas_friction::law::coefficient::{CoefficientLaw, TemperatureFade};
+use epas_friction::law::coefficient::{CoefficientLaw, OneCoefficient, TemperatureFade};
 use epas_friction::law::memory::{MemoryState, Part, ProportionalElements, SLIP_8};
 use epas_friction::law::motion::{
     CountSensor, CountSensorParameters, NutAngle, SpeedOverTick, WrappedAngle,
@@ -575,4 +575,36 @@ fn coefficients_between_two_laws() {
         }
     }
     errors.assert(3.2e-2, 6e-3, 1e-3);
+}
+
+/// A law whose coefficients are all the same is one coefficient, to the bit.
+#[test]
+fn equal_coefficients_are_one() {
+    let scene = caged();
+    let by_law = with_memory(scene, slip(0.5, BREAKAWAY), speed_sensor(), scene.friction);
+    let mut by_law =
+        FrictionModel::<WithMemory<CagedBallScrew, Slip, SpeedOverTick>>::new(&by_law).unwrap();
+    let one = WithMemoryConfiguration::new(
+        scene,
+        scene.friction,
+        slip(0.5, BREAKAWAY),
+        speed_sensor(),
+        1000.0,
+    );
+    let one = WithMemoryConfiguration {
+        play: BREAKAWAY,
+        ..one.unwrap()
+    };
+    let mut one =
+        FrictionModel::<WithMemory<CagedBallScrew, Slip, _, OneCoefficient>>::new(&one).unwrap();
+    let mut random = Random(8);
+    for _ in 0..2000 {
+        let speed = random.between(-50.0, 50.0) as f32;
+        let load = random.between(-8000.0, 8000.0) as f32;
+        let inputs = WithMemoryInputs {
+            temperature: random.between(233.0, 393.0) as f32,
+            ..fresh(screw(speed, load), speed)
+        };
+        assert_eq!(by_law.step(inputs), one.step(inputs));
+    }
 }

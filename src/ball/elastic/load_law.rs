@@ -246,6 +246,12 @@ impl LoadLaw {
         }
     }
 
+    /// [`LoadLaw::at`] as a call: for steps that look several laws up.
+    #[inline(never)]
+    pub(crate) fn found(&self, range: LoadRange, load: f32) -> (f32, bool) {
+        self.at(range, load)
+    }
+
     /// Friction torque over the whole contact force, m, under a load of a size, N; and whether the ball stands in two
     /// contacts, or did not settle. Below the smallest load the ratio is that of the smallest, as without friction of the
     /// third contact; above the largest that of the largest.

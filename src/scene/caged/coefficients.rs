@@ -85,7 +85,7 @@ impl CoefficientLaws {
         let [(second, second_beyond), (third, third_beyond)] =
             [second, third].map(|[drive, backdrive]| {
                 let law = if assists { backdrive } else { drive };
-                law.at(range, load)
+                law.found(range, load)
             });
         let at = if friction > self.largest {
             self.largest

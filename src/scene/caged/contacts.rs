@@ -233,7 +233,10 @@ impl Contacts {
         other: bool,
         friction: f32,
     ) -> (f32, Faults) {
-        let (first, faults) = state.folded(self.range, load, other);
+        let [drive, backdrive] = &state.laws;
+        let law = if other { backdrive } else { drive };
+        let (first, beyond) = law.found(self.range, load);
+        let faults = Faults::NONE.with(beyond, Faults::BEYOND_MODEL);
         match laws {
             Some(laws) => {
                 let (ratio, beyond) = laws.at(self.range, load, other, friction, first);

@@ -2,12 +2,12 @@
 
 use super::inputs::Freshness;
 use crate::error::Error;
-use crate::law::coefficient::{CoefficientLaw, TemperatureFade};
+use crate::law::coefficient::{CoefficientLaw, OneCoefficient, TemperatureFade};
 use crate::law::memory::Hysteresis;
 
 /// What the engineer sets for a scene with memory; elements, sensor and law are checked already.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct WithMemoryConfiguration<C, E, A> {
+pub struct WithMemoryConfiguration<C, E, A, L = CoefficientLaw> {
     /// Configuration of the scene without memory. Its friction coefficient is one that the law gives, best the boundary
     /// coefficient; its tick is that of [`FrictionModel::step`](crate::FrictionModel::step).
     pub scene: C,
@@ -21,20 +21,20 @@ pub struct WithMemoryConfiguration<C, E, A> {
     /// Turn, rad (m), that the motion has to go back before balls go back too, over two; 0 to 1e3. The breakaway angle is
     /// right: where friction has turned round.
     pub play: f32,
-    /// Friction coefficient by speed, temperature and direction.
-    pub coefficient: CoefficientLaw,
+    /// Friction coefficient: by speed, temperature and direction, or one alone.
+    pub coefficient: L,
     /// How old a temperature may be, and what stands in for it then.
     pub temperature: TemperatureFade,
     /// How old loads may be.
     pub freshness: Freshness,
 }
 
-impl<C: Copy, E: Hysteresis + Copy, A: Copy> WithMemoryConfiguration<C, E, A> {
+impl<C: Copy, E: Hysteresis + Copy, A: Copy> WithMemoryConfiguration<C, E, A, OneCoefficient> {
     /// A scene with one friction coefficient, 1e-6 to 1, at every speed and temperature: that of its own configuration. The
     /// play is the elements' breakaway.
     ///
     /// # Errors
-    /// [`Error`] naming `boundary`, the friction coefficient.
+    /// [`Error`] naming `friction`.
     pub fn new(
         scene: C,
         friction: f32,
@@ -48,7 +48,7 @@ impl<C: Copy, E: Hysteresis + Copy, A: Copy> WithMemoryConfiguration<C, E, A> {
             angle,
             reference_load,
             play: elements.breakaway(),
-            coefficient: CoefficientLaw::constant(friction)?,
+            coefficient: OneCoefficient::new(friction)?,
             temperature: TemperatureFade::DEFAULT,
             freshness: Freshness::DEFAULT,
         })

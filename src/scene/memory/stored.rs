@@ -2,7 +2,7 @@
 
 use super::{Sliding, WithMemory, WithMemoryConstants, WithMemoryState};
 use crate::error::Range;
-use crate::law::coefficient::TEMPERATURE;
+use crate::law::coefficient::{CoefficientModel, TEMPERATURE};
 use crate::law::motion::{NutAngle, PlayState};
 use crate::law::{Elements, SlidingLimits};
 use crate::scene::contract::Scene;
@@ -12,17 +12,18 @@ use crate::stored::{Fingerprint, Fingerprinted, Port, Refusal, Stored};
 /// Added to the kind of the scene without memory.
 const MEMORY: u16 = 0x100;
 
-impl<S, E, A> StoredScene for WithMemory<S, E, A>
+impl<S, E, A, L> StoredScene for WithMemory<S, E, A, L>
 where
     S: StoredScene + Sliding<Constants: Copy, Inputs: Stored, Full: Stored + Default> + Copy,
     E: Elements<State: Stored> + Fingerprinted + Copy,
     A: NutAngle<State: Stored> + Fingerprinted + Copy,
+    L: CoefficientModel,
 {
     const KIND: u16 = MEMORY + S::KIND;
     const BALLS: u16 = S::BALLS;
 
     fn fingerprint(
-        constants: &WithMemoryConstants<S::Constants, E, A>,
+        constants: &WithMemoryConstants<S::Constants, E, A, L>,
         fingerprint: &mut Fingerprint,
     ) {
         S::fingerprint(&constants.scene, fingerprint);
@@ -33,8 +34,8 @@ where
     }
 
     fn complete(
-        constants: &WithMemoryConstants<S::Constants, E, A>,
-        state: &mut WithMemoryState<S, E, A>,
+        constants: &WithMemoryConstants<S::Constants, E, A, L>,
+        state: &mut WithMemoryState<S, E, A, L>,
     ) -> Result<(), Refusal> {
         S::complete(&constants.scene, &mut state.scene)?;
         if !constants.angle.gave(&state.reading) {
@@ -50,17 +51,18 @@ where
         Ok(())
     }
 
-    fn forget_readings(state: &mut WithMemoryState<S, E, A>) {
+    fn forget_readings(state: &mut WithMemoryState<S, E, A, L>) {
         S::forget_readings(&mut state.scene);
         state.reading = A::FRESH;
     }
 }
 
-impl<S, E, A> Stored for WithMemoryState<S, E, A>
+impl<S, E, A, L> Stored for WithMemoryState<S, E, A, L>
 where
     S: Sliding<State: Stored, Inputs: Stored, Full: Stored + Default>,
     E: Elements<State: Stored>,
     A: NutAngle<State: Stored>,
+    L: CoefficientModel,
 {
     const BYTES: usize = <S::State as Stored>::BYTES
         + <E::State as Stored>::BYTES

@@ -1,0 +1,109 @@
+//! Where a scene's friction coefficient comes from.
+
+use core::fmt::Debug;
+
+use super::form::{CoefficientAtTemperature, CoefficientLaw, DirectionalCoefficient};
+use crate::error::{Error, attempt};
+use crate::ranges;
+
+/// What gives a scene with memory its friction coefficient: [`CoefficientLaw`] by speed, temperature and direction, or
+/// [`OneCoefficient`], which leaves out what only a law needs.
+pub trait CoefficientModel: Copy + Debug + PartialEq {
+    /// The coefficient at one temperature.
+    type At: Copy + Debug + PartialEq;
+    /// What a scene keeps for other coefficients than its own.
+    type Kept<T: Copy + Debug + PartialEq>: Copy + Debug + PartialEq;
+
+    /// The coefficient at a temperature, K.
+    fn at_temperature(&self, temperature: f32) -> Self::At;
+
+    /// Friction coefficients of both directions at a speed of this size.
+    fn both(at: &Self::At, speed: f32) -> DirectionalCoefficient;
+
+    /// Torque of churned lubricant, N m, at a speed, rad/s.
+    fn churning_torque(at: &Self::At, speed: f32) -> f32;
+
+    /// Keeps what `fold` makes for coefficients between two, where they change.
+    fn keep<T: Copy + Debug + PartialEq>(&self, fold: impl FnOnce(f32, f32) -> T) -> Self::Kept<T>;
+
+    /// What was kept.
+    fn kept<T: Copy + Debug + PartialEq>(kept: &Self::Kept<T>) -> Option<&T>;
+}
+
+/// One friction coefficient at every speed and temperature, in both directions; no churning.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct OneCoefficient {
+    friction: f32,
+}
+
+impl OneCoefficient {
+    /// A friction coefficient, 1e-6 to 1.
+    ///
+    /// # Errors
+    /// [`Error`] naming `friction`.
+    pub const fn new(friction: f32) -> Result<Self, Error> {
+        let friction = attempt!(ranges::FRICTION.checked("friction", friction));
+        Ok(Self { friction })
+    }
+}
+
+impl CoefficientModel for OneCoefficient {
+    type At = Self;
+    type Kept<T: Copy + Debug + PartialEq> = ();
+
+    #[inline(always)]
+    fn at_temperature(&self, _: f32) -> Self {
+        *self
+    }
+
+    #[inline(always)]
+    fn both(at: &Self, _: f32) -> DirectionalCoefficient {
+        DirectionalCoefficient {
+            forward: at.friction,
+            backward: at.friction,
+        }
+    }
+
+    #[inline(always)]
+    fn churning_torque(_: &Self, _: f32) -> f32 {
+        0.0
+    }
+
+    fn keep<T: Copy + Debug + PartialEq>(&self, _: impl FnOnce(f32, f32) -> T) {}
+
+    #[inline(always)]
+    fn kept<T: Copy + Debug + PartialEq>((): &()) -> Option<&T> {
+        None
+    }
+}
+
+impl CoefficientModel for CoefficientLaw {
+    type At = CoefficientAtTemperature;
+    type Kept<T: Copy + Debug + PartialEq> = T;
+
+    #[inline(always)]
+    fn at_temperature(&self, temperature: f32) -> CoefficientAtTemperature {
+        Self::at_temperature(self, temperature)
+    }
+
+    #[inline(always)]
+    fn both(at: &CoefficientAtTemperature, speed: f32) -> DirectionalCoefficient {
+        at.both(speed)
+    }
+
+    #[inline(always)]
+    fn churning_torque(at: &CoefficientAtTemperature, speed: f32) -> f32 {
+        at.churning_torque(speed)
+    }
+
+    fn keep<T: Copy + Debug + PartialEq>(&self, fold: impl FnOnce(f32, f32) -> T) -> T {
+        let (least, largest) = self.extremes();
+        fold(least, largest)
+    }
+
+    #[inline(always)]
+    fn kept<T: Copy + Debug + PartialEq>(kept: &T) -> Option<&T> {
+        Some(kept)
+    }
+}
