@@ -31,7 +31,7 @@ pub trait StoredScene: Scene<State: Stored + Copy> {
 }
 
 /// Friction torques and forces, loads: N m, N.
-pub(super) const FRICTION: Range = Range::new(0.0, 1e9);
+pub(in crate::scene) const FRICTION: Range = Range::new(0.0, 1e9);
 
 /// A friction coefficient over any other.
 pub(super) const WAYS: Range = Range::new(0.0, 1e9);

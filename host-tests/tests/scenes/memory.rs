@@ -255,6 +255,11 @@ fn friction_follows_the_angle_as_its_elements_do() {
     let mut random = Random(17);
     let mut angle = 0.0_f32;
     let mut readings = WrappedAngle::FRESH;
+    // Four ticks know both directions' friction at this load.
+    for _ in 0..4 {
+        angle_sensor().turn(&mut readings, angle);
+        model.step(fresh(screw(0.0, load), angle));
+    }
     for _ in 0..5000 {
         angle += random.between(-1e-3, 1e-3) as f32;
         angle = angle.clamp(-0.01, 0.01);
@@ -472,16 +477,25 @@ fn odd_under_reversal_of_motion_and_load() {
     let (mut model, mut mirrored) = (caged_by_angle(), caged_by_angle());
     let mut random = Random(3);
     let mut angle = 0.0;
-    for _ in 0..2000 {
-        angle += random.between(-1e-3, 1e-3) as f32;
+    for tick in 0..2000 {
+        // Before it has moved, a model takes the motion for a forward one.
+        angle += if tick < 50 {
+            1e-4
+        } else {
+            random.between(-1e-3, 1e-3) as f32
+        };
         let (speed, load) = (
             random.between(-5.0, 5.0) as f32,
             random.between(-8000.0, 8000.0) as f32,
         );
         let outputs = model.step(fresh(screw(speed, load), angle));
         let opposite = mirrored.step(fresh(screw(-speed, -load), -angle));
-        assert_eq!(outputs.friction_torque, -opposite.friction_torque);
-        assert_eq!(outputs.regime, opposite.regime);
+        assert!(
+            tick < 50
+                || outputs.friction_torque == -opposite.friction_torque
+                    && outputs.regime == opposite.regime,
+            "{tick}: {outputs:?} {opposite:?}"
+        );
     }
 }
 

@@ -53,6 +53,18 @@ pub(super) struct ContactsState {
     /// Whether friction or clearance have been set.
     changes: bool,
     turn: u8,
+    /// What laws said last, for a load that opposes the motion and for one that assists it; in a scene with memory.
+    found: [Found; 2],
+}
+
+/// What laws say of a load.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(super) struct Found {
+    /// Friction torque over the whole contact force, m.
+    pub(super) ratio: f32,
+    /// Whether balls are not known well there.
+    pub(super) beyond: bool,
 }
 
 impl Contacts {
@@ -104,10 +116,15 @@ impl Contacts {
             grooving,
             changes: false,
             turn: 0,
+            found: [Found {
+                ratio: 0.0,
+                beyond: false,
+            }; 2],
         };
         for (law, side) in state.laws.iter_mut().zip([1.0, -1.0]) {
             law.fold(&self.ball, &grooving, self.range, side);
         }
+        self.begin(&mut state);
         state
     }
 
@@ -115,6 +132,16 @@ impl Contacts {
     pub(super) fn reset(&self, state: &mut ContactsState) {
         state.grooving = Grooving::new(&self.ball, self.friction, self.clearance.gap());
         state.changes = false;
+        state.turn = 0;
+        self.begin(state);
+    }
+
+    /// Friction of both directions before the first tick.
+    fn begin(&self, state: &mut ContactsState) {
+        for (found, law) in state.found.iter_mut().zip(&state.laws) {
+            let (ratio, beyond) = law.found(self.range, FIRST_LOAD);
+            *found = Found { ratio, beyond };
+        }
     }
 
     /// Balls go on with the friction coefficient and the clearance of these constants, renewed in every tick: the laws are those
@@ -200,15 +227,36 @@ impl Contacts {
         let other = opposing < 0.0;
         let whole = state.grooving.whole(&self.ball, load);
         let (own_friction, opposite_friction) = friction.of(way);
-        let [(own, accuracy), (opposite, _)] = if state.changes {
+        let (own, opposite, accuracy) = if state.changes {
             state.grooving.friction = own_friction;
-            let own = self.renewed(state, load, whole, other);
+            let (own, accuracy) = self.renewed(state, load, whole, other);
             let [drive, backdrive] = &state.balls;
             let opposite = if other { drive } else { backdrive };
-            [own, (opposite.ratio(), Faults::NONE)]
+            (own, opposite.ratio(), accuracy)
         } else {
-            [(other, own_friction), (!other, opposite_friction)]
-                .map(|(other, friction)| self.between(state, laws, load, other, friction))
+            // One of both in a tick: the ratio to the load changes little from tick to tick.
+            state.turn = state.turn.wrapping_add(1) % OTHER_TURN;
+            let turned = state.turn == 0;
+            let looked_up = other != turned;
+            let friction = if turned {
+                opposite_friction
+            } else {
+                own_friction
+            };
+            let found = self.between(state, laws, load, looked_up, friction);
+            let [drive, backdrive] = &mut state.found;
+            *(if looked_up {
+                &mut *backdrive
+            } else {
+                &mut *drive
+            }) = found;
+            let (own, opposite) = if other {
+                (*backdrive, *drive)
+            } else {
+                (*drive, *backdrive)
+            };
+            let beyond = Faults::NONE.with(own.beyond, Faults::BEYOND_MODEL);
+            (own.ratio, opposite.ratio, beyond)
         };
         let (forward, backward) = if way < 0.0 {
             (opposite, own)
@@ -232,17 +280,22 @@ impl Contacts {
         load: f32,
         other: bool,
         friction: f32,
-    ) -> (f32, Faults) {
+    ) -> Found {
         let [drive, backdrive] = &state.laws;
         let law = if other { backdrive } else { drive };
-        let (first, beyond) = law.found(self.range, load);
-        let faults = Faults::NONE.with(beyond, Faults::BEYOND_MODEL);
+        let (first, beyond) = law.at(self.range, load);
         match laws {
             Some(laws) => {
-                let (ratio, beyond) = laws.at(self.range, load, other, friction, first);
-                (ratio, faults.with(beyond, Faults::BEYOND_MODEL))
+                let (ratio, more) = laws.at(self.range, load, other, friction, first);
+                Found {
+                    ratio,
+                    beyond: beyond || more,
+                }
             }
-            None => (first * (friction / self.friction), faults),
+            None => Found {
+                ratio: first * (friction / self.friction),
+                beyond,
+            },
         }
     }
 

@@ -1,18 +1,8 @@
-//! Every scene in one program.
+//! Every scene in one program; those with memory have images of their own.
 
 #![no_std]
 #![no_main]
 
-use epas_firmware::scenes::{
-    Caged, CagedWithMemory, Curvature, Efficiency, Linear, Uncaged, UncagedWithMemory,
-};
+use epas_firmware::scenes::{Caged, Curvature, Efficiency, Linear, Uncaged};
 
-epas_firmware::image!(
-    Curvature,
-    Efficiency,
-    Caged,
-    CagedWithMemory,
-    Linear,
-    Uncaged,
-    UncagedWithMemory
-);
+epas_firmware::image!(Curvature, Efficiency, Caged, Linear, Uncaged);
