@@ -30,10 +30,10 @@ pub const FOOTPRINTS: [Footprint; 8] = [
     },
     Footprint {
         scene: "caged_with_memory",
-        flash: 21_000,
-        flash_small: 20_000,
-        ram: 2100,
-        stack: 300,
+        flash: 21_200,
+        flash_small: 20_400,
+        ram: 1960,
+        stack: 184,
     },
     Footprint {
         scene: "linear_bearing",

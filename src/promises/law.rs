@@ -14,7 +14,7 @@ pub const MEMORY: Promise = Promise {
     outside: "any turn: within the limits, which are not negative",
     not_finite: "a turn that is none, or beyond 1e6 rad, is no turn; limits are numbers, and if not, nothing stays for the next tick",
     tiny: "no limit: no friction; no turn: what is remembered, within the limits",
-    cycles: 190,
+    cycles: 195,
     counted: &["memory_8"],
 };
 

@@ -265,7 +265,7 @@ fn uncaged_step() {
 }
 
 /// Play of 5 um under 5 N a ball, where a light contact lies far from what it gives way: balls come to rest where the exact
-/// ones do. The largest error is that of one state of a hundred, in which a ball finds its place in steps that are cut short.
+/// ones do. Where one finds its place in steps that are cut short, they are flagged.
 #[test]
 fn light_balls_with_play() {
     const BALLS: usize = 16;

@@ -341,7 +341,21 @@ impl<const N: usize> Ring<N> {
         } else {
             fastest
         };
+        // The power of a step that is cut short is many times too large: where balls were settled the last one counts, and
+        // they settle once more.
+        let torque = ball.torque;
         ball.keep(constants, load, &settled, &found, force, fastest);
+        if found.taken < 1.0 {
+            if self.settling == 0 {
+                ball.torque = torque;
+            }
+            let round = N as u16;
+            self.settling = if self.settling < round {
+                round
+            } else {
+                self.settling
+            };
+        }
         // A ball is stiffer than a nominal one by a factor at most.
         let nominal = self.nominal.impedance;
         let ball = self.balls.get_mut(index).unwrap_or(&mut self.nominal);
