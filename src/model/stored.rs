@@ -21,7 +21,7 @@ impl<S: StoredScene, C: Borrow<S::Constants>> FrictionModel<S, C> {
     ///
     /// | counted on a Cortex-M4F | block, bytes | export, instructions | import | stack, bytes | flash of both |
     /// |---|---|---|---|---|---|
-    /// | caged | 124 | 2,200 | 5,200 | 1,900 | 4 KiB |
+    /// | caged | 114 | 2,200 | 5,200 | 1,900 | 4 KiB |
     /// | 37 balls | 1,797 | 28,000 | 32,000 | 2,700 | 8 KiB |
     ///
     /// ```
@@ -121,7 +121,9 @@ impl<S: StoredScene, C: Borrow<S::Constants>> FrictionModel<S, C> {
 
 impl<S, E, A, L, C> FrictionModel<WithMemory<S, E, A, L>, C>
 where
-    S: StoredScene + Sliding<Constants: Copy, Inputs: Stored, Full: Stored + Default> + Copy,
+    S: StoredScene
+        + Sliding<Constants: Copy, Inputs: Stored, Recent: Stored, Full: Stored + Default>
+        + Copy,
     E: Elements<State: Stored> + Fingerprinted + Copy,
     A: NutAngle<State: Stored> + Fingerprinted + Copy,
     L: CoefficientModel,

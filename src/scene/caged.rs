@@ -4,6 +4,7 @@ mod closed_form;
 mod coefficients;
 mod contacts;
 mod full;
+mod recent;
 mod stored;
 
 use super::contract::{Admitted, Inputs, Limits, Scene, SceneOutputs};
@@ -21,6 +22,7 @@ use closed_form::ClosedForm;
 use coefficients::CoefficientLaws;
 use contacts::{Contacts, ContactsState};
 pub use full::CagedFull;
+pub use recent::CagedRecent;
 
 /// Friction of contacts, and closed forms, as numbers that an error can name.
 const CONTACTS: f32 = 0.0;
@@ -186,6 +188,7 @@ pub struct CagedCoefficients {
 
 impl Sliding for CagedBallScrew {
     type Coefficients = CagedCoefficients;
+    type Recent = CagedRecent;
     type Full = CagedFull;
 
     fn coefficients(constants: &CagedConstants, least: f32, largest: f32) -> CagedCoefficients {
@@ -194,6 +197,13 @@ impl Sliding for CagedBallScrew {
         };
         CagedCoefficients {
             laws: contacts.laws_between(least, largest),
+        }
+    }
+
+    fn recent(constants: &CagedConstants, state: &CagedState) -> CagedRecent {
+        match (&constants.law, &state.contacts) {
+            (Law::Contacts(contacts), Some(state)) => contacts.recent(state),
+            _ => CagedRecent::NONE,
         }
     }
 
@@ -208,6 +218,7 @@ impl Sliding for CagedBallScrew {
     fn full(
         constants: &CagedConstants,
         state: &mut CagedState,
+        recent: &mut CagedRecent,
         coefficients: Option<&CagedCoefficients>,
         inputs: Inputs,
         friction: DirectionalCoefficient,
@@ -215,7 +226,7 @@ impl Sliding for CagedBallScrew {
         match (&constants.law, &mut state.contacts) {
             (Law::Contacts(contacts), Some(state)) => {
                 let laws = coefficients.and_then(|known| known.laws.as_ref());
-                contacts.both_ways(state, laws, inputs, friction)
+                contacts.both_ways(state, recent, laws, inputs, friction)
             }
             (Law::Closed(closed), _) => closed.both_ways(inputs.axial_load),
             (Law::Contacts(_), None) => CagedFull {

@@ -153,9 +153,12 @@ pub struct LinearFull {
 impl<const N: usize> Sliding for LinearBearingTrain<N> {
     /// Friction and all forces between balls are in proportion to the friction coefficient.
     type Coefficients = ();
+    type Recent = ();
     type Full = LinearFull;
 
     fn coefficients(_: &LinearConstants<N>, _: f32, _: f32) {}
+
+    fn recent(_: &LinearConstants<N>, _: &LinearState<N>) {}
 
     fn friction(constants: &LinearConstants<N>) -> f32 {
         constants.friction
@@ -165,6 +168,7 @@ impl<const N: usize> Sliding for LinearBearingTrain<N> {
     fn full(
         constants: &LinearConstants<N>,
         state: &mut LinearState<N>,
+        (): &mut (),
         _: Option<&()>,
         inputs: LinearInputs,
         friction: DirectionalCoefficient,

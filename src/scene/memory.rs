@@ -65,6 +65,7 @@ pub struct WithMemoryState<
     /// State of the scene without memory.
     pub scene: S::State,
     coefficients: L::Kept<S::Coefficients>,
+    recent: S::Recent,
     /// What the elements remember.
     pub elements: E::State,
     reading: A::State,
@@ -108,8 +109,10 @@ where
             temperature,
             ..
         } = constants;
+        let state = S::initial_state(scene);
         WithMemoryState {
-            scene: S::initial_state(scene),
+            recent: S::recent(scene, &state),
+            scene: state,
             coefficients: coefficient.keep(|least, largest| S::coefficients(scene, least, largest)),
             elements: E::VIRGIN,
             reading: A::FRESH,
@@ -127,6 +130,7 @@ where
 
     fn reset(constants: &Self::Constants, state: &mut Self::State) {
         S::reset(&constants.scene, &mut state.scene);
+        state.recent = S::recent(&constants.scene, &state.scene);
         state.elements = E::VIRGIN;
         state.reading = A::FRESH;
         state.play = PlayState::FRESH;
@@ -197,6 +201,7 @@ where
         let full = S::full(
             &constants.scene,
             &mut state.scene,
+            &mut state.recent,
             L::kept(&state.coefficients),
             inputs.with(speed, factor),
             L::both(&state.at_temperature, measured),

@@ -2,6 +2,7 @@
 
 mod configuration;
 mod full;
+mod sliding;
 mod stored;
 
 use core::f32::consts::TAU;
@@ -10,15 +11,12 @@ use super::circuit::{Circuit, CircuitState, UNLOADED, per_loaded_ball};
 use super::contract::{Admitted, Inputs, Limits, Scene};
 use super::faults::Faults;
 use super::outputs::UncagedOutputs;
-use super::passage::{Passage, Reversal};
-use super::sliding::Sliding;
+use super::passage::Reversal;
 use crate::ball::elastic::constants::BallConstants;
 use crate::ball::elastic::law::{Neighbour, Neighbours, RingConstants, RingLoad};
 use crate::ball::elastic::ring::Ring;
 use crate::ball::{Clearance, GrooveFit, LoadShare, ScrewRow};
 use crate::error::{Error, attempt};
-use crate::law::SlidingLimits;
-use crate::law::coefficient::DirectionalCoefficient;
 use crate::ranges;
 
 pub use configuration::UncagedBallScrewConfiguration;
@@ -125,59 +123,6 @@ impl<const N: usize> Scene for UncagedBallScrew<N> {
     #[inline(always)]
     fn largest_friction(constants: &UncagedConstants<N>) -> f32 {
         constants.limits.friction_torque
-    }
-}
-
-impl<const N: usize> Sliding for UncagedBallScrew<N> {
-    /// Balls take a friction coefficient over as their turn comes.
-    type Coefficients = ();
-    type Full = UncagedFull;
-
-    fn coefficients(_: &UncagedConstants<N>, _: f32, _: f32) {}
-
-    fn friction(constants: &UncagedConstants<N>) -> f32 {
-        constants.friction
-    }
-
-    #[inline(always)]
-    fn full(
-        constants: &UncagedConstants<N>,
-        state: &mut UncagedState<N>,
-        _: Option<&()>,
-        inputs: Inputs,
-        friction: DirectionalCoefficient,
-    ) -> UncagedFull {
-        state.ring.take_friction(friction.of(inputs.nut_speed).0);
-        let mut full = constants.full(state, inputs);
-        full.groove *= state.ring.friction_ahead();
-        full.ways = friction.over_own(inputs.nut_speed);
-        full
-    }
-
-    /// Both directions have the friction of that in which the balls go, times their friction coefficients.
-    #[inline(always)]
-    fn limits(full: &UncagedFull) -> SlidingLimits {
-        let [forward, backward] = full.ways;
-        SlidingLimits {
-            forward: forward * full.groove + full.ball,
-            backward: backward * full.groove + full.ball,
-            load: full.load,
-        }
-    }
-
-    #[inline(always)]
-    fn passed(
-        constants: &UncagedConstants<N>,
-        inputs: Inputs,
-        full: &UncagedFull,
-        passage: Passage,
-    ) -> UncagedOutputs {
-        full.passed(inputs.axial_load * constants.reduced_lead, passage)
-    }
-
-    #[inline(always)]
-    fn speed_of(constants: &UncagedConstants<N>, turn: f32, _: f32) -> f32 {
-        turn * constants.per_tick
     }
 }
 

@@ -145,7 +145,7 @@ pub struct CagedConfiguration {
 }
 
 /// Bytes of a state of this scene, as `epas_caged_export` writes it.
-pub const EPAS_CAGED_STATE_BYTES: u32 = 124u32;
+pub const EPAS_CAGED_STATE_BYTES: u32 = 114u32;
 
 /// Size of `epas_caged_t` in words of eight bytes.
 pub const EPAS_CAGED_WORDS: usize = 273;

@@ -524,7 +524,7 @@ fn changes_while_it_runs_keep_the_memory() {
     assert_eq!(*model.state(), kept);
     assert!(core::ptr::eq(
         model.swap_constants(&second).unwrap(),
-        &first
+        &raw const first
     ));
     assert_eq!(model.state().elements, kept.elements);
     // Elements hold what they had: a larger limit lets them carry as much, and no more.

@@ -811,9 +811,9 @@ fn a_refusal_says_what_is_wrong() {
         (
             Refusal::Length {
                 found: 3,
-                expected: 124,
+                expected: 114,
             },
-            "3 bytes; the block has 124",
+            "3 bytes; the block has 114",
         ),
         (Refusal::NotAState, "the bytes are no state"),
         (
@@ -848,7 +848,7 @@ fn blocks_are_as_small_as_said() {
     fn bytes<S: StoredScene>() -> usize {
         FrictionModel::<S>::STATE_BYTES
     }
-    assert_eq!(bytes::<CagedBallScrew>(), 124);
+    assert_eq!(bytes::<CagedBallScrew>(), 114);
     assert_eq!(bytes::<Uncaged>(), 1797);
     assert_eq!(bytes::<Linear>(), 181);
     fn with<S: StoredScene + Sliding>() -> usize {

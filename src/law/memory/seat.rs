@@ -66,7 +66,7 @@ impl SeatElement {
     /// `breakaway_angle`, rad (m), beyond that play.
     ///
     /// # Errors
-    /// The field that is not within [`FREE_PLAY`], [`REFERENCE_LIMIT`] or [`BREAKAWAY`].
+    /// The field that is not within 0 to 1e3, [`REFERENCE_LIMIT`] or [`BREAKAWAY`].
     pub const fn new(
         reference_limit: f32,
         free_play: f32,

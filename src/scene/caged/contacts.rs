@@ -7,6 +7,7 @@ use core::f32::consts::TAU;
 use super::CagedBallScrewConfiguration;
 use super::coefficients::CoefficientLaws;
 use super::full::CagedFull;
+use super::recent::{CagedRecent, Found};
 use crate::ball::Clearance;
 use crate::ball::elastic::constants::BallConstants;
 use crate::ball::elastic::load_law::{LoadLaw, LoadRange};
@@ -53,18 +54,6 @@ pub(super) struct ContactsState {
     /// Whether friction or clearance have been set.
     changes: bool,
     turn: u8,
-    /// What laws said last, for a load that opposes the motion and for one that assists it; in a scene with memory.
-    found: [Found; 2],
-}
-
-/// What laws say of a load.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub(super) struct Found {
-    /// Friction torque over the whole contact force, m.
-    pub(super) ratio: f32,
-    /// Whether balls are not known well there.
-    pub(super) beyond: bool,
 }
 
 impl Contacts {
@@ -116,15 +105,10 @@ impl Contacts {
             grooving,
             changes: false,
             turn: 0,
-            found: [Found {
-                ratio: 0.0,
-                beyond: false,
-            }; 2],
         };
         for (law, side) in state.laws.iter_mut().zip([1.0, -1.0]) {
             law.fold(&self.ball, &grooving, self.range, side);
         }
-        self.begin(&mut state);
         state
     }
 
@@ -132,16 +116,15 @@ impl Contacts {
     pub(super) fn reset(&self, state: &mut ContactsState) {
         state.grooving = Grooving::new(&self.ball, self.friction, self.clearance.gap());
         state.changes = false;
-        state.turn = 0;
-        self.begin(state);
     }
 
-    /// Friction of both directions before the first tick.
-    fn begin(&self, state: &mut ContactsState) {
-        for (found, law) in state.found.iter_mut().zip(&state.laws) {
+    /// Friction of both directions before the first tick of a scene with memory.
+    pub(super) fn recent(&self, state: &ContactsState) -> CagedRecent {
+        let [drive, backdrive] = &state.laws;
+        CagedRecent::of([drive, backdrive].map(|law| {
             let (ratio, beyond) = law.found(self.range, FIRST_LOAD);
-            *found = Found { ratio, beyond };
-        }
+            Found { ratio, beyond }
+        }))
     }
 
     /// Balls go on with the friction coefficient and the clearance of these constants, renewed in every tick: the laws are those
@@ -217,6 +200,7 @@ impl Contacts {
     pub(super) fn both_ways(
         &self,
         state: &mut ContactsState,
+        recent: &mut CagedRecent,
         laws: Option<&CoefficientLaws>,
         inputs: Inputs,
         friction: DirectionalCoefficient,
@@ -234,9 +218,7 @@ impl Contacts {
             let opposite = if other { drive } else { backdrive };
             (own, opposite.ratio(), accuracy)
         } else {
-            // One of both in a tick: the ratio to the load changes little from tick to tick.
-            state.turn = state.turn.wrapping_add(1) % OTHER_TURN;
-            let turned = state.turn == 0;
+            let turned = recent.turned();
             let looked_up = other != turned;
             let friction = if turned {
                 opposite_friction
@@ -244,7 +226,7 @@ impl Contacts {
                 own_friction
             };
             let found = self.between(state, laws, load, looked_up, friction);
-            let [drive, backdrive] = &mut state.found;
+            let [drive, backdrive] = &mut recent.found;
             *(if looked_up {
                 &mut *backdrive
             } else {

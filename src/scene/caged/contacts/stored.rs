@@ -1,12 +1,11 @@
 //! Balls of the contacts' friction as bytes. The laws are those of the constants.
 
-use super::{Contacts, ContactsState, Found, OTHER_TURN};
+use super::{Contacts, ContactsState, OTHER_TURN};
 use crate::ball::elastic::nominal::{Grooving, NominalBall};
-use crate::scene::stored::FRICTION;
 use crate::stored::{Fingerprint, Port, Refusal, Stored};
 
 impl Stored for ContactsState {
-    const BYTES: usize = 2 * (NominalBall::BYTES + Found::BYTES) + Grooving::BYTES + 2;
+    const BYTES: usize = 2 * NominalBall::BYTES + Grooving::BYTES + 2;
 
     fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
         self.balls
@@ -14,19 +13,7 @@ impl Stored for ContactsState {
             .try_for_each(|ball| ball.exchange(port))?;
         self.grooving.exchange(port)?;
         port.flag("changes", &mut self.changes)?;
-        port.count("turn", &mut self.turn, OTHER_TURN - 1)?;
-        self.found
-            .iter_mut()
-            .try_for_each(|found| found.exchange(port))
-    }
-}
-
-impl Stored for Found {
-    const BYTES: usize = 5;
-
-    fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
-        port.number("ratio", &mut self.ratio, FRICTION)?;
-        port.flag("beyond", &mut self.beyond)
+        port.count("turn", &mut self.turn, OTHER_TURN - 1)
     }
 }
 

@@ -1,0 +1,67 @@
+//! Full friction of a ball screw without cage, as a memory needs it.
+
+use super::full::UncagedFull;
+use super::{UncagedBallScrew, UncagedConstants, UncagedState};
+use crate::law::SlidingLimits;
+use crate::law::coefficient::DirectionalCoefficient;
+use crate::scene::contract::Inputs;
+use crate::scene::outputs::UncagedOutputs;
+use crate::scene::passage::Passage;
+use crate::scene::sliding::Sliding;
+
+impl<const N: usize> Sliding for UncagedBallScrew<N> {
+    /// Balls take a friction coefficient over as their turn comes.
+    type Coefficients = ();
+    type Recent = ();
+    type Full = UncagedFull;
+
+    fn coefficients(_: &UncagedConstants<N>, _: f32, _: f32) {}
+
+    fn recent(_: &UncagedConstants<N>, _: &UncagedState<N>) {}
+
+    fn friction(constants: &UncagedConstants<N>) -> f32 {
+        constants.friction
+    }
+
+    #[inline(always)]
+    fn full(
+        constants: &UncagedConstants<N>,
+        state: &mut UncagedState<N>,
+        (): &mut (),
+        _: Option<&()>,
+        inputs: Inputs,
+        friction: DirectionalCoefficient,
+    ) -> UncagedFull {
+        state.ring.take_friction(friction.of(inputs.nut_speed).0);
+        let mut full = constants.full(state, inputs);
+        full.groove *= state.ring.friction_ahead();
+        full.ways = friction.over_own(inputs.nut_speed);
+        full
+    }
+
+    /// Both directions have the friction of that in which the balls go, times their friction coefficients.
+    #[inline(always)]
+    fn limits(full: &UncagedFull) -> SlidingLimits {
+        let [forward, backward] = full.ways;
+        SlidingLimits {
+            forward: forward * full.groove + full.ball,
+            backward: backward * full.groove + full.ball,
+            load: full.load,
+        }
+    }
+
+    #[inline(always)]
+    fn passed(
+        constants: &UncagedConstants<N>,
+        inputs: Inputs,
+        full: &UncagedFull,
+        passage: Passage,
+    ) -> UncagedOutputs {
+        full.passed(inputs.axial_load * constants.reduced_lead, passage)
+    }
+
+    #[inline(always)]
+    fn speed_of(constants: &UncagedConstants<N>, turn: f32, _: f32) -> f32 {
+        turn * constants.per_tick
+    }
+}
