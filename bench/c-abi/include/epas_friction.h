@@ -474,12 +474,12 @@ extern "C" {
 /**
  * Bytes of a state of this scene, as `epas_caged_export` writes it.
  */
-#define EPAS_CAGED_STATE_BYTES 124u
+#define EPAS_CAGED_STATE_BYTES 114u
 
 /**
  * Size of `epas_caged_t` in words of eight bytes.
  */
-#define EPAS_CAGED_WORDS 273
+#define EPAS_CAGED_WORDS 271
 
 /**
  * Balls in the circuit of `epas_screw_t`, return included. A screw with another number needs the library

@@ -148,7 +148,7 @@ pub struct CagedConfiguration {
 pub const EPAS_CAGED_STATE_BYTES: u32 = 114u32;
 
 /// Size of `epas_caged_t` in words of eight bytes.
-pub const EPAS_CAGED_WORDS: usize = 273;
+pub const EPAS_CAGED_WORDS: usize = 271;
 
 /// Place for the constants and the state of a caged ball screw. The caller provides it, in memory of
 /// static duration or any other; nothing in it is for the caller to read or write. Zero it, or leave it
