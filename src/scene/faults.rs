@@ -18,9 +18,10 @@ pub struct Faults(u16);
 impl Faults {
     /// Nothing is wrong.
     pub const NONE: Self = Self(0);
-    /// The speed is NaN or infinite: the output is the safe one (no friction).
+    /// The speed is NaN or infinite: the output is the safe one (no friction). In a scene with memory the last sound speed and
+    /// load stand in, and friction goes on.
     pub const SPEED_NOT_FINITE: Self = Self(1);
-    /// A load is NaN or infinite: the output is the safe one (no friction).
+    /// A load is NaN or infinite: as for the speed.
     pub const LOAD_NOT_FINITE: Self = Self(1 << 1);
     /// The speed is beyond its limit: the limit stands in for it.
     pub const SPEED_RANGE: Self = Self(1 << 2);

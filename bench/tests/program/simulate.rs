@@ -401,3 +401,85 @@ fn a_design_without_lead_makes_no_manoeuvre() {
     );
     assert_eq!(run.code, 0, "{}", run.stderr);
 }
+
+/// A column of a table by its name.
+fn column(table: &str, name: &str) -> Vec<String> {
+    let mut lines = table.lines();
+    let place = lines
+        .next()
+        .and_then(|header| header.split(',').position(|column| column == name))
+        .unwrap();
+    lines
+        .map(|line| line.split(',').nth(place).unwrap().to_owned())
+        .collect()
+}
+
+/// Away from reversals friction is that without memory; a reversal takes an angle, not a speed, and the summary names
+/// stiffness and breakaway.
+#[test]
+fn friction_remembers_where_it_is_asked_for() {
+    let folder = folder();
+    // Forward, back by little, forward again, and back for good; 1 kHz.
+    let mut trace = String::from("time,nut_speed,axial_load\n");
+    for tick in 0..400 {
+        let speed = match tick {
+            0..100 => 5.0,
+            100..102 => -0.02,
+            102..200 => 5.0,
+            _ => -5.0,
+        };
+        trace += &format!("{},{speed},1000\n", f64::from(tick) * 1e-3);
+    }
+    fs::write(folder.path().join("reversal.csv"), trace).unwrap();
+    for (design, scene) in [("design.toml", "caged"), ("lin-3.6", "uncaged")] {
+        let run = |memory: &[&str], output: &str| {
+            let common = [
+                "--design",
+                design,
+                "--scene",
+                scene,
+                "--input",
+                "reversal.csv",
+                "--output",
+                output,
+            ];
+            let done = simulate(folder.path(), &[&common, memory].concat());
+            assert_eq!(done.code, 0, "{}", done.stderr);
+            let table = fs::read_to_string(folder.path().join(output)).unwrap();
+            let friction: Vec<f64> = column(&table, "friction_torque")
+                .iter()
+                .map(|value| value.parse().unwrap())
+                .collect();
+            (friction, column(&table, "regime"), done.stdout)
+        };
+        let (plain, _, said) = run(&[], &format!("{scene}-plain.csv"));
+        assert!(!said.contains("initial stiffness"));
+        let (friction, regimes, said) = run(&["--memory"], &format!("{scene}-memory.csv"));
+        assert!(
+            said.contains("initial stiffness") && said.contains("breakaway angle"),
+            "{said}"
+        );
+        // Friction builds up; sliding, both are the same but for what the passage by the speed leaves off.
+        assert!(friction[0] < 0.99 * friction[99]);
+        for tick in [99, 199, 399] {
+            let difference = (friction[tick] - plain[tick]).abs();
+            assert!(
+                difference < 0.02 * plain[tick].abs(),
+                "{scene} {tick}: {friction:?}"
+            );
+        }
+        // Back by 40 microradians: without memory friction turns round, with it hardly a part is lost.
+        assert!(
+            plain[101] < 0.0 && friction[101] > 0.5 * friction[99],
+            "{scene}"
+        );
+        assert_eq!(regimes[101], "standing");
+        assert_ne!(regimes[399], "standing");
+    }
+    let stroke = simulate(
+        folder.path(),
+        &["--manoeuvre", "stroke", "--memory", "--output", "s.csv"],
+    );
+    assert_eq!(stroke.code, 0, "{}", stroke.stderr);
+    assert!(stroke.stdout.contains("N/m, full sliding after"));
+}

@@ -61,7 +61,7 @@ pub fn blocks() -> Result<Vec<Block>, Failure> {
             name: "memory_noise",
             caption: "Noise of a motor's encoder of 14 bits behind a ratio of 2.5 (0.153 mrad a count at the nut). Hands off for 4.9 s at 1 kHz with 0.05 rad/s of noise, the nut resting \
                       where a count changes: by speed, a regime changes whenever the noise passes the reversal speed, which can be avoided only by a \
-                      reversal speed far above the noise, at which friction is missing in every slow motion; by angle, none changes and a step of the torque is that of one count. Counts: rms error \
+                      reversal speed far above the noise, at which friction is missing in every slow motion; by angle, none changes where the nut rests in the middle of a loop, and a step of the torque is that of one count; where it has slid to rest, elements need a play as wide as the noise (the table of compensation). Counts: rms error \
                       over random strokes up to two breakaway angles long, because angles are counts. A breakaway angle below 2 mrad asks for a finer angle than that of counts"
                 .into(),
             columns: [
