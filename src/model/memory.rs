@@ -39,8 +39,12 @@ where
 
     /// Sets the law of the friction coefficient: from the next step on friction follows it. [`FrictionModel::reset`] brings
     /// the configuration's back.
-    pub fn set_coefficient(&mut self, law: L) {
-        self.state.set_coefficient(law);
+    ///
+    /// # Errors
+    /// [`Error`] naming `coefficient`, where the scene does not take the least or the largest of the law; the model goes on as it
+    /// was.
+    pub fn set_coefficient(&mut self, law: L) -> Result<(), Error> {
+        self.state.set_coefficient(law)
     }
 }
 

@@ -14,10 +14,11 @@ use super::passage::{Passage, Reversal};
 use super::sliding::Sliding;
 use crate::ball::Clearance;
 use crate::contact::RollingResistance;
-use crate::error::{Error, attempt, in_range};
+use crate::error::{Error, Range, attempt, in_range};
 use crate::geometry::BallScrew;
 use crate::law::SlidingLimits;
 use crate::law::coefficient::DirectionalCoefficient;
+use crate::ranges;
 use closed_form::ClosedForm;
 use coefficients::CoefficientLaws;
 use contacts::{Contacts, ContactsState};
@@ -187,6 +188,8 @@ pub struct CagedCoefficients {
 }
 
 impl Sliding for CagedBallScrew {
+    const FRICTION: Range = ranges::FRICTION_OF_A_ROW;
+
     type Coefficients = CagedCoefficients;
     type Recent = CagedRecent;
     type Full = CagedFull;

@@ -14,7 +14,7 @@ use crate::ball::{
     AnalyticLinearBall, BorderParameters, GrooveFriction, LoadShare, largest_deviation,
 };
 use crate::contact::FrictionMap;
-use crate::error::{Error, attempt};
+use crate::error::{Error, Range, attempt};
 use crate::hertz::HertzContact;
 use crate::law::SlidingLimits;
 use crate::law::coefficient::DirectionalCoefficient;
@@ -151,6 +151,8 @@ pub struct LinearFull {
 }
 
 impl<const N: usize> Sliding for LinearBearingTrain<N> {
+    const FRICTION: Range = ranges::FRICTION;
+
     /// Friction and all forces between balls are in proportion to the friction coefficient.
     type Coefficients = ();
     type Recent = ();

@@ -99,6 +99,7 @@ where
 
     fn constants(configuration: &Self::Configuration) -> Result<Self::Constants, Error> {
         let scene = S::constants(&configuration.scene)?;
+        checked::<S, L>(configuration.coefficient)?;
         WithMemoryConstants::new(scene, configuration)
     }
 
@@ -145,9 +146,9 @@ where
     }
 
     fn take_over(constants: &Self::Constants, state: &mut Self::State) -> Result<(), Error> {
+        checked::<S, L>(constants.coefficient)?;
         S::take_over(&constants.scene, &mut state.scene)?;
-        state.set_coefficient(constants.coefficient);
-        Ok(())
+        state.set_coefficient(constants.coefficient)
     }
 
     /// Inputs of the scene that are no numbers leave the others as they are.
@@ -204,7 +205,7 @@ where
             &mut state.recent,
             L::kept(&state.coefficients),
             inputs.with(speed, factor),
-            L::both(&state.at_temperature, measured),
+            L::both(&state.at_temperature, measured).within(S::FRICTION.maximum),
         );
         let limits = S::limits(&full);
         state.limits = SlidingLimits {
@@ -222,6 +223,15 @@ where
     }
 }
 
+/// A friction coefficient that the scene takes at every speed and temperature. Constants that the compiler folds cannot ask for
+/// that: in the loop the largest that the scene takes stands in for a larger one.
+fn checked<S: Sliding, L: CoefficientModel>(law: L) -> Result<L, Error> {
+    let (least, largest) = law.extremes();
+    S::FRICTION.checked("coefficient", least)?;
+    S::FRICTION.checked("coefficient", largest)?;
+    Ok(law)
+}
+
 /// No friction.
 const NONE: SlidingLimits = SlidingLimits {
     forward: 0.0,
@@ -231,9 +241,10 @@ const NONE: SlidingLimits = SlidingLimits {
 
 impl<S: Sliding, E: Elements, A: NutAngle, L: CoefficientModel> WithMemoryState<S, E, A, L> {
     /// See [`FrictionModel::set_coefficient`](crate::FrictionModel::set_coefficient).
-    pub(crate) fn set_coefficient(&mut self, law: L) {
-        self.coefficient = law;
+    pub(crate) fn set_coefficient(&mut self, law: L) -> Result<(), Error> {
+        self.coefficient = checked::<S, L>(law)?;
         self.at_temperature = law.at_temperature(self.temperature);
+        Ok(())
     }
 
     /// -1 where the balls went backward last, else 1.

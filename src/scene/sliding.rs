@@ -3,6 +3,7 @@
 
 use super::contract::Scene;
 use super::passage::{Motion, Passage};
+use crate::error::Range;
 use crate::law::SlidingLimits;
 use crate::law::coefficient::DirectionalCoefficient;
 
@@ -10,6 +11,9 @@ use crate::law::coefficient::DirectionalCoefficient;
 ///
 /// What [`WithMemory`](super::WithMemory) needs of a scene.
 pub trait Sliding: Scene<Known = <Self as Scene>::Inputs, Inputs: Motion> {
+    /// Friction coefficients of ball and groove that the scene takes.
+    const FRICTION: Range;
+
     /// What friction coefficients beside the configuration's need: folded before the first tick.
     type Coefficients: Copy + core::fmt::Debug + PartialEq;
     /// What was found in the last ticks, in a scene with memory alone.

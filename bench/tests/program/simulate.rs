@@ -420,16 +420,17 @@ fn column(table: &str, name: &str) -> Vec<String> {
 fn friction_remembers_where_it_is_asked_for() {
     let folder = folder();
     // Forward, back by little, forward again, and back for good; 1 kHz.
-    let mut trace = String::from("time,nut_speed,axial_load\n");
-    for tick in 0..400 {
+    let rows = (0..400).map(|tick| {
         let speed = match tick {
-            0..100 => 5.0,
             100..102 => -0.02,
-            102..200 => 5.0,
+            0..200 => 5.0,
             _ => -5.0,
         };
-        trace += &format!("{},{speed},1000\n", f64::from(tick) * 1e-3);
-    }
+        format!("{},{speed},1000\n", f64::from(tick) * 1e-3)
+    });
+    let trace: String = std::iter::once("time,nut_speed,axial_load\n".to_owned())
+        .chain(rows)
+        .collect();
     fs::write(folder.path().join("reversal.csv"), trace).unwrap();
     for (design, scene) in [("design.toml", "caged"), ("lin-3.6", "uncaged")] {
         let run = |memory: &[&str], output: &str| {

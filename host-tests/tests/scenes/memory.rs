@@ -4,7 +4,9 @@
 use std::f32::consts::TAU;
 
 use epas_friction::defaults::COEFFICIENT;
-use epas_friction::law::coefficient::{CoefficientLaw, OneCoefficient, TemperatureFade};
+use epas_friction::law::coefficient::{
+    CoefficientLaw, CoefficientParameters, OneCoefficient, TemperatureFade,
+};
 use epas_friction::law::memory::{MemoryState, Part, ProportionalElements, SLIP_8};
 use epas_friction::law::motion::{
     CountSensor, CountSensorParameters, NutAngle, SpeedOverTick, WrappedAngle,
@@ -621,4 +623,29 @@ fn equal_coefficients_are_one() {
         };
         assert_eq!(by_law.step(inputs), one.step(inputs));
     }
+}
+
+/// A law that gives more than the scene takes is refused, at set-up and while it runs.
+#[test]
+fn coefficients_beyond_the_scene_are_refused() {
+    let scene = caged();
+    let mut model = caged_by_angle();
+    let steep = CoefficientLaw::new(&CoefficientParameters {
+        boundary: 0.7,
+        ..COEFFICIENT
+    })
+    .unwrap();
+    let configuration = WithMemoryConfiguration {
+        coefficient: steep,
+        ..with_memory(scene, slip(0.5, BREAKAWAY), angle_sensor(), scene.friction)
+    };
+    let refused = Caged::new(&configuration).unwrap_err();
+    assert_eq!((refused.field(), refused.value()), ("coefficient", 0.7));
+    let before = *model.state();
+    assert_eq!(model.set_coefficient(steep).unwrap_err(), refused);
+    assert_eq!(*model.state(), before);
+    model
+        .set_coefficient(CoefficientLaw::new(&COEFFICIENT).unwrap())
+        .unwrap();
+    assert_ne!(*model.state(), before);
 }

@@ -159,15 +159,25 @@ fn touching(
     let square = dx * dx + dz * dz;
     let inverse = 1.0 / square;
     let along = 0.5 * (1.0 + (distance - other) * (distance + other) * inverse);
-    let off = math::sqrt(distance * distance * inverse - along * along);
+    let off = root(distance * distance * inverse - along * along);
     // Arcs' centres lie on the ball's side of the middle, and the ball between them and the middle.
     let off = if (x < 0.0) == (dz > 0.0) { off } else { -off };
     (x + along * dx + off * dz, z + along * dz - off * dx)
 }
 
+/// Square root; none of what is below zero, where contacts give way so far that circles about their arcs do not meet.
+#[inline(always)]
+fn root(square: f32) -> f32 {
+    if square > 0.0 {
+        math::sqrt(square)
+    } else {
+        0.0
+    }
+}
+
 /// The axial place, on the side of the groove's middle, at a distance from the centre of an arc.
 #[inline(always)]
 fn beside((ax, az): (f32, f32), distance: f32, x: f32) -> f32 {
-    let off = math::sqrt(distance * distance - (x - ax) * (x - ax));
+    let off = root(distance * distance - (x - ax) * (x - ax));
     if az > 0.0 { az - off } else { az + off }
 }

@@ -124,6 +124,24 @@ impl DirectionalCoefficient {
         }
     }
 
+    /// Both, at most so large.
+    #[inline(always)]
+    #[must_use]
+    pub const fn within(self, largest: f32) -> Self {
+        Self {
+            forward: if self.forward < largest {
+                self.forward
+            } else {
+                largest
+            },
+            backward: if self.backward < largest {
+                self.backward
+            } else {
+                largest
+            },
+        }
+    }
+
     /// Both over that of the direction of a sign, forward first.
     #[inline(always)]
     #[must_use]

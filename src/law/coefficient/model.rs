@@ -14,6 +14,9 @@ pub trait CoefficientModel: Copy + Debug + PartialEq {
     /// What a scene keeps for other coefficients than its own.
     type Kept<T: Copy + Debug + PartialEq>: Copy + Debug + PartialEq;
 
+    /// Least and largest coefficient, in either direction.
+    fn extremes(&self) -> (f32, f32);
+
     /// The coefficient at a temperature, K.
     fn at_temperature(&self, temperature: f32) -> Self::At;
 
@@ -52,6 +55,10 @@ impl CoefficientModel for OneCoefficient {
     type At = Self;
     type Kept<T: Copy + Debug + PartialEq> = ();
 
+    fn extremes(&self) -> (f32, f32) {
+        (self.friction, self.friction)
+    }
+
     #[inline(always)]
     fn at_temperature(&self, _: f32) -> Self {
         *self
@@ -81,6 +88,10 @@ impl CoefficientModel for OneCoefficient {
 impl CoefficientModel for CoefficientLaw {
     type At = CoefficientAtTemperature;
     type Kept<T: Copy + Debug + PartialEq> = T;
+
+    fn extremes(&self) -> (f32, f32) {
+        Self::extremes(self)
+    }
 
     #[inline(always)]
     fn at_temperature(&self, temperature: f32) -> CoefficientAtTemperature {

@@ -2,14 +2,18 @@
 
 use super::full::UncagedFull;
 use super::{UncagedBallScrew, UncagedConstants, UncagedState};
+use crate::error::Range;
 use crate::law::SlidingLimits;
 use crate::law::coefficient::DirectionalCoefficient;
+use crate::ranges;
 use crate::scene::contract::Inputs;
 use crate::scene::outputs::UncagedOutputs;
 use crate::scene::passage::Passage;
 use crate::scene::sliding::Sliding;
 
 impl<const N: usize> Sliding for UncagedBallScrew<N> {
+    const FRICTION: Range = ranges::FRICTION_OF_A_ROW;
+
     /// Balls take a friction coefficient over as their turn comes.
     type Coefficients = ();
     type Recent = ();
