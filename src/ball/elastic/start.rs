@@ -181,3 +181,43 @@ fn beside((ax, az): (f32, f32), distance: f32, x: f32) -> f32 {
     let off = root(distance * distance - (x - ax) * (x - ax));
     if az > 0.0 { az - off } else { az + off }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{BallScrew, CATALOGUE};
+    use crate::material::Material;
+
+    /// Loads that no screw bears, to 1e7 N a ball, leave a ball somewhere: no place that is no number gets into a state.
+    #[test]
+    fn crushed_balls_have_a_place() {
+        let soft = Material {
+            youngs_modulus: 1e6,
+            ..Material::STEEL
+        };
+        let designs = CATALOGUE.iter().flat_map(|size| {
+            let mut parameters = size.parameters();
+            let steel = parameters;
+            (parameters.ball_material, parameters.groove_material) = (soft, soft);
+            [steel, parameters]
+        });
+        for parameters in designs {
+            let grooves = ElasticGrooves::new(&BallScrew::new(parameters).unwrap()).unwrap();
+            let mut load = 1.0;
+            while load < 1e7 {
+                for clearance in [-2e-5, 0.0, 2e-5] {
+                    for axial_load in [load, -load] {
+                        let mut inputs = BallInputs::alone(axial_load, 0.1, clearance);
+                        (inputs.screw_deviation, inputs.nut_deviation) = (0.03, -0.03);
+                        let place = grooves.start(&inputs).place;
+                        assert!(
+                            place.iter().all(|length| length.is_finite()),
+                            "{parameters:?} {axial_load} {clearance}: {place:?}"
+                        );
+                    }
+                }
+                load *= 1.3;
+            }
+        }
+    }
+}
