@@ -8,6 +8,7 @@ mod cortex_m;
 mod curvature;
 mod document;
 mod efficiency;
+mod flagship;
 mod hertz;
 mod kernels;
 mod kinematics;
@@ -29,7 +30,7 @@ use crate::target::TargetFigures;
 use crate::timing::compete;
 use context::Context;
 use document::{Document, Section};
-use uncaged::Flagship;
+use flagship::Flagship;
 
 /// Rounds whose medians are a measurement.
 const ROUNDS: usize = 1500;

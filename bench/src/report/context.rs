@@ -1,7 +1,7 @@
 //! What every section of the report works with.
 
+use super::flagship::Flagship;
 use crate::failure::Failure;
-use crate::report::uncaged::Flagship;
 use crate::target::TargetFigures;
 use crate::timing::Competition;
 

@@ -6,48 +6,17 @@ mod figures;
 mod pairs;
 mod settings;
 
-use std::time::Instant;
-
 use super::context::Context;
 use super::document::{Block, Cell, Section, Table};
+use super::flagship::Flagship;
 use super::times::time;
-use crate::exact_ring::{Case, Comparison, compare};
 use crate::failure::Failure;
-
-/// The screw of Table 3.6 with 37 balls.
-pub struct Flagship {
-    /// Scene and exact screw.
-    pub comparison: Comparison,
-    /// Turns of the nut that were followed.
-    turns: f64,
-    /// Time of a state of the exact screw, s.
-    exact_state: f64,
-}
-
-impl Flagship {
-    /// Runs both.
-    pub fn new(quick: bool) -> Result<Self, Failure> {
-        let (turns, states) = if quick { (0.5, 180) } else { (2.0, 720) };
-        let start = Instant::now();
-        let comparison = compare::<37>(&Case {
-            turns,
-            states,
-            ..Case::LIN
-        })
-        .map_err(Failure::Data)?;
-        Ok(Self {
-            exact_state: start.elapsed().as_secs_f64() / states as f64,
-            comparison,
-            turns,
-        })
-    }
-}
 
 /// The section.
 pub fn section(context: &Context) -> Result<Section, Failure> {
     let mut blocks = vec![
         Block::Text(
-            "Balls of the scene stand in elastic grooves and are renewed by Newton steps, two a tick; what is exact is every ball in elastic \
+            "Balls of the scene stand in elastic grooves and are renewed by Newton steps, one a tick; what is exact is every ball in elastic \
              balance with Coulomb friction by contact integrals, pressing and rubbing on its neighbours by complementarity, in float64 and from other \
              sources."
                 .into(),

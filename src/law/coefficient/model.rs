@@ -2,7 +2,8 @@
 
 use core::fmt::Debug;
 
-use super::form::{CoefficientAtTemperature, CoefficientLaw, DirectionalCoefficient};
+use super::both::DirectionalCoefficient;
+use super::form::{CoefficientAtTemperature, CoefficientLaw};
 use crate::error::{Error, attempt};
 use crate::ranges;
 
