@@ -210,13 +210,6 @@ impl Sliding for CagedBallScrew {
         }
     }
 
-    fn friction(constants: &CagedConstants) -> f32 {
-        match &constants.law {
-            Law::Contacts(contacts) => contacts.friction(),
-            Law::Closed(closed) => closed.friction(),
-        }
-    }
-
     #[inline(always)]
     fn full(
         constants: &CagedConstants,

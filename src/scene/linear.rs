@@ -162,10 +162,6 @@ impl<const N: usize> Sliding for LinearBearingTrain<N> {
 
     fn recent(_: &LinearConstants<N>, _: &LinearState<N>) {}
 
-    fn friction(constants: &LinearConstants<N>) -> f32 {
-        constants.friction
-    }
-
     #[inline(always)]
     fn full(
         constants: &LinearConstants<N>,

@@ -27,9 +27,6 @@ pub trait Sliding: Scene<Known = <Self as Scene>::Inputs, Inputs: Motion> {
     /// What was found before the first tick.
     fn recent(constants: &Self::Constants, state: &Self::State) -> Self::Recent;
 
-    /// Friction coefficient of the configuration.
-    fn friction(constants: &Self::Constants) -> f32;
-
     /// Full friction with friction coefficients of ball and groove in both directions, in proportion to that of the
     /// configuration where nothing was folded for others; balls move on by a tick. A speed of 0 counts as forward.
     fn full(

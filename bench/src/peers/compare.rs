@@ -223,6 +223,17 @@ pub fn exact_under_load(path: &Path<'_>) -> Vec<f64> {
     std::iter::once(0.0).chain(rest).collect()
 }
 
+/// Ranges of the load and longest strokes.
+pub const LOAD_CASES: [((f64, f64), f64); 7] = [
+    ((0.9, 1.1), 1.0),
+    ((0.5, 1.6), 0.3),
+    ((0.5, 1.6), 1.0),
+    ((0.5, 1.6), 3.0),
+    ((0.1, 4.0), 0.3),
+    ((0.1, 4.0), 1.0),
+    ((0.1, 4.0), 3.0),
+];
+
 /// Rms errors of the laws under a load, over the rms of the exact torque, over random strokes up to `amplitude` long within half of it to both sides.
 pub fn errors_under_load(
     amplitude: f64,
@@ -397,16 +408,7 @@ mod tests {
         let proportional = [1.2, 7.1, 8.2, 7.2, 27.0, 19.0, 16.0];
         let load_exact = [2.5, 8.1, 3.8, 1.3, 19.0, 5.8, 2.2];
         let multiplied = [2.1, 23.0, 16.0, 15.0, 38.0, 44.0, 40.0];
-        let cases = [
-            ((0.9, 1.1), 1.0),
-            ((0.5, 1.6), 0.3),
-            ((0.5, 1.6), 1.0),
-            ((0.5, 1.6), 3.0),
-            ((0.1, 4.0), 0.3),
-            ((0.1, 4.0), 1.0),
-            ((0.1, 4.0), 3.0),
-        ];
-        for (index, (loads, amplitude)) in cases.into_iter().enumerate() {
+        for (index, (loads, amplitude)) in LOAD_CASES.into_iter().enumerate() {
             let found = errors_under_load(amplitude, loads).unwrap();
             let of =
                 |wanted: &str| 100.0 * found.iter().find(|(name, _)| *name == wanted).unwrap().1;

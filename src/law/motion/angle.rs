@@ -1,6 +1,6 @@
 //! An angle in radians that starts again after a period.
 
-use super::turn::{LARGEST_TURN, NutAngle, Turn};
+use super::turn::{NutAngle, Turn, within_half};
 use crate::error::{Error, attempt, in_range};
 
 /// An angle as it is set up.
@@ -11,7 +11,7 @@ pub struct WrappedAngleParameters {
     /// Turn after which it starts again at `lowest`, rad: 1e-3 to 1e6. As the sensor's side rounds it: an f32 of a full turn
     /// is 1.7e-7 rad more than one, which adds up over turns of one way and has no effect on a reversal.
     pub period: f32,
-    /// Most that the nut turns between two readings, rad: [`LARGEST_TURN`], and at most half a period.
+    /// Most that the nut turns between two readings, rad: [`LARGEST_TURN`](super::LARGEST_TURN), and at most half a period.
     pub largest_turn: f32,
 }
 
@@ -48,17 +48,7 @@ impl WrappedAngle {
         attempt!(in_range("lowest", lowest, -1e6, 1e6));
         attempt!(in_range("period", period, 1e-3, 1e6));
         let half = 0.5 * period;
-        let most = if half < LARGEST_TURN.maximum {
-            half
-        } else {
-            LARGEST_TURN.maximum
-        };
-        attempt!(in_range(
-            "largest_turn",
-            largest_turn,
-            LARGEST_TURN.minimum,
-            most
-        ));
+        attempt!(within_half(largest_turn, half));
         Ok(Self {
             lowest,
             highest: lowest + period,

@@ -1,6 +1,6 @@
 //! Counts of an encoder.
 
-use super::turn::{LARGEST_TURN, NutAngle, Turn};
+use super::turn::{NutAngle, Turn, within_half};
 use crate::error::{Error, Range, attempt, in_range};
 
 /// A counter of angle as it is set up.
@@ -11,7 +11,7 @@ pub struct CountSensorParameters {
     /// Turn of the nut for one count, rad (m), negative where the counter runs the other way; size 1e-9 to 1.
     /// A motor's encoder of 14 bits with a belt of ratio 2.5: `2 pi / 16384 / 2.5`.
     pub turn_per_count: f32,
-    /// Most that the nut turns between two readings, rad (m): largest speed times the longest gap. [`LARGEST_TURN`], and at
+    /// Most that the nut turns between two readings, rad (m): largest speed times the longest gap. [`LARGEST_TURN`](super::LARGEST_TURN), and at
     /// most half a period: a counter cannot tell more.
     pub largest_turn: f32,
 }
@@ -74,18 +74,7 @@ impl CountSensor {
         } else {
             period as f32
         };
-        let half = 0.5 * counts * size;
-        let most = if half < LARGEST_TURN.maximum {
-            half
-        } else {
-            LARGEST_TURN.maximum
-        };
-        attempt!(in_range(
-            "largest_turn",
-            largest_turn,
-            LARGEST_TURN.minimum,
-            most
-        ));
+        attempt!(within_half(largest_turn, 0.5 * counts * size));
         Ok(Self {
             period,
             turn_per_count,

@@ -1,9 +1,22 @@
 //! What two readings say of a turn.
 
-use crate::error::Range;
+use crate::error::{Error, Range, in_range};
 
 /// Largest turn of a tick that a set-up may allow, rad (m): 1e-6 to 1e3.
 pub const LARGEST_TURN: Range = Range::new(1e-6, 1e3);
+
+/// The largest turn of a sensor that starts again after twice `half`: it cannot tell more than half a period.
+///
+/// # Errors
+/// [`Error`] naming `largest_turn`.
+pub(super) const fn within_half(largest_turn: f32, half: f32) -> Result<f32, Error> {
+    let most = if half < LARGEST_TURN.maximum {
+        half
+    } else {
+        LARGEST_TURN.maximum
+    };
+    in_range("largest_turn", largest_turn, LARGEST_TURN.minimum, most)
+}
 
 /// What two readings say of the turn between them.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -22,7 +22,6 @@ const LOCKED_RADII: f32 = 1e3;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct ClosedForm {
-    friction: f32,
     /// Half the friction torque per load on the flank that opposes the motion, m.
     half_drive: f32,
     /// Half the friction torque per load on the flank that assists the motion, m.
@@ -61,7 +60,6 @@ impl ClosedForm {
         let lock = LOCKED_RADII * design.pitch_radius();
         let drive_locked = !(drive >= 0.0 && drive < lock);
         Ok(Self {
-            friction,
             half_drive: if drive_locked {
                 0.5 * backdrive
             } else {
@@ -73,11 +71,6 @@ impl ClosedForm {
             flanks: PreloadSum::new(clearance.axial_preload(design, loaded_balls)),
             largest_torque: limits.friction_torque,
         })
-    }
-
-    /// Friction coefficient of the configuration, which no other one replaces.
-    pub(super) const fn friction(&self) -> f32 {
-        self.friction
     }
 
     /// `T = s [c_d (S + s F) + c_b (S - s F)] / 2` with the blended direction `s = w / sqrt(w² +

@@ -84,11 +84,6 @@ impl Contacts {
         })
     }
 
-    /// Friction coefficient of the configuration.
-    pub(super) const fn friction(&self) -> f32 {
-        self.friction
-    }
-
     /// Laws for friction coefficients between these two: none where they are that of the configuration.
     pub(super) fn laws_between(&self, least: f32, largest: f32) -> Option<CoefficientLaws> {
         let gap = self.clearance.gap();

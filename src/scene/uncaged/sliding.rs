@@ -23,10 +23,6 @@ impl<const N: usize> Sliding for UncagedBallScrew<N> {
 
     fn recent(_: &UncagedConstants<N>, _: &UncagedState<N>) {}
 
-    fn friction(constants: &UncagedConstants<N>) -> f32 {
-        constants.friction
-    }
-
     #[inline(always)]
     fn full(
         constants: &UncagedConstants<N>,

@@ -7,23 +7,12 @@ use super::laws::shown;
 use crate::failure::Failure;
 use crate::peers::candidates::{LOAD_EXACT, MULTIPLIED, PROPORTIONAL, under_load};
 use crate::peers::compare::{
-    errors_under_load, exact_under_load, least_loss, load_cycle, work_of_a_load_cycle,
+    LOAD_CASES, errors_under_load, exact_under_load, least_loss, load_cycle, work_of_a_load_cycle,
 };
 use crate::peers::torques;
 use crate::plot::{Axis, Chart, ColourMap, Colours, Mark, Panel, Series};
 use crate::report::context::Context;
 use crate::report::document::{Block, Cell, Figure, Table};
-
-/// Ranges of the load and longest strokes.
-pub const CASES: [((f64, f64), f64); 7] = [
-    ((0.9, 1.1), 1.0),
-    ((0.5, 1.6), 0.3),
-    ((0.5, 1.6), 1.0),
-    ((0.5, 1.6), 3.0),
-    ((0.1, 4.0), 0.3),
-    ((0.1, 4.0), 1.0),
-    ((0.1, 4.0), 3.0),
-];
 
 /// Tables and pictures.
 pub fn blocks(context: &Context) -> Result<Vec<Block>, Failure> {
@@ -45,7 +34,7 @@ fn errors() -> Result<Table, Failure> {
     let mut columns = vec!["load".to_owned(), "longest stroke".into()];
     let laws = under_load(1.0)?;
     columns.extend(laws.iter().map(|entry| entry.name.to_owned()));
-    let rows = CASES
+    let rows = LOAD_CASES
         .par_iter()
         .map(|&((least, most), amplitude)| {
             let mut cells = vec![
