@@ -22,6 +22,7 @@ pub(crate) mod linear;
 mod memory;
 mod outputs;
 mod passage;
+mod row;
 mod sliding;
 mod stored;
 mod uncaged;

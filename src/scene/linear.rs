@@ -9,6 +9,7 @@ use super::contract::{Admitted, Regime, Scene};
 use super::faults::Faults;
 use super::outputs::LinearOutputs;
 use super::passage::{Passage, Reversal};
+use super::row::RowFull;
 use super::sliding::Sliding;
 use crate::ball::{
     AnalyticLinearBall, BorderParameters, GrooveFriction, LoadShare, largest_deviation,
@@ -138,15 +139,8 @@ impl<const N: usize> Scene for LinearBearingTrain<N> {
 /// Full friction of a linear bearing, which is the same in both directions.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LinearFull {
-    /// Parts of the friction force from the grooves and from balls that rub against each other, N.
-    groove: f32,
-    ball: f32,
-    /// The grooves' part forward and backward over it.
-    ways: [f32; 2],
-    /// Normal load that presses the diagonals as hard as they are pressed, N.
-    load: f32,
-    contacts: u8,
-    largest_contact_force: f32,
+    /// Its parts; the load is the normal load that presses the diagonals as hard as they are pressed.
+    row: RowFull,
     beyond_model: bool,
 }
 
@@ -173,18 +167,13 @@ impl<const N: usize> Sliding for LinearBearingTrain<N> {
     ) -> LinearFull {
         let ratio = friction.of(inputs.speed).0 / constants.friction;
         let mut full = constants.full(&mut state.circuit, inputs, ratio);
-        full.ways = friction.over_own(inputs.speed);
+        full.row.ways = friction.over_own(inputs.speed);
         full
     }
 
     #[inline(always)]
     fn limits(full: &LinearFull) -> SlidingLimits {
-        let [forward, backward] = full.ways;
-        SlidingLimits {
-            forward: forward * full.groove + full.ball,
-            backward: backward * full.groove + full.ball,
-            load: full.load,
-        }
+        full.row.limits()
     }
 
     #[inline(always)]
@@ -322,32 +311,27 @@ impl<const N: usize> LinearConstants<N> {
                 .leaves_four_points(&loss, pressing.largest, mean.compliance);
         // Losses and forces are in proportion to the friction coefficient, the balls' compliances to its inverse.
         LinearFull {
-            groove: friction * (loss.friction * shares),
-            ball: friction * (self.rubbing * pressing.force),
-            ways: [1.0; 2],
-            load: (up + down) / (2.0 * self.normal),
-            contacts: pressing.contacts,
-            largest_contact_force: friction * pressing.largest,
+            row: RowFull {
+                groove: friction * (loss.friction * shares),
+                ball: friction * (self.rubbing * pressing.force),
+                ways: [1.0; 2],
+                load: (up + down) / (2.0 * self.normal),
+                contacts: pressing.contacts,
+                largest_contact_force: friction * pressing.largest,
+            },
             beyond_model,
         }
     }
 
     #[inline(always)]
     fn passed(full: &LinearFull, passage: Passage) -> LinearOutputs {
-        let [forward, backward] = full.ways;
-        let way = if passage.share < 0.0 {
-            backward
-        } else {
-            forward
-        };
-        let groove_force = passage.share * (way * full.groove);
-        let ball_force = passage.share * full.ball;
+        let (groove_force, ball_force) = full.row.passed(passage);
         LinearOutputs {
             friction_force: groove_force + ball_force,
             groove_force,
             ball_force,
-            contacts: full.contacts,
-            largest_contact_force: full.largest_contact_force,
+            contacts: full.row.contacts,
+            largest_contact_force: full.row.largest_contact_force,
             regime: Regime::of(passage.standing, true, true),
             faults: Faults::NONE.with(full.beyond_model, Faults::BEYOND_MODEL),
         }

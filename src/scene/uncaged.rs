@@ -12,6 +12,7 @@ use super::contract::{Admitted, Inputs, Limits, Scene};
 use super::faults::Faults;
 use super::outputs::UncagedOutputs;
 use super::passage::Reversal;
+use super::row::RowFull;
 use crate::ball::elastic::constants::BallConstants;
 use crate::ball::elastic::law::{Neighbour, Neighbours, RingConstants, RingLoad};
 use crate::ball::elastic::ring::Ring;
@@ -221,12 +222,14 @@ impl<const N: usize> UncagedConstants<N> {
             0.0
         };
         UncagedFull {
-            groove,
-            ball: self.ball_friction * rubbing,
-            ways: [1.0; 2],
-            load: load.axial_size(&self.ring) * self.balls,
-            contacts: pressing.contacts,
-            largest_contact_force: pressing.largest,
+            row: RowFull {
+                groove,
+                ball: self.ball_friction * rubbing,
+                ways: [1.0; 2],
+                load: load.axial_size(&self.ring) * self.balls,
+                contacts: pressing.contacts,
+                largest_contact_force: pressing.largest,
+            },
             faults: Faults::NONE
                 .with(state.ring.settles(), Faults::SETTLING)
                 .with(state.ring.beyond_model(), Faults::BEYOND_MODEL),

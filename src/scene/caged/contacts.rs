@@ -169,13 +169,19 @@ impl Contacts {
         }
     }
 
+    /// Axial load of a ball and its contact force with that of a preload, N, and whether the load assists the motion.
+    #[inline(always)]
+    fn under(&self, state: &ContactsState, axial_load: f32, way: f32) -> (f32, f32, bool) {
+        let opposing = way * axial_load;
+        let load = opposing.abs() * self.per_ball;
+        let whole = state.grooving.whole(&self.ball, load);
+        (load, whole, opposing < 0.0)
+    }
+
     /// Full friction in the direction of motion, which stands for both.
     #[inline(always)]
     pub(super) fn one_way(&self, state: &mut ContactsState, inputs: Inputs, way: f32) -> CagedFull {
-        let opposing = way * inputs.axial_load;
-        let load = opposing.abs() * self.per_ball;
-        let other = opposing < 0.0;
-        let whole = state.grooving.whole(&self.ball, load);
+        let (load, whole, other) = self.under(state, inputs.axial_load, way);
         let (ratio, accuracy) = if state.changes {
             self.renewed(state, load, whole, other)
         } else {
@@ -201,10 +207,7 @@ impl Contacts {
         friction: DirectionalCoefficient,
     ) -> CagedFull {
         let way = way(inputs.nut_speed);
-        let opposing = way * inputs.axial_load;
-        let load = opposing.abs() * self.per_ball;
-        let other = opposing < 0.0;
-        let whole = state.grooving.whole(&self.ball, load);
+        let (load, whole, other) = self.under(state, inputs.axial_load, way);
         let (own_friction, opposite_friction) = friction.of(way);
         let (own, opposite, accuracy) = if state.changes {
             state.grooving.friction = own_friction;

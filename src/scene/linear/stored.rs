@@ -4,7 +4,8 @@ use super::{LinearBearingTrain, LinearConstants, LinearFull, LinearState};
 use crate::error::Range;
 use crate::ranges;
 use crate::scene::circuit::CircuitState;
-use crate::scene::stored::{FRICTION, StoredScene, WAYS};
+use crate::scene::row::RowFull;
+use crate::scene::stored::StoredScene;
 use crate::stored::{Fingerprint, Port, Refusal, Stored};
 
 impl<const N: usize> StoredScene for LinearBearingTrain<N> {
@@ -44,19 +45,10 @@ impl<const N: usize> Stored for LinearState<N> {
 }
 
 impl Stored for LinearFull {
-    const BYTES: usize = 6 * 4 + 1 + 1;
+    const BYTES: usize = RowFull::BYTES + 1;
 
     fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
-        port.number("groove", &mut self.groove, FRICTION)?;
-        port.number("ball", &mut self.ball, FRICTION)?;
-        port.numbers("ways", &mut self.ways, WAYS)?;
-        port.number("load", &mut self.load, Range::new(0.0, 1e13))?;
-        port.count("contacts", &mut self.contacts, u8::MAX)?;
-        port.number(
-            "largest_contact_force",
-            &mut self.largest_contact_force,
-            Range::new(0.0, 1e12),
-        )?;
+        self.row.exchange(port)?;
         port.flag("beyond_model", &mut self.beyond_model)
     }
 }

@@ -34,20 +34,14 @@ impl<const N: usize> Sliding for UncagedBallScrew<N> {
     ) -> UncagedFull {
         state.ring.take_friction(friction.of(inputs.nut_speed).0);
         let mut full = constants.full(state, inputs);
-        full.groove *= state.ring.friction_ahead();
-        full.ways = friction.over_own(inputs.nut_speed);
+        full.row.groove *= state.ring.friction_ahead();
+        full.row.ways = friction.over_own(inputs.nut_speed);
         full
     }
 
-    /// Both directions have the friction of that in which the balls go, times their friction coefficients.
     #[inline(always)]
     fn limits(full: &UncagedFull) -> SlidingLimits {
-        let [forward, backward] = full.ways;
-        SlidingLimits {
-            forward: forward * full.groove + full.ball,
-            backward: backward * full.groove + full.ball,
-            load: full.load,
-        }
+        full.row.limits()
     }
 
     #[inline(always)]

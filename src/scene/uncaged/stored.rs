@@ -1,10 +1,10 @@
 //! A ball screw without cage as bytes.
 
 use super::{Ring, UncagedBallScrew, UncagedConstants, UncagedFull, UncagedState};
-use crate::error::Range;
 use crate::scene::circuit::CircuitState;
 use crate::scene::faults::Faults;
-use crate::scene::stored::{FRICTION, StoredScene, WAYS};
+use crate::scene::row::RowFull;
+use crate::scene::stored::StoredScene;
 use crate::stored::{Fingerprint, Port, Refusal, Stored};
 
 impl<const N: usize> StoredScene for UncagedBallScrew<N> {
@@ -38,19 +38,10 @@ impl<const N: usize> Stored for UncagedState<N> {
 }
 
 impl Stored for UncagedFull {
-    const BYTES: usize = 6 * 4 + 1 + Faults::BYTES;
+    const BYTES: usize = RowFull::BYTES + Faults::BYTES;
 
     fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
-        port.number("groove", &mut self.groove, FRICTION)?;
-        port.number("ball", &mut self.ball, FRICTION)?;
-        port.numbers("ways", &mut self.ways, WAYS)?;
-        port.number("load", &mut self.load, Range::new(0.0, 1e13))?;
-        port.count("contacts", &mut self.contacts, u8::MAX)?;
-        port.number(
-            "largest_contact_force",
-            &mut self.largest_contact_force,
-            Range::new(0.0, 1e12),
-        )?;
+        self.row.exchange(port)?;
         self.faults.exchange(port)
     }
 }

@@ -1,0 +1,66 @@
+//! Full friction of a row of balls, whatever they run in.
+
+use super::passage::Passage;
+use super::stored::{FRICTION, WAYS};
+use crate::error::Range;
+use crate::law::SlidingLimits;
+use crate::stored::{Port, Refusal, Stored};
+
+/// Full friction of a row of balls, in the direction in which they go: torques of a screw, N m, or forces of a bearing, N.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct RowFull {
+    /// Parts from the grooves and from balls that rub against each other.
+    pub(super) groove: f32,
+    pub(super) ball: f32,
+    /// The grooves' part forward and backward over it.
+    pub(super) ways: [f32; 2],
+    /// Load, preload counted, N.
+    pub(super) load: f32,
+    pub(super) contacts: u8,
+    pub(super) largest_contact_force: f32,
+}
+
+impl RowFull {
+    /// Both directions have the friction of that in which the balls go, times their friction coefficients.
+    #[inline(always)]
+    pub(super) fn limits(&self) -> SlidingLimits {
+        let [forward, backward] = self.ways;
+        SlidingLimits {
+            forward: forward * self.groove + self.ball,
+            backward: backward * self.groove + self.ball,
+            load: self.load,
+        }
+    }
+
+    /// Parts from the grooves and from the balls at a passage.
+    #[inline(always)]
+    pub(super) fn passed(&self, passage: Passage) -> (f32, f32) {
+        let [forward, backward] = self.ways;
+        let way = if passage.share < 0.0 {
+            backward
+        } else {
+            forward
+        };
+        (
+            passage.share * (way * self.groove),
+            passage.share * self.ball,
+        )
+    }
+}
+
+impl Stored for RowFull {
+    const BYTES: usize = 6 * 4 + 1;
+
+    fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
+        port.number("groove", &mut self.groove, FRICTION)?;
+        port.number("ball", &mut self.ball, FRICTION)?;
+        port.numbers("ways", &mut self.ways, WAYS)?;
+        port.number("load", &mut self.load, Range::new(0.0, 1e13))?;
+        port.count("contacts", &mut self.contacts, u8::MAX)?;
+        port.number(
+            "largest_contact_force",
+            &mut self.largest_contact_force,
+            Range::new(0.0, 1e12),
+        )
+    }
+}
