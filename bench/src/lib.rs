@@ -5,8 +5,11 @@
 // square brackets are no links.
 #![allow(clippy::doc_markdown, rustdoc::broken_intra_doc_links)]
 
+#[doc(hidden)]
+pub mod calibrate;
 mod cli;
 mod designs;
+mod document;
 mod eval;
 #[doc(hidden)]
 pub mod exact_ring;

@@ -6,7 +6,6 @@ mod bearings;
 mod context;
 mod cortex_m;
 mod curvature;
-mod document;
 mod efficiency;
 mod flagship;
 mod hertz;
@@ -25,11 +24,11 @@ mod uncaged;
 
 use std::path::PathBuf;
 
+use crate::document::{Document, Section};
 use crate::failure::Failure;
 use crate::target::TargetFigures;
 use crate::timing::compete;
 use context::Context;
-use document::{Document, Section};
 use flagship::Flagship;
 
 /// Rounds whose medians are a measurement.

@@ -9,7 +9,7 @@ use epas_reference::statics::studies::tie_rod::{TieRodLoad, TieRodLoads};
 use epas_reference::statics::studies::waviness::{Waviness, compare};
 
 use super::context::Context;
-use super::document::{Block, Cell, Figure, Section, Table};
+use crate::document::{Block, Cell, Figure, Section, Table};
 use crate::failure::Failure;
 use crate::plot::{Axis, Chart, Mark, Panel, Series};
 use crate::progress::Progress;

@@ -10,8 +10,8 @@ use epas_reference::published::balls::{analytic_force, linear_pair, symmetric_pa
 use epas_reference::published::bearings::{DISPLACEMENTS, table_3_1, table_3_2};
 
 use super::context::Context;
-use super::document::{Block, Figure, Section};
 use super::statistics::evenly;
+use crate::document::{Block, Figure, Section};
 use crate::failure::Failure;
 use crate::plot::{Axis, Chart, ColourMap, Colours, Mark, Panel, Series};
 

@@ -11,8 +11,8 @@ use epas_reference::friction::linear_ball::{EllipseLaw, LinearBall};
 
 use super::context::Context;
 use super::curvature::{FORMS, catalogue_errors};
-use super::document::{Block, Cell, Figure, Section, Table};
 use super::statistics::{Errors, evenly};
+use crate::document::{Block, Cell, Figure, Section, Table};
 use crate::failure::Failure;
 use crate::plot::{Axis, Chart, Mark, Note, Panel, Series};
 use crate::target::{Budget, Figures, budgets};

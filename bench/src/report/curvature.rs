@@ -10,8 +10,8 @@ use epas_reference::curvature::{self as reference, Surface};
 use epas_reference::published::{Row, TABLE_A1, TABLE_A2, computed_errors};
 
 use super::context::Context;
-use super::document::{Block, Cell, Figure, Section, Table};
 use super::statistics::{Errors, evenly};
+use crate::document::{Block, Cell, Figure, Section, Table};
 use crate::failure::Failure;
 use crate::plot::{Axis, Chart, ColourMap, Colours, Mark, Panel, Series};
 use crate::timing::Competition;

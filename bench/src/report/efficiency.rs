@@ -11,8 +11,8 @@ use epas_reference::rolling_ball::RollingBall;
 use epas_reference::steady_state::BallScrewState;
 
 use super::context::Context;
-use super::document::{Block, Cell, Figure, Section, Table};
 use super::statistics::{Errors, evenly};
+use crate::document::{Block, Cell, Figure, Section, Table};
 use crate::failure::Failure;
 use crate::plot::{Axis, Chart, Mark, Panel, Series};
 

@@ -4,8 +4,8 @@ use epas_friction::hertz::HertzContact;
 use epas_reference::hertz::Hertz;
 
 use super::context::Context;
-use super::document::{Block, Cell, Figure, Section, Table};
 use super::statistics::{Errors, evenly};
+use crate::document::{Block, Cell, Figure, Section, Table};
 use crate::failure::Failure;
 use crate::plot::{Axis, Chart, Mark, Panel, Series};
 

@@ -3,9 +3,9 @@
 use std::f64::consts::TAU;
 
 use super::context::Context;
-use super::document::{Block, Cell, Section, Table};
 use super::statistics::{Errors, evenly};
 use super::times::time;
+use crate::document::{Block, Cell, Section, Table};
 use crate::failure::Failure;
 use crate::timing::kernels::{libm, micromath, own};
 

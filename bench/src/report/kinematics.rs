@@ -6,7 +6,7 @@ use epas_reference::kinematics::{ContactKinematics, Raceway, Revised};
 use epas_reference::published::kinematics::records;
 
 use super::context::Context;
-use super::document::{Block, Cell, Figure, Section, Table};
+use crate::document::{Block, Cell, Figure, Section, Table};
 use crate::failure::Failure;
 use crate::plot::{Axis, Chart, Mark, Panel, Series};
 

@@ -14,7 +14,7 @@ use epas_reference::statics::{
 };
 
 use super::context::Context;
-use super::document::{Block, Cell, Figure, Section, Table};
+use crate::document::{Block, Cell, Figure, Section, Table};
 use crate::failure::Failure;
 use crate::plot::{Axis, Chart, Mark, Panel, Series};
 

@@ -8,7 +8,7 @@ use epas_reference::friction::rolling_resistance::RollingResistance;
 use epas_reference::measured::{COUNT, Measured, Usual, Verdict, records, studies};
 
 use super::context::Context;
-use super::document::{Block, Cell, Section, Table};
+use crate::document::{Block, Cell, Section, Table};
 use crate::failure::Failure;
 use crate::progress::Progress;
 

@@ -8,7 +8,7 @@ mod loops;
 mod noise;
 
 use super::context::Context;
-use super::document::{Block, Section};
+use crate::document::{Block, Section};
 use crate::failure::Failure;
 use crate::peers::candidates::{best, ours, published};
 

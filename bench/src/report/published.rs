@@ -4,7 +4,7 @@ use epas_reference::published::records;
 use epas_reference::record::{Paper, Record, Verdict};
 
 use super::context::Context;
-use super::document::{Block, Cell, Section, Table};
+use crate::document::{Block, Cell, Section, Table};
 use crate::failure::Failure;
 
 /// The section.

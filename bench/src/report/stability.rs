@@ -8,8 +8,8 @@ mod two_point;
 use epas_friction::promises;
 
 use super::context::Context;
-use super::document::{Block, Cell, Figure, Section, Table};
 use super::statistics::Errors;
+use crate::document::{Block, Cell, Figure, Section, Table};
 use crate::failure::Failure;
 
 /// The table of promises.

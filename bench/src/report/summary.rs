@@ -1,10 +1,10 @@
 //! Error against run time of every formula: the table and the picture.
 
 use super::context::Context;
-use super::document::{Block, Cell, Figure, Section, Table};
 use super::statistics::Errors;
 use super::times::{quartiles, ratio, time};
 use super::{curvature, efficiency, hertz};
+use crate::document::{Block, Cell, Figure, Section, Table};
 use crate::failure::Failure;
 use crate::plot::{Axis, Chart, Mark, Note, Panel, Series};
 

@@ -1,6 +1,6 @@
 //! Times and their ratios in a table: a number, or an upper limit where the time is below the resolution.
 
-use super::document::Cell;
+use crate::document::Cell;
 use crate::timing::{Measure, Ratio};
 
 /// The median of a time, ns.

@@ -5,7 +5,7 @@ mod linear;
 mod screw;
 
 use super::context::Context;
-use super::document::{Block, Section};
+use crate::document::{Block, Section};
 use crate::failure::Failure;
 
 /// The section.

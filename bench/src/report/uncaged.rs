@@ -7,9 +7,9 @@ mod pairs;
 mod settings;
 
 use super::context::Context;
-use super::document::{Block, Cell, Section, Table};
 use super::flagship::Flagship;
 use super::times::time;
+use crate::document::{Block, Cell, Section, Table};
 use crate::failure::Failure;
 
 /// The section.

@@ -5,7 +5,7 @@ use epas_reference::statics::shares::loads_between;
 use epas_reference::statics::{Served, ShareError, ShareTable, ShareTables};
 
 use crate::designs::loads::{LoadCase, built_in};
-use crate::report::document::{Cell, Table};
+use crate::document::{Cell, Table};
 
 const TOLERANCE: ShareError = ShareError::TOLERANCE;
 

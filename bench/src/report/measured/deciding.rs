@@ -3,8 +3,8 @@
 use epas_reference::measured::studies::{CLEARANCES, Choice, DecidingRow, LOADS, TABLE_3_6};
 
 use super::known;
+use crate::document::{Block, Cell, Figure, Table};
 use crate::plot::{Axis, Chart, Mark, Panel, Series};
-use crate::report::document::{Block, Cell, Figure, Table};
 
 /// Tables and figure.
 pub fn blocks(rows: &[DecidingRow], choices: &[Choice]) -> Vec<Block> {

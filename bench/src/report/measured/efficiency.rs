@@ -5,8 +5,8 @@ use epas_reference::measured::catalogue;
 use epas_reference::measured::studies::{EfficiencyRow, FIT_LOAD};
 
 use super::known;
+use crate::document::{Block, Cell, Figure, Table};
 use crate::plot::{Axis, Chart, Mark, Panel, Series};
-use crate::report::document::{Block, Cell, Figure, Table};
 
 /// Diameter of the screws that differ in nothing but their lead, mm.
 const ONE_DIAMETER: f64 = 32.0;

@@ -3,8 +3,8 @@
 use epas_friction::law::breakaway::{Breakaway, BreakawayConfiguration, Mechanism, ScrewContacts};
 use epas_friction::{BallScrew, Clearance, DISSERTATION_DESIGNS, defaults};
 
+use crate::document::{Block, Cell, Table};
 use crate::failure::Failure;
-use crate::report::document::{Block, Cell, Table};
 
 /// Axial loads, N.
 const LOADS: [f32; 3] = [300.0, 1000.0, 5000.0];

@@ -9,9 +9,9 @@ use rand_distr::{Distribution, Normal};
 use rand_pcg::Pcg64;
 use rayon::prelude::*;
 
+use crate::document::{Block, Cell, Table};
 use crate::failure::Failure;
 use crate::peers::paths::STREAM;
-use crate::report::document::{Block, Cell, Table};
 
 /// Full friction, N m.
 const FRICTION: f32 = 0.04;

@@ -1,12 +1,12 @@
 //! Error and cost of every law under constant limits.
 
 use super::PANEL;
+use crate::document::{Block, Cell, Figure, Table};
 use crate::failure::Failure;
 use crate::peers::candidates::{Candidate, Cycles};
 use crate::peers::compare::Comparison;
 use crate::plot::{Axis, Chart, Mark, Note, Panel, Series};
 use crate::report::context::Context;
-use crate::report::document::{Block, Cell, Figure, Table};
 
 const COLUMNS: [&str; 14] = [
     "law",

@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use super::PANEL;
 use super::laws::shown;
+use crate::document::{Block, Cell, Figure, Table};
 use crate::failure::Failure;
 use crate::peers::candidates::{LOAD_EXACT, MULTIPLIED, PROPORTIONAL, under_load};
 use crate::peers::compare::{
@@ -12,7 +13,6 @@ use crate::peers::compare::{
 use crate::peers::torques;
 use crate::plot::{Axis, Chart, ColourMap, Colours, Mark, Panel, Series};
 use crate::report::context::Context;
-use crate::report::document::{Block, Cell, Figure, Table};
 
 /// Tables and pictures.
 pub fn blocks(context: &Context) -> Result<Vec<Block>, Failure> {

@@ -4,6 +4,7 @@ use epas_reference::presliding::Limits;
 use epas_reference::presliding::answers::Tick;
 
 use super::PANEL;
+use crate::document::Figure;
 use crate::failure::Failure;
 use crate::peers::candidates::{Candidate, ours, published};
 use crate::peers::compare::turn_to;
@@ -11,7 +12,6 @@ use crate::peers::fit::exact;
 use crate::peers::paths::Course;
 use crate::peers::torques;
 use crate::plot::{Axis, Chart, Mark, Panel, Series};
-use crate::report::document::Figure;
 
 /// Strokes with small loops inside large ones.
 const POINTS: [f64; 12] = [

@@ -6,9 +6,9 @@ use std::fmt::Write as _;
 use epas_friction::promises::{self, Promise};
 use serde_json::Value;
 
+use crate::document::Cell;
 use crate::eval;
 use crate::plot::{Axis, ColourMap, Colours, Panel};
-use crate::report::document::Cell;
 use crate::report::statistics::Errors;
 use crate::study::{FRICTION, TRACK, turned_ball};
 

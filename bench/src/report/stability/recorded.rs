@@ -2,8 +2,8 @@
 
 use serde::Deserialize;
 
+use crate::document::{Block, Cell, Table};
 use crate::failure::Failure;
-use crate::report::document::{Block, Cell, Table};
 use crate::report::statistics::Errors;
 
 /// The file.

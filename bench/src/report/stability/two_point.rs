@@ -9,11 +9,11 @@ use epas_reference::friction::linear_ball::LinearBall;
 use serde_json::Value;
 
 use super::maps;
+use crate::document::{Block, Cell, Figure, Table};
 use crate::eval;
 use crate::failure::Failure;
 use crate::plot::{Axis, Chart, Mark, Panel, Series};
 use crate::report::context::Context;
-use crate::report::document::{Block, Cell, Figure, Table};
 use crate::study::{self, turned_ball};
 
 fn failure(error: epas_friction::Error) -> Failure {

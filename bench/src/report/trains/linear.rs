@@ -7,10 +7,10 @@ use epas_friction::refined::{BallChain, BallState, FourPointBall, FourPointConta
 use epas_reference::friction::chain::solve_chain;
 use epas_reference::friction::linear_ball::LinearBall;
 
+use crate::document::{Block, Cell, Figure, Table};
 use crate::failure::Failure;
 use crate::plot::{Axis, Chart, ColourMap, Colours, Mark, Note, Panel, Series};
 use crate::report::context::Context;
-use crate::report::document::{Block, Cell, Figure, Table};
 use crate::report::statistics::{Errors, evenly};
 use crate::report::times::{ratio, time};
 use crate::study::{self, turned_ball};

@@ -6,10 +6,10 @@ use epas_friction::refined::{ScrewBall, ScrewChain, ScrewContacts};
 use epas_reference::friction::ball_screw_ball::ScrewMotion;
 use epas_reference::friction::ball_screw_elastic::ScrewSupport;
 
+use crate::document::{Block, Cell, Figure, Table};
 use crate::failure::Failure;
 use crate::plot::{Axis, Chart, Mark, Note, Panel, Series};
 use crate::report::context::Context;
-use crate::report::document::{Block, Cell, Figure, Table};
 use crate::report::statistics::Errors;
 use crate::report::times::time;
 use crate::study;

@@ -7,10 +7,10 @@ use epas_reference::friction::whole_screw::WholeScrew;
 use epas_reference::published::balls::whole_screw;
 use rayon::prelude::*;
 
+use crate::document::{Block, Cell, Figure, Table};
 use crate::exact_ring::{Case, Moment, compare};
 use crate::failure::Failure;
 use crate::plot::{Axis, Chart, Mark, Panel, Series};
-use crate::report::document::{Block, Cell, Figure, Table};
 
 /// Amplitudes of the screw's deviation, degrees: the text does not print that of Figure 3.23.
 const AMPLITUDES: [f64; 4] = [2.0, 2.3, 2.5, 3.0];

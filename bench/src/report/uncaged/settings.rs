@@ -4,9 +4,9 @@ use std::f64::consts::FRAC_PI_4;
 
 use rayon::prelude::*;
 
+use crate::document::{Block, Cell, Table};
 use crate::exact_ring::{Case, Comparison, Off, compare};
 use crate::failure::Failure;
-use crate::report::document::{Block, Cell, Table};
 
 /// Balls of every screw of the table.
 const BALLS: usize = 16;

@@ -1,0 +1,11 @@
+//! `calibrate`: from a measured trace to constants, with their uncertainty.
+//!
+//! | module | what |
+//! |---|---|
+//! | [`trace`] | a measured trace on one sample clock, in SI units |
+//! | [`signals`] | smoothed motion, and the rows of a regression |
+//! | [`problem`] | what is fitted: parameters that enter linearly, and the few others |
+
+pub mod problem;
+pub mod signals;
+pub mod trace;

@@ -1,0 +1,67 @@
+//! What is fitted: a sum of columns, each times a parameter, and a part that has none, over parameters that enter otherwise.
+
+/// How a parameter is stepped and bounded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scale {
+    /// By its value.
+    Linear,
+    /// By its logarithm; it is positive.
+    Logarithmic,
+}
+
+/// A parameter that does not enter linearly.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Parameter {
+    /// Name, as in a design file.
+    pub name: &'static str,
+    /// Unit.
+    pub unit: &'static str,
+    /// First guess, within the bounds.
+    pub start: f64,
+    /// Smallest value.
+    pub low: f64,
+    /// Largest value.
+    pub high: f64,
+    /// How it is stepped.
+    pub scale: Scale,
+}
+
+/// A parameter that enters linearly.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LinearParameter {
+    /// Name.
+    pub name: &'static str,
+    /// Unit.
+    pub unit: &'static str,
+    /// Smallest value; minus infinity where it has none.
+    pub low: f64,
+    /// Largest value; infinity where it has none.
+    pub high: f64,
+}
+
+/// The model at given nonlinear parameters, at every row.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Evaluation {
+    /// What has no linear parameter.
+    pub fixed: Vec<f64>,
+    /// What each linear parameter multiplies.
+    pub columns: Vec<Vec<f64>>,
+}
+
+/// A least-squares problem whose linear parameters are eliminated: `target = fixed(q) + sum p_k column_k(q) + residual`.
+pub trait Separable: Sync {
+    /// Parameters `q` that do not enter linearly.
+    fn nonlinear(&self) -> &[Parameter];
+
+    /// Parameters `p` that do.
+    fn linear(&self) -> &[LinearParameter];
+
+    /// What was measured, at every row.
+    fn target(&self) -> &[f64];
+
+    /// Time between rows, s.
+    fn row_step(&self) -> f64;
+
+    /// The model at these values of `q`.
+    fn evaluate(&self, nonlinear: &[f64]) -> Evaluation;
+}

@@ -1,0 +1,62 @@
+//! A measured trace.
+
+/// What position, speed and effort are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Coordinate {
+    /// Angle of the nut, rad, and torque on it, N m.
+    Rotation,
+    /// Travel of the carriage, m, and force on it, N.
+    Translation,
+}
+
+/// What a reader of a trace has repaired.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Repairs {
+    /// Samples that were missing, and are interpolated now.
+    pub missing: usize,
+    /// Samples whose time was off by more than a tenth of a tick, and are interpolated at their tick now.
+    pub jittered: usize,
+    /// Samples that stood twice.
+    pub repeated: usize,
+}
+
+/// A trace on one sample clock, in SI units. All lists are as long as `effort`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trace {
+    /// Name, for headings: the file's without its ending.
+    pub name: String,
+    /// What position, speed and effort are.
+    pub coordinate: Coordinate,
+    /// Time of the first sample, s.
+    pub start: f64,
+    /// Tick, s.
+    pub step: f64,
+    /// Position, rad or m, without jumps of a turn; summed up from the speed where only that was measured.
+    pub position: Vec<f64>,
+    /// Step of the position's sensor, rad or m, found from the samples; 0 where there is none to be seen.
+    pub resolution: f64,
+    /// Speed, where it was measured, rad/s or m/s.
+    pub speed: Option<Vec<f64>>,
+    /// Effort of the motor, N m or N, in the direction of positive motion.
+    pub effort: Vec<f64>,
+    /// Wanted position, rad or m.
+    pub reference_position: Option<Vec<f64>>,
+    /// Axial load, N, positive where it opposes the travel that a positive motion makes.
+    pub load: Option<Vec<f64>>,
+    /// Temperature, K.
+    pub temperature: Option<Vec<f64>>,
+    /// What was repaired.
+    pub repairs: Repairs,
+}
+
+impl Trace {
+    /// Number of samples.
+    pub fn len(&self) -> usize {
+        self.effort.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.effort.is_empty()
+    }
+}
