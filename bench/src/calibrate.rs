@@ -5,7 +5,9 @@
 //! | [`trace`] | a measured trace on one sample clock, in SI units |
 //! | [`signals`] | smoothed motion, and the rows of a regression |
 //! | [`problem`] | what is fitted: parameters that enter linearly, and the few others |
+//! | [`picture`] | what the page of a calibration draws, as plain data |
 
+pub mod picture;
 pub mod problem;
 pub mod signals;
 pub mod trace;
