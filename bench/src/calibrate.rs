@@ -2,10 +2,12 @@
 //!
 //! | module | what |
 //! |---|---|
+//! | [`answer`] | what a calibration answers: parameters with intervals, what cannot be told, scores of models |
 //! | [`trace`] | a measured trace on one sample clock, in SI units |
 //! | [`signals`] | smoothed motion, and the rows of a regression |
 //! | [`problem`] | what is fitted: parameters that enter linearly, and the few others |
 
+pub mod answer;
 pub mod problem;
 pub mod signals;
 pub mod trace;
