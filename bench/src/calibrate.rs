@@ -2,11 +2,13 @@
 //!
 //! | module | what |
 //! |---|---|
+//! | [`answer`] | what a calibration answers: parameters with intervals, what cannot be told, scores of models |
 //! | [`trace`] | a measured trace on one sample clock, in SI units |
 //! | [`signals`] | smoothed motion, and the rows of a regression |
 //! | [`problem`] | what is fitted: parameters that enter linearly, and the few others |
 //! | [`picture`] | what the page of a calibration draws, as plain data |
 
+pub mod answer;
 pub mod picture;
 pub mod problem;
 pub mod signals;
