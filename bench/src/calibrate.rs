@@ -6,10 +6,12 @@
 //! | [`trace`] | a measured trace on one sample clock, in SI units |
 //! | [`signals`] | smoothed motion, and the rows of a regression |
 //! | [`problem`] | what is fitted: parameters that enter linearly, and the few others |
+//! | [`screw`] | a trace of a screw whose design is known |
 //! | [`picture`] | what the page of a calibration draws, as plain data |
 
 pub mod answer;
 pub mod picture;
 pub mod problem;
+pub mod screw;
 pub mod signals;
 pub mod trace;
