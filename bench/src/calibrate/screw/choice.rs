@@ -101,16 +101,21 @@ impl Start {
         let fixed = |name: &str| wanted.fix.iter().any(|(fixed, _)| fixed == name);
         let chosen = |name: &str, wave: bool, by_default: bool| {
             let asked = |list: &Vec<String>| {
-                list.iter().any(|asked| asked == name || wave && asked == HARMONICS)
+                list.iter()
+                    .any(|asked| asked == name || wave && asked == HARMONICS)
             };
             !fixed(name) && wanted.estimate.as_ref().map_or(by_default, asked)
         };
-        let nonlinear = NONLINEAR.iter().filter(|of| {
-            chosen(of.name, false, tells(of.name, evidence, &screw, &fixed))
-        });
-        let linear = LINEAR
+        let nonlinear = NONLINEAR
             .iter()
-            .filter(|of| chosen(of.name, of.factor.is_wave(), tells_linear(of.factor, evidence)));
+            .filter(|of| chosen(of.name, false, tells(of.name, evidence, &screw, &fixed)));
+        let linear = LINEAR.iter().filter(|of| {
+            chosen(
+                of.name,
+                of.factor.is_wave(),
+                tells_linear(of.factor, evidence),
+            )
+        });
         let nonlinear: Result<Vec<_>, Failure> = nonlinear
             .map(|of| Ok((parameter(of, &values, &screw, evidence)?, of)))
             .collect();
@@ -163,14 +168,15 @@ fn begin(
     let configuration = design.configuration;
     let set = |name: &str| {
         let mut pairs = wanted.fix.iter();
-        pairs.find(|(fixed, _)| fixed == name).map(|(_, value)| *value)
+        pairs
+            .find(|(fixed, _)| fixed == name)
+            .map(|(_, value)| *value)
     };
     let gap = configuration.clearance.gap();
     let asked = |list: &Vec<String>| list.iter().any(|name| name == "preload");
     let asked = wanted.estimate.as_ref().is_some_and(asked) || set("preload").is_some();
-    let preloaded = gap < 0.0
-        || asked
-        || gap == 0.0 && wanted.estimate.is_none() && varies(evidence);
+    let preloaded =
+        gap < 0.0 || asked || gap == 0.0 && wanted.estimate.is_none() && varies(evidence);
     if !preloaded && evidence.load.is_none() {
         return Err(Failure::Data(
             "without an axial load and without a preload the screw's friction cannot be told: add a column axial_load, or a preload to the design"
@@ -268,9 +274,11 @@ fn parameter(
 ) -> Result<Parameter, Failure> {
     let start = of.value(values);
     let [slow, fast] = evidence.speeds;
-    let coldest = evidence.temperature.map_or(screw.reference_temperature, |[low, _]| {
-        low.min(screw.reference_temperature)
-    });
+    let coldest = evidence
+        .temperature
+        .map_or(screw.reference_temperature, |[low, _]| {
+            low.min(screw.reference_temperature)
+        });
     let (low, high) = match of.name {
         "friction" => FRICTION,
         "full_film_ratio" => FULL_FILM_RATIO,
@@ -290,10 +298,7 @@ fn parameter(
             let high = (start * PRELOAD).min(hardest);
             ((start / PRELOAD).max(2e-3).min(0.5 * high), high)
         }
-        "breakaway_angle" => (
-            (start / BREAKAWAY).max(1e-6),
-            (start * BREAKAWAY).min(10.0),
-        ),
+        "breakaway_angle" => ((start / BREAKAWAY).max(1e-6), (start * BREAKAWAY).min(10.0)),
         _ => BACKLASH,
     };
     Ok(Parameter {

@@ -31,7 +31,10 @@ impl Evidence {
         let [speed_noise, acceleration_noise] = motion.noise;
         let samples = motion.speed.len().max(1) as f64;
         let share = |way: f64| {
-            let moving = motion.speed.iter().filter(|&speed| way * speed > MOVES * speed_noise);
+            let moving = motion
+                .speed
+                .iter()
+                .filter(|&speed| way * speed > MOVES * speed_noise);
             moving.count() as f64 / samples
         };
         let mut sizes: Vec<f64> = motion

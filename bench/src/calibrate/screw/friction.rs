@@ -163,14 +163,8 @@ impl Screw {
                 load: 0.0,
             };
             for _ in 0..LOOKED_UP {
-                let full = CagedBallScrew::full(
-                    &constants,
-                    &mut state,
-                    &mut recent,
-                    None,
-                    inputs,
-                    both,
-                );
+                let full =
+                    CagedBallScrew::full(&constants, &mut state, &mut recent, None, inputs, both);
                 limits = CagedBallScrew::limits(&full);
             }
             limits

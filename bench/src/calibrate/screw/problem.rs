@@ -168,11 +168,13 @@ impl<'a> ScrewProblem<'a> {
     fn viscous(&self, values: &Values) -> Vec<f64> {
         let viscosity = self.screw.viscosity(values);
         let temperatures = self.trace.temperature.iter().flatten().copied();
-        let temperatures =
-            temperatures.chain(std::iter::repeat(self.screw.reference_temperature));
-        let at = |temperature: f64| viscosity.map_or(0.0, |oil| f64::from(oil.at(temperature as f32)));
+        let temperatures = temperatures.chain(std::iter::repeat(self.screw.reference_temperature));
+        let at =
+            |temperature: f64| viscosity.map_or(0.0, |oil| f64::from(oil.at(temperature as f32)));
         let speeds = self.motion.speed.iter().zip(temperatures);
-        speeds.map(|(speed, temperature)| speed * at(temperature)).collect()
+        speeds
+            .map(|(speed, temperature)| speed * at(temperature))
+            .collect()
     }
 
     /// Sum of both flanks' loads over that at the reference load, at every sample.

@@ -217,3 +217,12 @@ pub fn names() -> impl Iterator<Item = &'static str> {
     let nonlinear = NONLINEAR.iter().map(|quantity| quantity.name);
     nonlinear.chain(LINEAR.iter().map(|quantity| quantity.name))
 }
+
+/// Name, unit and value of everything.
+pub fn all(values: &Values) -> impl Iterator<Item = (&'static str, &'static str, f64)> {
+    let nonlinear = NONLINEAR
+        .iter()
+        .map(|of| (of.name, of.unit, of.value(values)));
+    let linear = LINEAR.iter().map(|of| (of.name, of.unit, of.value(values)));
+    nonlinear.chain(linear)
+}
