@@ -8,10 +8,16 @@
 //! | [`problem`] | what is fitted: parameters that enter linearly, and the few others |
 //! | [`screw`] | a trace of a screw whose design is known |
 //! | [`picture`] | what the page of a calibration draws, as plain data |
+//! | `page` | the page of a calibration |
+//! | `design_file` | the user's design file with the calibrated numbers |
+//! | `constants` | the same as Rust constants for firmware |
+//! | `folder` | every trace of a folder, and what they have in common |
 
 pub mod answer;
+mod design_file;
 pub mod picture;
 pub mod problem;
 pub mod screw;
+mod shown;
 pub mod signals;
 pub mod trace;
