@@ -21,23 +21,44 @@
 //! | `design_file` | the user's design file with the calibrated numbers |
 //! | `constants` | the same as Rust constants for firmware |
 //! | `folder` | every trace of a folder, and what they have in common |
+//! | [`separable`] | the fit: linear parameters eliminated, Levenberg-Marquardt for the others, several starts |
+//! | [`uncertainty`] | intervals, correlations, the direction that the rows do not see |
+//! | [`autocorrelation`] | how far the rows of a residual repeat each other |
+//! | [`laws`] | laws of friction of unit level over a motion |
+//! | [`slide`] | a trace without a design as a separable problem |
+//! | [`choice`] | models of friction on a trace without a design |
+//! | [`part`] | a part of a problem's rows |
+//! | [`cost`] | cost of a law on the reference core |
 
 pub mod answer;
-mod design_file;
-pub mod picture;
+pub mod autocorrelation;
 pub mod channels;
 pub mod checks;
+pub mod choice;
 pub mod clock;
+pub mod closed_loop;
 pub mod columns;
 #[cfg(test)]
 mod columns_tests;
+pub mod controller;
+pub mod cost;
+mod design_file;
 pub mod filter;
 pub mod finding;
+pub mod laws;
 pub mod noise;
+pub mod part;
+pub mod period;
+pub mod picture;
 pub mod problem;
 pub mod screw;
+pub mod separable;
 mod shown;
 pub mod signals;
+pub mod slide;
 pub mod table;
+#[cfg(test)]
+mod toys;
 pub mod trace;
+pub mod uncertainty;
 pub mod units;
