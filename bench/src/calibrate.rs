@@ -2,16 +2,26 @@
 //!
 //! | module | what |
 //! |---|---|
+//! | [`answer`] | what a calibration answers: parameters with intervals, what cannot be told, scores of models |
 //! | [`trace`] | a measured trace on one sample clock, in SI units |
 //! | [`signals`] | smoothed motion, and the rows of a regression |
 //! | [`problem`] | what is fitted: parameters that enter linearly, and the few others |
 //! | [`separable`] | the fit: linear parameters eliminated, Levenberg-Marquardt for the others, several starts |
 //! | [`uncertainty`] | intervals, correlations, the direction that the rows do not see |
 //! | [`autocorrelation`] | how far the rows of a residual repeat each other |
+//! | [`picture`] | what the page of a calibration draws, as plain data |
+//! | `page` | the page of a calibration |
+//! | `design_file` | the user's design file with the calibrated numbers |
+//! | `constants` | the same as Rust constants for firmware |
+//! | `folder` | every trace of a folder, and what they have in common |
 
+pub mod answer;
 pub mod autocorrelation;
+mod design_file;
+pub mod picture;
 pub mod problem;
 pub mod separable;
+mod shown;
 pub mod signals;
 #[cfg(test)]
 mod toys;
