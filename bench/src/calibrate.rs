@@ -15,6 +15,9 @@
 //! | [`noise`] | noise of smoothed motion |
 //! | [`signals`] | smoothed motion, and the rows of a regression |
 //! | [`problem`] | what is fitted: parameters that enter linearly, and the few others |
+//! | [`separable`] | the fit: linear parameters eliminated, Levenberg-Marquardt for the others, several starts |
+//! | [`uncertainty`] | intervals, correlations, the direction that the rows do not see |
+//! | [`autocorrelation`] | how far the rows of a residual repeat each other |
 //! | [`picture`] | what the page of a calibration draws, as plain data |
 //! | `page` | the page of a calibration |
 //! | `design_file` | the user's design file with the calibrated numbers |
@@ -22,6 +25,7 @@
 //! | `folder` | every trace of a folder, and what they have in common |
 
 pub mod answer;
+pub mod autocorrelation;
 mod design_file;
 pub mod picture;
 pub mod channels;
@@ -34,8 +38,13 @@ pub mod filter;
 pub mod finding;
 pub mod noise;
 pub mod problem;
+pub mod separable;
 mod shown;
 pub mod signals;
 pub mod table;
 pub mod trace;
 pub mod units;
+#[cfg(test)]
+mod toys;
+pub mod trace;
+pub mod uncertainty;
