@@ -79,7 +79,8 @@ pub fn calibrate(
         values,
         choice,
     } = Start::of(design, &evidence, &request.wanted)?;
-    let problem = ScrewProblem::new(screw, (trace, &motion, &rows), values, choice)?;
+    let smoothing = request.smoothing.filter(trace.step)?;
+    let problem = ScrewProblem::new(screw, (trace, &motion, &rows), &smoothing, values, choice)?;
     let fit = fit(&problem, &request.fit)?;
     if let Some(refusal) = fit.refusal() {
         return Err(Failure::Data(refusal));

@@ -223,9 +223,8 @@ fn begin(
     if let Some(load) = set(REFERENCE_LOAD) {
         screw.reference_load = load;
     }
-    let lost = 8.0_f64.sqrt() * screw.axial_preload(&values);
-    if preloaded && evidence.largest_load() < lost {
-        screw.elements = ElementsKind::Proportional;
+    if preloaded && screw.reference_load == 0.0 {
+        screw.elements = ElementsKind::Preloaded;
     }
     values.breakaway_angle = screw.designed_breakaway(&values)?;
     Ok((screw, values))

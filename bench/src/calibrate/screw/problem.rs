@@ -12,6 +12,7 @@ use std::f64::consts::TAU;
 
 use super::friction::{Course, Screw};
 use super::quantities::{Factor, Linear, Nonlinear, Values};
+use crate::calibrate::filter::ZeroPhase;
 use crate::calibrate::problem::{Evaluation, LinearParameter, Parameter, Separable};
 use crate::calibrate::signals::{Motion, Rows};
 use crate::calibrate::trace::Trace;
@@ -60,10 +61,11 @@ impl<'a> ScrewProblem<'a> {
     pub fn new(
         screw: Screw,
         (trace, motion, rows): (&'a Trace, &'a Motion, &'a Rows),
+        smoothing: &ZeroPhase,
         values: Values,
         choice: Choice,
     ) -> Result<Self, Failure> {
-        let course = Course::of(trace, motion, screw.reference_temperature);
+        let course = Course::of(trace, motion, smoothing, screw.reference_temperature);
         let mut problem = Self {
             screw,
             trace,
