@@ -118,7 +118,11 @@ impl<'a> Prepared<'a> {
         if !(inertia > 0.0) {
             return Ok(None);
         }
-        Ok(Some(closed.run(inertia, resistance, slide.delay(&fit.nonlinear))))
+        Ok(Some(closed.run(
+            inertia,
+            resistance,
+            slide.delay(&fit.nonlinear),
+        )))
     }
 }
 
@@ -237,7 +241,8 @@ pub fn model(
         relative_error_inverse_unseen: Some(unseen_error),
         position_error: course.as_ref().map(|course| course.position_error),
         residual_unseen: Some(size(&unseen_rows)),
-        information_criterion: rows * 2.0 * size(&fit.residual).ln() + parameters as f64 * rows.ln(),
+        information_criterion: rows * 2.0 * size(&fit.residual).ln()
+            + parameters as f64 * rows.ln(),
         parameters,
         cycles: cycles(law.cost),
         cycles_estimated: matches!(law.cost, Cost::Estimated(_)),

@@ -78,9 +78,13 @@ impl Loop<'_> {
         };
         let ticks = self.controller.source.ticks();
         // Positions of the last ticks, the newest first; before the start it moved as it does there.
-        let mut history: VecDeque<f64> =
-            (1..=ticks).map(|back| start - back as f64 * tick * speed).collect();
-        let reference = trace.reference_position.as_deref().unwrap_or(&trace.position);
+        let mut history: VecDeque<f64> = (1..=ticks)
+            .map(|back| start - back as f64 * tick * speed)
+            .collect();
+        let reference = trace
+            .reference_position
+            .as_deref()
+            .unwrap_or(&trace.position);
         let mut course = Course {
             effort: Vec::with_capacity(trace.len()),
             position: Vec::with_capacity(trace.len()),
