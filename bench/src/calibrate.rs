@@ -10,6 +10,8 @@
 //! | [`clock`] | one sample clock: tick, gaps, jitter |
 //! | [`channels`] | angles without jumps, the step of a sensor |
 //! | [`checks`] | whether a trace may be believed |
+//! | [`excitation`] | what a trace excites |
+//! | [`relation`] | how effort and motion go together, roughly |
 //! | [`finding`] | what a trace does not tell |
 //! | [`filter`] | a low-pass filter without a shift in time |
 //! | [`noise`] | noise of smoothed motion |
@@ -26,25 +28,28 @@
 
 pub mod answer;
 pub mod autocorrelation;
-mod design_file;
-pub mod picture;
 pub mod channels;
 pub mod checks;
+#[cfg(test)]
+mod checks_tests;
 pub mod clock;
 pub mod columns;
 #[cfg(test)]
 mod columns_tests;
+mod design_file;
+pub mod excitation;
 pub mod filter;
 pub mod finding;
 pub mod noise;
+pub mod picture;
 pub mod problem;
+pub mod relation;
 pub mod separable;
 mod shown;
 pub mod signals;
 pub mod table;
-pub mod trace;
-pub mod units;
 #[cfg(test)]
 mod toys;
 pub mod trace;
 pub mod uncertainty;
+pub mod units;
