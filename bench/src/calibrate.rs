@@ -10,6 +10,8 @@
 //! | [`clock`] | one sample clock: tick, gaps, jitter |
 //! | [`channels`] | angles without jumps, the step of a sensor |
 //! | [`checks`] | whether a trace may be believed |
+//! | [`excitation`] | what a trace excites |
+//! | [`relation`] | how effort and motion go together, roughly |
 //! | [`finding`] | what a trace does not tell |
 //! | [`filter`] | a low-pass filter without a shift in time |
 //! | [`noise`] | noise of smoothed motion |
@@ -29,6 +31,8 @@ pub mod autocorrelation;
 pub mod channels;
 pub mod checks;
 pub mod choice;
+#[cfg(test)]
+mod checks_tests;
 pub mod clock;
 pub mod closed_loop;
 pub mod columns;
@@ -37,6 +41,8 @@ mod columns_tests;
 pub mod controller;
 pub mod cost;
 mod design_file;
+mod design_file;
+pub mod excitation;
 pub mod filter;
 pub mod finding;
 pub mod laws;
@@ -45,6 +51,7 @@ pub mod part;
 pub mod period;
 pub mod picture;
 pub mod problem;
+pub mod relation;
 pub mod separable;
 mod shown;
 pub mod signals;
