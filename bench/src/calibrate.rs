@@ -4,6 +4,15 @@
 //! |---|---|
 //! | [`answer`] | what a calibration answers: parameters with intervals, what cannot be told, scores of models |
 //! | [`trace`] | a measured trace on one sample clock, in SI units |
+//! | [`columns`] | reads a trace from a CSV file |
+//! | [`table`] | the file's numbers in SI units |
+//! | [`units`] | what a column's name says |
+//! | [`clock`] | one sample clock: tick, gaps, jitter |
+//! | [`channels`] | angles without jumps, the step of a sensor |
+//! | [`checks`] | whether a trace may be believed |
+//! | [`finding`] | what a trace does not tell |
+//! | [`filter`] | a low-pass filter without a shift in time |
+//! | [`noise`] | noise of smoothed motion |
 //! | [`signals`] | smoothed motion, and the rows of a regression |
 //! | [`problem`] | what is fitted: parameters that enter linearly, and the few others |
 //! | [`separable`] | the fit: linear parameters eliminated, Levenberg-Marquardt for the others, several starts |
@@ -23,10 +32,19 @@
 
 pub mod answer;
 pub mod autocorrelation;
+pub mod channels;
+pub mod checks;
+pub mod clock;
+pub mod columns;
+#[cfg(test)]
+mod columns_tests;
 pub mod cramer_rao;
 mod design_file;
 pub mod experiment;
+pub mod filter;
+pub mod finding;
 pub mod manoeuvre;
+pub mod noise;
 pub mod picture;
 pub mod problem;
 pub mod profile;
@@ -34,8 +52,10 @@ pub mod separable;
 mod shown;
 pub mod signals;
 pub mod sums;
+pub mod table;
 pub mod telling;
 #[cfg(test)]
 mod toys;
 pub mod trace;
 pub mod uncertainty;
+pub mod units;
