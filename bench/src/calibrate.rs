@@ -19,6 +19,12 @@
 //! | [`problem`] | what is fitted: parameters that enter linearly, and the few others |
 //! | [`separable`] | the fit: linear parameters eliminated, Levenberg-Marquardt for the others, several starts |
 //! | [`uncertainty`] | intervals, correlations, the direction that the rows do not see |
+//! | [`telling`] | what the trace cannot tell, in sentences |
+//! | [`profile`] | how the residual grows when a parameter is held elsewhere |
+//! | [`cramer_rao`] | the least covariance that any estimator can have |
+//! | [`experiment`] | which manoeuvre tells a parameter |
+//! | [`manoeuvre`] | manoeuvres to choose from |
+//! | [`sums`] | what many traces say together, as sums that merge |
 //! | [`autocorrelation`] | how far the rows of a residual repeat each other |
 //! | [`picture`] | what the page of a calibration draws, as plain data |
 //! | `page` | the page of a calibration |
@@ -57,6 +63,22 @@ mod shown;
 pub mod signals;
 pub mod slide;
 pub mod table;
+pub mod cramer_rao;
+mod design_file;
+pub mod experiment;
+pub mod filter;
+pub mod finding;
+pub mod manoeuvre;
+pub mod noise;
+pub mod picture;
+pub mod problem;
+pub mod profile;
+pub mod separable;
+mod shown;
+pub mod signals;
+pub mod sums;
+pub mod table;
+pub mod telling;
 #[cfg(test)]
 mod toys;
 pub mod trace;
