@@ -26,11 +26,20 @@
 //! | [`manoeuvre`] | manoeuvres to choose from |
 //! | [`sums`] | what many traces say together, as sums that merge |
 //! | [`autocorrelation`] | how far the rows of a residual repeat each other |
+//! | [`screw`] | a trace of a screw whose design is known |
 //! | [`picture`] | what the page of a calibration draws, as plain data |
 //! | `page` | the page of a calibration |
 //! | `design_file` | the user's design file with the calibrated numbers |
 //! | `constants` | the same as Rust constants for firmware |
 //! | `folder` | every trace of a folder, and what they have in common |
+//! | [`separable`] | the fit: linear parameters eliminated, Levenberg-Marquardt for the others, several starts |
+//! | [`uncertainty`] | intervals, correlations, the direction that the rows do not see |
+//! | [`autocorrelation`] | how far the rows of a residual repeat each other |
+//! | [`laws`] | laws of friction of unit level over a motion |
+//! | [`slide`] | a trace without a design as a separable problem |
+//! | [`choice`] | models of friction on a trace without a design |
+//! | [`part`] | a part of a problem's rows |
+//! | [`cost`] | cost of a law on the reference core |
 
 pub mod answer;
 pub mod autocorrelation;
@@ -58,6 +67,7 @@ pub mod period;
 pub mod picture;
 pub mod problem;
 pub mod relation;
+pub mod screw;
 pub mod separable;
 mod shown;
 pub mod signals;
