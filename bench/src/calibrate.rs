@@ -7,15 +7,23 @@
 //! | [`signals`] | smoothed motion, and the rows of a regression |
 //! | [`problem`] | what is fitted: parameters that enter linearly, and the few others |
 //! | [`picture`] | what the page of a calibration draws, as plain data |
-//! | `page` | the page of a calibration |
-//! | `design_file` | the user's design file with the calibrated numbers |
-//! | `constants` | the same as Rust constants for firmware |
+//! | [`spectrum`], [`shown`] | power spectral density; numbers as they are shown |
+//! | [`page`] | the page of a calibration |
+//! | [`design_file`] | the user's design file with the calibrated numbers |
+//! | [`firmware`] | what firmware takes of a calibrated design, as plain numbers |
+//! | [`outputs`] | what a calibration writes, and where |
+//! | [`constants`] | the same as Rust constants for firmware |
 //! | `folder` | every trace of a folder, and what they have in common |
 
 pub mod answer;
-mod design_file;
+pub mod constants;
+pub mod design_file;
+pub mod firmware;
+pub mod outputs;
+pub mod page;
 pub mod picture;
 pub mod problem;
-mod shown;
+pub mod shown;
 pub mod signals;
+pub mod spectrum;
 pub mod trace;

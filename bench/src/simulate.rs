@@ -2,8 +2,8 @@
 
 mod caged;
 mod caged_exact;
+mod calibrated;
 mod choice;
-mod curves;
 mod exact_screw;
 mod linear;
 mod loads;
@@ -27,14 +27,14 @@ use std::path::PathBuf;
 use crate::designs::train::LinearDesign;
 use crate::designs::{self, DesignSource};
 use crate::failure::Failure;
-use crate::files::{self, Existing, Pending};
+use crate::files::{self, Existing, Pending, refuse_same};
 use choice::{Chosen, SceneName, choose};
 pub use manoeuvre::Manoeuvre;
 use progress::Progress;
 use reference::ReferenceModel;
 use samples::ScrewSample;
 use scene::Scene;
-use targets::{refuse_same, targets};
+use targets::targets;
 
 /// Runs the in-loop friction model over a trace.
 ///

@@ -1,6 +1,6 @@
 //! A ball screw whose balls do not touch.
 
-use epas_friction::law::coefficient::{CoefficientLaw, OneCoefficient};
+use epas_friction::law::coefficient::OneCoefficient;
 use epas_friction::law::motion::WrappedAngle;
 use epas_friction::scene::WithMemory;
 use epas_friction::{
@@ -9,9 +9,9 @@ use epas_friction::{
 };
 
 use super::caged_exact::ExactCaged;
-use super::curves::thin;
+use super::calibrated::CalibratedScrew;
 use super::manoeuvre::Manoeuvre;
-use super::memory::{self, Elements};
+use super::memory::{self, Elements, Remembered};
 use super::reference::{CagedReference, Friction, ReferenceModel};
 use super::samples::ScrewSample;
 use super::scene::Scene;
@@ -20,7 +20,7 @@ use super::summary::Lines;
 use super::trace::Trace;
 use crate::designs::Design;
 use crate::failure::Failure;
-use crate::plot::{Axis, Chart, Mark, Panel, Series, render};
+use crate::plot::{Axis, Chart, Mark, Panel, Series, render, thin};
 
 /// The scene.
 pub struct Caged {
@@ -64,7 +64,7 @@ impl Reference {
 enum Model {
     Plain(FrictionModel<CagedBallScrew>),
     Memory(FrictionModel<WithMemory<CagedBallScrew, Elements, WrappedAngle, OneCoefficient>>),
-    Law(FrictionModel<WithMemory<CagedBallScrew, Elements, WrappedAngle, CoefficientLaw>>),
+    Calibrated(CalibratedScrew),
 }
 
 impl Model {
@@ -72,41 +72,24 @@ impl Model {
     fn new(
         Caged { design, memory }: &Caged,
         trace: &Trace<ScrewSample>,
-    ) -> Result<(Self, Lines), Error> {
-        let calibrated = design.calibrated.as_ref();
+    ) -> Result<(Self, Lines), Failure> {
+        let refused = |error: Error| Failure::Data(format!("{}: {error}", design.name));
         let configuration = &design.configuration;
         if !memory {
-            let model = Self::Plain(FrictionModel::new(configuration)?);
+            let model = Self::Plain(FrictionModel::new(configuration).map_err(refused)?);
             return Ok((model, Lines::default()));
         }
-        let CagedBallScrewConfiguration {
-            ref design,
-            friction,
-            clearance,
-            rolling_resistance,
-            loaded_balls,
-            ..
-        } = *configuration;
-        let remembered = memory::Screw {
-            design,
-            friction,
-            clearance,
-            rolling_resistance,
-            loaded_balls: f32::from(loaded_balls),
-            calibrated,
+        let by_design = || remembered(configuration, trace).map_err(refused);
+        if design.calibrated.is_some() {
+            let (model, lines) = CalibratedScrew::new(design, by_design)?;
+            return Ok((Self::Calibrated(model), lines));
         }
-        .remembered(memory::mean_load(trace))?;
-        let (scene, angle) = (*configuration, memory::angle()?);
-        let law = calibrated.and_then(|calibrated| calibrated.coefficient.as_ref());
-        let model = if let Some(law) = law {
-            let law = CoefficientLaw::new(law)?;
-            let whole = memory::with_coefficient(scene, &remembered, angle, law);
-            Self::Law(FrictionModel::new(&whole)?)
-        } else {
-            let whole = memory::configuration(scene, &remembered, angle, friction)?;
-            Self::Memory(FrictionModel::new(&whole)?)
-        };
-        Ok((model, remembered.lines))
+        let remembered = by_design()?;
+        let whole = memory::angle().and_then(|angle| {
+            memory::configuration(*configuration, &remembered, angle, configuration.friction)
+        });
+        let model = whole.and_then(|whole| FrictionModel::new(&whole));
+        Ok((Self::Memory(model.map_err(refused)?), remembered.lines))
     }
 
     /// What it says to a moment at an angle of the nut, rad.
@@ -116,9 +99,32 @@ impl Model {
         match self {
             Self::Plain(model) => model.step(inputs),
             Self::Memory(model) => model.step(memory::fresh(inputs, wrapped)),
-            Self::Law(model) => model.step(memory::fresh(inputs, wrapped)),
+            Self::Calibrated(model) => model.step(inputs, wrapped),
         }
     }
+}
+
+/// Elements of a configuration's design, at the trace's mean load.
+fn remembered(
+    configuration: &CagedBallScrewConfiguration,
+    trace: &Trace<ScrewSample>,
+) -> Result<Remembered, Error> {
+    let CagedBallScrewConfiguration {
+        ref design,
+        friction,
+        clearance,
+        rolling_resistance,
+        loaded_balls,
+        ..
+    } = *configuration;
+    memory::Screw {
+        design,
+        friction,
+        clearance,
+        rolling_resistance,
+        loaded_balls: f32::from(loaded_balls),
+    }
+    .remembered(memory::mean_load(trace))
 }
 
 /// One sample with what the models say to it.
@@ -147,8 +153,7 @@ impl Scene for Caged {
         done: &dyn Fn(),
     ) -> Result<(Vec<CagedRow>, Lines), Failure> {
         let configuration = &self.design.configuration;
-        let (mut model, lines) = Model::new(self, trace)
-            .map_err(|error| Failure::Data(format!("{}: {error}", self.name())))?;
+        let (mut model, lines) = Model::new(self, trace)?;
         let reference = reference
             .map(|model| Reference::new(model, configuration, trace))
             .transpose()?;
