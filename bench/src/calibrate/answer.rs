@@ -53,10 +53,17 @@ struct Entry {
 pub struct ModelScore {
     /// Name of the model.
     pub name: String,
-    /// Residual over effort on the part that was fitted, both as root mean squares.
+    /// Error of the effort over the effort, both as root mean squares: of the closed loop on the whole trace where the controller is
+    /// known, else of the rows that were fitted.
     pub relative_error: f64,
     /// The same on the part, or the trace, that was not fitted; `None` where there is none.
     pub relative_error_unseen: Option<f64>,
+    /// Residual of the fitted rows over effort.
+    pub relative_error_inverse: f64,
+    /// The same on rows that were not fitted.
+    pub relative_error_inverse_unseen: Option<f64>,
+    /// Error of the position in the closed loop, rms, rad or m.
+    pub position_error: Option<f64>,
     /// Residual on that part, rms, N m or N.
     pub residual_unseen: Option<f64>,
     /// Bayes's information criterion, less the least one of the models: `n log(rss/n) + k log n` with the effective number `n` of
@@ -68,6 +75,9 @@ pub struct ModelScore {
     pub cycles: Option<u32>,
     /// Whether the cycles are estimated instead of counted.
     pub cycles_estimated: bool,
+    /// Its parameters.
+    #[serde(serialize_with = "by_name")]
+    pub values: Vec<Estimate>,
 }
 
 /// What a trace says.
