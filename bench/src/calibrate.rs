@@ -28,9 +28,12 @@
 //! | [`autocorrelation`] | how far the rows of a residual repeat each other |
 //! | [`screw`] | a trace of a screw whose design is known |
 //! | [`picture`] | what the page of a calibration draws, as plain data |
-//! | `page` | the page of a calibration |
-//! | `design_file` | the user's design file with the calibrated numbers |
-//! | `constants` | the same as Rust constants for firmware |
+//! | [`spectrum`], [`shown`] | power spectral density; numbers as they are shown |
+//! | [`page`] | the page of a calibration |
+//! | [`design_file`] | the user's design file with the calibrated numbers |
+//! | [`firmware`] | what firmware takes of a calibrated design, as plain numbers |
+//! | [`outputs`] | what a calibration writes, and where |
+//! | [`constants`] | the same as Rust constants for firmware |
 //! | `folder` | every trace of a folder, and what they have in common |
 //! | [`separable`] | the fit: linear parameters eliminated, Levenberg-Marquardt for the others, several starts |
 //! | [`uncertainty`] | intervals, correlations, the direction that the rows do not see |
@@ -64,12 +67,20 @@ pub mod laws;
 pub mod noise;
 pub mod part;
 pub mod period;
+pub mod constants;
+pub mod design_file;
+pub mod filter;
+pub mod finding;
+pub mod firmware;
+pub mod noise;
+pub mod outputs;
+pub mod page;
 pub mod picture;
 pub mod problem;
 pub mod relation;
 pub mod screw;
 pub mod separable;
-mod shown;
+pub mod shown;
 pub mod signals;
 pub mod slide;
 pub mod table;
@@ -89,6 +100,8 @@ pub mod signals;
 pub mod sums;
 pub mod table;
 pub mod telling;
+pub mod spectrum;
+pub mod table;
 #[cfg(test)]
 mod toys;
 pub mod trace;
