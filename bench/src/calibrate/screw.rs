@@ -6,13 +6,19 @@
 //! | [`friction`] | friction along the trace by the crate's caged scene with memory |
 //! | [`problem`] | the whole torque as a separable problem |
 //! | [`evidence`] | what the trace excites |
+//! | [`rivals`] | other models of friction |
+//! | [`blocks`] | rows that are fitted and rows that score |
+//! | [`scores`] | scores of all models |
 //! | [`choice`] | what is estimated, from where, within which bounds |
 
+pub mod blocks;
 pub mod choice;
 pub mod evidence;
 pub mod friction;
 pub mod problem;
 pub mod quantities;
+pub mod rivals;
+pub mod scores;
 
 use self::choice::{Start, Wanted};
 use self::evidence::Evidence;
@@ -38,6 +44,8 @@ pub struct Request {
     pub rows: RowSettings,
     /// How the fit is made.
     pub fit: FitSettings,
+    /// Whether other models of friction are not fitted.
+    pub without_models: bool,
 }
 
 /// What a trace tells of a screw.
@@ -87,8 +95,13 @@ pub fn calibrate(
     }
     let uncertainty = uncertainty(&problem, &fit);
     let values = problem.values(&fit.nonlinear, &fit.linear);
+    let mut answer = answer(&problem, &fit, &uncertainty, &values);
+    if !request.without_models {
+        let traced = (trace, &motion, &rows);
+        (answer.models, answer.winner) = scores::scores(&problem, &fit, traced, &request.fit)?;
+    }
     Ok(ScrewCalibration {
-        answer: answer(&problem, &fit, &uncertainty, &values),
+        answer,
         screw,
         values,
         evidence,

@@ -318,6 +318,14 @@ impl Course {
         }
     }
 
+    /// Friction torque of a scene without memory at every sample, N m.
+    pub fn friction_by_speed(&self, model: &mut FrictionModel<CagedBallScrew>) -> Vec<f64> {
+        self.inputs
+            .iter()
+            .map(|inputs| model.step(inputs.scene).friction_torque.into())
+            .collect()
+    }
+
     /// Friction torque of a scene with memory at every sample, N m.
     ///
     /// # Errors

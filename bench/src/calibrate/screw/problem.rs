@@ -44,6 +44,19 @@ enum Column {
     Moving,
 }
 
+/// What stands beside the friction: target, columns and their sum where they are set, at the start values.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Beside {
+    /// What was measured.
+    pub target: Vec<f64>,
+    /// What is set.
+    pub fixed: Vec<f64>,
+    /// What is estimated.
+    pub linear: Vec<LinearParameter>,
+    /// What it multiplies.
+    pub columns: Vec<Vec<f64>>,
+}
+
 /// What is estimated.
 #[derive(Clone, Debug)]
 pub struct Choice {
@@ -132,6 +145,44 @@ impl<'a> ScrewProblem<'a> {
             .unwrap_or_else(|_| vec![f64::NAN; self.trace.len()])
     }
 
+    /// What the model is told at every sample.
+    pub const fn course(&self) -> &Course {
+        &self.course
+    }
+
+    /// What stands beside the friction, for other models of it.
+    pub fn beside(&self, values: &Values) -> Beside {
+        let mut fixed = vec![0.0; self.target.len()];
+        self.add_set(&mut fixed, values);
+        Beside {
+            target: self.target.clone(),
+            fixed,
+            linear: self.linear_parameters.clone(),
+            columns: self
+                .linear
+                .iter()
+                .map(|of| self.rows_of(of, values))
+                .collect(),
+        }
+    }
+
+    fn rows_of(&self, (of, column): &(&'static Linear, Column), values: &Values) -> Vec<f64> {
+        match column {
+            Column::Still(rows) => rows.clone(),
+            Column::Moving => self.column(of.factor, values),
+        }
+    }
+
+    /// Adds what is not estimated and not zero.
+    fn add_set(&self, sum: &mut [f64], values: &Values) {
+        for set in &self.set {
+            let factor = set.0.value(values);
+            for (sum, value) in sum.iter_mut().zip(self.rows_of(set, values)) {
+                *sum += factor * value;
+            }
+        }
+    }
+
     /// Rows of what a factor is at every sample.
     fn column(&self, factor: Factor, values: &Values) -> Vec<f64> {
         let Motion {
@@ -196,7 +247,7 @@ impl<'a> ScrewProblem<'a> {
 /// Sum of the axial forces of two flanks that share one Hertzian deflection, N, under a load: the series
 /// `P (2 + y^2/12 + ...)` with `y = F/P`, whose last coefficient makes it meet the load where one flank is lost, at
 /// `y = 2 sqrt(2)`. Largest error 0.84 %, of a wave of a few per cent of the friction.
-fn flank_sum(preload: f64, load: f64) -> f64 {
+pub fn flank_sum(preload: f64, load: f64) -> f64 {
     let load = load.abs();
     if load < 8.0_f64.sqrt() * preload {
         let square = (load / preload).powi(2);
@@ -238,20 +289,15 @@ impl Separable for ScrewProblem<'_> {
 
     fn evaluate(&self, nonlinear: &[f64]) -> Evaluation {
         let values = self.values(nonlinear, &[]);
-        let column = |(of, column): &(&'static Linear, Column)| match column {
-            Column::Still(rows) => rows.clone(),
-            Column::Moving => self.column(of.factor, &values),
-        };
         let mut fixed = self.rows.of(&self.friction(&values));
-        for set in &self.set {
-            let factor = set.0.value(&values);
-            for (sum, value) in fixed.iter_mut().zip(column(set)) {
-                *sum += factor * value;
-            }
-        }
+        self.add_set(&mut fixed, &values);
         Evaluation {
             fixed,
-            columns: self.linear.iter().map(column).collect(),
+            columns: self
+                .linear
+                .iter()
+                .map(|of| self.rows_of(of, &values))
+                .collect(),
         }
     }
 }
