@@ -5,6 +5,7 @@
 //! | [`quantities`] | everything that has a value: names, units, bounds |
 //! | [`friction`] | friction along the trace by the crate's caged scene with memory |
 //! | [`problem`] | the whole torque as a separable problem |
+//! | [`refined`] | what the scene's laws leave out between their coefficients |
 //! | [`evidence`] | what the trace excites |
 //! | [`rivals`] | other models of friction |
 //! | [`blocks`] | rows that are fitted and rows that score |
@@ -17,6 +18,7 @@ pub mod evidence;
 pub mod friction;
 pub mod problem;
 pub mod quantities;
+pub mod refined;
 pub mod rivals;
 pub mod scores;
 
@@ -26,7 +28,7 @@ use self::friction::Screw;
 use self::problem::ScrewProblem;
 use self::quantities::Values;
 use super::answer::{Calibration, Estimate};
-use super::separable::{Fit, FitSettings, fit};
+use super::separable::{self, Fit, FitSettings};
 use super::signals::{Motion, RowSettings, Rows, SmoothingSettings};
 use super::trace::{Coordinate, Trace};
 use super::uncertainty::{Uncertainty, uncertainty};
@@ -89,10 +91,23 @@ pub fn calibrate(
     } = Start::of(design, &evidence, &request.wanted)?;
     let smoothing = request.smoothing.filter(trace.step)?;
     let problem = ScrewProblem::new(screw, (trace, &motion, &rows), &smoothing, values, choice)?;
-    let fit = fit(&problem, &request.fit)?;
+    let fit = separable::fit(&problem, &request.fit)?;
     if let Some(refusal) = fit.refusal() {
         return Err(Failure::Data(refusal));
     }
+    let problem = problem.refined(&fit.nonlinear)?;
+    let near = FitSettings {
+        starts: 1,
+        finished: 1,
+        ..request.fit
+    };
+    let refined = separable::fit(&problem, &near)?;
+    let fit = Fit {
+        evaluations: fit.evaluations + refined.evaluations,
+        starts: fit.starts,
+        verdict: fit.verdict,
+        ..refined
+    };
     let uncertainty = uncertainty(&problem, &fit);
     let values = problem.values(&fit.nonlinear, &fit.linear);
     let mut answer = answer(&problem, &fit, &uncertainty, &values);

@@ -318,6 +318,11 @@ impl Course {
         }
     }
 
+    /// Inputs at every sample.
+    pub fn inputs(&self) -> &[WithMemoryInputs<Inputs, f32>] {
+        &self.inputs
+    }
+
     /// Friction torque of a scene without memory at every sample, N m.
     pub fn friction_by_speed(&self, model: &mut FrictionModel<CagedBallScrew>) -> Vec<f64> {
         self.inputs

@@ -12,6 +12,7 @@ use std::f64::consts::TAU;
 
 use super::friction::{Course, Screw};
 use super::quantities::{Factor, Linear, Nonlinear, Values};
+use super::refined::correction;
 use crate::calibrate::filter::ZeroPhase;
 use crate::calibrate::problem::{Evaluation, LinearParameter, Parameter, Separable};
 use crate::calibrate::signals::{Motion, Rows};
@@ -34,6 +35,8 @@ pub struct ScrewProblem<'a> {
     /// Linear quantities that are not estimated and not zero.
     set: Vec<(&'static Linear, Column)>,
     target: Vec<f64>,
+    /// Factor of the friction at every sample; none where it is as the scene gives it.
+    correction: Option<Vec<f64>>,
 }
 
 /// What a linear quantity multiplies.
@@ -92,6 +95,7 @@ impl<'a> ScrewProblem<'a> {
             linear_parameters: choice.linear.iter().map(|of| of.parameter()).collect(),
             set: Vec::new(),
             target: rows.of(&trace.effort),
+            correction: None,
         };
         let free = |name: &str| problem.nonlinear.iter().any(|(p, _)| p.name == name);
         let moves = |factor: Factor| match factor {
@@ -140,9 +144,32 @@ impl<'a> ScrewProblem<'a> {
 
     /// Friction at every sample, N m; no numbers where the scene refuses the values.
     pub fn friction(&self, values: &Values) -> Vec<f64> {
-        self.screw
-            .friction(values, &self.course)
-            .unwrap_or_else(|_| vec![f64::NAN; self.trace.len()])
+        let Ok(mut friction) = self.screw.friction(values, &self.course) else {
+            return vec![f64::NAN; self.trace.len()];
+        };
+        if let Some(factors) = &self.correction {
+            for (friction, factor) in friction.iter_mut().zip(factors) {
+                *friction *= factor;
+            }
+        }
+        friction
+    }
+
+    /// The same problem from a start near its answer, with the friction corrected there ([`super::refined`]).
+    ///
+    /// # Errors
+    /// Values that the crate's scene refuses.
+    pub fn refined(mut self, nonlinear: &[f64]) -> Result<Self, Failure> {
+        self.correction = None;
+        let values = self.values(nonlinear, &[]);
+        let friction = self.friction(&values);
+        let factors = correction(&self.screw, &values, &self.course, &friction)
+            .map_err(|error| Failure::Data(error.to_string()))?;
+        self.correction = Some(factors);
+        for (parameter, start) in self.parameters.iter_mut().zip(nonlinear) {
+            parameter.start = *start;
+        }
+        Ok(self)
     }
 
     /// What the model is told at every sample.
