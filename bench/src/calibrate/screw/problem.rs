@@ -159,15 +159,15 @@ impl<'a> ScrewProblem<'a> {
     ///
     /// # Errors
     /// Values that the crate's scene refuses.
-    pub fn refined(mut self, nonlinear: &[f64]) -> Result<Self, Failure> {
+    pub fn refined(mut self, values: &Values) -> Result<Self, Failure> {
         self.correction = None;
-        let values = self.values(nonlinear, &[]);
-        let friction = self.friction(&values);
-        let factors = correction(&self.screw, &values, &self.course, &friction)
+        let friction = self.friction(values);
+        let factors = correction(&self.screw, values, &self.course, &friction)
             .map_err(|error| Failure::Data(error.to_string()))?;
         self.correction = Some(factors);
-        for (parameter, start) in self.parameters.iter_mut().zip(nonlinear) {
-            parameter.start = *start;
+        let known = self.parameters.iter_mut().zip(&self.nonlinear);
+        for (parameter, (_, of)) in known {
+            parameter.start = of.value(values).max(parameter.low).min(parameter.high);
         }
         Ok(self)
     }
@@ -212,6 +212,11 @@ impl<'a> ScrewProblem<'a> {
 
     /// Rows of what a factor is at every sample.
     fn column(&self, factor: Factor, values: &Values) -> Vec<f64> {
+        self.rows.of(&self.signal(factor, values))
+    }
+
+    /// What a factor is at every sample.
+    fn signal(&self, factor: Factor, values: &Values) -> Vec<f64> {
         let Motion {
             position,
             speed,
@@ -221,27 +226,111 @@ impl<'a> ScrewProblem<'a> {
         let waves = |wave: fn(f64) -> f64, order: u8| {
             let sum = self.flank_sums(values);
             let angles = position.iter().map(|angle| wave(f64::from(order) * angle));
-            let signal: Vec<f64> = angles.zip(sum).map(|(wave, sum)| wave * sum).collect();
-            self.rows.of(&signal)
+            angles.zip(sum).map(|(wave, sum)| wave * sum).collect()
         };
         match factor {
-            Factor::Acceleration => self.rows.of(acceleration),
-            Factor::Speed => self.rows.of(speed),
-            Factor::Viscosity => self.rows.of(&self.viscous(values)),
-            Factor::One => vec![1.0; self.target.len()],
+            Factor::Acceleration => acceleration.clone(),
+            Factor::Speed => speed.clone(),
+            Factor::Viscosity => self.viscous(values),
+            Factor::One => vec![1.0; position.len()],
             Factor::Load => {
                 let reduced_lead = f64::from(self.screw.configuration.design.lead()) / TAU;
-                let load = self.trace.load.iter().flatten();
-                let signal: Vec<f64> = load.map(|load| reduced_lead * load).collect();
-                if signal.is_empty() {
-                    vec![0.0; self.target.len()]
-                } else {
-                    self.rows.of(&signal)
+                match &self.trace.load {
+                    Some(load) => load.iter().map(|load| reduced_lead * load).collect(),
+                    None => vec![0.0; position.len()],
                 }
             }
             Factor::Cosine(order) => waves(f64::cos, order),
             Factor::Sine(order) => waves(f64::sin, order),
         }
+    }
+
+    /// The trace and its motion.
+    pub const fn measured(&self) -> (&Trace, &Motion) {
+        (self.trace, self.motion)
+    }
+
+    /// Rows of the whole model.
+    pub fn model(&self, values: &Values) -> Vec<f64> {
+        self.whole(self.friction(values), values)
+    }
+
+    /// The same as if another motion and load had been measured.
+    pub fn model_of(
+        &self,
+        trace: &Trace,
+        motion: &Motion,
+        smoothing: &ZeroPhase,
+        values: &Values,
+    ) -> Vec<f64> {
+        let other = ScrewProblem {
+            screw: self.screw,
+            // Noise of the load in the load's own torque is in the residual already.
+            trace: self.trace,
+            motion,
+            rows: self.rows,
+            course: Course::of(trace, motion, smoothing, self.screw.reference_temperature),
+            values: *values,
+            nonlinear: Vec::new(),
+            parameters: Vec::new(),
+            linear: Vec::new(),
+            linear_parameters: Vec::new(),
+            set: Vec::new(),
+            target: Vec::new(),
+            correction: self.correction.clone(),
+        };
+        other.whole(other.friction(values), values)
+    }
+
+    fn whole(&self, mut sum: Vec<f64>, values: &Values) -> Vec<f64> {
+        for of in &super::quantities::LINEAR {
+            let value = of.value(values);
+            if value != 0.0 {
+                for (sum, signal) in sum.iter_mut().zip(self.signal(of.factor, values)) {
+                    *sum += value * signal;
+                }
+            }
+        }
+        self.rows.of(&sum)
+    }
+
+    /// Rows of the friction in blocks of about as many samples each: by the size of the speed, and in each of these by the size of the load.
+    pub fn friction_by_blocks(
+        &self,
+        values: &Values,
+        speeds: usize,
+        loads: usize,
+    ) -> Vec<Vec<f64>> {
+        let friction = self.friction(values);
+        let part = |sizes: Vec<f64>, count: usize| -> Vec<usize> {
+            let mut order: Vec<usize> = (0..sizes.len()).collect();
+            order.sort_by(|one, other| sizes[*one].total_cmp(&sizes[*other]));
+            let mut parts = vec![0; sizes.len()];
+            for (rank, sample) in order.iter().enumerate() {
+                parts[*sample] = rank * count / sizes.len();
+            }
+            parts
+        };
+        let speed = part(
+            self.motion.speed.iter().map(|speed| speed.abs()).collect(),
+            speeds,
+        );
+        let load = match &self.trace.load {
+            Some(load) => part(load.iter().map(|load| load.abs()).collect(), loads),
+            None => vec![0; friction.len()],
+        };
+        let block = |index: usize| {
+            let moments = friction.iter().zip(speed.iter().zip(&load));
+            let masked = moments.map(|(friction, (speed, load))| {
+                if speed * loads + load == index {
+                    *friction
+                } else {
+                    0.0
+                }
+            });
+            self.rows.of(&masked.collect::<Vec<f64>>())
+        };
+        (0..speeds * loads).map(block).collect()
     }
 
     /// Viscosity times speed at every sample, Pa.

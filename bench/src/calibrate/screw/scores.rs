@@ -3,6 +3,7 @@
 use super::blocks::Blocks;
 use super::friction::{ElementsKind, Screw};
 use super::problem::ScrewProblem;
+use super::quantities::Values;
 use super::rivals::{Rival, WithoutMemory};
 use crate::calibrate::answer::ModelScore;
 use crate::calibrate::autocorrelation::effective_rows;
@@ -10,8 +11,8 @@ use crate::calibrate::choice::{LAWS, estimates};
 use crate::calibrate::cost::cycles;
 use crate::calibrate::laws::{Cost, Passage};
 use crate::calibrate::part::residual;
-use crate::calibrate::problem::{Evaluation, LinearParameter, Parameter, Separable};
-use crate::calibrate::separable::{Fit, FitSettings, fit};
+use crate::calibrate::problem::Separable;
+use crate::calibrate::separable::{FitSettings, fit};
 use crate::calibrate::signals::{Motion, Rows};
 use crate::calibrate::trace::Trace;
 use crate::calibrate::uncertainty::uncertainty;
@@ -31,13 +32,12 @@ pub const WITH_MEMORY: &str = "this crate, with memory";
 /// A model that cannot be fitted.
 pub fn scores(
     problem: &ScrewProblem<'_>,
-    known: &Fit,
+    values: &Values,
     (trace, motion, rows): (&Trace, &Motion, &Rows),
     settings: &FitSettings,
 ) -> Result<(Vec<ModelScore>, Option<String>), Failure> {
-    let values = problem.values(&known.nonlinear, &known.linear);
     let screw = problem.screw();
-    let beside = problem.beside(&values);
+    let beside = problem.beside(values);
     let rivals = FitSettings {
         starts: RIVALS.0.min(settings.starts),
         finished: RIVALS.1,
@@ -48,26 +48,27 @@ pub fn scores(
         .filter(|law| !matches!(law.passage, Passage::Speed | Passage::Elements));
     let mut scores = Vec::new();
     for law in laws {
-        let preload = screw.axial_preload(&values);
+        let preload = screw.axial_preload(values);
         let traced = (trace, motion, rows);
         let rival = Rival::new(*law, traced, &beside, preload, screw.largest_load);
         scores.push(score(law.name, &rival, &rivals, law.cost)?);
     }
     let estimated = problem.nonlinear();
     let course = (problem.course(), rows, &beside);
-    let without = WithoutMemory::new(*screw, values, estimated, course);
+    let without = WithoutMemory::new(*screw, *values, estimated, course);
     let cost = Cost::Counted(&["step_caged"]);
     scores.push(score(WITHOUT_MEMORY, &without, &rivals, cost)?);
-    let with = Started {
-        problem,
-        parameters: started(problem, &known.nonlinear),
-    };
     let single = FitSettings {
         starts: 1,
         finished: 1,
         ..*settings
     };
-    scores.push(score(WITH_MEMORY, &with, &single, cost_with_memory(screw))?);
+    scores.push(score(
+        WITH_MEMORY,
+        problem,
+        &single,
+        cost_with_memory(screw),
+    )?);
     let least = scores
         .iter()
         .map(|score| score.information_criterion)
@@ -89,44 +90,6 @@ fn cost_with_memory(screw: &Screw) -> Cost {
         ElementsKind::Proportional => Cost::Counted(&["step_caged_law"]),
         // 374 in place of 193 cycles, and 30 for the load of both flanks.
         ElementsKind::LoadExact | ElementsKind::Preloaded => Cost::Estimated(1680),
-    }
-}
-
-/// A problem whose start is a fit.
-struct Started<'a> {
-    problem: &'a ScrewProblem<'a>,
-    parameters: Vec<Parameter>,
-}
-
-fn started(problem: &ScrewProblem<'_>, nonlinear: &[f64]) -> Vec<Parameter> {
-    let parameters = problem.nonlinear().iter().zip(nonlinear);
-    parameters
-        .map(|(parameter, start)| Parameter {
-            start: *start,
-            ..parameter.clone()
-        })
-        .collect()
-}
-
-impl Separable for Started<'_> {
-    fn nonlinear(&self) -> &[Parameter] {
-        &self.parameters
-    }
-
-    fn linear(&self) -> &[LinearParameter] {
-        self.problem.linear()
-    }
-
-    fn target(&self) -> &[f64] {
-        self.problem.target()
-    }
-
-    fn row_step(&self) -> f64 {
-        self.problem.row_step()
-    }
-
-    fn evaluate(&self, nonlinear: &[f64]) -> Evaluation {
-        self.problem.evaluate(nonlinear)
     }
 }
 
