@@ -44,7 +44,7 @@ use crate::designs::Design;
 use crate::failure::Failure;
 
 /// How a trace of a screw is calibrated.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Request {
     /// What is estimated and what is set.
     pub wanted: Wanted,
@@ -56,6 +56,23 @@ pub struct Request {
     pub fit: FitSettings,
     /// Whether other models of friction are not fitted.
     pub without_models: bool,
+}
+
+impl Default for Request {
+    /// Everything that the trace can tell. Differences of the fit take steps of a hundredth: the scene rounds to f32, and its laws settle
+    /// to 3e-6 of the friction.
+    fn default() -> Self {
+        Self {
+            wanted: Wanted::default(),
+            smoothing: SmoothingSettings::default(),
+            rows: RowSettings::default(),
+            fit: FitSettings {
+                step: 1e-2,
+                ..FitSettings::default()
+            },
+            without_models: false,
+        }
+    }
 }
 
 /// What a trace tells of a screw.
@@ -221,7 +238,7 @@ fn answer(
         }
     });
     let mut parameters: Vec<Estimate> = parameters.collect();
-    parameters.extend(directions(&parameters));
+    parameters.extend(directions(&parameters, values));
     let screw = problem.screw();
     parameters.extend([
         Estimate::fixed("reference_temperature", "K", screw.reference_temperature),
@@ -240,25 +257,29 @@ fn answer(
     }
 }
 
-/// Factors of the coefficient forward and backward, as a design file has them, from their asymmetry.
-fn directions(parameters: &[Estimate]) -> Vec<Estimate> {
-    let asymmetry = parameters
+/// Factors of the coefficient forward and backward, as a design file has them, from their ratio.
+fn directions(parameters: &[Estimate], values: &Values) -> Vec<Estimate> {
+    let ratio = parameters
         .iter()
-        .find(|estimate| estimate.name == "direction_asymmetry");
-    let Some(asymmetry) = asymmetry.filter(|estimate| !estimate.fixed) else {
+        .find(|estimate| estimate.name == "direction_ratio");
+    let Some(ratio) = ratio.filter(|estimate| !estimate.fixed) else {
         return Vec::new();
     };
-    [("forward", 1.0), ("backward", -1.0)]
-        .map(|(name, way): (&str, f64)| {
-            let ends = [1.0 + way * asymmetry.low, 1.0 + way * asymmetry.high];
-            Estimate {
-                name: name.into(),
-                unit: "",
-                value: 1.0 + way * asymmetry.value,
-                low: ends[0].min(ends[1]),
-                high: ends[0].max(ends[1]),
-                fixed: false,
-            }
-        })
-        .into()
+    let at = |direction_ratio: f64| {
+        Values {
+            direction_ratio,
+            ..*values
+        }
+        .directions()
+    };
+    let [value, low, high] = [ratio.value, ratio.low, ratio.high].map(at);
+    let factor = |name: &str, place: usize| Estimate {
+        name: name.into(),
+        unit: "",
+        value: value[place],
+        low: low[place].min(high[place]),
+        high: low[place].max(high[place]),
+        fixed: false,
+    };
+    vec![factor("forward", 0), factor("backward", 1)]
 }
