@@ -32,7 +32,7 @@ pub struct Arguments {
     /// Cut-off of the zero-phase filter of the motion, Hz [default: 100, less where the sensor is coarse]
     #[arg(long, value_name = "HZ")]
     smoothing: Option<f64>,
-    /// Cut-off of the zero-phase filter of both sides of the regression, Hz [default: 40]
+    /// Cut-off of the zero-phase filter of both sides of the regression, Hz [default: 60]
     #[arg(long, value_name = "HZ")]
     rows: Option<f64>,
     /// Print one JSON object

@@ -28,7 +28,7 @@ pub struct Filters {
 /// Cut-offs of the motion that are tried, Hz.
 pub const SMOOTHING: [f64; 4] = [100.0, 60.0, 40.0, 25.0];
 /// Cut-off of the rows, Hz.
-pub const ROWS: f64 = 40.0;
+pub const ROWS: f64 = 60.0;
 /// Noise of the acceleration, over its own root mean square, that is let pass.
 const NOISE: f64 = 0.05;
 /// Cut-off over the sampling rate that is let pass.
