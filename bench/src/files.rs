@@ -1,7 +1,7 @@
 //! Files that are written whole or not at all.
 
 use std::fs;
-use std::io::{self, BufWriter, Read, Seek, SeekFrom, Write};
+use std::io::{self, BufRead, BufReader, BufWriter, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use tempfile::{Builder, NamedTempFile};
@@ -113,6 +113,36 @@ pub fn write(path: &Path, contents: &str, existing: Existing) -> Result<(), Fail
     pending.finish()
 }
 
+/// Fails where an output is an input, or another output: inputs are never overwritten.
+pub fn refuse_same<'a, const N: usize>(
+    inputs: [Option<&Path>; N],
+    outputs: impl Iterator<Item = &'a PathBuf>,
+) -> Result<(), Failure> {
+    let mut taken: Vec<PathBuf> = inputs.into_iter().flatten().map(place).collect();
+    for output in outputs {
+        let place = place(output);
+        if taken.contains(&place) {
+            return Err(Failure::Data(format!(
+                "{} is named twice",
+                output.display()
+            )));
+        }
+        taken.push(place);
+    }
+    Ok(())
+}
+
+/// Where a file is or will be, under one name however it is spelled.
+fn place(path: &Path) -> PathBuf {
+    fs::canonicalize(path).unwrap_or_else(|_| {
+        let absolute = std::path::absolute(path).unwrap_or_else(|_| path.into());
+        match (absolute.parent().map(fs::canonicalize), path.file_name()) {
+            (Some(Ok(folder)), Some(name)) => folder.join(name),
+            _ => absolute,
+        }
+    })
+}
+
 /// An input that ends with an error where it is longer than it may be.
 pub struct Bounded<R> {
     input: R,
@@ -151,4 +181,24 @@ impl<R: Seek> Seek for Bounded<R> {
         self.left = self.largest;
         self.input.seek(position)
     }
+}
+
+/// Line of the record that starts at this byte of an input, where a CSV reader says that it starts at `line`: the reader
+/// counts blank lines before a record as part of it.
+pub fn line_of(mut input: impl Read + Seek, byte: u64, line: u64) -> u64 {
+    let mut blank_lines = || -> io::Result<u64> {
+        input.seek(SeekFrom::Start(byte))?;
+        let mut input = BufReader::new(&mut input);
+        let mut count = 0;
+        loop {
+            match input.fill_buf()?.first() {
+                Some(b'\n') => count += 1,
+                Some(b'\r') => {}
+                _ => return Ok(count),
+            }
+            input.consume(1);
+        }
+    };
+    // Where the input cannot be read again, the line is that of the blank lines.
+    line + blank_lines().unwrap_or(0)
 }

@@ -3,14 +3,15 @@
 mod caged;
 mod caged_exact;
 mod choice;
-mod curves;
 mod exact_screw;
 mod linear;
 mod loads;
 mod manoeuvre;
+mod mechanism;
 mod memory;
 mod progress;
 mod reference;
+mod remembering;
 mod samples;
 mod scene;
 mod screw;
@@ -27,14 +28,14 @@ use std::path::PathBuf;
 use crate::designs::train::LinearDesign;
 use crate::designs::{self, DesignSource};
 use crate::failure::Failure;
-use crate::files::{self, Existing, Pending};
+use crate::files::{self, Existing, Pending, refuse_same};
 use choice::{Chosen, SceneName, choose};
 pub use manoeuvre::Manoeuvre;
 use progress::Progress;
 use reference::ReferenceModel;
 use samples::ScrewSample;
 use scene::Scene;
-use targets::{refuse_same, targets};
+use targets::targets;
 
 /// Runs the in-loop friction model over a trace.
 ///
@@ -125,6 +126,8 @@ pub struct Arguments {
     /// load, in place of the reversal speed
     #[arg(long)]
     memory: bool,
+    #[command(flatten)]
+    mechanism: mechanism::MechanismArguments,
     /// Replace files that exist
     #[arg(long)]
     force: bool,
@@ -151,6 +154,19 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
             manoeuvre: arguments.manoeuvre,
         };
         return loads::run(&source.load()?, &arguments.loads, loads, output, existing);
+    }
+    if let (true, Some(source), Some(input)) = (
+        arguments.mechanism.wanted(),
+        &arguments.design,
+        &arguments.input,
+    ) {
+        return mechanism::run(
+            &source.load()?,
+            &arguments.mechanism,
+            input,
+            [&arguments.output, &arguments.plot],
+            existing,
+        );
     }
     match choose(
         arguments.scene,

@@ -21,6 +21,7 @@ pub mod measured;
 pub mod presliding;
 pub mod published;
 pub mod record;
+pub mod rig;
 pub mod rolling_ball;
 pub mod statics;
 pub mod steady_state;

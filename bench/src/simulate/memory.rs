@@ -4,7 +4,7 @@ use epas_friction::law::breakaway::{
     BearingBreakaway, Breakaway, BreakawayConfiguration, BreakawayPart, Mechanism, ScrewContacts,
     Tables,
 };
-use epas_friction::law::coefficient::{OneCoefficient, TemperatureFade};
+use epas_friction::law::coefficient::{CoefficientModel, OneCoefficient, TemperatureFade};
 use epas_friction::law::memory::{Hysteresis, ProportionalElements, SLIP_4, SPIN_4, SPIN_8};
 use epas_friction::law::motion::{SpeedOverTick, WrappedAngle, WrappedAngleParameters};
 use epas_friction::scene::{Freshness, WithMemory, WithMemoryConfiguration, WithMemoryInputs};
@@ -24,6 +24,12 @@ pub type Remembering<S> = WithMemory<S, Elements, SpeedOverTick, OneCoefficient>
 
 /// Temperature of every simulation, K. The friction coefficient does not follow it.
 const TEMPERATURE: f32 = 293.15;
+
+/// What stands in for a temperature that is too old: the same one.
+const FADE: TemperatureFade = match TemperatureFade::new(TEMPERATURE, 1.0, 1.0) {
+    Ok(fade) => fade,
+    Err(_) => TemperatureFade::DEFAULT,
+};
 
 /// Least load of a contact for which elements are designed, N.
 const LEAST_LOAD: f32 = 0.1;
@@ -182,16 +188,28 @@ pub fn configuration<C, A>(
     angle: A,
     friction: f32,
 ) -> Result<WithMemoryConfiguration<C, Elements, A, OneCoefficient>, Error> {
-    Ok(WithMemoryConfiguration {
+    let elements = (remembered.elements, remembered.reference_load);
+    let coefficient = OneCoefficient::new(friction)?;
+    Ok(with_coefficient(scene, elements, angle, coefficient))
+}
+
+/// A scene with elements, the load at which they are designed, N, and any model of the friction coefficient.
+pub fn with_coefficient<C, E: Hysteresis, A, L: CoefficientModel>(
+    scene: C,
+    (elements, reference_load): (E, f32),
+    angle: A,
+    coefficient: L,
+) -> WithMemoryConfiguration<C, E, A, L> {
+    WithMemoryConfiguration {
         scene,
-        elements: remembered.elements,
+        play: elements.breakaway(),
+        elements,
         angle,
-        reference_load: remembered.reference_load,
-        play: remembered.elements.breakaway(),
-        coefficient: OneCoefficient::new(friction)?,
-        temperature: TemperatureFade::new(TEMPERATURE, 1.0, 1.0)?,
+        reference_load,
+        coefficient,
+        temperature: FADE,
         freshness: Freshness::DEFAULT,
-    })
+    }
 }
 
 /// A sensor of a speed that has a tick, s.
