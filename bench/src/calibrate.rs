@@ -94,3 +94,31 @@ pub mod units;
 pub mod without_design;
 
 pub use command::{Arguments, run};
+
+use std::io::Cursor;
+
+use crate::failure::Failure;
+
+/// Reads a trace without a design and with one, smooths it and looks whether it may be believed; its number of samples.
+pub(crate) fn accepts(text: &[u8]) -> Result<usize, String> {
+    let frame = columns::Frame {
+        lead: 7e-3,
+        ratio: 2.5,
+    };
+    let look = |frame| -> Result<usize, Failure> {
+        let trace = columns::from_reader(Cursor::new(text), "trace", frame)?;
+        let motion = signals::Motion::of(&trace, &signals::SmoothingSettings::default())?;
+        let rows = signals::Rows::new(trace.step, &signals::RowSettings::default())?;
+        let rows = rows.of(&motion.speed);
+        checks::examine(&trace, &motion)?;
+        checks::load_gain(&trace, &motion, 1e-3)?;
+        Ok(trace.len().max(rows.len()))
+    };
+    // Either may be refused by itself: a length and a torque need a design.
+    look(Some(&frame))
+        .and(look(None))
+        .map_err(|failure| match failure {
+            Failure::Data(message) => message,
+            other => format!("{other:?}"),
+        })
+}
