@@ -95,9 +95,11 @@ impl Information {
         for (estimate, regressor) in self.estimates.iter().zip(&self.regressors) {
             error -= estimate * regressor;
         }
-        let error = (error / self.noise).clamp(-4.0, 4.0);
-        self.sum += h * h.transpose();
-        let moved = self.sum.cholesky().unwrap().solve(&h) * error;
+        let error = error / self.noise;
+        let variance = h.dot(&self.sum.cholesky().unwrap().solve(&h));
+        let noise = (error * error / 16.0 - variance).max(1.0);
+        self.sum += h * h.transpose() / noise;
+        let moved = self.sum.cholesky().unwrap().solve(&h) * (error / noise);
         for i in 0..5 {
             let (least, largest) = self.bounds[i];
             self.estimates[i] =
@@ -171,15 +173,19 @@ fn errors(configuration: &AdaptationConfiguration, seed: u64, ticks: u64) -> (f6
     let mut adaptation = Adaptation::new(configuration).unwrap();
     let mut exact = Information::new(configuration);
     let mut inputs = Ticks::new(seed);
-    let (mut spread, mut place) = (0.0_f64, 0.0_f64);
+    let (mut spread, mut place, mut worst) = (0.0_f64, 0.0_f64, String::new());
     for tick in 0..ticks {
         let now = inputs.next();
         let adapted = adaptation.update(&now);
         assert!(adapted.flags.counted());
         exact.update(&now);
-        let found = values(adapted.estimates);
+        let (found, wanted) = (values(adapted.estimates), exact.estimates);
         for ((found, exact), deviation) in found.iter().zip(exact.estimates).zip(exact.deviations) {
-            place = place.max((f64::from(*found) - exact).abs() / deviation);
+            let error = (f64::from(*found) - exact).abs() / deviation;
+            if error > place {
+                place = error;
+                worst = format!("{tick}: {:?} for {wanted:?} at {now:?}", adapted.estimates);
+            }
         }
         if tick % 16 == 0 {
             let deviations = values(adaptation.deviations());
@@ -195,6 +201,7 @@ fn errors(configuration: &AdaptationConfiguration, seed: u64, ticks: u64) -> (f6
             }
         }
     }
+    println!("worst estimate: {worst}");
     (spread, place)
 }
 
