@@ -267,10 +267,11 @@ impl Part {
         }
     }
 
-    /// 0 at both ends, 1 from half a second on.
+    /// 0 at both ends, 1 from a tenth of the duration on, two seconds at most.
     fn faded(&self, tick: usize) -> f64 {
         let end = self.time(tick.min(self.ticks - 1 - tick.min(self.ticks - 1)));
-        (FRAC_PI_2 * (end / 0.5).min(1.0)).sin().powi(2)
+        let fading = (0.1 * self.duration).min(2.0);
+        (FRAC_PI_2 * (end / fading).min(1.0)).sin().powi(2)
     }
 
     /// Random waves of a band, Hz, with an rms value.
