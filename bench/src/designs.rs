@@ -1,7 +1,9 @@
 //! Designs by name or from a file.
 
+pub mod calibration;
 pub mod loads;
 mod tables;
+pub mod text;
 pub mod train;
 
 use std::f32::consts::TAU;
@@ -16,6 +18,7 @@ use epas_friction::{
 use serde::Deserialize;
 
 use crate::failure::Failure;
+use calibration::{Calibrated, CalibrationTable};
 use loads::{LoadCase, LoadsTable};
 use tables::{MaterialTable, from_file, groove_size, material, radius, replace};
 use train::{UncagedDesign, UncagedTable};
@@ -33,6 +36,8 @@ pub struct Design {
     pub uncaged: Option<UncagedDesign>,
     /// Its screw between supports, where they are known.
     pub loads: Option<LoadCase>,
+    /// What a measured trace has told of it, where there is one.
+    pub calibrated: Option<Calibrated>,
 }
 
 /// Settings that a catalogue does not print.
@@ -63,6 +68,7 @@ impl Design {
             loaded_balls,
             uncaged: loaded_balls.and_then(|balls| train::built_in(name, design, balls)),
             loads: loaded_balls.and_then(|balls| loads::built_in(name, balls)),
+            calibrated: None,
         }
     }
 
@@ -190,6 +196,7 @@ struct DesignFile {
     limits: Option<LimitsTable>,
     uncaged: Option<UncagedTable>,
     loads: Option<LoadsTable>,
+    calibration: Option<CalibrationTable>,
 }
 
 #[derive(Deserialize)]
@@ -217,8 +224,13 @@ enum BranchName {
 
 /// Reads a design file.
 pub fn accepts(text: &str) -> Result<(), String> {
+    read(text, "design").map(drop)
+}
+
+/// The design of a file's text; its name where it has none.
+pub fn read(text: &str, name: &str) -> Result<Design, String> {
     let file: DesignFile = toml::from_str(text).map_err(|error| error.to_string())?;
-    file.design("design").map(drop)
+    file.design(name)
 }
 
 impl DesignFile {
@@ -313,6 +325,14 @@ impl DesignFile {
                     .map_err(|message| format!("loads: {message}"))
             })
             .transpose()?;
+        design.calibrated = self
+            .calibration
+            .map(|table| {
+                table
+                    .checked(configuration.friction)
+                    .map_err(|message| format!("calibration: {message}"))
+            })
+            .transpose()?;
         Ok(design)
     }
 }
@@ -364,9 +384,7 @@ mod tests {
     }
 
     fn parse(text: &str) -> Result<Design, String> {
-        toml::from_str::<DesignFile>(text)
-            .map_err(|error| error.to_string())?
-            .design("stem")
+        read(text, "stem")
     }
 
     const GOOD: &str = "nominal_diameter = 0.032\nlead = 0.02\nball_diameter = 6.35e-3\n\
@@ -415,6 +433,31 @@ mod tests {
             ("[limits]\nnut_speed = 0", "nut_speed"),
             ("[limits]\nspeed = 1", "speed"),
             ("[ball_material]\nyoungs_modulus = -1", "youngs_modulus"),
+            ("[calibration]\nfilm = 1", "film"),
+            ("[calibration]\nfull_film = 0.05", "half_share_speed"),
+            ("[calibration]\nhalf_share_speed = 5", "full_film"),
+            (
+                "[calibration]\nfull_film = 2\nhalf_share_speed = 5",
+                "full_film",
+            ),
+            (
+                "[calibration]\nreference_temperature = 300",
+                "half_share_speed",
+            ),
+            ("[calibration]\nforward = nan", "forward"),
+            ("[calibration]\nbackward = 0", "backward"),
+            ("[calibration]\nbreakaway_angle = 0", "breakaway_angle"),
+            ("[calibration]\nreference_load = -1", "reference_load"),
+            ("[calibration]\ninertia = inf", "inertia"),
+            ("[calibration]\ndrag = nan", "drag"),
+            ("[calibration]\noffset = 1e9", "offset"),
+            ("[calibration]\ngain = -1", "gain"),
+            ("[calibration]\nbacklash = -1", "backlash"),
+            ("[calibration]\nharmonics = [{ order = 0 }]", "order"),
+            (
+                "[calibration]\nharmonics = [{ order = 1, sine = nan }]",
+                "sine",
+            ),
         ] {
             let error = parse(&format!("{GOOD}{addition}\n")).unwrap_err();
             assert!(error.contains(field), "{addition}: {error}");

@@ -8,6 +8,7 @@
 #[doc(hidden)]
 pub mod calibrate;
 mod cli;
+mod controller;
 mod designs;
 mod document;
 mod eval;
@@ -15,6 +16,7 @@ mod eval;
 pub mod exact_ring;
 mod failure;
 mod files;
+mod mechanism;
 mod peers;
 mod plot;
 mod progress;

@@ -8,6 +8,7 @@ mod exact_screw;
 mod linear;
 mod loads;
 mod manoeuvre;
+mod mechanism;
 mod memory;
 mod progress;
 mod reference;
@@ -125,6 +126,8 @@ pub struct Arguments {
     /// load, in place of the reversal speed
     #[arg(long)]
     memory: bool,
+    #[command(flatten)]
+    mechanism: mechanism::MechanismArguments,
     /// Replace files that exist
     #[arg(long)]
     force: bool,
@@ -151,6 +154,19 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
             manoeuvre: arguments.manoeuvre,
         };
         return loads::run(&source.load()?, &arguments.loads, loads, output, existing);
+    }
+    if let (true, Some(source), Some(input)) = (
+        arguments.mechanism.wanted(),
+        &arguments.design,
+        &arguments.input,
+    ) {
+        return mechanism::run(
+            &source.load()?,
+            &arguments.mechanism,
+            input,
+            [&arguments.output, &arguments.plot],
+            existing,
+        );
     }
     match choose(
         arguments.scene,

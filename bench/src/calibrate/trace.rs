@@ -35,6 +35,8 @@ pub struct Trace {
     pub position: Vec<f64>,
     /// Step of the position's sensor, rad or m, found from the samples; 0 where there is none to be seen.
     pub resolution: f64,
+    /// Whether position was not measured but summed up from the speed.
+    pub position_summed: bool,
     /// Speed, where it was measured, rad/s or m/s.
     pub speed: Option<Vec<f64>>,
     /// Effort of the motor, N m or N, in the direction of positive motion.
@@ -47,6 +49,8 @@ pub struct Trace {
     pub temperature: Option<Vec<f64>>,
     /// What was repaired.
     pub repairs: Repairs,
+    /// Names of the file's columns that are none of these.
+    pub ignored: Vec<String>,
 }
 
 impl Trace {

@@ -1,6 +1,6 @@
 //! A ball screw whose balls do not touch.
 
-use epas_friction::law::coefficient::OneCoefficient;
+use epas_friction::law::coefficient::{CoefficientLaw, OneCoefficient};
 use epas_friction::law::motion::WrappedAngle;
 use epas_friction::scene::WithMemory;
 use epas_friction::{
@@ -64,16 +64,18 @@ impl Reference {
 enum Model {
     Plain(FrictionModel<CagedBallScrew>),
     Memory(FrictionModel<WithMemory<CagedBallScrew, Elements, WrappedAngle, OneCoefficient>>),
+    Law(FrictionModel<WithMemory<CagedBallScrew, Elements, WrappedAngle, CoefficientLaw>>),
 }
 
 impl Model {
     /// The model of a configuration over a trace, and what of its memory the summary tells.
     fn new(
-        configuration: &CagedBallScrewConfiguration,
+        Caged { design, memory }: &Caged,
         trace: &Trace<ScrewSample>,
-        with_memory: bool,
     ) -> Result<(Self, Lines), Error> {
-        if !with_memory {
+        let calibrated = design.calibrated.as_ref();
+        let configuration = &design.configuration;
+        if !memory {
             let model = Self::Plain(FrictionModel::new(configuration)?);
             return Ok((model, Lines::default()));
         }
@@ -91,22 +93,30 @@ impl Model {
             clearance,
             rolling_resistance,
             loaded_balls: f32::from(loaded_balls),
+            calibrated,
         }
         .remembered(memory::mean_load(trace))?;
-        let whole = memory::configuration(*configuration, &remembered, memory::angle()?, friction)?;
-        let model = Self::Memory(FrictionModel::new(&whole)?);
+        let (scene, angle) = (*configuration, memory::angle()?);
+        let law = calibrated.and_then(|calibrated| calibrated.coefficient.as_ref());
+        let model = if let Some(law) = law {
+            let law = CoefficientLaw::new(law)?;
+            let whole = memory::with_coefficient(scene, &remembered, angle, law);
+            Self::Law(FrictionModel::new(&whole)?)
+        } else {
+            let whole = memory::configuration(scene, &remembered, angle, friction)?;
+            Self::Memory(FrictionModel::new(&whole)?)
+        };
         Ok((model, remembered.lines))
     }
 
     /// What it says to a moment at an angle of the nut, rad.
     fn step(&mut self, inputs: Inputs, angle: f64) -> Outputs {
+        let half = std::f64::consts::PI;
+        let wrapped = ((angle + half).rem_euclid(2.0 * half) - half) as f32;
         match self {
             Self::Plain(model) => model.step(inputs),
-            Self::Memory(model) => {
-                let half = std::f64::consts::PI;
-                let wrapped = (angle + half).rem_euclid(2.0 * half) - half;
-                model.step(memory::fresh(inputs, wrapped as f32))
-            }
+            Self::Memory(model) => model.step(memory::fresh(inputs, wrapped)),
+            Self::Law(model) => model.step(memory::fresh(inputs, wrapped)),
         }
     }
 }
@@ -137,7 +147,7 @@ impl Scene for Caged {
         done: &dyn Fn(),
     ) -> Result<(Vec<CagedRow>, Lines), Failure> {
         let configuration = &self.design.configuration;
-        let (mut model, lines) = Model::new(configuration, trace, self.memory)
+        let (mut model, lines) = Model::new(self, trace)
             .map_err(|error| Failure::Data(format!("{}: {error}", self.name())))?;
         let reference = reference
             .map(|model| Reference::new(model, configuration, trace))

@@ -4,14 +4,17 @@ use epas_friction::law::breakaway::{
     BearingBreakaway, Breakaway, BreakawayConfiguration, BreakawayPart, Mechanism, ScrewContacts,
     Tables,
 };
-use epas_friction::law::coefficient::{OneCoefficient, TemperatureFade};
-use epas_friction::law::memory::{Hysteresis, ProportionalElements, SLIP_4, SPIN_4, SPIN_8};
+use epas_friction::law::coefficient::{CoefficientModel, OneCoefficient, TemperatureFade};
+use epas_friction::law::memory::{
+    Hysteresis, Part, ProportionalElements, SLIP_4, SLIP_8, SPIN_4, SPIN_8,
+};
 use epas_friction::law::motion::{SpeedOverTick, WrappedAngle, WrappedAngleParameters};
 use epas_friction::scene::{Freshness, WithMemory, WithMemoryConfiguration, WithMemoryInputs};
 use epas_friction::{BallScrew, Clearance, Error, LinearBearingConfiguration, RollingResistance};
 
 use super::summary::Lines;
 use super::trace::{Sample, Trace};
+use crate::designs::calibration::Calibrated;
 
 /// Elements of every simulation.
 pub const ELEMENTS: usize = 8;
@@ -24,6 +27,12 @@ pub type Remembering<S> = WithMemory<S, Elements, SpeedOverTick, OneCoefficient>
 
 /// Temperature of every simulation, K. The friction coefficient does not follow it.
 const TEMPERATURE: f32 = 293.15;
+
+/// What stands in for a temperature that is too old: the same one.
+const FADE: TemperatureFade = match TemperatureFade::new(TEMPERATURE, 1.0, 1.0) {
+    Ok(fade) => fade,
+    Err(_) => TemperatureFade::DEFAULT,
+};
 
 /// Least load of a contact for which elements are designed, N.
 const LEAST_LOAD: f32 = 0.1;
@@ -40,6 +49,8 @@ pub struct Screw<'a> {
     pub rolling_resistance: RollingResistance,
     /// Balls that carry load.
     pub loaded_balls: f32,
+    /// What a measured trace has told of it, where there is one.
+    pub calibrated: Option<&'a Calibrated>,
 }
 
 /// Elements with the lines that tell of them.
@@ -59,11 +70,21 @@ pub fn mean_load<S: Sample>(trace: &Trace<S>) -> f32 {
 }
 
 impl Screw<'_> {
-    /// Its elements at an axial load, N.
+    /// Its elements at an axial load, N: by its design, or with the breakaway angle that was measured, at the load of that.
     ///
     /// # Errors
     /// [`Error`] naming a field out of range.
-    pub fn remembered(&self, axial_load: f32) -> Result<Remembered, Error> {
+    pub fn remembered(&self, mean_load: f32) -> Result<Remembered, Error> {
+        let measured = self
+            .calibrated
+            .and_then(|calibrated| calibrated.breakaway_angle);
+        let reference_load = self
+            .calibrated
+            .and_then(|calibrated| calibrated.reference_load);
+        let axial_load = match (measured, reference_load) {
+            (Some(_), Some(load)) => load,
+            _ => mean_load,
+        };
         let loaded_balls = self.loaded_balls.round().max(1.0) as u16;
         let contacts = ScrewContacts::of(self.design);
         let contact_load = contacts.preloaded(axial_load, loaded_balls, self.clearance);
@@ -77,25 +98,50 @@ impl Screw<'_> {
                 contact_load: contact_load.max(LEAST_LOAD),
             },
         )?;
-        let elements = breakaway.elements(&Tables {
-            slip: &SLIP_4.elements,
-            spin: &SPIN_4.elements,
-            rolling_resistance: &[],
-        })?;
         let mut lines = Lines::default();
-        tell(
-            &mut lines,
-            &elements,
-            &breakaway.parts(),
-            &format!("{:.1} N a contact", contact_load.max(LEAST_LOAD)),
-            ("N m/rad", "mrad"),
-        );
+        let at = format!("{:.1} N a contact", contact_load.max(LEAST_LOAD));
+        let units = ("N m/rad", "mrad");
+        let elements = if let Some(breakaway_angle) = measured {
+            let elements = measured_elements(breakaway.torque, breakaway_angle)?;
+            tell(
+                &mut lines,
+                &elements,
+                &[],
+                &format!("{at}, as calibrated"),
+                units,
+            );
+            elements
+        } else {
+            let elements = breakaway.elements(&Tables {
+                slip: &SLIP_4.elements,
+                spin: &SPIN_4.elements,
+                rolling_resistance: &[],
+            })?;
+            tell(&mut lines, &elements, &breakaway.parts(), &at, units);
+            elements
+        };
         Ok(Remembered {
             elements,
             reference_load: axial_load.max(1e-3),
             lines,
         })
     }
+}
+
+/// Elements that slide with a torque, N m, after a breakaway angle that was measured, rad: a trace tells the angle, not
+/// which mechanism it is, so that all of it is slip across the path.
+///
+/// # Errors
+/// [`Error`] naming a field out of range.
+pub const fn measured_elements(torque: f32, breakaway_angle: f32) -> Result<Elements, Error> {
+    ProportionalElements::new(
+        torque,
+        &[Part {
+            backbone: &SLIP_8.elements,
+            share: 1.0,
+            breakaway_angle,
+        }],
+    )
 }
 
 /// Elements of a linear bearing under a normal load, N, shared by so many balls.
@@ -182,16 +228,27 @@ pub fn configuration<C, A>(
     angle: A,
     friction: f32,
 ) -> Result<WithMemoryConfiguration<C, Elements, A, OneCoefficient>, Error> {
-    Ok(WithMemoryConfiguration {
+    let coefficient = OneCoefficient::new(friction)?;
+    Ok(with_coefficient(scene, remembered, angle, coefficient))
+}
+
+/// A scene with these elements and any model of the friction coefficient.
+pub fn with_coefficient<C, A, L: CoefficientModel>(
+    scene: C,
+    remembered: &Remembered,
+    angle: A,
+    coefficient: L,
+) -> WithMemoryConfiguration<C, Elements, A, L> {
+    WithMemoryConfiguration {
         scene,
         elements: remembered.elements,
         angle,
         reference_load: remembered.reference_load,
         play: remembered.elements.breakaway(),
-        coefficient: OneCoefficient::new(friction)?,
-        temperature: TemperatureFade::new(TEMPERATURE, 1.0, 1.0)?,
+        coefficient,
+        temperature: FADE,
         freshness: Freshness::DEFAULT,
-    })
+    }
 }
 
 /// A sensor of a speed that has a tick, s.

@@ -108,6 +108,7 @@ impl Uncaged {
             clearance,
             rolling_resistance,
             loaded_balls: f32::from(self.balls.balls) * loaded / (loaded + return_length),
+            calibrated: self.design.calibrated.as_ref(),
         };
         self.memory
             .then(|| screw.remembered(memory::mean_load(trace)))

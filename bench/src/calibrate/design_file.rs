@@ -1,0 +1,399 @@
+//! A design file with the calibrated numbers: the user's own text, in which only those are replaced or added.
+
+use toml_edit::{Array, DocumentMut, InlineTable, Item, RawString, Table, TableLike, Value};
+
+use super::answer::{Calibration, Estimate};
+use super::shown::{interval, one_line};
+use crate::designs::{Design, read};
+
+/// Keys of a screw that a trace may tell, at the top of a design file.
+const KEYS: [&str; 7] = [
+    "friction",
+    "hysteresis_loss",
+    "lubricant_drag",
+    "rolling_tangent",
+    "clearance",
+    "preload",
+    "reversal_speed",
+];
+
+/// Keys of the table `[calibration]`.
+const TABLE_KEYS: [&str; 10] = [
+    "full_film",
+    "half_share_speed",
+    "forward",
+    "backward",
+    "breakaway_angle",
+    "inertia",
+    "drag",
+    "offset",
+    "gain",
+    "backlash",
+];
+
+/// Keys of the table that say at what the others hold: they are set, not estimated.
+const CIRCUMSTANCES: [&str; 2] = ["reference_load", "reference_temperature"];
+
+/// Largest number of waves in a turn.
+const HARMONICS: u8 = 64;
+
+/// What a comment of this program starts with.
+const MARK: &str = "calibrated: ";
+
+/// A design file that was made.
+#[derive(Debug)]
+pub struct Written {
+    /// Its text.
+    pub text: String,
+    /// The design that it is read as.
+    pub design: Design,
+    /// Estimated parameters that a design file has no key for.
+    pub left_out: Vec<String>,
+}
+
+/// The text of a design file with the estimated parameters in it, and beside each its interval and the trace's name.
+///
+/// Everything else stays as it was: other keys, their order, comments, blank lines. A second calibration replaces the
+/// comments of the first one.
+///
+/// # Errors
+/// What is wrong with the text, or which calibrated number is out of the range of a design.
+pub fn written(text: &str, calibration: &Calibration, trace: &str) -> Result<Written, String> {
+    let mut document: DocumentMut = text
+        .parse()
+        .map_err(|error: toml_edit::TomlError| error.to_string())?;
+    let trace = one_line(trace);
+    let mut left_out = Vec::new();
+    let all = with_full_film(calibration);
+    let mut waves = Waves::default();
+    for estimate in &all {
+        let name = estimate.name.as_str();
+        if CIRCUMSTANCES.contains(&name) {
+            set(table(&mut document)?, estimate, "");
+        } else if estimate.fixed {
+        } else if KEYS.contains(&name) {
+            let root = document.as_table_mut();
+            match name {
+                "preload" => rename(root, "clearance", "preload"),
+                "clearance" => rename(root, "preload", "clearance"),
+                _ => {}
+            }
+            set(root, estimate, &trace);
+        } else if TABLE_KEYS.contains(&name) {
+            set(table(&mut document)?, estimate, &trace);
+        } else if !waves.take(estimate) {
+            left_out.push(estimate.name.clone());
+        }
+    }
+    if let Some(list) = waves.list(&trace) {
+        table(&mut document)?.insert("harmonics", Item::Value(list.into()));
+    }
+    let text = document.to_string();
+    let design = read(&text, &trace)?;
+    Ok(Written {
+        text,
+        design,
+        left_out,
+    })
+}
+
+/// The estimates, in which the ratio of the full-film coefficient to that at standstill is a coefficient.
+fn with_full_film(calibration: &Calibration) -> Vec<Estimate> {
+    let mut all = calibration.parameters.clone();
+    if let Some(friction) = calibration.value("friction") {
+        for estimate in &mut all {
+            if estimate.name == "full_film_ratio" {
+                estimate.name = "full_film".into();
+                estimate.value *= friction;
+                estimate.low *= friction;
+                estimate.high *= friction;
+            }
+        }
+    }
+    all
+}
+
+/// The table `[calibration]`, made where there is none.
+fn table(document: &mut DocumentMut) -> Result<&mut dyn TableLike, String> {
+    let root = document.as_table_mut();
+    if !root.contains_key("calibration") {
+        let mut table = Table::new();
+        table.decor_mut().set_prefix("\n");
+        root.insert("calibration", Item::Table(table));
+    }
+    root.get_mut("calibration")
+        .and_then(Item::as_table_like_mut)
+        .ok_or_else(|| "calibration is no table".into())
+}
+
+/// Puts a number in its place, with what is known of it as a comment behind it; that of the user stays before that.
+fn set(table: &mut dyn TableLike, estimate: &Estimate, trace: &str) {
+    let number = number(estimate.value);
+    let note = if trace.is_empty() {
+        String::new()
+    } else {
+        note(estimate, trace)
+    };
+    let users = table
+        .get(&estimate.name)
+        .and_then(Item::as_value)
+        .and_then(|value| value.decor().suffix())
+        .and_then(RawString::as_str)
+        .map_or("", users_comment)
+        .to_owned();
+    let suffix = match (users.is_empty(), note.is_empty()) {
+        (true, true) => String::new(),
+        (true, false) => format!(" # {note}"),
+        (false, true) => format!(" {users}"),
+        (false, false) => format!(" {users}; {note}"),
+    };
+    let mut value = number;
+    value.decor_mut().set_prefix(" ");
+    value.decor_mut().set_suffix(suffix);
+    if let Some(place) = table.get_mut(&estimate.name) {
+        *place = Item::Value(value);
+    } else {
+        table.insert(&estimate.name, Item::Value(value));
+    }
+}
+
+/// A comment without what this program had added to it.
+fn users_comment(suffix: &str) -> &str {
+    let end = suffix.find(MARK).unwrap_or(suffix.len());
+    let own = suffix[..end].trim().trim_end_matches(';').trim_end();
+    if own == "#" { "" } else { own }
+}
+
+/// What is known of a number.
+fn note(estimate: &Estimate, trace: &str) -> String {
+    format!(
+        "{MARK}{} (95 %), trace {trace}",
+        interval(estimate.low, estimate.high)
+    )
+}
+
+/// A number to the last digit of what a design holds.
+fn number(value: f64) -> Value {
+    // The shortest digits that are this f32 again.
+    let short = format!("{:?}", value as f32);
+    short.parse().unwrap_or_else(|_| Value::from(value))
+}
+
+/// Gives a key another name; comments above and behind it stay with it.
+fn rename(table: &mut Table, old: &str, new: &str) {
+    if table.contains_key(new) {
+        table.remove(old);
+        return;
+    }
+    if let Some((key, item)) = table.remove_entry(old) {
+        let decor = key.leaf_decor().clone();
+        table.insert(new, item);
+        if let Some(mut key) = table.key_mut(new) {
+            *key.leaf_decor_mut() = decor;
+        }
+    }
+}
+
+/// Estimated waves over the turn: order, cosine, sine.
+#[derive(Default)]
+struct Waves(Vec<(u8, [Option<Estimate>; 2])>);
+
+impl Waves {
+    /// Whether an estimate is a part of a wave, `cosine_1` or `sine_1`; then it is taken.
+    fn take(&mut self, estimate: &Estimate) -> bool {
+        let Some((part, order)) = estimate.name.split_once('_') else {
+            return false;
+        };
+        let place = match part {
+            "cosine" => 0,
+            "sine" => 1,
+            _ => return false,
+        };
+        let Some(order) = order
+            .parse()
+            .ok()
+            .filter(|order| (1..=HARMONICS).contains(order))
+        else {
+            return false;
+        };
+        let index = self
+            .0
+            .iter()
+            .position(|(known, _)| *known == order)
+            .unwrap_or_else(|| {
+                self.0.push((order, [None, None]));
+                self.0.len() - 1
+            });
+        self.0[index].1[place] = Some(estimate.clone());
+        true
+    }
+
+    /// The list of a design file, one wave a line.
+    fn list(self, trace: &str) -> Option<Array> {
+        if self.0.is_empty() {
+            return None;
+        }
+        let mut list = Array::new();
+        let mut before = String::from("\n    ");
+        for (order, parts) in self.0 {
+            let mut wave = InlineTable::new();
+            wave.insert("order", i64::from(order).into());
+            let mut notes = Vec::new();
+            for (name, part) in ["cosine", "sine"].into_iter().zip(parts) {
+                if let Some(part) = part {
+                    wave.insert(name, number(part.value));
+                    notes.push(format!("{name} {}", interval(part.low, part.high)));
+                }
+            }
+            let mut wave = Value::InlineTable(wave);
+            wave.decor_mut().set_prefix(before);
+            list.push_formatted(wave);
+            before = format!(" # {MARK}{} (95 %), trace {trace}\n    ", notes.join(", "));
+        }
+        list.set_trailing_comma(true);
+        list.set_trailing(before.trim_end_matches(' '));
+        Some(list)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const USERS: &str = "\
+# Rack drive, second sample.
+name = \"rack\"   # drawing 7
+nominal_diameter = 0.032
+lead = 0.02
+
+# From the data sheet.
+friction = 0.1 # assumed
+clearance = -1e-6 # sorted balls
+ball_diameter = 6.35e-3
+conformity = 0.528
+contact_angle = 0.7853982
+loaded_balls = 40
+
+[limits]
+nut_speed = 300 # of the motor
+";
+
+    fn estimate(name: &str, value: f64) -> Estimate {
+        Estimate {
+            name: name.into(),
+            unit: "",
+            value,
+            low: 0.9 * value,
+            high: 1.1 * value,
+            fixed: false,
+        }
+    }
+
+    fn calibration(parameters: Vec<Estimate>) -> Calibration {
+        Calibration {
+            parameters,
+            residual_rms: 1.0,
+            relative_error: 0.1,
+            effective_rows: 100.0,
+            cannot_tell: Vec::new(),
+            models: Vec::new(),
+            winner: None,
+        }
+    }
+
+    fn whole() -> Calibration {
+        calibration(vec![
+            estimate("friction", 0.1152),
+            estimate("full_film_ratio", 0.5),
+            estimate("half_share_speed", 6.0),
+            Estimate::fixed("reference_temperature", "K", 303.0),
+            Estimate::fixed("hysteresis_loss", "", 0.02),
+            estimate("preload", 17.0),
+            estimate("breakaway_angle", 2e-3),
+            estimate("inertia", 4e-4),
+            estimate("gain", 1.012),
+            estimate("cosine_1", 1.5e-3),
+            estimate("sine_1", -1e-3),
+            estimate("sine_2", 8e-4),
+            estimate("colour", 3.0),
+        ])
+    }
+
+    #[test]
+    fn only_calibrated_numbers_change() {
+        let Written { text, left_out, .. } = written(USERS, &whole(), "weave\n17").unwrap();
+        assert_eq!(left_out, ["colour"]);
+        let own = |line: &&str| !line.contains("calibrated: ") && !line.trim().is_empty();
+        let kept: Vec<_> = text.lines().filter(own).collect();
+        for line in USERS.lines().filter(|line| !line.is_empty()) {
+            let replaced = line.starts_with("friction") || line.starts_with("clearance");
+            assert_eq!(kept.contains(&line), !replaced, "{line}");
+        }
+        for line in [
+            "friction = 0.1152 # assumed; calibrated: 0.1037 to 0.1267 (95 %), trace weave 17",
+            "preload = 17.0 # sorted balls; calibrated: 15.30 to 18.70 (95 %), trace weave 17",
+            "full_film = 0.0576 # calibrated: 0.05184 to 0.06336 (95 %), trace weave 17",
+            "reference_temperature = 303.0",
+        ] {
+            assert!(text.contains(line), "{line}\n{text}");
+        }
+        // What was set is not written as if it had been measured.
+        assert!(!text.contains("hysteresis_loss"), "{text}");
+    }
+
+    #[test]
+    fn what_is_written_is_read_as_what_was_calibrated() {
+        let Written { text, design, .. } = written(USERS, &whole(), "weave").unwrap();
+        let again = read(&text, "other").unwrap();
+        assert_eq!(again.configuration, design.configuration);
+        assert_eq!(again.calibrated, design.calibrated);
+        assert_eq!(again.configuration.friction, 0.1152);
+        let screw = &again.configuration.design;
+        // Of a preload that is turned into a gap and back: two powers, each of some roundings of 6e-8.
+        let preload = again.configuration.clearance.preload(screw);
+        assert!((preload - 17.0).abs() < 17.0 * 1e-5, "{preload}");
+        let calibrated = again.calibrated.unwrap();
+        let law = calibrated.coefficient.unwrap();
+        assert_eq!(
+            (
+                law.boundary,
+                law.full_film,
+                law.half_share_speed,
+                law.reference_temperature
+            ),
+            (0.1152, 0.0576, 6.0, 303.0)
+        );
+        assert_eq!(calibrated.breakaway_angle, Some(2e-3));
+        assert_eq!(
+            (calibrated.inertia, calibrated.gain),
+            (Some(4e-4), Some(1.012))
+        );
+        let waves: Vec<_> = calibrated
+            .harmonics
+            .iter()
+            .map(|wave| (wave.order, wave.cosine, wave.sine))
+            .collect();
+        assert_eq!(waves, [(1, 1.5e-3, -1e-3), (2, 0.0, 8e-4)]);
+    }
+
+    #[test]
+    fn a_second_calibration_replaces_the_first() {
+        let first = written(USERS, &whole(), "weave").unwrap().text;
+        let again = written(&first, &whole(), "weave").unwrap().text;
+        assert_eq!(first, again);
+        let other = written(&first, &whole(), "parking").unwrap().text;
+        assert!(!other.contains("weave") && other.contains("assumed; calibrated"));
+    }
+
+    #[test]
+    fn a_number_out_of_range_is_named() {
+        let wrong = calibration(vec![estimate("friction", 7.0)]);
+        let error = written(USERS, &wrong, "weave").unwrap_err();
+        assert!(error.contains("friction"), "{error}");
+        let wrong = calibration(vec![estimate("drag", f64::NAN)]);
+        let error = written(USERS, &wrong, "weave").unwrap_err();
+        assert!(error.contains("drag"), "{error}");
+        assert!(written("friction = ", &whole(), "weave").is_err());
+        assert!(written("calibration = 3", &whole(), "weave").is_err());
+    }
+}

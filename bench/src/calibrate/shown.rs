@@ -1,0 +1,65 @@
+//! Numbers as a page, a comment and a terminal show them.
+
+/// A number with so many significant digits, by powers of ten where it is very large or very small.
+pub fn digits(value: f64, digits: usize) -> String {
+    if !value.is_finite() {
+        return value.to_string();
+    }
+    let size = value.abs();
+    if size == 0.0 {
+        return "0".into();
+    }
+    let scientific = format!("{value:.0$e}", digits.saturating_sub(1));
+    // What rounding makes of it decides, so that 0.99996 is shown as 1.000.
+    let exponent = scientific
+        .split_once('e')
+        .and_then(|(_, exponent)| exponent.parse::<i32>().ok())
+        .unwrap_or(0);
+    if (-3..5).contains(&exponent) {
+        let decimals = (digits as i32 - 1 - exponent).max(0) as usize;
+        format!("{value:.decimals$}")
+    } else {
+        scientific
+    }
+}
+
+/// A 95 % interval.
+pub fn interval(low: f64, high: f64) -> String {
+    match (low.is_finite(), high.is_finite()) {
+        (true, true) => format!("{} to {}", digits(low, 4), digits(high, 4)),
+        (true, false) => format!("{} or more", digits(low, 4)),
+        (false, true) => format!("{} or less", digits(high, 4)),
+        (false, false) => "without bounds".into(),
+    }
+}
+
+/// A text in one line, without control characters, cut to 200 letters: for comments of a file.
+pub fn one_line(text: &str) -> String {
+    text.chars()
+        .map(|letter| if letter.is_control() { ' ' } else { letter })
+        .take(200)
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn digits_are_significant_ones() {
+        assert_eq!(digits(0.115_234, 4), "0.1152");
+        assert_eq!(digits(0.999_96, 4), "1.000");
+        assert_eq!(digits(-3.165_4e-5, 3), "-3.17e-5");
+        assert_eq!(digits(95_109.4, 4), "95109");
+        assert_eq!(digits(0.0, 4), "0");
+        assert_eq!(digits(f64::NAN, 4), "NaN");
+    }
+
+    #[test]
+    fn an_interval_says_where_nothing_bounds_it() {
+        assert_eq!(interval(0.1, 0.2), "0.1000 to 0.2000");
+        assert_eq!(interval(0.1, f64::INFINITY), "0.1000 or more");
+        assert_eq!(interval(f64::NEG_INFINITY, 2.0), "2.000 or less");
+        assert_eq!(interval(f64::NAN, f64::NAN), "without bounds");
+    }
+}

@@ -1,0 +1,189 @@
+//! Motion of a mass or an inertia under an effort, with friction that may hold it at rest.
+//!
+//! A step of time `h` is implicit in the speed: `I (v - v0)/h = effort - R(h v)`, with the resistance `R` at the end of the step. `R` does not
+//! fall with the motion, so the speed is the one root between rest and the speed without a change of resistance. A mass that sticks
+//! stays on its friction's spring: nothing chatters at any step. Euler's backward rule: the error of a motion falls with the step.
+
+use roots::{SimpleConvergency, find_root_brent};
+
+/// A step of a motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Step {
+    /// Position at its start, rad or m.
+    pub position: f64,
+    /// Speed at its start, rad/s or m/s.
+    pub speed: f64,
+    /// Way, rad or m.
+    pub turn: f64,
+    /// Time, s, above 0.
+    pub time: f64,
+}
+
+impl Step {
+    /// Speed at its end, by Euler's backward rule.
+    pub fn end_speed(&self) -> f64 {
+        self.turn / self.time
+    }
+}
+
+/// What opposes a motion: friction, drag, a load.
+pub trait Resistance {
+    /// Effort against the motion at the end of a step, N m or N. It must not fall with the way. Nothing is remembered.
+    fn against(&self, step: &Step) -> f64;
+
+    /// The same, remembered: the step was made.
+    fn follow(&mut self, step: &Step) -> f64;
+}
+
+/// A mass or an inertia with what opposes its motion.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mechanism<R> {
+    /// Mass, kg, or inertia, kg m^2; above 0.
+    pub inertia: f64,
+    /// Position, rad or m.
+    pub position: f64,
+    /// Speed, rad/s or m/s.
+    pub speed: f64,
+    /// What opposes its motion.
+    pub resistance: R,
+}
+
+impl<R: Resistance> Mechanism<R> {
+    /// Moves on by a time under an effort, N m or N; gives the resistance at its end.
+    pub fn advance(&mut self, effort: f64, time: f64) -> f64 {
+        let step = |end_speed: f64| Step {
+            position: self.position,
+            speed: self.speed,
+            turn: end_speed * time,
+            time,
+        };
+        let excess = |end_speed: f64| {
+            self.inertia * (end_speed - self.speed) / time
+                + self.resistance.against(&step(end_speed))
+                - effort
+        };
+        // Excess grows with the speed: it is below zero at rest if this speed is above, and not below zero at it.
+        let free =
+            self.speed + time / self.inertia * (effort - self.resistance.against(&step(0.0)));
+        let end_speed = if free == 0.0 || excess(free) == 0.0 {
+            free
+        } else {
+            root(&excess, free)
+        };
+        let step = step(end_speed);
+        let resistance = self.resistance.follow(&step);
+        self.position += step.turn;
+        self.speed = end_speed;
+        resistance
+    }
+}
+
+/// Root of a growing function between zero and another place, to a billionth of it.
+fn root(function: &impl Fn(f64) -> f64, end: f64) -> f64 {
+    let mut convergency = SimpleConvergency {
+        eps: 1e-9 * end.abs(),
+        max_iter: 60,
+    };
+    // Without a change of sign the function is flat there to rounding: the end is as good as any.
+    find_root_brent(
+        0.0_f64.min(end),
+        0.0_f64.max(end),
+        function,
+        &mut convergency,
+    )
+    .unwrap_or(end)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A spring that slips at a limit, with drag.
+    #[derive(Clone, Debug, PartialEq)]
+    struct Slider {
+        stiffness: f64,
+        limit: f64,
+        drag: f64,
+        held: f64,
+    }
+
+    impl Resistance for Slider {
+        fn against(&self, step: &Step) -> f64 {
+            let held = self.held + self.stiffness * step.turn;
+            held.clamp(-self.limit, self.limit) + self.drag * step.end_speed()
+        }
+
+        fn follow(&mut self, step: &Step) -> f64 {
+            let resistance = self.against(step);
+            self.held = (self.held + self.stiffness * step.turn).clamp(-self.limit, self.limit);
+            resistance
+        }
+    }
+
+    fn slider(stiffness: f64, limit: f64, drag: f64) -> Mechanism<Slider> {
+        Mechanism {
+            inertia: 2.0,
+            position: 0.0,
+            speed: 0.0,
+            resistance: Slider {
+                stiffness,
+                limit,
+                drag,
+                held: 0.0,
+            },
+        }
+    }
+
+    #[test]
+    fn below_its_limit_a_stiff_mechanism_comes_to_rest_on_its_spring() {
+        // A spring of 1e9 N/m is far beyond what an explicit step of 1 ms stands: sqrt(k/m) h = 22.
+        let mut stiff = slider(1e9, 10.0, 0.0);
+        for _ in 0..1000 {
+            stiff.advance(9.0, 1e-3);
+        }
+        assert!((stiff.position - 9e-9).abs() < 1e-14, "{}", stiff.position);
+        assert!(stiff.speed.abs() < 1e-12, "{}", stiff.speed);
+    }
+
+    #[test]
+    fn beyond_its_limit_it_moves_as_newton_says() {
+        let mut moving = slider(1e9, 10.0, 0.0);
+        for _ in 0..1000 {
+            moving.advance(14.0, 1e-3);
+        }
+        // (14 - 10)/2 for one second; sliding sets in after 1e-8 m, within the first step.
+        assert!((moving.speed - 2.0).abs() < 1e-4, "{}", moving.speed);
+        // Euler's backward rule counts the speed at the end of a step: half a step too much, 1 mm.
+        assert!(
+            (moving.position - 1.001).abs() < 1e-4,
+            "{}",
+            moving.position
+        );
+    }
+
+    #[test]
+    fn drag_sets_the_last_speed() {
+        let mut dragged = slider(1e6, 10.0, 4.0);
+        for _ in 0..20_000 {
+            dragged.advance(18.0, 1e-3);
+        }
+        assert!((dragged.speed - 2.0).abs() < 1e-9, "{}", dragged.speed);
+    }
+
+    #[test]
+    fn a_push_is_stopped_and_its_energy_is_gone() {
+        let mut pushed = slider(1e6, 10.0, 0.0);
+        pushed.speed = 0.1;
+        for _ in 0..100_000 {
+            pushed.advance(0.0, 1e-4);
+        }
+        // It stops where friction has taken its energy: m v^2/2 = 10 N times the way, less half of the way of the spring, 1e-5 m.
+        assert!(
+            (pushed.position - 0.001).abs() < 2e-5,
+            "{}",
+            pushed.position
+        );
+        // The step damps the swing on the spring that is left.
+        assert!(pushed.speed.abs() < 1e-9, "{}", pushed.speed);
+    }
+}

@@ -1,0 +1,462 @@
+//! `simulate --mechanism`: what turns with the nut moves under motor torque and load, with the friction of the model: so that a model is judged by
+//! motion, and not by torque alone.
+//!
+//! `J w' = torque - gain load lead/2pi - friction - drag w - offset`, with the scene without ball-to-ball friction and its memory. Every tick is
+//! divided into steps that are implicit in the speed ([`crate::mechanism`]): friction holds the nut at rest and lets it break away.
+
+use std::f64::consts::{PI, TAU};
+use std::io::{self, Write};
+use std::path::PathBuf;
+
+use epas_friction::law::coefficient::{CoefficientLaw, CoefficientModel, OneCoefficient};
+use epas_friction::law::motion::SpeedOverTick;
+use epas_friction::scene::{WithMemory, WithMemoryConfiguration};
+use epas_friction::{CagedBallScrew, CagedBallScrewConfiguration, FrictionModel, Inputs, Outputs};
+
+use super::curves::thin;
+use super::memory::{self, Elements, Remembered};
+use super::summary::Lines;
+use super::targets::{refuse_same, targets};
+use super::trace::{Sample, Trace, read};
+use crate::controller::Controller;
+use crate::designs::Design;
+use crate::failure::Failure;
+use crate::files::{self, Existing, Pending};
+use crate::mechanism::{Mechanism, Resistance, Step};
+use crate::plot::{Axis, Chart, Mark, Panel, Series, render};
+
+/// Options of a mechanism.
+#[derive(Debug, clap::Args)]
+pub struct MechanismArguments {
+    /// Move what turns with the nut under the torque and the load of the trace (columns time, motor_torque, axial_load), with friction that
+    /// remembers
+    #[arg(long, requires = "input", conflicts_with_all = ["manoeuvre", "reference"])]
+    mechanism: bool,
+    /// Inertia at the nut, kg m^2 [default: that of the design's table [calibration]]
+    #[arg(long, value_name = "J", requires = "mechanism", value_parser = inertia)]
+    inertia: Option<f64>,
+    /// Close the loop: motor torque = V (P (reference_position - nut angle) - nut speed); the trace has the column reference_position (rad) in
+    /// place of motor_torque
+    #[arg(
+        long,
+        value_name = "gain_position=P,gain_speed=V",
+        requires = "mechanism"
+    )]
+    controller: Option<Controller>,
+}
+
+/// An inertia, kg m^2.
+fn inertia(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if (1e-9..=1e3).contains(&value) => Ok(value),
+        _ => Err("an inertia is 1e-9 to 1e3 kg m^2".into()),
+    }
+}
+
+impl MechanismArguments {
+    /// Whether a mechanism is simulated.
+    pub fn wanted(&self) -> bool {
+        self.mechanism
+    }
+}
+
+/// Steps in a tick.
+const STEPS: usize = 4;
+
+/// One moment of what acts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Acting {
+    time: f64,
+    /// Motor torque, N m, or wanted angle, rad.
+    command: f64,
+    axial_load: f64,
+}
+
+/// A moment of a torque.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Torque(Acting);
+
+/// A moment of a wanted angle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Wanted(Acting);
+
+macro_rules! sample {
+    ($name:ident, $command:literal) => {
+        impl Sample for $name {
+            const COLUMNS: &'static [&'static str] = &["time", $command, "axial_load"];
+
+            fn read<E>(mut column: impl FnMut(&'static str) -> Result<f64, E>) -> Result<Self, E> {
+                Ok(Self(Acting {
+                    time: column("time")?,
+                    command: column($command)?,
+                    axial_load: column("axial_load")?,
+                }))
+            }
+
+            fn record(&self) -> Vec<String> {
+                [self.0.time, self.0.command, self.0.axial_load]
+                    .map(|value| value.to_string())
+                    .to_vec()
+            }
+
+            fn time(&self) -> f64 {
+                self.0.time
+            }
+
+            fn speed(&self) -> f64 {
+                0.0
+            }
+
+            fn load(&self) -> f64 {
+                self.0.axial_load
+            }
+        }
+    };
+}
+
+sample!(Torque, "motor_torque");
+sample!(Wanted, "reference_position");
+
+/// A nut with the model's friction.
+#[derive(Clone)]
+struct Nut<L: CoefficientModel> {
+    model: FrictionModel<WithMemory<CagedBallScrew, Elements, SpeedOverTick, L>>,
+    /// Torque of the load, over that of a screw without friction.
+    gain: f64,
+    drag: f64,
+    offset: f64,
+    axial_load: f64,
+    outputs: Option<Outputs>,
+}
+
+impl<L: CoefficientModel> Nut<L> {
+    fn step(&mut self, step: &Step) -> f64 {
+        let inputs = Inputs {
+            nut_speed: step.speed as f32,
+            axial_load: self.axial_load as f32,
+        };
+        let speed = step.end_speed();
+        let outputs = self.model.step(memory::fresh(inputs, speed as f32));
+        self.outputs = Some(outputs);
+        self.gain * f64::from(outputs.load_torque)
+            + f64::from(outputs.friction_torque)
+            + self.drag * speed
+            + self.offset
+    }
+}
+
+impl<L: CoefficientModel + Clone> Resistance for Nut<L> {
+    fn against(&self, step: &Step) -> f64 {
+        self.clone().step(step)
+    }
+
+    fn follow(&mut self, step: &Step) -> f64 {
+        self.step(step)
+    }
+}
+
+/// What the nut did at a tick.
+struct Row {
+    acting: Acting,
+    angle: f64,
+    speed: f64,
+    torque: f64,
+    outputs: Outputs,
+}
+
+/// Runs the mechanism of a design over a trace, and writes what is asked for.
+pub fn run(
+    design: &Design,
+    arguments: &MechanismArguments,
+    input: &PathBuf,
+    [output, plot]: [&Option<PathBuf>; 2],
+    existing: Existing,
+) -> Result<(), Failure> {
+    let (name, acting) = match arguments.controller {
+        Some(_) => moments(read::<Wanted>(input)?, |sample| sample.0),
+        None => moments(read::<Torque>(input)?, |sample| sample.0),
+    };
+    let outputs = targets([output, plot], &name, &design.name);
+    for path in outputs.iter().flatten() {
+        existing.check(path)?;
+    }
+    refuse_same([Some(input.as_path())], outputs.iter().flatten())?;
+    let calibrated = design.calibrated.as_ref();
+    let inertia = arguments
+        .inertia
+        .or_else(|| calibrated.and_then(|found| found.inertia.map(f64::from)))
+        .ok_or_else(|| {
+            Failure::Data(
+                "the inertia at the nut is missing: --inertia, or inertia in the design's table [calibration]".into(),
+            )
+        })?;
+    let tick = tick(&acting)?;
+    let (rows, lines) = moved(design, &acting, inertia, arguments.controller, tick)?;
+    let mut written = Vec::new();
+    if let [Some(table), _] = &outputs {
+        let mut pending = Pending::new(table, existing)?;
+        write_table(pending.writer(), &rows)
+            .map_err(|error| Failure::file("write", table, &error))?;
+        written.push(pending);
+    }
+    if let [_, Some(picture)] = &outputs {
+        let mut pending = Pending::new(picture, existing)?;
+        files::all(&mut pending, picture, &drawn(&name, &design.name, &rows)?)?;
+        written.push(pending);
+    }
+    for pending in written {
+        pending.finish()?;
+    }
+    let mut stdout = io::stdout().lock();
+    summary(&rows, inertia, tick).print(&mut stdout)?;
+    lines.print(&mut stdout)?;
+    for path in outputs.iter().flatten() {
+        writeln!(stdout, "wrote {}", path.display())?;
+    }
+    Ok(())
+}
+
+fn moments<S: Sample>(trace: Trace<S>, acting: fn(&S) -> Acting) -> (String, Vec<Acting>) {
+    let moments = trace.samples.iter().map(acting).collect();
+    (trace.name, moments)
+}
+
+/// The tick of a trace of equal steps of time, s.
+fn tick(acting: &[Acting]) -> Result<f64, Failure> {
+    let refused = |message: &str| Err(Failure::Data(message.into()));
+    let [first, .., last] = acting else {
+        return refused("a mechanism needs two samples or more");
+    };
+    let tick = (last.time - first.time) / (acting.len() - 1) as f64;
+    if !(1e-6..=1.0).contains(&tick) {
+        return refused("the tick of the trace is out of range; allowed: 1e-6 to 1 s");
+    }
+    let uneven = acting
+        .windows(2)
+        .any(|pair| (pair[1].time - pair[0].time - tick).abs() > 0.01 * tick);
+    if uneven {
+        return refused("a mechanism needs a trace of equal steps of time");
+    }
+    Ok(tick)
+}
+
+/// Moves the nut with the coefficient law that the design has.
+fn moved(
+    design: &Design,
+    acting: &[Acting],
+    inertia: f64,
+    controller: Option<Controller>,
+    tick: f64,
+) -> Result<(Vec<Row>, Lines), Failure> {
+    let refused = |error: epas_friction::Error| Failure::Data(format!("{}: {error}", design.name));
+    let CagedBallScrewConfiguration {
+        design: ref screw,
+        friction,
+        clearance,
+        rolling_resistance,
+        loaded_balls,
+        ..
+    } = design.configuration;
+    let calibrated = design.calibrated.as_ref();
+    let load = acting
+        .iter()
+        .map(|acting| acting.axial_load.abs())
+        .sum::<f64>()
+        / acting.len() as f64;
+    let remembered = memory::Screw {
+        design: screw,
+        friction,
+        clearance,
+        rolling_resistance,
+        loaded_balls: f32::from(loaded_balls),
+        calibrated,
+    }
+    .remembered(load as f32)
+    .map_err(refused)?;
+    let scene = design.configuration;
+    let speed = memory::speed((tick / STEPS as f64) as f32).map_err(refused)?;
+    let law = calibrated.and_then(|found| found.coefficient.as_ref());
+    let rows = match law {
+        Some(law) => {
+            let law = CoefficientLaw::new(law).map_err(refused)?;
+            let whole = memory::with_coefficient(scene, &remembered, speed, law);
+            motion(&whole, design, acting, inertia, controller, tick)
+        }
+        None => {
+            let law = OneCoefficient::new(friction).map_err(refused)?;
+            let whole = memory::with_coefficient(scene, &remembered, speed, law);
+            motion(&whole, design, acting, inertia, controller, tick)
+        }
+    }
+    .map_err(refused)?;
+    let Remembered { lines, .. } = remembered;
+    Ok((rows, lines))
+}
+
+/// Moves the nut.
+fn motion<L: CoefficientModel + Clone>(
+    whole: &WithMemoryConfiguration<CagedBallScrewConfiguration, Elements, SpeedOverTick, L>,
+    design: &Design,
+    acting: &[Acting],
+    inertia: f64,
+    controller: Option<Controller>,
+    tick: f64,
+) -> Result<Vec<Row>, epas_friction::Error> {
+    let told = |value: Option<f32>, without: f64| value.map_or(without, f64::from);
+    let calibrated = design.calibrated.as_ref();
+    let nut = Nut {
+        model: FrictionModel::new(whole)?,
+        gain: told(calibrated.and_then(|found| found.gain), 1.0),
+        drag: told(calibrated.and_then(|found| found.drag), 0.0),
+        offset: told(calibrated.and_then(|found| found.offset), 0.0),
+        axial_load: 0.0,
+        outputs: None,
+    };
+    let start = match (controller, acting.first()) {
+        (Some(_), Some(first)) => first.command,
+        _ => 0.0,
+    };
+    let mut mechanism = Mechanism {
+        inertia,
+        position: start,
+        speed: 0.0,
+        resistance: nut,
+    };
+    let time = tick / STEPS as f64;
+    let mut rows = Vec::with_capacity(acting.len());
+    for acting in acting {
+        let (angle, speed) = (mechanism.position, mechanism.speed);
+        let torque = controller.map_or(acting.command, |controller| {
+            controller.effort(acting.command, angle, speed)
+        });
+        mechanism.resistance.axial_load = acting.axial_load;
+        for _ in 0..STEPS {
+            mechanism.advance(torque, time);
+        }
+        if let Some(outputs) = mechanism.resistance.outputs {
+            rows.push(Row {
+                acting: *acting,
+                angle,
+                speed,
+                torque,
+                outputs,
+            });
+        }
+    }
+    Ok(rows)
+}
+
+fn write_table(writer: &mut impl Write, rows: &[Row]) -> Result<(), csv::Error> {
+    let mut table = csv::Writer::from_writer(writer);
+    table.write_record([
+        "time",
+        "motor_torque",
+        "axial_load",
+        "nut_position",
+        "nut_speed",
+        "friction_torque",
+        "load_torque",
+        "faults",
+    ])?;
+    for row in rows {
+        let numbers = [
+            row.acting.time,
+            row.torque,
+            row.acting.axial_load,
+            row.angle,
+            row.speed,
+            row.outputs.friction_torque.into(),
+            row.outputs.load_torque.into(),
+        ];
+        let mut record: Vec<String> = numbers.map(|number| number.to_string()).to_vec();
+        record.push(row.outputs.faults.bits().to_string());
+        table.write_record(record)?;
+    }
+    table.flush()?;
+    Ok(())
+}
+
+/// How often the nut turned back, and what it did with its energy.
+fn summary(rows: &[Row], inertia: f64, tick: f64) -> Lines {
+    let mut lines = Lines::default();
+    let most =
+        |value: &dyn Fn(&Row) -> f64| rows.iter().map(|row| value(row).abs()).fold(0.0, f64::max);
+    let work = |torque: &dyn Fn(&Row) -> f64| -> f64 {
+        rows.iter().map(|row| torque(row) * row.speed * tick).sum()
+    };
+    let moving: Vec<f64> = rows
+        .iter()
+        .map(|row| row.speed)
+        .filter(|speed| speed.abs() > 1e-6)
+        .collect();
+    let reversals = moving
+        .windows(2)
+        .filter(|pair| pair[0] * pair[1] < 0.0)
+        .count();
+    lines.add("inertia", format!("{inertia} kg m^2"));
+    lines.add(
+        "turned through",
+        format!("{:.4} turns at most", most(&|row| row.angle) / TAU),
+    );
+    lines.add(
+        "nut speed",
+        format!(
+            "{:.4} rad/s ({:.1} rpm) at most",
+            most(&|row| row.speed),
+            most(&|row| row.speed) * 30.0 / PI
+        ),
+    );
+    lines.add("reversals", reversals.to_string());
+    lines.add("motor work", format!("{:.4} J", work(&|row| row.torque)));
+    lines.add(
+        "friction work",
+        format!("{:.4} J", work(&|row| row.outputs.friction_torque.into())),
+    );
+    let held = rows.iter().filter(|row| row.speed.abs() <= 1e-6).count();
+    lines.add(
+        "at rest",
+        format!(
+            "{:.1} % of the time",
+            100.0 * held as f64 / rows.len().max(1) as f64
+        ),
+    );
+    lines
+}
+
+fn drawn(trace: &str, design: &str, rows: &[Row]) -> Result<String, Failure> {
+    let curve = |value: &dyn Fn(&Row) -> f64| thin(rows, &|row| row.acting.time, value);
+    let panel = |title: String, label: &str, curves: Vec<(&str, Vec<(f64, f64)>)>| {
+        let series = curves.into_iter().enumerate();
+        Panel::Chart(Chart {
+            title,
+            x: Axis::linear("time (s)"),
+            y: Axis::linear(label),
+            series: series
+                .map(|(colour, (name, points))| Series::new(name, colour, Mark::Line, points))
+                .collect(),
+            notes: Vec::new(),
+        })
+    };
+    let panels = [
+        panel(
+            format!("{trace} on {design}"),
+            "torque at the nut (N m)",
+            vec![
+                ("motor", curve(&|row| row.torque)),
+                ("load", curve(&|row| row.outputs.load_torque.into())),
+                ("friction", curve(&|row| row.outputs.friction_torque.into())),
+            ],
+        ),
+        panel(
+            String::new(),
+            "nut angle (rad)",
+            vec![("", curve(&|row| row.angle))],
+        ),
+        panel(
+            String::new(),
+            "nut speed (rad/s)",
+            vec![("", curve(&|row| row.speed))],
+        ),
+    ];
+    render(&panels, 1, (1000, 270))
+}
