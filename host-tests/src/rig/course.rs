@@ -220,7 +220,7 @@ impl Part {
             }
             Manoeuvre::Turns => self.turn(driven, |share| {
                 let quarter = (share * 4.0) as u8;
-                let way = if quarter % 2 == 0 { 1.0 } else { -1.0 };
+                let way = if quarter.is_multiple_of(2) { 1.0 } else { -1.0 };
                 (3.0 * way, if quarter < 2 { 1500.0 } else { -1500.0 })
             }),
             Manoeuvre::Running => self.turn(driven, |share| {
