@@ -1,7 +1,7 @@
 //! Files that are written whole or not at all.
 
 use std::fs;
-use std::io::{self, BufWriter, Read, Seek, SeekFrom, Write};
+use std::io::{self, BufRead, BufReader, BufWriter, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use tempfile::{Builder, NamedTempFile};
@@ -151,4 +151,24 @@ impl<R: Seek> Seek for Bounded<R> {
         self.left = self.largest;
         self.input.seek(position)
     }
+}
+
+/// Line of the record that starts at this byte of an input, where a CSV reader says that it starts at `line`: the reader
+/// counts blank lines before a record as part of it.
+pub fn line_of(mut input: impl Read + Seek, byte: u64, line: u64) -> u64 {
+    let mut blank_lines = || -> io::Result<u64> {
+        input.seek(SeekFrom::Start(byte))?;
+        let mut input = BufReader::new(&mut input);
+        let mut count = 0;
+        loop {
+            match input.fill_buf()?.first() {
+                Some(b'\n') => count += 1,
+                Some(b'\r') => {}
+                _ => return Ok(count),
+            }
+            input.consume(1);
+        }
+    };
+    // Where the input cannot be read again, the line is that of the blank lines.
+    line + blank_lines().unwrap_or(0)
 }

@@ -1,13 +1,13 @@
 //! Traces of speed and load, and how they are read from CSV.
 
 use std::fs::File;
-use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
+use std::io::{Read, Seek};
 use std::path::Path;
 
 use csv::{ErrorKind, Position, Reader, ReaderBuilder, StringRecord, Trim};
 
 use crate::failure::Failure;
-use crate::files::Bounded;
+use crate::files::{Bounded, line_of};
 
 /// One moment of a trace: what one scene's columns hold.
 pub trait Sample: Copy {
@@ -107,29 +107,11 @@ impl Fault {
             ErrorKind::Utf8 { .. } => "no UTF-8".into(),
             _ => error.to_string(),
         };
-        Self::new(line_of(reader, start), message)
+        Self::new(
+            line_of(reader.into_inner(), start.byte(), start.line()),
+            message,
+        )
     }
-}
-
-/// Line of the record that starts at `start`: the CSV reader counts blank lines before a record as
-/// part of it.
-fn line_of(reader: Reader<impl Read + Seek>, start: &Position) -> u64 {
-    let blank_lines = || -> io::Result<u64> {
-        let mut input = reader.into_inner();
-        input.seek(SeekFrom::Start(start.byte()))?;
-        let mut input = BufReader::new(input);
-        let mut count = 0;
-        loop {
-            match input.fill_buf()?.first() {
-                Some(b'\n') => count += 1,
-                Some(b'\r') => {}
-                _ => return Ok(count),
-            }
-            input.consume(1);
-        }
-    };
-    // Where the file cannot be read again, the line is that of the blank lines.
-    start.line() + blank_lines().unwrap_or(0)
 }
 
 fn parse<S: Sample>(input: impl Read + Seek) -> Result<Vec<S>, Fault> {
@@ -160,7 +142,10 @@ fn parse<S: Sample>(input: impl Read + Seek) -> Result<Vec<S>, Fault> {
         });
         match sample.and_then(|sample| follows(&samples, sample)) {
             Ok(sample) => samples.push(sample),
-            Err(message) => return Err(Fault::new(line_of(reader, &start), message)),
+            Err(message) => {
+                let line = line_of(reader.into_inner(), start.byte(), start.line());
+                return Err(Fault::new(line, message));
+            }
         }
     }
     if samples.is_empty() {

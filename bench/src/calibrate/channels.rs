@@ -1,0 +1,177 @@
+//! What one channel of a trace needs before it is used: angles without jumps, the step of its sensor.
+
+use std::f64::consts::TAU;
+
+/// Most samples that a sensor's step is found from: more tell no more.
+const MOST: usize = 200_000;
+
+/// Largest turn between two samples of an angle that wraps, in turns: half a turn could be one of either direction.
+const LARGEST_TURN: f64 = 0.4;
+
+/// Joins the turns of an angle, rad, that starts again after a full turn. An angle that goes beyond one turn is left alone.
+///
+/// # Errors
+/// Where it moves so far between two samples that its direction cannot be told.
+pub fn unwrap(angle: &mut [f64]) -> Result<(), String> {
+    let (low, high) = range(angle);
+    let jumps = angle
+        .windows(2)
+        .any(|pair| matches!(pair, [a, b] if (b - a).abs() > 0.5 * TAU));
+    // Beyond a turn by what a sensor's noise may add.
+    if !jumps || high - low > 1.01 * TAU {
+        return Ok(());
+    }
+    let mut turns = 0.0;
+    let mut last = angle.first().copied().unwrap_or_default();
+    for (sample, value) in angle.iter_mut().enumerate() {
+        let moved = *value - last;
+        last = *value;
+        let whole = (moved / TAU).round();
+        let turn = (moved / TAU - whole).abs();
+        if turn > LARGEST_TURN {
+            return Err(format!(
+                "the angle wraps and moves by {turn:.2} turns before sample {sample}: which way cannot be told; sample faster"
+            ));
+        }
+        turns -= whole;
+        *value += turns * TAU;
+    }
+    Ok(())
+}
+
+/// Smallest and largest value.
+pub fn range(signal: &[f64]) -> (f64, f64) {
+    signal
+        .iter()
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
+            (low.min(*x), high.max(*x))
+        })
+}
+
+/// Step of a sensor that rounds, found from the distances between the values that occur; 0 where there is none to be seen.
+pub fn resolution(signal: &[f64]) -> f64 {
+    let stride = signal.len() / MOST + 1;
+    let mut values: Vec<f64> = signal.iter().step_by(stride).copied().collect();
+    values.sort_by(f64::total_cmp);
+    let (Some(first), Some(last)) = (values.first(), values.last()) else {
+        return 0.0;
+    };
+    // Below it, two values are the same number with different roundings.
+    let rounding = 1e-11 * (last - first) + 4.0 * f64::EPSILON * first.abs().max(last.abs());
+    let mut gaps: Vec<f64> = values
+        .windows(2)
+        .map(|pair| match pair {
+            [a, b] => b - a,
+            _ => 0.0,
+        })
+        .filter(|gap| *gap > rounding)
+        .collect();
+    // Fewer distances than this tell nothing.
+    if gaps.len() < 10 {
+        return 0.0;
+    }
+    gaps.sort_by(f64::total_cmp);
+    // Smaller distances than the step come from numbers printed with few digits.
+    [0.005, 0.1, 0.25, 0.5, 0.75]
+        .into_iter()
+        .filter_map(|share| gaps.get((share * gaps.len() as f64) as usize).copied())
+        .find_map(|candidate| step_of(&gaps, candidate))
+        .unwrap_or(0.0)
+}
+
+/// The step near this one that the distances are multiples of.
+fn step_of(gaps: &[f64], candidate: f64) -> Option<f64> {
+    /// Largest multiple that is looked at: the error of the candidate grows with it.
+    const LARGEST: f64 = 10.0;
+    /// Distance from a multiple that counts as none; random distances keep it in a fifth of all cases.
+    const NEAR: f64 = 0.1;
+    /// Least share of multiples.
+    const SHARE: f64 = 0.95;
+    let (mut looked, mut near, mut sum, mut multiples) = (0usize, 0usize, 0.0, 0.0);
+    for gap in gaps {
+        let multiple = gap / candidate;
+        if multiple < NEAR || multiple > LARGEST {
+            continue;
+        }
+        looked += 1;
+        let whole = multiple.round();
+        if whole >= 1.0 && (multiple - whole).abs() < NEAR {
+            near += 1;
+            sum += gap;
+            multiples += whole;
+        }
+    }
+    let known = looked >= 10 && near as f64 >= SHARE * looked as f64;
+    // Where most distances are left out, the rest may be chance.
+    let many = looked as f64 >= 0.2 * gaps.len() as f64;
+    (known && many).then(|| sum / multiples)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A motion of several turns, rad.
+    fn motion() -> Vec<f64> {
+        (0..20_000)
+            .map(|k| 9.0 * (1e-3 * f64::from(k)).sin() + 0.7 * (0.013 * f64::from(k)).sin())
+            .collect()
+    }
+
+    #[test]
+    fn turns_are_joined() {
+        for offset in [0.0, -0.5 * TAU, 3.0] {
+            let wrapped: Vec<f64> = motion()
+                .iter()
+                .map(|x| (x + 1.0).rem_euclid(TAU) + offset)
+                .collect();
+            let mut joined = wrapped.clone();
+            unwrap(&mut joined).unwrap();
+            let shift = joined[0] - motion()[0];
+            for (joined, whole) in joined.iter().zip(motion()) {
+                assert!((joined - whole - shift).abs() < 1e-12);
+            }
+        }
+        let mut whole = motion();
+        unwrap(&mut whole).unwrap();
+        assert_eq!(whole, motion());
+    }
+
+    #[test]
+    fn half_a_turn_between_samples_is_refused() {
+        let mut fast: Vec<f64> = (0..100)
+            .map(|k| (0.47 * TAU * f64::from(k)).rem_euclid(TAU))
+            .collect();
+        assert!(unwrap(&mut fast).unwrap_err().contains("which way"));
+    }
+
+    #[test]
+    fn the_step_of_a_sensor_is_found() {
+        let step = TAU / 16384.0 / 2.5;
+        let rounded: Vec<f64> = motion().iter().map(|x| (x / step).round() * step).collect();
+        assert!((resolution(&rounded) / step - 1.0).abs() < 1e-9);
+        // Printed with six digits behind the point, a hundredth of a step.
+        let printed: Vec<f64> = rounded.iter().map(|x| (x * 1e6).round() / 1e6).collect();
+        assert!((resolution(&printed) / step - 1.0).abs() < 1e-2);
+        // Fast and coarse: no two neighbours are one step apart.
+        let fast: Vec<f64> = (0..5000)
+            .map(|k| f64::from(k * 137 % 5003) * 0.25)
+            .collect();
+        assert_eq!(resolution(&fast), 0.25);
+    }
+
+    #[test]
+    fn a_smooth_or_noisy_signal_has_no_step() {
+        assert_eq!(resolution(&motion()), 0.0);
+        let mut seed = 1u32;
+        let noise: Vec<f64> = (0..20_000)
+            .map(|_| {
+                seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+                f64::from(seed) / 4e9
+            })
+            .collect();
+        assert_eq!(resolution(&noise), 0.0);
+        assert_eq!(resolution(&[1.0; 100]), 0.0);
+        assert_eq!(resolution(&[]), 0.0);
+    }
+}

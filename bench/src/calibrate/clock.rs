@@ -1,0 +1,230 @@
+//! One sample clock for a trace: its tick, gaps, jitter.
+
+use super::trace::Repairs;
+
+/// Distance from the tick, in ticks, within which a sample counts as on it.
+const ON_TICK: f64 = 0.1;
+/// Longest gap that is filled, in ticks.
+const LONGEST_GAP: f64 = 10.0;
+/// Largest share of samples that may be missing, and of samples that may stand twice.
+const MOST_MISSING: f64 = 0.02;
+/// Largest root mean square of the distance from the tick, in ticks.
+const MOST_JITTER: f64 = 0.3;
+/// Slowest tick, s: friction's transitions are over within less.
+const SLOWEST: f64 = 0.05;
+/// Shortest tick, s.
+const FASTEST: f64 = 1e-7;
+/// Fewest samples.
+const FEWEST: usize = 100;
+
+/// A clock that ticks evenly, and where its ticks lie among the samples.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Clock {
+    /// Time of the first tick, s.
+    pub start: f64,
+    /// Tick, s.
+    pub step: f64,
+    /// What has to be repaired.
+    pub repairs: Repairs,
+    /// How each tick comes from the samples; none where every sample is on its tick.
+    places: Vec<Place>,
+}
+
+/// Where a tick lies among the samples.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Place {
+    /// The sample on the tick, or the one before.
+    sample: usize,
+    /// Shares of the sample before that one, of that one and of the two after it; `None` where it is on the tick.
+    shares: Option<[f64; 4]>,
+}
+
+impl Clock {
+    /// The clock of samples at these times, which rise, of which so many stood twice and were dropped.
+    ///
+    /// # Errors
+    /// Too few samples, no even tick, gaps that are too long or too many.
+    pub fn of(times: &[f64], repeated: usize) -> Result<Self, String> {
+        let samples = times.len();
+        if samples < FEWEST {
+            return Err(format!("{samples} samples are too few: at least {FEWEST}"));
+        }
+        let all = samples + repeated;
+        if repeated as f64 > MOST_MISSING * all as f64 {
+            return Err(format!(
+                "{repeated} of {all} samples have the time of the one before: the time has too few digits, or samples stand twice"
+            ));
+        }
+        let median = median_tick(times);
+        check_tick(median)?;
+        let (start, step, rough) = grid(times, median)?;
+        if rough > MOST_JITTER {
+            return Err(format!(
+                "the samples have no even tick: they stand {rough:.2} ticks of {step:.6} s off it (root mean square, at most {MOST_JITTER})"
+            ));
+        }
+        let last = times.last().copied().unwrap_or_default();
+        let ticks = ((last - start) / step + ON_TICK) as usize + 1;
+        let mut clock = Self {
+            start,
+            step,
+            repairs: Repairs {
+                repeated,
+                ..Repairs::default()
+            },
+            places: Vec::new(),
+        };
+        clock.place(times, ticks);
+        let missing = clock.repairs.missing;
+        if missing as f64 > MOST_MISSING * ticks as f64 {
+            return Err(format!(
+                "{missing} of {ticks} samples are missing: at most {:.0} % are filled",
+                100.0 * MOST_MISSING
+            ));
+        }
+        Ok(clock)
+    }
+
+    /// Finds every tick among the samples, and counts what has to be repaired.
+    fn place(&mut self, times: &[f64], ticks: usize) {
+        let mut sample = 0;
+        let mut places = Vec::with_capacity(ticks);
+        let mut even = ticks == times.len();
+        for tick in 0..ticks {
+            let time = self.start + self.step * tick as f64;
+            while times.get(sample + 1).is_some_and(|next| *next <= time) {
+                sample += 1;
+            }
+            let before = times.get(sample).copied().unwrap_or(time);
+            let after = times.get(sample + 1).copied().unwrap_or(before);
+            let near = ON_TICK * self.step;
+            let on_tick = if (time - before).abs() <= near || after <= before {
+                Some(sample)
+            } else {
+                (after - time <= near).then_some(sample + 1)
+            };
+            if on_tick.is_none() {
+                if after - before > 1.5 * self.step {
+                    self.repairs.missing += 1;
+                } else {
+                    self.repairs.jittered += 1;
+                }
+            }
+            even &= on_tick == Some(tick);
+            places.push(Place {
+                sample: on_tick.unwrap_or(sample),
+                shares: on_tick.is_none().then(|| shares(times, sample, time)),
+            });
+        }
+        if !even {
+            self.places = places;
+        }
+    }
+
+    /// The channel at every tick: a sample where one is on it, else on the cubic through the four about it.
+    pub fn resample(&self, channel: Vec<f64>) -> Vec<f64> {
+        if self.places.is_empty() {
+            return channel;
+        }
+        let at = |index: usize| channel.get(index).copied().unwrap_or_default();
+        self.places
+            .iter()
+            .map(|place| match place.shares {
+                None => at(place.sample),
+                Some(shares) => neighbours(place.sample, channel.len())
+                    .into_iter()
+                    .zip(shares)
+                    .map(|(index, share)| share * at(index))
+                    .sum(),
+            })
+            .collect()
+    }
+}
+
+/// The four samples about the interval after this one; those at the ends for intervals there.
+fn neighbours(sample: usize, samples: usize) -> [usize; 4] {
+    let first = sample.saturating_sub(1).min(samples.saturating_sub(4));
+    [0, 1, 2, 3].map(|next| first + next)
+}
+
+/// Shares of the four samples about a time, on the cubic through them (Lagrange).
+fn shares(times: &[f64], sample: usize, time: f64) -> [f64; 4] {
+    let near =
+        neighbours(sample, times.len()).map(|index| times.get(index).copied().unwrap_or_default());
+    near.map(|own| {
+        near.iter()
+            .filter(|other| **other != own)
+            .map(|other| (time - other) / (own - other))
+            .product()
+    })
+}
+
+/// Median of the differences.
+fn median_tick(times: &[f64]) -> f64 {
+    let mut ticks: Vec<f64> = times
+        .windows(2)
+        .map(|pair| match pair {
+            [a, b] => b - a,
+            _ => 0.0,
+        })
+        .collect();
+    let middle = ticks.len() / 2;
+    if middle >= ticks.len() {
+        return 0.0;
+    }
+    *ticks.select_nth_unstable_by(middle, f64::total_cmp).1
+}
+
+fn check_tick(tick: f64) -> Result<(), String> {
+    if tick > SLOWEST {
+        return Err(format!(
+            "tick = {tick} s is too slow: at most {SLOWEST} s (a column in milliseconds is named time_ms)"
+        ));
+    }
+    if !(tick >= FASTEST) {
+        return Err(format!(
+            "tick = {tick} s is too short: at least {FASTEST} s"
+        ));
+    }
+    Ok(())
+}
+
+/// First tick, tick, and the root mean square of the samples' distance from their ticks, in ticks.
+fn grid(times: &[f64], median: f64) -> Result<(f64, f64, f64), String> {
+    let first = times.first().copied().unwrap_or_default();
+    let last = times.last().copied().unwrap_or_default();
+    // A time printed with few digits has a median that is off; all the ticks together are not.
+    let mut ticks = 0.0;
+    for (sample, pair) in times.windows(2).enumerate() {
+        if let [before, after] = pair {
+            let moved = (after - before) / median;
+            if moved > LONGEST_GAP + 1.0 {
+                return Err(format!(
+                    "a gap of {:.4} s after {before} s (sample {sample}): at most {LONGEST_GAP} ticks of {median:.6} s are filled; cut the trace there",
+                    after - before
+                ));
+            }
+            ticks += moved.round();
+        }
+    }
+    if !(ticks >= 1.0) {
+        return Err("the samples have no even tick".into());
+    }
+    let step = (last - first) / ticks;
+    let mut tick = 0.0;
+    let mut before = first;
+    let mut offsets: Vec<f64> = times
+        .iter()
+        .map(|time| {
+            tick += ((time - before) / median).round();
+            before = *time;
+            time - first - step * tick
+        })
+        .collect();
+    // Most samples are on their tick, whatever the others do.
+    let middle = offsets.len() / 2;
+    let offset = *offsets.select_nth_unstable_by(middle, f64::total_cmp).1;
+    let square: f64 = offsets.iter().map(|x| (x - offset) * (x - offset)).sum();
+    let rough = (square / offsets.len() as f64).sqrt();
+    Ok((first + offset, step, rough / step))
+}

@@ -1,0 +1,299 @@
+//! Reads a trace from the columns of a CSV file.
+//!
+//! Needed are `time`; a position or a speed, plain or of the motor, nut or carriage; `motor_force` or `motor_torque`.
+//! Taken where there are any: a reference position, `axial_load` (or `rack_force`) and `temperature`. A name may end in
+//! its unit (`nut_position_deg`); without, it is SI. Other columns are named and left aside.
+//!
+//! Without a design the trace stays in its own coordinate: with a torque what turns, with a force what travels, and a
+//! plain position or speed is that of what the effort acts on. With a design everything is referred to the nut: there, a
+//! plain position or speed is the nut's beside a torque, and the carriage's beside a force.
+
+use std::f64::consts::TAU;
+use std::fs::File;
+use std::io::{Read, Seek};
+use std::path::Path;
+
+use crate::failure::Failure;
+use crate::files::Bounded;
+
+use super::channels::{range, resolution, unwrap};
+use super::clock::Clock;
+use super::table::{self, Column, Table};
+use super::trace::{Coordinate, Trace};
+use super::units::{Dimension, Part, Quantity};
+
+/// Largest trace file, bytes: what twelve million samples of many columns need; a quoted field may span lines, and is
+/// held whole.
+const LARGEST_FILE: u64 = 1 << 31;
+
+/// Temperatures that a screw can have, K.
+const TEMPERATURES: (f64, f64) = (150.0, 620.0);
+
+/// What refers a motor and a carriage to the nut.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frame {
+    /// Travel of the carriage in a turn of the nut, m.
+    pub lead: f64,
+    /// Turns of the motor in a turn of the nut.
+    pub ratio: f64,
+}
+
+/// Reads a trace from a file.
+///
+/// # Errors
+/// A file that cannot be read, or what is wrong with it.
+pub fn read(path: &Path, frame: Option<&Frame>) -> Result<Trace, Failure> {
+    let file = File::open(path).map_err(|error| Failure::file("open", path, &error))?;
+    let name = path.file_stem().unwrap_or_default().to_string_lossy();
+    // What is no file, a pipe or a device, does not say its size and may never end.
+    from_reader(Bounded::new(file, LARGEST_FILE), &name, frame)
+        .map_err(|failure| failure.of(&path.display().to_string()))
+}
+
+/// Reads a trace.
+///
+/// # Errors
+/// What is wrong with it, with the line where there is one.
+pub fn from_reader(
+    input: impl Read + Seek,
+    name: &str,
+    frame: Option<&Frame>,
+) -> Result<Trace, Failure> {
+    let table = table::read(input).map_err(Failure::Data)?;
+    assemble(table, name, frame).map_err(Failure::Data)
+}
+
+/// How a column's values refer to the trace's coordinate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Reference {
+    /// Factor.
+    factor: f64,
+    /// Whether the column is an angle, which may wrap.
+    angle: bool,
+}
+
+fn assemble(mut table: Table, name: &str, frame: Option<&Frame>) -> Result<Trace, String> {
+    let clock = Clock::of(&table.times, table.repeated)?;
+    table.times = Vec::new();
+
+    let (effort, torque) = effort(&mut table)?;
+    let position = motion(&mut table, |quantity| match quantity {
+        Quantity::Position(part) => Some(part),
+        _ => None,
+    });
+    let speed = motion(&mut table, |quantity| match quantity {
+        Quantity::Speed(part) => Some(part),
+        _ => None,
+    });
+    let (Some((main, part)), coordinate) = (
+        position.as_ref().or(speed.as_ref()),
+        if torque || frame.is_some() {
+            Coordinate::Rotation
+        } else {
+            Coordinate::Translation
+        },
+    ) else {
+        return Err(
+            "a column position or speed is missing (of nut_, motor_, carriage_ or plain)".into(),
+        );
+    };
+    let (main_name, main_part) = (main.name.clone(), *part);
+
+    let reference = take(&mut table, Quantity::ReferencePosition)
+        .map(|column| {
+            let refer = refer(&column, main_part, torque, frame)?;
+            Ok::<_, String>((column, refer))
+        })
+        .transpose()?;
+    let load = take(&mut table, Quantity::Load);
+    let temperature = take(&mut table, Quantity::Temperature);
+    if let Some(column) = &temperature {
+        check_temperature(column)?;
+    }
+    table
+        .ignored
+        .extend(table.columns.drain(..).map(|column| column.name));
+
+    let prepare = |column: Column, Reference { factor, angle }: Reference| {
+        let mut values = column.values;
+        if angle {
+            unwrap(&mut values).map_err(|message| format!("column {}: {message}", column.name))?;
+        }
+        for value in &mut values {
+            *value *= factor;
+        }
+        Ok::<_, String>(values)
+    };
+    let with_part = |column: Option<(Column, Part)>| {
+        column
+            .map(|(column, part)| {
+                let mut refer = refer(&column, part, torque, frame)?;
+                refer.angle &= matches!(column.quantity, Quantity::Position(_));
+                prepare(column, refer)
+            })
+            .transpose()
+    };
+    let position = with_part(position)?;
+    let speed = with_part(speed)?.map(|values| clock.resample(values));
+    // Found before samples are interpolated, which lie between the sensor's steps.
+    let step_of_sensor = position.as_deref().map_or(0.0, resolution);
+    let position_summed = position.is_none();
+    let position = match (position, &speed) {
+        (Some(values), _) => clock.resample(values),
+        (None, Some(speed)) => sum_up(speed, clock.step),
+        (None, None) => return Err(format!("column {main_name} is empty")),
+    };
+    let reference_position = reference
+        .map(|(column, refer)| {
+            let mut values = prepare(column, refer)?;
+            if refer.angle {
+                same_turn(&mut values, &position, refer.factor);
+            }
+            Ok::<_, String>(clock.resample(values))
+        })
+        .transpose()?;
+    let gain = effort_gain(torque, frame);
+    let effort: Vec<f64> = effort
+        .values
+        .into_iter()
+        .map(|value| value * gain)
+        .collect();
+    Ok(Trace {
+        name: name.into(),
+        coordinate,
+        start: clock.start,
+        step: clock.step,
+        position,
+        resolution: step_of_sensor,
+        position_summed,
+        speed,
+        effort: clock.resample(effort),
+        reference_position,
+        load: load.map(|column| clock.resample(column.values)),
+        temperature: temperature.map(|column| clock.resample(column.values)),
+        repairs: clock.repairs,
+        ignored: table.ignored,
+    })
+}
+
+/// Takes the column of a quantity out of the table.
+fn take(table: &mut Table, quantity: Quantity) -> Option<Column> {
+    let place = table
+        .columns
+        .iter()
+        .position(|column| column.quantity == quantity)?;
+    Some(table.columns.remove(place))
+}
+
+/// The effort, and whether it is a torque.
+fn effort(table: &mut Table) -> Result<(Column, bool), String> {
+    match (
+        take(table, Quantity::MotorTorque),
+        take(table, Quantity::MotorForce),
+    ) {
+        (Some(torque), None) => Ok((torque, true)),
+        (None, Some(force)) => Ok((force, false)),
+        (Some(torque), Some(force)) => Err(format!(
+            "columns {} and {}: give the effort once",
+            torque.name, force.name
+        )),
+        (None, None) => Err("column motor_torque or motor_force is missing".into()),
+    }
+}
+
+/// The column that tells the motion best: the nut's, before the motor's, the carriage's and a plain one.
+fn motion(table: &mut Table, part: impl Fn(Quantity) -> Option<Part>) -> Option<(Column, Part)> {
+    [Part::Nut, Part::Motor, Part::Carriage, Part::Plain]
+        .into_iter()
+        .find_map(|wanted| {
+            let place = table
+                .columns
+                .iter()
+                .position(|column| part(column.quantity) == Some(wanted))?;
+            Some((table.columns.remove(place), wanted))
+        })
+}
+
+/// How a position or speed of this part refers to the trace's coordinate.
+fn refer(
+    column: &Column,
+    part: Part,
+    torque: bool,
+    frame: Option<&Frame>,
+) -> Result<Reference, String> {
+    let angle = match (part, column.unit.dimension) {
+        (Part::Motor | Part::Nut, Dimension::Length) | (Part::Carriage, Dimension::Angle) => {
+            return Err(format!(
+                "column {} has a unit that its part does not move in",
+                column.name
+            ));
+        }
+        (Part::Motor | Part::Nut, _) | (_, Dimension::Angle) => true,
+        (Part::Carriage, _) | (_, Dimension::Length) => false,
+        (Part::Plain, _) => torque,
+    };
+    let factor = match (frame, angle) {
+        (Some(Frame { ratio, .. }), true) if part == Part::Motor => 1.0 / ratio,
+        (Some(_), true) => 1.0,
+        (Some(Frame { lead, .. }), false) => TAU / lead,
+        (None, _) if angle == torque => 1.0,
+        (None, _) => {
+            return Err(format!(
+                "column {} and a {} need a design, which says the lead",
+                column.name,
+                if torque {
+                    "motor_torque"
+                } else {
+                    "motor_force"
+                }
+            ));
+        }
+    };
+    Ok(Reference { factor, angle })
+}
+
+/// What the motor's effort is multiplied by to act on the trace's coordinate.
+fn effort_gain(torque: bool, frame: Option<&Frame>) -> f64 {
+    match frame {
+        Some(Frame { ratio, .. }) if torque => *ratio,
+        Some(Frame { lead, .. }) => lead / TAU,
+        None => 1.0,
+    }
+}
+
+fn check_temperature(column: &Column) -> Result<(), String> {
+    let (low, high) = range(&column.values);
+    if low >= TEMPERATURES.0 && high <= TEMPERATURES.1 {
+        return Ok(());
+    }
+    let odd = if low < TEMPERATURES.0 { low } else { high };
+    Err(format!(
+        "column {}: {odd} K is no temperature of a screw; a column in degrees Celsius is named temperature_C",
+        column.name
+    ))
+}
+
+/// Position from speed: the sum of trapezoids.
+fn sum_up(speed: &[f64], step: f64) -> Vec<f64> {
+    let mut position = 0.0;
+    let mut last = None;
+    speed
+        .iter()
+        .map(|speed| {
+            position += 0.5 * (last.unwrap_or(-speed) + speed) * step;
+            last = Some(*speed);
+            position
+        })
+        .collect()
+}
+
+/// Shifts an angle by whole turns of its sensor to where another one starts.
+fn same_turn(angle: &mut [f64], other: &[f64], factor: f64) {
+    let turn = TAU * factor;
+    if let (Some(first), Some(start)) = (angle.first().copied(), other.first()) {
+        let shift = ((start - first) / turn).round() * turn;
+        for value in angle {
+            *value += shift;
+        }
+    }
+}

@@ -1,0 +1,196 @@
+//! The table of a CSV file: which column holds what, and its numbers in SI units.
+
+use std::io::{Read, Seek};
+
+use csv::{ByteRecord, ErrorKind, Reader, ReaderBuilder, Trim};
+
+use crate::files::line_of;
+
+use super::units::{Quantity, Unit, column};
+
+/// Most samples: more than three hours at 1 kHz, and less than fills a memory.
+pub const MOST_SAMPLES: usize = 12_000_000;
+/// Most columns of the file; its own names stand in a message each.
+const MOST_COLUMNS: usize = 1000;
+
+/// One column that is known.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Column {
+    /// Name in the file.
+    pub name: String,
+    /// What it holds.
+    pub quantity: Quantity,
+    /// Unit in the file.
+    pub unit: Unit,
+    /// Values, in SI units.
+    pub values: Vec<f64>,
+    /// Where it stands in a line.
+    place: usize,
+}
+
+/// A table whose times rise.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Table {
+    /// Time of every sample, s.
+    pub times: Vec<f64>,
+    /// All columns but the time.
+    pub columns: Vec<Column>,
+    /// Names of columns that are not known.
+    pub ignored: Vec<String>,
+    /// Samples that had the time of the one before, and were dropped.
+    pub repeated: usize,
+}
+
+/// Reads a table.
+///
+/// # Errors
+/// What is wrong, with the line.
+pub fn read(input: impl Read + Seek) -> Result<Table, String> {
+    let mut reader = ReaderBuilder::new().trim(Trim::All).from_reader(input);
+    let mut table = match header(&mut reader) {
+        Ok(header) => header,
+        Err(message) => return Err(format!("line 1: {message}")),
+    };
+    let mut record = ByteRecord::new();
+    loop {
+        let (byte, line) = (reader.position().byte(), reader.position().line());
+        let fault = match reader.read_byte_record(&mut record) {
+            Ok(true) => table.add(&record).err(),
+            Ok(false) => break,
+            Err(error) => Some(message(&error)),
+        };
+        if let Some(message) = fault {
+            let line = line_of(reader.into_inner(), byte, line);
+            return Err(format!("line {line}: {message}"));
+        }
+    }
+    let time = table.columns.remove(0);
+    Ok(Table {
+        times: time.values,
+        columns: table.columns,
+        ignored: table.ignored,
+        repeated: table.repeated,
+    })
+}
+
+/// What the CSV reader found.
+fn message(error: &csv::Error) -> String {
+    match error.kind() {
+        ErrorKind::UnequalLengths {
+            expected_len, len, ..
+        } => format!("{len} columns where the first line has {expected_len}"),
+        ErrorKind::Utf8 { .. } => "no UTF-8".into(),
+        _ => error.to_string(),
+    }
+}
+
+/// A table that grows; its first column is the time.
+struct Growing {
+    columns: Vec<Column>,
+    ignored: Vec<String>,
+    repeated: usize,
+}
+
+fn header(reader: &mut Reader<impl Read>) -> Result<Growing, String> {
+    let header = reader.headers().map_err(|error| message(&error))?;
+    if header.is_empty() {
+        return Err("the file is empty".into());
+    }
+    if header.len() > MOST_COLUMNS {
+        return Err(format!("{} columns: at most {MOST_COLUMNS}", header.len()));
+    }
+    if let Some(name) = header.iter().find(|name| name.contains([';', '\t'])) {
+        let shown: String = name.chars().take(40).collect();
+        return Err(format!(
+            "columns are separated by commas, and numbers have a decimal point; here stands {shown:?}"
+        ));
+    }
+    let mut table = Growing {
+        columns: Vec::new(),
+        ignored: Vec::new(),
+        repeated: 0,
+    };
+    for (place, name) in header.iter().enumerate() {
+        // A spreadsheet may put a byte-order mark before the first name.
+        let name = name.trim_start_matches('\u{feff}');
+        let Some((quantity, unit)) = column(name)? else {
+            table.ignored.push(name.chars().take(40).collect());
+            continue;
+        };
+        if let Some(other) = table
+            .columns
+            .iter()
+            .find(|other| other.quantity == quantity)
+        {
+            return Err(format!(
+                "columns {} and {name} are the same quantity",
+                other.name
+            ));
+        }
+        table.columns.push(Column {
+            name: name.into(),
+            quantity,
+            unit,
+            values: Vec::new(),
+            place,
+        });
+    }
+    let time = table
+        .columns
+        .iter()
+        .position(|column| column.quantity == Quantity::Time)
+        .ok_or("column time is missing")?;
+    table.columns.swap(0, time);
+    Ok(table)
+}
+
+impl Growing {
+    /// Adds a line.
+    fn add(&mut self, record: &ByteRecord) -> Result<(), String> {
+        for place in 0..self.columns.len() {
+            let Some(column) = self.columns.get_mut(place) else {
+                continue;
+            };
+            let value = number(record.get(column.place).unwrap_or_default(), &column.name)?;
+            let value = value * column.unit.factor + column.unit.offset;
+            if place == 0 {
+                match column.values.last() {
+                    Some(last) if value < *last => {
+                        return Err(format!("time goes back from {last} s to {value} s"));
+                    }
+                    Some(last) if value == *last => {
+                        self.repeated += 1;
+                        return Ok(());
+                    }
+                    _ => {}
+                }
+                if column.values.len() == MOST_SAMPLES {
+                    return Err(format!(
+                        "a trace has at most {MOST_SAMPLES} samples; cut it, or take every few samples of a faster one"
+                    ));
+                }
+            }
+            column.values.push(value);
+        }
+        Ok(())
+    }
+}
+
+/// A number that f32 can hold.
+fn number(text: &[u8], column: &str) -> Result<f64, String> {
+    let fault = |problem: &str| {
+        let shown: String = String::from_utf8_lossy(text).chars().take(40).collect();
+        format!("{column} = {shown:?} {problem}")
+    };
+    let value: f64 = std::str::from_utf8(text)
+        .ok()
+        .and_then(|text| text.parse().ok())
+        .ok_or_else(|| fault("is no number"))?;
+    if !value.is_finite() {
+        return Err(fault("is not finite"));
+    }
+    if value.abs() > f64::from(f32::MAX) {
+        return Err(fault("is beyond the range of float32"));
+    }
+    Ok(value)
+}
