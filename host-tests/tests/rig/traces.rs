@@ -4,6 +4,7 @@ use epas_reference::friction::ball_screw_efficiency::LoadedScrew;
 use epas_reference::rig::course::{Course, Manoeuvre};
 use epas_reference::rig::parameters::Parameters;
 use epas_reference::rig::sliding::SlidingTorque;
+use epas_reference::rig::spoiled::Spoiling;
 use epas_reference::rig::{Rig, Sensors};
 
 fn deviation(values: &[f64]) -> f64 {
@@ -188,4 +189,34 @@ fn between_the_balls_of_the_grid_lie_balls() {
         }
         println!("preload {preload}: {largest:.1e}");
     }
+}
+
+/// Careless traces are careless in what they are named for alone.
+#[test]
+fn spoiled_traces_are_wrong_in_one_way() {
+    let rig = Rig::new(Parameters::default(), Sensors::default()).unwrap();
+    let course = Course::of(Manoeuvre::Weave, 4.0);
+    let trace = rig.run(&course, 3).unwrap();
+    for spoiling in Spoiling::ALL {
+        let spoiled = trace.clone().spoiled(spoiling);
+        assert_ne!(format!("{spoiled:?}"), format!("{trace:?}"), "{spoiling:?}");
+        let lost = trace.len() - spoiled.len();
+        let expected = match spoiling {
+            Spoiling::DroppedSamples => 40,
+            Spoiling::Gap => 1000,
+            _ => 0,
+        };
+        assert_eq!(lost, expected, "{spoiling:?}");
+        assert_eq!(spoiled.truth.friction.len(), spoiled.time.len());
+    }
+    // Steady and one-way courses never turn back, and an unloaded one has no load.
+    for manoeuvre in [Manoeuvre::Steady, Manoeuvre::OneWay] {
+        let trace = rig.run(&Course::of(manoeuvre, 4.0), 3).unwrap();
+        let slowest = trace.truth.speed[50..3950]
+            .iter()
+            .fold(f64::MAX, |least, speed| least.min(*speed));
+        assert!(slowest > 0.9, "{manoeuvre:?}: {slowest}");
+    }
+    let trace = rig.run(&course.unloaded(), 3).unwrap();
+    assert!(trace.truth.load.iter().all(|load| *load == 0.0));
 }
