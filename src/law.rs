@@ -15,8 +15,11 @@
 pub mod breakaway;
 pub mod coefficient;
 pub mod compensation;
+mod level;
 pub mod memory;
 pub mod motion;
+
+pub use level::{FrictionLevel, LEVEL};
 
 /// Friction of gross sliding in both directions at a tick: between them friction passes with the angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,6 +31,19 @@ pub struct SlidingLimits {
     pub backward: f32,
     /// Load over the reference load of the elements, not negative; only load-exact elements read it.
     pub load: f32,
+}
+
+impl SlidingLimits {
+    /// These limits times a level in each direction; the load stays.
+    #[inline(always)]
+    #[must_use]
+    pub const fn times(&self, level: &FrictionLevel) -> Self {
+        Self {
+            forward: self.forward * level.forward,
+            backward: self.backward * level.backward,
+            load: self.load,
+        }
+    }
 }
 
 /// Elements of friction that remember: constants of one kind, folded at set-up.

@@ -34,6 +34,7 @@
 //! | [`law`] | friction that remembers; friction coefficient by speed and temperature | step of scenes with memory; direct |
 //! | [`scene`] | what a mechanism needs and what it leaves out | step |
 //! | [`model`] | [`FrictionModel`]: admit, compute, limit, count | step |
+//! | [`adaptation`] | level of the friction, drag and sensor errors, found while the vehicle runs; health | beside the step |
 //! | `hal` | adapters for `embedded-hal`: nut speed from an encoder, friction torque to a duty cycle | beside the step |
 //! | [`promises`] | domain, errors, behaviour outside and cost of every function, in one table | nowhere: a table |
 //!
@@ -44,6 +45,7 @@
 // Symbols of the papers are no code.
 #![allow(clippy::doc_markdown)]
 
+pub mod adaptation;
 pub mod ball;
 pub mod contact;
 pub mod curvature;

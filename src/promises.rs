@@ -6,6 +6,7 @@
 //! Constants that nobody reads take no place in a firmware's image.
 #![doc = include_str!("promises.md")]
 
+mod adaptation;
 mod direct;
 mod footprints;
 mod kernels;
@@ -13,6 +14,7 @@ mod law;
 mod promise;
 mod steps;
 
+pub use adaptation::*;
 pub use direct::*;
 pub use footprints::{FOOTPRINTS, STEP_SPREAD};
 pub use kernels::*;
@@ -46,7 +48,7 @@ pub const STEPS: [Promise; 21] = [
 ];
 
 /// Promises of functions that firmware calls by their names.
-pub const DIRECT: [Promise; 25] = [
+pub const DIRECT: [Promise; 27] = [
     CBRT,
     CBRT_SQUARED,
     SIN_COS,
@@ -66,6 +68,8 @@ pub const DIRECT: [Promise; 25] = [
     DISSIPATION,
     FRICTION_COEFFICIENT,
     FRICTION_COEFFICIENT_WARMING,
+    ADAPTATION,
+    STATE,
     SCREW_START,
     SCREW_ROW,
     SCREW_BALL,

@@ -5,9 +5,9 @@ use core::borrow::Borrow;
 use super::FrictionModel;
 use crate::ball::Clearance;
 use crate::error::Error;
-use crate::law::Elements;
 use crate::law::coefficient::CoefficientModel;
 use crate::law::motion::NutAngle;
+use crate::law::{Elements, FrictionLevel};
 use crate::scene::{
     CagedBallScrew, CagedConstants, Faults, Scene, SceneOutputs, Sliding, UncagedBallScrew,
     UncagedConstants, WithMemory, WithMemoryConstants,
@@ -45,6 +45,19 @@ where
     /// was.
     pub fn set_coefficient(&mut self, law: L) -> Result<(), Error> {
         self.state.set_coefficient(law)
+    }
+
+    /// Sets how large friction is beside that of the constants, in each direction: from the next step or reading on. What an
+    /// [`Adaptation`](crate::adaptation::Adaptation) has found goes in here.
+    ///
+    /// Only the limits of the elements are scaled: their stiffness stays, so that friction takes out of every motion what it stored,
+    /// and no less, however often the level changes. Efficiency and regime are those of the constants' friction. Not part of an exported
+    /// state; [`FrictionModel::reset`] brings 1 back.
+    ///
+    /// # Errors
+    /// [`Error`] naming `forward` or `backward`, outside 0.1 to 10; the model goes on as it was.
+    pub fn set_level(&mut self, level: FrictionLevel) -> Result<(), Error> {
+        self.state.set_level(level)
     }
 }
 

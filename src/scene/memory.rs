@@ -14,7 +14,7 @@ use super::sliding::Sliding;
 use crate::error::{Error, attempt, in_range};
 use crate::law::coefficient::{CoefficientLaw, CoefficientModel, TemperatureFade};
 use crate::law::motion::{NutAngle, Play, PlayState};
-use crate::law::{Elements, SlidingLimits};
+use crate::law::{Elements, FrictionLevel, SlidingLimits};
 
 pub use configuration::WithMemoryConfiguration;
 pub use inputs::{Freshness, WithMemoryInputs, WithMemoryKnown};
@@ -80,6 +80,8 @@ pub struct WithMemoryState<
     full: Option<S::Full>,
     limits: SlidingLimits,
     churning: f32,
+    /// What scales the limits.
+    level: FrictionLevel,
 }
 
 impl<S, E, A, L> Scene for WithMemory<S, E, A, L>
@@ -126,6 +128,7 @@ where
             full: None,
             limits: NONE,
             churning: 0.0,
+            level: FrictionLevel::ONE,
         }
     }
 
@@ -143,6 +146,7 @@ where
         state.full = None;
         state.limits = NONE;
         state.churning = 0.0;
+        state.level = FrictionLevel::ONE;
     }
 
     fn take_over(constants: &Self::Constants, state: &mut Self::State) -> Result<(), Error> {
@@ -244,6 +248,12 @@ impl<S: Sliding, E: Elements, A: NutAngle, L: CoefficientModel> WithMemoryState<
     pub(crate) fn set_coefficient(&mut self, law: L) -> Result<(), Error> {
         self.coefficient = checked::<S, L>(law)?;
         self.at_temperature = law.at_temperature(self.temperature);
+        Ok(())
+    }
+
+    /// See [`FrictionModel::set_level`](crate::FrictionModel::set_level).
+    pub(crate) const fn set_level(&mut self, level: FrictionLevel) -> Result<(), Error> {
+        self.level = attempt!(level.checked());
         Ok(())
     }
 
@@ -350,7 +360,7 @@ impl<C, E: Elements, A: NutAngle, L: CoefficientModel> WithMemoryConstants<C, E,
         let Some(full) = &state.full else {
             return S::Outputs::SAFE.limited(f32::MAX, faults);
         };
-        let limits = &state.limits;
+        let limits = &state.limits.times(&state.level);
         let friction = self.elements.follow(&mut state.elements, turn, limits);
         let limit = if friction < 0.0 {
             limits.backward
@@ -359,7 +369,7 @@ impl<C, E: Elements, A: NutAngle, L: CoefficientModel> WithMemoryConstants<C, E,
         };
         let share = if limit > 0.0 { friction / limit } else { 0.0 };
         let passage = Passage {
-            share,
+            share: share * state.level.of(friction),
             way: if state.play.way() == 0.0 {
                 way(friction)
             } else {

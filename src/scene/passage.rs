@@ -7,7 +7,8 @@ use crate::math;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Passage {
-    /// Part of full friction, -1 to 1, with the sign of the direction in which friction opposes motion.
+    /// Part of full friction, with the sign of the direction in which friction opposes motion: -1 to 1, times the
+    /// [level](crate::law::FrictionLevel) of that direction where one is set.
     pub share: f32,
     /// -1 where the motion goes, or went last, in the negative direction, else 1.
     pub way: f32,

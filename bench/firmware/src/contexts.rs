@@ -2,6 +2,7 @@
 
 use core::hint::black_box;
 
+use epas_friction::adaptation::{Adaptation, AdaptationConfiguration};
 use epas_friction::ball::elastic::ElasticGrooves;
 use epas_friction::ball::{
     AnalyticLinearBall, GrooveFit, LinearBallParameters, PUBLISHED_SLOPE, ScrewLoop, ScrewRow,
@@ -65,6 +66,8 @@ pub struct Contexts {
     pub coefficient: CoefficientLaw,
     /// The same at one temperature.
     pub at_temperature: CoefficientAtTemperature,
+    /// Friction level that follows the vehicle, with all five numbers.
+    pub adaptation: Adaptation,
     /// Published closed form of a ball.
     pub analytic: AnalyticLinearBall,
     /// Ball in a linear bearing.
@@ -200,6 +203,7 @@ impl Contexts {
             map: FrictionMap::new(black_box(0.2321))?,
             coefficient,
             at_temperature: coefficient.at_temperature(300.0),
+            adaptation: Adaptation::new(&black_box(adaptation_configuration()))?,
             analytic: AnalyticLinearBall::new(&linear_parameters, PUBLISHED_SLOPE)?,
             ball: linear.solve(&linear.contacts(&nominal, &[100.0; 4])),
             linear,
@@ -262,6 +266,17 @@ impl Contexts {
                 deflection: 0.0,
             }),
         })
+    }
+}
+
+/// Levels, drag, offset and the load's gain every 10 ms.
+const fn adaptation_configuration() -> AdaptationConfiguration {
+    AdaptationConfiguration {
+        drag_deviation: 2e-4,
+        largest_drag: 2e-3,
+        offset_deviation: 5e-3,
+        largest_offset: 0.05,
+        ..AdaptationConfiguration::every(0.01)
     }
 }
 

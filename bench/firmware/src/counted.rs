@@ -6,6 +6,7 @@
 // Rust calls Rust here; the C calling convention passes f32 in floating-point registers.
 #![allow(improper_ctypes_definitions)]
 
+use epas_friction::adaptation::{Adaptation, AdaptationInputs, Adapted};
 use epas_friction::ball::elastic::{BallInputs, ElasticGrooves, Renewal, Settled};
 use epas_friction::ball::{
     AnalyticLinearBall, LoopBall, LoopSums, ScrewLoop, ScrewRow, ScrewTick, SpeedDeviation,
@@ -121,6 +122,11 @@ counted! {
     /// Speed-free ratios of one contact.
     fn count_kinematics_ratios(kinematics: &ContactKinematics) -> SlipRatios {
         kinematics.screw().ratios()
+    }
+
+    /// A tick of the friction level that follows the vehicle.
+    fn count_adaptation_update(adaptation: &mut Adaptation, inputs: &AdaptationInputs) -> Adapted {
+        adaptation.update(inputs)
     }
 
     /// Friction of one contact by its offset ratio.

@@ -89,6 +89,25 @@ pub fn memory(spread: &mut Spread) -> [f32; 3] {
     ]
 }
 
+/// True level, friction of the model, nut speed and load torque of a screw that slides; at rest and of broken sensors in cases that are
+/// checked and not counted.
+pub fn adaptation(spread: &mut Spread) -> [f32; 4] {
+    let level = spread.between(0.5, 2.0);
+    let speed = spread.between(0.3, 60.0);
+    let (friction, load) = (spread.between(0.01, 0.1), spread.between(-3.0, 3.0));
+    let way = if spread.index().is_multiple_of(2) {
+        1.0
+    } else {
+        -1.0
+    };
+    let broken = [f32::NAN, 0.0, f32::INFINITY, 1e-4];
+    let speed = spread.special(&broken, BROKEN).unwrap_or(speed);
+    let level = spread
+        .special(&[f32::NAN, 50.0], BROKEN + 6)
+        .unwrap_or(level);
+    [level, way * friction, way * speed, load]
+}
+
 /// Free speeds of a train as a triangular wave: its amplitude, the waves in the train and where it starts;
 /// every fourth case a ramp on which all balls run into each other or away from each other.
 pub fn train(spread: &mut Spread) -> [f32; 3] {

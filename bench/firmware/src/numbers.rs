@@ -1,5 +1,6 @@
 //! What functions and models give, as numbers: to be stored, compared and digested.
 
+use epas_friction::adaptation::Adapted;
 use epas_friction::ball::ScrewTickBall;
 use epas_friction::kinematics::{BallKinematics, ContactSlip};
 use epas_friction::{Faults, LinearOutputs, Outputs, Regime, UncagedOutputs};
@@ -30,6 +31,25 @@ fn condition(regime: Regime, faults: Faults) -> f32 {
         Regime::Locked => 3,
     };
     f32::from(regime + 4 * faults.bits())
+}
+
+/// What an adaptation gives, as numbers.
+pub fn adapted(adapted: &Adapted) -> [f32; 8] {
+    let Adapted {
+        estimates,
+        flags,
+        health,
+    } = adapted;
+    [
+        estimates.forward,
+        estimates.backward,
+        estimates.drag,
+        estimates.offset,
+        estimates.load_error,
+        f32::from(flags.bits()),
+        health.drift,
+        f32::from(u8::from(health.fallen) + 2 * u8::from(health.risen)),
+    ]
 }
 
 /// What a caged ball screw puts out, as numbers.

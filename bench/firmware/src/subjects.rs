@@ -2,19 +2,20 @@
 
 use core::hint::black_box;
 
-use epas_friction::LoadShare;
+use epas_friction::adaptation::AdaptationInputs;
 use epas_friction::ball::LoopSums;
 use epas_friction::ball::elastic::BallInputs;
 use epas_friction::kinematics::EllipticContact;
-use epas_friction::law::SlidingLimits;
+use epas_friction::law::{FrictionLevel, SlidingLimits};
 use epas_friction::scene::WithMemoryInputs;
+use epas_friction::{Faults, LoadShare, Regime};
 
 use crate::contexts::Contexts;
 use crate::counted::{
-    FourContacts, count_ball_screw_ball, count_ball_screw_renewal, count_ball_screw_row,
-    count_ball_screw_start, count_between_caged, count_cbrt, count_cbrt_and_squared,
-    count_cbrt_squared, count_curvature_circular_groove, count_curvature_exact,
-    count_curvature_fitted, count_curvature_literature, count_deviation_map,
+    FourContacts, count_adaptation_update, count_ball_screw_ball, count_ball_screw_renewal,
+    count_ball_screw_row, count_ball_screw_start, count_between_caged, count_cbrt,
+    count_cbrt_and_squared, count_cbrt_squared, count_curvature_circular_groove,
+    count_curvature_exact, count_curvature_fitted, count_curvature_literature, count_deviation_map,
     count_efficiency_backdrive, count_efficiency_rolling, count_efficiency_sliding,
     count_friction_coefficient, count_friction_coefficient_warming, count_friction_dissipation,
     count_friction_map, count_hertz_ellipse, count_idsp_sin_cos, count_kinematics_ratios,
@@ -29,10 +30,12 @@ use crate::counted::{
     count_stribeck_curve, count_train_37, count_turn_of_angles, count_turn_of_counts,
 };
 use crate::inputs::{
-    SPECIAL, angle, contact_angle, four_contacts, impedances, memory, pair, positive, tick, train,
-    wave,
+    SPECIAL, adaptation, angle, contact_angle, four_contacts, impedances, memory, pair, positive,
+    tick, train, wave,
 };
-use crate::numbers::{all, linear_outputs, motion, outputs, screw_ball, two, uncaged_outputs};
+use crate::numbers::{
+    adapted, all, linear_outputs, motion, outputs, screw_ball, two, uncaged_outputs,
+};
 use crate::scenes::{BALLS, EfficiencyStep, remembered};
 use crate::spread::Spread;
 
@@ -193,6 +196,14 @@ subjects! {
         |c, [speed, temperature]| -> [1] [
             timed!(c, count_friction_coefficient_warming(black_box(&c.coefficient), speed, temperature))
         ];
+    adaptation_update: |spread| -> [4] adaptation(spread),
+        |c, [level, modelled, speed, load_torque]| -> [8] {
+            let inputs = black_box(AdaptationInputs {
+                observed: level * modelled, modelled, level: FrictionLevel::ONE, nut_speed: speed, load_torque,
+                regime: Regime::Driving, faults: Faults::NONE, saturated: false,
+            });
+            adapted(&timed!(c, count_adaptation_update(black_box(&mut c.adaptation), &inputs)))
+        };
     sqrt: |spread| -> [1] positive(spread),
         |c, [x]| -> [1] [timed!(c, count_sqrt(x))];
     cbrt: |spread| -> [1] positive(spread),

@@ -1,15 +1,340 @@
 //! Whether a trace may be believed, and what it cannot tell.
+//!
+//! What would make every number wrong is refused with a word. What only limits what can be told is a finding.
 
 use crate::failure::Failure;
 
-use super::finding::Finding;
+use super::channels::range;
+use super::excitation;
+use super::finding::{Finding, FindingKind};
+use super::relation::{Against, Relation, relation, root_mean_square, shift, speeds};
 use super::signals::Motion;
-use super::trace::Trace;
+use super::trace::{Coordinate, Trace};
+
+/// Fastest that a nut turns, rad/s (95,000 turns a minute), and that a carriage travels, m/s.
+const FASTEST: [f64; 2] = [1e4, 50.0];
+/// Largest share of samples at the effort's limit, and the share from which it is said.
+const CLIPPED: [f64; 2] = [0.05, 0.001];
+/// Certainty, in standard deviations, from which a sign is believed: far beyond chance, because the relation itself is rough.
+const CERTAIN: f64 = 6.0;
+/// A shifted clock is refused from this many ticks and this much less left with the shift, and said from the others. The
+/// relation is rough: pre-sliding alone shifts the effort of the smallest motions by three ticks of 1 ms, but leaves hardly
+/// less (measured: 1.04).
+const SHIFT_REFUSED: [f64; 2] = [3.0, 1.3];
+const SHIFT_SAID: [f64; 2] = [2.0, 1.1];
+/// Largest shift that is sought, s, and in ticks.
+const SHIFT_SOUGHT: (f64, f64) = (0.03, 100.0);
+/// A measured speed may differ from the position's derivative by this share.
+const SPEED_AGREES: f64 = 0.05;
 
 /// What limits what the trace can tell.
 ///
 /// # Errors
 /// A trace from which any number would be wrong.
-pub fn examine(_trace: &Trace, _motion: &Motion) -> Result<Vec<Finding>, Failure> {
-    Ok(Vec::new())
+pub fn examine(trace: &Trace, motion: &Motion) -> Result<Vec<Finding>, Failure> {
+    look(trace, motion).map_err(Failure::Data)
+}
+
+fn look(trace: &Trace, motion: &Motion) -> Result<Vec<Finding>, String> {
+    finite(trace)?;
+    moves(trace, motion)?;
+    let mut findings = told_by_reader(trace);
+    effort_lives(trace, &mut findings)?;
+    measured_speed(trace, motion, &mut findings)?;
+    if let Some(relation) = relation(trace, motion) {
+        signs(trace, motion, &relation)?;
+        unexplained(trace, &relation, &mut findings);
+    }
+    clocks(trace, motion, &mut findings)?;
+    excitation::add(trace, motion, &mut findings)?;
+    Ok(findings)
+}
+
+/// Whether the effort of the load is what the lead makes of it, on a trace whose load is worth it: `travel` is the
+/// carriage's travel of a unit of the coordinate, m/rad or 1.
+///
+/// # Errors
+/// A load in a wrong unit or of a wrong sign.
+pub fn load_gain(trace: &Trace, motion: &Motion, travel: f64) -> Result<(), Failure> {
+    /// A friction that is not understood yet changes the gain by less.
+    const WITHIN: f64 = 3.0;
+    let Some(relation) = relation(trace, motion).filter(|r| r.gain_certainty.abs() > CERTAIN)
+    else {
+        return Ok(());
+    };
+    let gain = relation.gain / travel;
+    if gain > 1.0 / WITHIN && gain < WITHIN {
+        return Ok(());
+    }
+    Err(Failure::Data(format!(
+        "a newton of axial load takes {gain:.3} of the effort that the lead makes of it: the load, the effort or the lead is in a wrong unit"
+    )))
+}
+
+fn finite(trace: &Trace) -> Result<(), String> {
+    let channels = [
+        ("position", Some(&trace.position)),
+        ("speed", trace.speed.as_ref()),
+        ("effort", Some(&trace.effort)),
+        ("reference position", trace.reference_position.as_ref()),
+        ("load", trace.load.as_ref()),
+        ("temperature", trace.temperature.as_ref()),
+    ];
+    for (name, channel) in channels {
+        let Some(channel) = channel else {
+            continue;
+        };
+        if channel.len() != trace.len() {
+            return Err(format!(
+                "the {name} has {} samples where the effort has {}",
+                channel.len(),
+                trace.len()
+            ));
+        }
+        if let Some(sample) = channel.iter().position(|x| !x.is_finite()) {
+            return Err(format!(
+                "the {name} is not finite at {:.4} s (sample {sample})",
+                trace.start + trace.step * sample as f64
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// The trace moves, and not faster than anything does.
+fn moves(trace: &Trace, motion: &Motion) -> Result<(), String> {
+    let (low, high) = range(&trace.position);
+    // Between two steps of the sensor nothing is known.
+    if !(high - low > 3.0 * trace.resolution) {
+        return Err(format!(
+            "the position never moves by more than {:.3e}: no friction shows",
+            high - low
+        ));
+    }
+    let (fastest, unit, hint) = match trace.coordinate {
+        Coordinate::Rotation => (FASTEST[0], "rad/s", "position_deg, speed_rpm"),
+        Coordinate::Translation => (FASTEST[1], "m/s", "position_mm, speed_mm_s"),
+    };
+    let (low, high) = range(&motion.speed);
+    let top = high.max(-low);
+    if top > fastest {
+        return Err(format!(
+            "the speed reaches {top:.4} {unit}: a column that is not in SI units says so in its name ({hint})"
+        ));
+    }
+    Ok(())
+}
+
+fn told_by_reader(trace: &Trace) -> Vec<Finding> {
+    let mut findings = Vec::new();
+    let repairs = trace.repairs;
+    let repaired = repairs.missing + repairs.jittered + repairs.repeated;
+    if repaired > 0 {
+        findings.push(Finding::new(
+            FindingKind::Repaired,
+            repaired as f64,
+            format!(
+                "{} missing samples and {} beside their tick were interpolated, {} that stood twice were dropped",
+                repairs.missing, repairs.jittered, repairs.repeated
+            ),
+        ));
+    }
+    if !trace.ignored.is_empty() {
+        findings.push(Finding::new(
+            FindingKind::IgnoredColumns,
+            trace.ignored.len() as f64,
+            format!("columns left aside: {}", trace.ignored.join(", ")),
+        ));
+    }
+    findings
+}
+
+/// The effort changes, and is not cut off.
+fn effort_lives(trace: &Trace, findings: &mut Vec<Finding>) -> Result<(), String> {
+    let (low, high) = range(&trace.effort);
+    if !(high > low) {
+        return Err(format!(
+            "the effort is {low} at every sample: a dead channel"
+        ));
+    }
+    let share = clipped(&trace.effort, low, high);
+    if share > CLIPPED[0] {
+        return Err(format!(
+            "{:.0} % of the effort stands at its limits of {low:.4} and {high:.4}: it is clipped; widen the range, or cut those parts out",
+            100.0 * share
+        ));
+    }
+    if share > CLIPPED[1] {
+        findings.push(Finding::new(
+            FindingKind::ClippedEffort,
+            share,
+            format!(
+                "{:.1} % of the effort stands at its limits of {low:.4} and {high:.4}, as if clipped",
+                100.0 * share
+            ),
+        ));
+    }
+    Ok(())
+}
+
+/// Share of samples that stay at an extreme, of an effort that elsewhere does not stand still. Three equal samples are
+/// chance where the steps of the sensor are coarse; many are not.
+fn clipped(effort: &[f64], low: f64, high: f64) -> f64 {
+    /// Fewest samples that stay.
+    const STAY: usize = 5;
+    /// Share of samples that may equal the one before, away from the limits, for equality to say anything.
+    const STILL: f64 = 0.2;
+    let (mut stay, mut still) = (0usize, 0usize);
+    for equal in effort.chunk_by(|a, b| a == b) {
+        let at_limit = equal.first().is_some_and(|x| *x == low || *x == high);
+        if at_limit && equal.len() >= STAY {
+            stay += equal.len();
+        } else {
+            still += equal.len() - 1;
+        }
+    }
+    let others = effort.len() - stay;
+    if still as f64 > STILL * others as f64 {
+        return 0.0;
+    }
+    stay as f64 / effort.len() as f64
+}
+
+/// Ticks that a shift is sought within.
+fn sought(trace: &Trace) -> usize {
+    (SHIFT_SOUGHT.0 / trace.step).min(SHIFT_SOUGHT.1) as usize
+}
+
+/// A speed that was measured beside the position is its derivative.
+fn measured_speed(
+    trace: &Trace,
+    motion: &Motion,
+    findings: &mut Vec<Finding>,
+) -> Result<(), String> {
+    let Some(measured) = trace.speed.as_ref().filter(|_| !trace.position_summed) else {
+        return Ok(());
+    };
+    if !(root_mean_square(&motion.speed) > 5.0 * motion.noise[0]) {
+        return Ok(());
+    }
+    let (low, high) = range(measured);
+    if !(high > low) {
+        findings.push(Finding::new(
+            FindingKind::DeadChannel,
+            low,
+            format!("the measured speed is {low} at every sample, and is not used"),
+        ));
+        return Ok(());
+    }
+    let Some(found) = speeds(measured, motion, sought(trace)) else {
+        return Ok(());
+    };
+    if found.correlation.abs() < 0.9 {
+        return Err(format!(
+            "the measured speed is not the derivative of the position (correlation {:.2}): other parts, or shifted clocks",
+            found.correlation
+        ));
+    }
+    // A speed that is filtered is a little smaller; what is late by design is not wrong.
+    if (found.factor - 1.0).abs() > SPEED_AGREES {
+        return Err(format!(
+            "the measured speed is {:.4} times the derivative of the position: one of them has a wrong unit or sign",
+            found.factor
+        ));
+    }
+    if found.ticks.abs() >= SHIFT_SAID[0] {
+        findings.push(Finding::new(
+            FindingKind::ShiftedSpeed,
+            found.ticks,
+            format!(
+                "the measured speed is {:.0} ticks {} than the position; the position alone is used",
+                found.ticks.abs(),
+                if found.ticks > 0.0 { "later" } else { "earlier" }
+            ),
+        ));
+    }
+    Ok(())
+}
+
+/// Friction takes power out of a motion, and inertia and load are positive.
+fn signs(trace: &Trace, motion: &Motion, relation: &Relation) -> Result<(), String> {
+    if !excitation::both_ways(motion) {
+        return Ok(());
+    }
+    let resists = relation.power > -CERTAIN;
+    if trace.load.is_some() && relation.gain_certainty < -CERTAIN && resists {
+        return Err(
+            "the effort falls as the load rises: turn the sign of the load, which is positive where it opposes a positive motion"
+                .into(),
+        );
+    }
+    if !resists {
+        return Err(
+            "the effort that goes with the speed's sign drives the motion instead of resisting it: turn the sign of the effort or of the position"
+                .into(),
+        );
+    }
+    if relation.inertia < -CERTAIN && relation.left < 0.3 {
+        return Err(
+            "the effort falls as the acceleration rises: turn the sign of the effort or of the position"
+                .into(),
+        );
+    }
+    Ok(())
+}
+
+/// Most of the effort comes from something that is not in the trace.
+fn unexplained(trace: &Trace, relation: &Relation, findings: &mut Vec<Finding>) {
+    /// Pre-sliding, load shares and ripple leave less than this.
+    const SAID: f64 = 0.6;
+    if relation.left > SAID {
+        let cause = if trace.load.is_some() {
+            "a channel is wrong, or a part moves that is not in the model"
+        } else {
+            "a load acts that the trace does not hold"
+        };
+        findings.push(Finding::new(
+            FindingKind::Unexplained,
+            relation.left,
+            format!(
+                "{:.0} % of the effort goes with neither acceleration nor speed nor load: {cause}",
+                100.0 * relation.left
+            ),
+        ));
+    }
+}
+
+/// All channels have one clock.
+fn clocks(trace: &Trace, motion: &Motion, findings: &mut Vec<Finding>) -> Result<(), String> {
+    if !excitation::both_ways(motion) {
+        return Ok(());
+    }
+    for (against, other) in [(Against::Motion, "motion"), (Against::Load, "load")] {
+        if against == Against::Load && trace.load.is_none() {
+            continue;
+        }
+        let Some(found) = shift(trace, motion, against, sought(trace)) else {
+            continue;
+        };
+        let way = if found.ticks > 0.0 {
+            "later"
+        } else {
+            "earlier"
+        };
+        let ticks = found.ticks.abs();
+        if ticks >= SHIFT_REFUSED[0] && found.gain >= SHIFT_REFUSED[1] {
+            return Err(format!(
+                "the effort comes {ticks:.0} ticks ({:.1} ms) {way} than the {other}: shift the channels to one clock",
+                1e3 * ticks * trace.step
+            ));
+        }
+        if ticks >= SHIFT_SAID[0] && found.gain >= SHIFT_SAID[1] {
+            findings.push(Finding::new(
+                FindingKind::ShiftedEffort,
+                found.ticks,
+                format!("the effort seems to come {ticks:.0} ticks {way} than the {other}"),
+            ));
+        }
+    }
+    Ok(())
 }

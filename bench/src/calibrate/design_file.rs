@@ -17,25 +17,22 @@ const KEYS: [&str; 7] = [
     "reversal_speed",
 ];
 
-/// Keys of the table `[calibration]`.
-const TABLE_KEYS: [&str; 10] = [
-    "full_film",
+/// Keys of the table `[calibration]` that the friction follows from: those that were set stand there too, because the
+/// estimated ones hold beside them.
+const FRICTION_KEYS: [&str; 9] = [
+    "full_film_ratio",
     "half_share_speed",
-    "forward",
-    "backward",
+    "reference_temperature",
+    "viscosity_pole",
+    "direction_asymmetry",
     "breakaway_angle",
-    "inertia",
-    "drag",
-    "offset",
-    "gain",
+    "reference_load",
+    "largest_load",
     "backlash",
 ];
 
-/// Keys of the table that say at what the others hold: they are set, not estimated.
-const CIRCUMSTANCES: [&str; 2] = ["reference_load", "reference_temperature"];
-
-/// Largest number of waves in a turn.
-const HARMONICS: u8 = 64;
+/// Keys of the table for what is no friction of the screw: only where they were estimated.
+const OTHER_KEYS: [&str; 5] = ["inertia", "drag", "churning", "offset", "gain"];
 
 /// What a comment of this program starts with.
 const MARK: &str = "calibrated: ";
@@ -64,13 +61,13 @@ pub fn written(text: &str, calibration: &Calibration, trace: &str) -> Result<Wri
         .map_err(|error: toml_edit::TomlError| error.to_string())?;
     let trace = one_line(trace);
     let mut left_out = Vec::new();
-    let all = with_full_film(calibration);
     let mut waves = Waves::default();
-    for estimate in &all {
+    for estimate in &calibration.parameters {
         let name = estimate.name.as_str();
-        if CIRCUMSTANCES.contains(&name) {
-            set(table(&mut document)?, estimate, "");
+        if FRICTION_KEYS.contains(&name) || OTHER_KEYS.contains(&name) && !estimate.fixed {
+            set(table(&mut document)?, estimate, &trace);
         } else if estimate.fixed {
+            // The user's own number stays as it is written.
         } else if KEYS.contains(&name) {
             let root = document.as_table_mut();
             match name {
@@ -79,8 +76,6 @@ pub fn written(text: &str, calibration: &Calibration, trace: &str) -> Result<Wri
                 _ => {}
             }
             set(root, estimate, &trace);
-        } else if TABLE_KEYS.contains(&name) {
-            set(table(&mut document)?, estimate, &trace);
         } else if !waves.take(estimate) {
             left_out.push(estimate.name.clone());
         }
@@ -95,22 +90,6 @@ pub fn written(text: &str, calibration: &Calibration, trace: &str) -> Result<Wri
         design,
         left_out,
     })
-}
-
-/// The estimates, in which the ratio of the full-film coefficient to that at standstill is a coefficient.
-fn with_full_film(calibration: &Calibration) -> Vec<Estimate> {
-    let mut all = calibration.parameters.clone();
-    if let Some(friction) = calibration.value("friction") {
-        for estimate in &mut all {
-            if estimate.name == "full_film_ratio" {
-                estimate.name = "full_film".into();
-                estimate.value *= friction;
-                estimate.low *= friction;
-                estimate.high *= friction;
-            }
-        }
-    }
-    all
 }
 
 /// The table `[calibration]`, made where there is none.
@@ -128,12 +107,6 @@ fn table(document: &mut DocumentMut) -> Result<&mut dyn TableLike, String> {
 
 /// Puts a number in its place, with what is known of it as a comment behind it; that of the user stays before that.
 fn set(table: &mut dyn TableLike, estimate: &Estimate, trace: &str) {
-    let number = number(estimate.value);
-    let note = if trace.is_empty() {
-        String::new()
-    } else {
-        note(estimate, trace)
-    };
     let users = table
         .get(&estimate.name)
         .and_then(Item::as_value)
@@ -141,15 +114,16 @@ fn set(table: &mut dyn TableLike, estimate: &Estimate, trace: &str) {
         .and_then(RawString::as_str)
         .map_or("", users_comment)
         .to_owned();
-    let suffix = match (users.is_empty(), note.is_empty()) {
-        (true, true) => String::new(),
-        (true, false) => format!(" # {note}"),
-        (false, true) => format!(" {users}"),
-        (false, false) => format!(" {users}; {note}"),
+    let before = if users.is_empty() {
+        " # ".to_owned()
+    } else {
+        format!(" {users}; ")
     };
-    let mut value = number;
+    let mut value = number(estimate.value);
     value.decor_mut().set_prefix(" ");
-    value.decor_mut().set_suffix(suffix);
+    value
+        .decor_mut()
+        .set_suffix(format!("{before}{}", note(estimate, trace)));
     if let Some(place) = table.get_mut(&estimate.name) {
         *place = Item::Value(value);
     } else {
@@ -166,6 +140,9 @@ fn users_comment(suffix: &str) -> &str {
 
 /// What is known of a number.
 fn note(estimate: &Estimate, trace: &str) -> String {
+    if estimate.fixed {
+        return format!("{MARK}set beside trace {trace}");
+    }
     format!(
         "{MARK}{} (95 %), trace {trace}",
         interval(estimate.low, estimate.high)
@@ -199,21 +176,19 @@ fn rename(table: &mut Table, old: &str, new: &str) {
 struct Waves(Vec<(u8, [Option<Estimate>; 2])>);
 
 impl Waves {
-    /// Whether an estimate is a part of a wave, `cosine_1` or `sine_1`; then it is taken.
+    /// Whether an estimate is a part of a wave, `harmonic_1_cosine` or `harmonic_1_sine`; then it is taken.
     fn take(&mut self, estimate: &Estimate) -> bool {
-        let Some((part, order)) = estimate.name.split_once('_') else {
+        let Some((order, part)) = estimate
+            .name
+            .strip_prefix("harmonic_")
+            .and_then(|name| name.split_once('_'))
+        else {
             return false;
         };
-        let place = match part {
-            "cosine" => 0,
-            "sine" => 1,
-            _ => return false,
-        };
-        let Some(order) = order
-            .parse()
-            .ok()
-            .filter(|order| (1..=HARMONICS).contains(order))
-        else {
+        let (Ok(order), Some(place)) = (
+            order.parse::<u8>(),
+            ["cosine", "sine"].iter().position(|known| *known == part),
+        ) else {
             return false;
         };
         let index = self
@@ -312,9 +287,10 @@ nut_speed = 300 # of the motor
             estimate("breakaway_angle", 2e-3),
             estimate("inertia", 4e-4),
             estimate("gain", 1.012),
-            estimate("cosine_1", 1.5e-3),
-            estimate("sine_1", -1e-3),
-            estimate("sine_2", 8e-4),
+            Estimate::fixed("drag", "N m s/rad", 3e-4),
+            estimate("harmonic_1_cosine", 1.5e-3),
+            estimate("harmonic_1_sine", -1e-3),
+            estimate("harmonic_2_sine", 8e-4),
             estimate("colour", 3.0),
         ])
     }
@@ -332,13 +308,15 @@ nut_speed = 300 # of the motor
         for line in [
             "friction = 0.1152 # assumed; calibrated: 0.1037 to 0.1267 (95 %), trace weave 17",
             "preload = 17.0 # sorted balls; calibrated: 15.30 to 18.70 (95 %), trace weave 17",
-            "full_film = 0.0576 # calibrated: 0.05184 to 0.06336 (95 %), trace weave 17",
-            "reference_temperature = 303.0",
+            "full_film_ratio = 0.5 # calibrated: 0.4500 to 0.5500 (95 %), trace weave 17",
+            "reference_temperature = 303.0 # calibrated: set beside trace weave 17",
         ] {
             assert!(text.contains(line), "{line}\n{text}");
         }
         // What was set is not written as if it had been measured.
-        assert!(!text.contains("hysteresis_loss"), "{text}");
+        for name in ["hysteresis_loss", "drag"] {
+            assert!(!text.contains(name), "{text}");
+        }
     }
 
     #[test]
@@ -353,15 +331,13 @@ nut_speed = 300 # of the motor
         let preload = again.configuration.clearance.preload(screw);
         assert!((preload - 17.0).abs() < 17.0 * 1e-5, "{preload}");
         let calibrated = again.calibrated.unwrap();
-        let law = calibrated.coefficient.unwrap();
         assert_eq!(
             (
-                law.boundary,
-                law.full_film,
-                law.half_share_speed,
-                law.reference_temperature
+                calibrated.full_film_ratio,
+                calibrated.half_share_speed,
+                calibrated.reference_temperature
             ),
-            (0.1152, 0.0576, 6.0, 303.0)
+            (Some(0.5), Some(6.0), Some(303.0))
         );
         assert_eq!(calibrated.breakaway_angle, Some(2e-3));
         assert_eq!(

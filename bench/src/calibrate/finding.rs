@@ -25,6 +25,8 @@ pub enum FindingKind {
     ShiftedEffort,
     /// The measured speed is early or late against the position, and is not used.
     ShiftedSpeed,
+    /// Much of the effort goes with nothing that is in the trace.
+    Unexplained,
     /// A channel never changes, and is not used.
     DeadChannel,
     /// Samples were repaired.

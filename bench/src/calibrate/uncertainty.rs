@@ -72,8 +72,8 @@ pub struct Uncertainty {
     pub quantile: f64,
 }
 
-/// The rows' slopes over the inner coordinates.
-pub(super) fn inner_jacobian(problem: &dyn Separable, fit: &Fit) -> DMatrix<f64> {
+/// The rows' slopes over the inner coordinates (logarithms, or values), nonlinear parameters before linear ones.
+pub fn inner_jacobian(problem: &dyn Separable, fit: &Fit) -> DMatrix<f64> {
     let mut jacobian = fit.jacobian.clone();
     for (k, (parameter, value)) in problem.nonlinear().iter().zip(&fit.nonlinear).enumerate() {
         jacobian

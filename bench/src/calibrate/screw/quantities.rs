@@ -127,19 +127,19 @@ pub const LINEAR: [Linear; 9] = {
         linear("churning", "m^3", POSITIVE, Viscosity, |v| &mut v.churning),
         linear("offset", "N m", FREE, One, |v| &mut v.offset),
         linear("gain", "", FREE, Load, |v| &mut v.gain),
-        linear("harmonic_1_cosine", "N m", FREE, Cosine(1), |v| {
+        linear("cosine_1", "N m", FREE, Cosine(1), |v| {
             let [first, ..] = &mut v.harmonics;
             first
         }),
-        linear("harmonic_1_sine", "N m", FREE, Sine(1), |v| {
+        linear("sine_1", "N m", FREE, Sine(1), |v| {
             let [_, second, ..] = &mut v.harmonics;
             second
         }),
-        linear("harmonic_2_cosine", "N m", FREE, Cosine(2), |v| {
+        linear("cosine_2", "N m", FREE, Cosine(2), |v| {
             let [_, _, third, _] = &mut v.harmonics;
             third
         }),
-        linear("harmonic_2_sine", "N m", FREE, Sine(2), |v| {
+        linear("sine_2", "N m", FREE, Sine(2), |v| {
             let [.., last] = &mut v.harmonics;
             last
         }),

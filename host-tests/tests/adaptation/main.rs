@@ -1,0 +1,12 @@
+//! A friction level that follows the vehicle: how well, how safely, and across ignition.
+
+#[path = "../kit/mod.rs"]
+mod kit;
+
+mod covariance;
+mod gate;
+mod health;
+mod stored;
+mod total;
+mod trace;
+mod trial;

@@ -1,0 +1,188 @@
+//! A friction level that follows the vehicle: recursive least squares beside the model.
+//!
+//! Runs beside the step, a few hundred times a second; a firmware that does not adapt links nothing of it.
+//!
+//! A model is right in its form and wrong in its size: lubricant ages, preload wears off, a warm housing closes the clearance. An
+//! [`Adaptation`] compares the friction torque that the motor has to add with the model's and finds five numbers
+//!
+//! ```text
+//! observed = level(direction) T + drag w + offset + load_error T_load
+//! ```
+//!
+//! | number | what it takes in | regressor |
+//! |---|---|---|
+//! | `forward`, `backward` | friction coefficient and preload, in each direction | full friction `T` of the model in that direction |
+//! | `drag` | viscous drag beyond the model's | nut speed `w` |
+//! | `offset` | zero of the torque sensor or of the motor's current | 1 |
+//! | `load_error` | gain of the load channel: 1 % of 2 kN on a lead of 7 mm is 22 mN m, more than a third of the friction | load torque that was taken off |
+//!
+//! Five and no more, because one trace in the vehicle tells no others apart: breakaway angle, speed dependence and rolling resistance
+//! stay as they were identified on the rig. A number whose deviation at set-up is 0 stays where it starts.
+//!
+//! # How it works
+//!
+//! 1. **Gate.** A tick counts only where the screw slides, fast enough and with enough friction, its inputs are finite and within
+//!    their limits, no flag of the step is set (a stale load or temperature is one), and the motor is not saturated.
+//!    All else leaves every number as it is, and says why ([`AdaptationFlags`]).
+//! 2. **Filter.** Observed torque and all five regressors pass the same one-pole filter, so that the equation holds for the filtered
+//!    ones exactly.
+//! 3. **Correction**, by the `U D U'` form of the covariance (Bierman 1977): no difference of positive numbers is taken, so that it
+//!    stays symmetric and positive definite in f32 whatever comes. An error beyond four of its deviations (noise and covariance) counts
+//!    as noise that is as much larger: a knock moves little. The numbers stay within their bounds.
+//! 4. **Upkeep**, every eighth tick in the place of a correction: old data lose weight, and one of the five
+//!    variances gets back what it lost, as if its number had been read off with its deviation of the set-up (Kulhavy and Zarrop 1993). So no
+//!    variance ever exceeds that of the set-up: without excitation nothing winds up, and a number that the motion does not tell stays.
+//!
+//! # Use
+//!
+//! Only limits are scaled, which leaves friction passive: [`FrictionModel::set_level`](crate::FrictionModel::set_level) of a
+//! scene with memory, [`Estimates::friction`] for one without. Stiffness and breakaway angle stay, so the bound of
+//! [`compensation`](crate::law::compensation) on the stiffness holds; its friction ratio is what the adaptation brings to one.
+//!
+//! ```
+//! use epas_friction::adaptation::{Adaptation, AdaptationConfiguration, AdaptationInputs};
+//! # use epas_friction::law::FrictionLevel;
+//! # use epas_friction::{Faults, Regime};
+//! let mut adaptation = Adaptation::new(&AdaptationConfiguration::every(0.01))?; // every 10 ms
+//!
+//! // In the loop, after the step: a motor that has to add 30 % more than the model says.
+//! for _ in 0..1000 {
+//!     let model_torque = 0.040; // friction_torque of the step's outputs
+//!     adaptation.update(&AdaptationInputs {
+//!         observed: 0.052, // motor torque, less that of inertia, less load_torque
+//!         modelled: model_torque, level: FrictionLevel::ONE, // as no level was set
+//!         nut_speed: 8.0, load_torque: 0.1, regime: Regime::Driving, faults: Faults::NONE, saturated: false,
+//!     });
+//! }
+//! let compensated = adaptation.estimates().friction(0.040, 8.0); // or model.set_level(adaptation.level())
+//! assert!((compensated - 0.052).abs() < 0.002);
+//! # Ok::<(), epas_friction::Error>(())
+//! ```
+//!
+//! # Health
+//!
+//! A second, far slower average of the level against its value at commissioning ([`Adaptation::commission`]): see [`Health`].
+
+mod configuration;
+mod constants;
+mod estimates;
+mod factor;
+mod flags;
+mod health;
+mod inputs;
+mod state;
+mod stored;
+
+use core::borrow::Borrow;
+
+use crate::error::Error;
+use crate::law::FrictionLevel;
+
+pub use configuration::{AdaptationConfiguration, HealthConfiguration};
+pub use constants::AdaptationConstants;
+pub use estimates::Estimates;
+pub use flags::AdaptationFlags;
+pub use health::Health;
+pub use inputs::AdaptationInputs;
+pub use state::AdaptationState;
+
+/// Friction level, drag and sensor errors, estimated while the model runs; see the [module](self).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Adaptation<C = AdaptationConstants> {
+    constants: C,
+    state: AdaptationState,
+}
+
+/// What a tick of the adaptation gives.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Adapted {
+    /// Estimates after this tick, within their bounds.
+    pub estimates: Estimates,
+    /// Why the tick did not count, or what was limited.
+    pub flags: AdaptationFlags,
+    /// Slow drift of the level.
+    pub health: Health,
+}
+
+impl Adaptation {
+    /// Checks the configuration and folds the constants. Set-up only.
+    ///
+    /// # Errors
+    /// [`Error`] naming the field out of range.
+    pub const fn new(configuration: &AdaptationConfiguration) -> Result<Self, Error> {
+        match AdaptationConstants::new(configuration) {
+            Ok(constants) => Ok(Self {
+                state: AdaptationState::new(&constants),
+                constants,
+            }),
+            Err(error) => Err(error),
+        }
+    }
+}
+
+impl<C: Borrow<AdaptationConstants>> Adaptation<C> {
+    /// An adaptation with constants that are folded already, or with a reference to them.
+    pub fn of(constants: C) -> Self {
+        let state = AdaptationState::new(constants.borrow());
+        Self { constants, state }
+    }
+
+    /// One tick: bounded time, no panic, finite outputs whatever the inputs are.
+    #[inline]
+    pub fn update(&mut self, inputs: &AdaptationInputs) -> Adapted {
+        let constants = self.constants.borrow();
+        let closed = constants.gate(inputs);
+        let flags = if closed.any() {
+            closed
+        } else {
+            self.state.learn(constants, inputs)
+        };
+        Adapted {
+            estimates: self.state.estimates(),
+            flags,
+            health: self.state.health(),
+        }
+    }
+
+    /// The estimates, within their bounds.
+    pub const fn estimates(&self) -> Estimates {
+        self.state.estimates()
+    }
+
+    /// Friction levels, for [`FrictionModel::set_level`](crate::FrictionModel::set_level).
+    pub const fn level(&self) -> FrictionLevel {
+        self.state.estimates().level()
+    }
+
+    /// Standard deviations of the estimates as far as noise and forgetting go, at most those of the set-up. Not in the loop.
+    pub fn deviations(&self) -> Estimates {
+        self.state.deviations(self.constants.borrow())
+    }
+
+    /// Slow drift of the level.
+    pub const fn health(&self) -> Health {
+        self.state.health()
+    }
+
+    /// Takes the present level for that of a sound mechanism, from which drift counts: once, at the end of the line, after a run
+    /// with loads and speeds of both directions.
+    pub fn commission(&mut self) {
+        self.state.commission();
+    }
+
+    /// Back to the state before the first tick; the commissioning is forgotten, too.
+    pub fn reset(&mut self) {
+        self.state = AdaptationState::new(self.constants.borrow());
+    }
+
+    /// The folded constants.
+    pub fn constants(&self) -> &AdaptationConstants {
+        self.constants.borrow()
+    }
+
+    /// The state, for diagnosis.
+    pub const fn state(&self) -> &AdaptationState {
+        &self.state
+    }
+}

@@ -1,0 +1,209 @@
+//! Constants of an adaptation, folded at set-up.
+
+use super::configuration::AdaptationConfiguration;
+use super::estimates::ESTIMATES;
+use super::flags::AdaptationFlags;
+use super::health::HealthConstants;
+use super::inputs::AdaptationInputs;
+use crate::error::{Error, Range, attempt, in_range};
+use crate::law::LEVEL;
+use crate::scene::Regime;
+
+/// Ticks from one upkeep to the next.
+pub(super) const UPKEEP: u8 = 8;
+
+/// Ticks in which every variance is kept up once.
+const ROUND: f32 = 40.0;
+
+/// Most that a regressor may be, over its share of the noise: its square is far from an f32's end.
+const LARGEST_REGRESSOR: f32 = 1e5;
+
+/// Constants of an adaptation; made by [`AdaptationConstants::new`] at set-up, or in a constant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct AdaptationConstants {
+    /// Share of a new value in the filter.
+    pub(super) filter: f32,
+    /// 1 over the noise, 1/(N m).
+    pub(super) per_noise: f32,
+    /// Deviations at set-up.
+    pub(super) deviations: [f32; ESTIMATES],
+    /// Deviations over the noise.
+    pub(super) weights: [f32; ESTIMATES],
+    /// Bounds.
+    pub(super) least: [f32; ESTIMATES],
+    pub(super) largest: [f32; ESTIMATES],
+    /// Variances grow by this factor from one upkeep to the next.
+    pub(super) growth: f32,
+    /// A reading of one of the numbers, in units of its deviation, which gives back what a round of upkeeps takes.
+    pub(super) prior: f32,
+    pub(super) largest_torque: f32,
+    pub(super) largest_speed: f32,
+    pub(super) least_speed: f32,
+    pub(super) least_friction: f32,
+    pub(super) health: HealthConstants,
+}
+
+impl AdaptationConstants {
+    /// Checks the configuration and folds the constants.
+    ///
+    /// # Errors
+    /// [`Error`] naming the field out of range.
+    pub const fn new(configuration: &AdaptationConfiguration) -> Result<Self, Error> {
+        let AdaptationConfiguration {
+            tick,
+            forgetting_time,
+            filter_time,
+            noise,
+            level_deviation,
+            least_level,
+            largest_level,
+            drag_deviation,
+            largest_drag,
+            offset_deviation,
+            largest_offset,
+            load_deviation,
+            largest_load_error,
+            largest_torque,
+            largest_speed,
+            least_speed,
+            least_friction,
+            health,
+        } = *configuration;
+        attempt!(in_range("tick", tick, 1e-5, 1.0));
+        let times = Range::new(200.0 * tick, 1e5 * tick);
+        attempt!(times.checked("forgetting_time", forgetting_time));
+        attempt!(in_range("filter_time", filter_time, 0.0, 1.0));
+        attempt!(in_range("level_deviation", level_deviation, 0.0, 10.0));
+        attempt!(in_range("least_level", least_level, LEVEL.minimum, 1.0));
+        attempt!(in_range("largest_level", largest_level, 1.0, LEVEL.maximum));
+        attempt!(in_range("drag_deviation", drag_deviation, 0.0, 1e3));
+        attempt!(in_range("largest_drag", largest_drag, 0.0, 1e4));
+        attempt!(in_range("offset_deviation", offset_deviation, 0.0, 1e3));
+        attempt!(in_range("largest_offset", largest_offset, 0.0, 1e4));
+        attempt!(in_range("load_deviation", load_deviation, 0.0, 1.0));
+        attempt!(in_range("largest_load_error", largest_load_error, 0.0, 1.0));
+        attempt!(in_range("largest_torque", largest_torque, 1e-6, 1e6));
+        attempt!(in_range("largest_speed", largest_speed, 1e-3, 1e6));
+        attempt!(in_range("least_speed", least_speed, 0.0, largest_speed));
+        attempt!(in_range(
+            "least_friction",
+            least_friction,
+            0.0,
+            largest_torque
+        ));
+        let deviations = [
+            level_deviation,
+            level_deviation,
+            drag_deviation,
+            offset_deviation,
+            load_deviation,
+        ];
+        // A level divides the model's torque: by 0.1 at the least.
+        let regressors = [
+            largest_torque / LEVEL.minimum,
+            largest_torque / LEVEL.minimum,
+            largest_speed,
+            1.0,
+            largest_torque,
+        ];
+        let noise = attempt!(checked_noise(noise, &deviations, &regressors));
+        let growth = ROUND * 0.2 * tick / forgetting_time;
+        Ok(Self {
+            filter: tick / (tick + filter_time),
+            per_noise: 1.0 / noise,
+            deviations,
+            weights: over(deviations, noise),
+            least: [
+                least_level,
+                least_level,
+                -largest_drag,
+                -largest_offset,
+                -largest_load_error,
+            ],
+            largest: [
+                largest_level,
+                largest_level,
+                largest_drag,
+                largest_offset,
+                largest_load_error,
+            ],
+            growth: 1.0 + growth,
+            prior: crate::math::constant::sqrt(fifth_power_less_one(growth)),
+            largest_torque,
+            largest_speed,
+            least_speed,
+            least_friction,
+            health: attempt!(HealthConstants::new(&health, tick, ROUND * tick)),
+        })
+    }
+
+    /// Why a tick does not count.
+    #[inline(always)]
+    pub(super) fn gate(&self, inputs: &AdaptationInputs) -> AdaptationFlags {
+        let AdaptationInputs {
+            observed,
+            modelled,
+            level,
+            nut_speed,
+            load_torque,
+            regime,
+            faults,
+            saturated,
+        } = *inputs;
+        // False for NaN.
+        let sound = observed.abs() <= self.largest_torque
+            && modelled.abs() <= self.largest_torque
+            && load_torque.abs() <= self.largest_torque
+            && nut_speed.abs() <= self.largest_speed
+            && LEVEL.contains(level.of(nut_speed));
+        let slides = matches!(
+            regime,
+            Regime::Driving | Regime::BackDriving | Regime::Locked
+        ) && nut_speed.abs() >= self.least_speed
+            && (modelled < 0.0) == (nut_speed < 0.0);
+        AdaptationFlags::NONE
+            .with(!sound, AdaptationFlags::INPUT_RANGE)
+            .with(faults.any(), AdaptationFlags::FAULTED)
+            .with(saturated, AdaptationFlags::SATURATED)
+            .with(!slides, AdaptationFlags::STANDING)
+            .with(
+                !(modelled.abs() >= self.least_friction),
+                AdaptationFlags::TOO_WEAK,
+            )
+    }
+}
+
+/// The noise, where no regressor is too large beside it.
+const fn checked_noise(
+    noise: f32,
+    deviations: &[f32; ESTIMATES],
+    regressors: &[f32; ESTIMATES],
+) -> Result<f32, Error> {
+    let mut least = 1e-6;
+    let mut index = 0;
+    while index < ESTIMATES {
+        let needed = deviations[index] * regressors[index] / LARGEST_REGRESSOR;
+        if needed > least {
+            least = needed;
+        }
+        index += 1;
+    }
+    in_range("noise", noise, least, 1e3)
+}
+
+const fn over(values: [f32; ESTIMATES], divisor: f32) -> [f32; ESTIMATES] {
+    let [a, b, c, d, e] = values;
+    [
+        a / divisor,
+        b / divisor,
+        c / divisor,
+        d / divisor,
+        e / divisor,
+    ]
+}
+
+/// `(1 + x)^5 - 1` of a small number.
+const fn fifth_power_less_one(x: f32) -> f32 {
+    x * (5.0 + x * (10.0 + x * (10.0 + x * (5.0 + x))))
+}

@@ -1,0 +1,103 @@
+//! A covariance as `U D U'`: unit upper triangular times diagonal.
+
+/// Covariance of `N` numbers, in units of their deviations: `P = U D U'` with `U` upper triangular, ones on its diagonal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(super) struct Factor<const N: usize> {
+    /// Column `j` has `U_ij` for `i < j`, and zeros below.
+    pub(super) columns: [[f32; N]; N],
+    /// `D`, above 0.
+    pub(super) diagonal: [f32; N],
+}
+
+/// Least of `D`: three millionths of a deviation of the set-up, squared.
+pub(super) const LEAST: f32 = 1e-11;
+
+/// A reading `h' x` as the covariance sees it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Projection<const N: usize> {
+    /// `f = U' h` and `g = D f`.
+    along: [[f32; 2]; N],
+    /// Its variance before it is read: `h' P h = f' g`, a sum of squares.
+    pub(super) variance: f32,
+}
+
+impl<const N: usize> Factor<N> {
+    /// Independent numbers with this variance.
+    pub(super) const fn independent(variance: f32) -> Self {
+        Self {
+            columns: [[0.0; N]; N],
+            diagonal: [variance; N],
+        }
+    }
+
+    /// How a reading `h' x` stands to the covariance.
+    #[inline(always)]
+    pub(super) fn project(&self, h: &[f32; N]) -> Projection<N> {
+        let mut along = [[0.0; 2]; N];
+        let mut variance = 0.0;
+        let columns = self.columns.iter().zip(&self.diagonal).zip(h);
+        for (j, (((column, diagonal), &own), along)) in columns.zip(&mut along).enumerate() {
+            let mut f = own;
+            for (above, h) in column.iter().zip(h).take(j) {
+                f += above * h;
+            }
+            let g = diagonal * f;
+            variance += f * g;
+            *along = [f, g];
+        }
+        Projection { along, variance }
+    }
+
+    /// Takes in a reading with a noise of this variance, above 0 (Bierman 1977); gives `P h` over the variance of its error: by how much
+    /// the numbers move for an error of one.
+    ///
+    /// `a_0` the noise, `a_j = a_(j-1) + f_j g_j`, `D_j <- D_j a_(j-1)/a_j`. All terms of `a` are squares, so that `D` stays above
+    /// 0 in any arithmetic that keeps signs.
+    #[inline(always)]
+    pub(super) fn read(&mut self, projection: &Projection<N>, noise: f32) -> [f32; N] {
+        let mut gain = [0.0; N];
+        let mut variance = noise;
+        let mut inverse = 1.0 / noise;
+        let columns = self.columns.iter_mut().zip(&mut self.diagonal);
+        for (j, ((column, diagonal), &[f, g])) in columns.zip(&projection.along).enumerate() {
+            let before = variance;
+            variance += f * g;
+            let step = -f * inverse;
+            inverse = 1.0 / variance;
+            let left = *diagonal * (before * inverse);
+            *diagonal = if left > LEAST { left } else { LEAST };
+            for (above, gain) in column.iter_mut().zip(&mut gain).take(j) {
+                let was = *above;
+                *above = was + *gain * step;
+                *gain += was * g;
+            }
+            if let Some(gain) = gain.get_mut(j) {
+                *gain = g;
+            }
+        }
+        for gain in &mut gain {
+            *gain *= inverse;
+        }
+        gain
+    }
+
+    /// All readings so far count by `1/growth`.
+    #[inline(always)]
+    pub(super) fn forget(&mut self, growth: f32) {
+        for entry in &mut self.diagonal {
+            *entry *= growth;
+        }
+    }
+
+    /// Variances: the diagonal of `P`.
+    pub(super) fn variances(&self) -> [f32; N] {
+        let mut variances = self.diagonal;
+        for (column, entry) in self.columns.iter().zip(&self.diagonal) {
+            for (variance, above) in variances.iter_mut().zip(column) {
+                *variance += above * above * entry;
+            }
+        }
+        variances
+    }
+}

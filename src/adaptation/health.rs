@@ -1,0 +1,112 @@
+//! Slow drift of the level.
+
+use super::configuration::HealthConfiguration;
+use crate::error::{Error, Range, attempt, in_range};
+
+/// Slow drift of the friction level, against the value at commissioning.
+///
+/// The mean level of both directions, averaged over minutes or hours of sliding. What the estimate follows within seconds
+/// (temperature, a load sensor that drifts) passes through the average; what stays is the mechanism.
+///
+/// | | what it may be | what to do |
+/// |---|---|---|
+/// | `fallen` | worn grooves or balls, lost preload: play comes next | check backlash and noise |
+/// | `risen` | lost, aged or soaked lubricant, dirt, a tight return; a friction coefficient that was set too low | check the lubricant, lower the assist's reliance on the compensation |
+///
+/// A drift is a symptom: which of them it is a level alone does not tell.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Health {
+    /// Relative change of the slow average since commissioning: -0.2 is a friction that has fallen by a fifth.
+    pub drift: f32,
+    /// The level has fallen beyond its threshold.
+    pub fallen: bool,
+    /// The level has risen beyond its threshold.
+    pub risen: bool,
+}
+
+/// Thresholds, checked.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(super) struct HealthConstants {
+    /// Share of a new level in the average.
+    pub(super) share: f32,
+    pub(super) fall: f32,
+    pub(super) rise: f32,
+    pub(super) hysteresis: f32,
+}
+
+/// What is averaged.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(super) struct HealthState {
+    /// Slow average of the level, less 1: of a small number a small change is not lost to rounding.
+    pub(super) average: f32,
+    /// The same at commissioning.
+    pub(super) commissioned: f32,
+    pub(super) health: Health,
+}
+
+impl HealthConstants {
+    /// Thresholds for an average that is taken every `round`, s.
+    pub(super) const fn new(
+        configuration: &HealthConfiguration,
+        tick: f32,
+        round: f32,
+    ) -> Result<Self, Error> {
+        let HealthConfiguration {
+            average_time,
+            fall,
+            rise,
+            hysteresis,
+        } = *configuration;
+        let times = Range::new(400.0 * tick, 1e7 * tick);
+        attempt!(times.checked("average_time", average_time));
+        attempt!(in_range("fall", fall, 0.01, 0.9));
+        attempt!(in_range("rise", rise, 0.01, 9.0));
+        let smaller = if fall < rise { fall } else { rise };
+        attempt!(in_range("hysteresis", hysteresis, 0.0, smaller));
+        Ok(Self {
+            share: round / (round + average_time),
+            fall,
+            rise,
+            hysteresis,
+        })
+    }
+}
+
+impl HealthState {
+    /// Commissioned at the model's own level.
+    pub(super) const NEW: Self = Self {
+        average: 0.0,
+        commissioned: 0.0,
+        health: Health {
+            drift: 0.0,
+            fallen: false,
+            risen: false,
+        },
+    };
+
+    /// Takes a level, less 1, into the average.
+    #[inline(always)]
+    pub(super) fn follow(&mut self, constants: &HealthConstants, level: f32) {
+        self.average += constants.share * (level - self.average);
+        let drift = (self.average - self.commissioned) / (1.0 + self.commissioned);
+        let Health { fallen, risen, .. } = self.health;
+        let back = |was: bool| if was { constants.hysteresis } else { 0.0 };
+        self.health = Health {
+            drift,
+            fallen: drift < back(fallen) - constants.fall,
+            risen: drift > constants.rise - back(risen),
+        };
+    }
+
+    /// Counts drift from a level, less 1.
+    pub(super) fn commission(&mut self, level: f32) {
+        *self = Self {
+            average: level,
+            commissioned: level,
+            ..Self::NEW
+        };
+    }
+}

@@ -1,0 +1,174 @@
+//! What a tick of the adaptation changes.
+
+use super::constants::{AdaptationConstants, UPKEEP};
+use super::estimates::{ESTIMATES, Estimates};
+use super::factor::Factor;
+use super::flags::AdaptationFlags;
+use super::health::{Health, HealthState};
+use super::inputs::AdaptationInputs;
+use crate::math;
+
+/// An error counts with at most so many of its deviations, squared: four.
+const FURTHEST: f32 = 16.0;
+
+/// What a tick of the adaptation changes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct AdaptationState {
+    pub(super) estimates: [f32; ESTIMATES],
+    pub(super) covariance: Factor<ESTIMATES>,
+    /// Filtered torque and regressors.
+    pub(super) observed: f32,
+    pub(super) regressors: [f32; ESTIMATES],
+    /// Ticks since the last upkeep, and which variance the next one keeps up.
+    pub(super) tick: u8,
+    pub(super) place: u8,
+    pub(super) health: HealthState,
+}
+
+impl AdaptationState {
+    /// Before the first tick: the model as it is.
+    pub(super) const fn new(constants: &AdaptationConstants) -> Self {
+        // The first upkeep of the last number comes a round later.
+        let squared = constants.growth * constants.growth;
+        Self {
+            estimates: [1.0, 1.0, 0.0, 0.0, 0.0],
+            covariance: Factor::independent(1.0 / (squared * squared * constants.growth)),
+            observed: 0.0,
+            regressors: [0.0; ESTIMATES],
+            tick: 0,
+            place: 0,
+            health: HealthState::NEW,
+        }
+    }
+
+    /// Takes in a tick that counts.
+    #[inline(always)]
+    pub(super) fn learn(
+        &mut self,
+        constants: &AdaptationConstants,
+        inputs: &AdaptationInputs,
+    ) -> AdaptationFlags {
+        self.filter(constants, inputs);
+        self.tick = self.tick.wrapping_add(1);
+        if self.tick >= UPKEEP {
+            self.tick = 0;
+            self.keep_up(constants);
+            AdaptationFlags::NONE
+        } else {
+            self.correct(constants)
+        }
+    }
+
+    /// Torque and regressors through the same filter. Only ticks that count enter, so that the equation between them stays exact.
+    #[inline(always)]
+    fn filter(&mut self, constants: &AdaptationConstants, inputs: &AdaptationInputs) {
+        let AdaptationInputs {
+            observed,
+            modelled,
+            level,
+            nut_speed,
+            load_torque,
+            ..
+        } = *inputs;
+        let full = modelled / level.of(nut_speed);
+        let (forward, backward) = if nut_speed < 0.0 {
+            (0.0, full)
+        } else {
+            (full, 0.0)
+        };
+        let now = [forward, backward, nut_speed, 1.0, load_torque];
+        self.observed += constants.filter * (observed - self.observed);
+        for (filtered, now) in self.regressors.iter_mut().zip(now) {
+            *filtered += constants.filter * (now - *filtered);
+        }
+    }
+
+    /// Moves the estimates by what the filtered torque tells.
+    #[inline(always)]
+    fn correct(&mut self, constants: &AdaptationConstants) -> AdaptationFlags {
+        let mut error = self.observed;
+        for (estimate, regressor) in self.estimates.iter().zip(&self.regressors) {
+            error -= estimate * regressor;
+        }
+        let error = error * constants.per_noise;
+        let mut weighted = self.regressors;
+        for (regressor, weight) in weighted.iter_mut().zip(&constants.weights) {
+            *regressor *= weight;
+        }
+        let projection = self.covariance.project(&weighted);
+        // What is further off is noise, as large as puts it there.
+        let most = error * error * (1.0 / FURTHEST) - projection.variance;
+        let cut = most > 1.0;
+        let noise = if cut { most } else { 1.0 };
+        let gain = self.covariance.read(&projection, noise);
+        let mut at_bound = false;
+        let bounds = constants.least.iter().zip(&constants.largest);
+        let moves = gain.iter().zip(&constants.deviations);
+        for ((estimate, (gain, deviation)), (&least, &largest)) in
+            self.estimates.iter_mut().zip(moves).zip(bounds)
+        {
+            let moved = *estimate + deviation * (gain * error);
+            *estimate = if moved < least {
+                at_bound = true;
+                least
+            } else if moved > largest {
+                at_bound = true;
+                largest
+            } else {
+                moved
+            };
+        }
+        AdaptationFlags::NONE
+            .with(cut, AdaptationFlags::ERROR_CUT)
+            .with(at_bound, AdaptationFlags::AT_BOUND)
+    }
+
+    /// Old data lose weight; one variance gets back what it lost; after a round the slow average goes on.
+    #[inline(always)]
+    fn keep_up(&mut self, constants: &AdaptationConstants) {
+        self.covariance.forget(constants.growth);
+        let mut own = [0.0; ESTIMATES];
+        for (index, entry) in own.iter_mut().enumerate() {
+            if index == usize::from(self.place) {
+                *entry = constants.prior;
+            }
+        }
+        // The number is read off as it is: it does not move.
+        let projection = self.covariance.project(&own);
+        let _ = self.covariance.read(&projection, 1.0);
+        self.place += 1;
+        if usize::from(self.place) >= ESTIMATES {
+            self.place = 0;
+            self.health.follow(&constants.health, self.level_less_one());
+        }
+    }
+
+    /// Mean level of both directions, less 1.
+    #[inline(always)]
+    const fn level_less_one(&self) -> f32 {
+        let [forward, backward, ..] = self.estimates;
+        0.5 * ((forward - 1.0) + (backward - 1.0))
+    }
+
+    pub(super) const fn estimates(&self) -> Estimates {
+        Estimates::of(&self.estimates)
+    }
+
+    pub(super) const fn health(&self) -> Health {
+        self.health.health
+    }
+
+    pub(super) fn commission(&mut self) {
+        self.health.commission(self.level_less_one());
+    }
+
+    /// Standard deviations, in the estimates' own units.
+    pub(super) fn deviations(&self, constants: &AdaptationConstants) -> Estimates {
+        let mut deviations = self.covariance.variances();
+        for (entry, deviation) in deviations.iter_mut().zip(&constants.deviations) {
+            *entry = deviation * math::sqrt(*entry);
+        }
+        Estimates::of(&deviations)
+    }
+}
