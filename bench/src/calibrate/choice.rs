@@ -213,26 +213,28 @@ pub fn model(
     let course = prepared.course(&slide, &fit, 0.0)?;
     let relative = |rows: &[f64], target: &[f64]| size(rows) / size(target);
     let seen_error = relative(&fit.residual, seen.target());
-    let (unseen_rows, unseen_error, unseen_course) = match unseen {
+    let (unseen_rows, unseen_error, closed_unseen) = match unseen {
         Some(other) => {
             let slide = other.slide(law, terms);
             let factor = load_factor(other, prepared, &slide, &fit);
             let rows = residual(&slide, &fit.nonlinear, &fit.linear);
             let error = relative(&rows, slide.target());
             let course = other.course(&slide, &fit, factor)?;
-            (rows, error, course)
+            (rows, error, course.map(|course| course.relative_error))
         }
         None => {
             let rest = Part::after(&slide, share);
             let rows = residual(&rest, &fit.nonlinear, &fit.linear);
             let error = relative(&rows, rest.target());
-            (rows, error, None)
+            let closed = course
+                .as_ref()
+                .map(|course| course.error_after(prepared.trace, share));
+            (rows, error, closed)
         }
     };
     let parameters = fit.nonlinear.len() + fit.linear.len();
     let rows = uncertainty.effective_rows;
     let closed = course.as_ref().map(|course| course.relative_error);
-    let closed_unseen = unseen_course.as_ref().map(|course| course.relative_error);
     let score = ModelScore {
         name: name.into(),
         relative_error: closed.unwrap_or(seen_error),
