@@ -34,7 +34,7 @@
 //! | [`firmware`] | what firmware takes of a calibrated design, as plain numbers |
 //! | [`outputs`] | what a calibration writes, and where |
 //! | [`constants`] | the same as Rust constants for firmware |
-//! | `folder` | every trace of a folder, and what they have in common |
+//! | [`folder`] | every trace of a folder, and what they have in common |
 //! | [`laws`] | laws of friction of unit level over a motion |
 //! | [`slide`] | a trace without a design as a separable problem |
 //! | [`choice`] | models of friction on a trace without a design |
@@ -66,6 +66,7 @@ pub mod experiment;
 pub mod filter;
 pub mod finding;
 pub mod firmware;
+pub mod folder;
 pub mod laws;
 pub mod manoeuvre;
 pub mod noise;
