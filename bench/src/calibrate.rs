@@ -39,6 +39,7 @@
 //! | [`slide`] | a trace without a design as a separable problem |
 //! | [`choice`] | models of friction on a trace without a design |
 //! | [`part`] | a part of a problem's rows |
+//! | [`with_design`] | calibration of a trace of a screw whose design is known |
 //! | [`without_design`] | calibration of a trace without a design |
 //! | `command` | arguments, and what is printed |
 //! | [`cost`] | cost of a law on the reference core |
@@ -92,6 +93,7 @@ mod toys;
 pub mod trace;
 pub mod uncertainty;
 pub mod units;
+pub mod with_design;
 pub mod without_design;
 
 pub use command::{Arguments, run};
