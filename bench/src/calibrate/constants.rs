@@ -86,6 +86,9 @@ fn imports(numbers: &Numbers) -> String {
     if let Some(memory) = &numbers.elements {
         text += match memory.largest_load {
             None => "use epas_friction::law::memory::{Part, ProportionalElements, SLIP_8};\n",
+            Some(_) if memory.preloaded => {
+                "use epas_friction::law::memory::{LoadExactElements, PreloadedElements};\n"
+            }
             Some(_) => "use epas_friction::law::memory::LoadExactElements;\n",
         };
         text += "use epas_friction::scene::{Freshness, WithMemoryConfiguration, WithMemoryConstants};\n";
@@ -191,20 +194,30 @@ fn memory(numbers: &Numbers) -> String {
         breakaway_angle,
         load,
         largest_load,
+        preloaded,
         play,
     } = *memory;
     let (kind, made) = match largest_load {
         None => (
             "ProportionalElements<8>",
             format!(
-                "ProportionalElements::new(\n    {torque:?},\n    &[Part {{\n        backbone: &SLIP_8.elements,\n        \
-                 share: 1.0,\n        breakaway_angle: {breakaway_angle:?},\n    }}],\n)"
+                "sound(ProportionalElements::new(\n    {torque:?},\n    &[Part {{\n        backbone: &SLIP_8.elements,\n        \
+                 share: 1.0,\n        breakaway_angle: {breakaway_angle:?},\n    }}],\n))"
             ),
         ),
-        Some(largest) => (
-            "LoadExactElements<8>",
-            format!("LoadExactElements::new({torque:?}, {breakaway_angle:?}, {largest:?})"),
-        ),
+        Some(largest) => {
+            let made = format!(
+                "sound(LoadExactElements::new({torque:?}, {breakaway_angle:?}, {largest:?}))"
+            );
+            if preloaded {
+                (
+                    "PreloadedElements<LoadExactElements<8>>",
+                    format!("PreloadedElements::new({made})"),
+                )
+            } else {
+                ("LoadExactElements<8>", made)
+            }
+        }
     };
     let law = if numbers.law.is_some() {
         "CoefficientLaw"
@@ -215,7 +228,7 @@ fn memory(numbers: &Numbers) -> String {
     format!(
         "
 /// Friction after a reversal: {torque:?} N m of sliding after {breakaway_angle:?} rad.
-pub const ELEMENTS: {kind} = sound({made});
+pub const ELEMENTS: {kind} = {made};
 
 /// The screw with memory, for a sensor of the nut's angle: for a `static` that stands in flash.
 ///

@@ -66,6 +66,7 @@ const fn elements(kind: ElementsKind) -> &'static str {
     match kind {
         ElementsKind::Proportional => "proportional",
         ElementsKind::LoadExact => "load_exact",
+        ElementsKind::Preloaded => "preloaded",
     }
 }
 

@@ -85,8 +85,10 @@ pub struct ElementsNumbers {
     pub breakaway_angle: f32,
     /// Load of the elements there: sum of both flanks' loads, N.
     pub load: f32,
-    /// That at the largest load over it, where elements follow the load exactly.
+    /// That at the largest load over it, where elements follow the load exactly; of preloaded ones the load that both flanks share.
     pub largest_load: Option<f32>,
+    /// Whether they follow the load that both flanks of a preloaded nut share.
+    pub preloaded: bool,
     /// Turn that the balls go back with, over two, rad.
     pub play: f32,
 }
@@ -177,6 +179,7 @@ impl ElementsNumbers {
             elements: match calibrated.elements {
                 None | Some(ElementsName::Proportional) => ElementsKind::Proportional,
                 Some(ElementsName::LoadExact) => ElementsKind::LoadExact,
+                Some(ElementsName::Preloaded) => ElementsKind::Preloaded,
             },
             preloaded: false,
             reference_temperature: REFERENCE_TEMPERATURE.into(),
@@ -194,7 +197,10 @@ impl ElementsNumbers {
             torque: reference.torque,
             breakaway_angle,
             load: reference.load,
-            largest_load: calibrated.largest_load.map(|_| reference.largest_load),
+            largest_load: calibrated
+                .largest_load
+                .map(|_| screw.largest_load_of_elements(&reference)),
+            preloaded: screw.elements == ElementsKind::Preloaded,
             play: 0.0,
         };
         numbers.play = match numbers.largest_load {
@@ -230,6 +236,7 @@ impl ElementsNumbers {
 mod tests {
     use super::*;
     use crate::designs::read;
+    use epas_friction::law::memory::PreloadedElements;
 
     /// One formula in two forms: what a calibration runs, and what it is written as.
     #[test]
@@ -255,6 +262,10 @@ mod tests {
                 ElementsKind::LoadExact,
                 "elements = \"load_exact\"\nlargest_load = 3000\n",
             ),
+            (
+                ElementsKind::Preloaded,
+                "elements = \"preloaded\"\nlargest_load = 3000\n",
+            ),
         ] {
             let design = read(&format!("{text}{lines}"), "design").unwrap();
             let numbers = Numbers::of(&design).unwrap();
@@ -275,6 +286,10 @@ mod tests {
                 None => assert_eq!(
                     told.proportional().unwrap(),
                     screw.proportional(&values, &reference).unwrap()
+                ),
+                Some(largest) if told.preloaded => assert_eq!(
+                    PreloadedElements::new(told.load_exact(largest).unwrap()),
+                    screw.preloaded(&values, &reference).unwrap()
                 ),
                 Some(largest) => assert_eq!(
                     told.load_exact(largest).unwrap(),

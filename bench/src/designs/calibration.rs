@@ -49,6 +49,8 @@ pub enum ElementsName {
     Proportional,
     /// Springs that come into contact with the load: any load, without a preload.
     LoadExact,
+    /// The same at the load that both flanks of a preloaded nut share: any load, at a reference load of none.
+    Preloaded,
 }
 
 /// A wave of the friction torque over the turn of the nut.

@@ -112,7 +112,6 @@ impl Screw {
 
     /// Law of the friction coefficient. Churned lubricant counts as a torque of its own.
     pub fn coefficient(&self, values: &Values) -> CoefficientParameters {
-        let [forward, backward] = values.directions();
         CoefficientParameters {
             boundary: values.friction as f32,
             full_film: (values.full_film_ratio * values.friction) as f32,
@@ -121,8 +120,8 @@ impl Screw {
             viscosity: self
                 .viscosity(values)
                 .unwrap_or(epas_friction::defaults::VISCOSITY),
-            forward: forward as f32,
-            backward: backward as f32,
+            forward: (1.0 + values.direction_asymmetry) as f32,
+            backward: (1.0 - values.direction_asymmetry) as f32,
             churning: 0.0,
         }
     }
@@ -228,13 +227,19 @@ impl Screw {
         values: &Values,
         reference: &Reference,
     ) -> Result<PreloadedElements<LoadExactElements<ELEMENTS>>, Error> {
-        let elements = self.load_exact(values, reference)?;
-        let largest_load = PreloadedElements::new(elements).shared(reference.largest_load);
         let shared = Reference {
-            largest_load,
+            largest_load: self.largest_load_of_elements(reference),
             ..*reference
         };
         Ok(PreloadedElements::new(self.load_exact(values, &shared)?))
+    }
+
+    /// Largest load of the elements over that at the reference.
+    pub fn largest_load_of_elements(&self, reference: &Reference) -> f32 {
+        match self.elements {
+            ElementsKind::Preloaded => PreloadedElements::new(()).shared(reference.largest_load),
+            _ => reference.largest_load,
+        }
     }
 
     /// The whole scene with these elements.
@@ -294,11 +299,19 @@ pub struct Course {
 }
 
 impl Course {
-    /// Inputs along a trace, with its load smoothed by a filter; no load, and the temperature given, where nothing was measured.
+    /// Inputs along a trace, with its load smoothed by a filter where there is one; no load, and the temperature given, where nothing was measured.
     ///
     /// Noise of the load would cut what elements hold before they slide, whenever it lowers their limits.
-    pub fn of(trace: &Trace, motion: &Motion, smoothing: &ZeroPhase, temperature: f64) -> Self {
-        let load = trace.load.as_deref().map(|load| smoothing.apply(load));
+    pub fn of(
+        trace: &Trace,
+        motion: &Motion,
+        smoothing: Option<&ZeroPhase>,
+        temperature: f64,
+    ) -> Self {
+        let load = trace.load.as_deref().map(|load| match smoothing {
+            Some(smoothing) => smoothing.apply(load),
+            None => load.to_vec(),
+        });
         let at = |list: &Option<Vec<f64>>, index: usize, other: f64| {
             let value = list.as_ref().and_then(|list| list.get(index));
             value.copied().unwrap_or(other) as f32
