@@ -25,6 +25,8 @@ pub mod refined;
 pub mod rivals;
 pub mod scores;
 pub mod systematic;
+#[cfg(test)]
+mod tests;
 
 use self::choice::{Start, Wanted};
 use self::evidence::Evidence;
