@@ -6,6 +6,7 @@
 
 mod page;
 mod population;
+pub mod references;
 mod store;
 #[cfg(test)]
 mod tests;
