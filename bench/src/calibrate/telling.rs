@@ -22,6 +22,9 @@ const PART: f64 = 0.05;
 /// Half width of an interval, relative, from which on a parameter of the null direction is not told.
 const VAGUE: f64 = 0.25;
 
+/// Half widths beyond this, relative, are alike: that of a value near zero means nothing more.
+const VAGUEST: f64 = 10.0;
+
 /// A parameter stays free when twice the loss in log-likelihood without it is beyond this.
 const GROWTH: f64 = 10.0;
 
@@ -196,14 +199,17 @@ fn vagueness(interval: &Interval) -> f64 {
     }
 }
 
-/// Whether an interval is as wide as the bounds, or of a factor of ten to both sides.
-fn is_wide(interval: &Interval) -> bool {
+/// Half of the range of the bounds in the inner coordinate, or a factor of ten where that is less.
+fn half_range(interval: &Interval) -> f64 {
     let [low, high] = interval.bounds;
-    let range = match interval.scale {
-        Scale::Linear => high - low,
-        Scale::Logarithmic => (high / low).ln().min(2.0 * std::f64::consts::LN_10),
-    };
-    2.0 * interval.half_width >= range
+    match interval.scale {
+        Scale::Linear => 0.5 * (high - low),
+        Scale::Logarithmic => (0.5 * (high / low).ln()).min(std::f64::consts::LN_10),
+    }
+}
+
+fn is_wide(interval: &Interval) -> bool {
+    interval.half_width >= half_range(interval)
 }
 
 /// What is to be set next, and to what value.
@@ -217,21 +223,17 @@ fn worst(
         let name = sure.intervals[*k].name;
         !hints.needed(name) && !kept.contains(&name)
     };
-    let vaguest = |from: &[usize], measure: &dyn Fn(&Interval) -> f64| {
-        let size = |k: &usize| measure(&sure.intervals[*k]);
-        from.iter()
-            .copied()
-            .filter(open)
-            .max_by(|a, b| size(a).total_cmp(&size(b)))
+    let vaguest = |from: &[usize], size: &dyn Fn(usize) -> f64| {
+        let open = from.iter().copied().filter(open);
+        open.max_by(|a, b| size(*a).total_cmp(&size(*b)))
     };
     let all: Vec<usize> = (0..sure.intervals.len()).collect();
-    let members: Vec<usize> = all
-        .iter()
-        .copied()
-        .filter(|k| sure.null_direction[*k].powi(2) > PART)
-        .collect();
-    let (names, chosen, reason) = match vaguest(&members, &vagueness) {
-        Some(k) if sure.condition > CONDITION && vagueness(&sure.intervals[k]) > VAGUE => {
+    let part = |k: usize| sure.null_direction[k].powi(2);
+    let members: Vec<usize> = all.iter().copied().filter(|k| part(*k) > PART).collect();
+    let vague = |k: usize| vagueness(&sure.intervals[k]);
+    let chosen = vaguest(&members, &|k| part(k) * vague(k).min(VAGUEST));
+    let (names, chosen, reason) = match chosen {
+        Some(k) if sure.condition > CONDITION && vague(k) > VAGUE => {
             (members, k, Reason::NullDirection(sure.condition))
         }
         _ => {
@@ -239,9 +241,8 @@ fn worst(
                 .into_iter()
                 .filter(|k| is_wide(&sure.intervals[*k]))
                 .collect();
-            let k = vaguest(&wide, &|interval| {
-                interval.half_width / (interval.bounds[1] - interval.bounds[0])
-            })?;
+            let width = |k: usize| sure.intervals[k].half_width / half_range(&sure.intervals[k]);
+            let k = vaguest(&wide, &width)?;
             (vec![k], k, Reason::Wide)
         }
     };

@@ -66,6 +66,12 @@ fn empty() -> Sums {
     .unwrap()
 }
 
+fn add_all(sums: &mut Sums, traces: &[(Fit, Uncertainty)]) {
+    for (fit, sure) in traces {
+        sums.add(fit, sure).unwrap();
+    }
+}
+
 /// Truth of the population: mean and spread of the logarithm and of the value.
 const POPULATION: ([f64; 2], [f64; 2]) = ([0.12, 0.01], [0.2, 3e-3]);
 
@@ -99,8 +105,7 @@ fn any_partition_gives_the_same() {
     all.push(told([0.3, 0.5], [1e-4, 10.0], 0.9));
     let whole = {
         let mut sums = empty();
-        all.iter()
-            .for_each(|(fit, sure)| sums.add(fit, sure).unwrap());
+        add_all(&mut sums, &all);
         sums
     };
     let near = |a: f64, b: f64| assert!((a - b).abs() <= 1e-14 * b.abs(), "{a} {b}");
@@ -110,8 +115,7 @@ fn any_partition_gives_the_same() {
         let mut merged = empty();
         for part in all.chunks(all.len().div_ceil(parts)) {
             let mut sums = empty();
-            part.iter()
-                .for_each(|(fit, sure)| sums.add(fit, sure).unwrap());
+            add_all(&mut sums, part);
             // As a stopped and resumed run keeps them.
             let kept: Sums = serde_json::from_str(&serde_json::to_string(&sums).unwrap()).unwrap();
             assert_eq!(kept, sums);
@@ -142,9 +146,7 @@ fn mean_and_spread() {
     let mut spreads = [0.0, 0.0];
     for run in 0..runs {
         let mut sums = empty();
-        traces(100 + run, 40)
-            .iter()
-            .for_each(|(fit, sure)| sums.add(fit, sure).unwrap());
+        add_all(&mut sums, &traces(100 + run, 40));
         for (k, population) in sums.population().iter().enumerate() {
             let [low, high] = population.mean_interval;
             held[k] += u32::from((low..=high).contains(&POPULATION.0[k]));
