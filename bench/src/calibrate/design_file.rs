@@ -25,7 +25,7 @@ const FRICTION_KEYS: [&str; 9] = [
     "half_share_speed",
     "reference_temperature",
     "viscosity_pole",
-    "direction_asymmetry",
+    "direction_ratio",
     "breakaway_angle",
     "reference_load",
     "largest_load",
@@ -66,6 +66,7 @@ const fn elements(kind: ElementsKind) -> &'static str {
     match kind {
         ElementsKind::Proportional => "proportional",
         ElementsKind::LoadExact => "load_exact",
+        ElementsKind::Preloaded => "preloaded",
     }
 }
 

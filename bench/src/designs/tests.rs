@@ -76,10 +76,7 @@ fn every_wrong_field_is_named() {
             "reference_temperature",
         ),
         ("[calibration]\nviscosity_pole = 290", "viscosity_pole"),
-        (
-            "[calibration]\ndirection_asymmetry = nan",
-            "direction_asymmetry",
-        ),
+        ("[calibration]\ndirection_ratio = nan", "direction_ratio"),
         ("[calibration]\nbreakaway_angle = 0", "breakaway_angle"),
         ("[calibration]\nreference_load = -1", "reference_load"),
         ("[calibration]\ninertia = inf", "inertia"),
