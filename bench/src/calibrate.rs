@@ -34,11 +34,12 @@
 //! | [`firmware`] | what firmware takes of a calibrated design, as plain numbers |
 //! | [`outputs`] | what a calibration writes, and where |
 //! | [`constants`] | the same as Rust constants for firmware |
-//! | `folder` | every trace of a folder, and what they have in common |
+//! | [`folder`] | every trace of a folder, and what they have in common |
 //! | [`laws`] | laws of friction of unit level over a motion |
 //! | [`slide`] | a trace without a design as a separable problem |
 //! | [`choice`] | models of friction on a trace without a design |
 //! | [`part`] | a part of a problem's rows |
+//! | [`with_design`] | calibration of a trace of a screw whose design is known |
 //! | [`without_design`] | calibration of a trace without a design |
 //! | `command` | arguments, and what is printed |
 //! | [`cost`] | cost of a law on the reference core |
@@ -66,6 +67,7 @@ pub mod experiment;
 pub mod filter;
 pub mod finding;
 pub mod firmware;
+pub mod folder;
 pub mod laws;
 pub mod manoeuvre;
 pub mod noise;
@@ -91,6 +93,35 @@ mod toys;
 pub mod trace;
 pub mod uncertainty;
 pub mod units;
+pub mod with_design;
 pub mod without_design;
 
 pub use command::{Arguments, run};
+
+use std::io::Cursor;
+
+use crate::failure::Failure;
+
+/// Reads a trace without a design and with one, smooths it and looks whether it may be believed; its number of samples.
+pub(crate) fn accepts(text: &[u8]) -> Result<usize, String> {
+    let frame = columns::Frame {
+        lead: 7e-3,
+        ratio: 2.5,
+    };
+    let look = |frame| -> Result<usize, Failure> {
+        let trace = columns::from_reader(Cursor::new(text), "trace", frame)?;
+        let motion = signals::Motion::of(&trace, &signals::SmoothingSettings::default())?;
+        let rows = signals::Rows::new(trace.step, &signals::RowSettings::default())?;
+        let rows = rows.of(&motion.speed);
+        checks::examine(&trace, &motion)?;
+        checks::load_gain(&trace, &motion, 1e-3)?;
+        Ok(trace.len().max(rows.len()))
+    };
+    // Either may be refused by itself: a length and a torque need a design.
+    look(Some(&frame))
+        .and(look(None))
+        .map_err(|failure| match failure {
+            Failure::Data(message) => message,
+            other => format!("{other:?}"),
+        })
+}

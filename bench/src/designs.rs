@@ -435,6 +435,12 @@ mod tests {
             ("[calibration]\nhalf_share_speed = 5", "full_film_ratio"),
             ("[calibration]\nlargest_load = 500", "breakaway_angle"),
             (
+                "[calibration]\nbreakaway_angle = 1e-3\nlargest_load = 500",
+                "largest_load",
+            ),
+            ("[calibration]\nelements = \"load_exact\"", "largest_load"),
+            ("[calibration]\nelements = \"springs\"", "elements"),
+            (
                 "[calibration]\nreference_temperature = 30",
                 "reference_temperature",
             ),

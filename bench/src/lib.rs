@@ -53,6 +53,15 @@ pub mod untrusted {
         crate::simulate::accepts(text)
     }
 
+    /// Reads a trace as `calibrate` does, without a design and with one, smooths it and looks whether it may be believed;
+    /// its number of samples.
+    ///
+    /// # Errors
+    /// What is wrong.
+    pub fn calibration_trace(text: &[u8]) -> Result<usize, String> {
+        crate::calibrate::accepts(text)
+    }
+
     /// Reads a design file as `simulate --design` does.
     ///
     /// # Errors

@@ -22,6 +22,8 @@ const CERTAIN: f64 = 6.0;
 /// less (measured: 1.04).
 const SHIFT_REFUSED: [f64; 2] = [3.0, 1.3];
 const SHIFT_SAID: [f64; 2] = [2.0, 1.1];
+/// A shift that would not show within so many ticks is said.
+const SHIFT_SEEN: f64 = 5.0;
 /// Largest shift that is sought, s, and in ticks.
 const SHIFT_SOUGHT: (f64, f64) = (0.03, 100.0);
 /// A measured speed may differ from the position's derivative by this share.
@@ -322,6 +324,15 @@ fn clocks(trace: &Trace, motion: &Motion, findings: &mut Vec<Finding>) -> Result
             "earlier"
         };
         let ticks = found.ticks.abs();
+        if against == Against::Motion && found.seen > SHIFT_SEEN {
+            findings.push(Finding::new(
+                FindingKind::ClockUnchecked,
+                found.seen,
+                format!(
+                    "a shift of {SHIFT_SEEN} ticks between effort and motion would hardly show in this trace, and would go into the drag: move faster, or check the clocks"
+                ),
+            ));
+        }
         if ticks >= SHIFT_REFUSED[0] && found.gain >= SHIFT_REFUSED[1] {
             return Err(format!(
                 "the effort comes {ticks:.0} ticks ({:.1} ms) {way} than the {other}: shift the channels to one clock",

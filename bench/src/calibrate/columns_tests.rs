@@ -274,3 +274,42 @@ fn every_fault_has_a_word() {
             .starts_with("line 5: motor_force")
     );
 }
+
+/// Seeds of the fuzz target, and what was said of each.
+const SEEDS: [&str; 4] = [
+    include_str!("../../fuzz/corpus/calibration/nut"),
+    include_str!("../../fuzz/corpus/calibration/carriage"),
+    include_str!("../../fuzz/corpus/calibration/wraps"),
+    include_str!("../../fuzz/corpus/calibration/jitter"),
+];
+
+#[test]
+fn seeds_are_read_and_their_ruins_do_no_harm() {
+    for seed in SEEDS {
+        assert!(read(seed, Some(&FRAME)).is_ok());
+    }
+    let mut random = 1u32;
+    let mut next = |below: usize| {
+        random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        (random >> 8) as usize % below
+    };
+    for round in 0..400 {
+        let mut text = SEEDS[round % 4].as_bytes().to_vec();
+        for _ in 0..=next(4) {
+            let place = next(text.len());
+            match next(3) {
+                0 => text[place] = b"0123456789.,-e\n\"x_"[next(18)],
+                1 => text.truncate(place + 1),
+                _ => {
+                    let end = (place + next(40)).min(text.len());
+                    text.drain(place..end);
+                }
+            }
+            if text.is_empty() {
+                text.push(b't');
+            }
+        }
+        // Read or refused, and no panic.
+        let _ = super::accepts(&text);
+    }
+}

@@ -306,7 +306,6 @@ fn rig(design: &Design) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use crate::designs::read;
 
     const DESIGN: &str = "\
@@ -358,7 +357,7 @@ harmonics = [{ order = 1, cosine = 1.5e-3, sine = -1e-3 }, { order = 2, sine = 8
             assert!(!plain.contains(word), "{word}");
         }
         let exact = of(&format!(
-            "{DESIGN}[calibration]\nbreakaway_angle = 1e-3\nreference_load = 500\nlargest_load = 3000\n"
+            "{DESIGN}[calibration]\nbreakaway_angle = 1e-3\nreference_load = 500\nelements = \"load_exact\"\nlargest_load = 3000\n"
         ));
         for word in ["LoadExactElements::new", "OneCoefficient::new"] {
             assert!(exact.contains(word), "{word}");

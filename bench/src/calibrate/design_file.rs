@@ -3,6 +3,7 @@
 use toml_edit::{Array, DocumentMut, InlineTable, Item, RawString, Table, TableLike, Value};
 
 use super::answer::{Calibration, Estimate};
+use super::screw::friction::{ElementsKind, Screw};
 use super::shown::{interval, one_line};
 use crate::designs::{Design, read};
 
@@ -48,6 +49,26 @@ pub struct Written {
     pub left_out: Vec<String>,
 }
 
+/// At what a screw was calibrated, as parameters that were set: a design file needs them beside the estimated ones.
+fn circumstances(screw: &Screw) -> Vec<Estimate> {
+    let mut all = vec![
+        Estimate::fixed("reference_temperature", "K", screw.reference_temperature),
+        Estimate::fixed("reference_load", "N", screw.reference_load),
+    ];
+    if screw.elements != ElementsKind::Proportional {
+        all.push(Estimate::fixed("largest_load", "N", screw.largest_load));
+    }
+    all
+}
+
+/// How elements follow the load, as a design file names it.
+const fn elements(kind: ElementsKind) -> &'static str {
+    match kind {
+        ElementsKind::Proportional => "proportional",
+        ElementsKind::LoadExact => "load_exact",
+    }
+}
+
 /// The text of a design file with the estimated parameters in it, and beside each its interval and the trace's name.
 ///
 /// Everything else stays as it was: other keys, their order, comments, blank lines. A second calibration replaces the
@@ -55,14 +76,19 @@ pub struct Written {
 ///
 /// # Errors
 /// What is wrong with the text, or which calibrated number is out of the range of a design.
-pub fn written(text: &str, calibration: &Calibration, trace: &str) -> Result<Written, String> {
+pub fn written(
+    text: &str,
+    (calibration, screw): (&Calibration, Option<&Screw>),
+    trace: &str,
+) -> Result<Written, String> {
     let mut document: DocumentMut = text
         .parse()
         .map_err(|error: toml_edit::TomlError| error.to_string())?;
     let trace = one_line(trace);
     let mut left_out = Vec::new();
     let mut waves = Waves::default();
-    for estimate in &calibration.parameters {
+    let circumstances = screw.map(circumstances).unwrap_or_default();
+    for estimate in calibration.parameters.iter().chain(&circumstances) {
         let name = estimate.name.as_str();
         if FRICTION_KEYS.contains(&name) || OTHER_KEYS.contains(&name) && !estimate.fixed {
             set(table(&mut document)?, estimate, &trace);
@@ -79,6 +105,10 @@ pub fn written(text: &str, calibration: &Calibration, trace: &str) -> Result<Wri
         } else if !waves.take(estimate) {
             left_out.push(estimate.name.clone());
         }
+    }
+    if let Some(screw) = screw {
+        let name = toml_edit::value(elements(screw.elements));
+        table(&mut document)?.insert("elements", name);
     }
     if let Some(list) = waves.list(&trace) {
         table(&mut document)?.insert("harmonics", Item::Value(list.into()));
@@ -234,6 +264,7 @@ impl Waves {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::designs::calibration::ElementsName;
 
     const USERS: &str = "\
 # Rack drive, second sample.
@@ -297,7 +328,7 @@ nut_speed = 300 # of the motor
 
     #[test]
     fn only_calibrated_numbers_change() {
-        let Written { text, left_out, .. } = written(USERS, &whole(), "weave\n17").unwrap();
+        let Written { text, left_out, .. } = written(USERS, (&whole(), None), "weave\n17").unwrap();
         assert_eq!(left_out, ["colour"]);
         let own = |line: &&str| !line.contains("calibrated: ") && !line.trim().is_empty();
         let kept: Vec<_> = text.lines().filter(own).collect();
@@ -321,7 +352,7 @@ nut_speed = 300 # of the motor
 
     #[test]
     fn what_is_written_is_read_as_what_was_calibrated() {
-        let Written { text, design, .. } = written(USERS, &whole(), "weave").unwrap();
+        let Written { text, design, .. } = written(USERS, (&whole(), None), "weave").unwrap();
         let again = read(&text, "other").unwrap();
         assert_eq!(again.configuration, design.configuration);
         assert_eq!(again.calibrated, design.calibrated);
@@ -353,23 +384,58 @@ nut_speed = 300 # of the motor
     }
 
     #[test]
+    fn circumstances_of_a_screw_stand_beside_its_numbers() {
+        let design = read(USERS, "design").unwrap();
+        let screw = Screw {
+            configuration: design.configuration,
+            elements: ElementsKind::LoadExact,
+            preloaded: true,
+            reference_temperature: 300.0,
+            reference_load: 250.0,
+            largest_load: 3000.0,
+        };
+        let mut told = whole();
+        told.parameters
+            .retain(|estimate| estimate.name != "reference_temperature");
+        let calibrated = written(USERS, (&told, Some(&screw)), "weave")
+            .unwrap()
+            .design
+            .calibrated
+            .unwrap();
+        assert_eq!(
+            (
+                calibrated.reference_temperature,
+                calibrated.reference_load,
+                calibrated.largest_load,
+                calibrated.elements
+            ),
+            (
+                Some(300.0),
+                Some(250.0),
+                Some(3000.0),
+                Some(ElementsName::LoadExact)
+            )
+        );
+    }
+
+    #[test]
     fn a_second_calibration_replaces_the_first() {
-        let first = written(USERS, &whole(), "weave").unwrap().text;
-        let again = written(&first, &whole(), "weave").unwrap().text;
+        let first = written(USERS, (&whole(), None), "weave").unwrap().text;
+        let again = written(&first, (&whole(), None), "weave").unwrap().text;
         assert_eq!(first, again);
-        let other = written(&first, &whole(), "parking").unwrap().text;
+        let other = written(&first, (&whole(), None), "parking").unwrap().text;
         assert!(!other.contains("weave") && other.contains("assumed; calibrated"));
     }
 
     #[test]
     fn a_number_out_of_range_is_named() {
         let wrong = calibration(vec![estimate("friction", 7.0)]);
-        let error = written(USERS, &wrong, "weave").unwrap_err();
+        let error = written(USERS, (&wrong, None), "weave").unwrap_err();
         assert!(error.contains("friction"), "{error}");
         let wrong = calibration(vec![estimate("drag", f64::NAN)]);
-        let error = written(USERS, &wrong, "weave").unwrap_err();
+        let error = written(USERS, (&wrong, None), "weave").unwrap_err();
         assert!(error.contains("drag"), "{error}");
-        assert!(written("friction = ", &whole(), "weave").is_err());
-        assert!(written("calibration = 3", &whole(), "weave").is_err());
+        assert!(written("friction = ", (&whole(), None), "weave").is_err());
+        assert!(written("calibration = 3", (&whole(), None), "weave").is_err());
     }
 }

@@ -23,6 +23,8 @@ pub enum FindingKind {
     ClippedEffort,
     /// The effort is early or late against the motion, by less than is refused.
     ShiftedEffort,
+    /// A shift between effort and motion would not be seen.
+    ClockUnchecked,
     /// The measured speed is early or late against the position, and is not used.
     ShiftedSpeed,
     /// Much of the effort goes with nothing that is in the trace.

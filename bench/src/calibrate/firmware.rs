@@ -1,34 +1,46 @@
 //! What firmware takes of a calibrated design, as plain numbers: the law of the friction coefficient and the elements.
 
-use epas_friction::law::SlidingLimits;
-use epas_friction::law::coefficient::{
-    CoefficientLaw, CoefficientParameters, DirectionalCoefficient, Viscosity,
-};
+use epas_friction::law::coefficient::{CoefficientLaw, CoefficientParameters, Viscosity};
 use epas_friction::law::memory::{
     Hysteresis, LoadExactElements, Part, ProportionalElements, SLIP_8,
 };
-use epas_friction::scene::{Inputs, Scene, Sliding};
-use epas_friction::{CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, Error};
+use epas_friction::{CagedBallScrewConfiguration, Error, defaults};
 
+use super::screw::friction::{ElementsKind, Screw};
+use super::screw::quantities::Values;
 use crate::designs::Design;
-use crate::designs::calibration::{Calibrated, REFERENCE_TEMPERATURE};
+use crate::designs::calibration::{Calibrated, ElementsName, REFERENCE_TEMPERATURE};
 use crate::failure::Failure;
 
 /// Elements of every calibrated memory.
 pub const ELEMENTS: usize = 8;
 
-/// Points of the default lubricant's viscosity, K and Pa s, and its pour point, K: those of `defaults::VISCOSITY`.
-const OIL: ([(f32, f32); 2], f32) = ([(313.15, 0.088), (373.15, 0.0095)], 228.15);
+/// Viscosity at the reference temperature, Pa s, and the coldest temperature, K, down to which it holds: only ratios of viscosities
+/// have an effect.
+const VISCOSITY: (f32, f32) = (0.1, 150.0);
 
-/// Viscosity at the reference temperature, Pa s, of an oil of which only the pole is known, and the coldest temperature, K, down
-/// to which it holds: only ratios of viscosities have an effect.
-const ONLY_POLE: (f32, f32) = (0.1, 150.0);
-
-/// Distance of the second point of such a viscosity, K.
+/// Distance of the second point of the viscosity, K.
 const SECOND: f32 = 60.0;
 
-/// Ticks after which both directions of a caged screw have been looked up.
-const LOOKED_UP: usize = 8;
+/// What gross sliding does not follow from.
+const NOTHING: Values = Values {
+    friction: 0.0,
+    full_film_ratio: 1.0,
+    half_share_speed: 1.0,
+    viscosity_pole: 0.0,
+    direction_asymmetry: 0.0,
+    hysteresis_loss: 0.0,
+    lubricant_drag: 0.0,
+    preload: 0.0,
+    breakaway_angle: 1.0,
+    backlash: 0.0,
+    inertia: 0.0,
+    drag: 0.0,
+    churning: 0.0,
+    offset: 0.0,
+    gain: 1.0,
+    harmonics: [0.0; 4],
+};
 
 /// What firmware takes of a design beyond its configuration.
 #[derive(Clone, Debug, PartialEq)]
@@ -116,18 +128,18 @@ impl LawNumbers {
             .reference_temperature
             .unwrap_or(REFERENCE_TEMPERATURE);
         let asymmetry = calibrated.direction_asymmetry.unwrap_or(0.0);
-        let (viscosity, pour_point) = calibrated.viscosity_pole.map_or(OIL, |pole| {
-            let ratio = (reference - pole) / (reference + SECOND - pole);
-            let (viscosity, coldest) = ONLY_POLE;
-            let second = (reference + SECOND, viscosity * ratio.powi(5));
-            ([(reference, viscosity), second], coldest)
-        });
+        let pole = calibrated
+            .viscosity_pole
+            .unwrap_or(defaults::VISCOSITY.pole());
+        let ratio = (reference - pole) / (reference + SECOND - pole);
+        let (viscosity, pour_point) = VISCOSITY;
+        let warm = (reference + SECOND, viscosity * ratio.powi(5));
         Self {
             boundary: friction,
             full_film: friction * calibrated.full_film_ratio.unwrap_or(1.0),
             half_share_speed: calibrated.half_share_speed.unwrap_or(1.0),
             reference_temperature: reference,
-            viscosity,
+            viscosity: [(reference, viscosity), warm],
             pour_point,
             forward: 1.0 + asymmetry,
             backward: 1.0 - asymmetry,
@@ -160,16 +172,29 @@ impl ElementsNumbers {
         calibrated: &Calibrated,
         breakaway_angle: f32,
     ) -> Result<Self, Error> {
-        let constants = CagedConstants::new(configuration)?;
-        let at = |load| sliding(&constants, configuration.friction, load);
-        let reference = at(calibrated.reference_load.unwrap_or(0.0));
+        let screw = Screw {
+            configuration: *configuration,
+            elements: match calibrated.elements {
+                None | Some(ElementsName::Proportional) => ElementsKind::Proportional,
+                Some(ElementsName::LoadExact) => ElementsKind::LoadExact,
+            },
+            preloaded: false,
+            reference_temperature: REFERENCE_TEMPERATURE.into(),
+            reference_load: calibrated.reference_load.unwrap_or(0.0).into(),
+            largest_load: calibrated.largest_load.unwrap_or(0.0).into(),
+        };
+        let rolling = &configuration.rolling_resistance;
+        let reference = screw.reference(&Values {
+            friction: configuration.friction.into(),
+            hysteresis_loss: rolling.hysteresis_loss.into(),
+            lubricant_drag: rolling.lubricant_drag.into(),
+            ..NOTHING
+        })?;
         let mut numbers = Self {
-            torque: 0.5 * (reference.forward + reference.backward),
+            torque: reference.torque,
             breakaway_angle,
             load: reference.load,
-            largest_load: calibrated
-                .largest_load
-                .map(|load| at(load).load / reference.load),
+            largest_load: calibrated.largest_load.map(|_| reference.largest_load),
             play: 0.0,
         };
         numbers.play = match numbers.largest_load {
@@ -201,21 +226,61 @@ impl ElementsNumbers {
     }
 }
 
-/// Gross sliding with one friction coefficient under an axial load, N.
-fn sliding(constants: &CagedConstants, friction: f32, axial_load: f32) -> SlidingLimits {
-    let mut state = CagedBallScrew::initial_state(constants);
-    let mut recent = CagedBallScrew::recent(constants, &state);
-    let both = DirectionalCoefficient {
-        forward: friction,
-        backward: friction,
-    };
-    let inputs = Inputs {
-        nut_speed: 1.0,
-        axial_load,
-    };
-    let mut full = || CagedBallScrew::full(constants, &mut state, &mut recent, None, inputs, both);
-    for _ in 1..LOOKED_UP {
-        full();
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::designs::read;
+
+    /// One formula in two forms: what a calibration runs, and what it is written as.
+    #[test]
+    fn firmware_has_the_law_and_the_elements_that_were_fitted() {
+        let text = "nominal_diameter = 0.032\nlead = 0.02\nball_diameter = 6.35e-3\nconformity = 0.528\n\
+                    contact_angle = 0.7853982\nfriction = 0.115\npreload = 17\nloaded_balls = 40\n[calibration]\n\
+                    full_film_ratio = 0.5\nhalf_share_speed = 6\nreference_temperature = 303\nviscosity_pole = 210\n\
+                    direction_asymmetry = 0.03125\nbreakaway_angle = 2e-3\nreference_load = 250\n";
+        let values = Values {
+            friction: 0.115,
+            full_film_ratio: 0.5,
+            half_share_speed: 6.0,
+            viscosity_pole: 210.0,
+            direction_asymmetry: 0.03125,
+            hysteresis_loss: defaults::ROLLING_RESISTANCE.hysteresis_loss.into(),
+            preload: 17.0,
+            breakaway_angle: 2e-3,
+            ..NOTHING
+        };
+        for (elements, lines) in [
+            (ElementsKind::Proportional, ""),
+            (
+                ElementsKind::LoadExact,
+                "elements = \"load_exact\"\nlargest_load = 3000\n",
+            ),
+        ] {
+            let design = read(&format!("{text}{lines}"), "design").unwrap();
+            let numbers = Numbers::of(&design).unwrap();
+            let screw = Screw {
+                configuration: design.configuration,
+                elements,
+                preloaded: true,
+                reference_temperature: 303.0,
+                reference_load: 250.0,
+                largest_load: 3000.0,
+            };
+            let law = CoefficientLaw::new(&screw.coefficient(&values)).unwrap();
+            assert_eq!(numbers.law.unwrap().law().unwrap(), law);
+            let told = numbers.elements.unwrap();
+            let reference = screw.reference(&values).unwrap();
+            assert_eq!(told.load, reference.load);
+            match told.largest_load {
+                None => assert_eq!(
+                    told.proportional().unwrap(),
+                    screw.proportional(&values, &reference).unwrap()
+                ),
+                Some(largest) => assert_eq!(
+                    told.load_exact(largest).unwrap(),
+                    screw.load_exact(&values, &reference).unwrap()
+                ),
+            }
+        }
     }
-    CagedBallScrew::limits(&full())
 }

@@ -8,6 +8,7 @@ use super::answer::Calibration;
 use super::design_file::{self, Written};
 use super::page;
 use super::picture::Picture;
+use super::screw::friction::Screw;
 use super::{constants, shown};
 use crate::designs::{DesignSource, text};
 use crate::failure::Failure;
@@ -42,6 +43,8 @@ pub struct Outcome<'a> {
     pub picture: &'a Picture,
     /// The design that was calibrated, where there is one.
     pub design: Option<&'a DesignSource>,
+    /// The screw that was fitted, where there is a design.
+    pub screw: Option<&'a Screw>,
 }
 
 impl OutputArguments {
@@ -95,6 +98,7 @@ impl OutputArguments {
             calibration,
             picture,
             design,
+            ..
         } = outcome;
         let folder = self.folder(&picture.name);
         let document = page::document(calibration, picture);
@@ -137,7 +141,8 @@ fn calibrated(source: &DesignSource, outcome: Outcome<'_>) -> Result<Written, Fa
         None => text::text(&source.load()?),
     };
     let trace = shown::one_line(&outcome.picture.name);
-    design_file::written(&text, outcome.calibration, &trace)
+    let told = (outcome.calibration, outcome.screw);
+    design_file::written(&text, told, &trace)
         .map_err(|message| Failure::Data(format!("the calibrated design: {message}")))
 }
 

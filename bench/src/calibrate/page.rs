@@ -140,6 +140,10 @@ fn scores(models: &[ModelScore]) -> Table {
             Cell::fixed(model.parameters as f64, 0),
             percent(model.relative_error),
             model.relative_error_unseen.map_or("".into(), percent),
+            percent(model.relative_error_inverse),
+            model
+                .relative_error_inverse_unseen
+                .map_or("".into(), percent),
             Cell::fixed(model.information_criterion, 1),
             model.cycles.map_or("".into(), |cycles| {
                 let sign = if model.cycles_estimated { "~" } else { "" };
@@ -149,14 +153,17 @@ fn scores(models: &[ModelScore]) -> Table {
     });
     Table {
         name: "models",
-        caption: "Models of friction on the same trace: residual over effort, rms; information criterion less the least one; \
-                  modelled cycles of one tick, ~ where they are estimated"
+        caption: "Models of friction on the same trace: error of the effort, rms, over the effort, in the closed loop where its \
+                  controller is known; the same of the regression's rows; information criterion less the least one; modelled \
+                  cycles of one tick, ~ where they are estimated"
             .into(),
         columns: [
             "model",
             "parameters",
             "error, fitted (%)",
             "error, not fitted (%)",
+            "rows, fitted (%)",
+            "rows, not fitted (%)",
             "information criterion",
             "cycles",
         ]
@@ -451,15 +458,15 @@ mod tests {
                 name: "LuGre".into(),
                 relative_error: 0.12,
                 relative_error_unseen: None,
-                relative_error_inverse: 0.03,
-                relative_error_inverse_unseen: Some(0.04),
+                relative_error_inverse: 0.1,
+                relative_error_inverse_unseen: Some(0.14),
                 position_error: None,
-                values: Vec::new(),
                 residual_unseen: None,
                 information_criterion: 321.0,
                 parameters: 6,
                 cycles: Some(120),
                 cycles_estimated: true,
+                values: Vec::new(),
             }],
             winner: None,
         }
@@ -485,7 +492,7 @@ mod tests {
             "| friction | 0.1150 | 0.1100 | inf |  | estimated |",
             "| gain | 1.000 |  |  |  | set |",
             "gain: the load does not vary",
-            "| LuGre | 6 | 12.0 |  | 321.0 | ~120 |",
+            "| LuGre | 6 | 12.0 |  | 10.0 | 14.0 | 321.0 | ~120 |",
             "| friction | 1.000 | -0.970 |",
         ] {
             assert!(markdown.contains(text), "{text}\n{markdown}");

@@ -18,8 +18,9 @@ const FRICTION: usize = 2;
 const GAIN: usize = 4;
 const SHARE: usize = 5;
 
-/// Most samples that are looked at.
+/// Most samples that are looked at once, and for each shift of many.
 const MOST: usize = 60_000;
+const MOST_SHIFTED: usize = 6_000;
 /// Samples of one and the same deviation, because it changes slowly: the deviations that count are fewer than the samples
 /// by this.
 const ALIKE: f64 = 50.0;
@@ -48,7 +49,12 @@ pub struct Shift {
     pub ticks: f64,
     /// Root mean square of what is left without a shift, over what is left with it.
     pub gain: f64,
+    /// Ticks from that shift at which clearly more is left, on both sides; infinite where that is beyond those sought.
+    pub seen: f64,
 }
+
+/// What is clearly more, of a root mean square.
+const CLEARLY: f64 = 1.1;
 
 /// What the shift is sought against.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -60,11 +66,11 @@ pub enum Against {
 }
 
 /// The samples where the trace slides, away from its ends, thinned out.
-fn sliding(trace: &Trace, motion: &Motion, margin: usize) -> Vec<usize> {
+fn sliding(trace: &Trace, motion: &Motion, margin: usize, most: usize) -> Vec<usize> {
     let samples = trace.len();
     let slow = SLIDING * root_mean_square(&motion.speed);
     let inner = margin..samples.saturating_sub(margin);
-    let stride = inner.len() / MOST + 1;
+    let stride = inner.len() / most + 1;
     inner
         .step_by(stride)
         .filter(|sample| motion.speed.get(*sample).is_some_and(|w| w.abs() > slow))
@@ -116,8 +122,8 @@ fn sums(trace: &Trace, motion: &Motion, samples: &[usize], later: [isize; 2]) ->
             load,
             load.abs() * way,
         ];
-        for (row, term) in products.iter_mut().zip(terms) {
-            for (product, other) in row.iter_mut().zip(terms) {
+        for (place, (row, term)) in products.iter_mut().zip(terms).enumerate() {
+            for (product, other) in row.iter_mut().zip(terms).skip(place) {
                 *product += term * other;
             }
         }
@@ -128,7 +134,9 @@ fn sums(trace: &Trace, motion: &Motion, samples: &[usize], later: [isize; 2]) ->
             made.powers[place] += terms[place] * speed;
         }
     }
-    made.terms = DMatrix::from_fn(TERMS, TERMS, |row, column| products[row][column]);
+    made.terms = DMatrix::from_fn(TERMS, TERMS, |row, column| {
+        products[row.min(column)][row.max(column)]
+    });
     made.powers /= made.count;
     Some(made)
 }
@@ -157,7 +165,7 @@ fn solve(sums: &Sums) -> Option<(DVector<f64>, f64, DMatrix<f64>)> {
 
 /// The relation of effort and motion; `None` where too little of the trace slides.
 pub fn relation(trace: &Trace, motion: &Motion) -> Option<Relation> {
-    let samples = sliding(trace, motion, motion.edge);
+    let samples = sliding(trace, motion, motion.edge, MOST);
     if samples.len() < 10 * TERMS {
         return None;
     }
@@ -186,7 +194,7 @@ pub fn relation(trace: &Trace, motion: &Motion) -> Option<Relation> {
 
 /// The shift of the effort that leaves least, within so many ticks; `None` where too little of the trace slides.
 pub fn shift(trace: &Trace, motion: &Motion, against: Against, most: usize) -> Option<Shift> {
-    let samples = sliding(trace, motion, motion.edge + most);
+    let samples = sliding(trace, motion, motion.edge + most, MOST_SHIFTED);
     if samples.len() < 10 * TERMS {
         return None;
     }
@@ -202,9 +210,17 @@ pub fn shift(trace: &Trace, motion: &Motion, against: Against, most: usize) -> O
         .filter_map(|ticks| Some((ticks, left(ticks)?)))
         .collect();
     let (ticks, least) = *all.iter().min_by(|a, b| a.1.total_cmp(&b.1))?;
+    let clearly = |(_, left): &&(isize, f64)| *left > CLEARLY * CLEARLY * least;
+    let before = all.iter().filter(|x| x.0 < ticks).rfind(clearly);
+    let after = all.iter().filter(|x| x.0 > ticks).find(clearly);
+    let seen = match (before, after) {
+        (Some(before), Some(after)) => (ticks - before.0).max(after.0 - ticks) as f64,
+        _ => f64::INFINITY,
+    };
     Some(Shift {
         ticks: ticks as f64,
         gain: (left(0)? / least).sqrt(),
+        seen,
     })
 }
 
@@ -224,7 +240,7 @@ pub fn speeds(measured: &[f64], motion: &Motion, most: usize) -> Option<SpeedRel
     let samples = measured.len();
     let margin = motion.edge + most;
     let inner = margin..samples.saturating_sub(margin);
-    let stride = inner.len() / MOST + 1;
+    let stride = inner.len() / MOST_SHIFTED + 1;
     let most = most as isize;
     (-most..=most)
         .filter_map(|ticks| {

@@ -8,9 +8,10 @@ use super::controller::SeenController;
 use super::finding::Finding;
 use super::picture::{Correlations, Picture};
 use super::problem::Separable;
-use super::separable::{FitSettings, fit};
+use super::separable::{Fit, FitSettings, fit};
 use super::signals::{Motion, RowSettings, Rows, SmoothingSettings};
 use super::slide::{Slide, Terms};
+use super::sums::{Reference, Sums, SumsError};
 use super::trace::Trace;
 use super::uncertainty::{Uncertainty, uncertainty};
 use crate::controller::Controller;
@@ -28,7 +29,7 @@ pub struct Filters {
 /// Cut-offs of the motion that are tried, Hz.
 pub const SMOOTHING: [f64; 4] = [100.0, 60.0, 40.0, 25.0];
 /// Cut-off of the rows, Hz.
-pub const ROWS: f64 = 40.0;
+pub const ROWS: f64 = 60.0;
 /// Noise of the acceleration, over its own root mean square, that is let pass.
 const NOISE: f64 = 0.05;
 /// Cut-off over the sampling rate that is let pass.
@@ -65,6 +66,17 @@ impl<'a> Filtered<'a> {
             motion: motion(trace, filters.smoothing)?,
             rows: Rows::new(trace.step, &settings)?,
         })
+    }
+
+    /// The plain model.
+    fn plain(&self) -> Slide<'_> {
+        Slide::new(
+            self.trace,
+            &self.motion,
+            &self.rows,
+            LAWS[0],
+            Terms::default(),
+        )
     }
 
     fn prepared(&self, controller: Option<Controller>) -> Prepared<'_> {
@@ -119,13 +131,8 @@ pub fn calibrate(
         .transpose()?;
     let other = other.as_ref().map(|other| other.prepared(controller));
 
-    let plain = filtered.prepared(None);
-    let slide = Slide::new(trace, plain.motion, plain.rows, LAWS[0], Terms::default());
-    let settings = FitSettings {
-        robust: false,
-        ..FitSettings::default()
-    };
-    let whole = fit(&slide, &settings).map_err(|error| Failure::Data(error.to_string()))?;
+    let slide = filtered.plain();
+    let whole = literature(&slide)?;
     let sure = uncertainty(&slide, &whole);
 
     let all = terms(&prepared)?;
@@ -167,6 +174,45 @@ pub fn calibrate(
         findings,
         controller,
     })
+}
+
+/// The fit of the plain model as the literature has it: by least squares, without weights.
+fn literature(slide: &Slide<'_>) -> Result<Fit, Failure> {
+    let settings = FitSettings {
+        robust: false,
+        ..FitSettings::default()
+    };
+    fit(slide, &settings).map_err(|error| Failure::Data(error.to_string()))
+}
+
+/// The plain model of one trace of many, and its sums.
+///
+/// # Errors
+/// A trace from which nothing can be told.
+pub fn plain(trace: &Trace, filters: &Filters) -> Result<(Calibration, Sums), Failure> {
+    let filtered = Filtered::new(trace, filters)?;
+    let findings = examine(trace, &filtered.motion)?;
+    let slide = filtered.plain();
+    let whole = literature(&slide)?;
+    let sure = uncertainty(&slide, &whole);
+    let references = slide.linear().iter().map(|parameter| Reference {
+        name: parameter.name.into(),
+        logarithmic: false,
+        value: 0.0,
+    });
+    let refused = |error: SumsError| Failure::Data(error.to_string());
+    let mut sums = Sums::new(references.collect()).map_err(refused)?;
+    sums.add(&whole, &sure).map_err(refused)?;
+    let answer = Calibration {
+        parameters: estimates(&sure),
+        residual_rms: whole.residual_rms(),
+        relative_error: size(&whole.residual) / size(slide.target()),
+        effective_rows: sure.effective_rows,
+        cannot_tell: cannot_tell(trace, &filtered.motion, &findings),
+        models: Vec::new(),
+        winner: None,
+    };
+    Ok((answer, sums))
 }
 
 /// Sets the least information criterion to zero; the name of the model that does best on what was not fitted.

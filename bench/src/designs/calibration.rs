@@ -20,8 +20,9 @@ pub struct Calibrated {
     pub breakaway_angle: Option<f32>,
     /// Axial load of the breakaway angle, N, 0 to 1e6.
     pub reference_load: Option<f32>,
-    /// Largest axial load, N, 1e-3 to 1e6, with which springs come into contact: with it elements follow the load exactly,
-    /// without it in proportion.
+    /// How elements of the memory follow the load; in proportion where it is not there.
+    pub elements: Option<ElementsName>,
+    /// Largest axial load up to which elements come into contact with it, N, 1e-3 to 1e6: where they do not follow in proportion.
     pub largest_load: Option<f32>,
     /// Free play between the sensor's angle and the nut's, rad, 0 to 10.
     pub backlash: Option<f32>,
@@ -38,6 +39,16 @@ pub struct Calibrated {
     /// Waves of the torque over a turn, at the reference load.
     #[serde(default)]
     pub harmonics: Vec<Harmonic>,
+}
+
+/// How elements follow the load.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ElementsName {
+    /// Constant shares of the friction of gross sliding: a preloaded screw.
+    Proportional,
+    /// Springs that come into contact with the load: any load, without a preload.
+    LoadExact,
 }
 
 /// A wave of the friction torque over the turn of the nut.
@@ -131,6 +142,12 @@ impl Calibrated {
             if there.is_none() && beside.is_some() {
                 return Err(format!("{field} is missing beside {other}"));
             }
+        }
+        let exact = self
+            .elements
+            .is_some_and(|elements| elements != ElementsName::Proportional);
+        if exact != self.largest_load.is_some() {
+            return Err("largest_load is that of elements that do not follow the load in proportion: both or none".into());
         }
         let reference = self.reference_temperature.unwrap_or(REFERENCE_TEMPERATURE);
         if let Some(pole) = self.viscosity_pole {
