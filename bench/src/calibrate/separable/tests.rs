@@ -2,7 +2,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::*;
 use crate::calibrate::problem::{Evaluation, LinearParameter};
-use crate::calibrate::toys::{STRIBECK, Toy, close, free, hash, positive, stribeck_toy, total};
+use crate::calibrate::toys::{
+    STRIBECK, Toy, close, free, hash, noise, positive, stribeck_toy, total,
+};
 
 /// Without noise the truth comes back: differences of 1e-3 do not move a minimum whose residual is zero.
 #[test]
@@ -302,7 +304,6 @@ fn few_evaluations() {
         [3e-3, 0.01, 0.02, 1e-3, -1e-3, 2e-3, 0.0, 1e-3],
     );
     let clean = total(&model(&truth.0), &truth.1);
-    let noise = crate::calibrate::toys::noise(3, rows, 0.6);
     let toy = Toy {
         nonlinear: vec![
             positive("boundary", 0.1, 0.02, 0.5),
@@ -317,7 +318,7 @@ fn few_evaluations() {
             .to_vec(),
         target: clean
             .iter()
-            .zip(noise)
+            .zip(noise(3, rows, 0.6))
             .map(|(value, noise)| value + 1e-3 * noise)
             .collect(),
         model,
