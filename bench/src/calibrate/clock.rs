@@ -10,6 +10,8 @@ const LONGEST_GAP: f64 = 10.0;
 const MOST_MISSING: f64 = 0.02;
 /// Largest root mean square of the distance from the tick, in ticks.
 const MOST_JITTER: f64 = 0.3;
+/// Distance of samples, in ticks, below which no cubic is laid through them.
+const SQUEEZED: f64 = 0.2;
 /// Slowest tick, s: friction's transitions are over within less.
 const SLOWEST: f64 = 0.05;
 /// Shortest tick, s.
@@ -26,7 +28,8 @@ pub struct Clock {
     pub step: f64,
     /// What has to be repaired.
     pub repairs: Repairs,
-    /// How each tick comes from the samples; none where every sample is on its tick.
+    /// Times of the samples, and how each tick comes from them; none where every sample is on its tick.
+    times: Vec<f64>,
     places: Vec<Place>,
 }
 
@@ -34,9 +37,9 @@ pub struct Clock {
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Place {
     /// The sample on the tick, or the one before.
-    sample: usize,
-    /// Shares of the sample before that one, of that one and of the two after it; `None` where it is on the tick.
-    shares: Option<[f64; 4]>,
+    sample: u32,
+    /// Whether the tick lies between it and the next.
+    between: bool,
 }
 
 impl Clock {
@@ -44,7 +47,7 @@ impl Clock {
     ///
     /// # Errors
     /// Too few samples, no even tick, gaps that are too long or too many.
-    pub fn of(times: &[f64], repeated: usize) -> Result<Self, String> {
+    pub fn of(times: Vec<f64>, repeated: usize) -> Result<Self, String> {
         let samples = times.len();
         if samples < FEWEST {
             return Err(format!("{samples} samples are too few: at least {FEWEST}"));
@@ -55,9 +58,9 @@ impl Clock {
                 "{repeated} of {all} samples have the time of the one before: the time has too few digits, or samples stand twice"
             ));
         }
-        let median = median_tick(times);
+        let median = median_tick(&times);
         check_tick(median)?;
-        let (start, step, rough) = grid(times, median)?;
+        let (start, step, rough) = grid(&times, median)?;
         if rough > MOST_JITTER {
             return Err(format!(
                 "the samples have no even tick: they stand {rough:.2} ticks of {step:.6} s off it (root mean square, at most {MOST_JITTER})"
@@ -65,6 +68,16 @@ impl Clock {
         }
         let last = times.last().copied().unwrap_or_default();
         let ticks = ((last - start) / step + ON_TICK) as usize + 1;
+        let missing = |missing: usize| {
+            format!(
+                "{missing} of {ticks} samples are missing: at most {:.0} % are filled",
+                100.0 * MOST_MISSING
+            )
+        };
+        // The count proper comes with the places; no list is made for what cannot be right.
+        if ticks as f64 > (1.0 + 2.0 * MOST_MISSING) * samples as f64 {
+            return Err(missing(ticks - samples));
+        }
         let mut clock = Self {
             start,
             step,
@@ -72,21 +85,19 @@ impl Clock {
                 repeated,
                 ..Repairs::default()
             },
+            times: Vec::new(),
             places: Vec::new(),
         };
         clock.place(times, ticks);
-        let missing = clock.repairs.missing;
-        if missing as f64 > MOST_MISSING * ticks as f64 {
-            return Err(format!(
-                "{missing} of {ticks} samples are missing: at most {:.0} % are filled",
-                100.0 * MOST_MISSING
-            ));
+        let found = clock.repairs.missing;
+        if found as f64 > MOST_MISSING * ticks as f64 {
+            return Err(missing(found));
         }
         Ok(clock)
     }
 
     /// Finds every tick among the samples, and counts what has to be repaired.
-    fn place(&mut self, times: &[f64], ticks: usize) {
+    fn place(&mut self, times: Vec<f64>, ticks: usize) {
         let mut sample = 0;
         let mut places = Vec::with_capacity(ticks);
         let mut even = ticks == times.len();
@@ -112,12 +123,13 @@ impl Clock {
             }
             even &= on_tick == Some(tick);
             places.push(Place {
-                sample: on_tick.unwrap_or(sample),
-                shares: on_tick.is_none().then(|| shares(times, sample, time)),
+                sample: on_tick.unwrap_or(sample) as u32,
+                between: on_tick.is_none(),
             });
         }
         if !even {
             self.places = places;
+            self.times = times;
         }
     }
 
@@ -129,13 +141,23 @@ impl Clock {
         let at = |index: usize| channel.get(index).copied().unwrap_or_default();
         self.places
             .iter()
-            .map(|place| match place.shares {
-                None => at(place.sample),
-                Some(shares) => neighbours(place.sample, channel.len())
-                    .into_iter()
-                    .zip(shares)
-                    .map(|(index, share)| share * at(index))
-                    .sum(),
+            .enumerate()
+            .map(|(tick, place)| {
+                let sample = place.sample as usize;
+                if !place.between {
+                    return at(sample);
+                }
+                let near = neighbours(sample, channel.len());
+                let times = near.map(|index| self.times.get(index).copied().unwrap_or_default());
+                let time = self.start + self.step * tick as f64;
+                if let Some(cubic) = cubic(times, near.map(at), time, SQUEEZED * self.step) {
+                    return cubic;
+                }
+                let [before, after] = [sample, sample + 1].map(|index| {
+                    let time = self.times.get(index).copied().unwrap_or_default();
+                    (time, at(index))
+                });
+                before.1 + (after.1 - before.1) * (time - before.0) / (after.0 - before.0)
             })
             .collect()
     }
@@ -147,15 +169,25 @@ fn neighbours(sample: usize, samples: usize) -> [usize; 4] {
     [0, 1, 2, 3].map(|next| first + next)
 }
 
-/// Shares of the four samples about a time, on the cubic through them (Lagrange).
-fn shares(times: &[f64], sample: usize, time: f64) -> [f64; 4] {
-    let near =
-        neighbours(sample, times.len()).map(|index| times.get(index).copied().unwrap_or_default());
-    near.map(|own| {
-        near.iter()
+/// The cubic through four samples at a time (Lagrange); `None` where two of them stand closer than the noise of their values
+/// allows.
+fn cubic(times: [f64; 4], values: [f64; 4], time: f64, closest: f64) -> Option<f64> {
+    let close = times
+        .windows(2)
+        .any(|pair| matches!(pair, [a, b] if !(b - a > closest)));
+    let share = |own: f64| -> f64 {
+        times
+            .iter()
             .filter(|other| **other != own)
             .map(|other| (time - other) / (own - other))
             .product()
+    };
+    (!close).then(|| {
+        times
+            .into_iter()
+            .zip(values)
+            .map(|(own, value)| share(own) * value)
+            .sum()
     })
 }
 

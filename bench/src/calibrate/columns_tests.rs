@@ -180,13 +180,14 @@ fn gaps_jitter_and_repeats_are_repaired_and_counted() {
 fn a_clock_that_is_none_is_refused() {
     let long = |sample: usize, time: f64| vec![time + if sample >= 500 { 0.1 } else { 0.0 }];
     let many = |sample: usize, time: f64| {
-        if sample % 20 == 0 && sample > 0 {
+        if sample > 0 && sample.is_multiple_of(20) {
             vec![]
         } else {
             vec![time]
         }
     };
-    let twice = |sample: usize, time: f64| vec![time; if sample % 10 == 0 { 2 } else { 1 }];
+    let twice =
+        |sample: usize, time: f64| vec![time; if sample.is_multiple_of(10) { 2 } else { 1 }];
     let wild = |sample: usize, time: f64| vec![time + 9.5e-4 * (sample as f64 * 1.7).sin().abs()];
     for (text, word) in [
         (disturbed(long), "a gap of 0.1010 s"),
@@ -258,8 +259,9 @@ fn every_fault_has_a_word() {
         let message = sample(header, line);
         assert!(message.contains(word), "{header}: {message}");
     }
-    let slow = "time,position,motor_force\n".to_string()
-        + &(0..200).map(|k| format!("{k},0,1\n")).collect::<String>();
+    let slow = table("time,position,motor_force", 200, |time| {
+        format!("{},0,1", 1e3 * time)
+    });
     assert!(read(&slow, None).unwrap_err().contains("time_ms"));
     assert!(read("", None).unwrap_err().contains("empty"));
     assert!(
