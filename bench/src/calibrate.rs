@@ -47,6 +47,8 @@ pub mod relation;
 pub mod separable;
 mod shown;
 pub mod signals;
+#[cfg(test)]
+mod signals_tests;
 pub mod table;
 #[cfg(test)]
 mod toys;

@@ -75,14 +75,8 @@ struct Reference {
 fn assemble(mut table: Table, name: &str, frame: Option<&Frame>) -> Result<Trace, String> {
     let clock = Clock::of(std::mem::take(&mut table.times), table.repeated)?;
     let (effort, torque) = effort(&mut table)?;
-    let position = motion(&mut table, |quantity| match quantity {
-        Quantity::Position(part) => Some(part),
-        _ => None,
-    });
-    let speed = motion(&mut table, |quantity| match quantity {
-        Quantity::Speed(part) => Some(part),
-        _ => None,
-    });
+    let position = motion(&mut table, Quantity::Position);
+    let speed = motion(&mut table, Quantity::Speed);
     let Some((_, part)) = position.as_ref().or(speed.as_ref()) else {
         return Err(
             "a column position or speed is missing (of nut_, motor_, carriage_ or plain)".into(),
@@ -96,36 +90,35 @@ fn assemble(mut table: Table, name: &str, frame: Option<&Frame>) -> Result<Trace
     }
     let refer = |column: &Column, part| refer(column, part, torque, frame);
 
-    let mut step_of_sensor = 0.0;
-    let speed = match speed {
-        Some((column, part)) => {
+    let speed = speed
+        .map(|(column, part)| {
             let factor = refer(&column, part)?.factor;
-            Some(clock.resample(scaled(column.values, factor)))
-        }
-        None => None,
-    };
+            Ok::<_, String>(clock.resample(scaled(column.values, factor)))
+        })
+        .transpose()?;
+    let position = position
+        .map(|(column, part)| {
+            let reference = refer(&column, part)?;
+            angle(column, reference)
+        })
+        .transpose()?;
+    // Found before samples are interpolated, which lie between the sensor's steps.
+    let step_of_sensor = position.as_deref().map_or(0.0, resolution);
     let position_summed = position.is_none();
     let position = match position {
-        Some((column, part)) => {
-            let reference = refer(&column, part)?;
-            let values = angle(column, reference)?;
-            // Found before samples are interpolated, which lie between the sensor's steps.
-            step_of_sensor = resolution(&values);
-            clock.resample(values)
-        }
+        Some(values) => clock.resample(values),
         None => sum_up(speed.as_deref().unwrap_or_default(), clock.step),
     };
-    let reference_position = match reference {
-        Some((column, part)) => {
+    let reference_position = reference
+        .map(|(column, part)| {
             let reference = refer(&column, part)?;
             let mut values = angle(column, reference)?;
             if reference.angle {
                 same_turn(&mut values, &position, reference.factor);
             }
-            Some(clock.resample(values))
-        }
-        None => None,
-    };
+            Ok::<_, String>(clock.resample(values))
+        })
+        .transpose()?;
     let effort = scaled(effort.values, effort_gain(torque, frame));
     table
         .ignored
@@ -196,16 +189,10 @@ fn effort(table: &mut Table) -> Result<(Column, bool), String> {
 }
 
 /// The column that tells the motion best: the nut's, before the motor's, the carriage's and a plain one.
-fn motion(table: &mut Table, part: impl Fn(Quantity) -> Option<Part>) -> Option<(Column, Part)> {
+fn motion(table: &mut Table, of: fn(Part) -> Quantity) -> Option<(Column, Part)> {
     [Part::Nut, Part::Motor, Part::Carriage, Part::Plain]
         .into_iter()
-        .find_map(|wanted| {
-            let place = table
-                .columns
-                .iter()
-                .position(|column| part(column.quantity) == Some(wanted))?;
-            Some((table.columns.remove(place), wanted))
-        })
+        .find_map(|part| Some((take(table, of(part))?, part)))
 }
 
 /// How a position or speed of this part refers to the trace's coordinate.
