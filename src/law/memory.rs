@@ -17,6 +17,7 @@
 //! |---|---|---|
 //! | [`ProportionalElements`] | constant, from [tables](backbone) | a preloaded screw, whose load varies by half |
 //! | [`LoadExactElements`] | of the same tick's load: springs come into contact with it | any load, without a preload |
+//! | [`PreloadedElements`] | the same, at the load that both flanks share | a preloaded screw under any load |
 //! | [`SeatElement`] | one nonlinear spring with free play | a screw with clearance, whose balls go from seat to seat |
 //! | [`Together`] | of two of these | spin beside the seat |
 //!
@@ -25,6 +26,7 @@
 pub mod backbone;
 mod hysteresis;
 mod load_exact;
+mod preloaded;
 mod proportional;
 mod quadrature;
 mod seat;
@@ -38,6 +40,7 @@ pub use backbone::{
 };
 pub use hysteresis::Hysteresis;
 pub use load_exact::LoadExactElements;
+pub use preloaded::PreloadedElements;
 pub use proportional::{Part, ProportionalElements};
 pub use seat::{SeatElement, SeatState};
 pub use slider::sticking_share;

@@ -126,6 +126,7 @@ fn screw(configuration: &CagedBallScrewConfiguration) -> String {
     format!(
         "
 /// Dimensions, m and rad, and materials.
+#[allow(clippy::approx_constant)] // an angle as the design file has it
 pub const DESIGN: BallScrew = sound(BallScrew::new(BallScrewParameters {{
     pitch_radius: {:?},
     lead: {:?},

@@ -5,30 +5,46 @@
 //! | [`quantities`] | everything that has a value: names, units, bounds |
 //! | [`friction`] | friction along the trace by the crate's caged scene with memory |
 //! | [`problem`] | the whole torque as a separable problem |
+//! | [`refined`] | what the scene's laws leave out between their coefficients |
+//! | [`systematic`] | errors of the sensors and of the model in the intervals |
+//! | [`hints`] | what a trace lacks, in sentences |
 //! | [`evidence`] | what the trace excites |
+//! | [`rivals`] | other models of friction |
+//! | [`blocks`] | rows that are fitted and rows that score |
+//! | [`scores`] | scores of all models |
 //! | [`choice`] | what is estimated, from where, within which bounds |
 
+pub mod blocks;
 pub mod choice;
 pub mod evidence;
 pub mod friction;
+pub mod hints;
 pub mod problem;
 pub mod quantities;
+pub mod refined;
+pub mod rivals;
+pub mod scores;
+pub mod systematic;
 
 use self::choice::{Start, Wanted};
 use self::evidence::Evidence;
 use self::friction::Screw;
+use self::hints::ScrewHints;
 use self::problem::ScrewProblem;
 use self::quantities::Values;
+use self::systematic::{Systematic, systematic};
 use super::answer::{Calibration, Estimate};
-use super::separable::{Fit, FitSettings, fit};
+use super::problem::{Scale, Separable};
+use super::separable::{self, Fit, FitSettings, Fixed, inner, inner_slope, outer};
 use super::signals::{Motion, RowSettings, Rows, SmoothingSettings};
+use super::telling::tell;
 use super::trace::{Coordinate, Trace};
-use super::uncertainty::{Uncertainty, uncertainty};
+use super::uncertainty::{Interval, Uncertainty, uncertainty};
 use crate::designs::Design;
 use crate::failure::Failure;
 
 /// How a trace of a screw is calibrated.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Request {
     /// What is estimated and what is set.
     pub wanted: Wanted,
@@ -38,6 +54,25 @@ pub struct Request {
     pub rows: RowSettings,
     /// How the fit is made.
     pub fit: FitSettings,
+    /// Whether other models of friction are not fitted.
+    pub without_models: bool,
+}
+
+impl Default for Request {
+    /// Everything that the trace can tell. Differences of the fit take steps of a hundredth: the scene rounds to f32, and its laws settle
+    /// to 3e-6 of the friction.
+    fn default() -> Self {
+        Self {
+            wanted: Wanted::default(),
+            smoothing: SmoothingSettings::default(),
+            rows: RowSettings::default(),
+            fit: FitSettings {
+                step: 1e-2,
+                ..FitSettings::default()
+            },
+            without_models: false,
+        }
+    }
 }
 
 /// What a trace tells of a screw.
@@ -51,10 +86,12 @@ pub struct ScrewCalibration {
     pub values: Values,
     /// What the trace excites.
     pub evidence: Evidence,
-    /// The fit.
+    /// The last fit.
     pub fit: Fit,
-    /// How sure it is.
+    /// How sure it is by its residual alone.
     pub uncertainty: Uncertainty,
+    /// Evaluations of the model in all fits.
+    pub evaluations: usize,
 }
 
 /// Calibrates a trace of a screw.
@@ -73,27 +110,111 @@ pub fn calibrate(
     }
     let motion = Motion::of(trace, &request.smoothing)?;
     let rows = Rows::new(trace.step, &request.rows)?;
+    let smoothing = request.smoothing.filter(trace.step)?;
     let evidence = Evidence::of(trace, &motion);
     let Start {
         screw,
         values,
         choice,
     } = Start::of(design, &evidence, &request.wanted)?;
-    let problem = ScrewProblem::new(screw, (trace, &motion, &rows), values, choice)?;
-    let fit = fit(&problem, &request.fit)?;
-    if let Some(refusal) = fit.refusal() {
+    let measured = (trace, &motion, &rows);
+    let problem = ScrewProblem::new(screw, measured, &smoothing, values, choice)?;
+    let hints = ScrewHints { evidence, values };
+    let told = tell(&problem, &request.fit, &hints)?;
+    if let Some(refusal) = told.fit.refusal() {
         return Err(Failure::Data(refusal));
     }
-    let uncertainty = uncertainty(&problem, &fit);
-    let values = problem.values(&fit.nonlinear, &fit.linear);
+    let values = values_of(&problem, &told.fixed, &told.uncertainty.intervals);
+    let problem = problem.refined(&values)?;
+    let part = Fixed::new(&problem, &told.fixed)?;
+    let fit = separable::fit(&part, &once(&request.fit))?;
+    let evaluations = told.evaluations + fit.evaluations;
+    let mut uncertainty = uncertainty(&part, &fit);
+    let values = values_of(&problem, &told.fixed, &uncertainty.intervals);
+    let systematic = systematic(&problem, &fit, &values, &request.smoothing)?;
+    for (place, interval) in uncertainty.intervals.iter_mut().enumerate() {
+        widen(interval, &systematic, place, uncertainty.quantile);
+    }
+    let values = values_of(&problem, &told.fixed, &uncertainty.intervals);
+    let mut answer = answer(&problem, &fit, &uncertainty, &values);
+    let fixed: Vec<&str> = answer
+        .parameters
+        .iter()
+        .filter(|parameter| parameter.fixed)
+        .filter(|parameter| told.fixed.iter().all(|(name, _)| *name != parameter.name))
+        .map(|parameter| parameter.name.as_str())
+        .collect();
+    let left_out = hints.left_out(&fixed);
+    let untold = told.untold.into_iter().map(|untold| untold.sentence);
+    answer.cannot_tell = untold.chain(left_out).collect();
+    if !request.without_models {
+        (answer.models, answer.winner) = scores::scores(&problem, &values, measured, &request.fit)?;
+    }
     Ok(ScrewCalibration {
-        answer: answer(&problem, &fit, &uncertainty, &values),
+        answer,
         screw,
         values,
         evidence,
         fit,
         uncertainty,
+        evaluations,
     })
+}
+
+/// The same settings with one start.
+fn once(settings: &FitSettings) -> FitSettings {
+    FitSettings {
+        starts: 1,
+        finished: 1,
+        ..*settings
+    }
+}
+
+/// Takes what the sensors shift off a value, and widens its interval by what its residual does not show.
+fn widen(interval: &mut Interval, systematic: &Systematic, place: usize, quantile: f64) {
+    let entry = |list: &nalgebra::DVector<f64>| list.get(place).copied().unwrap_or(0.0);
+    let [low, high] = interval.bounds;
+    let shifted = (interval.value - entry(&systematic.shift))
+        .max(low)
+        .min(high);
+    if interval.scale == Scale::Linear || shifted > 0.0 {
+        interval.value = shifted;
+    }
+    let slope = inner_slope(interval.scale, interval.value);
+    let more = entry(&systematic.variance) * slope * slope;
+    interval.standard_error = (interval.standard_error.powi(2) + more).sqrt();
+    interval.half_width = quantile * interval.standard_error;
+    let end = |way: f64| {
+        let coordinate = inner(interval.scale, interval.value) + way * interval.half_width;
+        outer(interval.scale, coordinate).max(low).min(high)
+    };
+    (interval.low, interval.high) = (end(-1.0), end(1.0));
+}
+
+/// Values of a problem with what was set and what was found.
+fn values_of(
+    problem: &ScrewProblem<'_>,
+    fixed: &[(&'static str, f64)],
+    intervals: &[Interval],
+) -> Values {
+    let found = |name: &str, start: f64| {
+        let set = fixed.iter().find(|(known, _)| *known == name);
+        let interval = intervals.iter().find(|interval| interval.name == name);
+        set.map(|(_, value)| *value)
+            .or(interval.map(|interval| interval.value))
+            .unwrap_or(start)
+    };
+    let nonlinear: Vec<f64> = problem
+        .nonlinear()
+        .iter()
+        .map(|parameter| found(parameter.name, parameter.start))
+        .collect();
+    let linear: Vec<f64> = problem
+        .linear()
+        .iter()
+        .map(|parameter| found(parameter.name, 0.0))
+        .collect();
+    problem.values(&nonlinear, &linear)
 }
 
 fn answer(
@@ -102,24 +223,27 @@ fn answer(
     uncertainty: &Uncertainty,
     values: &Values,
 ) -> Calibration {
-    use super::problem::Separable;
-    let estimated = uncertainty.intervals.iter().map(|interval| Estimate {
-        name: interval.name.into(),
-        unit: interval.unit,
-        value: interval.value,
-        low: interval.low,
-        high: interval.high,
-        fixed: false,
-    });
-    let estimated: Vec<Estimate> = estimated.collect();
-    let mut parameters: Vec<Estimate> = Vec::new();
-    for (name, unit, value) in quantities::all(values) {
-        let found = estimated.iter().find(|estimate| estimate.name == name);
-        parameters.push(match found {
-            Some(estimate) => estimate.clone(),
+    let parameters = quantities::all(values).map(|(name, unit, value)| {
+        let mut intervals = uncertainty.intervals.iter();
+        match intervals.find(|interval| interval.name == name) {
+            Some(interval) => Estimate {
+                name: name.into(),
+                unit,
+                value: interval.value,
+                low: interval.low,
+                high: interval.high,
+                fixed: false,
+            },
             None => Estimate::fixed(name, unit, value),
-        });
-    }
+        }
+    });
+    let mut parameters: Vec<Estimate> = parameters.collect();
+    parameters.extend(directions(&parameters, values));
+    let screw = problem.screw();
+    parameters.extend([
+        Estimate::fixed("reference_temperature", "K", screw.reference_temperature),
+        Estimate::fixed("reference_load", "N", screw.reference_load),
+    ]);
     let target: f64 = problem.target().iter().map(|x| x * x).sum();
     let residual: f64 = fit.residual.iter().map(|x| x * x).sum();
     Calibration {
@@ -131,4 +255,31 @@ fn answer(
         models: Vec::new(),
         winner: None,
     }
+}
+
+/// Factors of the coefficient forward and backward, as a design file has them, from their ratio.
+fn directions(parameters: &[Estimate], values: &Values) -> Vec<Estimate> {
+    let ratio = parameters
+        .iter()
+        .find(|estimate| estimate.name == "direction_ratio");
+    let Some(ratio) = ratio.filter(|estimate| !estimate.fixed) else {
+        return Vec::new();
+    };
+    let at = |direction_ratio: f64| {
+        Values {
+            direction_ratio,
+            ..*values
+        }
+        .directions()
+    };
+    let [value, low, high] = [ratio.value, ratio.low, ratio.high].map(at);
+    let factor = |name: &str, place: usize| Estimate {
+        name: name.into(),
+        unit: "",
+        value: value[place],
+        low: low[place].min(high[place]),
+        high: low[place].max(high[place]),
+        fixed: false,
+    };
+    vec![factor("forward", 0), factor("backward", 1)]
 }

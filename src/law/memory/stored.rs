@@ -1,6 +1,7 @@
 //! What elements remember as bytes, and what their torques are read with.
 
 use super::load_exact::LoadExactElements;
+use super::preloaded::PreloadedElements;
 use super::proportional::ProportionalElements;
 use super::seat::{SeatElement, SeatState};
 use super::state::{LARGEST, MemoryState};
@@ -13,6 +14,7 @@ const PROPORTIONAL: u32 = 1;
 const LOAD_EXACT: u32 = 2;
 const SEAT: u32 = 3;
 const TOGETHER: u32 = 4;
+const PRELOADED: u32 = 5;
 
 impl<const N: usize> Stored for MemoryState<N> {
     const BYTES: usize = 4 * N;
@@ -35,6 +37,13 @@ impl<const N: usize> Fingerprinted for LoadExactElements<N> {
         fingerprint.count(LOAD_EXACT);
         fingerprint.numbers(&self.stiffnesses);
         fingerprint.numbers(&self.onsets);
+    }
+}
+
+impl<E: Fingerprinted> Fingerprinted for PreloadedElements<E> {
+    fn fingerprint(&self, fingerprint: &mut Fingerprint) {
+        fingerprint.count(PRELOADED);
+        self.elements.fingerprint(fingerprint);
     }
 }
 

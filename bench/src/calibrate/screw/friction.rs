@@ -8,7 +8,7 @@ use epas_friction::law::coefficient::{
     CoefficientLaw, CoefficientParameters, DirectionalCoefficient, TemperatureFade, Viscosity,
 };
 use epas_friction::law::memory::{
-    Hysteresis, LoadExactElements, Part, ProportionalElements, SLIP_8,
+    Hysteresis, LoadExactElements, Part, PreloadedElements, ProportionalElements, SLIP_8,
 };
 use epas_friction::law::motion::{Steady, WrappedAngle, WrappedAngleParameters};
 use epas_friction::law::{Elements, SlidingLimits};
@@ -19,6 +19,7 @@ use epas_friction::scene::{
 use epas_friction::{Clearance, Error, FrictionModel, RollingResistance};
 
 use super::quantities::Values;
+use crate::calibrate::filter::ZeroPhase;
 use crate::calibrate::signals::Motion;
 use crate::calibrate::trace::Trace;
 
@@ -54,6 +55,8 @@ pub enum ElementsKind {
     Proportional,
     /// Springs that come into contact with the load: any load, without a preload.
     LoadExact,
+    /// The same at the load that both flanks of a preloaded nut share: any load, at a reference load of none.
+    Preloaded,
 }
 
 /// What of a screw is not estimated from a trace.
@@ -109,6 +112,7 @@ impl Screw {
 
     /// Law of the friction coefficient. Churned lubricant counts as a torque of its own.
     pub fn coefficient(&self, values: &Values) -> CoefficientParameters {
+        let [forward, backward] = values.directions();
         CoefficientParameters {
             boundary: values.friction as f32,
             full_film: (values.full_film_ratio * values.friction) as f32,
@@ -117,8 +121,8 @@ impl Screw {
             viscosity: self
                 .viscosity(values)
                 .unwrap_or(epas_friction::defaults::VISCOSITY),
-            forward: (1.0 + values.direction_asymmetry) as f32,
-            backward: (1.0 - values.direction_asymmetry) as f32,
+            forward: forward as f32,
+            backward: backward as f32,
             churning: 0.0,
         }
     }
@@ -215,6 +219,24 @@ impl Screw {
         )
     }
 
+    /// Elements that come into contact with the load that both flanks share.
+    ///
+    /// # Errors
+    /// [`Error`] naming what is out of range.
+    pub fn preloaded(
+        &self,
+        values: &Values,
+        reference: &Reference,
+    ) -> Result<PreloadedElements<LoadExactElements<ELEMENTS>>, Error> {
+        let elements = self.load_exact(values, reference)?;
+        let largest_load = PreloadedElements::new(elements).shared(reference.largest_load);
+        let shared = Reference {
+            largest_load,
+            ..*reference
+        };
+        Ok(PreloadedElements::new(self.load_exact(values, &shared)?))
+    }
+
     /// The whole scene with these elements.
     ///
     /// # Errors
@@ -253,6 +275,10 @@ impl Screw {
                 let elements = self.proportional(values, &reference)?;
                 course.friction(&self.configuration(values, &reference, elements)?)
             }
+            ElementsKind::Preloaded => {
+                let elements = self.preloaded(values, &reference)?;
+                course.friction(&self.configuration(values, &reference, elements)?)
+            }
             ElementsKind::LoadExact => {
                 let elements = self.load_exact(values, &reference)?;
                 course.friction(&self.configuration(values, &reference, elements)?)
@@ -268,8 +294,11 @@ pub struct Course {
 }
 
 impl Course {
-    /// Inputs along a trace; no load, and the temperature given, where nothing was measured.
-    pub fn of(trace: &Trace, motion: &Motion, temperature: f64) -> Self {
+    /// Inputs along a trace, with its load smoothed by a filter; no load, and the temperature given, where nothing was measured.
+    ///
+    /// Noise of the load would cut what elements hold before they slide, whenever it lowers their limits.
+    pub fn of(trace: &Trace, motion: &Motion, smoothing: &ZeroPhase, temperature: f64) -> Self {
+        let load = trace.load.as_deref().map(|load| smoothing.apply(load));
         let at = |list: &Option<Vec<f64>>, index: usize, other: f64| {
             let value = list.as_ref().and_then(|list| list.get(index));
             value.copied().unwrap_or(other) as f32
@@ -278,7 +307,7 @@ impl Course {
         let inputs = moments.map(|(index, (position, speed))| WithMemoryInputs {
             scene: Inputs {
                 nut_speed: *speed as f32,
-                axial_load: at(&trace.load, index, 0.0),
+                axial_load: at(&load, index, 0.0),
             },
             reading: wrapped(*position),
             load_age: 0.0,
@@ -288,6 +317,19 @@ impl Course {
         Self {
             inputs: inputs.collect(),
         }
+    }
+
+    /// Inputs at every sample.
+    pub fn inputs(&self) -> &[WithMemoryInputs<Inputs, f32>] {
+        &self.inputs
+    }
+
+    /// Friction torque of a scene without memory at every sample, N m.
+    pub fn friction_by_speed(&self, model: &mut FrictionModel<CagedBallScrew>) -> Vec<f64> {
+        self.inputs
+            .iter()
+            .map(|inputs| model.step(inputs.scene).friction_torque.into())
+            .collect()
     }
 
     /// Friction torque of a scene with memory at every sample, N m.

@@ -12,6 +12,8 @@ use std::f64::consts::TAU;
 
 use super::friction::{Course, Screw};
 use super::quantities::{Factor, Linear, Nonlinear, Values};
+use super::refined::correction;
+use crate::calibrate::filter::ZeroPhase;
 use crate::calibrate::problem::{Evaluation, LinearParameter, Parameter, Separable};
 use crate::calibrate::signals::{Motion, Rows};
 use crate::calibrate::trace::Trace;
@@ -33,6 +35,8 @@ pub struct ScrewProblem<'a> {
     /// Linear quantities that are not estimated and not zero.
     set: Vec<(&'static Linear, Column)>,
     target: Vec<f64>,
+    /// Factor of the friction at every sample; none where it is as the scene gives it.
+    correction: Option<Vec<f64>>,
 }
 
 /// What a linear quantity multiplies.
@@ -41,6 +45,19 @@ enum Column {
     Still(Vec<f64>),
     /// To be found anew.
     Moving,
+}
+
+/// What stands beside the friction: target, columns and their sum where they are set, at the start values.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Beside {
+    /// What was measured.
+    pub target: Vec<f64>,
+    /// What is set.
+    pub fixed: Vec<f64>,
+    /// What is estimated.
+    pub linear: Vec<LinearParameter>,
+    /// What it multiplies.
+    pub columns: Vec<Vec<f64>>,
 }
 
 /// What is estimated.
@@ -60,10 +77,11 @@ impl<'a> ScrewProblem<'a> {
     pub fn new(
         screw: Screw,
         (trace, motion, rows): (&'a Trace, &'a Motion, &'a Rows),
+        smoothing: &ZeroPhase,
         values: Values,
         choice: Choice,
     ) -> Result<Self, Failure> {
-        let course = Course::of(trace, motion, screw.reference_temperature);
+        let course = Course::of(trace, motion, smoothing, screw.reference_temperature);
         let mut problem = Self {
             screw,
             trace,
@@ -77,6 +95,7 @@ impl<'a> ScrewProblem<'a> {
             linear_parameters: choice.linear.iter().map(|of| of.parameter()).collect(),
             set: Vec::new(),
             target: rows.of(&trace.effort),
+            correction: None,
         };
         let free = |name: &str| problem.nonlinear.iter().any(|(p, _)| p.name == name);
         let moves = |factor: Factor| match factor {
@@ -125,13 +144,79 @@ impl<'a> ScrewProblem<'a> {
 
     /// Friction at every sample, N m; no numbers where the scene refuses the values.
     pub fn friction(&self, values: &Values) -> Vec<f64> {
-        self.screw
-            .friction(values, &self.course)
-            .unwrap_or_else(|_| vec![f64::NAN; self.trace.len()])
+        let Ok(mut friction) = self.screw.friction(values, &self.course) else {
+            return vec![f64::NAN; self.trace.len()];
+        };
+        if let Some(factors) = &self.correction {
+            for (friction, factor) in friction.iter_mut().zip(factors) {
+                *friction *= factor;
+            }
+        }
+        friction
+    }
+
+    /// The same problem from a start near its answer, with the friction corrected there ([`super::refined`]).
+    ///
+    /// # Errors
+    /// Values that the crate's scene refuses.
+    pub fn refined(mut self, values: &Values) -> Result<Self, Failure> {
+        self.correction = None;
+        let friction = self.friction(values);
+        let factors = correction(&self.screw, values, &self.course, &friction)
+            .map_err(|error| Failure::Data(error.to_string()))?;
+        self.correction = Some(factors);
+        let known = self.parameters.iter_mut().zip(&self.nonlinear);
+        for (parameter, (_, of)) in known {
+            parameter.start = of.value(values).max(parameter.low).min(parameter.high);
+        }
+        Ok(self)
+    }
+
+    /// What the model is told at every sample.
+    pub const fn course(&self) -> &Course {
+        &self.course
+    }
+
+    /// What stands beside the friction, for other models of it.
+    pub fn beside(&self, values: &Values) -> Beside {
+        let mut fixed = vec![0.0; self.target.len()];
+        self.add_set(&mut fixed, values);
+        Beside {
+            target: self.target.clone(),
+            fixed,
+            linear: self.linear_parameters.clone(),
+            columns: self
+                .linear
+                .iter()
+                .map(|of| self.rows_of(of, values))
+                .collect(),
+        }
+    }
+
+    fn rows_of(&self, (of, column): &(&'static Linear, Column), values: &Values) -> Vec<f64> {
+        match column {
+            Column::Still(rows) => rows.clone(),
+            Column::Moving => self.column(of.factor, values),
+        }
+    }
+
+    /// Adds what is not estimated and not zero.
+    fn add_set(&self, sum: &mut [f64], values: &Values) {
+        for set in &self.set {
+            let factor = set.0.value(values);
+            for (sum, value) in sum.iter_mut().zip(self.rows_of(set, values)) {
+                *sum += factor * value;
+            }
+        }
     }
 
     /// Rows of what a factor is at every sample.
     fn column(&self, factor: Factor, values: &Values) -> Vec<f64> {
+        self.rows.of(&self.signal(factor, values))
+    }
+
+    /// What a factor is at every sample.
+    fn signal(&self, factor: Factor, values: &Values) -> Vec<f64> {
         let Motion {
             position,
             speed,
@@ -141,27 +226,111 @@ impl<'a> ScrewProblem<'a> {
         let waves = |wave: fn(f64) -> f64, order: u8| {
             let sum = self.flank_sums(values);
             let angles = position.iter().map(|angle| wave(f64::from(order) * angle));
-            let signal: Vec<f64> = angles.zip(sum).map(|(wave, sum)| wave * sum).collect();
-            self.rows.of(&signal)
+            angles.zip(sum).map(|(wave, sum)| wave * sum).collect()
         };
         match factor {
-            Factor::Acceleration => self.rows.of(acceleration),
-            Factor::Speed => self.rows.of(speed),
-            Factor::Viscosity => self.rows.of(&self.viscous(values)),
-            Factor::One => vec![1.0; self.target.len()],
+            Factor::Acceleration => acceleration.clone(),
+            Factor::Speed => speed.clone(),
+            Factor::Viscosity => self.viscous(values),
+            Factor::One => vec![1.0; position.len()],
             Factor::Load => {
                 let reduced_lead = f64::from(self.screw.configuration.design.lead()) / TAU;
-                let load = self.trace.load.iter().flatten();
-                let signal: Vec<f64> = load.map(|load| reduced_lead * load).collect();
-                if signal.is_empty() {
-                    vec![0.0; self.target.len()]
-                } else {
-                    self.rows.of(&signal)
+                match &self.trace.load {
+                    Some(load) => load.iter().map(|load| reduced_lead * load).collect(),
+                    None => vec![0.0; position.len()],
                 }
             }
             Factor::Cosine(order) => waves(f64::cos, order),
             Factor::Sine(order) => waves(f64::sin, order),
         }
+    }
+
+    /// The trace and its motion.
+    pub const fn measured(&self) -> (&Trace, &Motion) {
+        (self.trace, self.motion)
+    }
+
+    /// Rows of the whole model.
+    pub fn model(&self, values: &Values) -> Vec<f64> {
+        self.whole(self.friction(values), values)
+    }
+
+    /// The same as if another motion and load had been measured.
+    pub fn model_of(
+        &self,
+        trace: &Trace,
+        motion: &Motion,
+        smoothing: &ZeroPhase,
+        values: &Values,
+    ) -> Vec<f64> {
+        let other = ScrewProblem {
+            screw: self.screw,
+            // Noise of the load in the load's own torque is in the residual already.
+            trace: self.trace,
+            motion,
+            rows: self.rows,
+            course: Course::of(trace, motion, smoothing, self.screw.reference_temperature),
+            values: *values,
+            nonlinear: Vec::new(),
+            parameters: Vec::new(),
+            linear: Vec::new(),
+            linear_parameters: Vec::new(),
+            set: Vec::new(),
+            target: Vec::new(),
+            correction: self.correction.clone(),
+        };
+        other.whole(other.friction(values), values)
+    }
+
+    fn whole(&self, mut sum: Vec<f64>, values: &Values) -> Vec<f64> {
+        for of in &super::quantities::LINEAR {
+            let value = of.value(values);
+            if value != 0.0 {
+                for (sum, signal) in sum.iter_mut().zip(self.signal(of.factor, values)) {
+                    *sum += value * signal;
+                }
+            }
+        }
+        self.rows.of(&sum)
+    }
+
+    /// Rows of the friction in blocks of about as many samples each: by the size of the speed, and in each of these by the size of the load.
+    pub fn friction_by_blocks(
+        &self,
+        values: &Values,
+        speeds: usize,
+        loads: usize,
+    ) -> Vec<Vec<f64>> {
+        let friction = self.friction(values);
+        let part = |sizes: Vec<f64>, count: usize| -> Vec<usize> {
+            let mut order: Vec<usize> = (0..sizes.len()).collect();
+            order.sort_by(|one, other| sizes[*one].total_cmp(&sizes[*other]));
+            let mut parts = vec![0; sizes.len()];
+            for (rank, sample) in order.iter().enumerate() {
+                parts[*sample] = rank * count / sizes.len();
+            }
+            parts
+        };
+        let speed = part(
+            self.motion.speed.iter().map(|speed| speed.abs()).collect(),
+            speeds,
+        );
+        let load = match &self.trace.load {
+            Some(load) => part(load.iter().map(|load| load.abs()).collect(), loads),
+            None => vec![0; friction.len()],
+        };
+        let block = |index: usize| {
+            let moments = friction.iter().zip(speed.iter().zip(&load));
+            let masked = moments.map(|(friction, (speed, load))| {
+                if speed * loads + load == index {
+                    *friction
+                } else {
+                    0.0
+                }
+            });
+            self.rows.of(&masked.collect::<Vec<f64>>())
+        };
+        (0..speeds * loads).map(block).collect()
     }
 
     /// Viscosity times speed at every sample, Pa.
@@ -194,7 +363,7 @@ impl<'a> ScrewProblem<'a> {
 /// Sum of the axial forces of two flanks that share one Hertzian deflection, N, under a load: the series
 /// `P (2 + y^2/12 + ...)` with `y = F/P`, whose last coefficient makes it meet the load where one flank is lost, at
 /// `y = 2 sqrt(2)`. Largest error 0.84 %, of a wave of a few per cent of the friction.
-fn flank_sum(preload: f64, load: f64) -> f64 {
+pub fn flank_sum(preload: f64, load: f64) -> f64 {
     let load = load.abs();
     if load < 8.0_f64.sqrt() * preload {
         let square = (load / preload).powi(2);
@@ -236,20 +405,15 @@ impl Separable for ScrewProblem<'_> {
 
     fn evaluate(&self, nonlinear: &[f64]) -> Evaluation {
         let values = self.values(nonlinear, &[]);
-        let column = |(of, column): &(&'static Linear, Column)| match column {
-            Column::Still(rows) => rows.clone(),
-            Column::Moving => self.column(of.factor, &values),
-        };
         let mut fixed = self.rows.of(&self.friction(&values));
-        for set in &self.set {
-            let factor = set.0.value(&values);
-            for (sum, value) in fixed.iter_mut().zip(column(set)) {
-                *sum += factor * value;
-            }
-        }
+        self.add_set(&mut fixed, &values);
         Evaluation {
             fixed,
-            columns: self.linear.iter().map(column).collect(),
+            columns: self
+                .linear
+                .iter()
+                .map(|of| self.rows_of(of, &values))
+                .collect(),
         }
     }
 }

@@ -1,0 +1,129 @@
+//! Models of friction on one trace of a screw, each fitted as well as it can be to two thirds of it and scored on the other third.
+
+use super::blocks::Blocks;
+use super::friction::{ElementsKind, Screw};
+use super::problem::ScrewProblem;
+use super::quantities::Values;
+use super::rivals::{Rival, WithoutMemory};
+use crate::calibrate::answer::ModelScore;
+use crate::calibrate::autocorrelation::effective_rows;
+use crate::calibrate::choice::{LAWS, estimates};
+use crate::calibrate::cost::cycles;
+use crate::calibrate::laws::{Cost, Passage};
+use crate::calibrate::part::residual;
+use crate::calibrate::problem::Separable;
+use crate::calibrate::separable::{FitSettings, fit};
+use crate::calibrate::signals::{Motion, Rows};
+use crate::calibrate::trace::Trace;
+use crate::calibrate::uncertainty::uncertainty;
+use crate::failure::Failure;
+
+/// Starts of the laws of the literature and of the scene without memory, of which so many are finished.
+const RIVALS: (usize, usize) = (4, 1);
+
+/// Name of the scene without memory.
+pub const WITHOUT_MEMORY: &str = "this crate, without memory";
+/// Name of the scene with memory.
+pub const WITH_MEMORY: &str = "this crate, with memory";
+
+/// Scores of all models and the name of the one with the least error on what was not fitted.
+///
+/// # Errors
+/// A model that cannot be fitted.
+pub fn scores(
+    problem: &ScrewProblem<'_>,
+    values: &Values,
+    (trace, motion, rows): (&Trace, &Motion, &Rows),
+    settings: &FitSettings,
+) -> Result<(Vec<ModelScore>, Option<String>), Failure> {
+    let screw = problem.screw();
+    let beside = problem.beside(values);
+    let rivals = FitSettings {
+        starts: RIVALS.0.min(settings.starts),
+        finished: RIVALS.1,
+        ..*settings
+    };
+    let laws = LAWS
+        .iter()
+        .filter(|law| !matches!(law.passage, Passage::Speed | Passage::Elements));
+    let mut scores = Vec::new();
+    for law in laws {
+        let preload = screw.axial_preload(values);
+        let traced = (trace, motion, rows);
+        let rival = Rival::new(*law, traced, &beside, preload, screw.largest_load);
+        scores.push(score(law.name, &rival, &rivals, law.cost)?);
+    }
+    let estimated = problem.nonlinear();
+    let course = (problem.course(), rows, &beside);
+    let without = WithoutMemory::new(*screw, *values, estimated, course);
+    let cost = Cost::Counted(&["step_caged"]);
+    scores.push(score(WITHOUT_MEMORY, &without, &rivals, cost)?);
+    let single = FitSettings {
+        starts: 1,
+        finished: 1,
+        ..*settings
+    };
+    scores.push(score(
+        WITH_MEMORY,
+        problem,
+        &single,
+        cost_with_memory(screw),
+    )?);
+    let least = scores
+        .iter()
+        .map(|score| score.information_criterion)
+        .fold(f64::INFINITY, f64::min);
+    for score in &mut scores {
+        score.information_criterion -= least;
+    }
+    let winner = scores.iter().min_by(|one, other| {
+        let error = |score: &ModelScore| score.relative_error_unseen.unwrap_or(f64::INFINITY);
+        error(one).total_cmp(&error(other))
+    });
+    let winner = winner.map(|score| score.name.clone());
+    Ok((scores, winner))
+}
+
+/// Cost of a step with memory: counted for elements in constant shares; load-exact ones cost what they cost beyond these.
+fn cost_with_memory(screw: &Screw) -> Cost {
+    match screw.elements {
+        ElementsKind::Proportional => Cost::Counted(&["step_caged_law"]),
+        // 374 in place of 193 cycles, and 30 for the load of both flanks.
+        ElementsKind::LoadExact | ElementsKind::Preloaded => Cost::Estimated(1680),
+    }
+}
+
+fn score(
+    name: &str,
+    problem: &dyn Separable,
+    settings: &FitSettings,
+    cost: Cost,
+) -> Result<ModelScore, Failure> {
+    let [fitted, unseen] = [Blocks::fitted(problem), Blocks::unseen(problem)];
+    let found = fit(&fitted, settings).map_err(|error| Failure::from(error).of(name))?;
+    let rest = residual(&unseen, &found.nonlinear, &found.linear);
+    let size = |rows: &[f64]| {
+        let sum: f64 = rows.iter().map(|x| x * x).sum();
+        (sum / rows.len().max(1) as f64).sqrt()
+    };
+    let relative = |rows: &[f64], target: &[f64]| size(rows) / size(target).max(f64::MIN_POSITIVE);
+    let seen_error = relative(&found.residual, fitted.target());
+    let unseen_error = relative(&rest, unseen.target());
+    let parameters = found.nonlinear.len() + found.linear.len();
+    let rows = effective_rows(&found.residual);
+    Ok(ModelScore {
+        name: name.into(),
+        relative_error: seen_error,
+        relative_error_unseen: Some(unseen_error),
+        relative_error_inverse: seen_error,
+        relative_error_inverse_unseen: Some(unseen_error),
+        position_error: None,
+        residual_unseen: Some(size(&rest)),
+        information_criterion: rows * 2.0 * size(&found.residual).ln()
+            + parameters as f64 * rows.ln(),
+        parameters,
+        cycles: cycles(cost),
+        cycles_estimated: matches!(cost, Cost::Estimated(_)),
+        values: estimates(&uncertainty(&fitted, &found)),
+    })
+}

@@ -1,0 +1,137 @@
+//! Elements of a preloaded screw, at the load that its flanks share.
+
+use super::hysteresis::Hysteresis;
+use crate::ball::PreloadSum;
+use crate::law::{Elements, SlidingLimits};
+
+/// Preload over the load that a caged screw tells its elements without an axial load: `1/(2 sqrt(2))`.
+const PRELOAD: f32 = 0.353_553_4;
+
+/// Load-exact elements of a screw with a preload `P` of each flank, whose reference load is that without an axial load.
+///
+/// A caged screw tells its elements the load `2 sqrt(2) P + |F|` under an axial load `F`: what its friction is about in proportion to.
+/// What its contacts carry, and so how stiff they are and how far they yield, is the sum of both flanks: `2 P` without a load, hardly more
+/// up to `F = P`, and `F` once one flank is lost, from `2 sqrt(2) P` on. The difference is 41 % of the load there, and 19 % of the breakaway
+/// angle. 30 cycles beyond the elements'.
+///
+/// ```
+/// use epas_friction::law::memory::{LoadExactElements, MemoryState, PreloadedElements};
+/// use epas_friction::law::{Elements, SlidingLimits};
+///
+/// let elements = PreloadedElements::new(LoadExactElements::<8>::new(0.04, 2e-3, 4.0)?);
+/// let limits = SlidingLimits { forward: 0.05, backward: 0.03, load: 1.3 };
+/// let mut state = MemoryState::VIRGIN;
+/// assert_eq!(elements.follow(&mut state, 0.1, &limits), 0.05);
+/// # Ok::<(), epas_friction::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PreloadedElements<E> {
+    pub(super) elements: E,
+    flanks: PreloadSum,
+}
+
+impl<E: Copy> PreloadedElements<E> {
+    /// Elements whose largest load over that without an axial load is counted as the sum of both flanks ([`Self::shared`]).
+    pub const fn new(elements: E) -> Self {
+        Self {
+            elements,
+            flanks: PreloadSum::new(PRELOAD),
+        }
+    }
+}
+
+impl<E> PreloadedElements<E> {
+    /// Sum of both flanks' loads over that without an axial load, from the load that a caged screw tells its elements over the same,
+    /// 1 or more.
+    #[inline]
+    pub fn shared(&self, load: f32) -> f32 {
+        const PER_SUM: f32 = 0.5 / PRELOAD;
+        PER_SUM * self.flanks.under(load - 1.0)
+    }
+}
+
+impl<E: Elements> Elements for PreloadedElements<E> {
+    type State = E::State;
+
+    const VIRGIN: Self::State = E::VIRGIN;
+
+    #[inline]
+    fn follow(&self, state: &mut Self::State, turn: f32, limits: &SlidingLimits) -> f32 {
+        let load = self.shared(limits.load);
+        self.elements
+            .follow(state, turn, &SlidingLimits { load, ..*limits })
+    }
+}
+
+impl<E: Hysteresis> Hysteresis for PreloadedElements<E> {
+    fn stored_energy(&self, state: &Self::State) -> f32 {
+        self.elements.stored_energy(state)
+    }
+
+    fn initial_stiffness(&self) -> f32 {
+        self.elements.initial_stiffness()
+    }
+
+    fn breakaway(&self) -> f32 {
+        self.elements.breakaway()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::law::memory::LoadExactElements;
+
+    /// Both flanks share one Hertzian deflection, `F1^(2/3) + F2^(2/3) = 2 P^(2/3)`: found by halving. The series is within 0.84 % of
+    /// their sum.
+    #[test]
+    fn load_is_that_of_both_flanks() {
+        let elements =
+            PreloadedElements::new(LoadExactElements::<8>::new(0.04, 2e-3, 4.0).unwrap());
+        for step in 0..60_u8 {
+            let load = 0.1 * f64::from(step);
+            let deflection = |force: f64| libm::pow(force, 2.0 / 3.0);
+            let (mut low, mut high) = (load, load + 2.0);
+            for _ in 0..60 {
+                let middle = 0.5 * (low + high);
+                if deflection(middle) + deflection(middle - load) < 2.0 {
+                    low = middle;
+                } else {
+                    high = middle;
+                }
+            }
+            let sum = if load > 8.0_f64.sqrt() {
+                load
+            } else {
+                low + (low - load)
+            };
+            let told = (1.0 + load / 8.0_f64.sqrt()) as f32;
+            let found = f64::from(elements.shared(told));
+            assert!(
+                (found - 0.5 * sum).abs() < 0.0085 * sum,
+                "{load}: {found} {sum}"
+            );
+        }
+    }
+
+    #[test]
+    fn without_an_axial_load_elements_are_as_before() {
+        let plain = LoadExactElements::<8>::new(0.04, 2e-3, 4.0).unwrap();
+        let elements = PreloadedElements::new(plain);
+        let limits = SlidingLimits {
+            forward: 0.05,
+            backward: 0.03,
+            load: 1.0,
+        };
+        let mut states = [LoadExactElements::<8>::VIRGIN; 2];
+        let [one, other] = &mut states;
+        for turn in [1e-4, 3e-4, -2e-4, 1e-3, -5e-3] {
+            let (found, known) = (
+                elements.follow(one, turn, &limits),
+                plain.follow(other, turn, &limits),
+            );
+            // The load is 1 within two roundings.
+            assert!((found - known).abs() < 1e-8, "{found} {known}");
+        }
+    }
+}
