@@ -83,6 +83,8 @@ pub mod screw;
 pub mod separable;
 pub mod shown;
 pub mod signals;
+#[cfg(test)]
+mod signals_tests;
 pub mod slide;
 pub mod spectrum;
 pub mod sums;
