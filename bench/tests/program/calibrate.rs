@@ -31,7 +31,8 @@ fn trace(seconds: usize, shift: f64) -> String {
         let time = sample as f64 * TICK;
         // An encoder of 0.1 micrometres.
         let seen = (position * 1e7).round() * 1e-7;
-        let effort = SPEED * (POSITION * (wanted(time) - seen) - (seen - history[1]) / (2.0 * TICK));
+        let effort =
+            SPEED * (POSITION * (wanted(time) - seen) - (seen - history[1]) / (2.0 * TICK));
         history = [seen, history[0]];
         writeln!(text, "{time:.4},{seen:.7},{:.9},{effort:.6}", wanted(time)).unwrap();
         for _ in 0..20 {
@@ -80,8 +81,14 @@ fn a_slide_is_told_with_intervals_that_hold_the_truth() {
     ] {
         let told = &answer["parameters"][name];
         let number = |key: &str| told[key].as_f64().unwrap();
-        assert!((number("value") / truth - 1.0).abs() < allowed, "{name}: {told}");
-        assert!(number("low") < truth && truth < number("high"), "{name}: {told}");
+        assert!(
+            (number("value") / truth - 1.0).abs() < allowed,
+            "{name}: {told}"
+        );
+        assert!(
+            number("low") < truth && truth < number("high"),
+            "{name}: {told}"
+        );
     }
     let models = answer["models"].as_array().unwrap();
     let error = |name: &str, key: &str| {
@@ -96,11 +103,17 @@ fn a_slide_is_told_with_intervals_that_hold_the_truth() {
     }
     for law in ["Stribeck", "Dahl", "LuGre", "this crate, with memory"] {
         let found = error(law, "relative_error_unseen");
-        assert!(found > 0.5 * error(truth, "relative_error_unseen"), "{law}: {found}");
+        assert!(
+            found > 0.5 * error(truth, "relative_error_unseen"),
+            "{law}: {found}"
+        );
         assert!(found < 0.03, "{law}: {found}");
     }
     let sentences = answer["cannot_tell"].to_string();
-    assert!(sentences.contains("load") && sentences.contains("minor loop"), "{sentences}");
+    assert!(
+        sentences.contains("load") && sentences.contains("minor loop"),
+        "{sentences}"
+    );
     assert!(folder.path().join("out/report.html").exists());
 }
 
@@ -110,12 +123,31 @@ fn what_cannot_be_is_refused_with_a_word() {
     fs::write(folder.path().join("slide.csv"), trace(2, 0.0)).unwrap();
     for (arguments, code, word) in [
         (&["calibrate", "none.csv"][..], 1, "none.csv"),
-        (&["calibrate", "slide.csv", "--controller", "gain_position=1"], 2, "gain_speed"),
+        (
+            &["calibrate", "slide.csv", "--controller", "gain_position=1"],
+            2,
+            "gain_speed",
+        ),
         (&["calibrate", "slide.csv", "--rows", "0"], 2, "cut-off"),
         (&["calibrate", "slide.csv", "--rows", "400"], 1, "Hz"),
         (&["calibrate", "slide.csv", "--ratio", "2"], 2, "--design"),
-        (&["calibrate", "slide.csv", "--design", "lin-4.1", "--fix", "friction"], 2, "NAME=VALUE"),
-        (&["calibrate", "slide.csv", "--validate", "none.csv"], 1, "none.csv"),
+        (
+            &[
+                "calibrate",
+                "slide.csv",
+                "--design",
+                "lin-4.1",
+                "--fix",
+                "friction",
+            ],
+            2,
+            "NAME=VALUE",
+        ),
+        (
+            &["calibrate", "slide.csv", "--validate", "none.csv"],
+            1,
+            "none.csv",
+        ),
     ] {
         let run = run_in(folder.path(), arguments, "");
         assert_eq!(run.code, code, "{arguments:?}: {}", run.stderr);

@@ -294,11 +294,20 @@ pub struct Course {
 }
 
 impl Course {
-    /// Inputs along a trace, with its load smoothed by a filter; no load, and the temperature given, where nothing was measured.
+    /// Inputs along a trace, with its load smoothed by a filter where one is given; no load, and the temperature given, where nothing was
+    /// measured.
     ///
     /// Noise of the load would cut what elements hold before they slide, whenever it lowers their limits.
-    pub fn of(trace: &Trace, motion: &Motion, smoothing: &ZeroPhase, temperature: f64) -> Self {
-        let load = trace.load.as_deref().map(|load| smoothing.apply(load));
+    pub fn of(
+        trace: &Trace,
+        motion: &Motion,
+        smoothing: Option<&ZeroPhase>,
+        temperature: f64,
+    ) -> Self {
+        let load = trace.load.as_deref().map(|load| match smoothing {
+            Some(filter) => filter.apply(load),
+            None => load.to_vec(),
+        });
         let at = |list: &Option<Vec<f64>>, index: usize, other: f64| {
             let value = list.as_ref().and_then(|list| list.get(index));
             value.copied().unwrap_or(other) as f32

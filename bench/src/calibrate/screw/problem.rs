@@ -81,7 +81,7 @@ impl<'a> ScrewProblem<'a> {
         values: Values,
         choice: Choice,
     ) -> Result<Self, Failure> {
-        let course = Course::of(trace, motion, smoothing, screw.reference_temperature);
+        let course = Course::of(trace, motion, Some(smoothing), screw.reference_temperature);
         let mut problem = Self {
             screw,
             trace,
@@ -269,7 +269,12 @@ impl<'a> ScrewProblem<'a> {
             trace: self.trace,
             motion,
             rows: self.rows,
-            course: Course::of(trace, motion, smoothing, self.screw.reference_temperature),
+            course: Course::of(
+                trace,
+                motion,
+                Some(smoothing),
+                self.screw.reference_temperature,
+            ),
             values: *values,
             nonlinear: Vec::new(),
             parameters: Vec::new(),

@@ -141,7 +141,7 @@ fn calibrated(gear: &Gear, wanted: Wanted, fit: FitSettings) -> Result<Vec<f64>,
     };
     let found = calibrate(&gear.trace, &gear.design, &request)?;
     let (trace, motion) = &gear.in_loop;
-    let course = Course::of(trace, motion, found.screw.reference_temperature);
+    let course = Course::of(trace, motion, None, found.screw.reference_temperature);
     let friction = found.screw.friction(&found.values, &course);
     friction.map_err(|error| Failure::Data(error.to_string()))
 }
