@@ -2,6 +2,7 @@
 
 use clap::{Parser, Subcommand};
 
+use crate::calibrate;
 use crate::eval;
 use crate::failure::Failure;
 use crate::report;
@@ -24,6 +25,7 @@ struct Cli {
 enum Command {
     Report(report::Arguments),
     Simulate(Box<simulate::Arguments>),
+    Calibrate(Box<calibrate::Arguments>),
     Eval(eval::Arguments),
     Target(target::Arguments),
     Screws(screws::Arguments),
@@ -33,6 +35,7 @@ enum Command {
 pub fn run() -> Result<(), Failure> {
     match Cli::parse().command {
         Some(Command::Simulate(arguments)) => simulate::run(&arguments),
+        Some(Command::Calibrate(arguments)) => calibrate::run(&arguments),
         Some(Command::Eval(arguments)) => eval::run(&arguments),
         Some(Command::Target(arguments)) => target::run(&arguments),
         Some(Command::Screws(arguments)) => screws::run(&arguments),

@@ -18,7 +18,7 @@ use epas_friction::{
 use serde::Deserialize;
 
 use crate::failure::Failure;
-use calibration::{Calibrated, CalibrationTable};
+use calibration::Calibrated;
 use loads::{LoadCase, LoadsTable};
 use tables::{MaterialTable, from_file, groove_size, material, radius, replace};
 use train::{UncagedDesign, UncagedTable};
@@ -196,7 +196,7 @@ struct DesignFile {
     limits: Option<LimitsTable>,
     uncaged: Option<UncagedTable>,
     loads: Option<LoadsTable>,
-    calibration: Option<CalibrationTable>,
+    calibration: Option<Calibrated>,
 }
 
 #[derive(Deserialize)]
@@ -327,12 +327,9 @@ impl DesignFile {
             .transpose()?;
         design.calibrated = self
             .calibration
-            .map(|table| {
-                table
-                    .checked(configuration.friction)
-                    .map_err(|message| format!("calibration: {message}"))
-            })
-            .transpose()?;
+            .map(Calibrated::checked)
+            .transpose()
+            .map_err(|message| format!("calibration: {message}"))?;
         Ok(design)
     }
 }
@@ -434,25 +431,32 @@ mod tests {
             ("[limits]\nspeed = 1", "speed"),
             ("[ball_material]\nyoungs_modulus = -1", "youngs_modulus"),
             ("[calibration]\nfilm = 1", "film"),
-            ("[calibration]\nfull_film = 0.05", "half_share_speed"),
-            ("[calibration]\nhalf_share_speed = 5", "full_film"),
+            ("[calibration]\nfull_film_ratio = 0.5", "half_share_speed"),
+            ("[calibration]\nhalf_share_speed = 5", "full_film_ratio"),
+            ("[calibration]\nlargest_load = 500", "breakaway_angle"),
             (
-                "[calibration]\nfull_film = 2\nhalf_share_speed = 5",
-                "full_film",
+                "[calibration]\nbreakaway_angle = 1e-3\nlargest_load = 500",
+                "largest_load",
             ),
+            ("[calibration]\nelements = \"load_exact\"", "largest_load"),
+            ("[calibration]\nelements = \"springs\"", "elements"),
             (
-                "[calibration]\nreference_temperature = 300",
-                "half_share_speed",
+                "[calibration]\nreference_temperature = 30",
+                "reference_temperature",
             ),
-            ("[calibration]\nforward = nan", "forward"),
-            ("[calibration]\nbackward = 0", "backward"),
+            ("[calibration]\nviscosity_pole = 290", "viscosity_pole"),
+            (
+                "[calibration]\ndirection_asymmetry = nan",
+                "direction_asymmetry",
+            ),
             ("[calibration]\nbreakaway_angle = 0", "breakaway_angle"),
             ("[calibration]\nreference_load = -1", "reference_load"),
             ("[calibration]\ninertia = inf", "inertia"),
             ("[calibration]\ndrag = nan", "drag"),
             ("[calibration]\noffset = 1e9", "offset"),
-            ("[calibration]\ngain = -1", "gain"),
+            ("[calibration]\ngain = 11", "gain"),
             ("[calibration]\nbacklash = -1", "backlash"),
+            ("[calibration]\nchurning = -1", "churning"),
             ("[calibration]\nharmonics = [{ order = 0 }]", "order"),
             (
                 "[calibration]\nharmonics = [{ order = 1, sine = nan }]",

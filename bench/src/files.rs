@@ -113,6 +113,36 @@ pub fn write(path: &Path, contents: &str, existing: Existing) -> Result<(), Fail
     pending.finish()
 }
 
+/// Fails where an output is an input, or another output: inputs are never overwritten.
+pub fn refuse_same<'a, const N: usize>(
+    inputs: [Option<&Path>; N],
+    outputs: impl Iterator<Item = &'a PathBuf>,
+) -> Result<(), Failure> {
+    let mut taken: Vec<PathBuf> = inputs.into_iter().flatten().map(place).collect();
+    for output in outputs {
+        let place = place(output);
+        if taken.contains(&place) {
+            return Err(Failure::Data(format!(
+                "{} is named twice",
+                output.display()
+            )));
+        }
+        taken.push(place);
+    }
+    Ok(())
+}
+
+/// Where a file is or will be, under one name however it is spelled.
+fn place(path: &Path) -> PathBuf {
+    fs::canonicalize(path).unwrap_or_else(|_| {
+        let absolute = std::path::absolute(path).unwrap_or_else(|_| path.into());
+        match (absolute.parent().map(fs::canonicalize), path.file_name()) {
+            (Some(Ok(folder)), Some(name)) => folder.join(name),
+            _ => absolute,
+        }
+    })
+}
+
 /// An input that ends with an error where it is longer than it may be.
 pub struct Bounded<R> {
     input: R,

@@ -10,12 +10,14 @@ mod chart;
 mod map;
 mod scale;
 mod style;
+mod thin;
 
 use plotters::prelude::*;
 
 pub use chart::{Chart, Mark, Note, Series};
 pub use map::{ColourMap, Colours};
 pub use scale::Axis;
+pub use thin::thin;
 
 use crate::failure::Failure;
 use style::SCALE;

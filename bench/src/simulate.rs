@@ -3,7 +3,6 @@
 mod caged;
 mod caged_exact;
 mod choice;
-mod curves;
 mod exact_screw;
 mod linear;
 mod loads;
@@ -12,6 +11,7 @@ mod mechanism;
 mod memory;
 mod progress;
 mod reference;
+mod remembering;
 mod samples;
 mod scene;
 mod screw;
@@ -28,14 +28,14 @@ use std::path::PathBuf;
 use crate::designs::train::LinearDesign;
 use crate::designs::{self, DesignSource};
 use crate::failure::Failure;
-use crate::files::{self, Existing, Pending};
+use crate::files::{self, Existing, Pending, refuse_same};
 use choice::{Chosen, SceneName, choose};
 pub use manoeuvre::Manoeuvre;
 use progress::Progress;
 use reference::ReferenceModel;
 use samples::ScrewSample;
 use scene::Scene;
-use targets::{refuse_same, targets};
+use targets::targets;
 
 /// Runs the in-loop friction model over a trace.
 ///

@@ -13,13 +13,13 @@ pub(super) struct Factor<const N: usize> {
 /// Least of `D`: three millionths of a deviation of the set-up, squared.
 pub(super) const LEAST: f32 = 1e-11;
 
-/// What a reading tells: the numbers move by `gain / variance` for an error of one.
+/// A reading `h' x` as the covariance sees it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Reading<const N: usize> {
-    /// `P h`.
-    pub(super) gain: [f32; N],
-    /// `1/(h' P h + 1)`.
-    pub(super) per_variance: f32,
+pub(super) struct Projection<const N: usize> {
+    /// `f = U' h` and `g = D f`.
+    along: [[f32; 2]; N],
+    /// Its variance before it is read: `h' P h = f' g`, a sum of squares.
+    pub(super) variance: f32,
 }
 
 impl<const N: usize> Factor<N> {
@@ -31,22 +31,36 @@ impl<const N: usize> Factor<N> {
         }
     }
 
-    /// Takes in a reading `h' x` with a noise of one (Bierman 1977).
-    ///
-    /// With `f = U' h`, `g = D f`: `a_j = a_(j-1) + f_j g_j`, `D_j <- D_j a_(j-1)/a_j`. All terms of `a` are squares, so that
-    /// `D` stays above 0 in any arithmetic that keeps signs.
+    /// How a reading `h' x` stands to the covariance.
     #[inline(always)]
-    pub(super) fn read(&mut self, h: &[f32; N]) -> Reading<N> {
-        let mut gain = [0.0; N];
-        let mut variance = 1.0;
-        let mut inverse = 1.0;
-        let columns = self.columns.iter_mut().zip(&mut self.diagonal);
-        for (j, ((column, diagonal), &own)) in columns.zip(h).enumerate() {
+    pub(super) fn project(&self, h: &[f32; N]) -> Projection<N> {
+        let mut along = [[0.0; 2]; N];
+        let mut variance = 0.0;
+        let columns = self.columns.iter().zip(&self.diagonal).zip(h);
+        for (j, (((column, diagonal), &own), along)) in columns.zip(&mut along).enumerate() {
             let mut f = own;
             for (above, h) in column.iter().zip(h).take(j) {
                 f += above * h;
             }
-            let g = *diagonal * f;
+            let g = diagonal * f;
+            variance += f * g;
+            *along = [f, g];
+        }
+        Projection { along, variance }
+    }
+
+    /// Takes in a reading with a noise of this variance, above 0 (Bierman 1977); gives `P h` over the variance of its error: by how much
+    /// the numbers move for an error of one.
+    ///
+    /// `a_0` the noise, `a_j = a_(j-1) + f_j g_j`, `D_j <- D_j a_(j-1)/a_j`. All terms of `a` are squares, so that `D` stays above
+    /// 0 in any arithmetic that keeps signs.
+    #[inline(always)]
+    pub(super) fn read(&mut self, projection: &Projection<N>, noise: f32) -> [f32; N] {
+        let mut gain = [0.0; N];
+        let mut variance = noise;
+        let mut inverse = 1.0 / noise;
+        let columns = self.columns.iter_mut().zip(&mut self.diagonal);
+        for (j, ((column, diagonal), &[f, g])) in columns.zip(&projection.along).enumerate() {
             let before = variance;
             variance += f * g;
             let step = -f * inverse;
@@ -62,10 +76,10 @@ impl<const N: usize> Factor<N> {
                 *gain = g;
             }
         }
-        Reading {
-            gain,
-            per_variance: inverse,
+        for gain in &mut gain {
+            *gain *= inverse;
         }
+        gain
     }
 
     /// All readings so far count by `1/growth`.

@@ -18,7 +18,7 @@ impl AdaptationFlags {
     pub const STANDING: Self = Self(1 << 3);
     /// The model's friction is below the least: it did not count.
     pub const TOO_WEAK: Self = Self(1 << 4);
-    /// The error was cut to four times the noise.
+    /// The error was beyond four of its deviations: it counted as one of four, with as much more noise.
     pub const ERROR_CUT: Self = Self(1 << 5);
     /// An estimate is at its bound: friction may be further away than it may tell.
     pub const AT_BOUND: Self = Self(1 << 6);

@@ -8,8 +8,8 @@ use super::health::{Health, HealthState};
 use super::inputs::AdaptationInputs;
 use crate::math;
 
-/// An error counts with at most so many times the noise.
-const MOST_NOISE: f32 = 4.0;
+/// An error counts with at most so many of its deviations, squared: four.
+const FURTHEST: f32 = 16.0;
 
 /// What a tick of the adaptation changes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -92,22 +92,19 @@ impl AdaptationState {
             error -= estimate * regressor;
         }
         let error = error * constants.per_noise;
-        let (error, cut) = if error > MOST_NOISE {
-            (MOST_NOISE, true)
-        } else if error < -MOST_NOISE {
-            (-MOST_NOISE, true)
-        } else {
-            (error, false)
-        };
         let mut weighted = self.regressors;
         for (regressor, weight) in weighted.iter_mut().zip(&constants.weights) {
             *regressor *= weight;
         }
-        let reading = self.covariance.read(&weighted);
-        let error = error * reading.per_variance;
+        let projection = self.covariance.project(&weighted);
+        // What is further off is noise, as large as puts it there.
+        let most = error * error * (1.0 / FURTHEST) - projection.variance;
+        let cut = most > 1.0;
+        let noise = if cut { most } else { 1.0 };
+        let gain = self.covariance.read(&projection, noise);
         let mut at_bound = false;
         let bounds = constants.least.iter().zip(&constants.largest);
-        let moves = reading.gain.iter().zip(&constants.deviations);
+        let moves = gain.iter().zip(&constants.deviations);
         for ((estimate, (gain, deviation)), (&least, &largest)) in
             self.estimates.iter_mut().zip(moves).zip(bounds)
         {
@@ -138,7 +135,8 @@ impl AdaptationState {
             }
         }
         // The number is read off as it is: it does not move.
-        let _ = self.covariance.read(&own);
+        let projection = self.covariance.project(&own);
+        let _ = self.covariance.read(&projection, 1.0);
         self.place += 1;
         if usize::from(self.place) >= ESTIMATES {
             self.place = 0;

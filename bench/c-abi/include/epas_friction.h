@@ -14,6 +14,51 @@ extern "C" {
 #endif
 
 /**
+ * An input is NaN, infinite, or beyond its limit: the tick did not count.
+ */
+#define EPAS_ADAPTATION_INPUT_RANGE 1u
+
+/**
+ * The model's step had a fault: the tick did not count.
+ */
+#define EPAS_ADAPTATION_FAULTED 2u
+
+/**
+ * The motor was at its limit: the tick did not count.
+ */
+#define EPAS_ADAPTATION_SATURATED 4u
+
+/**
+ * The mechanism stands, or its friction has not turned round yet: the tick did not count.
+ */
+#define EPAS_ADAPTATION_STANDING 8u
+
+/**
+ * The model's friction is below the least: the tick did not count.
+ */
+#define EPAS_ADAPTATION_TOO_WEAK 16u
+
+/**
+ * The error was beyond four of its deviations: it counted less.
+ */
+#define EPAS_ADAPTATION_ERROR_CUT 32u
+
+/**
+ * An estimate is at its bound.
+ */
+#define EPAS_ADAPTATION_AT_BOUND 64u
+
+/**
+ * The level has fallen beyond its threshold: wear, lost preload.
+ */
+#define EPAS_HEALTH_FALLEN 1u
+
+/**
+ * The level has risen beyond its threshold: lost or aged lubricant, dirt.
+ */
+#define EPAS_HEALTH_RISEN 2u
+
+/**
  * The clearance itself is given, m.
  */
 #define EPAS_GIVEN_CLEARANCE 0u
@@ -374,6 +419,106 @@ extern "C" {
 #define EPAS_FIELD_LUBRICANT_DRAG 53u
 
 /**
+ * `forgetting_time`
+ */
+#define EPAS_FIELD_FORGETTING_TIME 54u
+
+/**
+ * `filter_time`
+ */
+#define EPAS_FIELD_FILTER_TIME 55u
+
+/**
+ * `noise`
+ */
+#define EPAS_FIELD_NOISE 56u
+
+/**
+ * `level_deviation`
+ */
+#define EPAS_FIELD_LEVEL_DEVIATION 57u
+
+/**
+ * `least_level`
+ */
+#define EPAS_FIELD_LEAST_LEVEL 58u
+
+/**
+ * `largest_level`
+ */
+#define EPAS_FIELD_LARGEST_LEVEL 59u
+
+/**
+ * `drag_deviation`
+ */
+#define EPAS_FIELD_DRAG_DEVIATION 60u
+
+/**
+ * `largest_drag`
+ */
+#define EPAS_FIELD_LARGEST_DRAG 61u
+
+/**
+ * `offset_deviation`
+ */
+#define EPAS_FIELD_OFFSET_DEVIATION 62u
+
+/**
+ * `largest_offset`
+ */
+#define EPAS_FIELD_LARGEST_OFFSET 63u
+
+/**
+ * `load_deviation`
+ */
+#define EPAS_FIELD_LOAD_DEVIATION 64u
+
+/**
+ * `largest_load_error`
+ */
+#define EPAS_FIELD_LARGEST_LOAD_ERROR 65u
+
+/**
+ * `largest_torque`
+ */
+#define EPAS_FIELD_LARGEST_TORQUE 66u
+
+/**
+ * `largest_speed`
+ */
+#define EPAS_FIELD_LARGEST_SPEED 67u
+
+/**
+ * `least_speed`
+ */
+#define EPAS_FIELD_LEAST_SPEED 68u
+
+/**
+ * `least_friction`
+ */
+#define EPAS_FIELD_LEAST_FRICTION 69u
+
+/**
+ * `average_time`
+ */
+#define EPAS_FIELD_AVERAGE_TIME 70u
+
+/**
+ * `fall`
+ */
+#define EPAS_FIELD_FALL 71u
+
+/**
+ * `rise`
+ */
+#define EPAS_FIELD_RISE 72u
+
+/**
+ * `hysteresis`
+ */
+#define EPAS_FIELD_HYSTERESIS 73u
+
+/**
  * Samples in a period of a deviation.
  */
 #define EPAS_DEVIATION_SAMPLES 64
@@ -392,6 +537,16 @@ extern "C" {
  * Size of `epas_deviation_t` in words of four bytes.
  */
 #define EPAS_DEVIATION_WORDS 67
+
+/**
+ * Bytes of a state of an adaptation.
+ */
+#define EPAS_ADAPTATION_STATE_BYTES 116u
+
+/**
+ * Words of eight bytes that an adaptation takes.
+ */
+#define EPAS_ADAPTATION_WORDS 40
 
 /**
  * What the contacts of a ball dissipate, by its balance between elastic grooves: the one to take.
@@ -517,7 +672,211 @@ extern "C" {
  * Version of the structures and functions of this header; `epas_abi_version` returns the library's. It rises
  * whenever a structure, a function or what a place holds changes.
  */
-#define EPAS_ABI_VERSION 4u
+#define EPAS_ABI_VERSION 5u
+
+/**
+ * Place for the constants and the state of an adaptation; as `epas_caged_t`.
+ */
+typedef struct epas_adaptation_t {
+    /**
+     * Not for the caller.
+     */
+    uint64_t words[EPAS_ADAPTATION_WORDS];
+} epas_adaptation_t;
+
+/**
+ * What the engineer sets for an adaptation.
+ */
+typedef struct epas_adaptation_configuration_t {
+    /**
+     * Time between two updates, s, 1e-5 to 1.
+     */
+    float tick;
+    /**
+     * Time in which data lose their weight, s, 200 to 1e5 ticks.
+     */
+    float forgetting_time;
+    /**
+     * Time constant of the filter, s, 0 to 1.
+     */
+    float filter_time;
+    /**
+     * Noise of the observed torque after the filter, one standard deviation, N m, 1e-6 to 1e3.
+     */
+    float noise;
+    /**
+     * How far a level may be from 1, one standard deviation, 0 to 10. 0 holds both levels.
+     */
+    float level_deviation;
+    /**
+     * Least level, 0.1 to 1.
+     */
+    float least_level;
+    /**
+     * Largest level, 1 to 10.
+     */
+    float largest_level;
+    /**
+     * How large the drag may be, one standard deviation, N m s/rad, 0 to 1e3. 0 leaves it out.
+     */
+    float drag_deviation;
+    /**
+     * Largest drag of either sign, N m s/rad, 0 to 1e4.
+     */
+    float largest_drag;
+    /**
+     * How large the offset may be, one standard deviation, N m, 0 to 1e3. 0 leaves it out.
+     */
+    float offset_deviation;
+    /**
+     * Largest offset of either sign, N m, 0 to 1e4.
+     */
+    float largest_offset;
+    /**
+     * How wrong the load torque may be, one standard deviation, 0 to 1. 0 leaves it out.
+     */
+    float load_deviation;
+    /**
+     * Largest relative error of the load torque, of either sign, 0 to 1.
+     */
+    float largest_load_error;
+    /**
+     * Largest torque that is believed, N m, 1e-6 to 1e6: observed, of the model, and of the load.
+     */
+    float largest_torque;
+    /**
+     * Largest nut speed that is believed, rad/s, 1e-3 to 1e6.
+     */
+    float largest_speed;
+    /**
+     * Nut speed below which a tick does not count, rad/s, 0 to `largest_speed`.
+     */
+    float least_speed;
+    /**
+     * Friction torque of the model below which a tick does not count, N m, 0 to `largest_torque`.
+     */
+    float least_friction;
+    /**
+     * Time constant of the slow average of the level, s, 400 to 1e7 ticks.
+     */
+    float average_time;
+    /**
+     * Relative fall of the level from which `EPAS_HEALTH_FALLEN` is set, 0.01 to 0.9.
+     */
+    float fall;
+    /**
+     * Relative rise from which `EPAS_HEALTH_RISEN` is set, 0.01 to 9.
+     */
+    float rise;
+    /**
+     * How far the drift has to go back before a flag is taken away, 0 to the smaller of the two above.
+     */
+    float hysteresis;
+} epas_adaptation_configuration_t;
+
+/**
+ * What was wrong with a configuration, a table or a request.
+ */
+typedef struct epas_failure_t {
+    /**
+     * What was wrong, one of the status codes; the function returned it too.
+     */
+    uint32_t status;
+    /**
+     * Which field, one of `EPAS_FIELD_...`; `epas_field_name` gives its name.
+     */
+    uint32_t field;
+    /**
+     * Which element, where the field is in an array; 0 elsewhere.
+     */
+    uint32_t index;
+    /**
+     * The value found, in the field's own unit.
+     */
+    float value;
+    /**
+     * Smallest value allowed beside the other fields.
+     */
+    float minimum;
+    /**
+     * Largest value allowed beside the other fields.
+     */
+    float maximum;
+} epas_failure_t;
+
+/**
+ * What an adaptation is told at a tick, after the model's step.
+ */
+typedef struct epas_adaptation_inputs_t {
+    /**
+     * Torque that the motor had to add to overcome friction, N m: its torque about the nut's axis, less what the inertia
+     * took, less `load_torque`.
+     */
+    float observed;
+    /**
+     * `friction_torque` of the model's outputs, N m.
+     */
+    float modelled;
+    /**
+     * Nut speed, rad/s.
+     */
+    float nut_speed;
+    /**
+     * `load_torque` of the model's outputs, N m.
+     */
+    float load_torque;
+    /**
+     * `regime` of the model's outputs.
+     */
+    uint32_t regime;
+    /**
+     * `faults` of the model's outputs: with any of them the tick does not count.
+     */
+    uint32_t faults;
+    /**
+     * Whether the motor was at its limit; 0 for not.
+     */
+    uint32_t saturated;
+} epas_adaptation_inputs_t;
+
+/**
+ * What a tick of an adaptation returns; every number is finite, and within its bounds. The friction torque to compensate is
+ * the model's times the level of its direction, and `drag` times the nut speed.
+ */
+typedef struct epas_adaptation_outputs_t {
+    /**
+     * Friction over that of the model, in the positive direction.
+     */
+    float forward;
+    /**
+     * The same in the negative direction.
+     */
+    float backward;
+    /**
+     * Drag beyond the model's, N m s/rad.
+     */
+    float drag;
+    /**
+     * Offset of the observed torque, N m.
+     */
+    float offset;
+    /**
+     * Part of the load torque that was taken off too little.
+     */
+    float load_error;
+    /**
+     * Relative change of the slow average of the level since commissioning.
+     */
+    float drift;
+    /**
+     * A sum of `EPAS_HEALTH_...`; 0 for a sound mechanism.
+     */
+    uint32_t health;
+    /**
+     * Why the tick did not count, or what was limited: a sum of `EPAS_ADAPTATION_...`, or `EPAS_FAULT_CALL`.
+     */
+    uint32_t flags;
+} epas_adaptation_outputs_t;
 
 /**
  * Place for the constants and the state of a caged ball screw. The caller provides it, in memory of
@@ -654,36 +1013,6 @@ typedef struct epas_caged_configuration_t {
      */
     struct epas_limits_t limits;
 } epas_caged_configuration_t;
-
-/**
- * What was wrong with a configuration, a table or a request.
- */
-typedef struct epas_failure_t {
-    /**
-     * What was wrong, one of the status codes; the function returned it too.
-     */
-    uint32_t status;
-    /**
-     * Which field, one of `EPAS_FIELD_...`; `epas_field_name` gives its name.
-     */
-    uint32_t field;
-    /**
-     * Which element, where the field is in an array; 0 elsewhere.
-     */
-    uint32_t index;
-    /**
-     * The value found, in the field's own unit.
-     */
-    float value;
-    /**
-     * Smallest value allowed beside the other fields.
-     */
-    float minimum;
-    /**
-     * Largest value allowed beside the other fields.
-     */
-    float maximum;
-} epas_failure_t;
 
 /**
  * What the control interrupt knows at a tick.
@@ -1198,6 +1527,42 @@ typedef struct epas_harmonic_t {
      */
     float sine;
 } epas_harmonic_t;
+
+/**
+ * Makes an adaptation in the place. Set-up only. Where it fails, every update is refused until it succeeds. `failure` may be
+ * NULL.
+ */
+uint32_t epas_adaptation_init(struct epas_adaptation_t *place,
+                              const struct epas_adaptation_configuration_t *configuration,
+                              struct epas_failure_t *failure);
+
+/**
+ * One tick, after the model's step: bounded time, finite outputs whatever the inputs are. Where the call is refused the outputs
+ * are levels of 1 and `EPAS_FAULT_CALL`.
+ */
+uint32_t epas_adaptation_update(struct epas_adaptation_t *place,
+                                const struct epas_adaptation_inputs_t *inputs,
+                                struct epas_adaptation_outputs_t *outputs);
+
+/**
+ * Takes the present level for that of a sound mechanism, from which drift counts: once, at the end of the line.
+ */
+uint32_t epas_adaptation_commission(struct epas_adaptation_t *place);
+
+/**
+ * Back to the state before the first tick; the commissioning is forgotten, too.
+ */
+uint32_t epas_adaptation_reset(struct epas_adaptation_t *place);
+
+/**
+ * Writes the state as a block of `EPAS_ADAPTATION_STATE_BYTES` bytes; as `epas_caged_export`.
+ */
+uint32_t epas_adaptation_export(const struct epas_adaptation_t *place, uint8_t *bytes, uint32_t length);
+
+/**
+ * Takes the state of a block over, of the same noise, deviations and forgetting; as `epas_caged_import`.
+ */
+uint32_t epas_adaptation_import(struct epas_adaptation_t *place, const uint8_t *bytes, uint32_t length);
 
 /**
  * Makes a caged ball screw in the place. Set-up only. Where it fails, every step is refused until it

@@ -9,12 +9,14 @@
 // What the caller owes stands in the module's documentation, for all functions alike.
 #![allow(clippy::missing_safety_doc)]
 
+mod adaptation;
 mod models;
 mod pointers;
 mod scenes;
 mod stateless;
 mod tables;
 
+pub use adaptation::*;
 pub use scenes::*;
 pub use stateless::*;
 pub use tables::*;

@@ -1,6 +1,6 @@
 //! `epas-friction` from C: a static library without allocator, panic or global state.
 //!
-//! `types`, `requests`, `tables`, `status` and `version` are what the header shows; `caged`, `screw`, `linear` and
+//! `types`, `requests`, `tables`, `status` and `version` are what the header shows; `adaptation` shows and translates what follows the vehicle; `caged`, `screw`, `linear` and
 //! `one_shot` translate between them and the crate; `boundary` is the one folder with pointers: every
 //! exported function.
 //!
@@ -14,6 +14,7 @@
 
 #![no_std]
 
+mod adaptation;
 mod boundary;
 mod caged;
 mod design;
@@ -27,6 +28,7 @@ mod tables;
 mod types;
 mod version;
 
+pub use adaptation::*;
 pub use boundary::*;
 pub use requests::*;
 pub use status::*;

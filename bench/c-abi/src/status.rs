@@ -139,10 +139,50 @@ pub const EPAS_FIELD_GIVEN: u32 = 51u32;
 pub const EPAS_FIELD_HYSTERESIS_LOSS: u32 = 52u32;
 /// `lubricant_drag`
 pub const EPAS_FIELD_LUBRICANT_DRAG: u32 = 53u32;
+/// `forgetting_time`
+pub const EPAS_FIELD_FORGETTING_TIME: u32 = 54u32;
+/// `filter_time`
+pub const EPAS_FIELD_FILTER_TIME: u32 = 55u32;
+/// `noise`
+pub const EPAS_FIELD_NOISE: u32 = 56u32;
+/// `level_deviation`
+pub const EPAS_FIELD_LEVEL_DEVIATION: u32 = 57u32;
+/// `least_level`
+pub const EPAS_FIELD_LEAST_LEVEL: u32 = 58u32;
+/// `largest_level`
+pub const EPAS_FIELD_LARGEST_LEVEL: u32 = 59u32;
+/// `drag_deviation`
+pub const EPAS_FIELD_DRAG_DEVIATION: u32 = 60u32;
+/// `largest_drag`
+pub const EPAS_FIELD_LARGEST_DRAG: u32 = 61u32;
+/// `offset_deviation`
+pub const EPAS_FIELD_OFFSET_DEVIATION: u32 = 62u32;
+/// `largest_offset`
+pub const EPAS_FIELD_LARGEST_OFFSET: u32 = 63u32;
+/// `load_deviation`
+pub const EPAS_FIELD_LOAD_DEVIATION: u32 = 64u32;
+/// `largest_load_error`
+pub const EPAS_FIELD_LARGEST_LOAD_ERROR: u32 = 65u32;
+/// `largest_torque`
+pub const EPAS_FIELD_LARGEST_TORQUE: u32 = 66u32;
+/// `largest_speed`
+pub const EPAS_FIELD_LARGEST_SPEED: u32 = 67u32;
+/// `least_speed`
+pub const EPAS_FIELD_LEAST_SPEED: u32 = 68u32;
+/// `least_friction`
+pub const EPAS_FIELD_LEAST_FRICTION: u32 = 69u32;
+/// `average_time`
+pub const EPAS_FIELD_AVERAGE_TIME: u32 = 70u32;
+/// `fall`
+pub const EPAS_FIELD_FALL: u32 = 71u32;
+/// `rise`
+pub const EPAS_FIELD_RISE: u32 = 72u32;
+/// `hysteresis`
+pub const EPAS_FIELD_HYSTERESIS: u32 = 73u32;
 
 /// Number, name in C, and the crate's name: empty where only this layer names the field. A field to which the crate
 /// gives a name of its own in each scene has a row for each.
-const FIELDS: [(u32, &CStr, &str); 55] = [
+const FIELDS: [(u32, &CStr, &str); 75] = [
     (EPAS_FIELD_PITCH_RADIUS, c"pitch_radius", "pitch_radius"),
     (EPAS_FIELD_LEAD, c"lead", "lead"),
     (EPAS_FIELD_BALL_RADIUS, c"ball_radius", "ball_radius"),
@@ -262,6 +302,62 @@ const FIELDS: [(u32, &CStr, &str); 55] = [
     (EPAS_FIELD_OTHER, c"other", ""),
     (EPAS_FIELD_AXIAL_PLAY, c"axial play", "axial_play"),
     (EPAS_FIELD_GIVEN, c"given", ""),
+    (
+        EPAS_FIELD_FORGETTING_TIME,
+        c"forgetting_time",
+        "forgetting_time",
+    ),
+    (EPAS_FIELD_FILTER_TIME, c"filter_time", "filter_time"),
+    (EPAS_FIELD_NOISE, c"noise", "noise"),
+    (
+        EPAS_FIELD_LEVEL_DEVIATION,
+        c"level_deviation",
+        "level_deviation",
+    ),
+    (EPAS_FIELD_LEAST_LEVEL, c"least_level", "least_level"),
+    (EPAS_FIELD_LARGEST_LEVEL, c"largest_level", "largest_level"),
+    (
+        EPAS_FIELD_DRAG_DEVIATION,
+        c"drag_deviation",
+        "drag_deviation",
+    ),
+    (EPAS_FIELD_LARGEST_DRAG, c"largest_drag", "largest_drag"),
+    (
+        EPAS_FIELD_OFFSET_DEVIATION,
+        c"offset_deviation",
+        "offset_deviation",
+    ),
+    (
+        EPAS_FIELD_LARGEST_OFFSET,
+        c"largest_offset",
+        "largest_offset",
+    ),
+    (
+        EPAS_FIELD_LOAD_DEVIATION,
+        c"load_deviation",
+        "load_deviation",
+    ),
+    (
+        EPAS_FIELD_LARGEST_LOAD_ERROR,
+        c"largest_load_error",
+        "largest_load_error",
+    ),
+    (
+        EPAS_FIELD_LARGEST_TORQUE,
+        c"largest_torque",
+        "largest_torque",
+    ),
+    (EPAS_FIELD_LARGEST_SPEED, c"largest_speed", "largest_speed"),
+    (EPAS_FIELD_LEAST_SPEED, c"least_speed", "least_speed"),
+    (
+        EPAS_FIELD_LEAST_FRICTION,
+        c"least_friction",
+        "least_friction",
+    ),
+    (EPAS_FIELD_AVERAGE_TIME, c"average_time", "average_time"),
+    (EPAS_FIELD_FALL, c"fall", "fall"),
+    (EPAS_FIELD_RISE, c"rise", "rise"),
+    (EPAS_FIELD_HYSTERESIS, c"hysteresis", "hysteresis"),
 ];
 
 const STATUS_NAMES: [(u32, &CStr); 13] = [

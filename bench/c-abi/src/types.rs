@@ -3,6 +3,11 @@
 
 use crate::tables::{Deviation, LoadShare};
 
+/// Bytes of a state of an adaptation.
+pub const EPAS_ADAPTATION_STATE_BYTES: u32 = 116u32;
+/// Words of eight bytes that an adaptation takes.
+pub const EPAS_ADAPTATION_WORDS: usize = 40;
+
 /// What the contacts of a ball dissipate, by its balance between elastic grooves: the one to take.
 pub const EPAS_BRANCH_CONTACTS: u32 = 0u32;
 /// The ball rolls and slips across the groove at the screw: a paper's closed form, which leaves out spin, the third contact

@@ -403,6 +403,77 @@ static void tables_and_requests(void)
     check(same_text(epas_field_name(99u), ""), "name of no field");
 }
 
+/* The friction level that follows the vehicle: found, refused, and kept across ignition. */
+static void adaptation(void)
+{
+    static epas_adaptation_t place;
+    static epas_adaptation_t next;
+    static uint8_t block[EPAS_ADAPTATION_STATE_BYTES];
+    epas_adaptation_configuration_t configuration = {
+        .tick = 0.01f, .forgetting_time = 5.0f, .filter_time = 0.02f, .noise = 2e-3f,
+        .level_deviation = 0.3f, .least_level = 0.4f, .largest_level = 2.5f,
+        .largest_torque = 10.0f, .largest_speed = 500.0f, .least_speed = 0.2f, .least_friction = 5e-3f,
+        .average_time = 600.0f, .fall = 0.3f, .rise = 0.5f, .hysteresis = 0.1f,
+    };
+    epas_adaptation_inputs_t now = {
+        .observed = 0.052f, .modelled = 0.04f, .nut_speed = 8.0f, .regime = EPAS_REGIME_DRIVING,
+    };
+    epas_adaptation_outputs_t found = {0};
+    epas_failure_t failure;
+    float forward;
+    uint32_t tick;
+
+    check(epas_adaptation_update(&place, &now, &found) == EPAS_NOT_INITIALISED, "an adaptation of zeros");
+    check((found.flags == EPAS_FAULT_CALL) && (found.forward == 1.0f), "an adaptation of zeros, flagged");
+    configuration.noise = not_a_number();
+    check_failure(epas_adaptation_init(&place, &configuration, &failure), &failure, EPAS_NOT_FINITE,
+                  EPAS_FIELD_NOISE, "noise");
+    configuration.noise = 2e-3f;
+    configuration.hysteresis = 0.4f;
+    check_failure(epas_adaptation_init(&place, &configuration, &failure), &failure, EPAS_OUT_OF_RANGE,
+                  EPAS_FIELD_HYSTERESIS, "hysteresis");
+    configuration.hysteresis = 0.1f;
+    check(epas_adaptation_init(&place, &configuration, &failure) == EPAS_OK, "set-up of an adaptation");
+    check(epas_adaptation_init(&next, &configuration, NULL) == EPAS_OK, "set-up of another");
+
+    for (tick = 0u; tick < 2000u; tick++) {
+        check(epas_adaptation_update(&place, &now, &found) == EPAS_OK, "an update");
+    }
+    check((found.forward > 1.29f) && (found.forward < 1.31f) && (found.flags == 0u), "a level that is found");
+    check((found.drag == 0.0f) && (found.health == 0u), "what was left out");
+    forward = found.forward;
+    now.observed = not_a_number();
+    check(epas_adaptation_update(&place, &now, &found) == EPAS_OK, "no torque");
+    check((found.flags == EPAS_ADAPTATION_INPUT_RANGE) && (found.forward == forward), "no torque, flagged");
+    now.observed = 0.052f;
+    now.faults = EPAS_FAULT_LOAD_RANGE;
+    check(epas_adaptation_update(&place, &now, &found) == EPAS_OK, "a faulted step");
+    check(found.flags == EPAS_ADAPTATION_FAULTED, "a faulted step, flagged");
+    now.faults = 0u;
+    now.regime = 17u;
+    check(epas_adaptation_update(&place, &now, &found) == EPAS_OK, "no regime");
+    check(found.flags == EPAS_ADAPTATION_STANDING, "no regime, flagged");
+    now.saturated = 1u;
+    now.regime = EPAS_REGIME_DRIVING;
+    check(epas_adaptation_update(&place, &now, &found) == EPAS_OK, "a motor at its limit");
+    check(found.flags == EPAS_ADAPTATION_SATURATED, "a motor at its limit, flagged");
+    check(epas_adaptation_update(&place, NULL, &found) == EPAS_NULL_POINTER, "update without inputs");
+    check(epas_adaptation_update(&place, &now, NULL) == EPAS_NULL_POINTER, "update without outputs");
+
+    check(epas_adaptation_commission(&place) == EPAS_OK, "commissioning");
+    check(epas_adaptation_import(&next, block, sizeof block) == EPAS_NOT_A_STATE, "an adaptation of zeros");
+    check(epas_adaptation_export(&place, block, sizeof block - 1u) == EPAS_STATE_LENGTH, "no room");
+    check(epas_adaptation_export(&place, block, sizeof block) == EPAS_OK, "export of an adaptation");
+    check(epas_adaptation_import(&next, block, sizeof block) == EPAS_OK, "import of an adaptation");
+    check(epas_adaptation_update(&next, &now, &found) == EPAS_OK, "an update after an import");
+    check(found.forward == forward, "a level after an import");
+    block[20] ^= 1u;
+    check(epas_adaptation_import(&next, block, sizeof block) == EPAS_STATE_DAMAGED, "a damaged adaptation");
+    check(epas_adaptation_reset(&next) == EPAS_OK, "reset of an adaptation");
+    check(epas_adaptation_update(&next, &now, &found) == EPAS_OK, "an update after a reset");
+    check(found.forward == 1.0f, "a level after a reset");
+}
+
 uint32_t test_refusals(void)
 {
     failed = 0u;
@@ -412,6 +483,7 @@ uint32_t test_refusals(void)
     caged_fields();
     train_fields();
     tables_and_requests();
+    adaptation();
     test_put("refusals: ");
     test_put_number(failed);
     test_put(" failed\n");

@@ -118,7 +118,11 @@ impl<'a> Prepared<'a> {
         if !(inertia > 0.0) {
             return Ok(None);
         }
-        Ok(Some(closed.run(inertia, resistance, slide.delay(&fit.nonlinear))))
+        Ok(Some(closed.run(
+            inertia,
+            resistance,
+            slide.delay(&fit.nonlinear),
+        )))
     }
 }
 
@@ -209,26 +213,28 @@ pub fn model(
     let course = prepared.course(&slide, &fit, 0.0)?;
     let relative = |rows: &[f64], target: &[f64]| size(rows) / size(target);
     let seen_error = relative(&fit.residual, seen.target());
-    let (unseen_rows, unseen_error, unseen_course) = match unseen {
+    let (unseen_rows, unseen_error, closed_unseen) = match unseen {
         Some(other) => {
             let slide = other.slide(law, terms);
             let factor = load_factor(other, prepared, &slide, &fit);
             let rows = residual(&slide, &fit.nonlinear, &fit.linear);
             let error = relative(&rows, slide.target());
             let course = other.course(&slide, &fit, factor)?;
-            (rows, error, course)
+            (rows, error, course.map(|course| course.relative_error))
         }
         None => {
             let rest = Part::after(&slide, share);
             let rows = residual(&rest, &fit.nonlinear, &fit.linear);
             let error = relative(&rows, rest.target());
-            (rows, error, None)
+            let closed = course
+                .as_ref()
+                .map(|course| course.error_after(prepared.trace, share));
+            (rows, error, closed)
         }
     };
     let parameters = fit.nonlinear.len() + fit.linear.len();
     let rows = uncertainty.effective_rows;
     let closed = course.as_ref().map(|course| course.relative_error);
-    let closed_unseen = unseen_course.as_ref().map(|course| course.relative_error);
     let score = ModelScore {
         name: name.into(),
         relative_error: closed.unwrap_or(seen_error),
@@ -237,7 +243,8 @@ pub fn model(
         relative_error_inverse_unseen: Some(unseen_error),
         position_error: course.as_ref().map(|course| course.position_error),
         residual_unseen: Some(size(&unseen_rows)),
-        information_criterion: rows * 2.0 * size(&fit.residual).ln() + parameters as f64 * rows.ln(),
+        information_criterion: rows * 2.0 * size(&fit.residual).ln()
+            + parameters as f64 * rows.ln(),
         parameters,
         cycles: cycles(law.cost),
         cycles_estimated: matches!(law.cost, Cost::Estimated(_)),

@@ -78,9 +78,13 @@ impl Loop<'_> {
         };
         let ticks = self.controller.source.ticks();
         // Positions of the last ticks, the newest first; before the start it moved as it does there.
-        let mut history: VecDeque<f64> =
-            (1..=ticks).map(|back| start - back as f64 * tick * speed).collect();
-        let reference = trace.reference_position.as_deref().unwrap_or(&trace.position);
+        let mut history: VecDeque<f64> = (1..=ticks)
+            .map(|back| start - back as f64 * tick * speed)
+            .collect();
+        let reference = trace
+            .reference_position
+            .as_deref()
+            .unwrap_or(&trace.position);
         let mut course = Course {
             effort: Vec::with_capacity(trace.len()),
             position: Vec::with_capacity(trace.len()),
@@ -110,6 +114,15 @@ impl Loop<'_> {
         course.relative_error = distance(&trace.effort, &course.effort) / size(&trace.effort);
         course.position_error = distance(&trace.position, &course.position);
         course
+    }
+}
+
+impl Course {
+    /// Relative error of the efforts from this share of the trace on.
+    pub fn error_after(&self, trace: &Trace, share: f64) -> f64 {
+        let start = (trace.len() as f64 * share.clamp(0.0, 1.0)) as usize;
+        let [measured, found] = [&trace.effort, &self.effort].map(|effort| &effort[start..]);
+        distance(measured, found) / size(measured)
     }
 }
 

@@ -107,7 +107,8 @@ impl SeenController {
         spread: f64,
         rest: &[f64],
     ) -> Self {
-        let steps = controller.gain_speed * trace.resolution / (source.ticks().max(1) as f64 * trace.step);
+        let steps =
+            controller.gain_speed * trace.resolution / (source.ticks().max(1) as f64 * trace.step);
         // Six standard deviations, or two steps of the sensor: what is beyond is no noise.
         let noise = (6.0 * spread).max(2.0 * steps);
         let added = rest
@@ -134,4 +135,3 @@ fn robust_spread(values: &[f64]) -> f64 {
     let (_, median, _) = sizes.select_nth_unstable_by(middle, f64::total_cmp);
     1.4826 * *median
 }
-

@@ -20,7 +20,9 @@ pub fn cycles(cost: Cost) -> Option<u32> {
 
 fn counted(counts: &Value, name: &str) -> Option<u32> {
     let functions = counts.get("functions")?.as_array()?;
-    let function = functions.iter().find(|function| function["name"] == *name)?;
+    let function = functions
+        .iter()
+        .find(|function| function["name"] == *name)?;
     u32::try_from(function["cycles_max"].as_u64()?).ok()
 }
 

@@ -3,6 +3,7 @@
 use toml_edit::{Array, DocumentMut, InlineTable, Item, RawString, Table, TableLike, Value};
 
 use super::answer::{Calibration, Estimate};
+use super::screw::friction::{ElementsKind, Screw};
 use super::shown::{interval, one_line};
 use crate::designs::{Design, read};
 
@@ -17,25 +18,22 @@ const KEYS: [&str; 7] = [
     "reversal_speed",
 ];
 
-/// Keys of the table `[calibration]`.
-const TABLE_KEYS: [&str; 10] = [
-    "full_film",
+/// Keys of the table `[calibration]` that the friction follows from: those that were set stand there too, because the
+/// estimated ones hold beside them.
+const FRICTION_KEYS: [&str; 9] = [
+    "full_film_ratio",
     "half_share_speed",
-    "forward",
-    "backward",
+    "reference_temperature",
+    "viscosity_pole",
+    "direction_asymmetry",
     "breakaway_angle",
-    "inertia",
-    "drag",
-    "offset",
-    "gain",
+    "reference_load",
+    "largest_load",
     "backlash",
 ];
 
-/// Keys of the table that say at what the others hold: they are set, not estimated.
-const CIRCUMSTANCES: [&str; 2] = ["reference_load", "reference_temperature"];
-
-/// Largest number of waves in a turn.
-const HARMONICS: u8 = 64;
+/// Keys of the table for what is no friction of the screw: only where they were estimated.
+const OTHER_KEYS: [&str; 5] = ["inertia", "drag", "churning", "offset", "gain"];
 
 /// What a comment of this program starts with.
 const MARK: &str = "calibrated: ";
@@ -51,6 +49,26 @@ pub struct Written {
     pub left_out: Vec<String>,
 }
 
+/// At what a screw was calibrated, as parameters that were set: a design file needs them beside the estimated ones.
+fn circumstances(screw: &Screw) -> Vec<Estimate> {
+    let mut all = vec![
+        Estimate::fixed("reference_temperature", "K", screw.reference_temperature),
+        Estimate::fixed("reference_load", "N", screw.reference_load),
+    ];
+    if screw.elements != ElementsKind::Proportional {
+        all.push(Estimate::fixed("largest_load", "N", screw.largest_load));
+    }
+    all
+}
+
+/// How elements follow the load, as a design file names it.
+const fn elements(kind: ElementsKind) -> &'static str {
+    match kind {
+        ElementsKind::Proportional => "proportional",
+        ElementsKind::LoadExact => "load_exact",
+    }
+}
+
 /// The text of a design file with the estimated parameters in it, and beside each its interval and the trace's name.
 ///
 /// Everything else stays as it was: other keys, their order, comments, blank lines. A second calibration replaces the
@@ -58,19 +76,24 @@ pub struct Written {
 ///
 /// # Errors
 /// What is wrong with the text, or which calibrated number is out of the range of a design.
-pub fn written(text: &str, calibration: &Calibration, trace: &str) -> Result<Written, String> {
+pub fn written(
+    text: &str,
+    (calibration, screw): (&Calibration, Option<&Screw>),
+    trace: &str,
+) -> Result<Written, String> {
     let mut document: DocumentMut = text
         .parse()
         .map_err(|error: toml_edit::TomlError| error.to_string())?;
     let trace = one_line(trace);
     let mut left_out = Vec::new();
-    let all = with_full_film(calibration);
     let mut waves = Waves::default();
-    for estimate in &all {
+    let circumstances = screw.map(circumstances).unwrap_or_default();
+    for estimate in calibration.parameters.iter().chain(&circumstances) {
         let name = estimate.name.as_str();
-        if CIRCUMSTANCES.contains(&name) {
-            set(table(&mut document)?, estimate, "");
+        if FRICTION_KEYS.contains(&name) || OTHER_KEYS.contains(&name) && !estimate.fixed {
+            set(table(&mut document)?, estimate, &trace);
         } else if estimate.fixed {
+            // The user's own number stays as it is written.
         } else if KEYS.contains(&name) {
             let root = document.as_table_mut();
             match name {
@@ -79,11 +102,13 @@ pub fn written(text: &str, calibration: &Calibration, trace: &str) -> Result<Wri
                 _ => {}
             }
             set(root, estimate, &trace);
-        } else if TABLE_KEYS.contains(&name) {
-            set(table(&mut document)?, estimate, &trace);
         } else if !waves.take(estimate) {
             left_out.push(estimate.name.clone());
         }
+    }
+    if let Some(screw) = screw {
+        let name = toml_edit::value(elements(screw.elements));
+        table(&mut document)?.insert("elements", name);
     }
     if let Some(list) = waves.list(&trace) {
         table(&mut document)?.insert("harmonics", Item::Value(list.into()));
@@ -95,22 +120,6 @@ pub fn written(text: &str, calibration: &Calibration, trace: &str) -> Result<Wri
         design,
         left_out,
     })
-}
-
-/// The estimates, in which the ratio of the full-film coefficient to that at standstill is a coefficient.
-fn with_full_film(calibration: &Calibration) -> Vec<Estimate> {
-    let mut all = calibration.parameters.clone();
-    if let Some(friction) = calibration.value("friction") {
-        for estimate in &mut all {
-            if estimate.name == "full_film_ratio" {
-                estimate.name = "full_film".into();
-                estimate.value *= friction;
-                estimate.low *= friction;
-                estimate.high *= friction;
-            }
-        }
-    }
-    all
 }
 
 /// The table `[calibration]`, made where there is none.
@@ -128,12 +137,6 @@ fn table(document: &mut DocumentMut) -> Result<&mut dyn TableLike, String> {
 
 /// Puts a number in its place, with what is known of it as a comment behind it; that of the user stays before that.
 fn set(table: &mut dyn TableLike, estimate: &Estimate, trace: &str) {
-    let number = number(estimate.value);
-    let note = if trace.is_empty() {
-        String::new()
-    } else {
-        note(estimate, trace)
-    };
     let users = table
         .get(&estimate.name)
         .and_then(Item::as_value)
@@ -141,15 +144,16 @@ fn set(table: &mut dyn TableLike, estimate: &Estimate, trace: &str) {
         .and_then(RawString::as_str)
         .map_or("", users_comment)
         .to_owned();
-    let suffix = match (users.is_empty(), note.is_empty()) {
-        (true, true) => String::new(),
-        (true, false) => format!(" # {note}"),
-        (false, true) => format!(" {users}"),
-        (false, false) => format!(" {users}; {note}"),
+    let before = if users.is_empty() {
+        " # ".to_owned()
+    } else {
+        format!(" {users}; ")
     };
-    let mut value = number;
+    let mut value = number(estimate.value);
     value.decor_mut().set_prefix(" ");
-    value.decor_mut().set_suffix(suffix);
+    value
+        .decor_mut()
+        .set_suffix(format!("{before}{}", note(estimate, trace)));
     if let Some(place) = table.get_mut(&estimate.name) {
         *place = Item::Value(value);
     } else {
@@ -166,6 +170,9 @@ fn users_comment(suffix: &str) -> &str {
 
 /// What is known of a number.
 fn note(estimate: &Estimate, trace: &str) -> String {
+    if estimate.fixed {
+        return format!("{MARK}set beside trace {trace}");
+    }
     format!(
         "{MARK}{} (95 %), trace {trace}",
         interval(estimate.low, estimate.high)
@@ -199,21 +206,19 @@ fn rename(table: &mut Table, old: &str, new: &str) {
 struct Waves(Vec<(u8, [Option<Estimate>; 2])>);
 
 impl Waves {
-    /// Whether an estimate is a part of a wave, `cosine_1` or `sine_1`; then it is taken.
+    /// Whether an estimate is a part of a wave, `harmonic_1_cosine` or `harmonic_1_sine`; then it is taken.
     fn take(&mut self, estimate: &Estimate) -> bool {
-        let Some((part, order)) = estimate.name.split_once('_') else {
+        let Some((order, part)) = estimate
+            .name
+            .strip_prefix("harmonic_")
+            .and_then(|name| name.split_once('_'))
+        else {
             return false;
         };
-        let place = match part {
-            "cosine" => 0,
-            "sine" => 1,
-            _ => return false,
-        };
-        let Some(order) = order
-            .parse()
-            .ok()
-            .filter(|order| (1..=HARMONICS).contains(order))
-        else {
+        let (Ok(order), Some(place)) = (
+            order.parse::<u8>(),
+            ["cosine", "sine"].iter().position(|known| *known == part),
+        ) else {
             return false;
         };
         let index = self
@@ -259,6 +264,7 @@ impl Waves {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::designs::calibration::ElementsName;
 
     const USERS: &str = "\
 # Rack drive, second sample.
@@ -312,16 +318,17 @@ nut_speed = 300 # of the motor
             estimate("breakaway_angle", 2e-3),
             estimate("inertia", 4e-4),
             estimate("gain", 1.012),
-            estimate("cosine_1", 1.5e-3),
-            estimate("sine_1", -1e-3),
-            estimate("sine_2", 8e-4),
+            Estimate::fixed("drag", "N m s/rad", 3e-4),
+            estimate("harmonic_1_cosine", 1.5e-3),
+            estimate("harmonic_1_sine", -1e-3),
+            estimate("harmonic_2_sine", 8e-4),
             estimate("colour", 3.0),
         ])
     }
 
     #[test]
     fn only_calibrated_numbers_change() {
-        let Written { text, left_out, .. } = written(USERS, &whole(), "weave\n17").unwrap();
+        let Written { text, left_out, .. } = written(USERS, (&whole(), None), "weave\n17").unwrap();
         assert_eq!(left_out, ["colour"]);
         let own = |line: &&str| !line.contains("calibrated: ") && !line.trim().is_empty();
         let kept: Vec<_> = text.lines().filter(own).collect();
@@ -332,18 +339,20 @@ nut_speed = 300 # of the motor
         for line in [
             "friction = 0.1152 # assumed; calibrated: 0.1037 to 0.1267 (95 %), trace weave 17",
             "preload = 17.0 # sorted balls; calibrated: 15.30 to 18.70 (95 %), trace weave 17",
-            "full_film = 0.0576 # calibrated: 0.05184 to 0.06336 (95 %), trace weave 17",
-            "reference_temperature = 303.0",
+            "full_film_ratio = 0.5 # calibrated: 0.4500 to 0.5500 (95 %), trace weave 17",
+            "reference_temperature = 303.0 # calibrated: set beside trace weave 17",
         ] {
             assert!(text.contains(line), "{line}\n{text}");
         }
         // What was set is not written as if it had been measured.
-        assert!(!text.contains("hysteresis_loss"), "{text}");
+        for name in ["hysteresis_loss", "drag"] {
+            assert!(!text.contains(name), "{text}");
+        }
     }
 
     #[test]
     fn what_is_written_is_read_as_what_was_calibrated() {
-        let Written { text, design, .. } = written(USERS, &whole(), "weave").unwrap();
+        let Written { text, design, .. } = written(USERS, (&whole(), None), "weave").unwrap();
         let again = read(&text, "other").unwrap();
         assert_eq!(again.configuration, design.configuration);
         assert_eq!(again.calibrated, design.calibrated);
@@ -353,15 +362,13 @@ nut_speed = 300 # of the motor
         let preload = again.configuration.clearance.preload(screw);
         assert!((preload - 17.0).abs() < 17.0 * 1e-5, "{preload}");
         let calibrated = again.calibrated.unwrap();
-        let law = calibrated.coefficient.unwrap();
         assert_eq!(
             (
-                law.boundary,
-                law.full_film,
-                law.half_share_speed,
-                law.reference_temperature
+                calibrated.full_film_ratio,
+                calibrated.half_share_speed,
+                calibrated.reference_temperature
             ),
-            (0.1152, 0.0576, 6.0, 303.0)
+            (Some(0.5), Some(6.0), Some(303.0))
         );
         assert_eq!(calibrated.breakaway_angle, Some(2e-3));
         assert_eq!(
@@ -377,23 +384,58 @@ nut_speed = 300 # of the motor
     }
 
     #[test]
+    fn circumstances_of_a_screw_stand_beside_its_numbers() {
+        let design = read(USERS, "design").unwrap();
+        let screw = Screw {
+            configuration: design.configuration,
+            elements: ElementsKind::LoadExact,
+            preloaded: true,
+            reference_temperature: 300.0,
+            reference_load: 250.0,
+            largest_load: 3000.0,
+        };
+        let mut told = whole();
+        told.parameters
+            .retain(|estimate| estimate.name != "reference_temperature");
+        let calibrated = written(USERS, (&told, Some(&screw)), "weave")
+            .unwrap()
+            .design
+            .calibrated
+            .unwrap();
+        assert_eq!(
+            (
+                calibrated.reference_temperature,
+                calibrated.reference_load,
+                calibrated.largest_load,
+                calibrated.elements
+            ),
+            (
+                Some(300.0),
+                Some(250.0),
+                Some(3000.0),
+                Some(ElementsName::LoadExact)
+            )
+        );
+    }
+
+    #[test]
     fn a_second_calibration_replaces_the_first() {
-        let first = written(USERS, &whole(), "weave").unwrap().text;
-        let again = written(&first, &whole(), "weave").unwrap().text;
+        let first = written(USERS, (&whole(), None), "weave").unwrap().text;
+        let again = written(&first, (&whole(), None), "weave").unwrap().text;
         assert_eq!(first, again);
-        let other = written(&first, &whole(), "parking").unwrap().text;
+        let other = written(&first, (&whole(), None), "parking").unwrap().text;
         assert!(!other.contains("weave") && other.contains("assumed; calibrated"));
     }
 
     #[test]
     fn a_number_out_of_range_is_named() {
         let wrong = calibration(vec![estimate("friction", 7.0)]);
-        let error = written(USERS, &wrong, "weave").unwrap_err();
+        let error = written(USERS, (&wrong, None), "weave").unwrap_err();
         assert!(error.contains("friction"), "{error}");
         let wrong = calibration(vec![estimate("drag", f64::NAN)]);
-        let error = written(USERS, &wrong, "weave").unwrap_err();
+        let error = written(USERS, (&wrong, None), "weave").unwrap_err();
         assert!(error.contains("drag"), "{error}");
-        assert!(written("friction = ", &whole(), "weave").is_err());
-        assert!(written("calibration = 3", &whole(), "weave").is_err());
+        assert!(written("friction = ", (&whole(), None), "weave").is_err());
+        assert!(written("calibration = 3", (&whole(), None), "weave").is_err());
     }
 }

@@ -1,7 +1,9 @@
 //! Laws of friction over a motion, each with unit friction at its highest level: what one linear parameter multiplies.
 
 use epas_friction::Error;
-use epas_friction::law::coefficient::{CoefficientAtTemperature, CoefficientLaw, CoefficientParameters};
+use epas_friction::law::coefficient::{
+    CoefficientAtTemperature, CoefficientLaw, CoefficientParameters,
+};
 use epas_friction::law::memory::{MemoryState, Part, ProportionalElements, SLIP_8};
 use epas_friction::law::{Elements, SlidingLimits};
 
@@ -198,8 +200,14 @@ const FULL_FILM: f32 = 0.1;
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum LevelAt {
     Constant,
-    Stribeck { at_rest: f64, speed: f64 },
-    LoadShare { at: CoefficientAtTemperature, speed: f64 },
+    Stribeck {
+        at_rest: f64,
+        speed: f64,
+    },
+    LoadShare {
+        at: CoefficientAtTemperature,
+        speed: f64,
+    },
 }
 
 impl LevelAt {

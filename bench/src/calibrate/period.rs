@@ -54,7 +54,10 @@ fn explained(position: &[f64], residual: &[f64], period: f64) -> f64 {
     if !(determinant > 1e-9 * cc * ss) {
         return 0.0;
     }
-    let (a, b) = ((ss * c - cs * s) / determinant, (cc * s - cs * c) / determinant);
+    let (a, b) = (
+        (ss * c - cs * s) / determinant,
+        (cc * s - cs * c) / determinant,
+    );
     (a * c + b * s) / position.len() as f64
 }
 
@@ -81,7 +84,10 @@ mod tests {
             .collect();
         let found = period(&position, &rippled, 1e-7).unwrap();
         // Half of the distance of tried places: a sixth of a period in eighty.
-        assert!((found / 2.5e-3 - 1.0).abs() < 0.5 / (80.0 * FINENESS) + 1e-3, "{found}");
+        assert!(
+            (found / 2.5e-3 - 1.0).abs() < 0.5 / (80.0 * FINENESS) + 1e-3,
+            "{found}"
+        );
         let plain: Vec<f64> = (0..position.len()).map(noise).collect();
         assert_eq!(period(&position, &plain, 1e-7), None);
     }

@@ -18,6 +18,7 @@ mod fixed;
 mod model;
 mod projection;
 mod robust;
+mod search;
 mod starts;
 #[cfg(test)]
 mod tests;
@@ -25,29 +26,14 @@ mod tests;
 use nalgebra::DMatrix;
 
 use self::checks::FitError;
-use self::descent::{Effort, Neighbourhood, descend};
+use self::descent::{Effort, descend};
 use self::model::{Model, Point};
+use self::search::{FINE, Found, first, search};
 use super::problem::Separable;
 
 pub(in crate::calibrate) use self::coordinates::{inner, inner_slope, outer};
 pub use self::fixed::Fixed;
 pub use self::starts::{Outcome, Start, Verdict};
-
-/// A coarse pass: enough to see which valley a start lies in.
-const COARSE: Effort = Effort {
-    tolerance: 1e-3,
-    slopes: 4,
-    points: 8,
-    both: false,
-};
-
-/// A whole descent.
-const FINE: Effort = Effort {
-    tolerance: 1e-8,
-    slopes: 30,
-    points: 60,
-    both: true,
-};
 
 /// A few steps after the weights have changed.
 const REWEIGHTED: Effort = Effort {
@@ -168,7 +154,7 @@ pub fn fit(problem: &dyn Separable, settings: &FitSettings) -> Result<Fit, FitEr
         best,
         starts,
         verdict,
-    } = search(&model, settings, &roots)?;
+    } = search(&model, settings.starts, settings.finished, &roots)?;
     let (best, roots) = if settings.robust {
         robust::settle(&model, best, settings.robust_scales, REWEIGHTED)
     } else {
@@ -204,143 +190,41 @@ pub fn refit(
     Ok(summary(&model, &best, &roots, vec![], Verdict::Single))
 }
 
-/// The point at a start, with the model's shape checked.
-fn first(model: &Model, start: &[f64], roots: &[f64]) -> Result<Point, FitError> {
-    let outer = model.coordinates.start(start);
-    let values = model.coordinates.values(&outer);
-    let point = model.point(outer, values, roots);
-    checks::check_shape(model.problem, &point.evaluation)?;
-    Ok(point)
-}
-
-struct Found {
-    best: Point,
-    starts: Vec<Start>,
-    verdict: Verdict,
-}
-
-/// The best point from all starts under one set of weights.
-fn search(model: &Model, settings: &FitSettings, roots: &[f64]) -> Result<Found, FitError> {
-    let parameters = model.problem.nonlinear();
-    let given: Vec<f64> = parameters.iter().map(|parameter| parameter.start).collect();
-    let others = if parameters.is_empty() {
-        0
-    } else {
-        settings.starts - 1
-    };
-    let mut begins = vec![given];
-    begins.extend(
-        starts::fractions(others, parameters.len())
-            .iter()
-            .map(|point| model.coordinates.at(point)),
-    );
-    let mut ends = Vec::with_capacity(begins.len());
-    for begin in &begins {
-        let point = first(model, begin, roots)?;
-        // One start needs no coarse pass.
-        ends.push(if begins.len() > 1 {
-            descend(model, point, roots, COARSE, None).0
-        } else {
-            point
-        });
-    }
-    let mut order: Vec<usize> = (0..begins.len()).filter(|k| ends[*k].finite).collect();
-    order.sort_by(|a, b| ends[*a].cost.total_cmp(&ends[*b].cost));
-    if order.is_empty() {
+/// Slopes over the inner coordinates, nonlinear before linear, at the nonlinear parameters' starts; and the linear ones' best values
+/// there.
+///
+/// # Errors
+///
+/// As [`fit`].
+pub fn slopes_at_start(problem: &dyn Separable) -> Result<(DMatrix<f64>, Vec<f64>), FitError> {
+    checks::check(problem)?;
+    let settings = FitSettings::default();
+    let model = Model::new(problem, settings.step);
+    let roots = vec![1.0; problem.target().len()];
+    let start: Vec<f64> = problem
+        .nonlinear()
+        .iter()
+        .map(|parameter| parameter.start)
+        .collect();
+    let point = first(&model, &start, &roots)?;
+    if !point.finite {
         return Err(FitError::NoStart);
     }
-    let (best, outcomes) = finish(model, settings, roots, &mut ends, &order);
-    let best_point = ends[order[best]].clone();
-    let verdict = verdict(model, roots, &best_point, &ends, &outcomes);
-    let rows = roots.len() as f64;
-    let starts = begins
-        .into_iter()
-        .zip(&ends)
-        .zip(outcomes)
-        .map(|((start, end), outcome)| Start {
-            start,
-            end: end.values.clone(),
-            residual_rms: (end.cost / rows).sqrt(),
-            outcome,
-        })
-        .collect();
-    Ok(Found {
-        best: best_point,
-        starts,
-        verdict,
-    })
-}
-
-/// Finishes starts in the order of their coarse costs until the best is found twice, or all are done. Gives the place of the best in
-/// the order, and the outcome of every start.
-fn finish(
-    model: &Model,
-    settings: &FitSettings,
-    roots: &[f64],
-    ends: &mut [Point],
-    order: &[usize],
-) -> (usize, Vec<Outcome>) {
-    let mut outcomes = vec![Outcome::Coarse; ends.len()];
-    let mut best: Option<(usize, Neighbourhood)> = None;
-    for (place, k) in order.iter().enumerate() {
-        let known = best.as_ref().map(|(_, neighbourhood)| neighbourhood);
-        let (end, reached) = descend(model, ends[*k].clone(), roots, FINE, known);
-        ends[*k] = end;
-        outcomes[*k] = Outcome::Best;
-        let better = !reached && known.is_none_or(|known| ends[*k].cost < known.cost);
-        if better {
-            best = Some((place, starts::neighbourhood(model, &ends[*k], roots)));
-            // What was finished before is judged by the new best.
-            if let Some((_, known)) = &best {
-                for earlier in &order[..place] {
-                    outcomes[*earlier] = starts::outcome(model, known, &ends[*earlier]);
-                }
-            }
-        } else if let (Some(known), false) = (known, reached) {
-            outcomes[*k] = starts::outcome(model, known, &ends[*k]);
-        }
-        let twice = outcomes
-            .iter()
-            .filter(|outcome| **outcome == Outcome::Best)
-            .count()
-            > 1;
-        if place + 1 >= settings.finished && (twice || outcomes.contains(&Outcome::Rival)) {
-            break;
-        }
-    }
-    (best.map_or(0, |(place, _)| place), outcomes)
-}
-
-fn verdict(
-    model: &Model,
-    roots: &[f64],
-    best: &Point,
-    ends: &[Point],
-    outcomes: &[Outcome],
-) -> Verdict {
-    let rivals: Vec<&Point> = ends
-        .iter()
-        .zip(outcomes)
-        .filter(|(_, outcome)| **outcome == Outcome::Rival)
-        .map(|(end, _)| end)
-        .collect();
-    let agreed = outcomes
-        .iter()
-        .filter(|outcome| **outcome == Outcome::Best)
-        .count();
-    if let Some(rival) = rivals.first() {
-        let known = starts::neighbourhood(model, best, roots);
-        let inner = model.coordinates.inner(&rival.values);
-        Verdict::DependsOnStart {
-            names: starts::differing(model.problem, &known, &inner),
-        }
-    } else if outcomes.len() == 1 {
-        Verdict::Single
-    } else if agreed > 1 {
-        Verdict::Agreed(agreed)
+    let slopes = model
+        .slopes(&point, true)
+        .of_model(&point.projection.values, &roots);
+    let columns = point.evaluation.columns.iter().flatten().copied();
+    let columns = DMatrix::from_iterator(roots.len(), problem.linear().len(), columns);
+    let whole = slopes
+        .column_iter()
+        .chain(columns.column_iter())
+        .collect::<Vec<_>>();
+    let whole = if whole.is_empty() {
+        DMatrix::zeros(roots.len(), 0)
     } else {
-        Verdict::FoundOnce
-    }
+        DMatrix::from_columns(&whole)
+    };
+    Ok((whole, point.projection.values.clone()))
 }
 
 /// The fit at its best point.

@@ -106,7 +106,13 @@ const fn positive(name: &'static str, unit: &'static str) -> LinearParameter {
 
 impl<'a> Slide<'a> {
     /// The model of a trace by a law.
-    pub fn new(trace: &'a Trace, motion: &'a Motion, rows: &'a Rows, law: Law, terms: Terms) -> Self {
+    pub fn new(
+        trace: &'a Trace,
+        motion: &'a Motion,
+        rows: &'a Rows,
+        law: Law,
+        terms: Terms,
+    ) -> Self {
         let scales = scales(trace, motion);
         let units = units(trace.coordinate);
         let mut nonlinear = law.parameters(&scales, [units.way, units.speed]);
@@ -201,7 +207,11 @@ impl<'a> Slide<'a> {
     ///
     /// # Errors
     /// [`epas_friction::Error`] naming a parameter that the crate refuses.
-    pub fn resistance(&self, nonlinear: &[f64], linear: &[f64]) -> Result<SlideResistance, epas_friction::Error> {
+    pub fn resistance(
+        &self,
+        nonlinear: &[f64],
+        linear: &[f64],
+    ) -> Result<SlideResistance, epas_friction::Error> {
         let value = |name: &str| {
             let named = self.linear.iter().zip(linear);
             named
@@ -244,7 +254,11 @@ fn scales(trace: &Trace, motion: &Motion) -> Scales {
         extreme(&motion.position, f64::min),
         extreme(&motion.position, f64::max),
     );
-    let speed = motion.speed.iter().map(|speed| speed.abs()).fold(0.0, f64::max);
+    let speed = motion
+        .speed
+        .iter()
+        .map(|speed| speed.abs())
+        .fold(0.0, f64::max);
     Scales {
         speed: speed.max(f64::MIN_POSITIVE),
         way: (high - low).max(f64::MIN_POSITIVE),

@@ -1,39 +1,54 @@
-//! Table `[calibration]` of a design file: what a measured trace has told of a screw beyond its own keys.
+//! Table `[calibration]` of a design file: what a measured trace has told of a screw beyond the keys of its design.
 
-use epas_friction::defaults;
-use epas_friction::law::coefficient::{CoefficientLaw, CoefficientParameters};
 use serde::Deserialize;
 
-/// Table `[calibration]`, as it is written.
+/// What a measured trace has told of a screw; what is not there is as without a calibration.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct CalibrationTable {
-    /// Friction coefficient at high speed.
-    full_film: Option<f32>,
-    /// Nut speed at which half of the difference is gone, rad/s.
-    half_share_speed: Option<f32>,
-    /// Temperature of the half-share speed, K.
-    reference_temperature: Option<f32>,
-    /// Factor of both coefficients in the positive direction.
-    forward: Option<f32>,
-    /// The same in the negative one.
-    backward: Option<f32>,
-    /// Turn from no friction to full sliding at the reference load, rad.
-    breakaway_angle: Option<f32>,
-    /// Axial load of the breakaway angle, N.
-    reference_load: Option<f32>,
-    /// Inertia of all that turns, kg m².
-    inertia: Option<f32>,
-    /// Drag without load over the speed, N m s/rad.
-    drag: Option<f32>,
-    /// Offset of the torque, N m.
-    offset: Option<f32>,
-    /// Torque of the axial load over that of a screw without friction.
-    gain: Option<f32>,
-    /// Free play of the nut, rad.
-    backlash: Option<f32>,
-    /// Waves of the torque over a turn.
-    harmonics: Option<Vec<Harmonic>>,
+pub struct Calibrated {
+    /// Friction coefficient on a full film over that at standstill, which is the design's `friction`; 1e-3 to 1e3.
+    pub full_film_ratio: Option<f32>,
+    /// Nut speed at which half of the difference is gone, at the reference temperature, rad/s, 1e-3 to 1e4.
+    pub half_share_speed: Option<f32>,
+    /// Temperature of the half-share speed, K, 160 to 500.
+    pub reference_temperature: Option<f32>,
+    /// Temperature at which the lubricant's viscosity has its pole, K, 1 to 490, at least 10 below the reference temperature.
+    pub viscosity_pole: Option<f32>,
+    /// Coefficients are `1 + this` times as large in the positive direction, `1 - this` in the negative one; -0.9 to 0.9.
+    pub direction_asymmetry: Option<f32>,
+    /// Turn from no friction to full sliding at the reference load, rad, 1e-9 to 1e3.
+    pub breakaway_angle: Option<f32>,
+    /// Axial load of the breakaway angle, N, 0 to 1e6.
+    pub reference_load: Option<f32>,
+    /// How elements of the memory follow the load; in proportion where it is not there.
+    pub elements: Option<ElementsName>,
+    /// Largest axial load up to which elements come into contact with it, N, 1e-3 to 1e6: where they do not follow in proportion.
+    pub largest_load: Option<f32>,
+    /// Free play between the sensor's angle and the nut's, rad, 0 to 10.
+    pub backlash: Option<f32>,
+    /// Inertia of all that turns, about the nut's axis, kg m², 0 to 1e3.
+    pub inertia: Option<f32>,
+    /// Drag without a load over the speed, N m s/rad, -1e3 to 1e3.
+    pub drag: Option<f32>,
+    /// Torque of churned lubricant over its viscosity and the nut's speed, m³, 0 to 1.
+    pub churning: Option<f32>,
+    /// Torque that the motor's channel shows without any, N m, -1e3 to 1e3.
+    pub offset: Option<f32>,
+    /// Torque of the load over that of a screw without friction, -10 to 10.
+    pub gain: Option<f32>,
+    /// Waves of the torque over a turn, at the reference load.
+    #[serde(default)]
+    pub harmonics: Vec<Harmonic>,
+}
+
+/// How elements follow the load.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ElementsName {
+    /// Constant shares of the friction of gross sliding: a preloaded screw.
+    Proportional,
+    /// Springs that come into contact with the load: any load, without a preload.
+    LoadExact,
 }
 
 /// A wave of the friction torque over the turn of the nut.
@@ -50,39 +65,19 @@ pub struct Harmonic {
     pub sine: f32,
 }
 
-/// What a trace has told of a screw beside its design, checked.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Calibrated {
-    /// Friction coefficient by speed and direction; none where it is one number.
-    pub coefficient: Option<CoefficientParameters>,
-    /// Turn from no friction to full sliding, rad.
-    pub breakaway_angle: Option<f32>,
-    /// Axial load of the breakaway angle, N, 0 to 1e6.
-    pub reference_load: Option<f32>,
-    /// Inertia of all that turns, kg m², 1e-9 to 1e3.
-    pub inertia: Option<f32>,
-    /// Drag without load over the speed, N m s/rad, -1e3 to 1e3.
-    pub drag: Option<f32>,
-    /// Offset of the torque, N m, -1e3 to 1e3.
-    pub offset: Option<f32>,
-    /// Torque of the axial load over that of a screw without friction, 0.1 to 10.
-    pub gain: Option<f32>,
-    /// Free play of the nut, rad, 0 to 10.
-    pub backlash: Option<f32>,
-    /// Waves of the torque over a turn.
-    pub harmonics: Vec<Harmonic>,
-}
-
-/// Amplitudes, offset and drag: those of the limits of a torque, far above any screw's.
+/// Torques over what they belong to: those of the limits of a design, far above any screw's.
 const TORQUE: (f32, f32) = (-1e3, 1e3);
 
-/// Temperature at which everything that a design file does not say holds, K.
-const TEMPERATURE: f32 = 293.15;
+/// Reference temperature where a file gives none, K: that of the default lubricant.
+pub const REFERENCE_TEMPERATURE: f32 = epas_friction::defaults::COEFFICIENT.reference_temperature;
 
-/// A value within its range.
-fn checked(field: &str, value: f32, (low, high): (f32, f32)) -> Result<f32, String> {
+/// Least distance of the viscosity's pole below the reference temperature, K.
+const ABOVE_POLE: f32 = 10.0;
+
+/// Fails where a value is out of its range or no number.
+fn check(field: &str, value: f32, (low, high): (f32, f32)) -> Result<(), String> {
     if (low..=high).contains(&value) {
-        Ok(value)
+        Ok(())
     } else {
         Err(format!(
             "{field} = {value} is out of range; allowed: {low} to {high}"
@@ -90,73 +85,79 @@ fn checked(field: &str, value: f32, (low, high): (f32, f32)) -> Result<f32, Stri
     }
 }
 
-impl CalibrationTable {
-    /// What the table says of a screw with this friction coefficient at standstill.
+impl Calibrated {
+    /// The same, checked.
     ///
     /// # Errors
-    /// The field that is out of range.
-    pub fn checked(self, friction: f32) -> Result<Calibrated, String> {
-        let within = |field: &str, value: Option<f32>, range| {
-            value.map(|value| checked(field, value, range)).transpose()
-        };
-        let coefficient = self.coefficient(friction)?;
-        let harmonics = self.harmonics.unwrap_or_default();
-        for wave in &harmonics {
-            if !(1..=64).contains(&wave.order) {
-                let order = wave.order;
-                return Err(format!("order = {order} is out of range; allowed: 1 to 64"));
-            }
-            checked("cosine", wave.cosine, TORQUE)?;
-            checked("sine", wave.sine, TORQUE)?;
+    /// The field that is out of range, or missing beside another.
+    pub fn checked(self) -> Result<Self, String> {
+        let ranges = [
+            ("full_film_ratio", self.full_film_ratio, (1e-3, 1e3)),
+            ("half_share_speed", self.half_share_speed, (1e-3, 1e4)),
+            (
+                "reference_temperature",
+                self.reference_temperature,
+                (160.0, 500.0),
+            ),
+            ("viscosity_pole", self.viscosity_pole, (1.0, 490.0)),
+            ("direction_asymmetry", self.direction_asymmetry, (-0.9, 0.9)),
+            ("breakaway_angle", self.breakaway_angle, (1e-9, 1e3)),
+            ("reference_load", self.reference_load, (0.0, 1e6)),
+            ("largest_load", self.largest_load, (1e-3, 1e6)),
+            ("backlash", self.backlash, (0.0, 10.0)),
+            ("inertia", self.inertia, (0.0, 1e3)),
+            ("drag", self.drag, TORQUE),
+            ("churning", self.churning, (0.0, 1.0)),
+            ("offset", self.offset, TORQUE),
+            ("gain", self.gain, (-10.0, 10.0)),
+        ];
+        for (field, value, range) in ranges {
+            value.map_or(Ok(()), |value| check(field, value, range))?;
         }
-        Ok(Calibrated {
-            coefficient,
-            breakaway_angle: within("breakaway_angle", self.breakaway_angle, (1e-9, 1e3))?,
-            reference_load: within("reference_load", self.reference_load, (0.0, 1e6))?,
-            inertia: within("inertia", self.inertia, (1e-9, 1e3))?,
-            drag: within("drag", self.drag, TORQUE)?,
-            offset: within("offset", self.offset, TORQUE)?,
-            gain: within("gain", self.gain, (0.1, 10.0))?,
-            backlash: within("backlash", self.backlash, (0.0, 10.0))?,
-            harmonics,
-        })
+        for wave in &self.harmonics {
+            check("order", wave.order.into(), (1.0, 64.0))?;
+            check("cosine", wave.cosine, TORQUE)?;
+            check("sine", wave.sine, TORQUE)?;
+        }
+        for (field, there, other, beside) in [
+            (
+                "half_share_speed",
+                self.half_share_speed,
+                "full_film_ratio",
+                self.full_film_ratio,
+            ),
+            (
+                "full_film_ratio",
+                self.full_film_ratio,
+                "half_share_speed",
+                self.half_share_speed,
+            ),
+            (
+                "breakaway_angle",
+                self.breakaway_angle,
+                "largest_load",
+                self.largest_load,
+            ),
+        ] {
+            if there.is_none() && beside.is_some() {
+                return Err(format!("{field} is missing beside {other}"));
+            }
+        }
+        let exact = self
+            .elements
+            .is_some_and(|elements| elements != ElementsName::Proportional);
+        if exact != self.largest_load.is_some() {
+            return Err("largest_load is that of elements that do not follow the load in proportion: both or none".into());
+        }
+        let reference = self.reference_temperature.unwrap_or(REFERENCE_TEMPERATURE);
+        if let Some(pole) = self.viscosity_pole {
+            check("viscosity_pole", pole, (1.0, reference - ABOVE_POLE))?;
+        }
+        Ok(self)
     }
 
-    /// The law of the friction coefficient, where one of its keys is there.
-    fn coefficient(&self, friction: f32) -> Result<Option<CoefficientParameters>, String> {
-        let Self {
-            full_film,
-            half_share_speed,
-            reference_temperature,
-            forward,
-            backward,
-            ..
-        } = *self;
-        match (full_film, half_share_speed) {
-            (Some(_), None) => return Err("half_share_speed is missing beside full_film".into()),
-            (None, Some(_)) => return Err("full_film is missing beside half_share_speed".into()),
-            (None, None) if forward.is_none() && backward.is_none() => {
-                return match reference_temperature {
-                    None => Ok(None),
-                    Some(_) => Err(
-                        "reference_temperature is that of half_share_speed, which is missing"
-                            .into(),
-                    ),
-                };
-            }
-            _ => {}
-        }
-        let parameters = CoefficientParameters {
-            boundary: friction,
-            full_film: full_film.unwrap_or(friction),
-            half_share_speed: half_share_speed.unwrap_or(1.0),
-            reference_temperature: reference_temperature.unwrap_or(TEMPERATURE),
-            viscosity: defaults::VISCOSITY,
-            forward: forward.unwrap_or(1.0),
-            backward: backward.unwrap_or(1.0),
-            churning: 0.0,
-        };
-        CoefficientLaw::new(&parameters).map_err(|error| error.to_string())?;
-        Ok(Some(parameters))
+    /// Whether the friction coefficient follows speed or direction.
+    pub const fn has_law(&self) -> bool {
+        self.full_film_ratio.is_some() || self.direction_asymmetry.is_some()
     }
 }

@@ -6,6 +6,7 @@ mod laws;
 mod loads;
 mod loops;
 mod noise;
+mod trial;
 
 use super::context::Context;
 use crate::document::{Block, Section};
@@ -34,6 +35,7 @@ pub fn section(context: &Context) -> Result<Section, Failure> {
     blocks.extend(loads::blocks(context)?);
     blocks.extend(noise::blocks()?);
     blocks.extend(compensation::blocks()?);
+    blocks.extend(trial::blocks(context.quick)?);
     blocks.extend(breakaway::blocks()?);
     Ok(Section {
         title: "Friction with a memory",

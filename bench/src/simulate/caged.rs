@@ -1,18 +1,15 @@
 //! A ball screw whose balls do not touch.
 
-use epas_friction::law::coefficient::{CoefficientLaw, OneCoefficient};
-use epas_friction::law::motion::WrappedAngle;
-use epas_friction::scene::WithMemory;
 use epas_friction::{
     CagedBallScrew, CagedBallScrewConfiguration, Error, FrictionBranch, FrictionModel, Inputs,
     Outputs,
 };
 
 use super::caged_exact::ExactCaged;
-use super::curves::thin;
 use super::manoeuvre::Manoeuvre;
-use super::memory::{self, Elements};
+use super::memory;
 use super::reference::{CagedReference, Friction, ReferenceModel};
+use super::remembering::{Remembers, Use, remembering};
 use super::samples::ScrewSample;
 use super::scene::Scene;
 use super::screw::{self, ScrewSummary};
@@ -20,7 +17,7 @@ use super::summary::Lines;
 use super::trace::Trace;
 use crate::designs::Design;
 use crate::failure::Failure;
-use crate::plot::{Axis, Chart, Mark, Panel, Series, render};
+use crate::plot::{Axis, Chart, Mark, Panel, Series, render, thin};
 
 /// The scene.
 pub struct Caged {
@@ -59,66 +56,39 @@ impl Reference {
     }
 }
 
-/// The model that runs.
-#[expect(clippy::large_enum_variant, reason = "one of it is built")]
-enum Model {
-    Plain(FrictionModel<CagedBallScrew>),
-    Memory(FrictionModel<WithMemory<CagedBallScrew, Elements, WrappedAngle, OneCoefficient>>),
-    Law(FrictionModel<WithMemory<CagedBallScrew, Elements, WrappedAngle, CoefficientLaw>>),
+/// The model that runs, told inputs and the angle of the nut, rad, within half a turn either way.
+type Model = Box<dyn FnMut(Inputs, f32) -> Outputs>;
+
+/// Boxes a screw that remembers.
+struct Boxed;
+
+impl Use for Boxed {
+    type Made = Model;
+
+    fn with(self, mut screw: impl Remembers + 'static) -> Model {
+        Box::new(move |inputs, angle| screw.step(inputs, angle))
+    }
 }
 
-impl Model {
-    /// The model of a configuration over a trace, and what of its memory the summary tells.
-    fn new(
-        Caged { design, memory }: &Caged,
-        trace: &Trace<ScrewSample>,
-    ) -> Result<(Self, Lines), Error> {
-        let calibrated = design.calibrated.as_ref();
-        let configuration = &design.configuration;
-        if !memory {
-            let model = Self::Plain(FrictionModel::new(configuration)?);
-            return Ok((model, Lines::default()));
+impl Caged {
+    /// The model over a trace, and what of its memory the summary tells.
+    fn model(&self, trace: &Trace<ScrewSample>) -> Result<(Model, Lines), Failure> {
+        let refused = |error: Error| Failure::Data(format!("{}: {error}", self.design.name));
+        if self.memory {
+            let angle = memory::angle().map_err(refused)?;
+            return remembering(&self.design, memory::mean_load(trace), angle, Boxed);
         }
-        let CagedBallScrewConfiguration {
-            ref design,
-            friction,
-            clearance,
-            rolling_resistance,
-            loaded_balls,
-            ..
-        } = *configuration;
-        let remembered = memory::Screw {
-            design,
-            friction,
-            clearance,
-            rolling_resistance,
-            loaded_balls: f32::from(loaded_balls),
-            calibrated,
-        }
-        .remembered(memory::mean_load(trace))?;
-        let (scene, angle) = (*configuration, memory::angle()?);
-        let law = calibrated.and_then(|calibrated| calibrated.coefficient.as_ref());
-        let model = if let Some(law) = law {
-            let law = CoefficientLaw::new(law)?;
-            let whole = memory::with_coefficient(scene, &remembered, angle, law);
-            Self::Law(FrictionModel::new(&whole)?)
-        } else {
-            let whole = memory::configuration(scene, &remembered, angle, friction)?;
-            Self::Memory(FrictionModel::new(&whole)?)
-        };
-        Ok((model, remembered.lines))
+        let model = FrictionModel::<CagedBallScrew>::new(&self.design.configuration);
+        let mut model = model.map_err(refused)?;
+        let plain = Box::new(move |inputs, _| model.step(inputs));
+        Ok((plain, Lines::default()))
     }
+}
 
-    /// What it says to a moment at an angle of the nut, rad.
-    fn step(&mut self, inputs: Inputs, angle: f64) -> Outputs {
-        let half = std::f64::consts::PI;
-        let wrapped = ((angle + half).rem_euclid(2.0 * half) - half) as f32;
-        match self {
-            Self::Plain(model) => model.step(inputs),
-            Self::Memory(model) => model.step(memory::fresh(inputs, wrapped)),
-            Self::Law(model) => model.step(memory::fresh(inputs, wrapped)),
-        }
-    }
+/// An angle within half a turn either way, rad.
+fn wrapped(angle: f64) -> f32 {
+    let half = std::f64::consts::PI;
+    ((angle + half).rem_euclid(2.0 * half) - half) as f32
 }
 
 /// One sample with what the models say to it.
@@ -147,8 +117,7 @@ impl Scene for Caged {
         done: &dyn Fn(),
     ) -> Result<(Vec<CagedRow>, Lines), Failure> {
         let configuration = &self.design.configuration;
-        let (mut model, lines) = Model::new(self, trace)
-            .map_err(|error| Failure::Data(format!("{}: {error}", self.name())))?;
+        let (mut model, lines) = self.model(trace)?;
         let reference = reference
             .map(|model| Reference::new(model, configuration, trace))
             .transpose()?;
@@ -165,7 +134,7 @@ impl Scene for Caged {
                     nut_speed: sample.nut_speed as f32,
                     axial_load: sample.axial_load as f32,
                 };
-                let outputs = model.step(inputs, angle);
+                let outputs = model(inputs, wrapped(angle));
                 done();
                 CagedRow {
                     sample,

@@ -8,22 +8,19 @@ use std::f64::consts::{PI, TAU};
 use std::io::{self, Write};
 use std::path::PathBuf;
 
-use epas_friction::law::coefficient::{CoefficientLaw, CoefficientModel, OneCoefficient};
-use epas_friction::law::motion::SpeedOverTick;
-use epas_friction::scene::{WithMemory, WithMemoryConfiguration};
-use epas_friction::{CagedBallScrew, CagedBallScrewConfiguration, FrictionModel, Inputs, Outputs};
+use epas_friction::{Inputs, Outputs};
 
-use super::curves::thin;
-use super::memory::{self, Elements, Remembered};
+use super::memory;
+use super::remembering::{Remembers, Use, remembering};
 use super::summary::Lines;
-use super::targets::{refuse_same, targets};
+use super::targets::targets;
 use super::trace::{Sample, Trace, read};
 use crate::controller::Controller;
 use crate::designs::Design;
 use crate::failure::Failure;
-use crate::files::{self, Existing, Pending};
+use crate::files::{self, Existing, Pending, refuse_same};
 use crate::mechanism::{Mechanism, Resistance, Step};
-use crate::plot::{Axis, Chart, Mark, Panel, Series, render};
+use crate::plot::{Axis, Chart, Mark, Panel, Series, render, thin};
 
 /// Options of a mechanism.
 #[derive(Debug, clap::Args)]
@@ -119,8 +116,8 @@ sample!(Wanted, "reference_position");
 
 /// A nut with the model's friction.
 #[derive(Clone)]
-struct Nut<L: CoefficientModel> {
-    model: FrictionModel<WithMemory<CagedBallScrew, Elements, SpeedOverTick, L>>,
+struct Nut<M> {
+    model: M,
     /// Torque of the load, over that of a screw without friction.
     gain: f64,
     drag: f64,
@@ -129,14 +126,14 @@ struct Nut<L: CoefficientModel> {
     outputs: Option<Outputs>,
 }
 
-impl<L: CoefficientModel> Nut<L> {
+impl<M: Remembers> Nut<M> {
     fn step(&mut self, step: &Step) -> f64 {
         let inputs = Inputs {
             nut_speed: step.speed as f32,
             axial_load: self.axial_load as f32,
         };
         let speed = step.end_speed();
-        let outputs = self.model.step(memory::fresh(inputs, speed as f32));
+        let outputs = self.model.step(inputs, speed as f32);
         self.outputs = Some(outputs);
         self.gain * f64::from(outputs.load_torque)
             + f64::from(outputs.friction_torque)
@@ -145,7 +142,7 @@ impl<L: CoefficientModel> Nut<L> {
     }
 }
 
-impl<L: CoefficientModel + Clone> Resistance for Nut<L> {
+impl<M: Remembers> Resistance for Nut<M> {
     fn against(&self, step: &Step) -> f64 {
         self.clone().step(step)
     }
@@ -240,7 +237,7 @@ fn tick(acting: &[Acting]) -> Result<f64, Failure> {
     Ok(tick)
 }
 
-/// Moves the nut with the coefficient law that the design has.
+/// Moves the nut of a design with friction that remembers.
 fn moved(
     design: &Design,
     acting: &[Acting],
@@ -248,64 +245,53 @@ fn moved(
     controller: Option<Controller>,
     tick: f64,
 ) -> Result<(Vec<Row>, Lines), Failure> {
-    let refused = |error: epas_friction::Error| Failure::Data(format!("{}: {error}", design.name));
-    let CagedBallScrewConfiguration {
-        design: ref screw,
-        friction,
-        clearance,
-        rolling_resistance,
-        loaded_balls,
-        ..
-    } = design.configuration;
-    let calibrated = design.calibrated.as_ref();
     let load = acting
         .iter()
         .map(|acting| acting.axial_load.abs())
         .sum::<f64>()
         / acting.len() as f64;
-    let remembered = memory::Screw {
-        design: screw,
-        friction,
-        clearance,
-        rolling_resistance,
-        loaded_balls: f32::from(loaded_balls),
-        calibrated,
-    }
-    .remembered(load as f32)
-    .map_err(refused)?;
-    let scene = design.configuration;
-    let speed = memory::speed((tick / STEPS as f64) as f32).map_err(refused)?;
-    let law = calibrated.and_then(|found| found.coefficient.as_ref());
-    let rows = match law {
-        Some(law) => {
-            let law = CoefficientLaw::new(law).map_err(refused)?;
-            let whole = memory::with_coefficient(scene, &remembered, speed, law);
-            motion(&whole, design, acting, inertia, controller, tick)
-        }
-        None => {
-            let law = OneCoefficient::new(friction).map_err(refused)?;
-            let whole = memory::with_coefficient(scene, &remembered, speed, law);
-            motion(&whole, design, acting, inertia, controller, tick)
-        }
-    }
-    .map_err(refused)?;
-    let Remembered { lines, .. } = remembered;
-    Ok((rows, lines))
+    let speed = memory::speed((tick / STEPS as f64) as f32)
+        .map_err(|error| Failure::Data(format!("{}: {error}", design.name)))?;
+    let course = Course {
+        design,
+        acting,
+        inertia,
+        controller,
+        tick,
+    };
+    remembering(design, load as f32, speed, course)
 }
 
-/// Moves the nut.
-fn motion<L: CoefficientModel + Clone>(
-    whole: &WithMemoryConfiguration<CagedBallScrewConfiguration, Elements, SpeedOverTick, L>,
-    design: &Design,
-    acting: &[Acting],
+/// What moves the nut.
+struct Course<'a> {
+    design: &'a Design,
+    acting: &'a [Acting],
     inertia: f64,
     controller: Option<Controller>,
     tick: f64,
-) -> Result<Vec<Row>, epas_friction::Error> {
+}
+
+impl Use for Course<'_> {
+    type Made = Vec<Row>;
+
+    fn with(self, screw: impl Remembers + 'static) -> Vec<Row> {
+        motion(screw, &self)
+    }
+}
+
+/// Moves the nut.
+fn motion(model: impl Remembers, course: &Course<'_>) -> Vec<Row> {
+    let Course {
+        design,
+        acting,
+        inertia,
+        controller,
+        tick,
+    } = *course;
     let told = |value: Option<f32>, without: f64| value.map_or(without, f64::from);
     let calibrated = design.calibrated.as_ref();
     let nut = Nut {
-        model: FrictionModel::new(whole)?,
+        model,
         gain: told(calibrated.and_then(|found| found.gain), 1.0),
         drag: told(calibrated.and_then(|found| found.drag), 0.0),
         offset: told(calibrated.and_then(|found| found.offset), 0.0),
@@ -343,7 +329,7 @@ fn motion<L: CoefficientModel + Clone>(
             });
         }
     }
-    Ok(rows)
+    rows
 }
 
 fn write_table(writer: &mut impl Write, rows: &[Row]) -> Result<(), csv::Error> {

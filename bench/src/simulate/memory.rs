@@ -5,16 +5,13 @@ use epas_friction::law::breakaway::{
     Tables,
 };
 use epas_friction::law::coefficient::{CoefficientModel, OneCoefficient, TemperatureFade};
-use epas_friction::law::memory::{
-    Hysteresis, Part, ProportionalElements, SLIP_4, SLIP_8, SPIN_4, SPIN_8,
-};
+use epas_friction::law::memory::{Hysteresis, ProportionalElements, SLIP_4, SPIN_4, SPIN_8};
 use epas_friction::law::motion::{SpeedOverTick, WrappedAngle, WrappedAngleParameters};
 use epas_friction::scene::{Freshness, WithMemory, WithMemoryConfiguration, WithMemoryInputs};
 use epas_friction::{BallScrew, Clearance, Error, LinearBearingConfiguration, RollingResistance};
 
 use super::summary::Lines;
 use super::trace::{Sample, Trace};
-use crate::designs::calibration::Calibrated;
 
 /// Elements of every simulation.
 pub const ELEMENTS: usize = 8;
@@ -49,8 +46,6 @@ pub struct Screw<'a> {
     pub rolling_resistance: RollingResistance,
     /// Balls that carry load.
     pub loaded_balls: f32,
-    /// What a measured trace has told of it, where there is one.
-    pub calibrated: Option<&'a Calibrated>,
 }
 
 /// Elements with the lines that tell of them.
@@ -70,21 +65,11 @@ pub fn mean_load<S: Sample>(trace: &Trace<S>) -> f32 {
 }
 
 impl Screw<'_> {
-    /// Its elements at an axial load, N: by its design, or with the breakaway angle that was measured, at the load of that.
+    /// Its elements at an axial load, N.
     ///
     /// # Errors
     /// [`Error`] naming a field out of range.
-    pub fn remembered(&self, mean_load: f32) -> Result<Remembered, Error> {
-        let measured = self
-            .calibrated
-            .and_then(|calibrated| calibrated.breakaway_angle);
-        let reference_load = self
-            .calibrated
-            .and_then(|calibrated| calibrated.reference_load);
-        let axial_load = match (measured, reference_load) {
-            (Some(_), Some(load)) => load,
-            _ => mean_load,
-        };
+    pub fn remembered(&self, axial_load: f32) -> Result<Remembered, Error> {
         let loaded_balls = self.loaded_balls.round().max(1.0) as u16;
         let contacts = ScrewContacts::of(self.design);
         let contact_load = contacts.preloaded(axial_load, loaded_balls, self.clearance);
@@ -98,50 +83,25 @@ impl Screw<'_> {
                 contact_load: contact_load.max(LEAST_LOAD),
             },
         )?;
+        let elements = breakaway.elements(&Tables {
+            slip: &SLIP_4.elements,
+            spin: &SPIN_4.elements,
+            rolling_resistance: &[],
+        })?;
         let mut lines = Lines::default();
-        let at = format!("{:.1} N a contact", contact_load.max(LEAST_LOAD));
-        let units = ("N m/rad", "mrad");
-        let elements = if let Some(breakaway_angle) = measured {
-            let elements = measured_elements(breakaway.torque, breakaway_angle)?;
-            tell(
-                &mut lines,
-                &elements,
-                &[],
-                &format!("{at}, as calibrated"),
-                units,
-            );
-            elements
-        } else {
-            let elements = breakaway.elements(&Tables {
-                slip: &SLIP_4.elements,
-                spin: &SPIN_4.elements,
-                rolling_resistance: &[],
-            })?;
-            tell(&mut lines, &elements, &breakaway.parts(), &at, units);
-            elements
-        };
+        tell(
+            &mut lines,
+            &elements,
+            &breakaway.parts(),
+            &format!("{:.1} N a contact", contact_load.max(LEAST_LOAD)),
+            ("N m/rad", "mrad"),
+        );
         Ok(Remembered {
             elements,
             reference_load: axial_load.max(1e-3),
             lines,
         })
     }
-}
-
-/// Elements that slide with a torque, N m, after a breakaway angle that was measured, rad: a trace tells the angle, not
-/// which mechanism it is, so that all of it is slip across the path.
-///
-/// # Errors
-/// [`Error`] naming a field out of range.
-pub const fn measured_elements(torque: f32, breakaway_angle: f32) -> Result<Elements, Error> {
-    ProportionalElements::new(
-        torque,
-        &[Part {
-            backbone: &SLIP_8.elements,
-            share: 1.0,
-            breakaway_angle,
-        }],
-    )
 }
 
 /// Elements of a linear bearing under a normal load, N, shared by so many balls.
@@ -228,23 +188,24 @@ pub fn configuration<C, A>(
     angle: A,
     friction: f32,
 ) -> Result<WithMemoryConfiguration<C, Elements, A, OneCoefficient>, Error> {
+    let elements = (remembered.elements, remembered.reference_load);
     let coefficient = OneCoefficient::new(friction)?;
-    Ok(with_coefficient(scene, remembered, angle, coefficient))
+    Ok(with_coefficient(scene, elements, angle, coefficient))
 }
 
-/// A scene with these elements and any model of the friction coefficient.
-pub fn with_coefficient<C, A, L: CoefficientModel>(
+/// A scene with elements, the load at which they are designed, N, and any model of the friction coefficient.
+pub fn with_coefficient<C, E: Hysteresis, A, L: CoefficientModel>(
     scene: C,
-    remembered: &Remembered,
+    (elements, reference_load): (E, f32),
     angle: A,
     coefficient: L,
-) -> WithMemoryConfiguration<C, Elements, A, L> {
+) -> WithMemoryConfiguration<C, E, A, L> {
     WithMemoryConfiguration {
         scene,
-        elements: remembered.elements,
+        play: elements.breakaway(),
+        elements,
         angle,
-        reference_load: remembered.reference_load,
-        play: remembered.elements.breakaway(),
+        reference_load,
         coefficient,
         temperature: FADE,
         freshness: Freshness::DEFAULT,

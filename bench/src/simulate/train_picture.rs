@@ -1,8 +1,8 @@
 //! Friction split into grooves and balls, and which balls press on each other, as Lin 2019, Figures 3.24
 //! and 3.25.
 
-use super::curves::thin;
 use crate::failure::Failure;
+use crate::plot::thin;
 use crate::plot::{Axis, Chart, Mark, Panel, Series, render};
 
 /// Moments at which contacts are marked, at most.

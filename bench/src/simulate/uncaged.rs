@@ -102,18 +102,24 @@ impl Uncaged {
         } = self.balls.configuration;
         let loaded =
             turns * std::f32::consts::TAU * design.pitch_radius() / design.cos_lead_angle();
+        let told = self.design.calibrated.is_some();
         let screw = memory::Screw {
             design,
             friction,
             clearance,
             rolling_resistance,
             loaded_balls: f32::from(self.balls.balls) * loaded / (loaded + return_length),
-            calibrated: self.design.calibrated.as_ref(),
         };
-        self.memory
+        let mut remembered = self
+            .memory
             .then(|| screw.remembered(memory::mean_load(trace)))
             .transpose()
-            .map_err(|error| Failure::Data(format!("{}: {error}", self.name())))
+            .map_err(|error| Failure::Data(format!("{}: {error}", self.name())))?;
+        if let (Some(remembered), true) = (&mut remembered, told) {
+            let text = "left out: what a trace has told is that of the scene caged";
+            remembered.lines.add("calibration", text);
+        }
+        Ok(remembered)
     }
 }
 

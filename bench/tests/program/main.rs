@@ -1,5 +1,6 @@
 //! The program as its users start it.
 
+mod calibrated;
 mod eval;
 mod loads;
 mod pairs;

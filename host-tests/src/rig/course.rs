@@ -27,6 +27,10 @@ pub enum Manoeuvre {
     Turns,
     /// Strokes up to 12 rad/s under 1.2 kN of both signs: what warms a screw up.
     Running,
+    /// 5 rad/s forward without an end, under a load that swings to 2 kN of both signs: tells little.
+    Steady,
+    /// Forward at 1 to 20 rad/s, never back, under the same load: tells little.
+    OneWay,
 }
 
 impl Manoeuvre {
@@ -41,6 +45,8 @@ impl Manoeuvre {
             Self::LoadSteps => "load steps",
             Self::Turns => "turns",
             Self::Running => "running",
+            Self::Steady => "steady",
+            Self::OneWay => "one way",
         }
     }
 }
@@ -52,6 +58,8 @@ pub struct Course {
     pub parts: Vec<(Manoeuvre, f64)>,
     /// Temperature at the start and at the end, K, between which it rises evenly.
     pub temperatures: [f64; 2],
+    /// Loads over those of the manoeuvres, 0 (none) to 10.
+    pub load_factor: f64,
     /// Time between two samples, s.
     pub tick: f64,
 }
@@ -65,6 +73,7 @@ impl Course {
                 .map(|manoeuvre| (manoeuvre, 20.0))
                 .into(),
             temperatures: [ZERO_CELSIUS + 20.0, ZERO_CELSIUS + 45.0],
+            load_factor: 1.0,
             tick: 1e-3,
         }
     }
@@ -82,6 +91,7 @@ impl Course {
             .map(|manoeuvre| (manoeuvre, 15.0))
             .into(),
             temperatures: [ZERO_CELSIUS + 20.0, ZERO_CELSIUS + 60.0],
+            load_factor: 1.0,
             tick: 1e-3,
         }
     }
@@ -113,6 +123,13 @@ impl Course {
         }
     }
 
+    /// The same without a load.
+    #[must_use]
+    pub fn unloaded(mut self) -> Self {
+        self.load_factor = 0.0;
+        self
+    }
+
     /// The same with every part's duration times `factor`.
     #[must_use]
     pub fn times(mut self, factor: f64) -> Self {
@@ -128,6 +145,7 @@ impl Course {
     /// [`ReferenceError`] naming a duration, temperature or tick out of range.
     pub fn driven(&self, seed: u64) -> Result<Driven, ReferenceError> {
         within("tick", self.tick, 1e-5, 0.02)?;
+        within("load_factor", self.load_factor, 0.0, 10.0)?;
         for temperature in self.temperatures {
             within("temperatures", temperature, 200.0, 500.0)?;
         }
@@ -144,6 +162,9 @@ impl Course {
             let first = driven.position.len();
             part.drive(manoeuvre, &mut random, &mut driven);
             driven.parts.push((manoeuvre, first..driven.position.len()));
+        }
+        for load in &mut driven.load {
+            *load *= self.load_factor;
         }
         // Half of the power passes at 20 Hz.
         let width = 6.6e-3 / self.tick;
@@ -220,7 +241,7 @@ impl Part {
             }
             Manoeuvre::Turns => self.turn(driven, |share| {
                 let quarter = (share * 4.0) as u8;
-                let way = if quarter % 2 == 0 { 1.0 } else { -1.0 };
+                let way = if quarter.is_multiple_of(2) { 1.0 } else { -1.0 };
                 (3.0 * way, if quarter < 2 { 1500.0 } else { -1500.0 })
             }),
             Manoeuvre::Running => self.turn(driven, |share| {
@@ -228,6 +249,22 @@ impl Part {
                 let load = 1200.0 * (TAU * 0.31 * time).sin().signum();
                 (12.0 * (TAU * 0.5 * time).sin(), load)
             }),
+            Manoeuvre::Steady | Manoeuvre::OneWay => {
+                let constant = manoeuvre == Manoeuvre::Steady;
+                // Without a rest at either end.
+                let mut position = self.start;
+                for tick in 0..self.ticks {
+                    let time = self.time(tick);
+                    let speed = if constant {
+                        5.0
+                    } else {
+                        10.5 + 9.5 * (TAU * 0.2 * time).sin()
+                    };
+                    position += speed * self.tick;
+                    driven.position.push(position);
+                    driven.load.push(2000.0 * (TAU * 0.37 * time).sin());
+                }
+            }
         }
     }
 
@@ -267,10 +304,11 @@ impl Part {
         }
     }
 
-    /// 0 at both ends, 1 from half a second on.
+    /// 0 at both ends, 1 from a tenth of the duration on, two seconds at most.
     fn faded(&self, tick: usize) -> f64 {
         let end = self.time(tick.min(self.ticks - 1 - tick.min(self.ticks - 1)));
-        (FRAC_PI_2 * (end / 0.5).min(1.0)).sin().powi(2)
+        let fading = (0.1 * self.duration).min(2.0);
+        (FRAC_PI_2 * (end / fading).min(1.0)).sin().powi(2)
     }
 
     /// Random waves of a band, Hz, with an rms value.

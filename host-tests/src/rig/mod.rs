@@ -14,6 +14,7 @@
 //! | [`course`] | manoeuvres: motion, load, temperature |
 //! | [`sliding`] | friction of gross sliding over load and friction coefficient |
 //! | [`friction`] | friction coefficient, limits, memory |
+//! | [`spoiled`] | traces of careless measurements |
 //!
 //! Same seed, same trace, on every machine that rounds sines alike.
 
@@ -21,6 +22,7 @@ pub mod course;
 pub mod friction;
 pub mod parameters;
 pub mod sliding;
+pub mod spoiled;
 
 use std::io::Write;
 use std::ops::Range;

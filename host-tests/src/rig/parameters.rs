@@ -42,7 +42,7 @@ impl Screw {
         balls: 71.0,
         axial_preload: 700.0,
         rolling: RollingResistance::STEEL,
-        largest_load: 8000.0,
+        largest_load: 6000.0,
     };
 
     /// Torque of the load over the load, m.

@@ -8,10 +8,10 @@ use crate::error::{ReferenceError, within};
 use crate::friction::ball_screw_efficiency::LoadedScrew;
 
 /// Loads of each sign: from nearly none to the largest.
-const LOADS: usize = 56;
+const LOADS: usize = 80;
 
 /// Friction coefficients of the grid.
-const COEFFICIENTS: usize = 4;
+const COEFFICIENTS: usize = 5;
 
 /// Smallest load over the largest.
 const SMALLEST: f64 = 1e-4;
@@ -37,7 +37,7 @@ impl SlidingTorque {
         within("least coefficient", least, 1e-3, 0.5)?;
         within("largest coefficient", largest, least, 0.5)?;
         within("largest_load", screw.largest_load, 1.0, 1e6)?;
-        let coefficients = chebyshev(least, largest);
+        let coefficients = steps(least, largest);
         let loads = loads(screw);
         let clearance = screw.clearance()?;
         let screws: Vec<LoadedScrew> = [1.0, -1.0]
@@ -74,13 +74,8 @@ impl SlidingTorque {
             drive
         };
         let load = opposing_load.abs();
-        let weights = lagrange(&self.coefficients, coefficient);
-        let torque = |row: &[f64; COEFFICIENTS]| -> f64 {
-            row.iter()
-                .zip(&weights)
-                .map(|(torque, weight)| torque * weight)
-                .sum()
-        };
+        let (below, [low, high]) = linear(&self.coefficients, coefficient);
+        let torque = |row: &[f64; COEFFICIENTS]| low * row[below] + high * row[below + 1];
         let smallest = self.loads[0];
         if load < smallest {
             let at_smallest = torque(&law[0]);
@@ -107,9 +102,9 @@ impl SlidingTorque {
 fn loads(screw: &Screw) -> Vec<f64> {
     let largest = screw.largest_load;
     let bend = if screw.axial_preload > 0.0 {
-        (screw.axial_preload / largest).min(1.0)
+        (2.0 * screw.axial_preload / largest).min(1.0)
     } else {
-        1e-2
+        1e-3
     };
     let reach = (1.0 / bend).asinh();
     let start = (SMALLEST / bend).asinh();
@@ -121,15 +116,19 @@ fn loads(screw: &Screw) -> Vec<f64> {
         .collect()
 }
 
-/// Nodes whose polynomial has the least error between both ends.
-fn chebyshev(least: f64, largest: f64) -> [f64; COEFFICIENTS] {
-    // An interval of no width has no polynomial.
-    let half = (0.5 * (largest - least)).max(1e-3 * largest);
-    let middle = 0.5 * (largest + least);
-    std::array::from_fn(|number| {
-        let angle = std::f64::consts::PI * (number as f64 + 0.5) / COEFFICIENTS as f64;
-        middle - half * angle.cos()
-    })
+/// Coefficients at even steps.
+fn steps(least: f64, largest: f64) -> [f64; COEFFICIENTS] {
+    // Neighbours must differ.
+    let width = (largest - least).max(1e-3 * largest);
+    std::array::from_fn(|number| least + width * number as f64 / (COEFFICIENTS - 1) as f64)
+}
+
+/// Weights of the two neighbours of a place on even steps.
+fn linear(places: &[f64; COEFFICIENTS], place: f64) -> (usize, [f64; 2]) {
+    let step = places[1] - places[0];
+    let along = (place - places[0]) / step;
+    let below = along.floor().clamp(0.0, (COEFFICIENTS - 2) as f64);
+    (below as usize, [1.0 + below - along, along - below])
 }
 
 /// Weights of values at `places` for the value of their polynomial at `place`.

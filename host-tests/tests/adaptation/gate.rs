@@ -212,7 +212,6 @@ fn an_hour_of_the_same_winds_nothing_up() {
     assert!(within(deviations.drag, 2e-4) && within(deviations.offset, 5e-3));
     assert!(within(deviations.load_error, 0.01));
     // Nothing was told of the other direction.
-    println!("{backward} {deviations:?}");
     assert!((backward - 1.0).abs() < 1e-3 && deviations.backward > 0.26);
     // What was told: friction at this speed and load, however it is shared out.
     let found = adaptation.estimates();

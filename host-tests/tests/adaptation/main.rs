@@ -6,6 +6,7 @@ mod kit;
 mod covariance;
 mod gate;
 mod health;
+mod level;
 mod stored;
 mod total;
 mod trace;

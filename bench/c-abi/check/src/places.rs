@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::Path;
 
+use epas_friction::adaptation::Adaptation;
 use epas_friction::scene::Scene;
 use epas_friction::{
     CagedBallScrew, DeviationMap, FrictionModel, LinearBearingTrain, LoadShare, UncagedBallScrew,
@@ -23,7 +24,7 @@ const fn words<S: Scene>() -> usize {
 }
 
 /// The constants of `types.rs` with what they have to be, and the README's line of each.
-fn needed() -> [(&'static str, &'static str, usize); 3] {
+fn needed() -> [(&'static str, &'static str, usize); 4] {
     [
         (
             "EPAS_CAGED_WORDS",
@@ -39,6 +40,11 @@ fn needed() -> [(&'static str, &'static str, usize); 3] {
             "EPAS_LINEAR_WORDS",
             "`epas_linear_t` (32 balls)",
             words::<LinearBearingTrain<32>>(),
+        ),
+        (
+            "EPAS_ADAPTATION_WORDS",
+            "`epas_adaptation_t`",
+            size_of::<(u32, Adaptation)>().div_ceil(8),
         ),
     ]
 }

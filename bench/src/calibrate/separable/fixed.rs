@@ -76,6 +76,19 @@ impl<'a> Fixed<'a> {
                 .collect(),
         })
     }
+
+    /// Moves the starts of the free nonlinear parameters; names that are not among them are passed over.
+    pub fn start_at(&mut self, values: &[(&str, f64)]) {
+        for (name, value) in values {
+            for parameter in self
+                .nonlinear
+                .iter_mut()
+                .filter(|parameter| parameter.name == *name)
+            {
+                parameter.start = value.clamp(parameter.low, parameter.high);
+            }
+        }
+    }
 }
 
 impl Separable for Fixed<'_> {

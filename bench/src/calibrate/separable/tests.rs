@@ -2,7 +2,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::*;
 use crate::calibrate::problem::{Evaluation, LinearParameter};
-use crate::calibrate::toys::{STRIBECK, Toy, free, positive, stribeck_toy, total};
+use crate::calibrate::toys::{STRIBECK, Toy, free, hash, positive, rough, stribeck_toy, total};
 
 fn close(found: &[f64], wanted: &[f64], relative: f64) {
     assert_eq!(found.len(), wanted.len());
@@ -26,18 +26,6 @@ fn truth_without_noise() {
         "{:?}",
         fit.starts
     );
-}
-
-/// Noise by formula, so that another program can make the same: `fract(sin(12.9898 k) 43758.5453) - 1/2`, and an outlier of 3 in
-/// every 97th row.
-fn rough() -> Vec<f64> {
-    let hash = |k: usize| {
-        let value = (12.9898 * k as f64).sin() * 43758.5453;
-        value - value.floor() - 0.5
-    };
-    (0..1500)
-        .map(|k| 0.4 * hash(k) + if k % 97 == 0 { 3.0 } else { 0.0 })
-        .collect()
 }
 
 /// SciPy 1.16, all five parameters at once: `least_squares(lambda p: model(p) - y, truth, x_scale='jac', ftol=1e-15, xtol=1e-15,
@@ -66,6 +54,73 @@ fn soft_l1_as_scipy() {
     close(&fit.nonlinear, &[3.02649591, 0.69198548], 1e-3);
     close(&fit.linear, &[2.06469426, 0.13397781, -0.09629579], 1e-3);
     assert!(fit.weights.iter().step_by(97).all(|weight| *weight < 0.15));
+}
+
+/// Four springs in parallel that slip at `limit / 4` each, after `2 travel f^exponent`, f = 1/8, 3/8, 5/8, 7/8. SciPy: all five
+/// parameters at once, from the truth, `least_squares(..., x_scale='jac', jac='3-point', diff_step=1e-4, ftol=1e-15, xtol=1e-15,
+/// gtol=1e-15)`. The model has kinks where springs begin to slip, so that differences of 1e-3 and of 1e-4 end at points that differ
+/// by parts of the standard errors, which are 0.2 to 0.8 % here: half of 0.2 % is allowed.
+#[test]
+fn maxwell_slip_as_scipy() {
+    let path: Vec<f64> = (0..2000)
+        .map(|k| {
+            let t = 0.01 * f64::from(k);
+            (1.1 * t).sin() + 0.4 * (3.7 * t).sin() + 0.02 * t
+        })
+        .collect();
+    let model = {
+        let path = path.clone();
+        move |q: &[f64]| {
+            let bounds = [0.125f64, 0.375, 0.625, 0.875].map(|f| 2.0 * q[1] * f.powf(q[2]));
+            let mut springs = [0.0f64; 4];
+            let mut before = path[0];
+            let force = |x: &f64| {
+                for (spring, bound) in springs.iter_mut().zip(bounds) {
+                    *spring = (*spring + x - before).clamp(-bound, bound);
+                }
+                before = *x;
+                springs
+                    .iter()
+                    .zip(bounds)
+                    .map(|(spring, bound)| 0.25 * q[0] * spring / bound)
+                    .sum()
+            };
+            Evaluation {
+                fixed: path.iter().map(force).collect(),
+                columns: vec![path.clone(), vec![1.0; 2000]],
+            }
+        }
+    };
+    let clean = total(&model(&[2.0, 0.15, 1.5]), &[0.3, -0.2]);
+    let toy = Toy {
+        nonlinear: vec![
+            positive("limit", 1.0, 0.1, 20.0),
+            positive("travel", 0.05, 0.01, 1.0),
+            positive("exponent", 1.0, 0.3, 4.0),
+        ],
+        linear: vec![free("stiffness"), free("offset")],
+        target: clean
+            .iter()
+            .enumerate()
+            .map(|(k, value)| value + 0.3 * hash(k))
+            .collect(),
+        model,
+    };
+    let fit = fit(
+        &toy,
+        &FitSettings {
+            robust: false,
+            ..FitSettings::default()
+        },
+    )
+    .unwrap();
+    close(&fit.nonlinear, &[2.00336167, 0.1502813, 1.49906843], 1e-3);
+    close(&fit.linear, &[0.29626745, -0.19795366], 3e-3);
+    assert!(
+        matches!(fit.verdict, Verdict::Agreed(_)),
+        "{:?}",
+        fit.starts
+    );
 }
 
 /// Two decays with free amplitudes can change places: two answers with the same residual.
@@ -270,7 +325,7 @@ fn wrong_problems() {
 }
 
 /// A caged screw's size of problem: 6,000 rows, 8 columns, 6 nonlinear parameters, noise 1 %. At 8 ms an evaluation, 8 s on one core
-/// are 1,000 evaluations; measured here: 352.
+/// are 1,000 evaluations; measured here: 310.
 #[test]
 fn few_evaluations() {
     let count = AtomicUsize::new(0);
@@ -329,14 +384,7 @@ fn few_evaluations() {
     };
     count.store(0, Ordering::Relaxed);
     let fit = fit(&toy, &FitSettings::default()).unwrap();
-    println!(
-        "{} evaluations: {:?} {:?}",
-        fit.evaluations, fit.nonlinear, fit.verdict
-    );
-    for start in &fit.starts {
-        println!("{start:?}");
-    }
     assert_eq!(fit.evaluations, count.load(Ordering::Relaxed));
-    assert!(fit.evaluations < 600);
+    assert!(fit.evaluations < 500, "{}", fit.evaluations);
     assert!(matches!(fit.verdict, Verdict::Agreed(_)));
 }

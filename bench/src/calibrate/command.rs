@@ -1,0 +1,246 @@
+//! `calibrate`: arguments, and which room does the work.
+
+use std::path::{Path, PathBuf};
+
+use super::answer::Calibration;
+use super::columns::{self, Frame};
+use super::controller::SeenController;
+use super::folder::{self, Folder, FolderArguments};
+use super::outputs::{Outcome, OutputArguments};
+use super::screw::Request;
+use super::screw::choice::Wanted;
+use super::signals::{RowSettings, SmoothingSettings};
+use super::sums::Sums;
+use super::with_design;
+use super::without_design::{self, Filters};
+use crate::controller::Controller;
+use crate::designs::{Design, DesignSource};
+use crate::failure::Failure;
+
+/// Fits a model to a measured trace, and says how sure it is and what the trace cannot tell.
+///
+/// The trace is a CSV file with the columns time; position or speed (of the nut, or of motor_ or carriage_);
+/// motor_torque or motor_force; and where there are any reference_position, axial_load, temperature. Units are SI (rad, m, N, N m, K);
+/// others stand in the column's name: nut_position_deg, motor_speed_rpm, axial_load_kN, temperature_C.
+///
+/// With a design the model is the one that firmware runs: friction coefficient by speed and temperature, preload, pre-sliding. Each
+/// parameter is estimated where the trace can tell it.
+///
+/// Without a design a mass or an inertia with load-free friction is fitted, in the trace's own coordinate, and models of
+/// friction are compared on what was not fitted: another trace (--validate), or the last third of this one. With --controller they are
+/// compared by the simulated closed loop.
+///
+/// Of a folder every trace (*.csv) is fitted, and their parameters together; a run that was stopped goes on where it was.
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    /// Measured trace, or a folder of them
+    #[arg(value_name = "TRACE.csv|FOLDER")]
+    trace: PathBuf,
+    /// Built-in design, or design file ending in .toml
+    #[arg(long, value_name = "NAME|FILE.toml")]
+    design: Option<DesignSource>,
+    /// Turns of the motor in a turn of the nut [default: 1]
+    #[arg(long, value_name = "RATIO", requires = "design", value_parser = ratio)]
+    ratio: Option<f64>,
+    /// Parameters to estimate, by name [default: what the trace can tell]
+    #[arg(
+        long,
+        value_name = "NAME,...",
+        requires = "design",
+        value_delimiter = ','
+    )]
+    estimate: Option<Vec<String>>,
+    /// Parameters to set
+    #[arg(long, value_name = "NAME=VALUE,...", requires = "design", value_delimiter = ',', value_parser = setting)]
+    fix: Vec<(String, f64)>,
+    /// Trace that is not fitted, by which models are scored
+    #[arg(long, value_name = "OTHER.csv")]
+    validate: Option<PathBuf>,
+    /// Controller of the trace: force = V (P (reference_position - position) - speed); where it has its speed from is found
+    #[arg(
+        long,
+        value_name = "gain_position=P,gain_speed=V",
+        conflicts_with = "design"
+    )]
+    controller: Option<Controller>,
+    /// Cut-off of the zero-phase filter of the motion, Hz [default: 40 with a design; else 100, less where the sensor is coarse]
+    #[arg(long, value_name = "HZ", value_parser = frequency)]
+    smoothing: Option<f64>,
+    /// Cut-off of the zero-phase filter of both sides of the regression, Hz [default: 25 with a design, else 60]
+    #[arg(long, value_name = "HZ", value_parser = frequency)]
+    rows: Option<f64>,
+    #[command(flatten)]
+    outputs: OutputArguments,
+    #[command(flatten)]
+    folder: FolderArguments,
+}
+
+/// A frequency, Hz.
+fn frequency(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if (1e-3..=1e6).contains(&value) => Ok(value),
+        _ => Err("a cut-off is 1e-3 to 1e6 Hz".into()),
+    }
+}
+
+/// A ratio of a gear.
+fn ratio(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if (0.01..=1000.0).contains(&value) => Ok(value),
+        _ => Err("a ratio is 0.01 to 1000".into()),
+    }
+}
+
+/// A parameter's name with its value.
+fn setting(text: &str) -> Result<(String, f64), String> {
+    let (name, value) = text.split_once('=').ok_or("expected NAME=VALUE")?;
+    let number: f64 = value
+        .trim()
+        .parse()
+        .map_err(|_| format!("{value} is no number"))?;
+    if !number.is_finite() {
+        return Err(format!("{value} is not finite"));
+    }
+    Ok((name.trim().into(), number))
+}
+
+/// Calibrates a trace, or the traces of a folder.
+pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let design = arguments
+        .design
+        .as_ref()
+        .map(DesignSource::load)
+        .transpose()?;
+    arguments
+        .outputs
+        .check(&arguments.trace, arguments.design.as_ref())?;
+    if arguments.trace.is_dir() || !arguments.folder.merge.is_empty() {
+        return whole_folder(arguments, design.as_ref());
+    }
+    match &design {
+        Some(design) => with_design(arguments, design),
+        None => free(arguments),
+    }
+}
+
+impl Arguments {
+    /// What refers motor and carriage to the nut of a design.
+    fn frame(&self, design: &Design) -> Frame {
+        Frame {
+            lead: design.screw().lead().into(),
+            ratio: self.ratio.unwrap_or(1.0),
+        }
+    }
+
+    fn filters(&self) -> Filters {
+        Filters {
+            smoothing: self.smoothing,
+            rows: self.rows,
+        }
+    }
+
+    fn request(&self) -> Request {
+        Request {
+            wanted: Wanted {
+                estimate: self.estimate.clone(),
+                fix: self.fix.clone(),
+                ..Wanted::default()
+            },
+            smoothing: SmoothingSettings {
+                cutoff: self.smoothing,
+                ..SmoothingSettings::default()
+            },
+            rows: RowSettings {
+                cutoff: self.rows,
+                ..RowSettings::default()
+            },
+            ..Request::default()
+        }
+    }
+}
+
+/// A trace of a screw whose design is known.
+fn with_design(arguments: &Arguments, design: &Design) -> Result<(), Failure> {
+    let frame = arguments.frame(design);
+    let trace = columns::read(&arguments.trace, Some(&frame))?;
+    let found = with_design::told(&trace, design, &arguments.request())?;
+    arguments.outputs.write(Outcome {
+        calibration: &found.answer,
+        picture: &found.picture,
+        design: arguments.design.as_ref(),
+        screw: Some(&found.screw),
+    })
+}
+
+/// A trace without a design.
+fn free(arguments: &Arguments) -> Result<(), Failure> {
+    let trace = columns::read(&arguments.trace, None)?;
+    let unseen = arguments
+        .validate
+        .as_deref()
+        .map(|path| columns::read(path, None))
+        .transpose()?;
+    let told = without_design::calibrate(
+        &trace,
+        unseen.as_ref(),
+        arguments.controller,
+        &arguments.filters(),
+    )?;
+    if let Some(controller) = &told.controller {
+        tell(controller);
+    }
+    arguments.outputs.write(Outcome {
+        calibration: &told.answer,
+        picture: &told.picture,
+        design: None,
+        screw: None,
+    })
+}
+
+/// What the trace shows of its controller; beside the answer, so that a JSON object stays alone.
+fn tell(seen: &SeenController) {
+    eprintln!(
+        "The controller's speed is {}; it explains the effort to {:.3e} rms.",
+        seen.source.words(),
+        seen.residual
+    );
+}
+
+/// Every trace of a folder.
+fn whole_folder(arguments: &Arguments, design: Option<&Design>) -> Result<(), Failure> {
+    let name = arguments.trace.file_name().map_or_else(
+        || "folder".into(),
+        |name| name.to_string_lossy().into_owned(),
+    );
+    let output = arguments.outputs.folder(&name);
+    let settings = format!(
+        "{:?} {:?} {:?} {:?} {:?}",
+        design.map(|design| (&design.configuration, &design.calibrated)),
+        arguments.ratio,
+        arguments.estimate,
+        arguments.fix,
+        arguments.filters(),
+    );
+    let folder = Folder {
+        traces: &arguments.trace,
+        output: &output,
+        arguments: &arguments.folder,
+        settings: &settings,
+        json: arguments.outputs.json,
+    };
+    folder::run(&folder, |path| one(arguments, design, path))
+}
+
+/// One trace of a folder.
+fn one(
+    arguments: &Arguments,
+    design: Option<&Design>,
+    path: &Path,
+) -> Result<(Calibration, Sums), Failure> {
+    let Some(design) = design else {
+        let trace = columns::read(path, None)?;
+        return without_design::plain(&trace, &arguments.filters());
+    };
+    let trace = columns::read(path, Some(&arguments.frame(design)))?;
+    with_design::summed(&trace, design, &arguments.request())
+}

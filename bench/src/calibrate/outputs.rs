@@ -1,0 +1,155 @@
+//! What a calibration writes, and where.
+
+use std::fs;
+use std::io::{self, Write as _};
+use std::path::{Path, PathBuf};
+
+use super::answer::Calibration;
+use super::design_file::{self, Written};
+use super::page;
+use super::picture::Picture;
+use super::screw::friction::Screw;
+use super::{constants, shown};
+use crate::designs::{DesignSource, text};
+use crate::failure::Failure;
+use crate::files::{self, Existing, refuse_same};
+
+/// Where the outputs of a calibration go.
+#[derive(Clone, Debug, Default, PartialEq, Eq, clap::Args)]
+pub struct OutputArguments {
+    /// Folder of the page with its figures and tables [default: target/calibrate/TRACE]
+    #[arg(long, value_name = "FOLDER")]
+    pub output: Option<PathBuf>,
+    /// Where the design file with the calibrated numbers goes
+    #[arg(long, value_name = "OUT.toml", requires = "design")]
+    pub design_out: Option<PathBuf>,
+    /// Where Rust constants for firmware go
+    #[arg(long, value_name = "OUT.rs", requires = "design")]
+    pub constants: Option<PathBuf>,
+    /// Replace a design file or constants that exist
+    #[arg(long)]
+    pub force: bool,
+    /// Print one JSON object
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// What is written of a calibration.
+#[derive(Clone, Copy)]
+pub struct Outcome<'a> {
+    /// The answer.
+    pub calibration: &'a Calibration,
+    /// What the page draws.
+    pub picture: &'a Picture,
+    /// The design that was calibrated, where there is one.
+    pub design: Option<&'a DesignSource>,
+    /// The screw that was fitted, where there is a design.
+    pub screw: Option<&'a Screw>,
+}
+
+impl OutputArguments {
+    /// Fails before any work is done where an output would be in the way of a file, or is one of the inputs.
+    ///
+    /// # Errors
+    /// The file.
+    pub fn check(&self, trace: &Path, design: Option<&DesignSource>) -> Result<(), Failure> {
+        for path in self.files() {
+            self.existing().check(path)?;
+        }
+        let design = design.and_then(DesignSource::file);
+        refuse_same([Some(trace), design], self.files())
+    }
+
+    fn files(&self) -> impl Iterator<Item = &PathBuf> {
+        self.design_out.iter().chain(&self.constants)
+    }
+
+    const fn existing(&self) -> Existing {
+        if self.force {
+            Existing::Replace
+        } else {
+            Existing::Keep
+        }
+    }
+
+    /// Folder of the page of a trace.
+    pub fn folder(&self, trace: &str) -> PathBuf {
+        self.output.clone().unwrap_or_else(|| {
+            let name: String = trace
+                .chars()
+                .map(|letter| {
+                    if letter.is_alphanumeric() || "-_".contains(letter) {
+                        letter
+                    } else {
+                        '_'
+                    }
+                })
+                .collect();
+            Path::new("target").join("calibrate").join(name)
+        })
+    }
+
+    /// Writes everything, and prints what is to be told: the page's text and tables, or one JSON object.
+    ///
+    /// # Errors
+    /// What cannot be written; a calibrated number that no design can have.
+    pub fn write(&self, outcome: Outcome<'_>) -> Result<(), Failure> {
+        let Outcome {
+            calibration,
+            picture,
+            design,
+            ..
+        } = outcome;
+        let folder = self.folder(&picture.name);
+        let document = page::document(calibration, picture);
+        document.write(&folder)?;
+        let mut told = Vec::new();
+        if let (Some(source), true) = (design, self.files().next().is_some()) {
+            let written = calibrated(source, outcome)?;
+            if let Some(path) = &self.design_out {
+                files::write(path, &written.text, self.existing())?;
+                told.push(format!("wrote {}", path.display()));
+                if !written.left_out.is_empty() {
+                    let names = written.left_out.join(", ");
+                    told.push(format!("a design file has no key for {names}"));
+                }
+            }
+            if let Some(path) = &self.constants {
+                let text = constants::text(&written.design, &picture.name)?;
+                files::write(path, &text, self.existing())?;
+                told.push(format!("wrote {}", path.display()));
+            }
+        }
+        if self.json {
+            return print_json(calibration);
+        }
+        document.print(&folder)?;
+        let mut stdout = io::stdout().lock();
+        for line in told {
+            writeln!(stdout, "{line}")?;
+        }
+        Ok(())
+    }
+}
+
+/// The design's own text with the calibrated numbers in it.
+fn calibrated(source: &DesignSource, outcome: Outcome<'_>) -> Result<Written, Failure> {
+    let text = match source.file() {
+        Some(path) => {
+            fs::read_to_string(path).map_err(|error| Failure::file("read", path, &error))?
+        }
+        None => text::text(&source.load()?),
+    };
+    let trace = shown::one_line(&outcome.picture.name);
+    let told = (outcome.calibration, outcome.screw);
+    design_file::written(&text, told, &trace)
+        .map_err(|message| Failure::Data(format!("the calibrated design: {message}")))
+}
+
+/// One JSON object on a line.
+fn print_json(calibration: &Calibration) -> Result<(), Failure> {
+    let text =
+        serde_json::to_string(calibration).map_err(|error| Failure::Data(error.to_string()))?;
+    writeln!(io::stdout().lock(), "{text}")?;
+    Ok(())
+}

@@ -1,0 +1,315 @@
+//! Friction of a screw along a trace by what the firmware runs: the crate's caged scene with memory.
+//!
+//! One formula, in one place: values of a calibration become a configuration here, and nowhere else.
+
+use std::f32::consts::{PI, TAU};
+
+use epas_friction::law::coefficient::{
+    CoefficientLaw, CoefficientParameters, DirectionalCoefficient, TemperatureFade, Viscosity,
+};
+use epas_friction::law::memory::{
+    Hysteresis, LoadExactElements, Part, ProportionalElements, SLIP_8,
+};
+use epas_friction::law::motion::{Steady, WrappedAngle, WrappedAngleParameters};
+use epas_friction::law::{Elements, SlidingLimits};
+use epas_friction::scene::{
+    CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, Freshness, FrictionBranch, Inputs,
+    Scene, Sliding, WithMemory, WithMemoryConfiguration, WithMemoryInputs,
+};
+use epas_friction::{Clearance, Error, FrictionModel, RollingResistance};
+
+use super::quantities::Values;
+use crate::calibrate::signals::Motion;
+use crate::calibrate::trace::Trace;
+
+/// Elements of every calibrated memory.
+pub const ELEMENTS: usize = 8;
+
+/// Sensor of the nut's angle, behind its backlash.
+pub type Sensor = Steady<WrappedAngle>;
+
+/// A scene with such a memory.
+pub type Remembering<E> = WithMemory<CagedBallScrew, E, Sensor, CoefficientLaw>;
+
+/// What is set for it.
+pub type Configuration<E> =
+    WithMemoryConfiguration<CagedBallScrewConfiguration, E, Sensor, CoefficientLaw>;
+
+/// Distance of the second point of a viscosity from the reference temperature, K.
+const SECOND: f32 = 60.0;
+
+/// Viscosity at the reference temperature, Pa s, where only its growth matters.
+const VISCOSITY: f32 = 0.1;
+
+/// Coldest temperature of a lubricant, K.
+const COLDEST: f32 = 150.0;
+
+/// Ticks after which both directions of a caged screw have been looked up.
+const LOOKED_UP: usize = 8;
+
+/// How elements follow the load.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ElementsKind {
+    /// Constant shares of the friction of gross sliding: a preloaded screw.
+    Proportional,
+    /// Springs that come into contact with the load: any load, without a preload.
+    LoadExact,
+}
+
+/// What of a screw is not estimated from a trace.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Screw {
+    /// Its design; friction, fit and rolling resistance are replaced.
+    pub configuration: CagedBallScrewConfiguration,
+    /// How elements follow the load.
+    pub elements: ElementsKind,
+    /// Whether the fit is that of the preload; else it is the design's own.
+    pub preloaded: bool,
+    /// Temperature of the half-share speed, K.
+    pub reference_temperature: f64,
+    /// Axial load of the breakaway angle, N, not below 0.
+    pub reference_load: f64,
+    /// Largest axial load of the trace, N.
+    pub largest_load: f64,
+}
+
+/// Gross sliding with the coefficient at standstill, at the reference load and at the largest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reference {
+    /// Mean friction of both directions, N m.
+    pub torque: f32,
+    /// Load of the elements there, N.
+    pub load: f32,
+    /// That at the largest load over it.
+    pub largest_load: f32,
+}
+
+impl Screw {
+    /// The design with the values' friction, fit and rolling resistance.
+    ///
+    /// # Errors
+    /// [`Error`] naming a value out of range.
+    pub fn scene(&self, values: &Values) -> Result<CagedBallScrewConfiguration, Error> {
+        let design = self.configuration.design;
+        Ok(CagedBallScrewConfiguration {
+            friction: values.friction as f32,
+            rolling_resistance: RollingResistance {
+                hysteresis_loss: values.hysteresis_loss as f32,
+                lubricant_drag: values.lubricant_drag as f32,
+            },
+            branch: FrictionBranch::Contacts,
+            clearance: if self.preloaded {
+                Clearance::of_preload(&design, values.preload as f32)?
+            } else {
+                self.configuration.clearance
+            },
+            ..self.configuration
+        })
+    }
+
+    /// Law of the friction coefficient. Churned lubricant counts as a torque of its own.
+    pub fn coefficient(&self, values: &Values) -> CoefficientParameters {
+        CoefficientParameters {
+            boundary: values.friction as f32,
+            full_film: (values.full_film_ratio * values.friction) as f32,
+            half_share_speed: values.half_share_speed as f32,
+            reference_temperature: self.reference_temperature as f32,
+            viscosity: self
+                .viscosity(values)
+                .unwrap_or(epas_friction::defaults::VISCOSITY),
+            forward: (1.0 + values.direction_asymmetry) as f32,
+            backward: (1.0 - values.direction_asymmetry) as f32,
+            churning: 0.0,
+        }
+    }
+
+    /// A viscosity with the values' pole.
+    ///
+    /// # Errors
+    /// [`Error`] naming `viscosity` for a pole too close to the reference temperature or too far from it.
+    pub fn viscosity(&self, values: &Values) -> Result<Viscosity, Error> {
+        let (reference, pole) = (
+            self.reference_temperature as f32,
+            values.viscosity_pole as f32,
+        );
+        let ratio = (reference - pole) / (reference + SECOND - pole);
+        Viscosity::through(
+            (reference, VISCOSITY),
+            (reference + SECOND, VISCOSITY * ratio.powi(5)),
+            COLDEST,
+        )
+    }
+
+    /// Gross sliding at the reference load.
+    ///
+    /// # Errors
+    /// As [`Self::scene`].
+    pub fn reference(&self, values: &Values) -> Result<Reference, Error> {
+        let constants = CagedConstants::new(&self.scene(values)?)?;
+        let mut state = CagedBallScrew::initial_state(&constants);
+        let mut recent = CagedBallScrew::recent(&constants, &state);
+        let mut limits = |axial_load: f64| {
+            let both = DirectionalCoefficient {
+                forward: values.friction as f32,
+                backward: values.friction as f32,
+            };
+            let inputs = Inputs {
+                nut_speed: 1.0,
+                axial_load: axial_load as f32,
+            };
+            let mut limits = SlidingLimits {
+                forward: 0.0,
+                backward: 0.0,
+                load: 0.0,
+            };
+            for _ in 0..LOOKED_UP {
+                let full =
+                    CagedBallScrew::full(&constants, &mut state, &mut recent, None, inputs, both);
+                limits = CagedBallScrew::limits(&full);
+            }
+            limits
+        };
+        let largest = limits(self.largest_load);
+        let SlidingLimits {
+            forward,
+            backward,
+            load,
+        } = limits(self.reference_load);
+        Ok(Reference {
+            torque: 0.5 * (forward + backward),
+            load,
+            largest_load: largest.load / load,
+        })
+    }
+
+    /// Elements in constant shares of the friction.
+    ///
+    /// # Errors
+    /// [`Error`] naming what is out of range.
+    pub fn proportional(
+        &self,
+        values: &Values,
+        reference: &Reference,
+    ) -> Result<ProportionalElements<ELEMENTS>, Error> {
+        let whole = Part {
+            backbone: &SLIP_8.elements,
+            share: 1.0,
+            breakaway_angle: values.breakaway_angle as f32,
+        };
+        ProportionalElements::new(reference.torque, &[whole])
+    }
+
+    /// Elements that come into contact with the load.
+    ///
+    /// # Errors
+    /// [`Error`] naming what is out of range.
+    pub fn load_exact(
+        &self,
+        values: &Values,
+        reference: &Reference,
+    ) -> Result<LoadExactElements<ELEMENTS>, Error> {
+        LoadExactElements::new(
+            reference.torque,
+            values.breakaway_angle as f32,
+            reference.largest_load,
+        )
+    }
+
+    /// The whole scene with these elements.
+    ///
+    /// # Errors
+    /// [`Error`] naming a value out of range.
+    pub fn configuration<E: Elements + Hysteresis + Copy>(
+        &self,
+        values: &Values,
+        reference: &Reference,
+        elements: E,
+    ) -> Result<Configuration<E>, Error> {
+        let angle = WrappedAngle::new(WrappedAngleParameters {
+            lowest: -PI,
+            period: TAU,
+            largest_turn: PI,
+        })?;
+        Ok(WithMemoryConfiguration {
+            scene: self.scene(values)?,
+            elements,
+            angle: Steady::new(angle, 0.5 * values.backlash as f32)?,
+            reference_load: reference.load,
+            play: elements.breakaway(),
+            coefficient: CoefficientLaw::new(&self.coefficient(values))?,
+            temperature: TemperatureFade::new(self.reference_temperature as f32, 1.0, 1.0)?,
+            freshness: Freshness::DEFAULT,
+        })
+    }
+
+    /// Friction torque at every sample, N m.
+    ///
+    /// # Errors
+    /// [`Error`] naming a value out of range.
+    pub fn friction(&self, values: &Values, course: &Course) -> Result<Vec<f64>, Error> {
+        let reference = self.reference(values)?;
+        match self.elements {
+            ElementsKind::Proportional => {
+                let elements = self.proportional(values, &reference)?;
+                course.friction(&self.configuration(values, &reference, elements)?)
+            }
+            ElementsKind::LoadExact => {
+                let elements = self.load_exact(values, &reference)?;
+                course.friction(&self.configuration(values, &reference, elements)?)
+            }
+        }
+    }
+}
+
+/// What the model is told at every sample.
+#[derive(Clone, Debug)]
+pub struct Course {
+    inputs: Vec<WithMemoryInputs<Inputs, f32>>,
+}
+
+impl Course {
+    /// Inputs along a trace; no load, and the temperature given, where nothing was measured.
+    pub fn of(trace: &Trace, motion: &Motion, temperature: f64) -> Self {
+        let at = |list: &Option<Vec<f64>>, index: usize, other: f64| {
+            let value = list.as_ref().and_then(|list| list.get(index));
+            value.copied().unwrap_or(other) as f32
+        };
+        let moments = motion.position.iter().zip(&motion.speed).enumerate();
+        let inputs = moments.map(|(index, (position, speed))| WithMemoryInputs {
+            scene: Inputs {
+                nut_speed: *speed as f32,
+                axial_load: at(&trace.load, index, 0.0),
+            },
+            reading: wrapped(*position),
+            load_age: 0.0,
+            temperature: at(&trace.temperature, index, temperature),
+            temperature_age: 0.0,
+        });
+        Self {
+            inputs: inputs.collect(),
+        }
+    }
+
+    /// Friction torque of a scene with memory at every sample, N m.
+    ///
+    /// # Errors
+    /// [`Error`] naming what is out of range in the configuration.
+    pub fn friction<E: Elements + Copy>(
+        &self,
+        configuration: &Configuration<E>,
+    ) -> Result<Vec<f64>, Error> {
+        let mut model = FrictionModel::<Remembering<E>>::new(configuration)?;
+        Ok(self
+            .inputs
+            .iter()
+            .map(|inputs| model.step(*inputs).friction_torque.into())
+            .collect())
+    }
+}
+
+/// An angle within half a turn either way, rad.
+fn wrapped(angle: f64) -> f32 {
+    let half = std::f64::consts::PI;
+    let within = (angle + half).rem_euclid(2.0 * half) - half;
+    (within as f32).clamp(-PI, PI)
+}

@@ -1,0 +1,397 @@
+//! What many traces say together, as sums that merge: every trace adds its own, sums of parts add up to those of the whole.
+//!
+//! Each trace gives its Gauss-Newton sums about a common reference: the information `A` of its parameters (the inverse of their
+//! covariance, which knows that neighbouring rows err alike), its pull `A (q - q_ref)`, numbers of rows. From the merged sums follow
+//!
+//! - the common parameters, as if all traces had been fitted at once ([`Sums::common`]);
+//! - the population ([`Sums::population`]): mean and spread of each parameter between the traces, in which every trace errs by its own
+//!   variance. The spread is Paule and Mandel's (1982), which solves `sum w (q - mean)^2 = n - 1`, `w = 1 / (variance + spread^2)`, and
+//!   whose first step is DerSimonian and Laird's. As this needs the variances one by one, traces are summed by half octaves of their
+//!   variance, and a trace counts with the mean variance of its class.
+//!
+//! Every sum is kept in two numbers (value and rounding), so that the order and the grouping move the result by parts of 1e-30, and
+//! the answer from any partition is the same to the last rounding. Classes and counts are whole numbers.
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+use nalgebra::{DMatrix, DVector};
+use serde::{Deserialize, Serialize};
+use statrs::distribution::{ContinuousCDF, StudentsT};
+
+use super::cramer_rao::inverse;
+use super::problem::Scale;
+use super::separable::{Fit, inner, outer};
+use super::uncertainty::Uncertainty;
+
+/// A sum and what its roundings have lost (Knuth's two-sum).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Sum {
+    value: f64,
+    lost: f64,
+}
+
+impl Sum {
+    /// Adds a number.
+    pub fn add(&mut self, term: f64) {
+        self.merge(Self {
+            value: term,
+            lost: 0.0,
+        });
+    }
+
+    /// Adds another sum.
+    pub fn merge(&mut self, other: Self) {
+        let total = self.value + other.value;
+        let part = total - self.value;
+        let error = (self.value - (total - part)) + (other.value - part);
+        let lost = error + (self.lost + other.lost);
+        self.value = total + lost;
+        self.lost = (total - self.value) + lost;
+    }
+
+    /// The sum as one number.
+    pub fn total(&self) -> f64 {
+        self.value
+    }
+}
+
+/// A parameter that traces may tell, with the point about which the sums are made. Same in all sums that merge.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Reference {
+    /// Name.
+    pub name: String,
+    /// Whether it is summed by its logarithm.
+    pub logarithmic: bool,
+    /// Reference value.
+    pub value: f64,
+}
+
+impl Reference {
+    fn scale(&self) -> Scale {
+        if self.logarithmic {
+            Scale::Logarithmic
+        } else {
+            Scale::Linear
+        }
+    }
+}
+
+/// Why sums cannot be made or merged.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum SumsError {
+    /// The two are about other parameters or values.
+    OtherReference,
+    /// The reference does not have a parameter, or has it on another scale.
+    Unknown(String),
+    /// A value, a covariance or a reference value is not finite, or not positive where it has to be.
+    NotFinite(String),
+}
+
+impl fmt::Display for SumsError {
+    fn fmt(&self, text: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::OtherReference => {
+                write!(text, "sums about different references cannot be merged")
+            }
+            Self::Unknown(name) => write!(
+                text,
+                "{name}: the reference of the sums has no such parameter"
+            ),
+            Self::NotFinite(name) => {
+                write!(text, "{name}: not a finite number with a positive variance")
+            }
+        }
+    }
+}
+
+impl std::error::Error for SumsError {}
+
+/// Traces whose variance lies in one half octave.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+struct Class {
+    traces: u64,
+    variance: Sum,
+    deviation: Sum,
+    squares: Sum,
+}
+
+/// Sums over traces.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Sums {
+    references: Vec<Reference>,
+    traces: u64,
+    rows: u64,
+    effective_rows: Sum,
+    residual_squares: Sum,
+    /// Information, row by row.
+    information: Vec<Sum>,
+    pull: Vec<Sum>,
+    /// `(q - q_ref)' A (q - q_ref)`.
+    square: Sum,
+    /// Traces by half octaves of their variance, for each parameter.
+    classes: Vec<BTreeMap<i32, Class>>,
+}
+
+/// A parameter of the traces together.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Population {
+    /// Name.
+    pub name: String,
+    /// Traces that tell it.
+    pub traces: u64,
+    /// Mean of the traces (geometric where the scale is logarithmic).
+    pub mean: f64,
+    /// 95 % interval of the mean.
+    pub mean_interval: [f64; 2],
+    /// Standard deviation between the traces beyond their own errors: of the value, or of its logarithm. `None` with one trace.
+    pub spread: Option<f64>,
+    /// Interval that holds the next unit with 95 %. `None` with fewer than three traces.
+    pub next: Option<[f64; 2]>,
+}
+
+impl Sums {
+    /// No trace yet.
+    ///
+    /// # Errors
+    ///
+    /// A reference value that is not finite, or not positive on a logarithmic scale.
+    pub fn new(references: Vec<Reference>) -> Result<Self, SumsError> {
+        let count = references.len();
+        let wrong = |reference: &&Reference| !inner(reference.scale(), reference.value).is_finite();
+        if let Some(reference) = references.iter().find(wrong) {
+            return Err(SumsError::NotFinite(reference.name.clone()));
+        }
+        Ok(Self {
+            references,
+            traces: 0,
+            rows: 0,
+            effective_rows: Sum::default(),
+            residual_squares: Sum::default(),
+            information: vec![Sum::default(); count * count],
+            pull: vec![Sum::default(); count],
+            square: Sum::default(),
+            classes: vec![BTreeMap::new(); count],
+        })
+    }
+
+    /// Number of traces.
+    pub fn traces(&self) -> u64 {
+        self.traces
+    }
+
+    /// Number of rows of all traces, and how many count as independent.
+    pub fn rows(&self) -> (u64, f64) {
+        (self.rows, self.effective_rows.total())
+    }
+
+    /// Root of the mean square of all rows' residuals.
+    pub fn residual_rms(&self) -> f64 {
+        (self.residual_squares.total() / self.rows as f64).sqrt()
+    }
+
+    /// Adds a trace's fit. Parameters of the reference that the fit does not have were not told by the trace, and get nothing.
+    ///
+    /// # Errors
+    ///
+    /// A parameter that the reference does not have, or numbers that are not finite; the sums stay as they were.
+    pub fn add(&mut self, fit: &Fit, sure: &Uncertainty) -> Result<(), SumsError> {
+        let mut places = vec![];
+        let mut deviations = vec![];
+        for (k, interval) in sure.intervals.iter().enumerate() {
+            let place = self
+                .references
+                .iter()
+                .position(|reference| reference.name == interval.name);
+            let place = place.filter(|place| self.references[*place].scale() == interval.scale);
+            let place = place.ok_or_else(|| SumsError::Unknown(interval.name.into()))?;
+            let reference = &self.references[place];
+            let deviation =
+                inner(interval.scale, interval.value) - inner(interval.scale, reference.value);
+            let variance = sure.covariance[(k, k)];
+            if !(deviation.is_finite() && variance.is_finite() && variance > 0.0) {
+                return Err(SumsError::NotFinite(interval.name.into()));
+            }
+            places.push(place);
+            deviations.push(deviation);
+        }
+        let information =
+            inverse(&sure.covariance).ok_or_else(|| SumsError::NotFinite("covariance".into()))?;
+        let deviation = DVector::from_vec(deviations);
+        let pull = &information * &deviation;
+        let count = self.references.len();
+        for (i, into) in places.iter().enumerate() {
+            for (j, column) in places.iter().enumerate() {
+                self.information[into * count + column].add(information[(i, j)]);
+            }
+            self.pull[*into].add(pull[i]);
+            let variance = sure.covariance[(i, i)];
+            let class = self.classes[*into]
+                .entry((2.0 * variance.log2()).floor() as i32)
+                .or_default();
+            class.traces += 1;
+            class.variance.add(variance);
+            class.deviation.add(deviation[i]);
+            class.squares.add(deviation[i] * deviation[i]);
+        }
+        self.square.add(pull.dot(&deviation));
+        self.traces += 1;
+        self.rows += fit.residual.len() as u64;
+        self.effective_rows.add(sure.effective_rows);
+        self.residual_squares
+            .add(fit.residual.iter().map(|r| r * r).sum());
+        Ok(())
+    }
+
+    /// Adds other sums.
+    ///
+    /// # Errors
+    ///
+    /// Sums about another reference.
+    pub fn merge(&mut self, other: &Self) -> Result<(), SumsError> {
+        if self.references != other.references {
+            return Err(SumsError::OtherReference);
+        }
+        self.traces += other.traces;
+        self.rows += other.rows;
+        self.effective_rows.merge(other.effective_rows);
+        self.residual_squares.merge(other.residual_squares);
+        self.square.merge(other.square);
+        let sums = self.information.iter_mut().chain(&mut self.pull);
+        sums.zip(other.information.iter().chain(&other.pull))
+            .for_each(|(into, sum)| into.merge(*sum));
+        for (into, classes) in self.classes.iter_mut().zip(&other.classes) {
+            for (key, class) in classes {
+                let into = into.entry(*key).or_default();
+                into.traces += class.traces;
+                into.variance.merge(class.variance);
+                into.deviation.merge(class.deviation);
+                into.squares.merge(class.squares);
+            }
+        }
+        Ok(())
+    }
+
+    /// Parameters with one value for all traces, as if fitted at once: names, values, standard errors of the inner coordinates, and
+    /// chi-squared per degree of freedom, which is 1 where the traces differ by their errors only. `None` where the traces together do
+    /// not tell all parameters that any of them tells.
+    pub fn common(&self) -> Option<Common> {
+        let count = self.references.len();
+        let told: Vec<usize> = (0..count)
+            .filter(|k| !self.classes[*k].is_empty())
+            .collect();
+        let entry = |i: usize, j: usize| self.information[told[i] * count + told[j]].total();
+        let information = DMatrix::from_fn(told.len(), told.len(), entry);
+        let pull = DVector::from_iterator(told.len(), told.iter().map(|k| self.pull[*k].total()));
+        let covariance = inverse(&information)?;
+        let deviation = &covariance * &pull;
+        let values: u64 = told
+            .iter()
+            .flat_map(|k| self.classes[*k].values())
+            .map(|class| class.traces)
+            .sum();
+        let freedom = values as f64 - told.len() as f64;
+        let left = self.square.total() - pull.dot(&deviation);
+        let parameter = |(i, k): (usize, &usize)| {
+            let reference = &self.references[*k];
+            let place = inner(reference.scale(), reference.value) + deviation[i];
+            (
+                reference.name.clone(),
+                outer(reference.scale(), place),
+                covariance[(i, i)].sqrt(),
+            )
+        };
+        Some(Common {
+            parameters: told.iter().enumerate().map(parameter).collect(),
+            chi_squared: (freedom > 0.0).then(|| left / freedom),
+        })
+    }
+
+    /// Mean and spread of every parameter that a trace tells.
+    pub fn population(&self) -> Vec<Population> {
+        let told = self
+            .references
+            .iter()
+            .zip(&self.classes)
+            .filter(|(_, classes)| !classes.is_empty());
+        told.map(|(reference, classes)| population(reference, classes))
+            .collect()
+    }
+}
+
+/// Parameters with one value for all traces.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Common {
+    /// Name, value, and standard error of the inner coordinate.
+    pub parameters: Vec<(String, f64, f64)>,
+    /// Chi-squared per degree of freedom; `None` without any.
+    pub chi_squared: Option<f64>,
+}
+
+/// Mean, sum of the weights, and `sum w (q - mean)^2`, at a spread's square.
+fn weighted(classes: &BTreeMap<i32, Class>, spread: f64) -> (f64, f64, f64) {
+    let each = || {
+        classes.values().map(|class| {
+            let traces = class.traces as f64;
+            (
+                1.0 / (class.variance.total() / traces + spread),
+                traces,
+                class,
+            )
+        })
+    };
+    let weight: f64 = each().map(|(weight, traces, _)| weight * traces).sum();
+    let mean = each()
+        .map(|(weight, _, class)| weight * class.deviation.total())
+        .sum::<f64>()
+        / weight;
+    let square = |(weight, traces, class): (f64, f64, &Class)| {
+        weight * (class.squares.total() - mean * (2.0 * class.deviation.total() - traces * mean))
+    };
+    (mean, weight, each().map(square).sum())
+}
+
+fn population(reference: &Reference, classes: &BTreeMap<i32, Class>) -> Population {
+    let traces: u64 = classes.values().map(|class| class.traces).sum();
+    let freedom = traces as f64 - 1.0;
+    let mut spread = 0.0;
+    if traces > 1 && weighted(classes, 0.0).2 > freedom {
+        // `sum w (q - mean)^2` falls as the spread grows; without their own errors the traces spread at most by their squares.
+        let (mut low, mut high) = (
+            0.0,
+            classes
+                .values()
+                .map(|class| class.squares.total())
+                .sum::<f64>(),
+        );
+        for _ in 0..100 {
+            spread = 0.5 * (low + high);
+            *(if weighted(classes, spread).2 > freedom {
+                &mut low
+            } else {
+                &mut high
+            }) = spread;
+        }
+    }
+    let (mean, weight, _) = weighted(classes, spread);
+    let scale = reference.scale();
+    let at = |away: f64| outer(scale, inner(scale, reference.value) + mean + away);
+    let student = |freedom: f64| {
+        StudentsT::new(0.0, 1.0, freedom).map_or(f64::INFINITY, |law| law.inverse_cdf(0.975))
+    };
+    // One trace alone has its own error only.
+    let quantile = if traces > 1 { student(freedom) } else { 1.96 };
+    let half = quantile / weight.sqrt();
+    let ahead = (traces > 2).then(|| student(freedom - 1.0) * (spread + 1.0 / weight).sqrt());
+    Population {
+        name: reference.name.clone(),
+        traces,
+        mean: at(0.0),
+        mean_interval: [at(-half), at(half)],
+        spread: (traces > 1).then(|| spread.sqrt()),
+        next: ahead.map(|half| [at(-half), at(half)]),
+    }
+}
+
+#[cfg(test)]
+mod tests;

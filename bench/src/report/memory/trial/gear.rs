@@ -1,0 +1,135 @@
+//! A gear whose friction is known: what was measured of it, and what a control unit knows of it tick by tick.
+
+use epas_reference::rig::course::{Course, Manoeuvre};
+use epas_reference::rig::parameters::Parameters;
+use epas_reference::rig::{self, Rig, Sensors};
+
+use crate::calibrate::signals::{Motion, RowSettings, Rows, SmoothingSettings};
+use crate::calibrate::trace::{Coordinate, Repairs, Trace};
+use crate::designs::{Design, DesignSource};
+use crate::failure::Failure;
+
+/// Seed of the trace that models are fitted to, and of the one on which they are judged.
+const SEEDS: [u64; 2] = [0, 5];
+
+/// Bandwidth of the filter that tracks the angle, Hz.
+const TRACKING: f64 = 40.0;
+
+/// Manoeuvres that are judged one by one.
+pub const JUDGED: [Manoeuvre; 3] = [Manoeuvre::Weave, Manoeuvre::Parking, Manoeuvre::Micro];
+
+/// A gear with the trace for fitting and the one for judging.
+pub struct Gear {
+    /// Its design, as a catalogue has it: without friction or fit.
+    pub design: Design,
+    /// What it is.
+    pub parameters: Parameters,
+    /// Measured trace to be fitted.
+    pub trace: Trace,
+    /// Its motion, smoothed.
+    pub motion: Motion,
+    /// How it becomes rows.
+    pub rows: Rows,
+    /// The trace on which models are judged, with what is true.
+    unseen: rig::Trace,
+    /// The same as the control unit knows it: counted angles, and a speed that tracks them.
+    pub in_loop: (Trace, Motion),
+}
+
+impl Gear {
+    /// Runs the vehicle's course twice, its parts as long as this share of their 20 s.
+    pub fn new(parameters: Parameters, length: f64) -> Result<Self, Failure> {
+        let failed = |error: epas_reference::ReferenceError| Failure::Data(error.to_string());
+        let rig = Rig::new(parameters.clone(), Sensors::default()).map_err(failed)?;
+        let course = Course::vehicle().times(length);
+        let run = |seed: u64| rig.run(&course, seed).map_err(failed);
+        let trace = measured(&run(SEEDS[0])?);
+        let unseen = run(SEEDS[1])?;
+        let known = measured(&unseen);
+        let motion = tracked(&known);
+        let source: DesignSource = "lin-4.1".parse().map_err(Failure::Data)?;
+        Ok(Self {
+            design: source.load()?,
+            parameters,
+            motion: Motion::of(&trace, &SmoothingSettings::default())?,
+            rows: Rows::new(trace.step, &RowSettings::default())?,
+            trace,
+            in_loop: (known, motion),
+            unseen,
+        })
+    }
+
+    /// Rms of the true friction less a model's, N m: by manoeuvre, and over all.
+    pub fn residual(&self, found: &[f64]) -> [f64; 4] {
+        let truth = &self.unseen.truth.friction;
+        let rms = |samples: &mut dyn Iterator<Item = usize>| {
+            let (mut sum, mut count) = (0.0, 0.0_f64);
+            for sample in samples {
+                sum += (truth[sample] - found[sample]).powi(2);
+                count += 1.0;
+            }
+            (sum / count.max(1.0)).sqrt()
+        };
+        let [weave, parking, micro] =
+            JUDGED.map(|manoeuvre| rms(&mut self.unseen.samples_of(manoeuvre)));
+        [weave, parking, micro, rms(&mut (0..truth.len()))]
+    }
+
+    /// Samples of a second in the micro triangles, with time in s and true friction.
+    pub fn glimpse(&self) -> impl Iterator<Item = (usize, f64, f64)> {
+        let second = (1.0 / self.trace.step) as usize;
+        let middle = self
+            .unseen
+            .samples_of(Manoeuvre::Micro)
+            .nth(3 * second)
+            .unwrap_or(0);
+        let samples = middle..(middle + 3 * second).min(self.unseen.len());
+        samples.map(|sample| {
+            (
+                sample,
+                self.unseen.time[sample],
+                self.unseen.truth.friction[sample],
+            )
+        })
+    }
+}
+
+/// A trace as a file of it would be read.
+fn measured(trace: &rig::Trace) -> Trace {
+    Trace {
+        name: "rig".into(),
+        coordinate: Coordinate::Rotation,
+        start: 0.0,
+        step: trace.time.get(1).copied().unwrap_or(1e-3),
+        position: trace.nut_position.clone(),
+        resolution: Sensors::default().count,
+        position_summed: false,
+        speed: None,
+        effort: trace.motor_torque.clone(),
+        reference_position: None,
+        load: Some(trace.axial_load.clone()),
+        temperature: Some(trace.temperature.clone()),
+        repairs: Repairs::default(),
+        ignored: Vec::new(),
+    }
+}
+
+/// Motion as it is known in the loop: the counted angle, and its speed by a tracking filter of the second order, critically damped.
+fn tracked(trace: &Trace) -> Motion {
+    let rate = std::f64::consts::TAU * TRACKING * trace.step;
+    let (mut angle, mut speed) = (trace.position.first().copied().unwrap_or(0.0), 0.0);
+    let speeds = trace.position.iter().map(|reading| {
+        angle += speed * trace.step;
+        let error = reading - angle;
+        angle += 2.0 * rate * error;
+        speed += rate * rate * error / trace.step;
+        speed
+    });
+    Motion {
+        speed: speeds.collect(),
+        position: trace.position.clone(),
+        acceleration: vec![0.0; trace.len()],
+        noise: [0.0; 2],
+        edge: 0,
+    }
+}

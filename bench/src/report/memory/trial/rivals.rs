@@ -1,0 +1,271 @@
+//! Models in use today, fitted to the same trace in the same way.
+
+use std::f64::consts::TAU;
+
+use epas_friction::{
+    CagedBallScrew, CagedBallScrewConfiguration, Clearance, FrictionModel, Inputs,
+};
+
+use super::gear::Gear;
+use crate::calibrate::problem::{Evaluation, LinearParameter, Parameter, Scale, Separable};
+use crate::calibrate::separable::{FitSettings, fit};
+use crate::calibrate::signals::Motion;
+use crate::calibrate::trace::Trace;
+use crate::failure::Failure;
+
+/// Nut speed over which friction changes its direction in the model of today, rad/s.
+const REVERSAL_SPEED: f32 = 0.2;
+
+/// A model with its parameters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rival {
+    /// The crate's caged screw without memory: friction turns with the speed; coefficient and preload are fitted.
+    BySpeed,
+    /// LuGre times the sum of both flanks' loads, as tyre models have it: stiffness, friction at rest and in motion, Stribeck's speed are
+    /// fitted; the preload is given.
+    LuGre,
+    /// The same times what the crate's contacts say of the load: as good as LuGre can be made.
+    LuGreOnContacts,
+}
+
+impl Rival {
+    /// Name.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::BySpeed => "by speed, coefficient and preload fitted",
+            Self::LuGre => "LuGre times the load, preload given, 4 parameters fitted",
+            Self::LuGreOnContacts => {
+                "LuGre times this crate's friction of the load, preload given, 4 parameters fitted"
+            }
+        }
+    }
+
+    fn parameters(self) -> Vec<Parameter> {
+        let positive = |name, unit, start, low, high| Parameter {
+            name,
+            unit,
+            start,
+            low,
+            high,
+            scale: Scale::Logarithmic,
+        };
+        match self {
+            Self::BySpeed => vec![
+                positive("friction", "", 0.08, 0.01, 0.3),
+                positive("preload", "N", 10.0, 0.5, 100.0),
+            ],
+            Self::LuGre | Self::LuGreOnContacts => vec![
+                positive("stiffness", "N m/rad", 80.0, 1.0, 1e4),
+                positive("friction_in_motion", "N m", 0.08, 0.005, 1.0),
+                positive("friction_at_rest", "N m", 0.12, 0.005, 1.0),
+                positive("stribeck_speed", "rad/s", 5.0, 0.05, 500.0),
+            ],
+        }
+    }
+
+    /// What LuGre is multiplied by, at every sample of a trace, over that without a load.
+    fn factors(self, gear: &Gear, trace: &Trace) -> Result<Vec<f64>, Failure> {
+        let load = trace.load.as_deref().unwrap_or(&[]);
+        let screw = &gear.parameters.screw;
+        match self {
+            Self::BySpeed => Ok(Vec::new()),
+            Self::LuGre => {
+                let reference = screw.flank_sum(0.0);
+                Ok(load
+                    .iter()
+                    .map(|load| screw.flank_sum(*load) / reference)
+                    .collect())
+            }
+            Self::LuGreOnContacts => {
+                // Sliding forward, under every load and under none.
+                let loads: Vec<f64> = load.iter().copied().chain([0.0]).collect();
+                let speeds = vec![1e3 * f64::from(REVERSAL_SPEED); loads.len()];
+                let preload = screw.contact_force(screw.axial_preload);
+                let values = [gear.parameters.boundary, preload];
+                let mut torques = by_speed(&gear.design.configuration, values, &speeds, &loads)
+                    .map_err(|error| Failure::Data(error.to_string()))?;
+                let without = torques.pop().unwrap_or(1.0);
+                Ok(torques.iter().map(|torque| torque / without).collect())
+            }
+        }
+    }
+
+    /// Friction along a trace, N m; no numbers where a parameter is out of range.
+    fn torque(self, gear: &Gear, values: &[f64], course: &Course<'_>) -> Vec<f64> {
+        let Course {
+            trace,
+            motion,
+            factors,
+        } = course;
+        match (self, values) {
+            (Self::BySpeed, [friction, preload]) => {
+                let load = trace.load.as_deref().unwrap_or(&[]);
+                let values = [*friction, *preload];
+                by_speed(&gear.design.configuration, values, &motion.speed, load)
+                    .unwrap_or_else(|_| vec![f64::NAN; trace.len()])
+            }
+            (_, [stiffness, in_motion, at_rest, stribeck]) => {
+                let mut held = 0.0;
+                let mut last = motion.position.first().copied().unwrap_or(0.0);
+                let moments = motion.position.iter().zip(&motion.speed).zip(factors);
+                moments
+                    .map(|((angle, speed), factor)| {
+                        let pull = stiffness * (angle - last);
+                        last = *angle;
+                        let level =
+                            in_motion + (at_rest - in_motion) * (-(speed / stribeck).powi(2)).exp();
+                        held = (held + pull) / (1.0 + pull.abs() / level);
+                        factor * held
+                    })
+                    .collect()
+            }
+            _ => vec![f64::NAN; trace.len()],
+        }
+    }
+
+    /// The model, fitted, over the trace that was not: friction at every tick, N m.
+    pub fn tried(self, gear: &Gear, settings: &FitSettings) -> Result<Vec<f64>, Failure> {
+        let problem = Fitted::new(self, gear)?;
+        let fit = fit(&problem, settings)?;
+        let (trace, motion) = &gear.in_loop;
+        let course = Course {
+            trace,
+            motion,
+            factors: self.factors(gear, trace)?,
+        };
+        Ok(self.torque(gear, &fit.nonlinear, &course))
+    }
+}
+
+/// What a model is told along a trace.
+struct Course<'a> {
+    trace: &'a Trace,
+    motion: &'a Motion,
+    /// See [`Rival::factors`].
+    factors: Vec<f64>,
+}
+
+/// Friction of the screw without memory, N m.
+fn by_speed(
+    configuration: &CagedBallScrewConfiguration,
+    [friction, preload]: [f64; 2],
+    speeds: &[f64],
+    load: &[f64],
+) -> Result<Vec<f64>, epas_friction::Error> {
+    let mut model = FrictionModel::<CagedBallScrew>::new(&CagedBallScrewConfiguration {
+        friction: friction as f32,
+        clearance: Clearance::of_preload(&configuration.design, preload as f32)?,
+        reversal_speed: REVERSAL_SPEED,
+        ..*configuration
+    })?;
+    let moments = speeds.iter().zip(load);
+    Ok(moments
+        .map(|(speed, load)| {
+            let outputs = model.step(Inputs {
+                nut_speed: *speed as f32,
+                axial_load: *load as f32,
+            });
+            outputs.friction_torque.into()
+        })
+        .collect())
+}
+
+/// A rival on the measured trace, with the same linear parameters as the crate's calibration.
+struct Fitted<'a> {
+    rival: Rival,
+    gear: &'a Gear,
+    course: Course<'a>,
+    nonlinear: Vec<Parameter>,
+    linear: Vec<LinearParameter>,
+    columns: Vec<Vec<f64>>,
+    target: Vec<f64>,
+}
+
+impl<'a> Fitted<'a> {
+    fn new(rival: Rival, gear: &'a Gear) -> Result<Self, Failure> {
+        let Gear {
+            trace,
+            motion,
+            rows,
+            ..
+        } = gear;
+        let target = rows.of(&trace.effort);
+        let reduced_lead = f64::from(gear.design.configuration.design.lead()) / TAU;
+        let load: Vec<f64> = trace
+            .load
+            .iter()
+            .flatten()
+            .map(|load| reduced_lead * load)
+            .collect();
+        let wave = |of: fn(f64) -> f64, order: f64| {
+            let wave: Vec<f64> = motion
+                .position
+                .iter()
+                .map(|angle| of(order * angle))
+                .collect();
+            rows.of(&wave)
+        };
+        let columns = vec![
+            ("inertia", rows.of(&motion.acceleration)),
+            ("drag", rows.of(&motion.speed)),
+            ("offset", vec![1.0; target.len()]),
+            ("gain", rows.of(&load)),
+            ("harmonic_1_cosine", wave(f64::cos, 1.0)),
+            ("harmonic_1_sine", wave(f64::sin, 1.0)),
+            ("harmonic_2_cosine", wave(f64::cos, 2.0)),
+            ("harmonic_2_sine", wave(f64::sin, 2.0)),
+        ];
+        Ok(Self {
+            rival,
+            gear,
+            course: Course {
+                trace,
+                motion,
+                factors: rival.factors(gear, trace)?,
+            },
+            nonlinear: rival.parameters(),
+            linear: columns
+                .iter()
+                .map(|(name, _)| LinearParameter {
+                    name,
+                    unit: "",
+                    // Friction must not hide behind a drag that drives.
+                    low: if matches!(*name, "inertia" | "drag") {
+                        0.0
+                    } else {
+                        f64::NEG_INFINITY
+                    },
+                    high: f64::INFINITY,
+                })
+                .collect(),
+            columns: columns.into_iter().map(|(_, column)| column).collect(),
+            target,
+        })
+    }
+}
+
+impl Separable for Fitted<'_> {
+    fn nonlinear(&self) -> &[Parameter] {
+        &self.nonlinear
+    }
+
+    fn linear(&self) -> &[LinearParameter] {
+        &self.linear
+    }
+
+    fn target(&self) -> &[f64] {
+        &self.target
+    }
+
+    fn row_step(&self) -> f64 {
+        self.gear.rows.row_step()
+    }
+
+    fn evaluate(&self, values: &[f64]) -> Evaluation {
+        let torque = self.rival.torque(self.gear, values, &self.course);
+        Evaluation {
+            fixed: self.gear.rows.of(&torque),
+            columns: self.columns.clone(),
+        }
+    }
+}

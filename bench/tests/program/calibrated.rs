@@ -1,0 +1,125 @@
+//! What a calibration writes is what a simulation runs and what firmware folds.
+
+use std::f64::consts::{PI, TAU};
+use std::fmt::Write as _;
+use std::fs;
+
+use epas_friction::law::coefficient::CoefficientLaw;
+use epas_friction::law::memory::ProportionalElements;
+use epas_friction::law::motion::{Steady, WrappedAngle, WrappedAngleParameters};
+use epas_friction::scene::{WithMemory, WithMemoryConstants, WithMemoryInputs};
+use epas_friction::{CagedBallScrew, CagedConstants, FrictionModel, Inputs};
+use tempfile::tempdir;
+
+use super::run_in;
+
+/// As the program writes them.
+#[rustfmt::skip]
+#[expect(dead_code, reason = "firmware takes what it needs")]
+#[path = "calibrated_constants.rs"]
+mod constants;
+
+/// The design file from which the constants were written.
+const DESIGN: &str = "\
+name = \"rack\"
+nominal_diameter = 0.032
+lead = 0.02
+ball_diameter = 6.35e-3
+conformity = 0.528
+contact_angle = 0.7853982
+friction = 0.115
+preload = 17
+loaded_balls = 40
+
+[calibration]
+full_film_ratio = 0.522
+half_share_speed = 6.0
+reference_temperature = 303.15
+viscosity_pole = 210.0
+direction_asymmetry = 0.02
+breakaway_angle = 2e-3
+";
+
+type Sensor = Steady<WrappedAngle>;
+
+const SENSOR: Sensor = {
+    let angle = WrappedAngle::new(WrappedAngleParameters {
+        lowest: -std::f32::consts::PI,
+        period: std::f32::consts::TAU,
+        largest_turn: std::f32::consts::PI,
+    });
+    match angle {
+        Ok(angle) => match Steady::new(angle, 0.0) {
+            Ok(sensor) => sensor,
+            Err(_) => panic!(),
+        },
+        Err(_) => panic!(),
+    }
+};
+
+/// Folded by the compiler: it stands in flash.
+static GEAR: WithMemoryConstants<CagedConstants, ProportionalElements<8>, Sensor, CoefficientLaw> =
+    constants::with_memory(SENSOR);
+
+/// Both are the same arithmetic on the same numbers.
+#[test]
+fn a_simulation_runs_what_firmware_folds() {
+    let folder = tempdir().unwrap();
+    let samples: Vec<[f64; 3]> = (0..2000)
+        .map(|tick| {
+            let time = 1e-3 * f64::from(tick);
+            let speed = 3.0 * (7.0 * time).sin() * (0.9 * time).cos();
+            [time, speed, 1200.0 * (2.0 * time).sin()]
+        })
+        .collect();
+    let mut trace = String::from("time,nut_speed,axial_load\n");
+    for [time, speed, load] in &samples {
+        writeln!(trace, "{time},{speed},{load}").unwrap();
+    }
+    fs::write(folder.path().join("trace.csv"), trace).unwrap();
+    fs::write(folder.path().join("design.toml"), DESIGN).unwrap();
+    let run = run_in(
+        folder.path(),
+        &[
+            "simulate",
+            "--design",
+            "design.toml",
+            "--input",
+            "trace.csv",
+            "--memory",
+            "--output",
+            "out.csv",
+        ],
+        "",
+    );
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    assert!(run.stdout.contains("as calibrated"), "{}", run.stdout);
+
+    type Gear = WithMemory<CagedBallScrew, ProportionalElements<8>, Sensor, CoefficientLaw>;
+    let mut model = FrictionModel::<Gear, &WithMemoryConstants<_, _, _, _>>::of(&GEAR);
+    let out = fs::read_to_string(folder.path().join("out.csv")).unwrap();
+    let mut rows = out.lines();
+    let column = rows
+        .next()
+        .unwrap()
+        .split(',')
+        .position(|name| name == "friction_torque")
+        .unwrap();
+    let (mut angle, mut last) = (0.0, samples[0]);
+    for (sample, row) in samples.iter().zip(rows) {
+        angle += 0.5 * (last[1] + sample[1]) * (sample[0] - last[0]);
+        last = *sample;
+        let outputs = model.step(WithMemoryInputs {
+            scene: Inputs {
+                nut_speed: sample[1] as f32,
+                axial_load: sample[2] as f32,
+            },
+            reading: ((angle + PI).rem_euclid(TAU) - PI) as f32,
+            load_age: 0.0,
+            temperature: 293.15,
+            temperature_age: 0.0,
+        });
+        let told: f32 = row.split(',').nth(column).unwrap().parse().unwrap();
+        assert_eq!(told, outputs.friction_torque, "{row}");
+    }
+}
