@@ -83,6 +83,8 @@ pub mod screw;
 pub mod separable;
 pub mod shown;
 pub mod signals;
+#[cfg(test)]
+mod signals_tests;
 pub mod slide;
 pub mod spectrum;
 pub mod sums;
@@ -96,11 +98,11 @@ pub mod units;
 pub mod with_design;
 pub mod without_design;
 
-pub use command::{Arguments, run};
-
 use std::io::Cursor;
 
 use crate::failure::Failure;
+
+pub use command::{Arguments, run};
 
 /// Reads a trace without a design and with one, smooths it and looks whether it may be believed; its number of samples.
 pub(crate) fn accepts(text: &[u8]) -> Result<usize, String> {

@@ -57,6 +57,11 @@ use targets::targets;
 /// load_shares (a list along the loaded track) and negative_load_shares (as long a list, for loads below
 /// zero; load_shares serves both signs without it).
 ///
+/// A table [calibration] holds what `calibrate` has told of the screw beyond these; for --scene caged with --memory it gives
+/// full_film_ratio and half_share_speed (rad/s) with reference_temperature and viscosity_pole (K), direction_ratio,
+/// breakaway_angle (rad) at reference_load (N), elements ("proportional", or with largest_load, N, "load_exact" or "preloaded"), backlash
+/// (rad), churning; and for --mechanism inertia, drag, offset, gain. harmonics (a list of { order, cosine, sine }) stand there too.
+///
 /// For --scene linear a trace has the columns time, speed (m/s), normal_load and side_load (N), and a
 /// design file ball_radius or ball_diameter, conformity or groove_radius, contact_angle, balls,
 /// loaded_length, and if wanted return_length, wavelength, rail_deviation, carriage_deviation,

@@ -90,7 +90,7 @@ fn step_of(gaps: &[f64], candidate: f64) -> Option<f64> {
     let (mut looked, mut near, mut sum, mut multiples) = (0usize, 0usize, 0.0, 0.0);
     for gap in gaps {
         let multiple = gap / candidate;
-        if multiple < NEAR || multiple > LARGEST {
+        if !(NEAR..=LARGEST).contains(&multiple) {
             continue;
         }
         looked += 1;

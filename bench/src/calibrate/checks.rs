@@ -45,7 +45,7 @@ fn look(trace: &Trace, motion: &Motion) -> Result<Vec<Finding>, String> {
     measured_speed(trace, motion, &mut findings)?;
     if let Some(relation) = relation(trace, motion) {
         signs(trace, motion, &relation)?;
-        unexplained(trace, &relation, &mut findings);
+        unexplained(trace, motion, &relation, &mut findings)?;
     }
     clocks(trace, motion, &mut findings)?;
     excitation::add(trace, motion, &mut findings)?;
@@ -286,9 +286,29 @@ fn signs(trace: &Trace, motion: &Motion, relation: &Relation) -> Result<(), Stri
 }
 
 /// Most of the effort comes from something that is not in the trace.
-fn unexplained(trace: &Trace, relation: &Relation, findings: &mut Vec<Finding>) {
+fn unexplained(
+    trace: &Trace,
+    motion: &Motion,
+    relation: &Relation,
+    findings: &mut Vec<Finding>,
+) -> Result<(), String> {
     /// Pre-sliding, load shares and ripple leave less than this.
     const SAID: f64 = 0.6;
+    /// Without a load, and with motions that are no pre-sliding (twenty breakaway travels and more), nothing is left to fit.
+    const REFUSED: f64 = 0.9;
+    const BEYOND_PRESLIDING: [f64; 2] = [0.1, 1e-3];
+    let beyond = match trace.coordinate {
+        Coordinate::Rotation => BEYOND_PRESLIDING[0],
+        Coordinate::Translation => BEYOND_PRESLIDING[1],
+    };
+    let (low, high) = range(&trace.position);
+    let moves = high - low > beyond && excitation::both_ways(motion);
+    if trace.load.is_none() && relation.left > REFUSED && moves {
+        return Err(format!(
+            "{:.0} % of the effort goes with neither acceleration nor speed: a load acts that the trace does not hold; add a column axial_load",
+            100.0 * relation.left
+        ));
+    }
     if relation.left > SAID {
         let cause = if trace.load.is_some() {
             "a channel is wrong, or a part moves that is not in the model"
@@ -304,6 +324,7 @@ fn unexplained(trace: &Trace, relation: &Relation, findings: &mut Vec<Finding>) 
             ),
         ));
     }
+    Ok(())
 }
 
 /// All channels have one clock.
@@ -339,7 +360,7 @@ fn clocks(trace: &Trace, motion: &Motion, findings: &mut Vec<Finding>) -> Result
                 1e3 * ticks * trace.step
             ));
         }
-        if ticks >= SHIFT_SAID[0] && found.gain >= SHIFT_SAID[1] {
+        if found.seen.is_finite() && ticks >= SHIFT_SAID[0] && found.gain >= SHIFT_SAID[1] {
             findings.push(Finding::new(
                 FindingKind::ShiftedEffort,
                 found.ticks,

@@ -203,7 +203,14 @@ fn a_load_that_hardly_varies_is_found() {
 fn a_load_that_is_not_in_the_trace_is_found() {
     let mut hidden = trace(brisk);
     hidden.load = None;
-    let found = kinds(&hidden);
+    let message = look(&hidden).unwrap_err();
+    assert!(message.contains("add a column axial_load"), "{message}");
+    // A fifth of the load leaves more of the rest.
+    let mut little = unloaded(brisk);
+    for (sample, effort) in little.effort.iter_mut().enumerate() {
+        *effort += 0.2 * TRAVEL * load(STEP * sample as f64);
+    }
+    let found = kinds(&little);
     assert!(found.contains(&FindingKind::Unexplained), "{found:?}");
 }
 

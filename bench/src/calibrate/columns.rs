@@ -73,94 +73,64 @@ struct Reference {
 }
 
 fn assemble(mut table: Table, name: &str, frame: Option<&Frame>) -> Result<Trace, String> {
-    let clock = Clock::of(&table.times, table.repeated)?;
-    table.times = Vec::new();
-
+    let clock = Clock::of(std::mem::take(&mut table.times), table.repeated)?;
     let (effort, torque) = effort(&mut table)?;
-    let position = motion(&mut table, |quantity| match quantity {
-        Quantity::Position(part) => Some(part),
-        _ => None,
-    });
-    let speed = motion(&mut table, |quantity| match quantity {
-        Quantity::Speed(part) => Some(part),
-        _ => None,
-    });
-    let (Some((main, part)), coordinate) = (
-        position.as_ref().or(speed.as_ref()),
-        if torque || frame.is_some() {
-            Coordinate::Rotation
-        } else {
-            Coordinate::Translation
-        },
-    ) else {
+    let position = motion(&mut table, Quantity::Position);
+    let speed = motion(&mut table, Quantity::Speed);
+    let Some((_, part)) = position.as_ref().or(speed.as_ref()) else {
         return Err(
             "a column position or speed is missing (of nut_, motor_, carriage_ or plain)".into(),
         );
     };
-    let (main_name, main_part) = (main.name.clone(), *part);
-
-    let reference = take(&mut table, Quantity::ReferencePosition)
-        .map(|column| {
-            let refer = refer(&column, main_part, torque, frame)?;
-            Ok::<_, String>((column, refer))
-        })
-        .transpose()?;
-    let load = take(&mut table, Quantity::Load);
-    let temperature = take(&mut table, Quantity::Temperature);
+    let reference = take(&mut table, Quantity::ReferencePosition).map(|column| (column, *part));
+    let [load, temperature] =
+        [Quantity::Load, Quantity::Temperature].map(|quantity| take(&mut table, quantity));
     if let Some(column) = &temperature {
         check_temperature(column)?;
     }
-    table
-        .ignored
-        .extend(table.columns.drain(..).map(|column| column.name));
+    let refer = |column: &Column, part| refer(column, part, torque, frame);
 
-    let prepare = |column: Column, Reference { factor, angle }: Reference| {
-        let mut values = column.values;
-        if angle {
-            unwrap(&mut values).map_err(|message| format!("column {}: {message}", column.name))?;
-        }
-        for value in &mut values {
-            *value *= factor;
-        }
-        Ok::<_, String>(values)
-    };
-    let with_part = |column: Option<(Column, Part)>| {
-        column
-            .map(|(column, part)| {
-                let mut refer = refer(&column, part, torque, frame)?;
-                refer.angle &= matches!(column.quantity, Quantity::Position(_));
-                prepare(column, refer)
-            })
-            .transpose()
-    };
-    let position = with_part(position)?;
-    let speed = with_part(speed)?.map(|values| clock.resample(values));
+    let speed = speed
+        .map(|(column, part)| {
+            let factor = refer(&column, part)?.factor;
+            Ok::<_, String>(clock.resample(scaled(column.values, factor)))
+        })
+        .transpose()?;
+    let position = position
+        .map(|(column, part)| {
+            let reference = refer(&column, part)?;
+            angle(column, reference)
+        })
+        .transpose()?;
     // Found before samples are interpolated, which lie between the sensor's steps.
     let step_of_sensor = position.as_deref().map_or(0.0, resolution);
     let position_summed = position.is_none();
-    let position = match (position, &speed) {
-        (Some(values), _) => clock.resample(values),
-        (None, Some(speed)) => sum_up(speed, clock.step),
-        (None, None) => return Err(format!("column {main_name} is empty")),
+    let position = match position {
+        Some(values) => clock.resample(values),
+        None => sum_up(speed.as_deref().unwrap_or_default(), clock.step),
     };
     let reference_position = reference
-        .map(|(column, refer)| {
-            let mut values = prepare(column, refer)?;
-            if refer.angle {
-                same_turn(&mut values, &position, refer.factor);
+        .map(|(column, part)| {
+            let reference = refer(&column, part)?;
+            let mut values = angle(column, reference)?;
+            if reference.angle {
+                same_turn(&mut values, &position, reference.factor);
             }
             Ok::<_, String>(clock.resample(values))
         })
         .transpose()?;
-    let gain = effort_gain(torque, frame);
-    let effort: Vec<f64> = effort
-        .values
-        .into_iter()
-        .map(|value| value * gain)
-        .collect();
+    let effort = scaled(effort.values, effort_gain(torque, frame));
+    table
+        .ignored
+        .extend(table.columns.drain(..).map(|column| column.name));
+    let rotates = torque || frame.is_some();
     Ok(Trace {
         name: name.into(),
-        coordinate,
+        coordinate: if rotates {
+            Coordinate::Rotation
+        } else {
+            Coordinate::Translation
+        },
         start: clock.start,
         step: clock.step,
         position,
@@ -174,6 +144,23 @@ fn assemble(mut table: Table, name: &str, frame: Option<&Frame>) -> Result<Trace
         repairs: clock.repairs,
         ignored: table.ignored,
     })
+}
+
+/// Values times a factor.
+fn scaled(mut values: Vec<f64>, factor: f64) -> Vec<f64> {
+    for value in &mut values {
+        *value *= factor;
+    }
+    values
+}
+
+/// A position in the trace's coordinate, without jumps of a turn.
+fn angle(column: Column, reference: Reference) -> Result<Vec<f64>, String> {
+    let mut values = column.values;
+    if reference.angle {
+        unwrap(&mut values).map_err(|message| format!("column {}: {message}", column.name))?;
+    }
+    Ok(scaled(values, reference.factor))
 }
 
 /// Takes the column of a quantity out of the table.
@@ -202,16 +189,10 @@ fn effort(table: &mut Table) -> Result<(Column, bool), String> {
 }
 
 /// The column that tells the motion best: the nut's, before the motor's, the carriage's and a plain one.
-fn motion(table: &mut Table, part: impl Fn(Quantity) -> Option<Part>) -> Option<(Column, Part)> {
+fn motion(table: &mut Table, of: fn(Part) -> Quantity) -> Option<(Column, Part)> {
     [Part::Nut, Part::Motor, Part::Carriage, Part::Plain]
         .into_iter()
-        .find_map(|wanted| {
-            let place = table
-                .columns
-                .iter()
-                .position(|column| part(column.quantity) == Some(wanted))?;
-            Some((table.columns.remove(place), wanted))
-        })
+        .find_map(|part| Some((take(table, of(part))?, part)))
 }
 
 /// How a position or speed of this part refers to the trace's coordinate.

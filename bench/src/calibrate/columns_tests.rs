@@ -160,6 +160,16 @@ fn gaps_jitter_and_repeats_are_repaired_and_counted() {
     assert_eq!(trace.repairs.missing, 0);
     close(&trace.position, angle, 7.4e5 / 24.0 * 4e-12);
 
+    // Jitter of 0.23 ticks (root mean square) of every sample: some neighbours stand closer than half a tick.
+    let rough = |sample: usize, time: f64| vec![time + 4e-4 * (sample as f64 * 2.1).sin()];
+    let trace = read(&disturbed(rough), None).unwrap();
+    assert!((trace.repairs.jittered + trace.repairs.missing).abs_diff(850) < 100);
+    assert!((trace.step * 1e3 - 1.0).abs() < 1e-3 && trace.len().abs_diff(1000) <= 1);
+    let exact = |time: f64| angle(time * trace.step * 1e3 + trace.start);
+    // A line over at most 1.8 ms, where samples stand too close for a cubic: 12 (TAU/0.4)^2 = 2960 rad/s^2 over 8 times that
+    // squared.
+    close(&trace.position, exact, 2960.0 / 8.0 * 3.3e-6);
+
     let repeat = |sample: usize, time: f64| vec![time; if sample % 100 == 50 { 2 } else { 1 }];
     let trace = read(&disturbed(repeat), None).unwrap();
     assert_eq!(trace.repairs.repeated, 10);
@@ -180,21 +190,22 @@ fn gaps_jitter_and_repeats_are_repaired_and_counted() {
 fn a_clock_that_is_none_is_refused() {
     let long = |sample: usize, time: f64| vec![time + if sample >= 500 { 0.1 } else { 0.0 }];
     let many = |sample: usize, time: f64| {
-        if sample % 20 == 0 && sample > 0 {
+        if sample > 0 && sample.is_multiple_of(20) {
             vec![]
         } else {
             vec![time]
         }
     };
-    let twice = |sample: usize, time: f64| vec![time; if sample % 10 == 0 { 2 } else { 1 }];
-    let wild = |sample: usize, time: f64| vec![time + 9.5e-4 * (sample as f64 * 1.7).sin().abs()];
+    let twice =
+        |sample: usize, time: f64| vec![time; if sample.is_multiple_of(10) { 2 } else { 1 }];
+    let wild = |sample: usize, time: f64| vec![time + [4.5e-4, -4.5e-4][sample % 2]];
     for (text, word) in [
         (disturbed(long), "a gap of 0.1010 s"),
         (disturbed(many), "are missing"),
         (disturbed(twice), "time of the one before"),
         (disturbed(wild), "no even tick"),
     ] {
-        let message = read(&text, None).unwrap_err();
+        let message = read(&text, None).map(|trace| trace.repairs).unwrap_err();
         assert!(message.contains(word), "{message}");
     }
 }
@@ -258,8 +269,9 @@ fn every_fault_has_a_word() {
         let message = sample(header, line);
         assert!(message.contains(word), "{header}: {message}");
     }
-    let slow = "time,position,motor_force\n".to_string()
-        + &(0..200).map(|k| format!("{k},0,1\n")).collect::<String>();
+    let slow = table("time,position,motor_force", 200, |time| {
+        format!("{},0,1", 1e3 * time)
+    });
     assert!(read(&slow, None).unwrap_err().contains("time_ms"));
     assert!(read("", None).unwrap_err().contains("empty"));
     assert!(

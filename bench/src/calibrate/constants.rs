@@ -8,6 +8,7 @@ use epas_friction::{CagedBallScrewConfiguration, FrictionBranch, GrooveSize, Mat
 use super::firmware::{ElementsNumbers, Numbers};
 use super::shown::one_line;
 use crate::designs::Design;
+use crate::designs::calibration::ElementsName;
 use crate::failure::Failure;
 
 /// Constants of a design, to be pasted.
@@ -84,12 +85,14 @@ fn imports(numbers: &Numbers) -> String {
         (None, false) => {}
     }
     if let Some(memory) = &numbers.elements {
-        text += match memory.largest_load {
-            None => "use epas_friction::law::memory::{Part, ProportionalElements, SLIP_8};\n",
-            Some(_) if memory.preloaded => {
+        text += match memory.kind {
+            ElementsName::Proportional => {
+                "use epas_friction::law::memory::{Part, ProportionalElements, SLIP_8};\n"
+            }
+            ElementsName::LoadExact => "use epas_friction::law::memory::LoadExactElements;\n",
+            ElementsName::Preloaded => {
                 "use epas_friction::law::memory::{LoadExactElements, PreloadedElements};\n"
             }
-            Some(_) => "use epas_friction::law::memory::LoadExactElements;\n",
         };
         text += "use epas_friction::scene::{Freshness, WithMemoryConfiguration, WithMemoryConstants};\n";
     }
@@ -129,6 +132,7 @@ fn screw(configuration: &CagedBallScrewConfiguration) -> String {
     format!(
         "
 /// Dimensions, m and rad, and materials.
+#[allow(clippy::approx_constant)] // an angle as the design file has it
 pub const DESIGN: BallScrew = sound(BallScrew::new(BallScrewParameters {{
     pitch_radius: {:?},
     lead: {:?},
@@ -193,31 +197,25 @@ fn memory(numbers: &Numbers) -> String {
         torque,
         breakaway_angle,
         load,
+        kind,
         largest_load,
-        preloaded,
         play,
     } = *memory;
-    let (kind, made) = match largest_load {
-        None => (
+    let exact =
+        format!("LoadExactElements::new({torque:?}, {breakaway_angle:?}, {largest_load:?})");
+    let (kind, made) = match kind {
+        ElementsName::Proportional => (
             "ProportionalElements<8>",
             format!(
                 "sound(ProportionalElements::new(\n    {torque:?},\n    &[Part {{\n        backbone: &SLIP_8.elements,\n        \
                  share: 1.0,\n        breakaway_angle: {breakaway_angle:?},\n    }}],\n))"
             ),
         ),
-        Some(largest) => {
-            let made = format!(
-                "sound(LoadExactElements::new({torque:?}, {breakaway_angle:?}, {largest:?}))"
-            );
-            if preloaded {
-                (
-                    "PreloadedElements<LoadExactElements<8>>",
-                    format!("PreloadedElements::new({made})"),
-                )
-            } else {
-                ("LoadExactElements<8>", made)
-            }
-        }
+        ElementsName::LoadExact => ("LoadExactElements<8>", format!("sound({exact})")),
+        ElementsName::Preloaded => (
+            "PreloadedElements<LoadExactElements<8>>",
+            format!("PreloadedElements::new(sound({exact}))"),
+        ),
     };
     let law = if numbers.law.is_some() {
         "CoefficientLaw"
@@ -339,7 +337,7 @@ full_film_ratio = 0.522
 half_share_speed = 6.0
 reference_temperature = 303.15
 viscosity_pole = 210.0
-direction_asymmetry = 0.02
+direction_ratio = 1.04
 breakaway_angle = 2e-3
 inertia = 4e-4
 drag = 3e-4
@@ -372,7 +370,7 @@ harmonics = [{ order = 1, cosine = 1.5e-3, sine = -1e-3 }, { order = 2, sine = 8
         let exact = of(&format!(
             "{DESIGN}[calibration]\nbreakaway_angle = 1e-3\nreference_load = 500\nelements = \"load_exact\"\nlargest_load = 3000\n"
         ));
-        for word in ["LoadExactElements::new", "OneCoefficient::new"] {
+        for word in ["sound(LoadExactElements::new", "OneCoefficient::new"] {
             assert!(exact.contains(word), "{word}");
         }
         assert!(!exact.contains("CoefficientLaw"));

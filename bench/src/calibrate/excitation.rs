@@ -114,14 +114,8 @@ pub fn add(trace: &Trace, motion: &Motion, findings: &mut Vec<Finding>) -> Resul
             format!("the trace moves at one speed ({speed:.4}): what depends on speed is not told"),
         );
     }
-    if !both_ways {
-        add(
-            FindingKind::OneDirection,
-            directions(motion)[0],
-            "the motion goes one way: friction and offset are one number".into(),
-        );
-    } else {
-        let reversals = reversals(motion);
+    let reversals = reversals(motion);
+    if both_ways {
         if reversals < REVERSALS {
             add(
                 FindingKind::FewReversals,
@@ -131,6 +125,12 @@ pub fn add(trace: &Trace, motion: &Motion, findings: &mut Vec<Finding>) -> Resul
                 ),
             );
         }
+    } else {
+        add(
+            FindingKind::OneDirection,
+            directions(motion)[0],
+            "the motion goes one way: friction and offset are one number".into(),
+        );
     }
     let acceleration = root_mean_square(&motion.acceleration);
     if acceleration < 3.0 * motion.noise[1] {

@@ -2,7 +2,7 @@
 
 use epas_friction::law::coefficient::{CoefficientLaw, CoefficientParameters, Viscosity};
 use epas_friction::law::memory::{
-    Hysteresis, LoadExactElements, Part, ProportionalElements, SLIP_8,
+    Hysteresis, LoadExactElements, Part, PreloadedElements, ProportionalElements, SLIP_8,
 };
 use epas_friction::{CagedBallScrewConfiguration, Error, defaults};
 
@@ -28,7 +28,7 @@ const NOTHING: Values = Values {
     full_film_ratio: 1.0,
     half_share_speed: 1.0,
     viscosity_pole: 0.0,
-    direction_asymmetry: 0.0,
+    direction_ratio: 1.0,
     hysteresis_loss: 0.0,
     lubricant_drag: 0.0,
     preload: 0.0,
@@ -85,10 +85,10 @@ pub struct ElementsNumbers {
     pub breakaway_angle: f32,
     /// Load of the elements there: sum of both flanks' loads, N.
     pub load: f32,
-    /// That at the largest load over it, where elements follow the load exactly; of preloaded ones the load that both flanks share.
-    pub largest_load: Option<f32>,
-    /// Whether they follow the load that both flanks of a preloaded nut share.
-    pub preloaded: bool,
+    /// How they follow the load.
+    pub kind: ElementsName,
+    /// Their largest load over that, where they do not follow in proportion.
+    pub largest_load: f32,
     /// Turn that the balls go back with, over two, rad.
     pub play: f32,
 }
@@ -129,7 +129,11 @@ impl LawNumbers {
         let reference = calibrated
             .reference_temperature
             .unwrap_or(REFERENCE_TEMPERATURE);
-        let asymmetry = calibrated.direction_asymmetry.unwrap_or(0.0);
+        let [forward, backward] = Values {
+            direction_ratio: calibrated.direction_ratio.unwrap_or(1.0).into(),
+            ..NOTHING
+        }
+        .directions();
         let pole = calibrated
             .viscosity_pole
             .unwrap_or(defaults::VISCOSITY.pole());
@@ -143,8 +147,8 @@ impl LawNumbers {
             reference_temperature: reference,
             viscosity: [(reference, viscosity), warm],
             pour_point,
-            forward: 1.0 + asymmetry,
-            backward: 1.0 - asymmetry,
+            forward: forward as f32,
+            backward: backward as f32,
             churning: calibrated.churning.unwrap_or(0.0),
         }
     }
@@ -174,12 +178,13 @@ impl ElementsNumbers {
         calibrated: &Calibrated,
         breakaway_angle: f32,
     ) -> Result<Self, Error> {
+        let kind = calibrated.elements.unwrap_or(ElementsName::Proportional);
         let screw = Screw {
             configuration: *configuration,
-            elements: match calibrated.elements {
-                None | Some(ElementsName::Proportional) => ElementsKind::Proportional,
-                Some(ElementsName::LoadExact) => ElementsKind::LoadExact,
-                Some(ElementsName::Preloaded) => ElementsKind::Preloaded,
+            elements: match kind {
+                ElementsName::Proportional => ElementsKind::Proportional,
+                ElementsName::LoadExact => ElementsKind::LoadExact,
+                ElementsName::Preloaded => ElementsKind::Preloaded,
             },
             preloaded: false,
             reference_temperature: REFERENCE_TEMPERATURE.into(),
@@ -197,15 +202,18 @@ impl ElementsNumbers {
             torque: reference.torque,
             breakaway_angle,
             load: reference.load,
-            largest_load: calibrated
-                .largest_load
-                .map(|_| screw.largest_load_of_elements(&reference)),
-            preloaded: screw.elements == ElementsKind::Preloaded,
+            kind,
+            largest_load: reference.largest_load,
             play: 0.0,
         };
-        numbers.play = match numbers.largest_load {
-            None => numbers.proportional()?.breakaway(),
-            Some(largest) => numbers.load_exact(largest)?.breakaway(),
+        if kind == ElementsName::Preloaded {
+            let told = PreloadedElements::new(numbers.load_exact()?);
+            numbers.largest_load = told.shared(reference.largest_load);
+        }
+        numbers.play = match kind {
+            ElementsName::Proportional => numbers.proportional()?.breakaway(),
+            ElementsName::LoadExact => numbers.load_exact()?.breakaway(),
+            ElementsName::Preloaded => numbers.preloaded()?.breakaway(),
         };
         Ok(numbers)
     }
@@ -223,12 +231,20 @@ impl ElementsNumbers {
         ProportionalElements::new(self.torque, &[whole])
     }
 
-    /// Elements that come into contact with loads up to so many times the reference.
+    /// Elements that come into contact with the load.
     ///
     /// # Errors
     /// [`Error`] naming a number out of range.
-    pub fn load_exact(&self, largest_load: f32) -> Result<LoadExactElements<ELEMENTS>, Error> {
-        LoadExactElements::new(self.torque, self.breakaway_angle, largest_load)
+    pub fn load_exact(&self) -> Result<LoadExactElements<ELEMENTS>, Error> {
+        LoadExactElements::new(self.torque, self.breakaway_angle, self.largest_load)
+    }
+
+    /// Elements that come into contact with the load that both flanks share.
+    ///
+    /// # Errors
+    /// [`Error`] naming a number out of range.
+    pub fn preloaded(&self) -> Result<PreloadedElements<LoadExactElements<ELEMENTS>>, Error> {
+        Ok(PreloadedElements::new(self.load_exact()?))
     }
 }
 
@@ -236,7 +252,6 @@ impl ElementsNumbers {
 mod tests {
     use super::*;
     use crate::designs::read;
-    use epas_friction::law::memory::PreloadedElements;
 
     /// One formula in two forms: what a calibration runs, and what it is written as.
     #[test]
@@ -244,13 +259,13 @@ mod tests {
         let text = "nominal_diameter = 0.032\nlead = 0.02\nball_diameter = 6.35e-3\nconformity = 0.528\n\
                     contact_angle = 0.7853982\nfriction = 0.115\npreload = 17\nloaded_balls = 40\n[calibration]\n\
                     full_film_ratio = 0.5\nhalf_share_speed = 6\nreference_temperature = 303\nviscosity_pole = 210\n\
-                    direction_asymmetry = 0.03125\nbreakaway_angle = 2e-3\nreference_load = 250\n";
+                    direction_ratio = 1.25\nbreakaway_angle = 2e-3\n";
         let values = Values {
             friction: 0.115,
             full_film_ratio: 0.5,
             half_share_speed: 6.0,
             viscosity_pole: 210.0,
-            direction_asymmetry: 0.03125,
+            direction_ratio: 1.25,
             hysteresis_loss: defaults::ROLLING_RESISTANCE.hysteresis_loss.into(),
             preload: 17.0,
             breakaway_angle: 2e-3,
@@ -274,7 +289,7 @@ mod tests {
                 elements,
                 preloaded: true,
                 reference_temperature: 303.0,
-                reference_load: 250.0,
+                reference_load: 0.0,
                 largest_load: 3000.0,
             };
             let law = CoefficientLaw::new(&screw.coefficient(&values)).unwrap();
@@ -282,18 +297,18 @@ mod tests {
             let told = numbers.elements.unwrap();
             let reference = screw.reference(&values).unwrap();
             assert_eq!(told.load, reference.load);
-            match told.largest_load {
-                None => assert_eq!(
+            match elements {
+                ElementsKind::Proportional => assert_eq!(
                     told.proportional().unwrap(),
                     screw.proportional(&values, &reference).unwrap()
                 ),
-                Some(largest) if told.preloaded => assert_eq!(
-                    PreloadedElements::new(told.load_exact(largest).unwrap()),
-                    screw.preloaded(&values, &reference).unwrap()
-                ),
-                Some(largest) => assert_eq!(
-                    told.load_exact(largest).unwrap(),
+                ElementsKind::LoadExact => assert_eq!(
+                    told.load_exact().unwrap(),
                     screw.load_exact(&values, &reference).unwrap()
+                ),
+                ElementsKind::Preloaded => assert_eq!(
+                    told.preloaded().unwrap(),
+                    screw.preloaded(&values, &reference).unwrap()
                 ),
             }
         }

@@ -6,6 +6,7 @@
 
 mod page;
 mod population;
+pub mod references;
 mod store;
 #[cfg(test)]
 mod tests;
@@ -154,23 +155,20 @@ fn fit_one(
     settings: u32,
     fit: &(impl Fn(&Path) -> Result<(Calibration, Sums), Failure> + Sync),
 ) -> Result<Stored, Failure> {
-    let key = Key::of(trace, settings);
-    let told = key.and_then(|key| Ok((key, fit(trace))));
-    let (key, ended) = match told {
-        Ok((key, Ok((calibration, sums)))) => {
-            (key, Ended::Told(Box::new(Told::of(&calibration, sums))))
-        }
-        Ok((key, Err(Failure::Data(word)))) => (key, Ended::Refused(word)),
-        Ok((_, Err(failure))) => return Err(failure),
+    let key = match Key::of(trace, settings) {
+        Ok(key) => key,
         // A file that cannot be read may be readable next time: nothing is kept.
-        Err(Failure::Data(word)) => {
+        Err(failure) => {
             return Ok(Stored {
                 trace: name,
                 key: Key::default(),
-                ended: Ended::Refused(word),
+                ended: Ended::Refused(word(failure)?),
             });
         }
-        Err(failure) => return Err(failure),
+    };
+    let ended = match fit(trace) {
+        Ok((calibration, sums)) => Ended::Told(Box::new(Told::of(&calibration, sums))),
+        Err(failure) => Ended::Refused(word(failure)?),
     };
     let stored = Stored {
         trace: name,
@@ -179,6 +177,14 @@ fn fit_one(
     };
     store::write(output, &stored)?;
     Ok(stored)
+}
+
+/// Why a trace was refused; another failure stops the run.
+fn word(failure: Failure) -> Result<String, Failure> {
+    match failure {
+        Failure::Data(word) => Ok(word),
+        other => Err(other),
+    }
 }
 
 /// Answers of several runs; a trace that stands in two of them counts once.

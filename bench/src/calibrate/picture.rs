@@ -1,6 +1,9 @@
 //! What the page of a calibration draws, as plain data.
 
-use super::trace::Coordinate;
+use super::profile;
+use super::signals::{Motion, Rows};
+use super::trace::{Coordinate, Trace};
+use super::uncertainty::Uncertainty;
 
 /// A fitted trace, row by row. All lists are as long as `time`.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,6 +45,19 @@ pub struct Profile {
     pub points: Vec<(f64, f64)>,
 }
 
+impl Profile {
+    /// The profile of a parameter with this fitted value.
+    pub fn of(profile: &profile::Profile, best: f64) -> Self {
+        let points = profile.points.iter();
+        Self {
+            name: profile.name.into(),
+            unit: profile.unit.into(),
+            best,
+            points: points.map(|point| (point.value, point.loss)).collect(),
+        }
+    }
+}
+
 /// Correlations of the parameters' errors.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Correlations {
@@ -52,6 +68,48 @@ pub struct Correlations {
 }
 
 impl Picture {
+    /// A fit whose rows are those of a trace: what was measured there, and what the model leaves of it.
+    pub fn of(
+        trace: &Trace,
+        motion: &Motion,
+        rows: &Rows,
+        (measured, residual): (&[f64], &[f64]),
+        sure: &Uncertainty,
+    ) -> Self {
+        let samples: Vec<usize> = rows.samples(trace.len()).collect();
+        let at = |signal: &[f64]| -> Vec<f64> {
+            let values = samples.iter().map(|sample| signal.get(*sample));
+            values
+                .map(|value| value.copied().unwrap_or(f64::NAN))
+                .collect()
+        };
+        let time = |sample: &usize| trace.start + trace.step * *sample as f64;
+        let names = sure.intervals.iter().map(|interval| interval.name);
+        let correlations = sure.correlation.row_iter();
+        Self {
+            name: trace.name.clone(),
+            coordinate: trace.coordinate,
+            time: samples.iter().map(time).collect(),
+            measured: measured.to_vec(),
+            model: measured
+                .iter()
+                .zip(residual)
+                .map(|(measured, residual)| measured - residual)
+                .collect(),
+            position: at(&motion.position),
+            speed: at(&motion.speed),
+            load: trace.load.as_deref().map(at),
+            temperature: trace.temperature.as_deref().map(at),
+            profiles: Vec::new(),
+            correlations: Correlations {
+                names: names.map(String::from).collect(),
+                rows: correlations
+                    .map(|row| row.iter().copied().collect())
+                    .collect(),
+            },
+        }
+    }
+
     /// What the model does not explain, at every row: measured less model.
     pub fn residual(&self) -> impl Iterator<Item = f64> + Clone + '_ {
         self.measured

@@ -6,7 +6,7 @@
 //! | nonlinear ones | Levenberg-Marquardt (MINPACK's, crate `levenberg-marquardt`) in coordinates that keep the bounds |
 //! | slopes | central differences of the model, projected by Kaufman's formula; evaluated in parallel |
 //! | outliers | weights of a soft-L1 loss at 1.5 scales, scale = 1.4826 x the median of the residual's sizes, repeated until they stand |
-//! | starts | the given one and an even set within the bounds; all run coarsely, the best are finished |
+//! | starts | the given one and an even set within the bounds; all run coarsely, the best are finished until one is found twice |
 //!
 //! Crate `varpro` is not taken: its model is a sum of columns only, where ours has a part with no linear parameter; it asks for the
 //! derivative of each column; its linear parameters have no bounds. What it would do beside is the projection, a page here.
@@ -18,6 +18,8 @@ mod fixed;
 mod model;
 mod projection;
 mod robust;
+#[cfg(test)]
+mod scipy;
 mod search;
 mod starts;
 #[cfg(test)]
@@ -131,7 +133,12 @@ impl Fit {
                 "the answer depends on the start: {} came out differently with the same residual",
                 names.join(", ")
             )),
-            _ => None,
+            Verdict::FoundOnce { given: false } => Some(format!(
+                "the answer depends on the start: only 1 of {} starts found the smallest residual, so a smaller one may exist; \
+                 begin nearer to the truth or narrow the bounds",
+                self.starts.len()
+            )),
+            Verdict::FoundOnce { given: true } | Verdict::Single | Verdict::Agreed(_) => None,
         }
     }
 }

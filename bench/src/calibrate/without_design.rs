@@ -5,7 +5,7 @@ use super::checks::examine;
 use super::choice::{LAWS, PLAIN, Prepared, estimates, model, terms};
 use super::closed_loop::size;
 use super::controller::SeenController;
-use super::finding::Finding;
+use super::finding::{Finding, FindingKind};
 use super::picture::{Correlations, Picture};
 use super::problem::Separable;
 use super::separable::{Fit, FitSettings, fit};
@@ -235,8 +235,16 @@ fn rank(models: &mut [ModelScore]) -> Option<String> {
 
 /// What a trace without a design cannot tell.
 fn cannot_tell(trace: &Trace, motion: &Motion, findings: &[Finding]) -> Vec<String> {
+    // Load, temperature and reversals are told below, with what would help.
+    let told = |kind: FindingKind| match kind {
+        FindingKind::NoLoad => trace.load.is_none(),
+        FindingKind::ConstantTemperature => trace.temperature.is_none(),
+        FindingKind::FewReversals => true,
+        _ => false,
+    };
     let mut sentences: Vec<String> = findings
         .iter()
+        .filter(|finding| !told(finding.kind))
         .map(|finding| finding.message.clone())
         .collect();
     if trace.load.is_none() {

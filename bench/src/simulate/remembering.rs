@@ -14,6 +14,7 @@ use super::memory::{self, Remembered};
 use super::summary::Lines;
 use crate::calibrate::firmware::{ELEMENTS, ElementsNumbers, Numbers};
 use crate::designs::Design;
+use crate::designs::calibration::ElementsName;
 use crate::failure::Failure;
 
 /// A screw that remembers, whatever its elements, its sensor and its coefficient are.
@@ -95,12 +96,15 @@ where
             ))
         }
         Some(told) => {
-            let made = match told.largest_load {
-                None => told
+            let made = match told.kind {
+                ElementsName::Proportional => told
                     .proportional()
                     .and_then(|elements| built.with((elements, told.load), law, then)),
-                Some(largest) => told
-                    .load_exact(largest)
+                ElementsName::LoadExact => told
+                    .load_exact()
+                    .and_then(|elements| built.with((elements, told.load), law, then)),
+                ElementsName::Preloaded => told
+                    .preloaded()
                     .and_then(|elements| built.with((elements, told.load), law, then)),
             };
             Ok((made.map_err(refused)?, lines(told)))

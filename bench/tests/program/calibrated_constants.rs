@@ -22,6 +22,7 @@ const fn sound<T: Copy>(checked: Result<T, Error>) -> T {
 }
 
 /// Dimensions, m and rad, and materials.
+#[allow(clippy::approx_constant)] // an angle as the design file has it
 pub const DESIGN: BallScrew = sound(BallScrew::new(BallScrewParameters {
     pitch_radius: 0.016,
     lead: 0.02,

@@ -1,5 +1,7 @@
 //! The program as its users start it.
 
+mod calibrate;
+mod calibrate_folder;
 mod calibrated;
 mod eval;
 mod loads;

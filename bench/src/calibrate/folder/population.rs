@@ -62,10 +62,10 @@ impl Together {
             self::population(traces.iter().filter(|stored| !far(stored)))?
         };
         Ok(Self {
+            traces,
             population,
             without_outliers,
             outliers,
-            traces,
         })
     }
 

@@ -112,6 +112,7 @@ impl Screw {
 
     /// Law of the friction coefficient. Churned lubricant counts as a torque of its own.
     pub fn coefficient(&self, values: &Values) -> CoefficientParameters {
+        let [forward, backward] = values.directions();
         CoefficientParameters {
             boundary: values.friction as f32,
             full_film: (values.full_film_ratio * values.friction) as f32,
@@ -120,8 +121,8 @@ impl Screw {
             viscosity: self
                 .viscosity(values)
                 .unwrap_or(epas_friction::defaults::VISCOSITY),
-            forward: (1.0 + values.direction_asymmetry) as f32,
-            backward: (1.0 - values.direction_asymmetry) as f32,
+            forward: forward as f32,
+            backward: backward as f32,
             churning: 0.0,
         }
     }
@@ -299,7 +300,8 @@ pub struct Course {
 }
 
 impl Course {
-    /// Inputs along a trace, with its load smoothed by a filter where there is one; no load, and the temperature given, where nothing was measured.
+    /// Inputs along a trace, with its load smoothed by a filter where one is given; no load, and the temperature given, where nothing was
+    /// measured.
     ///
     /// Noise of the load would cut what elements hold before they slide, whenever it lowers their limits.
     pub fn of(
@@ -309,7 +311,7 @@ impl Course {
         temperature: f64,
     ) -> Self {
         let load = trace.load.as_deref().map(|load| match smoothing {
-            Some(smoothing) => smoothing.apply(load),
+            Some(filter) => filter.apply(load),
             None => load.to_vec(),
         });
         let at = |list: &Option<Vec<f64>>, index: usize, other: f64| {

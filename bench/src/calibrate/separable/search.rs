@@ -21,6 +21,9 @@ pub(super) const FINE: Effort = Effort {
     both: true,
 };
 
+/// Rounds of starts.
+const ROUNDS: usize = 2;
+
 /// The point at a start, with the model's shape checked.
 pub(super) fn first(model: &Model, start: &[f64], roots: &[f64]) -> Result<Point, FitError> {
     let outer = model.coordinates.start(start);
@@ -37,7 +40,8 @@ pub(super) struct Found {
     pub(super) verdict: Verdict,
 }
 
-/// The best point from all starts under one set of weights.
+/// The best point from all starts under one set of weights. Where only one start has found it, and not the given one, as many starts
+/// again are tried.
 pub(super) fn search(
     model: &Model,
     count: usize,
@@ -45,49 +49,62 @@ pub(super) fn search(
     roots: &[f64],
 ) -> Result<Found, FitError> {
     let parameters = model.problem.nonlinear();
-    let given: Vec<f64> = parameters.iter().map(|parameter| parameter.start).collect();
     let others = if parameters.is_empty() { 0 } else { count - 1 };
-    let mut begins = vec![given];
-    begins.extend(
-        starts::fractions(others, parameters.len())
-            .iter()
-            .map(|point| model.coordinates.at(point)),
-    );
-    let mut ends = Vec::with_capacity(begins.len());
-    for begin in &begins {
-        let point = first(model, begin, roots)?;
-        // One start needs no coarse pass.
-        ends.push(if begins.len() > 1 {
-            descend(model, point, roots, COARSE, None).0
-        } else {
-            point
+    let mut begins: Vec<Vec<f64>> =
+        vec![parameters.iter().map(|parameter| parameter.start).collect()];
+    let mut ends = vec![];
+    let mut rounds = 1..=ROUNDS;
+    loop {
+        let last = rounds.next().is_none_or(|round| {
+            let even = starts::fractions(round * others, parameters.len());
+            let new = even
+                .iter()
+                .skip(begins.len() - 1)
+                .map(|point| model.coordinates.at(point));
+            begins.extend(new.collect::<Vec<_>>());
+            round == ROUNDS
         });
+        for begin in &begins[ends.len()..] {
+            let point = first(model, begin, roots)?;
+            // One start needs no coarse pass.
+            ends.push(if others > 0 {
+                descend(model, point, roots, COARSE, None).0
+            } else {
+                point
+            });
+        }
+        let mut order: Vec<usize> = (0..begins.len()).filter(|k| ends[*k].finite).collect();
+        order.sort_by(|a, b| ends[*a].cost.total_cmp(&ends[*b].cost));
+        if order.is_empty() {
+            return Err(FitError::NoStart);
+        }
+        let (best, outcomes) = finish(model, finished, roots, &mut ends, &order);
+        let best = order[best];
+        let verdict = verdict(model, roots, (best, &ends), &outcomes);
+        if last || verdict != (Verdict::FoundOnce { given: false }) {
+            let starts = starts_of(begins, &ends, outcomes);
+            return Ok(Found {
+                best: ends.swap_remove(best),
+                starts,
+                verdict,
+            });
+        }
     }
-    let mut order: Vec<usize> = (0..begins.len()).filter(|k| ends[*k].finite).collect();
-    order.sort_by(|a, b| ends[*a].cost.total_cmp(&ends[*b].cost));
-    if order.is_empty() {
-        return Err(FitError::NoStart);
-    }
-    let (best, outcomes) = finish(model, finished, roots, &mut ends, &order);
-    let best_point = ends[order[best]].clone();
-    let verdict = verdict(model, roots, &best_point, &ends, &outcomes);
-    let rows = roots.len() as f64;
-    let starts = begins
+}
+
+fn starts_of(begins: Vec<Vec<f64>>, ends: &[Point], outcomes: Vec<Outcome>) -> Vec<Start> {
+    let start = |((start, end), outcome): ((Vec<f64>, &Point), Outcome)| Start {
+        start,
+        end: end.values.clone(),
+        residual_rms: (end.cost / end.projection.residual.len() as f64).sqrt(),
+        outcome,
+    };
+    begins
         .into_iter()
-        .zip(&ends)
+        .zip(ends)
         .zip(outcomes)
-        .map(|((start, end), outcome)| Start {
-            start,
-            end: end.values.clone(),
-            residual_rms: (end.cost / rows).sqrt(),
-            outcome,
-        })
-        .collect();
-    Ok(Found {
-        best: best_point,
-        starts,
-        verdict,
-    })
+        .map(start)
+        .collect()
 }
 
 /// Finishes starts in the order of their coarse costs until the best is found twice, or all are done. Gives the place of the best in
@@ -133,22 +150,17 @@ fn finish(
 fn verdict(
     model: &Model,
     roots: &[f64],
-    best: &Point,
-    ends: &[Point],
+    (best, ends): (usize, &[Point]),
     outcomes: &[Outcome],
 ) -> Verdict {
-    let rivals: Vec<&Point> = ends
-        .iter()
-        .zip(outcomes)
-        .filter(|(_, outcome)| **outcome == Outcome::Rival)
-        .map(|(end, _)| end)
-        .collect();
-    let agreed = outcomes
-        .iter()
-        .filter(|outcome| **outcome == Outcome::Best)
-        .count();
-    if let Some(rival) = rivals.first() {
-        let known = starts::neighbourhood(model, best, roots);
+    let with = |wanted: Outcome| {
+        ends.iter()
+            .zip(outcomes)
+            .filter(move |(_, outcome)| **outcome == wanted)
+    };
+    let agreed = with(Outcome::Best).count();
+    if let Some((rival, _)) = with(Outcome::Rival).next() {
+        let known = starts::neighbourhood(model, &ends[best], roots);
         let inner = model.coordinates.inner(&rival.values);
         Verdict::DependsOnStart {
             names: starts::differing(model.problem, &known, &inner),
@@ -158,6 +170,6 @@ fn verdict(
     } else if agreed > 1 {
         Verdict::Agreed(agreed)
     } else {
-        Verdict::FoundOnce
+        Verdict::FoundOnce { given: best == 0 }
     }
 }

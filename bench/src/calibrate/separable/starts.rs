@@ -53,8 +53,11 @@ pub enum Verdict {
     Single,
     /// So many starts came to the same answer, and none to a rival.
     Agreed(usize),
-    /// Only one start found the best answer; the others ended at clearly larger residuals.
-    FoundOnce,
+    /// Only one start found the best answer; all others ended at clearly larger residuals.
+    FoundOnce {
+        /// Whether it was the given one, which knows more than a place within the bounds.
+        given: bool,
+    },
     /// Starts ended at different answers with indistinguishable residuals.
     DependsOnStart {
         /// Parameters that differ.

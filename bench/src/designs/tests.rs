@@ -1,0 +1,112 @@
+use super::*;
+
+#[test]
+fn every_built_in_design_is_valid_and_found_by_its_name() {
+    assert_eq!(built_in().count(), 34);
+    for (name, ..) in built_in() {
+        let design = name.parse::<DesignSource>().unwrap().load().unwrap();
+        assert_eq!(design.name, name);
+        FrictionModel::<CagedBallScrew>::new(&design.configuration).unwrap();
+    }
+    assert!("33x20x6.35".parse::<DesignSource>().is_err());
+}
+
+fn parse(text: &str) -> Result<Design, String> {
+    read(text, "stem")
+}
+
+const GOOD: &str = "nominal_diameter = 0.032\nlead = 0.02\nball_diameter = 6.35e-3\n\
+                    conformity = 0.528\ncontact_angle = 0.7853982\n";
+
+#[test]
+fn a_design_file_equals_the_built_in_design() {
+    let built_in = "32x20x6.35".parse::<DesignSource>().unwrap().load();
+    assert_eq!(
+        parse(GOOD).unwrap().configuration,
+        built_in.unwrap().configuration
+    );
+}
+
+#[test]
+fn every_wrong_field_is_named() {
+    for (addition, field) in [
+        ("friktion = 0.1", "friktion"),
+        ("friction = -0.1", "friction"),
+        ("friction = nan", "friction"),
+        ("friction = inf", "friction"),
+        ("friction = 1e300", "friction"),
+        ("friction = \"low\"", "friction"),
+        ("rolling_tangent = 0.2", "rolling_tangent"),
+        ("branch = \"fast\"", "branch"),
+        ("preload = -1", "preload"),
+        ("preload = 2e5", "preload"),
+        ("clearance = -2e-4", "clearance"),
+        ("clearance = 2", "clearance"),
+        ("clearance = nan", "clearance"),
+        ("clearance = 0\npreload = 100", "clearance and preload"),
+        ("preload = 100", "loaded_balls"),
+        ("fit = \"zero\"", "clearance"),
+        ("reversal_speed = 0", "reversal_speed"),
+        ("loaded_balls = 0", "loaded_balls"),
+        ("loaded_balls = -3", "loaded_balls"),
+        ("youngs_modulus = 0", "youngs_modulus"),
+        ("poisson_ratio = 0.6", "poisson_ratio"),
+        ("density = 0", "density"),
+        ("pitch_radius = 0.016", "pitch_radius"),
+        ("ball_radius = 0.003", "ball_radius"),
+        ("groove_radius = 0.0034", "groove_radius"),
+        ("[screw_groove]\nradius = 0.0034", "radius"),
+        ("[screw_groove]\nconformity = 0.5", "conformity"),
+        ("[nut_groove]", "nut_groove"),
+        ("[limits]\nnut_speed = 0", "nut_speed"),
+        ("[limits]\nspeed = 1", "speed"),
+        ("[ball_material]\nyoungs_modulus = -1", "youngs_modulus"),
+        ("[calibration]\nfilm = 1", "film"),
+        ("[calibration]\nfull_film_ratio = 0.5", "half_share_speed"),
+        ("[calibration]\nhalf_share_speed = 5", "full_film_ratio"),
+        ("[calibration]\nlargest_load = 500", "breakaway_angle"),
+        (
+            "[calibration]\nbreakaway_angle = 1e-3\nlargest_load = 500",
+            "largest_load",
+        ),
+        ("[calibration]\nelements = \"load_exact\"", "largest_load"),
+        ("[calibration]\nelements = \"springs\"", "elements"),
+        (
+            "[calibration]\nreference_temperature = 30",
+            "reference_temperature",
+        ),
+        ("[calibration]\nviscosity_pole = 290", "viscosity_pole"),
+        ("[calibration]\ndirection_ratio = nan", "direction_ratio"),
+        ("[calibration]\nbreakaway_angle = 0", "breakaway_angle"),
+        ("[calibration]\nreference_load = -1", "reference_load"),
+        ("[calibration]\ninertia = inf", "inertia"),
+        ("[calibration]\ndrag = nan", "drag"),
+        ("[calibration]\noffset = 1e9", "offset"),
+        ("[calibration]\ngain = 11", "gain"),
+        ("[calibration]\nbacklash = -1", "backlash"),
+        ("[calibration]\nchurning = -1", "churning"),
+        ("[calibration]\nharmonics = [{ order = 0 }]", "order"),
+        (
+            "[calibration]\nharmonics = [{ order = 1, sine = nan }]",
+            "sine",
+        ),
+    ] {
+        let error = parse(&format!("{GOOD}{addition}\n")).unwrap_err();
+        assert!(error.contains(field), "{addition}: {error}");
+    }
+    for field in [
+        "nominal_diameter",
+        "lead",
+        "ball_diameter",
+        "conformity",
+        "contact_angle",
+    ] {
+        let rest: String = GOOD
+            .lines()
+            .filter(|line| !line.starts_with(field))
+            .flat_map(|line| [line, "\n"])
+            .collect();
+        let error = parse(&rest).unwrap_err();
+        assert!(error.contains(field), "{field}: {error}");
+    }
+}
