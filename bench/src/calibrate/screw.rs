@@ -32,7 +32,7 @@ use self::friction::Screw;
 use self::hints::ScrewHints;
 use self::problem::ScrewProblem;
 use self::quantities::Values;
-use self::systematic::{Systematic, systematic};
+use self::systematic::{ELEMENTS, Systematic, systematic};
 use super::answer::{Calibration, Estimate};
 use super::problem::{Scale, Separable};
 use super::separable::{self, Fit, FitSettings, Fixed, inner, inner_slope, outer};
@@ -181,7 +181,11 @@ fn widen(interval: &mut Interval, systematic: &Systematic, place: usize, quantil
         interval.value = shifted;
     }
     let slope = inner_slope(interval.scale, interval.value);
-    let more = entry(&systematic.variance) * slope * slope;
+    let mut more = entry(&systematic.variance) * slope * slope;
+    if interval.name == "breakaway_angle" {
+        // Its inner coordinate is the logarithm.
+        more += ELEMENTS * ELEMENTS;
+    }
     interval.standard_error = (interval.standard_error.powi(2) + more).sqrt();
     interval.half_width = quantile * interval.standard_error;
     let end = |way: f64| {
@@ -237,17 +241,10 @@ fn answer(
             None => Estimate::fixed(name, unit, value),
         }
     });
-    let mut parameters: Vec<Estimate> = parameters.collect();
-    parameters.extend(directions(&parameters, values));
-    let screw = problem.screw();
-    parameters.extend([
-        Estimate::fixed("reference_temperature", "K", screw.reference_temperature),
-        Estimate::fixed("reference_load", "N", screw.reference_load),
-    ]);
     let target: f64 = problem.target().iter().map(|x| x * x).sum();
     let residual: f64 = fit.residual.iter().map(|x| x * x).sum();
     Calibration {
-        parameters,
+        parameters: parameters.collect(),
         residual_rms: fit.residual_rms(),
         relative_error: (residual / target.max(f64::MIN_POSITIVE)).sqrt(),
         effective_rows: uncertainty.effective_rows,
@@ -255,31 +252,4 @@ fn answer(
         models: Vec::new(),
         winner: None,
     }
-}
-
-/// Factors of the coefficient forward and backward, as a design file has them, from their ratio.
-fn directions(parameters: &[Estimate], values: &Values) -> Vec<Estimate> {
-    let ratio = parameters
-        .iter()
-        .find(|estimate| estimate.name == "direction_ratio");
-    let Some(ratio) = ratio.filter(|estimate| !estimate.fixed) else {
-        return Vec::new();
-    };
-    let at = |direction_ratio: f64| {
-        Values {
-            direction_ratio,
-            ..*values
-        }
-        .directions()
-    };
-    let [value, low, high] = [ratio.value, ratio.low, ratio.high].map(at);
-    let factor = |name: &str, place: usize| Estimate {
-        name: name.into(),
-        unit: "",
-        value: value[place],
-        low: low[place].min(high[place]),
-        high: low[place].max(high[place]),
-        fixed: false,
-    };
-    vec![factor("forward", 0), factor("backward", 1)]
 }

@@ -112,7 +112,6 @@ impl Screw {
 
     /// Law of the friction coefficient. Churned lubricant counts as a torque of its own.
     pub fn coefficient(&self, values: &Values) -> CoefficientParameters {
-        let [forward, backward] = values.directions();
         CoefficientParameters {
             boundary: values.friction as f32,
             full_film: (values.full_film_ratio * values.friction) as f32,
@@ -121,8 +120,8 @@ impl Screw {
             viscosity: self
                 .viscosity(values)
                 .unwrap_or(epas_friction::defaults::VISCOSITY),
-            forward: forward as f32,
-            backward: backward as f32,
+            forward: (1.0 + values.direction_asymmetry) as f32,
+            backward: (1.0 - values.direction_asymmetry) as f32,
             churning: 0.0,
         }
     }
@@ -228,13 +227,19 @@ impl Screw {
         values: &Values,
         reference: &Reference,
     ) -> Result<PreloadedElements<LoadExactElements<ELEMENTS>>, Error> {
-        let elements = self.load_exact(values, reference)?;
-        let largest_load = PreloadedElements::new(elements).shared(reference.largest_load);
         let shared = Reference {
-            largest_load,
+            largest_load: self.largest_load_of_elements(reference),
             ..*reference
         };
         Ok(PreloadedElements::new(self.load_exact(values, &shared)?))
+    }
+
+    /// Largest load of the elements over that at the reference.
+    pub fn largest_load_of_elements(&self, reference: &Reference) -> f32 {
+        match self.elements {
+            ElementsKind::Preloaded => PreloadedElements::new(()).shared(reference.largest_load),
+            _ => reference.largest_load,
+        }
     }
 
     /// The whole scene with these elements.

@@ -28,6 +28,10 @@ const TIMES: usize = 8;
 /// screw, rms 0.0016, largest 0.0043.
 const MODEL: f64 = 2e-3;
 
+/// Error of the breakaway angle over itself for eight elements in the place of a curve: the reference's sixty elements on two courses were
+/// found 1.0 % too small and 0.9 % too large.
+pub const ELEMENTS: f64 = 7e-3;
+
 /// Parts of the speeds, and of the loads, in which that error is one.
 const SPEEDS: usize = 5;
 const LOADS: usize = 4;
