@@ -98,11 +98,11 @@ pub mod units;
 pub mod with_design;
 pub mod without_design;
 
-pub use command::{Arguments, run};
-
 use std::io::Cursor;
 
 use crate::failure::Failure;
+
+pub use command::{Arguments, run};
 
 /// Reads a trace without a design and with one, smooths it and looks whether it may be believed; its number of samples.
 pub(crate) fn accepts(text: &[u8]) -> Result<usize, String> {
