@@ -199,13 +199,9 @@ impl ElementsNumbers {
             breakaway_angle,
             load: reference.load,
             kind,
-            largest_load: reference.largest_load,
+            largest_load: screw.largest_load_of_elements(&reference),
             play: 0.0,
         };
-        if kind == ElementsName::Preloaded {
-            let told = PreloadedElements::new(numbers.load_exact()?);
-            numbers.largest_load = told.shared(reference.largest_load);
-        }
         numbers.play = match kind {
             ElementsName::Proportional => numbers.proportional()?.breakaway(),
             ElementsName::LoadExact => numbers.load_exact()?.breakaway(),
