@@ -58,7 +58,7 @@ use targets::targets;
 /// zero; load_shares serves both signs without it).
 ///
 /// A table [calibration] holds what `calibrate` has told of the screw beyond these; for --scene caged with --memory it gives
-/// full_film_ratio and half_share_speed (rad/s) with reference_temperature and viscosity_pole (K), direction_ratio,
+/// full_film_ratio and half_share_speed (rad/s) with reference_temperature and viscosity_pole (K), direction_asymmetry,
 /// breakaway_angle (rad) at reference_load (N), elements ("proportional", or with largest_load, N, "load_exact" or "preloaded"), backlash
 /// (rad), churning; and for --mechanism inertia, drag, offset, gain. harmonics (a list of { order, cosine, sine }) stand there too.
 ///

@@ -25,7 +25,7 @@ const FRICTION_KEYS: [&str; 9] = [
     "half_share_speed",
     "reference_temperature",
     "viscosity_pole",
-    "direction_ratio",
+    "direction_asymmetry",
     "breakaway_angle",
     "reference_load",
     "largest_load",

@@ -28,7 +28,7 @@ const NOTHING: Values = Values {
     full_film_ratio: 1.0,
     half_share_speed: 1.0,
     viscosity_pole: 0.0,
-    direction_ratio: 1.0,
+    direction_asymmetry: 0.0,
     hysteresis_loss: 0.0,
     lubricant_drag: 0.0,
     preload: 0.0,
@@ -129,11 +129,7 @@ impl LawNumbers {
         let reference = calibrated
             .reference_temperature
             .unwrap_or(REFERENCE_TEMPERATURE);
-        let [forward, backward] = Values {
-            direction_ratio: calibrated.direction_ratio.unwrap_or(1.0).into(),
-            ..NOTHING
-        }
-        .directions();
+        let asymmetry = calibrated.direction_asymmetry.unwrap_or(0.0);
         let pole = calibrated
             .viscosity_pole
             .unwrap_or(defaults::VISCOSITY.pole());
@@ -147,8 +143,8 @@ impl LawNumbers {
             reference_temperature: reference,
             viscosity: [(reference, viscosity), warm],
             pour_point,
-            forward: forward as f32,
-            backward: backward as f32,
+            forward: 1.0 + asymmetry,
+            backward: 1.0 - asymmetry,
             churning: calibrated.churning.unwrap_or(0.0),
         }
     }
@@ -203,13 +199,9 @@ impl ElementsNumbers {
             breakaway_angle,
             load: reference.load,
             kind,
-            largest_load: reference.largest_load,
+            largest_load: screw.largest_load_of_elements(&reference),
             play: 0.0,
         };
-        if kind == ElementsName::Preloaded {
-            let told = PreloadedElements::new(numbers.load_exact()?);
-            numbers.largest_load = told.shared(reference.largest_load);
-        }
         numbers.play = match kind {
             ElementsName::Proportional => numbers.proportional()?.breakaway(),
             ElementsName::LoadExact => numbers.load_exact()?.breakaway(),
@@ -259,13 +251,13 @@ mod tests {
         let text = "nominal_diameter = 0.032\nlead = 0.02\nball_diameter = 6.35e-3\nconformity = 0.528\n\
                     contact_angle = 0.7853982\nfriction = 0.115\npreload = 17\nloaded_balls = 40\n[calibration]\n\
                     full_film_ratio = 0.5\nhalf_share_speed = 6\nreference_temperature = 303\nviscosity_pole = 210\n\
-                    direction_ratio = 1.25\nbreakaway_angle = 2e-3\n";
+                    direction_asymmetry = 0.03125\nbreakaway_angle = 2e-3\n";
         let values = Values {
             friction: 0.115,
             full_film_ratio: 0.5,
             half_share_speed: 6.0,
             viscosity_pole: 210.0,
-            direction_ratio: 1.25,
+            direction_asymmetry: 0.03125,
             hysteresis_loss: defaults::ROLLING_RESISTANCE.hysteresis_loss.into(),
             preload: 17.0,
             breakaway_angle: 2e-3,

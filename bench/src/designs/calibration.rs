@@ -14,8 +14,8 @@ pub struct Calibrated {
     pub reference_temperature: Option<f32>,
     /// Temperature at which the lubricant's viscosity has its pole, K, 1 to 490, at least 10 below the reference temperature.
     pub viscosity_pole: Option<f32>,
-    /// Coefficients in the positive direction over those in the negative one, whose mean is the design's `friction`; 0.1 to 10.
-    pub direction_ratio: Option<f32>,
+    /// Coefficients are `1 + this` times as large in the positive direction, `1 - this` in the negative one; -0.9 to 0.9.
+    pub direction_asymmetry: Option<f32>,
     /// Turn from no friction to full sliding at the reference load, rad, 1e-9 to 1e3.
     pub breakaway_angle: Option<f32>,
     /// Axial load of the breakaway angle, N, 0 to 1e6.
@@ -102,7 +102,7 @@ impl Calibrated {
                 (160.0, 500.0),
             ),
             ("viscosity_pole", self.viscosity_pole, (1.0, 490.0)),
-            ("direction_ratio", self.direction_ratio, (0.1, 10.0)),
+            ("direction_asymmetry", self.direction_asymmetry, (-0.9, 0.9)),
             ("breakaway_angle", self.breakaway_angle, (1e-9, 1e3)),
             ("reference_load", self.reference_load, (0.0, 1e6)),
             ("largest_load", self.largest_load, (1e-3, 1e6)),
@@ -160,6 +160,6 @@ impl Calibrated {
 
     /// Whether the friction coefficient follows speed or direction.
     pub const fn has_law(&self) -> bool {
-        self.full_film_ratio.is_some() || self.direction_ratio.is_some()
+        self.full_film_ratio.is_some() || self.direction_asymmetry.is_some()
     }
 }

@@ -76,7 +76,10 @@ fn every_wrong_field_is_named() {
             "reference_temperature",
         ),
         ("[calibration]\nviscosity_pole = 290", "viscosity_pole"),
-        ("[calibration]\ndirection_ratio = nan", "direction_ratio"),
+        (
+            "[calibration]\ndirection_asymmetry = nan",
+            "direction_asymmetry",
+        ),
         ("[calibration]\nbreakaway_angle = 0", "breakaway_angle"),
         ("[calibration]\nreference_load = -1", "reference_load"),
         ("[calibration]\ninertia = inf", "inertia"),

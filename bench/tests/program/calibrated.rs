@@ -36,7 +36,7 @@ full_film_ratio = 0.522
 half_share_speed = 6.0
 reference_temperature = 303.15
 viscosity_pole = 210.0
-direction_ratio = 1.04
+direction_asymmetry = 0.02
 breakaway_angle = 2e-3
 ";
 

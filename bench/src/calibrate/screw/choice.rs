@@ -30,10 +30,10 @@ pub struct Wanted {
 const REFERENCE_TEMPERATURE: &str = "reference_temperature";
 const REFERENCE_LOAD: &str = "reference_load";
 
-/// Bounds of the friction coefficient, of its ratio on a full film and of the ratio of both directions: their product stays below 0.5.
+/// Bounds of the friction coefficient, of its ratio on a full film and of its asymmetry: their product stays below 0.5.
 const FRICTION: (f64, f64) = (0.005, 0.25);
 const FULL_FILM_RATIO: (f64, f64) = (0.1, 1.5);
-const DIRECTION_RATIO: (f64, f64) = (0.67, 1.5);
+const ASYMMETRY: (f64, f64) = (-0.3, 0.3);
 /// Bounds of rolling resistance and backlash.
 const HYSTERESIS_LOSS: (f64, f64) = (0.0, 0.2);
 const LUBRICANT_DRAG: (f64, f64) = (0.0, 2.0);
@@ -204,7 +204,7 @@ fn begin(
         full_film_ratio: f64::from(coefficient.full_film / coefficient.boundary),
         half_share_speed: coefficient.half_share_speed.into(),
         viscosity_pole: coefficient.viscosity.pole().into(),
-        direction_ratio: 1.0,
+        direction_asymmetry: 0.0,
         hysteresis_loss: configuration.rolling_resistance.hysteresis_loss.into(),
         lubricant_drag: configuration.rolling_resistance.lubricant_drag.into(),
         preload: set("preload").unwrap_or(preload),
@@ -242,7 +242,7 @@ fn tells(name: &str, evidence: &Evidence, screw: &Screw, fixed: &dyn Fn(&str) ->
         "friction" => true,
         "full_film_ratio" | "half_share_speed" => speeds,
         "viscosity_pole" => speeds && evidence.temperature_range() >= needs::TEMPERATURE,
-        "direction_ratio" => evidence.both_ways() && varies(evidence),
+        "direction_asymmetry" => evidence.both_ways() && varies(evidence),
         // The level of the load's channel cannot be told from the friction that grows with the load.
         "hysteresis_loss" => fixed("gain") && varies(evidence),
         "preload" => screw.preloaded && varies(evidence),
@@ -286,7 +286,7 @@ fn parameter(
             HALF_SHARE_SPEED.1.min((fast * BEYOND_SPEEDS).max(start)),
         ),
         "viscosity_pole" => (coldest - BELOW_COLDEST.1, coldest - BELOW_COLDEST.0),
-        "direction_ratio" => DIRECTION_RATIO,
+        "direction_asymmetry" => ASYMMETRY,
         "hysteresis_loss" => HYSTERESIS_LOSS,
         "lubricant_drag" => LUBRICANT_DRAG,
         "preload" => {

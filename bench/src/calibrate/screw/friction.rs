@@ -112,7 +112,6 @@ impl Screw {
 
     /// Law of the friction coefficient. Churned lubricant counts as a torque of its own.
     pub fn coefficient(&self, values: &Values) -> CoefficientParameters {
-        let [forward, backward] = values.directions();
         CoefficientParameters {
             boundary: values.friction as f32,
             full_film: (values.full_film_ratio * values.friction) as f32,
@@ -121,8 +120,8 @@ impl Screw {
             viscosity: self
                 .viscosity(values)
                 .unwrap_or(epas_friction::defaults::VISCOSITY),
-            forward: forward as f32,
-            backward: backward as f32,
+            forward: (1.0 + values.direction_asymmetry) as f32,
+            backward: (1.0 - values.direction_asymmetry) as f32,
             churning: 0.0,
         }
     }

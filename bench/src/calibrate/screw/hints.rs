@@ -58,7 +58,7 @@ impl Hints for ScrewHints {
                 self.evidence.reversals
             ));
         }
-        if has("direction_ratio") && has("offset") {
+        if has("direction_asymmetry") && has("offset") {
             return Some("both shift the torque; measure at several loads".into());
         }
         if names

@@ -13,8 +13,8 @@ pub struct Values {
     pub half_share_speed: f64,
     /// Temperature at which the lubricant's viscosity has its pole, K.
     pub viscosity_pole: f64,
-    /// Coefficients in the positive direction over those in the negative one; their mean is the friction coefficient.
-    pub direction_ratio: f64,
+    /// Coefficients are `1 + this` times as large in the positive direction, `1 - this` in the negative one.
+    pub direction_asymmetry: f64,
     /// Share of the elastic energy that a rolling contact loses.
     pub hysteresis_loss: f64,
     /// Drag of the lubricant on one contact under 100 N, N.
@@ -37,14 +37,6 @@ pub struct Values {
     pub gain: f64,
     /// Waves of the friction over a turn at the reference load, N m: cosine and sine of the first order, then of the second.
     pub harmonics: [f64; 4],
-}
-
-impl Values {
-    /// Factors of the friction coefficient in both directions, forward first.
-    pub fn directions(&self) -> [f64; 2] {
-        let mean = 0.5 * (1.0 + self.direction_ratio);
-        [self.direction_ratio / mean, 1.0 / mean]
-    }
 }
 
 /// A quantity that does not enter linearly.
@@ -106,8 +98,8 @@ pub const NONLINEAR: [Nonlinear; 10] = [
     nonlinear("viscosity_pole", "K", Scale::Linear, |v| {
         &mut v.viscosity_pole
     }),
-    nonlinear("direction_ratio", "", Scale::Logarithmic, |v| {
-        &mut v.direction_ratio
+    nonlinear("direction_asymmetry", "", Scale::Linear, |v| {
+        &mut v.direction_asymmetry
     }),
     nonlinear("hysteresis_loss", "", Scale::Linear, |v| {
         &mut v.hysteresis_loss

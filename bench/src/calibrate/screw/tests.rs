@@ -71,7 +71,7 @@ fn truth(name: &str, found: &ScrewCalibration) -> f64 {
         "full_film_ratio" => parameters.full_film / parameters.boundary,
         "half_share_speed" => 6.0,
         "viscosity_pole" => 273.15 - 64.0,
-        "direction_ratio" => 1.0,
+        "direction_asymmetry" => 0.0,
         "preload" => parameters.screw.axial_preload / found.screw.axial_per_contact(),
         "breakaway_angle" => parameters.breakaway,
         "inertia" => parameters.inertia,

@@ -37,7 +37,7 @@ impl Size {
         length: 1.0,
         starts: 3,
         elements: &[
-            (LOAD_EXACT, ElementsKind::LoadExact),
+            (LOAD_EXACT, ElementsKind::Preloaded),
             (PROPORTIONAL, ElementsKind::Proportional),
         ],
         estimated: &[],
@@ -46,7 +46,7 @@ impl Size {
     const QUICK: Self = Self {
         length: 0.3,
         starts: 1,
-        elements: &[(LOAD_EXACT, ElementsKind::LoadExact)],
+        elements: &[(LOAD_EXACT, ElementsKind::Preloaded)],
         estimated: &[
             "friction",
             "full_film_ratio",
