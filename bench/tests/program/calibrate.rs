@@ -71,24 +71,16 @@ fn a_slide_is_told_with_intervals_that_hold_the_truth() {
         folder.path(),
         &["--controller", &controller, "--validate", "other.csv"],
     );
-    // Half a tick of the controller's hold is a delay that the plain model does not have: 0.5 ms of 10 rad/s are 0.5 % of the force, which
-    // goes into drag and mass. Measured: 0.1 % of mass, 1.3 % of drag, 0.9 % of friction, 0.2 % of offset.
+    // Half a tick of the controller's hold is a delay, which the plain model puts into the mass: measured 0.4 %, and 0.9 % of the
+    // friction. Its interval knows nothing of it.
     for (name, truth, allowed) in [
         ("mass", MASS, 0.01),
         ("viscous_friction", VISCOUS, 0.05),
         ("coulomb_friction", COULOMB, 0.03),
         ("offset", OFFSET, 0.03),
     ] {
-        let told = &answer["parameters"][name];
-        let number = |key: &str| told[key].as_f64().unwrap();
-        assert!(
-            (number("value") / truth - 1.0).abs() < allowed,
-            "{name}: {told}"
-        );
-        assert!(
-            number("low") < truth && truth < number("high"),
-            "{name}: {told}"
-        );
+        let told = answer["parameters"][name]["value"].as_f64().unwrap();
+        assert!((told / truth - 1.0).abs() < allowed, "{name}: {told}");
     }
     let models = answer["models"].as_array().unwrap();
     let error = |name: &str, key: &str| {
@@ -100,6 +92,23 @@ fn a_slide_is_told_with_intervals_that_hold_the_truth() {
     let truth = "Coulomb and viscous, with the drive's other terms";
     for key in ["relative_error", "relative_error_unseen"] {
         assert!(error(truth, key) < 0.02, "{key}: {}", error(truth, key));
+    }
+    // With the delay the intervals hold the truth; a tenth of a percent is left to the twenty explicit steps of the truth.
+    let values = &models.iter().find(|model| model["name"] == truth).unwrap()["values"];
+    for (name, truth) in [
+        ("mass", MASS),
+        ("viscous_friction_forward", VISCOUS),
+        ("viscous_friction_backward", VISCOUS),
+        ("coulomb_friction", COULOMB),
+        ("offset", OFFSET),
+        ("effort_delay", 0.5 * TICK),
+    ] {
+        let number = |key: &str| values[name][key].as_f64().unwrap();
+        assert!(
+            number("low") < 1.001 * truth && 0.999 * truth < number("high"),
+            "{name}: {}",
+            values[name]
+        );
     }
     for law in ["Stribeck", "Dahl", "LuGre", "this crate, with memory"] {
         let found = error(law, "relative_error_unseen");
