@@ -4,6 +4,7 @@
 //! with a law of friction `T` of unit level ([`super::laws`]).
 
 use std::f64::consts::TAU;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use super::laws::{Friction, Law, Scales};
 use super::problem::{Evaluation, LinearParameter, Parameter, Scale, Separable};
@@ -38,7 +39,12 @@ pub struct Slide<'a> {
     nonlinear: Vec<Parameter>,
     linear: Vec<LinearParameter>,
     target: Vec<f64>,
+    /// Columns that the law does not change, by the delay.
+    kept: Mutex<Vec<(f64, Arc<Vec<Vec<f64>>>)>>,
 }
+
+/// Delays whose columns are kept: that of a point, and those of its slope.
+const KEPT: usize = 3;
 
 /// Names of the linear parameters, in the order of their columns.
 const INERTIA: [&str; 2] = ["inertia", "mass"];
@@ -138,6 +144,7 @@ impl<'a> Slide<'a> {
             nonlinear,
             linear: linear(trace.coordinate, terms, load.is_some()),
             target: rows.of(&trace.effort),
+            kept: Mutex::default(),
         }
     }
 
@@ -164,15 +171,36 @@ impl<'a> Slide<'a> {
             .collect()
     }
 
-    /// All columns at every sample, in the order of [`Separable::linear`].
-    fn signals(&self, friction: Vec<f64>) -> Vec<Vec<f64>> {
+    /// Columns that do not depend on the law, in the order of [`Separable::linear`] without those of the friction, as rows so many ticks
+    /// later. Most evaluations differ by the law alone: the last ones are kept.
+    fn steady(&self, ticks: f64) -> Arc<Vec<Vec<f64>>> {
+        let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, columns)) = kept.iter().find(|(at, _)| *at == ticks) {
+            return Arc::clone(columns);
+        }
+        let signals = self.signals();
+        let rows = signals.iter().map(|signal| self.row(signal, ticks));
+        let columns = Arc::new(rows.collect::<Vec<_>>());
+        if kept.len() == KEPT {
+            kept.remove(0);
+        }
+        kept.push((ticks, Arc::clone(&columns)));
+        columns
+    }
+
+    /// A signal as rows, so many ticks later.
+    fn row(&self, signal: &[f64], ticks: f64) -> Vec<f64> {
+        self.rows.of(&advanced(signal, ticks))
+    }
+
+    /// The signals of [`Self::steady`].
+    fn signals(&self) -> Vec<Vec<f64>> {
         let Motion {
             position,
             speed,
             acceleration,
             ..
         } = self.motion;
-        let place = |position: &f64| position - self.middle;
         let mut columns = vec![acceleration.clone()];
         if self.terms.drag_of_each_direction {
             columns.push(speed.iter().map(|speed| speed.max(0.0)).collect());
@@ -180,17 +208,9 @@ impl<'a> Slide<'a> {
         } else {
             columns.push(speed.clone());
         }
-        let offset = vec![1.0; position.len()];
-        let sloped: Vec<f64> = position
-            .iter()
-            .zip(&friction)
-            .map(|(position, friction)| place(position) * friction)
-            .collect();
-        columns.push(friction);
-        columns.push(offset);
+        columns.push(vec![1.0; position.len()]);
         if self.terms.position {
-            columns.push(position.iter().map(place).collect());
-            columns.push(sloped);
+            columns.push(position.iter().map(|place| place - self.middle).collect());
         }
         if let Some(period) = self.terms.period {
             let angle = |position: &f64| TAU * position / period;
@@ -199,6 +219,22 @@ impl<'a> Slide<'a> {
         }
         if let Some(load) = self.load {
             columns.push(load.to_vec());
+        }
+        columns
+    }
+
+    /// Columns of the friction: of its level, and of its slope over the position where it is wanted.
+    fn frictional(&self, friction: &[f64], ticks: f64) -> Vec<Vec<f64>> {
+        let mut columns = vec![self.row(friction, ticks)];
+        if self.terms.position {
+            let sloped: Vec<f64> = self
+                .motion
+                .position
+                .iter()
+                .zip(friction)
+                .map(|(position, friction)| (position - self.middle) * friction)
+                .collect();
+            columns.push(self.row(&sloped, ticks));
         }
         columns
     }
@@ -286,17 +322,19 @@ fn linear(coordinate: Coordinate, terms: Terms, load: bool) -> Vec<LinearParamet
     } else {
         linear.push(free(DRAG, units.drag));
     }
-    linear.push(positive(LEVEL, units.effort));
     linear.push(free(OFFSET, units.effort));
     if terms.position {
         linear.push(free(STIFFNESS, units.stiffness));
-        linear.push(free(SLOPE, units.stiffness));
     }
     if terms.period.is_some() {
         linear.extend([COSINE, SINE].map(|name| free(name, units.effort)));
     }
     if load {
         linear.push(free(GAIN, units.gain));
+    }
+    linear.push(positive(LEVEL, units.effort));
+    if terms.position {
+        linear.push(free(SLOPE, units.stiffness));
     }
     linear
 }
@@ -320,13 +358,11 @@ impl Separable for Slide<'_> {
 
     fn evaluate(&self, nonlinear: &[f64]) -> Evaluation {
         let ticks = self.delay(nonlinear) / self.scales.tick;
-        let columns = self.signals(self.friction(nonlinear));
+        let mut columns = self.steady(ticks).to_vec();
+        columns.extend(self.frictional(&self.friction(nonlinear), ticks));
         Evaluation {
             fixed: vec![0.0; self.target.len()],
-            columns: columns
-                .iter()
-                .map(|column| self.rows.of(&advanced(column, ticks)))
-                .collect(),
+            columns,
         }
     }
 }
