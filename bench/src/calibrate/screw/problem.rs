@@ -299,43 +299,9 @@ impl<'a> ScrewProblem<'a> {
         self.rows.of(&sum)
     }
 
-    /// Rows of the friction in blocks of about as many samples each: by the size of the speed, and in each of these by the size of the load.
-    pub fn friction_by_blocks(
-        &self,
-        values: &Values,
-        speeds: usize,
-        loads: usize,
-    ) -> Vec<Vec<f64>> {
-        let friction = self.friction(values);
-        let part = |sizes: Vec<f64>, count: usize| -> Vec<usize> {
-            let mut order: Vec<usize> = (0..sizes.len()).collect();
-            order.sort_by(|one, other| sizes[*one].total_cmp(&sizes[*other]));
-            let mut parts = vec![0; sizes.len()];
-            for (rank, sample) in order.iter().enumerate() {
-                parts[*sample] = rank * count / sizes.len();
-            }
-            parts
-        };
-        let speed = part(
-            self.motion.speed.iter().map(|speed| speed.abs()).collect(),
-            speeds,
-        );
-        let load = match &self.trace.load {
-            Some(load) => part(load.iter().map(|load| load.abs()).collect(), loads),
-            None => vec![0; friction.len()],
-        };
-        let block = |index: usize| {
-            let moments = friction.iter().zip(speed.iter().zip(&load));
-            let masked = moments.map(|(friction, (speed, load))| {
-                if speed * loads + load == index {
-                    *friction
-                } else {
-                    0.0
-                }
-            });
-            self.rows.of(&masked.collect::<Vec<f64>>())
-        };
-        (0..speeds * loads).map(block).collect()
+    /// What turns signals into rows.
+    pub const fn rows(&self) -> &Rows {
+        self.rows
     }
 
     /// Viscosity times speed at every sample, Pa.

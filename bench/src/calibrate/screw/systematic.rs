@@ -109,7 +109,7 @@ pub fn systematic(
         shift,
         mut variance,
     } = sensors(problem, &slopes, values, settings)?.unwrap_or(none);
-    for rows in problem.friction_by_blocks(values, SPEEDS, LOADS) {
+    for rows in friction_by_blocks(problem, values, SPEEDS, LOADS) {
         let off: Vec<f64> = rows.iter().map(|row| MODEL * row).collect();
         variance += slopes.fitted(&off).map(|value| value * value);
     }
@@ -183,4 +183,44 @@ fn imitated(trace: &Trace, motion: &Motion, noise: f64, random: &mut Pcg64Mcg) -
             .map(|load| load.iter().map(|load| load + noise * normal()).collect()),
         ..trace.clone()
     }
+}
+
+/// Rows of the friction in blocks of about as many samples each: by the size of the speed, and in each of these by the size of the load.
+fn friction_by_blocks(
+    problem: &ScrewProblem<'_>,
+    values: &Values,
+    speeds: usize,
+    loads: usize,
+) -> Vec<Vec<f64>> {
+    let friction = problem.friction(values);
+    let (trace, motion) = problem.measured();
+    let part = |sizes: Vec<f64>, count: usize| -> Vec<usize> {
+        let mut order: Vec<usize> = (0..sizes.len()).collect();
+        order.sort_by(|one, other| sizes[*one].total_cmp(&sizes[*other]));
+        let mut parts = vec![0; sizes.len()];
+        for (rank, sample) in order.iter().enumerate() {
+            parts[*sample] = rank * count / sizes.len();
+        }
+        parts
+    };
+    let speed = part(
+        motion.speed.iter().map(|speed| speed.abs()).collect(),
+        speeds,
+    );
+    let load = match &trace.load {
+        Some(load) => part(load.iter().map(|load| load.abs()).collect(), loads),
+        None => vec![0; friction.len()],
+    };
+    let block = |index: usize| {
+        let moments = friction.iter().zip(speed.iter().zip(&load));
+        let masked = moments.map(|(friction, (speed, load))| {
+            if speed * loads + load == index {
+                *friction
+            } else {
+                0.0
+            }
+        });
+        problem.rows().of(&masked.collect::<Vec<f64>>())
+    };
+    (0..speeds * loads).map(block).collect()
 }
