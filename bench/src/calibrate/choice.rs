@@ -213,24 +213,21 @@ pub fn model(
     let course = prepared.course(&slide, &fit, 0.0)?;
     let relative = |rows: &[f64], target: &[f64]| size(rows) / size(target);
     let seen_error = relative(&fit.residual, seen.target());
-    let (unseen_rows, unseen_error, closed_unseen) = match unseen {
-        Some(other) => {
-            let slide = other.slide(law, terms);
-            let factor = load_factor(other, prepared, &slide, &fit);
-            let rows = residual(&slide, &fit.nonlinear, &fit.linear);
-            let error = relative(&rows, slide.target());
-            let course = other.course(&slide, &fit, factor)?;
-            (rows, error, course.map(|course| course.relative_error))
-        }
-        None => {
-            let rest = Part::after(&slide, share);
-            let rows = residual(&rest, &fit.nonlinear, &fit.linear);
-            let error = relative(&rows, rest.target());
-            let closed = course
-                .as_ref()
-                .map(|course| course.error_after(prepared.trace, share));
-            (rows, error, closed)
-        }
+    let (unseen_rows, unseen_error, closed_unseen) = if let Some(other) = unseen {
+        let slide = other.slide(law, terms);
+        let factor = load_factor(other, prepared, &slide, &fit);
+        let rows = residual(&slide, &fit.nonlinear, &fit.linear);
+        let error = relative(&rows, slide.target());
+        let course = other.course(&slide, &fit, factor)?;
+        (rows, error, course.map(|course| course.relative_error))
+    } else {
+        let rest = Part::after(&slide, share);
+        let rows = residual(&rest, &fit.nonlinear, &fit.linear);
+        let error = relative(&rows, rest.target());
+        let closed = course
+            .as_ref()
+            .map(|course| course.error_after(prepared.trace, share));
+        (rows, error, closed)
     };
     let parameters = fit.nonlinear.len() + fit.linear.len();
     let rows = uncertainty.effective_rows;

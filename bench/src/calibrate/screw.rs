@@ -70,6 +70,7 @@ impl Default for Request {
             rows: RowSettings::default(),
             fit: FitSettings {
                 step: 1e-2,
+                starts: 4,
                 ..FitSettings::default()
             },
             without_models: false,

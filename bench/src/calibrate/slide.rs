@@ -13,6 +13,8 @@ use super::trace::{Coordinate, Trace};
 use crate::mechanism::{Resistance, Step};
 
 /// What stands beside the law of friction.
+// Each is a term that may be left out.
+#[allow(clippy::struct_excessive_bools)]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Terms {
     /// Drag that differs between the directions.
@@ -40,8 +42,11 @@ pub struct Slide<'a> {
     linear: Vec<LinearParameter>,
     target: Vec<f64>,
     /// Columns that the law does not change, by the delay.
-    kept: Mutex<Vec<(f64, Arc<Vec<Vec<f64>>>)>>,
+    kept: Mutex<Vec<(f64, Columns)>>,
 }
+
+/// Columns of rows, shared.
+type Columns = Arc<Vec<Vec<f64>>>;
 
 /// Delays whose columns are kept: that of a point, and those of its slope.
 const KEPT: usize = 3;
@@ -173,7 +178,7 @@ impl<'a> Slide<'a> {
 
     /// Columns that do not depend on the law, in the order of [`Separable::linear`] without those of the friction, as rows so many ticks
     /// later. Most evaluations differ by the law alone: the last ones are kept.
-    fn steady(&self, ticks: f64) -> Arc<Vec<Vec<f64>>> {
+    fn steady(&self, ticks: f64) -> Columns {
         let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((_, columns)) = kept.iter().find(|(at, _)| *at == ticks) {
             return Arc::clone(columns);

@@ -44,7 +44,11 @@ pub fn summed(
     design: &Design,
     request: &Request,
 ) -> Result<(Calibration, Sums), Failure> {
-    let found = calibrate(trace, design, request)?;
+    let request = Request {
+        without_models: true,
+        ..request.clone()
+    };
+    let found = calibrate(trace, design, &request)?;
     let nonlinear = NONLINEAR
         .iter()
         .map(|quantity| (quantity.name, quantity.scale));

@@ -6,7 +6,7 @@
 
 use std::f64::consts::{PI, TAU};
 use std::io::{self, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use epas_friction::{Inputs, Outputs};
 
@@ -165,7 +165,7 @@ struct Row {
 pub fn run(
     design: &Design,
     arguments: &MechanismArguments,
-    input: &PathBuf,
+    input: &Path,
     [output, plot]: [&Option<PathBuf>; 2],
     existing: Existing,
 ) -> Result<(), Failure> {
@@ -177,7 +177,7 @@ pub fn run(
     for path in outputs.iter().flatten() {
         existing.check(path)?;
     }
-    refuse_same([Some(input.as_path())], outputs.iter().flatten())?;
+    refuse_same([Some(input)], outputs.iter().flatten())?;
     let calibrated = design.calibrated.as_ref();
     let inertia = arguments
         .inertia
