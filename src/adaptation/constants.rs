@@ -10,10 +10,10 @@ use crate::law::LEVEL;
 use crate::scene::Regime;
 
 /// Ticks from one upkeep to the next.
-pub(super) const UPKEEP: u8 = 8;
+pub(super) const UPKEEP: u8 = 9;
 
 /// Ticks in which every variance is kept up once.
-const ROUND: f32 = 40.0;
+const ROUND: f32 = 45.0;
 
 /// Most that a regressor may be, over its share of the noise: its square is far from an f32's end.
 const LARGEST_REGRESSOR: f32 = 1e5;

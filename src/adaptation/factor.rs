@@ -22,6 +22,14 @@ pub(super) struct Projection<const N: usize> {
     pub(super) variance: f32,
 }
 
+impl<const N: usize> Projection<N> {
+    /// Nothing was read.
+    pub(super) const NONE: Self = Self {
+        along: [[0.0; 2]; N],
+        variance: 0.0,
+    };
+}
+
 impl<const N: usize> Factor<N> {
     /// Independent numbers with this variance.
     pub(super) const fn independent(variance: f32) -> Self {

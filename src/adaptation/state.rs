@@ -2,7 +2,7 @@
 
 use super::constants::{AdaptationConstants, UPKEEP};
 use super::estimates::{ESTIMATES, Estimates};
-use super::factor::Factor;
+use super::factor::{Factor, Projection};
 use super::flags::AdaptationFlags;
 use super::health::{Health, HealthState};
 use super::inputs::AdaptationInputs;
@@ -20,6 +20,9 @@ pub struct AdaptationState {
     /// Filtered torque and regressors.
     pub(super) observed: f32,
     pub(super) regressors: [f32; ESTIMATES],
+    /// What the last tick has seen: the error over the noise, and how the reading stands to the covariance.
+    pub(super) error: f32,
+    pub(super) seen: Projection<ESTIMATES>,
     /// Ticks since the last upkeep, and which variance the next one keeps up.
     pub(super) tick: u8,
     pub(super) place: u8,
@@ -36,6 +39,8 @@ impl AdaptationState {
             covariance: Factor::independent(1.0 / (squared * squared * constants.growth)),
             observed: 0.0,
             regressors: [0.0; ESTIMATES],
+            error: 0.0,
+            seen: Projection::NONE,
             tick: 0,
             place: 0,
             health: HealthState::NEW,
@@ -54,6 +59,9 @@ impl AdaptationState {
         if self.tick >= UPKEEP {
             self.tick = 0;
             self.keep_up(constants);
+            AdaptationFlags::NONE
+        } else if self.tick & 1 == 1 {
+            self.look(constants);
             AdaptationFlags::NONE
         } else {
             self.correct(constants)
@@ -84,24 +92,30 @@ impl AdaptationState {
         }
     }
 
-    /// Moves the estimates by what the filtered torque tells.
+    /// How far the filtered torque is from what the estimates say, and how that stands to the covariance.
     #[inline(always)]
-    fn correct(&mut self, constants: &AdaptationConstants) -> AdaptationFlags {
+    fn look(&mut self, constants: &AdaptationConstants) {
         let mut error = self.observed;
         for (estimate, regressor) in self.estimates.iter().zip(&self.regressors) {
             error -= estimate * regressor;
         }
-        let error = error * constants.per_noise;
+        self.error = error * constants.per_noise;
         let mut weighted = self.regressors;
         for (regressor, weight) in weighted.iter_mut().zip(&constants.weights) {
             *regressor *= weight;
         }
-        let projection = self.covariance.project(&weighted);
+        self.seen = self.covariance.project(&weighted);
+    }
+
+    /// Moves the estimates by what the tick before has seen.
+    #[inline(always)]
+    fn correct(&mut self, constants: &AdaptationConstants) -> AdaptationFlags {
+        let (error, projection) = (self.error, &self.seen);
         // What is further off is noise, as large as puts it there.
         let most = error * error * (1.0 / FURTHEST) - projection.variance;
         let cut = most > 1.0;
         let noise = if cut { most } else { 1.0 };
-        let gain = self.covariance.read(&projection, noise);
+        let gain = self.covariance.read(projection, noise);
         let mut at_bound = false;
         let bounds = constants.least.iter().zip(&constants.largest);
         let moves = gain.iter().zip(&constants.deviations);

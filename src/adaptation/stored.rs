@@ -5,7 +5,7 @@ use core::borrow::Borrow;
 use super::Adaptation;
 use super::constants::{AdaptationConstants, UPKEEP};
 use super::estimates::ESTIMATES;
-use super::factor::{Factor, LEAST};
+use super::factor::{Factor, LEAST, Projection};
 use super::health::HealthState;
 use super::state::AdaptationState;
 use crate::error::Range;
@@ -50,7 +50,7 @@ impl Stored for HealthState {
     }
 }
 
-/// The filter begins anew: what it holds is of milliseconds.
+/// The filter begins anew, and a reading that was only looked at is left out: what they hold is of milliseconds.
 impl Stored for AdaptationState {
     const BYTES: usize = 4 * ESTIMATES + Factor::<ESTIMATES>::BYTES + 2 + HealthState::BYTES;
 
@@ -62,6 +62,8 @@ impl Stored for AdaptationState {
         self.health.exchange(port)?;
         self.observed = 0.0;
         self.regressors = [0.0; ESTIMATES];
+        self.error = 0.0;
+        self.seen = Projection::NONE;
         Ok(())
     }
 }

@@ -34,13 +34,15 @@ struct Information {
     growth: f64,
     bounds: [(f64, f64); 5],
     tick: usize,
+    /// What the tick before has seen.
+    seen: (Vector, f64),
 }
 
 impl Information {
     fn new(configuration: &AdaptationConfiguration) -> Self {
         let c = configuration;
         let wide = |value: f32| f64::from(value);
-        let growth = 1.0 + 8.0 * wide(c.tick) / wide(c.forgetting_time);
+        let growth = 1.0 + 9.0 * wide(c.tick) / wide(c.forgetting_time);
         let level = (wide(c.least_level), wide(c.largest_level));
         let around = |largest: f32| (-wide(largest), wide(largest));
         Self {
@@ -67,6 +69,7 @@ impl Information {
                 around(c.largest_load_error),
             ],
             tick: 0,
+            seen: (Vector::zeros(), 0.0),
         }
     }
 
@@ -84,10 +87,16 @@ impl Information {
             *regressor += self.filter * (now - *regressor);
         }
         self.tick += 1;
-        if self.tick.is_multiple_of(8) {
-            let own = (self.tick / 8 - 1) % 5;
+        let place = self.tick % 9;
+        if place == 0 {
+            let own = (self.tick / 9 - 1) % 5;
             self.sum /= self.growth;
             self.sum[(own, own)] += self.growth.powi(5) - 1.0;
+            return;
+        }
+        if place % 2 == 0 {
+            let (h, error) = self.seen;
+            self.correct(&h, error);
             return;
         }
         let h = Vector::from_fn(|i, _| self.regressors[i] * self.deviations[i] / self.noise);
@@ -95,11 +104,14 @@ impl Information {
         for (estimate, regressor) in self.estimates.iter().zip(&self.regressors) {
             error -= estimate * regressor;
         }
-        let error = error / self.noise;
-        let variance = h.dot(&self.sum.cholesky().unwrap().solve(&h));
+        self.seen = (h, error / self.noise);
+    }
+
+    fn correct(&mut self, h: &Vector, error: f64) {
+        let variance = h.dot(&self.sum.cholesky().unwrap().solve(h));
         let noise = (error * error / 16.0 - variance).max(1.0);
         self.sum += h * h.transpose() / noise;
-        let moved = self.sum.cholesky().unwrap().solve(&h) * (error / noise);
+        let moved = self.sum.cholesky().unwrap().solve(h) * (error / noise);
         for i in 0..5 {
             let (least, largest) = self.bounds[i];
             self.estimates[i] =

@@ -154,7 +154,7 @@ fn numbers_that_no_adaptation_leaves_are_refused() {
         assert_eq!(with(HEALTH_AT + 4 * entry, -1.0), field);
     }
     for (at, byte, field) in [
-        (TICK_AT, 8, "tick"),
+        (TICK_AT, 9, "tick"),
         (TICK_AT + 1, 5, "place"),
         (HEALTH_AT + 12, 2, "fallen"),
         (HEALTH_AT + 13, 9, "risen"),
