@@ -24,8 +24,8 @@
 //! 1. **Gate.** A tick counts only where the screw slides, fast enough and with enough friction, its inputs are finite and within
 //!    their limits, no flag of the step is set (a stale load or temperature is one), and the motor is not saturated.
 //!    All else leaves every number as it is, and says why ([`AdaptationFlags`]).
-//! 2. **Filter.** Observed torque and all five regressors pass the same one-pole filter, so that the equation holds for the filtered
-//!    ones exactly.
+//! 2. **Filter.** Observed torque and all five regressors pass the same one-pole filter in the same ticks, so that the equation holds for
+//!    the filtered ones exactly.
 //! 3. **Look**, in one tick, and **correction**, in the next: half of the readings are used, and neither tick takes long. By the `U D U'` form
 //!    of the covariance (Bierman 1977): no difference of positive numbers is taken, so that it stays symmetric and positive definite in f32
 //!    whatever comes. An error beyond four of its deviations (noise and covariance) counts as noise that is as much larger: a knock moves

@@ -57,6 +57,22 @@ impl<const N: usize> Factor<N> {
         Projection { along, variance }
     }
 
+    /// The same of a reading of one number alone, times `h`.
+    #[inline(always)]
+    pub(super) fn project_one(&self, place: usize, h: f32) -> Projection<N> {
+        let mut along = [[0.0; 2]; N];
+        let mut variance = 0.0;
+        let columns = self.columns.iter().zip(&self.diagonal);
+        for (j, ((column, diagonal), along)) in columns.zip(&mut along).enumerate() {
+            let above = column.get(place).copied().unwrap_or(0.0);
+            let f = if j == place { h } else { h * above };
+            let g = diagonal * f;
+            variance += f * g;
+            *along = [f, g];
+        }
+        Projection { along, variance }
+    }
+
     /// Takes in a reading with a noise of this variance, above 0 (Bierman 1977); gives `P h` over the variance of its error: by how much
     /// the numbers move for an error of one.
     ///

@@ -54,13 +54,15 @@ impl AdaptationState {
         constants: &AdaptationConstants,
         inputs: &AdaptationInputs,
     ) -> AdaptationFlags {
-        self.filter(constants, inputs);
         self.tick = self.tick.wrapping_add(1);
         if self.tick >= UPKEEP {
+            // A tick that both sides of the equation leave out.
             self.tick = 0;
             self.keep_up(constants);
-            AdaptationFlags::NONE
-        } else if self.tick & 1 == 1 {
+            return AdaptationFlags::NONE;
+        }
+        self.filter(constants, inputs);
+        if self.tick & 1 == 1 {
             self.look(constants);
             AdaptationFlags::NONE
         } else {
@@ -142,14 +144,9 @@ impl AdaptationState {
     #[inline(always)]
     fn keep_up(&mut self, constants: &AdaptationConstants) {
         self.covariance.forget(constants.growth);
-        let mut own = [0.0; ESTIMATES];
-        for (index, entry) in own.iter_mut().enumerate() {
-            if index == usize::from(self.place) {
-                *entry = constants.prior;
-            }
-        }
         // The number is read off as it is: it does not move.
-        let projection = self.covariance.project(&own);
+        let place = usize::from(self.place);
+        let projection = self.covariance.project_one(place, constants.prior);
         let _ = self.covariance.read(&projection, 1.0);
         self.place += 1;
         if usize::from(self.place) >= ESTIMATES {

@@ -82,10 +82,6 @@ impl Information {
             [torque, 0.0]
         };
         let now = [ways[0], ways[1], speed, 1.0, inputs.load_torque.into()];
-        self.observed += self.filter * (f64::from(inputs.observed) - self.observed);
-        for (regressor, now) in self.regressors.iter_mut().zip(now) {
-            *regressor += self.filter * (now - *regressor);
-        }
         self.tick += 1;
         let place = self.tick % 9;
         if place == 0 {
@@ -93,6 +89,10 @@ impl Information {
             self.sum /= self.growth;
             self.sum[(own, own)] += self.growth.powi(5) - 1.0;
             return;
+        }
+        self.observed += self.filter * (f64::from(inputs.observed) - self.observed);
+        for (regressor, now) in self.regressors.iter_mut().zip(now) {
+            *regressor += self.filter * (now - *regressor);
         }
         if place % 2 == 0 {
             let (h, error) = self.seen;

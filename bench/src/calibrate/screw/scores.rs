@@ -19,7 +19,7 @@ use crate::calibrate::uncertainty::uncertainty;
 use crate::failure::Failure;
 
 /// Starts of the laws of the literature and of the scene without memory, of which so many are finished.
-const RIVALS: (usize, usize) = (4, 1);
+const RIVALS: (usize, usize) = (2, 1);
 
 /// Name of the scene without memory.
 pub const WITHOUT_MEMORY: &str = "this crate, without memory";
