@@ -26,7 +26,8 @@
 //!    All else leaves every number as it is, and says why ([`AdaptationFlags`]).
 //! 2. **Filter.** Observed torque and all five regressors pass the same one-pole filter in the same ticks, so that the equation holds for
 //!    the filtered ones exactly.
-//! 3. **Look**, in one tick, and **correction**, in the next: half of the readings are used, and neither tick takes long. By the `U D U'` form
+//! 3. **Look**, in one tick, and **correction**, in the next, after which the numbers move with the next look: half of the readings are used,
+//!    and no tick takes long. By the `U D U'` form
 //!    of the covariance (Bierman 1977): no difference of positive numbers is taken, so that it stays symmetric and positive definite in f32
 //!    whatever comes. An error beyond four of its deviations (noise and covariance) counts as noise that is as much larger: a knock moves
 //!    little. The numbers stay within their bounds.

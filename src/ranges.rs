@@ -53,3 +53,9 @@ pub const HYSTERESIS_LOSS: Range = Range::new(0.0, 0.2);
 
 /// Drag of a lubricant on one contact under 100 N, N: 0 to 10.
 pub const LUBRICANT_DRAG: Range = Range::new(0.0, 10.0);
+
+/// Friction and loads in a stored state, N m and N: 0 to 1e9.
+pub const STORED_FRICTION: Range = Range::new(0.0, 1e9);
+
+/// A friction coefficient over any other in a stored state: 0 to 1e9.
+pub const STORED_WAYS: Range = Range::new(0.0, 1e9);

@@ -23,6 +23,8 @@ pub struct AdaptationState {
     /// What the last tick has seen: the error over the noise, and how the reading stands to the covariance.
     pub(super) error: f32,
     pub(super) seen: Projection<ESTIMATES>,
+    /// By how much the estimates move at the next look, in their deviations.
+    pub(super) moves: [f32; ESTIMATES],
     /// Ticks since the last upkeep, and which variance the next one keeps up.
     pub(super) tick: u8,
     pub(super) place: u8,
@@ -41,6 +43,7 @@ impl AdaptationState {
             regressors: [0.0; ESTIMATES],
             error: 0.0,
             seen: Projection::NONE,
+            moves: [0.0; ESTIMATES],
             tick: 0,
             place: 0,
             health: HealthState::NEW,
@@ -63,10 +66,11 @@ impl AdaptationState {
         }
         self.filter(constants, inputs);
         if self.tick & 1 == 1 {
+            let flags = self.go(constants);
             self.look(constants);
-            AdaptationFlags::NONE
+            flags
         } else {
-            self.correct(constants)
+            self.correct()
         }
     }
 
@@ -109,22 +113,31 @@ impl AdaptationState {
         self.seen = self.covariance.project(&weighted);
     }
 
-    /// Moves the estimates by what the tick before has seen.
+    /// What the tick before has seen: the covariance takes it in, and the estimates are to move.
     #[inline(always)]
-    fn correct(&mut self, constants: &AdaptationConstants) -> AdaptationFlags {
+    fn correct(&mut self) -> AdaptationFlags {
         let (error, projection) = (self.error, &self.seen);
         // What is further off is noise, as large as puts it there.
         let most = error * error * (1.0 / FURTHEST) - projection.variance;
         let cut = most > 1.0;
         let noise = if cut { most } else { 1.0 };
-        let gain = self.covariance.read(projection, noise);
+        self.moves = self.covariance.read(projection, noise);
+        for entry in &mut self.moves {
+            *entry *= error;
+        }
+        AdaptationFlags::NONE.with(cut, AdaptationFlags::ERROR_CUT)
+    }
+
+    /// Moves the estimates, within their bounds, by what the last correction has found.
+    #[inline(always)]
+    fn go(&mut self, constants: &AdaptationConstants) -> AdaptationFlags {
         let mut at_bound = false;
         let bounds = constants.least.iter().zip(&constants.largest);
-        let moves = gain.iter().zip(&constants.deviations);
-        for ((estimate, (gain, deviation)), (&least, &largest)) in
+        let moves = self.moves.iter().zip(&constants.deviations);
+        for ((estimate, (entry, deviation)), (&least, &largest)) in
             self.estimates.iter_mut().zip(moves).zip(bounds)
         {
-            let moved = *estimate + deviation * (gain * error);
+            let moved = *estimate + deviation * entry;
             *estimate = if moved < least {
                 at_bound = true;
                 least
@@ -135,9 +148,7 @@ impl AdaptationState {
                 moved
             };
         }
-        AdaptationFlags::NONE
-            .with(cut, AdaptationFlags::ERROR_CUT)
-            .with(at_bound, AdaptationFlags::AT_BOUND)
+        AdaptationFlags::NONE.with(at_bound, AdaptationFlags::AT_BOUND)
     }
 
     /// Old data lose weight; one variance gets back what it lost; after a round the slow average goes on.

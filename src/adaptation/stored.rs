@@ -64,6 +64,7 @@ impl Stored for AdaptationState {
         self.regressors = [0.0; ESTIMATES];
         self.error = 0.0;
         self.seen = Projection::NONE;
+        self.moves = [0.0; ESTIMATES];
         Ok(())
     }
 }

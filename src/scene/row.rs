@@ -1,9 +1,9 @@
 //! Full friction of a row of balls, whatever they run in.
 
 use super::passage::Passage;
-use super::stored::{FRICTION, WAYS};
 use crate::error::Range;
 use crate::law::SlidingLimits;
+use crate::ranges;
 use crate::stored::{Port, Refusal, Stored};
 
 /// Full friction of a row of balls, in the direction in which they go: torques of a screw, N m, or forces of a bearing, N.
@@ -52,9 +52,9 @@ impl Stored for RowFull {
     const BYTES: usize = 6 * 4 + 1;
 
     fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
-        port.number("groove", &mut self.groove, FRICTION)?;
-        port.number("ball", &mut self.ball, FRICTION)?;
-        port.numbers("ways", &mut self.ways, WAYS)?;
+        port.number("groove", &mut self.groove, ranges::STORED_FRICTION)?;
+        port.number("ball", &mut self.ball, ranges::STORED_FRICTION)?;
+        port.numbers("ways", &mut self.ways, ranges::STORED_WAYS)?;
         port.number("load", &mut self.load, Range::new(0.0, 1e13))?;
         port.count("contacts", &mut self.contacts, u8::MAX)?;
         port.number(

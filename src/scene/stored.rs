@@ -5,6 +5,7 @@ use super::faults::Faults;
 use super::linear::LinearInputs;
 use crate::error::Range;
 use crate::law::SlidingLimits;
+use crate::ranges;
 use crate::stored::{Fingerprint, Port, Refusal, Stored};
 
 /// A scene whose state can be kept as bytes.
@@ -30,12 +31,6 @@ pub trait StoredScene: Scene<State: Stored + Copy> {
     fn forget_readings(state: &mut Self::State);
 }
 
-/// Friction torques and forces, loads: N m, N.
-pub(in crate::scene) const FRICTION: Range = Range::new(0.0, 1e9);
-
-/// A friction coefficient over any other.
-pub(super) const WAYS: Range = Range::new(0.0, 1e9);
-
 /// Every flag.
 const FLAGS: u16 = (Faults::TEMPERATURE_STALE.bits() << 1) - 1;
 
@@ -54,8 +49,8 @@ impl Stored for SlidingLimits {
     const BYTES: usize = 12;
 
     fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
-        port.number("forward", &mut self.forward, FRICTION)?;
-        port.number("backward", &mut self.backward, FRICTION)?;
+        port.number("forward", &mut self.forward, ranges::STORED_FRICTION)?;
+        port.number("backward", &mut self.backward, ranges::STORED_FRICTION)?;
         port.number("load", &mut self.load, Range::new(0.0, 1e13))
     }
 }

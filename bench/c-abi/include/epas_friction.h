@@ -546,7 +546,7 @@ extern "C" {
 /**
  * Words of eight bytes that an adaptation takes.
  */
-#define EPAS_ADAPTATION_WORDS 40
+#define EPAS_ADAPTATION_WORDS 48
 
 /**
  * What the contacts of a ball dissipate, by its balance between elastic grooves: the one to take.

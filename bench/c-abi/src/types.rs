@@ -6,7 +6,7 @@ use crate::tables::{Deviation, LoadShare};
 /// Bytes of a state of an adaptation.
 pub const EPAS_ADAPTATION_STATE_BYTES: u32 = 116u32;
 /// Words of eight bytes that an adaptation takes.
-pub const EPAS_ADAPTATION_WORDS: usize = 46;
+pub const EPAS_ADAPTATION_WORDS: usize = 48;
 
 /// What the contacts of a ball dissipate, by its balance between elastic grooves: the one to take.
 pub const EPAS_BRANCH_CONTACTS: u32 = 0u32;

@@ -36,6 +36,8 @@ struct Information {
     tick: usize,
     /// What the tick before has seen.
     seen: (Vector, f64),
+    /// By how much the estimates move at the next look.
+    moves: Vector,
 }
 
 impl Information {
@@ -70,6 +72,7 @@ impl Information {
             ],
             tick: 0,
             seen: (Vector::zeros(), 0.0),
+            moves: Vector::zeros(),
         }
     }
 
@@ -94,7 +97,14 @@ impl Information {
         for (regressor, now) in self.regressors.iter_mut().zip(now) {
             *regressor += self.filter * (now - *regressor);
         }
-        if place % 2 == 0 {
+        if !place.is_multiple_of(2) {
+            for i in 0..5 {
+                let (least, largest) = self.bounds[i];
+                self.estimates[i] =
+                    (self.estimates[i] + self.deviations[i] * self.moves[i]).clamp(least, largest);
+            }
+        }
+        if place.is_multiple_of(2) {
             let (h, error) = self.seen;
             self.correct(&h, error);
             return;
@@ -111,12 +121,7 @@ impl Information {
         let variance = h.dot(&self.sum.cholesky().unwrap().solve(h));
         let noise = (error * error / 16.0 - variance).max(1.0);
         self.sum += h * h.transpose() / noise;
-        let moved = self.sum.cholesky().unwrap().solve(h) * (error / noise);
-        for i in 0..5 {
-            let (least, largest) = self.bounds[i];
-            self.estimates[i] =
-                (self.estimates[i] + self.deviations[i] * moved[i]).clamp(least, largest);
-        }
+        self.moves = self.sum.cholesky().unwrap().solve(h) * (error / noise);
     }
 
     fn deviations(&self) -> [f64; 5] {

@@ -1,6 +1,6 @@
 //! What laws over the load said in the last ticks of a caged ball screw with memory.
 
-use crate::scene::stored::FRICTION;
+use crate::ranges;
 use crate::stored::{Port, Refusal, Stored};
 
 /// Ticks of which one looks up the other direction.
@@ -63,7 +63,7 @@ impl Stored for Found {
     const BYTES: usize = 5;
 
     fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
-        port.number("ratio", &mut self.ratio, FRICTION)?;
+        port.number("ratio", &mut self.ratio, ranges::STORED_FRICTION)?;
         port.flag("beyond", &mut self.beyond)
     }
 }

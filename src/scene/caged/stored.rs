@@ -3,8 +3,9 @@
 use super::contacts::ContactsState;
 use super::{CagedBallScrew, CagedConstants, CagedFull, CagedState, Law};
 use crate::error::Range;
+use crate::ranges;
 use crate::scene::faults::Faults;
-use crate::scene::stored::{FRICTION, StoredScene};
+use crate::scene::stored::StoredScene;
 use crate::stored::{Fingerprint, Port, Refusal, Stored};
 
 impl StoredScene for CagedBallScrew {
@@ -45,8 +46,8 @@ impl Stored for CagedFull {
     const BYTES: usize = 12 + Faults::BYTES;
 
     fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
-        port.number("forward", &mut self.forward, FRICTION)?;
-        port.number("backward", &mut self.backward, FRICTION)?;
+        port.number("forward", &mut self.forward, ranges::STORED_FRICTION)?;
+        port.number("backward", &mut self.backward, ranges::STORED_FRICTION)?;
         port.number("load", &mut self.load, Range::new(0.0, 1e13))?;
         self.faults.exchange(port)
     }
