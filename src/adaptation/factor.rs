@@ -15,6 +15,7 @@ pub(super) const LEAST: f32 = 1e-11;
 
 /// A reading `h' x` as the covariance sees it.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Projection<const N: usize> {
     /// `f = U' h` and `g = D f`.
     along: [[f32; 2]; N],
