@@ -207,13 +207,9 @@ fn rename(table: &mut Table, old: &str, new: &str) {
 struct Waves(Vec<(u8, [Option<Estimate>; 2])>);
 
 impl Waves {
-    /// Whether an estimate is a part of a wave, `harmonic_1_cosine` or `harmonic_1_sine`; then it is taken.
+    /// Whether an estimate is a part of a wave, `cosine_1` or `sine_1`; then it is taken.
     fn take(&mut self, estimate: &Estimate) -> bool {
-        let Some((order, part)) = estimate
-            .name
-            .strip_prefix("harmonic_")
-            .and_then(|name| name.split_once('_'))
-        else {
+        let Some((part, order)) = estimate.name.split_once('_') else {
             return false;
         };
         let (Ok(order), Some(place)) = (

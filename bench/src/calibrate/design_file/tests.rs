@@ -54,9 +54,9 @@ fn whole() -> Calibration {
         estimate("inertia", 4e-4),
         estimate("gain", 1.012),
         Estimate::fixed("drag", "N m s/rad", 3e-4),
-        estimate("harmonic_1_cosine", 1.5e-3),
-        estimate("harmonic_1_sine", -1e-3),
-        estimate("harmonic_2_sine", 8e-4),
+        estimate("cosine_1", 1.5e-3),
+        estimate("sine_1", -1e-3),
+        estimate("sine_2", 8e-4),
         estimate("colour", 3.0),
     ])
 }
