@@ -39,6 +39,7 @@
 //! | [`slide`] | a trace without a design as a separable problem |
 //! | [`choice`] | models of friction on a trace without a design |
 //! | [`part`] | a part of a problem's rows |
+//! | `wanted` | which manoeuvre tells a parameter of a screw |
 //! | [`with_design`] | calibration of a trace of a screw whose design is known |
 //! | [`without_design`] | calibration of a trace without a design |
 //! | `command` | arguments, and what is printed |
@@ -95,6 +96,7 @@ mod toys;
 pub mod trace;
 pub mod uncertainty;
 pub mod units;
+mod wanted;
 pub mod with_design;
 pub mod without_design;
 

@@ -11,6 +11,7 @@ use super::screw::Request;
 use super::screw::choice::Wanted;
 use super::signals::{RowSettings, SmoothingSettings};
 use super::sums::Sums;
+use super::wanted;
 use super::with_design;
 use super::without_design::{self, Filters};
 use crate::controller::Controller;
@@ -34,8 +35,8 @@ use crate::failure::Failure;
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// Measured trace, or a folder of them
-    #[arg(value_name = "TRACE.csv|FOLDER")]
-    trace: PathBuf,
+    #[arg(value_name = "TRACE.csv|FOLDER", required_unless_present = "wanted")]
+    trace: Option<PathBuf>,
     /// Built-in design, or design file ending in .toml
     #[arg(long, value_name = "NAME|FILE.toml")]
     design: Option<DesignSource>,
@@ -53,6 +54,22 @@ pub struct Arguments {
     /// Parameters to set
     #[arg(long, value_name = "NAME=VALUE,...", requires = "design", value_delimiter = ',', value_parser = setting)]
     fix: Vec<(String, f64)>,
+    /// Parameters whose profile likelihoods the page shows: how much worse the trace is explained with each held elsewhere
+    #[arg(
+        long,
+        value_name = "NAME,...",
+        requires = "design",
+        value_delimiter = ','
+    )]
+    profile: Vec<String>,
+    /// Tell which manoeuvre would tell this parameter best, without a trace
+    #[arg(
+        long,
+        value_name = "NAME",
+        requires = "design",
+        conflicts_with = "trace"
+    )]
+    wanted: Option<String>,
     /// Trace that is not fitted, by which models are scored
     #[arg(long, value_name = "OTHER.csv")]
     validate: Option<PathBuf>,
@@ -111,15 +128,19 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         .as_ref()
         .map(DesignSource::load)
         .transpose()?;
-    arguments
-        .outputs
-        .check(&arguments.trace, arguments.design.as_ref())?;
-    if arguments.trace.is_dir() || !arguments.folder.merge.is_empty() {
-        return whole_folder(arguments, design.as_ref());
+    if let (Some(name), Some(design)) = (&arguments.wanted, &design) {
+        return wanted::tell(design, name);
+    }
+    let Some(trace) = &arguments.trace else {
+        return Err(Failure::Data("there is no trace".into()));
+    };
+    arguments.outputs.check(trace, arguments.design.as_ref())?;
+    if trace.is_dir() || !arguments.folder.merge.is_empty() {
+        return whole_folder(arguments, trace, design.as_ref());
     }
     match &design {
-        Some(design) => with_design(arguments, design),
-        None => free(arguments),
+        Some(design) => with_design(arguments, trace, design),
+        None => free(arguments, trace),
     }
 }
 
@@ -154,15 +175,16 @@ impl Arguments {
                 cutoff: self.rows,
                 ..RowSettings::default()
             },
+            profiles: self.profile.clone(),
             ..Request::default()
         }
     }
 }
 
 /// A trace of a screw whose design is known.
-fn with_design(arguments: &Arguments, design: &Design) -> Result<(), Failure> {
+fn with_design(arguments: &Arguments, trace: &Path, design: &Design) -> Result<(), Failure> {
     let frame = arguments.frame(design);
-    let trace = columns::read(&arguments.trace, Some(&frame))?;
+    let trace = columns::read(trace, Some(&frame))?;
     let found = with_design::told(&trace, design, &arguments.request())?;
     arguments.outputs.write(Outcome {
         calibration: &found.answer,
@@ -173,8 +195,8 @@ fn with_design(arguments: &Arguments, design: &Design) -> Result<(), Failure> {
 }
 
 /// A trace without a design.
-fn free(arguments: &Arguments) -> Result<(), Failure> {
-    let trace = columns::read(&arguments.trace, None)?;
+fn free(arguments: &Arguments, trace: &Path) -> Result<(), Failure> {
+    let trace = columns::read(trace, None)?;
     let unseen = arguments
         .validate
         .as_deref()
@@ -207,8 +229,12 @@ fn tell(seen: &SeenController) {
 }
 
 /// Every trace of a folder.
-fn whole_folder(arguments: &Arguments, design: Option<&Design>) -> Result<(), Failure> {
-    let name = arguments.trace.file_name().map_or_else(
+fn whole_folder(
+    arguments: &Arguments,
+    traces: &Path,
+    design: Option<&Design>,
+) -> Result<(), Failure> {
+    let name = traces.file_name().map_or_else(
         || "folder".into(),
         |name| name.to_string_lossy().into_owned(),
     );
@@ -222,7 +248,7 @@ fn whole_folder(arguments: &Arguments, design: Option<&Design>) -> Result<(), Fa
         arguments.filters(),
     );
     let folder = Folder {
-        traces: &arguments.trace,
+        traces,
         output: &output,
         arguments: &arguments.folder,
         settings: &settings,

@@ -36,7 +36,12 @@ use self::problem::ScrewProblem;
 use self::quantities::Values;
 use self::systematic::{ELEMENTS, Systematic, systematic};
 use super::answer::{Calibration, Estimate};
+use super::checks::{examine, load_gain};
+use super::finding::{Finding, FindingKind};
+use super::picture;
 use super::problem::{Scale, Separable};
+use super::profile::profile;
+use super::separable::checks::FitError;
 use super::separable::{self, Fit, FitSettings, Fixed, inner, inner_slope, outer};
 use super::signals::{Motion, RowSettings, Rows, SmoothingSettings};
 use super::telling::tell;
@@ -58,6 +63,8 @@ pub struct Request {
     pub fit: FitSettings,
     /// Whether other models of friction are not fitted.
     pub without_models: bool,
+    /// Names of the parameters whose profile likelihoods are found.
+    pub profiles: Vec<String>,
 }
 
 impl Default for Request {
@@ -74,6 +81,7 @@ impl Default for Request {
                 ..FitSettings::default()
             },
             without_models: false,
+            profiles: Vec::new(),
         }
     }
 }
@@ -95,6 +103,8 @@ pub struct ScrewCalibration {
     pub uncertainty: Uncertainty,
     /// Evaluations of the model in all fits.
     pub evaluations: usize,
+    /// Profile likelihoods that were wanted.
+    pub profiles: Vec<picture::Profile>,
 }
 
 /// Calibrates a trace of a screw.
@@ -112,6 +122,8 @@ pub fn calibrate(
         ));
     }
     let motion = Motion::of(trace, &request.smoothing)?;
+    let findings = examine(trace, &motion)?;
+    load_gain(trace, &motion, reduced_lead(design))?;
     let rows = Rows::new(trace.step, &request.rows)?;
     let smoothing = request.smoothing.filter(trace.step)?;
     let evidence = Evidence::of(trace, &motion);
@@ -149,7 +161,16 @@ pub fn calibrate(
         .collect();
     let left_out = hints.left_out(&fixed);
     let untold = told.untold.into_iter().map(|untold| untold.sentence);
-    answer.cannot_tell = untold.chain(left_out).collect();
+    answer.cannot_tell = untold.chain(left_out).chain(spoiled(findings)).collect();
+    let profiles = request
+        .profiles
+        .iter()
+        .map(|name| {
+            let profile = profile(&part, &fit, &uncertainty, name, &once(&request.fit))?;
+            let best = answer.value(name).unwrap_or(f64::NAN);
+            Ok(picture::Profile::of(&profile, best))
+        })
+        .collect::<Result<Vec<_>, FitError>>()?;
     if !request.without_models {
         (answer.models, answer.winner) = scores::scores(&problem, &values, measured, &request.fit)?;
     }
@@ -161,7 +182,32 @@ pub fn calibrate(
         fit,
         uncertainty,
         evaluations,
+        profiles,
     })
+}
+
+/// Travel of the screw over the nut's angle, m/rad.
+fn reduced_lead(design: &Design) -> f64 {
+    f64::from(design.screw().lead()) / std::f64::consts::TAU
+}
+
+/// What was wrong with the trace itself. What it does not excite is told by the parameters.
+fn spoiled(findings: Vec<Finding>) -> impl Iterator<Item = String> {
+    let itself = |kind: FindingKind| {
+        matches!(
+            kind,
+            FindingKind::ClippedEffort
+                | FindingKind::ShiftedEffort
+                | FindingKind::ShiftedSpeed
+                | FindingKind::DeadChannel
+                | FindingKind::Repaired
+                | FindingKind::IgnoredColumns
+        )
+    };
+    findings
+        .into_iter()
+        .filter(move |finding| itself(finding.kind))
+        .map(|finding| finding.message)
 }
 
 /// The same settings with one start.

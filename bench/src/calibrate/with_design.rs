@@ -95,7 +95,7 @@ fn picture(trace: &Trace, request: &Request, found: &ScrewCalibration) -> Result
         speed: at(&motion.speed),
         load: trace.load.as_deref().map(&at),
         temperature: trace.temperature.as_deref().map(&at),
-        profiles: Vec::new(),
+        profiles: found.profiles.clone(),
         correlations: Correlations {
             names: names.map(|interval| interval.name.to_string()).collect(),
             rows: correlations
