@@ -19,6 +19,8 @@ pub mod choice;
 pub mod evidence;
 pub mod friction;
 pub mod hints;
+#[cfg(test)]
+mod hostile_tests;
 pub mod problem;
 pub mod quantities;
 pub mod refined;
@@ -127,6 +129,7 @@ pub fn calibrate(
     let rows = Rows::new(trace.step, &request.rows)?;
     let smoothing = request.smoothing.filter(trace.step)?;
     let evidence = Evidence::of(trace, &motion);
+    plausible(design, &evidence)?;
     let Start {
         screw,
         values,
@@ -184,6 +187,29 @@ pub fn calibrate(
         evaluations,
         profiles,
     })
+}
+
+/// Fastest balls about the screw's axis, m/s: twice what catalogues allow (150,000 mm/min of pitch diameter times revolutions).
+const FASTEST: f64 = 16.0;
+/// Longest travel, m.
+const LONGEST: f64 = 3.0;
+
+/// Whether a screw of this design can move so, and whether anything presses its balls.
+fn plausible(design: &Design, evidence: &Evidence) -> Result<(), Failure> {
+    let speed = f64::from(design.screw().pitch_radius()) * evidence.speeds[1];
+    let travel = reduced_lead(design) * evidence.range;
+    if speed > FASTEST || travel > LONGEST {
+        return Err(Failure::Data(format!(
+            "a travel of {travel:.3} m with balls at {speed:.1} m/s is none of this screw: is the angle in degrees (nut_position_deg), or the motor's with a ratio (--ratio)?"
+        )));
+    }
+    let pressed = design.configuration.clearance.gap() < 0.0;
+    if !pressed && evidence.load.is_some() && evidence.largest_load() == 0.0 {
+        return Err(Failure::Data(
+            "the load is 0 N throughout, and the design has no preload: nothing presses the balls; is the load's sensor dead?".into(),
+        ));
+    }
+    Ok(())
 }
 
 /// Travel of the screw over the nut's angle, m/rad.
