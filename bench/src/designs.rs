@@ -21,7 +21,7 @@ use crate::failure::Failure;
 use calibration::Calibrated;
 use loads::{LoadCase, LoadsTable};
 use tables::{MaterialTable, from_file, groove_size, material, radius, replace};
-use train::{UncagedDesign, UncagedTable};
+use train::{LinearDesign, UncagedDesign, UncagedTable};
 
 /// A design with what the in-loop model has to know beside it.
 #[derive(Clone, Debug)]
@@ -158,6 +158,18 @@ impl DesignSource {
                 train::LINEAR
             ))),
             Self::File(path) => from_file(path, DesignFile::design),
+        }
+    }
+
+    /// The linear bearing, checked.
+    pub fn load_bearing(&self) -> Result<LinearDesign, Failure> {
+        match self {
+            Self::LinearBearing => LinearDesign::built_in(),
+            Self::File(path) => LinearDesign::read(path),
+            Self::BuiltIn { name, .. } => Err(Failure::Data(format!(
+                "{name} is a ball screw; the built-in linear bearing is {}",
+                train::LINEAR
+            ))),
         }
     }
 }

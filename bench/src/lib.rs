@@ -16,6 +16,8 @@ mod eval;
 pub mod exact_ring;
 mod failure;
 mod files;
+#[doc(hidden)]
+pub mod fmu;
 mod mechanism;
 mod peers;
 mod plot;

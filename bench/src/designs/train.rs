@@ -276,6 +276,12 @@ impl LinearDesign {
     pub fn read(path: &Path) -> Result<Self, Failure> {
         from_file(path, LinearFile::design)
     }
+
+    /// The design of a file's text; its name where it has none.
+    pub fn of_text(text: &str, name: &str) -> Result<Self, String> {
+        let file: LinearFile = toml::from_str(text).map_err(|error| error.to_string())?;
+        file.design(name)
+    }
 }
 
 impl LinearFile {

@@ -1,6 +1,6 @@
 //! A linear bearing whose balls press on each other.
 
-use epas_friction::{FrictionModel, LinearBearingTrain, LinearInputs, LinearOutputs};
+use epas_friction::{Error, FrictionModel, LinearBearingTrain, LinearInputs, LinearOutputs};
 
 use super::manoeuvre::Manoeuvre;
 use super::memory::{self, Remembered, Remembering};
@@ -75,30 +75,46 @@ impl Linear {
         trace: &Trace<LinearSample>,
         remembered: Option<&Remembered>,
     ) -> Result<Train<LinearSample, LinearOutputs>, Failure> {
-        let build = |tick| -> Built<LinearSample, LinearOutputs> {
-            let mut configuration = self.design.configuration;
-            configuration.tick = tick;
-            let Some(remembered) = remembered else {
-                return with_balls!(plain LinearBearingTrain, self.design.balls, &configuration);
-            };
-            let friction = configuration.friction;
-            let angle = memory::speed(tick)?;
-            let whole = memory::configuration(configuration, remembered, angle, friction)?;
-            with_balls!(remembering LinearBearingTrain, self.design.balls, &whole)
-        };
-        Train::new(trace, build).map_err(|failure| failure.of(self.name()))
+        Train::new(trace, |tick| self.built(tick, remembered))
+            .map_err(|failure| failure.of(self.name()))
     }
-}
 
-impl Linear {
-    /// Elements at the trace's mean load, where friction remembers.
-    fn remembered(&self, trace: &Trace<LinearSample>) -> Result<Option<Remembered>, Failure> {
+    /// The model for a tick, s, with elements where friction remembers.
+    ///
+    /// # Errors
+    /// What the crate refuses.
+    pub fn built(
+        &self,
+        tick: f32,
+        remembered: Option<&Remembered>,
+    ) -> Built<LinearSample, LinearOutputs> {
+        let mut configuration = self.design.configuration;
+        configuration.tick = tick;
+        let Some(remembered) = remembered else {
+            return with_balls!(plain LinearBearingTrain, self.design.balls, &configuration);
+        };
+        let friction = configuration.friction;
+        let angle = memory::speed(tick)?;
+        let whole = memory::configuration(configuration, remembered, angle, friction)?;
+        with_balls!(remembering LinearBearingTrain, self.design.balls, &whole)
+    }
+
+    /// Elements at a mean size of the normal load, N.
+    ///
+    /// # Errors
+    /// What the crate refuses.
+    pub fn elements(&self, mean_load: f32) -> Result<Remembered, Error> {
         let configuration = &self.design.configuration;
         let loaded = configuration.loaded_length;
         let part = loaded / (loaded + configuration.return_length);
         let balls = f32::from(self.design.balls) * part;
+        memory::of_bearing(configuration, balls, mean_load)
+    }
+
+    /// Elements at the trace's mean load, where friction remembers.
+    fn remembered(&self, trace: &Trace<LinearSample>) -> Result<Option<Remembered>, Failure> {
         self.memory
-            .then(|| memory::of_bearing(configuration, balls, memory::mean_load(trace)))
+            .then(|| self.elements(memory::mean_load(trace)))
             .transpose()
             .map_err(|error| Failure::Data(format!("{}: {error}", self.name())))
     }

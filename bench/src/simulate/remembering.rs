@@ -5,9 +5,10 @@ use epas_friction::law::Elements;
 use epas_friction::law::coefficient::{CoefficientLaw, CoefficientModel};
 use epas_friction::law::memory::Hysteresis;
 use epas_friction::law::motion::{NutAngle, Steady};
-use epas_friction::scene::{WithMemory, WithMemoryConfiguration};
+use epas_friction::scene::{WithMemory, WithMemoryConfiguration, WithMemoryInputs};
+use epas_friction::stored::{Fingerprinted, Stored};
 use epas_friction::{
-    CagedBallScrew, CagedBallScrewConfiguration, Error, FrictionModel, Inputs, Outputs,
+    CagedBallScrew, CagedBallScrewConfiguration, Error, FrictionModel, Inputs, Outputs, Refusal,
 };
 
 use super::memory::{self, Remembered};
@@ -18,21 +19,63 @@ use crate::designs::calibration::ElementsName;
 use crate::failure::Failure;
 
 /// A screw that remembers, whatever its elements, its sensor and its coefficient are.
-pub trait Remembers: Clone {
-    /// What it says to a moment with a reading of its sensor.
-    fn step(&mut self, inputs: Inputs, reading: f32) -> Outputs;
+pub trait Remembers: Clone + Send {
+    /// What it says to a moment with a reading of its sensor, at a temperature, K.
+    fn step_at(&mut self, inputs: Inputs, reading: f32, temperature: f32) -> Outputs;
+
+    /// The same at the temperature of every simulation.
+    fn step(&mut self, inputs: Inputs, reading: f32) -> Outputs {
+        self.step_at(inputs, reading, memory::TEMPERATURE)
+    }
+
+    /// Its state as a block.
+    ///
+    /// # Errors
+    /// What the crate refuses.
+    fn export(&self) -> Result<Vec<u8>, Refusal>;
+
+    /// Takes the state of a block over, its sensor's last reading too.
+    ///
+    /// # Errors
+    /// What the crate refuses; the state is as it was.
+    fn import(&mut self, block: &[u8]) -> Result<(), Refusal>;
 }
 
 impl<E, A, L> Remembers for FrictionModel<WithMemory<CagedBallScrew, E, A, L>>
 where
-    E: Elements + Copy,
-    A: NutAngle<Reading = f32> + Copy,
+    E: Elements<State: Stored> + Fingerprinted + Copy,
+    A: Sensor,
     L: CoefficientModel,
-    Self: Clone,
+    Self: Clone + Send,
 {
-    fn step(&mut self, inputs: Inputs, reading: f32) -> Outputs {
-        Self::step(self, memory::fresh(inputs, reading))
+    fn step_at(&mut self, inputs: Inputs, reading: f32, temperature: f32) -> Outputs {
+        let inputs = WithMemoryInputs {
+            temperature,
+            ..memory::fresh(inputs, reading)
+        };
+        Self::step(self, inputs)
     }
+
+    fn export(&self) -> Result<Vec<u8>, Refusal> {
+        let mut block = vec![0; Self::STATE_BYTES];
+        Self::export(self, &mut block)?;
+        Ok(block)
+    }
+
+    fn import(&mut self, block: &[u8]) -> Result<(), Refusal> {
+        self.import_with_reading(block)
+    }
+}
+
+/// A sensor of an angle or a speed whose last reading can be kept.
+pub trait Sensor:
+    NutAngle<Reading = f32, State: Stored + Send> + Fingerprinted + Copy + Send + 'static
+{
+}
+
+impl<A: NutAngle<Reading = f32, State: Stored + Send> + Fingerprinted + Copy + Send + 'static>
+    Sensor for A
+{
 }
 
 /// What is done with such a screw.
@@ -62,7 +105,7 @@ pub fn remembering<A, U>(
     then: U,
 ) -> Result<(U::Made, Lines), Failure>
 where
-    A: NutAngle<Reading = f32> + Copy + 'static,
+    A: Sensor,
     U: Use,
 {
     let refused = |error: Error| Failure::Data(format!("{}: {error}", design.name));
@@ -112,15 +155,15 @@ where
     }
 }
 
-impl<A: NutAngle<Reading = f32> + Copy + 'static> Built<'_, A> {
-    fn with<E: Hysteresis + Elements + Copy + 'static, U: Use>(
+impl<A: Sensor> Built<'_, A> {
+    fn with<E: Hysteresis + Elements<State: Stored> + Fingerprinted + Copy + 'static, U: Use>(
         &self,
         elements: (E, f32),
         law: CoefficientLaw,
         then: U,
     ) -> Result<U::Made, Error>
     where
-        FrictionModel<WithMemory<CagedBallScrew, E, A, CoefficientLaw>>: Clone,
+        FrictionModel<WithMemory<CagedBallScrew, E, A, CoefficientLaw>>: Clone + Send,
     {
         let whole: WithMemoryConfiguration<CagedBallScrewConfiguration, E, A, CoefficientLaw> =
             memory::with_coefficient(self.design.configuration, elements, self.angle, law);

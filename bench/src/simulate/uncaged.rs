@@ -1,7 +1,8 @@
 //! A ball screw whose balls press on each other.
 
 use epas_friction::{
-    FrictionModel, Inputs, Outputs, UncagedBallScrew, UncagedBallScrewConfiguration, UncagedOutputs,
+    Error, FrictionModel, Inputs, Outputs, UncagedBallScrew, UncagedBallScrewConfiguration,
+    UncagedOutputs,
 };
 
 use super::exact_screw::exact_screw;
@@ -73,24 +74,35 @@ impl Uncaged {
         trace: &Trace<ScrewSample>,
         remembered: Option<&Remembered>,
     ) -> Result<Train<ScrewSample, UncagedOutputs>, Failure> {
-        let build = |tick| -> Built<ScrewSample, UncagedOutputs> {
-            let mut configuration = self.balls.configuration;
-            configuration.tick = tick;
-            let Some(remembered) = remembered else {
-                return with_balls!(plain UncagedBallScrew, self.balls.balls, &configuration);
-            };
-            let friction = configuration.friction;
-            let angle = memory::speed(tick)?;
-            let whole = memory::configuration(configuration, remembered, angle, friction)?;
-            with_balls!(remembering UncagedBallScrew, self.balls.balls, &whole)
-        };
-        Train::new(trace, build).map_err(|failure| failure.of(self.name()))
+        Train::new(trace, |tick| self.built(tick, remembered))
+            .map_err(|failure| failure.of(self.name()))
     }
-}
 
-impl Uncaged {
-    /// Elements at the trace's mean load, where friction remembers.
-    fn remembered(&self, trace: &Trace<ScrewSample>) -> Result<Option<Remembered>, Failure> {
+    /// The model for a tick, s, with elements where friction remembers.
+    ///
+    /// # Errors
+    /// What the crate refuses.
+    pub fn built(
+        &self,
+        tick: f32,
+        remembered: Option<&Remembered>,
+    ) -> Built<ScrewSample, UncagedOutputs> {
+        let mut configuration = self.balls.configuration;
+        configuration.tick = tick;
+        let Some(remembered) = remembered else {
+            return with_balls!(plain UncagedBallScrew, self.balls.balls, &configuration);
+        };
+        let friction = configuration.friction;
+        let angle = memory::speed(tick)?;
+        let whole = memory::configuration(configuration, remembered, angle, friction)?;
+        with_balls!(remembering UncagedBallScrew, self.balls.balls, &whole)
+    }
+
+    /// Elements at a mean size of the load, N.
+    ///
+    /// # Errors
+    /// What the crate refuses.
+    pub fn elements(&self, mean_load: f32) -> Result<Remembered, Error> {
         let UncagedBallScrewConfiguration {
             ref design,
             friction,
@@ -102,7 +114,6 @@ impl Uncaged {
         } = self.balls.configuration;
         let loaded =
             turns * std::f32::consts::TAU * design.pitch_radius() / design.cos_lead_angle();
-        let told = self.design.calibrated.is_some();
         let screw = memory::Screw {
             design,
             friction,
@@ -110,9 +121,15 @@ impl Uncaged {
             rolling_resistance,
             loaded_balls: f32::from(self.balls.balls) * loaded / (loaded + return_length),
         };
+        screw.remembered(mean_load)
+    }
+
+    /// Elements at the trace's mean load, where friction remembers.
+    fn remembered(&self, trace: &Trace<ScrewSample>) -> Result<Option<Remembered>, Failure> {
+        let told = self.design.calibrated.is_some();
         let mut remembered = self
             .memory
-            .then(|| screw.remembered(memory::mean_load(trace)))
+            .then(|| self.elements(memory::mean_load(trace)))
             .transpose()
             .map_err(|error| Failure::Data(format!("{}: {error}", self.name())))?;
         if let (Some(remembered), true) = (&mut remembered, told) {
