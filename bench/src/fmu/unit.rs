@@ -33,7 +33,7 @@ enum Source {
 }
 
 /// What of a unit stands in the resources of its file.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Stored {
     /// Scene.
@@ -42,6 +42,8 @@ pub struct Stored {
     pub design: String,
     /// Balls in the circuit; 0 without a row of balls.
     pub balls: u8,
+    /// Tick before another one is set, s; none for a scene without.
+    pub tick: Option<f64>,
     /// Text of the design file; none for a built-in design.
     pub text: Option<String>,
 }
@@ -74,7 +76,8 @@ impl Unit {
         } else {
             Source::Screw(Box::new(design.load()?))
         };
-        Self::of(scene, source, text).map_err(Failure::Data)
+        let tick = longest_tick(scene, &source).map_err(Failure::Data)?;
+        Self::of(scene, source, text, tick).map_err(Failure::Data)
     }
 
     /// The unit that is stored.
@@ -104,7 +107,7 @@ impl Unit {
                 }
             }
         };
-        let unit = Self::of(*scene, source, text.clone())?;
+        let unit = Self::of(*scene, source, text.clone(), stored.tick)?;
         if unit.stored == *stored {
             Ok(unit)
         } else {
@@ -112,7 +115,12 @@ impl Unit {
         }
     }
 
-    fn of(scene: SceneName, source: Source, text: Option<String>) -> Result<Self, String> {
+    fn of(
+        scene: SceneName,
+        source: Source,
+        text: Option<String>,
+        tick: Option<f64>,
+    ) -> Result<Self, String> {
         let (design, balls) = match &source {
             Source::Screw(design) => (
                 design.name.clone(),
@@ -136,12 +144,13 @@ impl Unit {
             Source::Screw(design) => of_screw(design, scene),
             Source::Bearing(design) => of_bearing(design),
         });
-        variables.extend(beside(scene, &source)?);
+        variables.extend(beside(scene, &source, tick));
         Ok(Self {
             stored: Stored {
                 scene,
                 design,
                 balls,
+                tick,
                 text,
             },
             variables,
@@ -217,7 +226,7 @@ impl Unit {
                         let angle = memory::angle().map_err(said)?;
                         with_memory(&design, mean_load(&values)?, angle, ByAngle)
                     }
-                    SceneName::Mechanism => mechanism(&design, &values),
+                    SceneName::Mechanism => mechanism::<N>(&design, &values),
                     _ => uncaged::<N>(design, scene, &values),
                 }
             }
@@ -229,7 +238,7 @@ impl Unit {
 }
 
 /// Parameters beside those of the design.
-fn beside(scene: SceneName, source: &Source) -> Result<Vec<Variable>, String> {
+fn beside(scene: SceneName, source: &Source, tick: Option<f64>) -> Vec<Variable> {
     let calibrated = match source {
         Source::Screw(design) => design.calibrated.as_ref(),
         Source::Bearing(_) => None,
@@ -245,13 +254,13 @@ fn beside(scene: SceneName, source: &Source) -> Result<Vec<Variable>, String> {
             load.unwrap_or(MEAN_LOAD).into(),
         ));
     }
-    if scene.has_tick() {
+    if let Some(tick) = tick {
         list.push(parameter(
             Kind::Float64,
             "tick",
             Some("s"),
             "time between two steps of the model, 1e-6 to 1; a communication step is one or more of them",
-            tick(scene, source)?,
+            tick,
         ));
     }
     if scene == SceneName::Mechanism {
@@ -289,7 +298,7 @@ fn beside(scene: SceneName, source: &Source) -> Result<Vec<Variable>, String> {
             list.push(parameter(Kind::Float64, name, unit, about, start));
         }
     }
-    Ok(list)
+    list
 }
 
 /// Gain, drag and offset that a trace has told of a design.
@@ -298,11 +307,11 @@ fn told(design: &Design) -> [f64; 3] {
     [nut.gain, nut.drag, nut.offset]
 }
 
-/// The longest tick that the limits of a design leave its balls.
-fn tick(scene: SceneName, source: &Source) -> Result<f64, String> {
+/// The longest tick that the limits of a design leave its balls, s; none for a scene without a tick.
+fn longest_tick(scene: SceneName, source: &Source) -> Result<Option<f64>, String> {
     let (mut tick, halvings) = TICK;
     if !scene.has_row() {
-        return Ok(tick);
+        return Ok(scene.has_tick().then_some(tick));
     }
     for _ in 0..halvings {
         let built = match source {
@@ -320,7 +329,7 @@ fn tick(scene: SceneName, source: &Source) -> Result<f64, String> {
             Ok(()) => break,
         }
     }
-    Ok(tick)
+    Ok(Some(tick))
 }
 
 fn said(error: Error) -> String {
@@ -354,7 +363,11 @@ where
     }
 }
 
-fn mechanism(design: &Design, values: &Values<'_>) -> Result<Box<dyn Running>, String> {
+// Of `N` so that it is compiled with the library of the unit, as are rows of balls.
+fn mechanism<const N: usize>(
+    design: &Design,
+    values: &Values<'_>,
+) -> Result<Box<dyn Running>, String> {
     let tick = checked_tick(values)?;
     let moving = Moving {
         told: [
