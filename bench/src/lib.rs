@@ -9,6 +9,8 @@
 pub mod calibrate;
 mod cli;
 mod controller;
+#[doc(hidden)]
+pub mod design_study;
 mod designs;
 mod document;
 mod eval;
@@ -21,6 +23,8 @@ mod peers;
 mod plot;
 mod progress;
 mod report;
+#[doc(hidden)]
+pub mod row;
 mod screws;
 mod simulate;
 mod study;
