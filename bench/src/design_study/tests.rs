@@ -72,7 +72,7 @@ fn a_study_has_the_friction_of_the_caged_scene() {
     }
 }
 
-/// Two neighbours press on each other in proportion to nothing: without a deviation they run alike.
+/// Neighbours without a deviation run at one speed, and press on nothing.
 #[test]
 fn balls_of_a_screw_without_deviation_do_not_press() {
     let duty = Duty {
