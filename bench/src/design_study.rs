@@ -173,7 +173,7 @@ impl Balls {
         };
         let pair = |deviation| {
             let balls = [ball(deviation), ball(0.0)].into_iter();
-            settled(screw, &grooves, balls, duty.ball_friction)
+            settled::<2>(screw, &grooves, balls, duty.ball_friction)
         };
         // Balls press in one of the two ways; in the other they part.
         let pairs = [pair(duty.deviation), pair(-duty.deviation)];

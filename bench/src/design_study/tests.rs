@@ -1,6 +1,6 @@
 use epas_friction::{
-    CagedBallScrew, CagedBallScrewConfiguration, Faults, FrictionBranch, FrictionModel, Inputs, Limits,
-    RollingResistance,
+    CagedBallScrew, CagedBallScrewConfiguration, Faults, FrictionBranch, FrictionModel, Inputs,
+    Limits, RollingResistance,
 };
 
 use super::*;

@@ -8,7 +8,7 @@ use epas_friction::BallScrew;
 use epas_friction::ball::elastic::{BallInputs, ElasticGrooves, Renewal, Settled};
 use epas_friction::train::Press;
 
-use super::{LARGEST_TRAIN, contact_forces, pressed, room_of_a_row};
+use super::{contact_forces, pressed, room_of_a_row};
 
 /// Renewals of a ball by itself: the slowest of the stored pairs needs 20.
 const ALONE: usize = 60;
@@ -74,8 +74,8 @@ impl Ball {
     }
 }
 
-/// Settles a row; none where a ball by itself carries no load or loses its grooves.
-pub fn settled(
+/// Settles a row of up to `N` balls; none where a ball by itself carries no load or loses its grooves.
+pub fn settled<const N: usize>(
     design: &BallScrew,
     grooves: &ElasticGrooves,
     inputs: impl Iterator<Item = BallInputs>,
@@ -89,7 +89,7 @@ pub fn settled(
     let path = design.pitch_radius() / design.cos_lead_angle();
     let rolling = design.ball_radius() * design.cos_lead_angle() * design.contact_angle().cos;
     let nominal = 0.5 * (path + rolling);
-    let forces = press(
+    let forces = press::<N>(
         grooves,
         &mut balls,
         ball_friction,
@@ -104,17 +104,17 @@ pub fn settled(
 
 /// Lets the balls press on each other until their forces stand; speeds count from that of a nominal ball over its speed
 /// against the nut. None where a ball loses its grooves, or runs further from nominal rolling than the scene takes.
-fn press(
+fn press<const N: usize>(
     grooves: &ElasticGrooves,
     balls: &mut [Ball],
     ball_friction: f32,
     (nominal, against): (f32, f32),
 ) -> Option<Vec<f32>> {
-    let room = room_of_a_row(balls.len());
-    let mut press = Press::new();
-    let mut forces = [0.0; LARGEST_TRAIN];
+    let room = room_of_a_row::<N>(balls.len());
+    let mut press = Press::<N>::new();
+    let mut forces = [0.0; N];
     for _ in 0..ROUNDS {
-        let (mut free, mut compliance) = ([0.0; LARGEST_TRAIN], [1.0; LARGEST_TRAIN]);
+        let (mut free, mut compliance) = ([0.0; N], [1.0; N]);
         for ((ball, free), compliance) in balls.iter().zip(&mut free).zip(&mut compliance) {
             let Renewal {
                 speed,

@@ -5,6 +5,7 @@ use epas_friction::{BallScrew, Clearance};
 
 use super::super::fields::BadField;
 use super::{Request, Row};
+use crate::row::LARGEST_TRAIN;
 use crate::row::settled::{SettledRow, settled};
 
 /// What the scene computes in f32; nothing where its clearance is not among those that the scene takes, or where a ball
@@ -29,7 +30,7 @@ pub fn row(request: &Request, design: &BallScrew) -> Result<Row, BadField> {
         friction: request.friction as f32,
         clearance: clearance.gap(),
     });
-    let found = settled(design, &grooves, inputs, request.ball_friction as f32);
+    let found = settled::<LARGEST_TRAIN>(design, &grooves, inputs, request.ball_friction as f32);
     Ok(found.map_or_else(Row::default, |found| answer(&found, design, backward)))
 }
 
