@@ -6,6 +6,8 @@
 #![allow(clippy::doc_markdown, rustdoc::broken_intra_doc_links)]
 
 #[doc(hidden)]
+pub mod bindings;
+#[doc(hidden)]
 pub mod calibrate;
 mod cli;
 mod controller;
