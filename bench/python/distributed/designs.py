@@ -32,8 +32,8 @@ def block(first: int, count: int, folder: str) -> dict:
     if path.exists():
         figures = dict(np.load(path))
     else:
-        found = epas_friction.design_figures(**designs(first, count))
-        figures = {name: np.asarray(found[name]) for name in FIGURES}
+        found = epas_friction.design_figures(**designs(first, count), strict=False)
+        figures = {name: np.asarray(getattr(found, name)) for name in FIGURES}
         with tempfile.NamedTemporaryFile(dir=folder, suffix=".part", delete=False) as file:
             np.savez(file, **figures)
         os.replace(file.name, path)

@@ -16,6 +16,7 @@ mod reference;
 mod results;
 mod runs;
 mod scenes;
+mod studies;
 
 use pyo3::prelude::*;
 
@@ -43,6 +44,9 @@ mod _native {
     use crate::scenes::remembering::CagedBallScrewWithMemory;
     #[pymodule_export]
     use crate::scenes::trains::{LinearBearingTrain, UncagedBallScrew};
+
+    #[pymodule_export]
+    use crate::studies::{design_figures, merge_sums, population, trace_sums};
 
     #[pymodule_export]
     use super::reference_module;

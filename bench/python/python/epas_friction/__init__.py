@@ -29,6 +29,7 @@ from ._native import (
     calibrate,
     circular_groove_curvature,
     contact_kinematics,
+    design_figures,
     design_names,
     efficiency,
     ellipse,
@@ -38,15 +39,19 @@ from ._native import (
     groove_curvature,
     literature_curvature,
     manoeuvre,
+    merge_sums,
+    population,
     simulate_caged,
     simulate_linear,
     simulate_uncaged,
+    trace_sums,
 )
 from .errors import Error, NumberTypeError, ShapeError
 from .results import (
     Calibration,
     ContactKinematics,
     ContactSlip,
+    DesignFigures,
     Efficiency,
     Ellipse,
     Estimate,
@@ -71,6 +76,7 @@ __all__ = [
     "ContactKinematics",
     "ContactSlip",
     "Design",
+    "DesignFigures",
     "Efficiency",
     "Ellipse",
     "Error",
@@ -95,6 +101,7 @@ __all__ = [
     "calibrate",
     "circular_groove_curvature",
     "contact_kinematics",
+    "design_figures",
     "design_names",
     "efficiency",
     "ellipse",
@@ -105,10 +112,13 @@ __all__ = [
     "groove_curvature",
     "literature_curvature",
     "manoeuvre",
+    "merge_sums",
+    "population",
     "reference",
     "simulate_caged",
     "simulate_linear",
     "simulate_uncaged",
+    "trace_sums",
 ]
 
 
