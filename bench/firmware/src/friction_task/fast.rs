@@ -43,16 +43,13 @@ impl FastTask {
         steps: u32,
         parameters: &ReactionParameters,
     ) -> f32 {
-        let friction = match gear {
-            Some(gear) => {
-                let outputs = gear.between(counts);
-                self.angle_known = !outputs.faults.contains(Faults::ANGLE_NOT_VALID);
-                Some(outputs.friction_torque)
-            }
-            None => {
-                self.busy = self.busy.saturating_add(1);
-                None
-            }
+        let friction = if let Some(gear) = gear {
+            let outputs = gear.between(counts);
+            self.angle_known = !outputs.faults.contains(Faults::ANGLE_NOT_VALID);
+            Some(outputs.friction_torque)
+        } else {
+            self.busy = self.busy.saturating_add(1);
+            None
         };
         if steps == self.steps {
             self.silent = self.silent.saturating_add(1);

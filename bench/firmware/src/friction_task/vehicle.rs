@@ -21,7 +21,7 @@ pub enum Event {
     LongGap,
     /// The last temperature is nearly a minute old, and none comes after it.
     NoTemperature,
-    /// A rack force that is no number, an angle that is none.
+    /// A rack force that is no number, no angle for a millisecond.
     Broken,
 }
 
@@ -105,11 +105,7 @@ impl Motor {
         self.angle = self
             .angle
             .wrapping_add_signed((turns * 4_294_967_296.0) as i32);
-        let lost = match tick / RATIO {
-            2150..2155 | 2350..2750 => true,
-            3400 => tick.is_multiple_of(RATIO),
-            _ => false,
-        };
+        let lost = matches!(tick / RATIO, 2150..2155 | 2350..2750 | 3400);
         if lost { NO_READING } else { self.angle >> 18 }
     }
 }
