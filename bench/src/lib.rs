@@ -7,9 +7,13 @@
 
 mod a2l;
 #[doc(hidden)]
+pub mod bindings;
+#[doc(hidden)]
 pub mod calibrate;
 mod cli;
 mod controller;
+#[doc(hidden)]
+pub mod design_study;
 mod designs;
 mod document;
 mod eval;
@@ -22,6 +26,8 @@ mod peers;
 mod plot;
 mod progress;
 mod report;
+#[doc(hidden)]
+pub mod row;
 mod screws;
 mod simulate;
 mod study;

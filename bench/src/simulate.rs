@@ -1,5 +1,7 @@
 //! `simulate`: the in-loop model over a trace of speed and load.
 
+#[doc(hidden)]
+pub mod bindings;
 mod caged;
 mod caged_exact;
 mod choice;
