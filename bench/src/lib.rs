@@ -5,6 +5,7 @@
 // square brackets are no links.
 #![allow(clippy::doc_markdown, rustdoc::broken_intra_doc_links)]
 
+mod a2l;
 #[doc(hidden)]
 pub mod bindings;
 #[doc(hidden)]
