@@ -16,6 +16,9 @@ mod eval;
 pub mod exact_ring;
 mod failure;
 mod files;
+mod headings;
+#[doc(hidden)]
+pub mod mdf4;
 mod mechanism;
 mod peers;
 mod plot;
@@ -23,9 +26,12 @@ mod progress;
 mod report;
 mod screws;
 mod simulate;
+mod source;
 mod study;
 mod target;
 mod timing;
+#[doc(hidden)]
+pub mod units;
 
 use std::process::ExitCode;
 
