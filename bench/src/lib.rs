@@ -68,6 +68,16 @@ pub mod untrusted {
         crate::calibrate::accepts(text)
     }
 
+    /// Reads a measurement file as `simulate --input` and `calibrate` do; its number of samples.
+    ///
+    /// # Errors
+    /// What is wrong.
+    pub fn measurement(bytes: &[u8]) -> Result<usize, String> {
+        let trace = crate::calibrate::columns::measured(bytes, "trace", None, None);
+        let simulated = crate::simulate::accepts_measurement(bytes)?;
+        trace.map(|trace| trace.len().max(simulated)).map_err(|failure| format!("{failure:?}"))
+    }
+
     /// Reads a design file as `simulate --design` does.
     ///
     /// # Errors

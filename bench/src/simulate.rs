@@ -290,6 +290,11 @@ pub fn accepts(text: &[u8]) -> Result<usize, String> {
     trace::samples::<ScrewSample>(Cursor::new(text)).map(|samples| samples.len())
 }
 
+/// Reads a measurement file; its number of samples.
+pub fn accepts_measurement(bytes: &[u8]) -> Result<usize, String> {
+    trace::measured::<ScrewSample>(bytes, None).map(|samples| samples.len())
+}
+
 fn list() -> Result<(), Failure> {
     let mut stdout = io::stdout().lock();
     for (name, parameters, loaded_balls) in designs::built_in() {

@@ -116,7 +116,9 @@ fn reader(file: &File, group: &Group, channel: &Channel) -> Result<Reader, Strin
         3 | 6 => true,
         1 => return Err("it holds texts or bytes, no numbers".into()),
         _ => {
-            return Err("it holds no plain numbers (synchronisation, or of changing length)".into());
+            return Err(
+                "it holds no plain numbers (synchronisation, or of changing length)".into(),
+            );
         }
     };
     if block.component_addr != 0 {
