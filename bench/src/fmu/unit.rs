@@ -92,7 +92,7 @@ impl Unit {
             ..
         } = stored;
         let source = match (scene.is_linear(), text) {
-            (true, Some(text)) => Source::Bearing(Box::new(LinearDesign::of_text(text, design)?)),
+            (true, Some(text)) => Source::Bearing(Box::new(LinearDesign::parse(text, design)?)),
             (false, Some(text)) => Source::Screw(Box::new(designs::read(text, design)?)),
             (linear, None) => {
                 let source: DesignSource = design.parse()?;
@@ -315,12 +315,12 @@ fn longest_tick(scene: SceneName, source: &Source) -> Result<Option<f64>, String
     }
     for _ in 0..halvings {
         let built = match source {
-            Source::Screw(design) => screw_row(design)?.built(tick as f32, None).map(drop),
+            Source::Screw(design) => screw_row(design)?.model(tick as f32, None).map(drop),
             Source::Bearing(design) => Linear {
                 design: (**design).clone(),
                 memory: false,
             }
-            .built(tick as f32, None)
+            .model(tick as f32, None)
             .map(drop),
         };
         match built {
@@ -399,7 +399,7 @@ fn uncaged<const N: usize>(
     let mut configuration = row.balls.configuration;
     configuration.tick = checked_tick(values)? as f32;
     if scene.has_memory() {
-        let remembered = row.elements(mean_load(values)?).map_err(said)?;
+        let remembered = row.remembered_at(mean_load(values)?).map_err(said)?;
         let friction = configuration.friction;
         let speed = memory::speed(configuration.tick).map_err(said)?;
         let model = memory::configuration(configuration, &remembered, speed, friction)
@@ -424,7 +424,7 @@ fn linear<const N: usize>(
             design,
             memory: true,
         };
-        let remembered = row.elements(mean_load(values)?).map_err(said)?;
+        let remembered = row.remembered_at(mean_load(values)?).map_err(said)?;
         let friction = configuration.friction;
         let speed = memory::speed(configuration.tick).map_err(said)?;
         let model = memory::configuration(configuration, &remembered, speed, friction)

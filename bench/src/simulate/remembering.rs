@@ -19,7 +19,7 @@ use crate::designs::calibration::ElementsName;
 use crate::failure::Failure;
 
 /// A screw that remembers, whatever its elements, its sensor and its coefficient are.
-pub trait Remembers: Clone + Send {
+pub trait Remembers: Clone + Send + Sync {
     /// What it says to a moment with a reading of its sensor, at a temperature, K.
     fn step_at(&mut self, inputs: Inputs, reading: f32, temperature: f32) -> Outputs;
 
@@ -39,6 +39,12 @@ pub trait Remembers: Clone + Send {
     /// # Errors
     /// What the crate refuses; the state is as it was.
     fn import(&mut self, block: &[u8]) -> Result<(), Refusal>;
+    /// What it says to a reading between two moments.
+    fn between(&mut self, reading: f32) -> Outputs;
+    /// Back to the state before the first tick.
+    fn reset(&mut self);
+    /// Consecutive ticks with a fault.
+    fn faulted_ticks(&self) -> u32;
 }
 
 impl<E, A, L> Remembers for FrictionModel<WithMemory<CagedBallScrew, E, A, L>>
@@ -46,7 +52,7 @@ where
     E: Elements<State: Stored> + Fingerprinted + Copy,
     A: Sensor,
     L: CoefficientModel,
-    Self: Clone + Send,
+    Self: Clone + Send + Sync,
 {
     fn step_at(&mut self, inputs: Inputs, reading: f32, temperature: f32) -> Outputs {
         let inputs = WithMemoryInputs {
@@ -54,6 +60,18 @@ where
             ..memory::fresh(inputs, reading)
         };
         Self::step(self, inputs)
+    }
+
+    fn between(&mut self, reading: f32) -> Outputs {
+        Self::between(self, reading)
+    }
+
+    fn reset(&mut self) {
+        Self::reset(self);
+    }
+
+    fn faulted_ticks(&self) -> u32 {
+        Self::faulted_ticks(self)
     }
 
     fn export(&self) -> Result<Vec<u8>, Refusal> {
@@ -69,12 +87,18 @@ where
 
 /// A sensor of an angle or a speed whose last reading can be kept.
 pub trait Sensor:
-    NutAngle<Reading = f32, State: Stored + Send> + Fingerprinted + Copy + Send + 'static
+    NutAngle<Reading = f32, State: Stored + Send + Sync> + Fingerprinted + Copy + Send + Sync + 'static
 {
 }
 
-impl<A: NutAngle<Reading = f32, State: Stored + Send> + Fingerprinted + Copy + Send + 'static>
-    Sensor for A
+impl<
+    A: NutAngle<Reading = f32, State: Stored + Send + Sync>
+        + Fingerprinted
+        + Copy
+        + Send
+        + Sync
+        + 'static,
+> Sensor for A
 {
 }
 
@@ -163,7 +187,7 @@ impl<A: Sensor> Built<'_, A> {
         then: U,
     ) -> Result<U::Made, Error>
     where
-        FrictionModel<WithMemory<CagedBallScrew, E, A, CoefficientLaw>>: Clone + Send,
+        FrictionModel<WithMemory<CagedBallScrew, E, A, CoefficientLaw>>: Clone + Send + Sync,
     {
         let whole: WithMemoryConfiguration<CagedBallScrewConfiguration, E, A, CoefficientLaw> =
             memory::with_coefficient(self.design.configuration, elements, self.angle, law);
