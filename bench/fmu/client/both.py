@@ -114,8 +114,8 @@ class Instance:
         return call(data)
 
     def raw(self, name):
-        """A function of the shared library, without FMPy's checks."""
-        return getattr(self.fmu.dll, f"fmi{self.unit.version}{name}")
+        """A function of the shared library of its own, without FMPy's types and checks."""
+        return self.fmu.dll[f"fmi{self.unit.version}{name}"]
 
     def component(self):
         return ctypes.c_void_p(self.fmu.component)

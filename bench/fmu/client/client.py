@@ -169,6 +169,7 @@ def main():
     parser.add_argument("--folder", required=True, help="an empty folder to work in")
     parser.add_argument("--scene", help="this scene alone")
     arguments = parser.parse_args()
+    arguments.folder = os.path.abspath(arguments.folder)
     program = Program(os.path.abspath(arguments.program), arguments.folder)
     for name, text in (("sixteen.toml", SIXTEEN), ("told.toml", TOLD)):
         with open(os.path.join(arguments.folder, name), "w", encoding="utf-8") as file:

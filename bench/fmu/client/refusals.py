@@ -89,7 +89,7 @@ class Refusals:
         self.expect(one, lambda: real[1]([2**32 - 1], [0.0]), "value reference", "4294967295")
         faults = self.unit.variables["faults"].valueReference
         self.expect(one, lambda: real[0]([faults]), "faults", "type")
-        self.expect(one, lambda: fmu.getBoolean([faults]), "faults", "Boolean")
+        self.expect(one, lambda: fmu.getBoolean([faults]), "Boolean")
         friction = next(name for name in self.unit.names("output") if name.startswith("friction_"))
         self.expect(one, lambda: one.set_one(friction, 1.0), friction, "cannot be set")
         self.expect(one, lambda: one.set_one("time", 1.0), "time", "cannot be set")
@@ -157,7 +157,6 @@ class Refusals:
         value = (ctypes.c_double * 1)(1.0)
         counts = (1,) if self.unit.version == 2 else (1, 1)
         setter = one.raw("SetReal" if self.unit.version == 2 else "SetFloat64")
-        setter.argtypes = None
         for wrong in (0, 1, 0x1000, 0xDEADBEEF):
             arguments = [ctypes.c_void_p(wrong), reference, ctypes.c_size_t(1), value]
             if len(counts) == 2:
@@ -196,7 +195,6 @@ class Refusals:
             calls.append(("DoStep", (component, *point, ctypes.c_bool(True), null, null, null, null)))
         for name, arguments in calls:
             function = one.raw(name)
-            function.argtypes = None
             one.said.clear()
             assert function(*arguments) == 3, name
             assert one.said, name

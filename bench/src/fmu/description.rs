@@ -61,43 +61,9 @@ pub fn description(unit: &Unit, version: Version) -> String {
 }
 
 fn whole(xml: &mut Xml, unit: &Unit, version: Version) -> io::Result<()> {
-    let scene = unit.stored.scene;
-    let (number, token) = match version {
-        Version::Two => ("2.0", "guid"),
-        Version::Three => ("3.0", "instantiationToken"),
-    };
-    let attributes = vec![
-        ("fmiVersion", number.to_owned()),
-        ("modelName", format!("epas-friction {}", scene.name())),
-        (token, unit.token()),
-        (
-            "description",
-            format!(
-                "Friction of a {}; design {}",
-                scene.about(),
-                unit.stored.design
-            ),
-        ),
-        ("version", env!("CARGO_PKG_VERSION").to_owned()),
-        ("license", "MIT OR Apache-2.0".to_owned()),
-        (
-            "generationTool",
-            format!("epas-bench {}", env!("CARGO_PKG_VERSION")),
-        ),
-        ("variableNamingConvention", "structured".to_owned()),
-    ];
-    element(xml, "fmiModelDescription", &attributes, |xml| {
-        let mut capabilities = vec![
-            ("modelIdentifier", LIBRARY.to_owned()),
-            ("canHandleVariableCommunicationStepSize", "true".to_owned()),
-        ];
-        let state: [&str; 2] = match version {
-            Version::Two => ["canGetAndSetFMUstate", "canSerializeFMUstate"],
-            Version::Three => ["canGetAndSetFMUState", "canSerializeFMUState"],
-        };
-        capabilities.extend(state.map(|name| (name, "true".to_owned())));
-        empty(xml, "CoSimulation", &capabilities)?;
-        units(xml, unit, version)?;
+    element(xml, "fmiModelDescription", &model(unit, version), |xml| {
+        empty(xml, "CoSimulation", &capabilities(version))?;
+        units(xml, unit)?;
         types(xml, unit, version)?;
         element(xml, "LogCategories", &Vec::new(), |xml| {
             for (name, about) in [
@@ -125,8 +91,47 @@ fn whole(xml: &mut Xml, unit: &Unit, version: Version) -> io::Result<()> {
     })
 }
 
+/// What the unit is.
+fn model(unit: &Unit, version: Version) -> Attributes<'static> {
+    let scene = unit.stored.scene;
+    let (number, token) = match version {
+        Version::Two => ("2.0", "guid"),
+        Version::Three => ("3.0", "instantiationToken"),
+    };
+    let about = format!(
+        "Friction of a {}; design {}",
+        scene.about(),
+        unit.stored.design
+    );
+    let tool = format!("epas-bench {}", env!("CARGO_PKG_VERSION"));
+    vec![
+        ("fmiVersion", number.to_owned()),
+        ("modelName", format!("epas-friction {}", scene.name())),
+        (token, unit.token()),
+        ("description", about),
+        ("version", env!("CARGO_PKG_VERSION").to_owned()),
+        ("license", "MIT OR Apache-2.0".to_owned()),
+        ("generationTool", tool),
+        ("variableNamingConvention", "structured".to_owned()),
+    ]
+}
+
+/// What it can do.
+fn capabilities(version: Version) -> Attributes<'static> {
+    let [get, serialise] = match version {
+        Version::Two => ["canGetAndSetFMUstate", "canSerializeFMUstate"],
+        Version::Three => ["canGetAndSetFMUState", "canSerializeFMUState"],
+    };
+    vec![
+        ("modelIdentifier", LIBRARY.to_owned()),
+        ("canHandleVariableCommunicationStepSize", "true".to_owned()),
+        (get, "true".to_owned()),
+        (serialise, "true".to_owned()),
+    ]
+}
+
 /// Units that the variables have.
-fn units(xml: &mut Xml, unit: &Unit, version: Version) -> io::Result<()> {
+fn units(xml: &mut Xml, unit: &Unit) -> io::Result<()> {
     let used = UNITS.iter().filter(|known| {
         unit.variables
             .iter()
@@ -134,9 +139,8 @@ fn units(xml: &mut Xml, unit: &Unit, version: Version) -> io::Result<()> {
     });
     element(xml, "UnitDefinitions", &Vec::new(), |xml| {
         for known in used {
-            let mut attributes = vec![("name", known.name.to_owned())];
-            let _ = version;
-            element(xml, "Unit", &std::mem::take(&mut attributes), |xml| {
+            let name = vec![("name", known.name.to_owned())];
+            element(xml, "Unit", &name, |xml| {
                 let base: Attributes<'_> = known
                     .exponents
                     .iter()

@@ -1,8 +1,9 @@
 //! Parameters of a unit: the numbers of its design, and a design with other numbers.
 
 use epas_friction::{
-    BallScrew, BallScrewParameters, Clearance, Error, FrictionBranch, GrooveSize, LinearBearing,
-    LinearBearingParameters, Material,
+    BallScrew, BallScrewParameters, Clearance, Error, FrictionBranch, GrooveSize, Limits,
+    LinearBearing, LinearBearingParameters, Material, RollingResistance,
+    UncagedBallScrewConfiguration,
 };
 
 use super::scene::SceneName;
@@ -153,97 +154,128 @@ impl GrooveNames {
     }
 }
 
+/// What both scenes of a ball screw have; a built-in design has other numbers of its own where its balls press on each other.
+struct Common {
+    friction: f32,
+    rolling_resistance: RollingResistance,
+    clearance: Clearance,
+    reversal_speed: f32,
+    limits: Limits,
+}
+
+impl Common {
+    fn of(design: &Design, scene: SceneName) -> Self {
+        if let (true, Some(train)) = (scene.has_row(), &design.uncaged) {
+            let row = &train.configuration;
+            return Self {
+                friction: row.friction,
+                rolling_resistance: row.rolling_resistance,
+                clearance: row.clearance,
+                reversal_speed: row.reversal_speed,
+                limits: row.limits,
+            };
+        }
+        let caged = &design.configuration;
+        Self {
+            friction: caged.friction,
+            rolling_resistance: caged.rolling_resistance,
+            clearance: caged.clearance,
+            reversal_speed: caged.reversal_speed,
+            limits: caged.limits,
+        }
+    }
+}
+
+/// A parameter's name, unit, meaning with its range, and start.
+type Row = (&'static str, Option<&'static str>, &'static str, f32);
+
+fn list<const N: usize>(l: &mut Vec<Variable>, rows: [Row; N]) {
+    for (name, unit, about, start) in rows {
+        single(l, name, unit, about, start);
+    }
+}
+
 /// Parameters of a ball screw's scene.
 pub fn of_screw(design: &Design, scene: SceneName) -> Vec<Variable> {
-    let configuration = &design.configuration;
-    let screw = design.screw().parameters();
-    let mut list = Vec::new();
-    let l = &mut list;
-    geometry(l, screw);
-    single(
-        l,
-        "friction",
-        None,
-        "Coulomb friction coefficient of ball and groove, 1e-6 to 0.5",
-        configuration.friction,
-    );
-    single(
-        l,
-        "hysteresis_loss",
-        None,
-        "share of the elastic energy that is lost while a contact passes, 0 to 0.2",
-        configuration.rolling_resistance.hysteresis_loss,
-    );
-    single(
-        l,
-        "lubricant_drag",
-        Some("N"),
-        "drag of the lubricant on one contact under 100 N, 0 to 10",
-        configuration.rolling_resistance.lubricant_drag,
-    );
-    single(
-        l,
-        "clearance",
-        Some("m"),
-        "radial gap of every contact without load; play above 0, oversize below; -0.02 to 0.05 ball radii",
-        configuration.clearance.gap(),
-    );
-    single(
-        l,
-        "reversal_speed",
-        Some("rad/s"),
-        "nut speed over which friction changes its direction, 1e-6 to 1e3",
-        configuration.reversal_speed,
-    );
-    if let (true, Some(train)) = (scene.has_row(), &design.uncaged) {
-        let train = &train.configuration;
-        single(
-            l,
-            "ball_friction",
-            None,
-            "Coulomb friction coefficient of ball and ball, 0 to 1",
-            train.ball_friction,
-        );
-        single(
-            l,
-            "turns",
-            None,
-            "turns of the loaded track, 0.1 to 100",
-            train.turns,
-        );
-        single(
-            l,
-            "return_length",
-            Some("m"),
-            "length of the return, 0 to 10",
-            train.return_length,
-        );
-    } else {
-        caged(l, design);
+    let common = Common::of(design, scene);
+    let mut l = Vec::new();
+    geometry(&mut l, design.screw().parameters());
+    common.contacts(&mut l);
+    match (scene.has_row(), &design.uncaged) {
+        (true, Some(train)) => row(&mut l, &train.configuration),
+        _ => caged(&mut l, design),
     }
-    let limits = configuration.limits;
-    single(
+    common.limits(&mut l);
+    l
+}
+
+impl Common {
+    fn contacts(&self, l: &mut Vec<Variable>) {
+        let friction = "Coulomb friction coefficient of ball and groove, 1e-6 to 0.5";
+        let loss = "share of the elastic energy that is lost while a contact passes, 0 to 0.2";
+        let drag = "drag of the lubricant on one contact under 100 N, 0 to 10";
+        let gap = "radial gap of every contact without load; play above 0, oversize below; -0.02 to 0.05 ball radii";
+        let reversal = "nut speed over which friction changes its direction, 1e-6 to 1e3";
+        let rolling = self.rolling_resistance;
+        list(
+            l,
+            [
+                ("friction", None, friction, self.friction),
+                ("hysteresis_loss", None, loss, rolling.hysteresis_loss),
+                ("lubricant_drag", Some("N"), drag, rolling.lubricant_drag),
+                ("clearance", Some("m"), gap, self.clearance.gap()),
+                (
+                    "reversal_speed",
+                    Some("rad/s"),
+                    reversal,
+                    self.reversal_speed,
+                ),
+            ],
+        );
+    }
+
+    fn limits(&self, l: &mut Vec<Variable>) {
+        let Limits {
+            nut_speed,
+            axial_load,
+            friction_torque,
+        } = self.limits;
+        let speed = "largest nut speed that is believed, 1e-3 to 1e6";
+        let load = "largest axial load that is believed, 1e-3 to 1e7";
+        let torque = "largest friction torque that is put out, 1e-6 to 1e6";
+        list(
+            l,
+            [
+                ("limits.nut_speed", Some("rad/s"), speed, nut_speed),
+                ("limits.axial_load", Some("N"), load, axial_load),
+                (
+                    "limits.friction_torque",
+                    Some("N.m"),
+                    torque,
+                    friction_torque,
+                ),
+            ],
+        );
+    }
+}
+
+/// What only a screw with a row of balls has.
+fn row(l: &mut Vec<Variable>, train: &UncagedBallScrewConfiguration) {
+    let friction = "Coulomb friction coefficient of ball and ball, 0 to 1";
+    let turns = "turns of the loaded track, 0.1 to 100";
+    list(
         l,
-        "limits.nut_speed",
-        Some("rad/s"),
-        "largest nut speed that is believed, 1e-3 to 1e6",
-        limits.nut_speed,
+        [
+            ("ball_friction", None, friction, train.ball_friction),
+            ("turns", None, turns, train.turns),
+            (
+                "return_length",
+                Some("m"),
+                "length of the return, 0 to 10",
+                train.return_length,
+            ),
+        ],
     );
-    single(
-        l,
-        "limits.axial_load",
-        Some("N"),
-        "largest axial load that is believed, 1e-3 to 1e7",
-        limits.axial_load,
-    );
-    single(
-        l,
-        "limits.friction_torque",
-        Some("N.m"),
-        "largest friction torque that is put out, 1e-6 to 1e6",
-        limits.friction_torque,
-    );
-    list
 }
 
 fn geometry(l: &mut Vec<Variable>, screw: &BallScrewParameters) {
@@ -400,86 +432,53 @@ fn changed_row(design: &mut Design, values: &Values<'_>) {
 
 /// Parameters of a linear bearing.
 pub fn of_bearing(design: &LinearDesign) -> Vec<Variable> {
-    let configuration = &design.configuration;
-    let bearing = configuration.bearing.parameters();
-    let mut list = Vec::new();
-    let l = &mut list;
-    single(
-        l,
-        "ball_radius",
-        Some("m"),
-        "ball radius, 1e-4 to 0.05",
-        bearing.ball_radius,
+    let own = &design.configuration;
+    let bearing = own.bearing.parameters();
+    let mut l = Vec::new();
+    let (radius, angle) = (bearing.ball_radius, bearing.contact_angle);
+    list(
+        &mut l,
+        [(
+            "ball_radius",
+            Some("m"),
+            "ball radius, 1e-4 to 0.05",
+            radius,
+        )],
     );
-    BOTH.list(l, bearing.groove);
-    single(
-        l,
-        "contact_angle",
-        Some("rad"),
-        "nominal contact angle, 0.01 to 1.5533",
-        bearing.contact_angle,
+    BOTH.list(&mut l, bearing.groove);
+    let about = "nominal contact angle, 0.01 to 1.5533";
+    list(&mut l, [("contact_angle", Some("rad"), about, angle)]);
+    BALL.list(&mut l, &bearing.ball_material);
+    GROOVE.list(&mut l, &bearing.groove_material);
+    let friction = "Coulomb friction coefficient of ball and groove, 1e-3 to 1";
+    let balls = "Coulomb friction coefficient of ball and ball, 0 to 1";
+    let loaded = "length of the loaded track, 1e-4 to 100";
+    let back = "length of the return, 0 to 100";
+    let wave = "length that counts as one turn of the deviations, 1e-4 to 100";
+    let reversal = "speed over which friction changes its direction, 1e-9 to 10";
+    let speed = "largest speed that is believed, 1e-6 to 1e3";
+    let load = "largest normal and side load that is believed, 1e-3 to 1e7";
+    let force = "largest friction force that is put out, 1e-6 to 1e6";
+    list(
+        &mut l,
+        [
+            ("friction", None, friction, own.friction),
+            ("ball_friction", None, balls, own.ball_friction),
+            ("loaded_length", Some("m"), loaded, own.loaded_length),
+            ("return_length", Some("m"), back, own.return_length),
+            ("wavelength", Some("m"), wave, own.wavelength),
+            ("reversal_speed", Some("m/s"), reversal, own.reversal_speed),
+            ("limits.speed", Some("m/s"), speed, own.limits.speed),
+            ("limits.load", Some("N"), load, own.limits.load),
+            (
+                "limits.friction_force",
+                Some("N"),
+                force,
+                own.limits.friction_force,
+            ),
+        ],
     );
-    BALL.list(l, &bearing.ball_material);
-    GROOVE.list(l, &bearing.groove_material);
-    for (name, unit, about, start) in [
-        (
-            "friction",
-            None,
-            "Coulomb friction coefficient of ball and groove, 1e-3 to 1",
-            configuration.friction,
-        ),
-        (
-            "ball_friction",
-            None,
-            "Coulomb friction coefficient of ball and ball, 0 to 1",
-            configuration.ball_friction,
-        ),
-        (
-            "loaded_length",
-            Some("m"),
-            "length of the loaded track, 1e-4 to 100",
-            configuration.loaded_length,
-        ),
-        (
-            "return_length",
-            Some("m"),
-            "length of the return, 0 to 100",
-            configuration.return_length,
-        ),
-        (
-            "wavelength",
-            Some("m"),
-            "length that counts as one turn of the deviations, 1e-4 to 100",
-            configuration.wavelength,
-        ),
-        (
-            "reversal_speed",
-            Some("m/s"),
-            "speed over which friction changes its direction, 1e-9 to 10",
-            configuration.reversal_speed,
-        ),
-        (
-            "limits.speed",
-            Some("m/s"),
-            "largest speed that is believed, 1e-6 to 1e3",
-            configuration.limits.speed,
-        ),
-        (
-            "limits.load",
-            Some("N"),
-            "largest normal and side load that is believed, 1e-3 to 1e7",
-            configuration.limits.load,
-        ),
-        (
-            "limits.friction_force",
-            Some("N"),
-            "largest friction force that is put out, 1e-6 to 1e6",
-            configuration.limits.friction_force,
-        ),
-    ] {
-        single(l, name, unit, about, start);
-    }
-    list
+    l
 }
 
 /// A linear bearing's design with other numbers.

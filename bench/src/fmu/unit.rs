@@ -356,6 +356,8 @@ where
     A: Sensor,
     U: Use<Made = Box<dyn Running>>,
 {
+    // A wrong number of the design is told under its own name, whatever a law or elements make of it.
+    FrictionModel::<CagedBallScrew>::new(&design.configuration).map_err(said)?;
     match remembering(design, load, angle, then) {
         Ok((running, _)) => Ok(running),
         Err(Failure::Data(message)) => Err(message),

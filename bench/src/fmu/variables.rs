@@ -176,88 +176,71 @@ pub fn inputs(scene: SceneName) -> Vec<Variable> {
     inputs
 }
 
+/// An output of a kind.
+fn output(
+    kind: Kind,
+    name: &'static str,
+    unit: Option<&'static str>,
+    about: &'static str,
+) -> Variable {
+    variable(Causality::Output, kind, name, unit, about, 0.0)
+}
+
 /// Outputs of a scene, in the order in which it writes them; named as those of the crate and of C.
 pub fn outputs(scene: SceneName) -> Vec<Variable> {
-    let output =
-        |kind, name, unit, about| variable(Causality::Output, kind, name, unit, about, 0.0);
-    let single = |name, unit, about| output(Kind::Float32, name, unit, about);
-    let regime = output(
-        Kind::Choice(Choice::Regime),
-        "regime",
-        None,
-        "what the mechanism does",
-    );
-    let faults = output(
-        Kind::Int32,
-        "faults",
-        None,
-        "what was wrong with the last tick, a sum: 1 speed not finite, 2 load not finite, 4 speed limit, 8 load limit, 16 friction \
-         limit, 32 beyond the model, 64 balls settling, 128 angle not valid, 256 temperature out of range",
-    );
     let mut outputs = if scene.is_linear() {
         let about = "force along the rail that overcomes friction, with the sign of the speed";
-        vec![single("friction_force", Some("N"), about), regime, faults]
+        vec![output(Kind::Float32, "friction_force", Some("N"), about)]
     } else {
+        let friction =
+            "torque about the nut's axis that overcomes friction, with the sign of the nut speed";
+        let load = "torque about the nut's axis that holds the load without friction";
+        let efficiency = "efficiency of motion in the present direction; 0 without a load or in a fault, negative where it is locked";
         vec![
-            single(
-                "friction_torque",
-                Some("N.m"),
-                "torque about the nut's axis that overcomes friction, with the sign of the nut speed",
-            ),
-            single(
-                "load_torque",
-                Some("N.m"),
-                "torque about the nut's axis that holds the load without friction",
-            ),
-            single(
-                "efficiency",
-                None,
-                "efficiency of motion in the present direction; 0 without a load or in a fault, negative where it is locked",
-            ),
-            regime,
-            faults,
+            output(Kind::Float32, "friction_torque", Some("N.m"), friction),
+            output(Kind::Float32, "load_torque", Some("N.m"), load),
+            output(Kind::Float32, "efficiency", None, efficiency),
         ]
     };
+    let regime = Kind::Choice(Choice::Regime);
+    outputs.push(output(regime, "regime", None, "what the mechanism does"));
+    outputs.push(output(Kind::Int32, "faults", None, FAULTS));
     if scene == SceneName::Mechanism {
         let motion = |name, unit, about| output(Kind::Float64, name, Some(unit), about);
         outputs.push(motion("nut_position", "rad", "angle of the nut"));
         outputs.push(motion("nut_speed", "rad/s", "angular speed of the nut"));
     }
     if scene.has_row() {
-        let (motion, unit, about) = if scene.is_linear() {
-            ("travel", "m", "travel of the carriage")
-        } else {
-            ("nut_angle", "rad", "angle that the nut has turned by")
-        };
-        let (groove, ball, friction) = if scene.is_linear() {
-            ("groove_force", "ball_force", "N")
-        } else {
-            ("groove_torque", "ball_torque", "N.m")
-        };
-        outputs.extend([
-            output(Kind::Float64, motion, Some(unit), about),
-            single(
-                groove,
-                Some(friction),
-                "part of the friction from the grooves",
-            ),
-            single(
-                ball,
-                Some(friction),
-                "part of the friction from balls that rub against each other",
-            ),
-            output(
-                Kind::Int32,
-                "contacts",
-                None,
-                "pairs of balls that press on each other",
-            ),
-            single(
-                "largest_contact_force",
-                Some("N"),
-                "largest force between two balls",
-            ),
-        ]);
+        outputs.extend(of_row(scene.is_linear()));
     }
     outputs
+}
+
+/// What `faults` means.
+const FAULTS: &str = "what was wrong with the last tick, a sum: 1 speed not finite, 2 load not finite, 4 speed limit, 8 load limit, \
+                      16 friction limit, 32 beyond the model, 64 balls settling, 128 angle not valid, 256 temperature out of range";
+
+/// What a row of balls puts out beside the friction.
+fn of_row(linear: bool) -> [Variable; 5] {
+    let (motion, unit, about) = if linear {
+        ("travel", "m", "travel of the carriage")
+    } else {
+        ("nut_angle", "rad", "angle that the nut has turned by")
+    };
+    let (groove, ball, friction) = if linear {
+        ("groove_force", "ball_force", Some("N"))
+    } else {
+        ("groove_torque", "ball_torque", Some("N.m"))
+    };
+    let of_grooves = "part of the friction from the grooves";
+    let of_balls = "part of the friction from balls that rub against each other";
+    let contacts = "pairs of balls that press on each other";
+    let force = "largest force between two balls";
+    [
+        output(Kind::Float64, motion, Some(unit), about),
+        output(Kind::Float32, groove, friction, of_grooves),
+        output(Kind::Float32, ball, friction, of_balls),
+        output(Kind::Int32, "contacts", None, contacts),
+        output(Kind::Float32, "largest_contact_force", Some("N"), force),
+    ]
 }
