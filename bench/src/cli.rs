@@ -5,6 +5,7 @@ use clap::{Parser, Subcommand};
 use crate::calibrate;
 use crate::eval;
 use crate::failure::Failure;
+use crate::progress::Working;
 use crate::report;
 use crate::screws;
 use crate::simulate;
@@ -33,7 +34,9 @@ enum Command {
 
 /// Reads the arguments and runs what they ask for.
 pub fn run() -> Result<(), Failure> {
-    match Cli::parse().command {
+    let command = Cli::parse().command;
+    let _working = said(command.as_ref()).map(Working::new);
+    match command {
         Some(Command::Simulate(arguments)) => simulate::run(&arguments),
         Some(Command::Calibrate(arguments)) => calibrate::run(&arguments),
         Some(Command::Eval(arguments)) => eval::run(&arguments),
@@ -41,6 +44,22 @@ pub fn run() -> Result<(), Failure> {
         Some(Command::Screws(arguments)) => screws::run(&arguments),
         Some(Command::Report(arguments)) => report::run(&arguments),
         None => report::run(&report::Arguments::default()),
+    }
+}
+
+/// What a command says after a second; the answers of `eval` come one by one.
+fn said(command: Option<&Command>) -> Option<&'static str> {
+    match command {
+        Some(Command::Eval(_)) => None,
+        Some(Command::Simulate(_)) => Some("simulating ..."),
+        Some(Command::Calibrate(_)) => Some("fitting ..."),
+        Some(Command::Target(_)) => Some(
+            "building the firmware and counting its instructions: some minutes the first time ...",
+        ),
+        Some(Command::Screws(_)) => Some("computing whole screws ..."),
+        Some(Command::Report(_)) | None => {
+            Some("measuring run times and errors: some minutes (--quick is a look) ...")
+        }
     }
 }
 

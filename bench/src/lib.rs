@@ -16,6 +16,7 @@ mod eval;
 pub mod exact_ring;
 mod failure;
 mod files;
+mod folder;
 mod headings;
 #[doc(hidden)]
 pub mod mdf4;
@@ -75,7 +76,9 @@ pub mod untrusted {
     pub fn measurement(bytes: &[u8]) -> Result<usize, String> {
         let trace = crate::calibrate::columns::measured(bytes, "trace", None, None);
         let simulated = crate::simulate::accepts_measurement(bytes)?;
-        trace.map(|trace| trace.len().max(simulated)).map_err(|failure| format!("{failure:?}"))
+        trace
+            .map(|trace| trace.len().max(simulated))
+            .map_err(|failure| format!("{failure:?}"))
     }
 
     /// Reads a design file as `simulate --design` does.

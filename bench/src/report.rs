@@ -26,6 +26,7 @@ use std::path::PathBuf;
 
 use crate::document::{Document, Section};
 use crate::failure::Failure;
+use crate::folder;
 use crate::target::TargetFigures;
 use crate::timing::compete;
 use context::Context;
@@ -43,7 +44,7 @@ const QUICK_ROUNDS: usize = 40;
 /// needs nothing else), and every figure as SVG, CSV and JSON.
 #[derive(Debug, PartialEq, Eq, clap::Args)]
 pub struct Arguments {
-    /// Folder to write to; reports written there before are replaced
+    /// Folder to write to; a report written there before is replaced
     #[arg(long, default_value = "target/report")]
     output: PathBuf,
     /// Timing rounds on this machine: a median over a few is a look, not a measurement
@@ -52,6 +53,9 @@ pub struct Arguments {
     /// Few timing rounds, coarser sweeps, stored figures of the target: a look, not a measurement
     #[arg(long, conflicts_with = "rounds")]
     quick: bool,
+    /// Write to a folder that holds other files, and replace those that have a report's names
+    #[arg(long)]
+    force: bool,
 }
 
 impl Default for Arguments {
@@ -60,6 +64,7 @@ impl Default for Arguments {
             output: "target/report".into(),
             rounds: ROUNDS,
             quick: false,
+            force: false,
         }
     }
 }
@@ -89,6 +94,7 @@ const SECTIONS: [MakeSection; 16] = [
 
 /// Makes the report.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    folder::check(&arguments.output, arguments.force)?;
     let rounds = if arguments.quick {
         QUICK_ROUNDS
     } else {
@@ -109,6 +115,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         sections,
     };
     // Files first: a reader that closes the output early still gets the whole report in files.
+    folder::mark(&arguments.output)?;
     document.write(&arguments.output)?;
     document.print(&arguments.output)
 }
