@@ -2,6 +2,7 @@
 
 use clap::{Parser, Subcommand};
 
+use crate::a2l;
 use crate::calibrate;
 use crate::eval;
 use crate::failure::Failure;
@@ -30,6 +31,7 @@ enum Command {
     Eval(eval::Arguments),
     Target(target::Arguments),
     Screws(screws::Arguments),
+    A2l(a2l::Arguments),
 }
 
 /// Reads the arguments and runs what they ask for.
@@ -42,24 +44,23 @@ pub fn run() -> Result<(), Failure> {
         Some(Command::Eval(arguments)) => eval::run(&arguments),
         Some(Command::Target(arguments)) => target::run(&arguments),
         Some(Command::Screws(arguments)) => screws::run(&arguments),
+        Some(Command::A2l(arguments)) => a2l::run(&arguments),
         Some(Command::Report(arguments)) => report::run(&arguments),
         None => report::run(&report::Arguments::default()),
     }
 }
 
-/// What a command says after a second; the answers of `eval` come one by one.
+/// What a command says after a second. The answers of `eval` come one by one.
 fn said(command: Option<&Command>) -> Option<&'static str> {
     match command {
-        Some(Command::Eval(_)) => None,
+        // A report tells its stages from the first moment on.
+        Some(Command::Eval(_) | Command::Report(_)) | None => None,
         Some(Command::Simulate(_)) => Some("simulating ..."),
         Some(Command::Calibrate(_)) => Some("fitting ..."),
         Some(Command::Target(_)) => Some(
             "building the firmware and counting its instructions: some minutes the first time ...",
         ),
         Some(Command::Screws(_)) => Some("computing whole screws ..."),
-        Some(Command::Report(_)) | None => {
-            Some("measuring run times and errors: some minutes (--quick is a look) ...")
-        }
     }
 }
 

@@ -5,10 +5,15 @@
 // square brackets are no links.
 #![allow(clippy::doc_markdown, rustdoc::broken_intra_doc_links)]
 
+mod a2l;
+#[doc(hidden)]
+pub mod bindings;
 #[doc(hidden)]
 pub mod calibrate;
 mod cli;
 mod controller;
+#[doc(hidden)]
+pub mod design_study;
 mod designs;
 mod document;
 mod eval;
@@ -25,6 +30,8 @@ mod peers;
 mod plot;
 mod progress;
 mod report;
+#[doc(hidden)]
+pub mod row;
 mod screws;
 mod simulate;
 mod source;

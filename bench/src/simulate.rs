@@ -1,5 +1,7 @@
 //! `simulate`: the in-loop model over a trace of speed and load.
 
+#[doc(hidden)]
+pub mod bindings;
 mod caged;
 mod caged_exact;
 mod choice;
@@ -10,12 +12,14 @@ mod manoeuvre;
 mod measurement;
 mod mechanism;
 mod memory;
+mod picture;
 mod progress;
 mod reference;
 mod remembering;
 mod samples;
 mod scene;
 mod screw;
+mod shown;
 mod summary;
 mod targets;
 mod trace;
@@ -34,10 +38,13 @@ use crate::mdf4::{self, Mapping};
 use crate::source::Source;
 use choice::{Chosen, SceneName, choose};
 pub use manoeuvre::Manoeuvre;
+use picture::Form;
+pub use picture::Moment;
 use progress::Progress;
 use reference::ReferenceModel;
 use samples::ScrewSample;
 use scene::Scene;
+pub use shown::{Courses, courses};
 use targets::targets;
 
 /// Runs the in-loop friction model over a trace.
@@ -125,8 +132,8 @@ pub struct Arguments {
     /// target/simulate/TRACE-DESIGN.csv; with --loads: stdout]
     #[arg(long, value_name = "OUT.csv|OUT.mf4")]
     output: Option<PathBuf>,
-    /// Where the plot goes
-    #[arg(long, value_name = "OUT.svg")]
+    /// Where the plot goes: a picture, or a page in which to look closer
+    #[arg(long, value_name = "OUT.svg|OUT.html")]
     plot: Option<PathBuf>,
     /// Compute the float64 reference beside the model; uncaged, exactly without a name
     #[arg(
@@ -243,7 +250,7 @@ fn simulate<S: Scene>(scene: &S, arguments: &Arguments, existing: Existing) -> R
     let picture = plot
         .as_deref()
         .map(|path| {
-            let svg = scene.picture(&trace, &rows)?;
+            let svg = scene.picture(&trace, &rows, Form::of(path))?;
             let mut pending = Pending::new(path, existing)?;
             files::all(&mut pending, path, &svg)?;
             Ok::<_, Failure>(pending)

@@ -24,8 +24,8 @@ pub fn section(_: &Context) -> Result<Section, Failure> {
         blocks: vec![
             Block::Text(format!(
                 "{} printed numbers of the four papers, computed again with the float64 reference: {} come out to their last \
-                 digit or within the stated tolerance. The table \"published\" has them all; printed here are the {} that do not, \
-                 and why. Run times and finite-element results are not computed again.",
+                 digit or within the stated tolerance. The table \"published\" has them all; the {} that do not come \
+                 first, and why. Run times and finite-element results are not computed again.",
                 records.len(),
                 records.iter().filter(|record| record.agrees()).count(),
                 rest.len(),
@@ -93,7 +93,7 @@ fn table(name: &'static str, caption: &str, records: &[&Record]) -> Table {
                         Cell::power(record.deviation())
                     } else {
                         let percent = 100.0 * record.deviation() / printed.abs();
-                        Cell::Number(percent, format!("{percent:+.3} %"))
+                        percent_cell(percent)
                     },
                 )
             } else {
@@ -129,6 +129,15 @@ fn table(name: &'static str, caption: &str, records: &[&Record]) -> Table {
         .map(String::from)
         .to_vec(),
         rows,
+    }
+}
+
+/// A deviation in per cent with its sign; one that rounding makes zero has none.
+fn percent_cell(percent: f64) -> Cell {
+    if percent.abs() < 5e-4 {
+        Cell::Number(percent, "0.000 %".into())
+    } else {
+        Cell::Number(percent, format!("{percent:+.3} %"))
     }
 }
 

@@ -89,7 +89,7 @@ pub fn section(context: &Context) -> Result<Section, Failure> {
             Block::Table(errors_and_times(context, errors)?),
             Block::Table(ratios(context)?),
             Block::Text(
-                "Why the exact form costs five times the literature formula and not the paper's 71 times: the \
+                "Why the exact form costs a few times the literature formula and not the paper's 71 times: the \
                  paper times Appendix B, some 730 operations with powers taken again and again, in an \
                  interpreter whose call costs more than the short formulas themselves (its own circular-groove \
                  form is 1.32 times the literature's there, and the same operations here). In orthonormal \
@@ -286,18 +286,15 @@ fn picture(context: &Context, errors: &[Errors; 4]) -> Result<Figure, Failure> {
             notes.push(Note {
                 at,
                 text: text.into(),
-                // On the left where the others stand close by on the right.
-                left: mark == Mark::Triangles,
             });
         }
         series.push(Series::new(name, colour, mark, places));
     }
     Ok(Figure {
         name: "error_against_time",
-        caption: "Largest error of the first curvature against the time of one call (latency, this machine), 31 \
-                  catalogue sizes, screw and nut, contact angles 0 to 70 degrees. The circular groove gains two \
-                  orders of magnitude for nothing, the fitted form another four for two nanoseconds; the exact \
-                  form gives both curvatures. The error of the reference is the difference of its separate \
+        caption: "Groove curvature: largest error against the time of one call. Latency on this machine, 31 \
+                  catalogue sizes, screw and nut, contact angles 0 to 70 degrees. The exact form gives both \
+                  curvatures. The error of the reference is the difference of its separate \
                   derivations."
             .into(),
         panels: vec![Panel::Chart(Chart {

@@ -1,12 +1,18 @@
 //! A ball screw whose balls press on each other.
 
+use std::f64::consts::TAU;
+
+use epas_friction::law::coefficient::OneCoefficient;
+use epas_friction::promises::STEP_UNCAGED;
 use epas_friction::{
-    FrictionModel, Inputs, Outputs, UncagedBallScrew, UncagedBallScrewConfiguration, UncagedOutputs,
+    Error, FrictionModel, Inputs, Outputs, UncagedBallScrew, UncagedBallScrewConfiguration,
+    UncagedOutputs,
 };
 
 use super::exact_screw::exact_screw;
 use super::manoeuvre::Manoeuvre;
 use super::memory::{self, Remembered, Remembering};
+use super::picture::{Form, Labels, Moment};
 use super::reference::{Friction, ReferenceModel, whole_screw};
 use super::samples::ScrewSample;
 use super::scene::Scene;
@@ -14,7 +20,7 @@ use super::screw::{self, ScrewSummary};
 use super::summary::{Lines, Pressing};
 use super::trace::Trace;
 use super::train::{Balls, Built, Train, TrainRow, pressing, with_balls};
-use super::train_picture::{Labels, TrainPoint, draw};
+use super::train_picture::{TrainPoint, draw};
 use crate::designs::Design;
 use crate::designs::train::UncagedDesign;
 use crate::failure::Failure;
@@ -32,8 +38,10 @@ pub struct Uncaged {
 /// One sample with what the models say to it.
 pub struct UncagedRow {
     sample: ScrewSample,
-    train: TrainRow<UncagedOutputs>,
-    reference: Option<Friction>,
+    /// What the scene puts out.
+    pub train: TrainRow<UncagedOutputs>,
+    /// What the float64 reference says.
+    pub reference: Option<Friction>,
 }
 
 /// Inputs of a moment.
@@ -52,6 +60,27 @@ impl<const N: usize> Balls<ScrewSample, UncagedOutputs> for FrictionModel<Uncage
     fn pressing(&self) -> u64 {
         pressing(&self.state().circuit.train)
     }
+
+    fn reset(&mut self) {
+        FrictionModel::reset(self);
+    }
+
+    fn faulted_ticks(&self) -> u32 {
+        FrictionModel::faulted_ticks(self)
+    }
+
+    fn set_friction(&mut self, friction: f32) -> Result<(), Error> {
+        FrictionModel::<UncagedBallScrew<N>>::set_friction(self, friction)
+    }
+
+    fn set_place(&mut self, angle: f32) -> bool {
+        self.set_nut_angle(angle);
+        true
+    }
+
+    fn copied(&self) -> Box<dyn Balls<ScrewSample, UncagedOutputs>> {
+        Box::new(*self)
+    }
 }
 
 impl<const N: usize> Balls<ScrewSample, UncagedOutputs>
@@ -65,6 +94,27 @@ impl<const N: usize> Balls<ScrewSample, UncagedOutputs>
     fn pressing(&self) -> u64 {
         pressing(&self.state().scene.circuit.train)
     }
+
+    fn reset(&mut self) {
+        FrictionModel::reset(self);
+    }
+
+    fn faulted_ticks(&self) -> u32 {
+        FrictionModel::faulted_ticks(self)
+    }
+
+    fn set_friction(&mut self, friction: f32) -> Result<(), Error> {
+        self.set_coefficient(OneCoefficient::new(friction)?)
+    }
+
+    fn set_place(&mut self, angle: f32) -> bool {
+        self.set_nut_angle(angle);
+        true
+    }
+
+    fn copied(&self) -> Box<dyn Balls<ScrewSample, UncagedOutputs>> {
+        Box::new(*self)
+    }
 }
 
 impl Uncaged {
@@ -73,24 +123,37 @@ impl Uncaged {
         trace: &Trace<ScrewSample>,
         remembered: Option<&Remembered>,
     ) -> Result<Train<ScrewSample, UncagedOutputs>, Failure> {
-        let build = |tick| -> Built<ScrewSample, UncagedOutputs> {
-            let mut configuration = self.balls.configuration;
-            configuration.tick = tick;
-            let Some(remembered) = remembered else {
-                return with_balls!(plain UncagedBallScrew, self.balls.balls, &configuration);
-            };
-            let friction = configuration.friction;
-            let angle = memory::speed(tick)?;
-            let whole = memory::configuration(configuration, remembered, angle, friction)?;
-            with_balls!(remembering UncagedBallScrew, self.balls.balls, &whole)
-        };
+        let build = |tick| self.model(tick, remembered);
         Train::new(trace, build).map_err(|failure| failure.of(self.name()))
+    }
+
+    /// The model for a tick, s.
+    ///
+    /// # Errors
+    /// [`Error`] naming a field out of range.
+    pub fn model(
+        &self,
+        tick: f32,
+        remembered: Option<&Remembered>,
+    ) -> Built<ScrewSample, UncagedOutputs> {
+        let mut configuration = self.balls.configuration;
+        configuration.tick = tick;
+        let Some(remembered) = remembered else {
+            return with_balls!(plain UncagedBallScrew, self.balls.balls, &configuration);
+        };
+        let friction = configuration.friction;
+        let angle = memory::speed(tick)?;
+        let whole = memory::configuration(configuration, remembered, angle, friction)?;
+        with_balls!(remembering UncagedBallScrew, self.balls.balls, &whole)
     }
 }
 
 impl Uncaged {
-    /// Elements at the trace's mean load, where friction remembers.
-    fn remembered(&self, trace: &Trace<ScrewSample>) -> Result<Option<Remembered>, Failure> {
+    /// Elements at an axial load, N.
+    ///
+    /// # Errors
+    /// [`Error`] naming a field out of range.
+    pub fn remembered_at(&self, axial_load: f32) -> Result<Remembered, Error> {
         let UncagedBallScrewConfiguration {
             ref design,
             friction,
@@ -102,17 +165,22 @@ impl Uncaged {
         } = self.balls.configuration;
         let loaded =
             turns * std::f32::consts::TAU * design.pitch_radius() / design.cos_lead_angle();
-        let told = self.design.calibrated.is_some();
-        let screw = memory::Screw {
+        memory::Screw {
             design,
             friction,
             clearance,
             rolling_resistance,
             loaded_balls: f32::from(self.balls.balls) * loaded / (loaded + return_length),
-        };
+        }
+        .remembered(axial_load)
+    }
+
+    /// Elements at the trace's mean load, where friction remembers.
+    fn remembered(&self, trace: &Trace<ScrewSample>) -> Result<Option<Remembered>, Failure> {
+        let told = self.design.calibrated.is_some();
         let mut remembered = self
             .memory
-            .then(|| screw.remembered(memory::mean_load(trace)))
+            .then(|| self.remembered_at(memory::mean_load(trace)))
             .transpose()
             .map_err(|error| Failure::Data(format!("{}: {error}", self.name())))?;
         if let (Some(remembered), true) = (&mut remembered, told) {
@@ -220,38 +288,66 @@ impl Scene for Uncaged {
         summary.lines(trace, &self.design, Some(&pressing))
     }
 
-    fn picture(&self, trace: &Trace<ScrewSample>, rows: &[UncagedRow]) -> Result<String, Failure> {
+    fn picture(
+        &self,
+        trace: &Trace<ScrewSample>,
+        rows: &[UncagedRow],
+        form: Form,
+    ) -> Result<String, Failure> {
+        draw(&self.labels(trace), &self.points(trace, rows), form)
+    }
+}
+
+impl Uncaged {
+    /// Every sample for the picture.
+    pub fn points(&self, trace: &Trace<ScrewSample>, rows: &[UncagedRow]) -> Vec<TrainPoint> {
         // Where the motion turns back, an angle stands for more than one moment.
         let reverses = trace.reverses();
-        let points: Vec<_> = rows
-            .iter()
+        let reduced_lead = f64::from(self.design.screw().lead()) / TAU;
+        rows.iter()
             .map(|row| {
                 let outputs = row.train.outputs;
+                let friction = f64::from(outputs.friction_torque);
                 TrainPoint {
-                    place: if reverses {
-                        row.sample.time
-                    } else {
-                        row.train.motion.to_degrees()
+                    moment: Moment {
+                        place: if reverses {
+                            row.sample.time
+                        } else {
+                            row.train.motion.to_degrees()
+                        },
+                        load: row.sample.axial_load,
+                        side: None,
+                        speed: row.sample.nut_speed,
+                        motor: Some(row.sample.axial_load * reduced_lead + friction),
+                        friction,
+                        parts: Some([outputs.groove_torque, outputs.ball_torque].map(f64::from)),
+                        error: Some(STEP_UNCAGED.rms * friction.abs()),
+                        reference: row.reference.map(|friction| friction.friction_torque),
+                        regime: outputs.regime,
+                        flagged: outputs.faults.any(),
                     },
-                    groove: outputs.groove_torque,
-                    ball: outputs.ball_torque,
-                    friction: outputs.friction_torque,
-                    reference: row.reference.map(|friction| friction.friction_torque),
                     contacts: outputs.contacts,
                     largest_contact_force: outputs.largest_contact_force,
                     pressing: row.train.pressing,
                 }
             })
-            .collect();
-        let labels = Labels {
+            .collect()
+    }
+
+    fn labels(&self, trace: &Trace<ScrewSample>) -> Labels {
+        Labels {
             title: format!("{} on {}", trace.name, self.name()),
-            place: if reverses {
+            place: if trace.reverses() {
                 "time (s)"
             } else {
                 "nut angle (degrees)"
             },
-            friction: "friction torque (N m)",
-        };
-        draw(labels, &points)
+            loads: ["axial load (N)", ""],
+            speed: "nut speed (rad/s)",
+            friction: ("friction torque", "N m"),
+            parts: ["grooves", "ball to ball"],
+            error: format!("rms error promised, {:.1} %", 100.0 * STEP_UNCAGED.rms),
+            reference: "reference",
+        }
     }
 }

@@ -1,5 +1,6 @@
 //! What is timed.
 
+use std::f32::consts::{PI, TAU};
 use std::hint::black_box;
 
 use epas_friction::curvature::{
@@ -8,6 +9,11 @@ use epas_friction::curvature::{
 use epas_friction::efficiency::{DynamicCorrection, EfficiencyGeometry};
 use epas_friction::geometry::{ContactAngle, Groove};
 use epas_friction::hertz::HertzContact;
+use epas_friction::law::breakaway::{Breakaway, BreakawayConfiguration, ScrewContacts, Tables};
+use epas_friction::law::coefficient::OneCoefficient;
+use epas_friction::law::memory::{ProportionalElements, SLIP_4, SPIN_4};
+use epas_friction::law::motion::{WrappedAngle, WrappedAngleParameters};
+use epas_friction::scene::{WithMemory, WithMemoryConfiguration, WithMemoryInputs};
 use epas_friction::{
     BallScrew, CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, Clearance, FrictionBranch,
     FrictionModel, Inputs, Limits, RollingResistance, math,
@@ -162,12 +168,12 @@ fn ellipses(race: &mut Race, list: &mut List, design: &BallScrew) {
 }
 
 fn caged_step(race: &mut Race, list: &mut List, design: BallScrew) -> Result<(), Failure> {
-    let mut model = FrictionModel::<CagedBallScrew>::new(&CagedBallScrewConfiguration {
+    let configuration = CagedBallScrewConfiguration {
         design,
         friction: 0.075,
-        rolling_resistance: RollingResistance::NONE,
+        rolling_resistance: RollingResistance::STEEL,
         rolling_tangent: 0.0,
-        branch: FrictionBranch::Rolling,
+        branch: FrictionBranch::Contacts,
         clearance: black_box(Clearance::new(-1e-6).map_err(refused)?),
         loaded_balls: 40,
         reversal_speed: 0.5,
@@ -176,8 +182,10 @@ fn caged_step(race: &mut Race, list: &mut List, design: BallScrew) -> Result<(),
             axial_load: 20e3,
             friction_torque: 10.0,
         },
-    })
-    .map_err(refused)?;
+    };
+    let mut model = FrictionModel::<CagedBallScrew>::new(&configuration).map_err(refused)?;
+    let mut remembering = remembering(configuration).map_err(refused)?;
+    let mut angle = 0.0;
     Group::new(
         race,
         list,
@@ -187,8 +195,59 @@ fn caged_step(race: &mut Race, list: &mut List, design: BallScrew) -> Result<(),
         },
         |inputs: Inputs| inputs.nut_speed,
     )
-    .time("step_caged", move |inputs| model.step(inputs));
+    .time("step_caged", move |inputs| model.step(inputs))
+    .time("step_caged_memory", move |inputs| {
+        angle += 1e-3 * inputs.nut_speed;
+        remembering.step(WithMemoryInputs {
+            scene: inputs,
+            reading: angle % TAU,
+            load_age: 0.0,
+            temperature: 313.0,
+            temperature_age: 0.0,
+        })
+    });
     Ok(())
+}
+
+type Remembering =
+    WithMemory<CagedBallScrew, ProportionalElements<8>, WrappedAngle, OneCoefficient>;
+
+/// A caged screw with elements for 1 kN.
+fn remembering(
+    screw: CagedBallScrewConfiguration,
+) -> Result<FrictionModel<Remembering>, epas_friction::Error> {
+    let CagedBallScrewConfiguration {
+        design,
+        friction,
+        clearance,
+        rolling_resistance,
+        loaded_balls,
+        ..
+    } = screw;
+    let contact_load = ScrewContacts::of(&design).preloaded(1000.0, loaded_balls, clearance);
+    let breakaway = Breakaway::of(
+        &design,
+        &BreakawayConfiguration {
+            friction,
+            clearance,
+            rolling_resistance,
+            loaded_balls,
+            contact_load,
+        },
+    )?;
+    let elements = breakaway.elements(&Tables {
+        slip: &SLIP_4.elements,
+        spin: &SPIN_4.elements,
+        rolling_resistance: &[],
+    })?;
+    let sensor = WrappedAngle::new(WrappedAngleParameters {
+        lowest: -TAU,
+        period: 2.0 * TAU,
+        largest_turn: PI,
+    })?;
+    FrictionModel::new(&WithMemoryConfiguration::new(
+        screw, friction, elements, sensor, 1000.0,
+    )?)
 }
 
 fn kernels(race: &mut Race, list: &mut List) {

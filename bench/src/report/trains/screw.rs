@@ -240,7 +240,6 @@ fn picture(context: &Context, cases: &[Case]) -> Result<Figure, Failure> {
                     notes.push(Note {
                         at,
                         text: name.into(),
-                        left: variant + 1 == VARIANTS.len(),
                     });
                 }
             }
