@@ -21,6 +21,7 @@ mod eval;
 pub mod exact_ring;
 mod failure;
 mod files;
+mod folder;
 mod headings;
 #[doc(hidden)]
 pub mod mdf4;
