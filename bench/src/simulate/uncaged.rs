@@ -2,7 +2,8 @@
 
 use epas_friction::law::coefficient::OneCoefficient;
 use epas_friction::{
-    Error, FrictionModel, Inputs, Outputs, UncagedBallScrew, UncagedBallScrewConfiguration, UncagedOutputs,
+    Error, FrictionModel, Inputs, Outputs, UncagedBallScrew, UncagedBallScrewConfiguration,
+    UncagedOutputs,
 };
 
 use super::exact_screw::exact_screw;
