@@ -14,7 +14,7 @@ use crate::errors::{Refused, refused};
 const BLOCK: usize = 256;
 
 /// A number that kernels compute in: `f32` in the loop, `f64` in the reference.
-pub trait Real: Element + Copy + Send + Sync + Default {
+pub trait Real: Element + Copy + Send + Sync + Default + 'static {
     /// From single precision.
     fn of_single(value: f32) -> Self;
     /// From double precision.
