@@ -2,6 +2,7 @@
 
 use clap::{Parser, Subcommand};
 
+use crate::a2l;
 use crate::calibrate;
 use crate::eval;
 use crate::failure::Failure;
@@ -29,6 +30,7 @@ enum Command {
     Eval(eval::Arguments),
     Target(target::Arguments),
     Screws(screws::Arguments),
+    A2l(a2l::Arguments),
 }
 
 /// Reads the arguments and runs what they ask for.
@@ -39,6 +41,7 @@ pub fn run() -> Result<(), Failure> {
         Some(Command::Eval(arguments)) => eval::run(&arguments),
         Some(Command::Target(arguments)) => target::run(&arguments),
         Some(Command::Screws(arguments)) => screws::run(&arguments),
+        Some(Command::A2l(arguments)) => a2l::run(&arguments),
         Some(Command::Report(arguments)) => report::run(&arguments),
         None => report::run(&report::Arguments::default()),
     }

@@ -27,6 +27,8 @@ use serde_json::value::RawValue;
 use crate::failure::Failure;
 use answer::Answer;
 use fields::{BadField, Fields};
+#[doc(hidden)]
+pub use groove_curvature::fit_range;
 use lines::{Line, Lines};
 
 /// Evaluates one model per line: JSON objects in, JSON objects out, in order.
@@ -220,6 +222,11 @@ pub fn both(line: &str) -> Option<(serde_json::Value, serde_json::Value)> {
     let reply = answer(line);
     let value = |raw: Option<Box<RawValue>>| serde_json::from_str(raw?.get()).ok();
     Some((value(reply.in_loop)?, value(reply.reference)?))
+}
+
+/// The answer to one line, as a line of the output without its end.
+pub fn answer_line(line: &str) -> String {
+    serde_json::to_string(&answer(line)).unwrap_or_default()
 }
 
 /// Answers one line; whether it was a good request.

@@ -272,6 +272,15 @@ impl LinearDesign {
             .map_err(|message| Failure::Data(format!("{LINEAR}: {message}")))
     }
 
+    /// The bearing of a design file's text; its name where it has none.
+    ///
+    /// # Errors
+    /// What is wrong.
+    pub fn parse(text: &str, name: &str) -> Result<Self, String> {
+        let file: LinearFile = toml::from_str(text).map_err(|error| error.to_string())?;
+        file.design(name)
+    }
+
     /// Reads a design file.
     pub fn read(path: &Path) -> Result<Self, Failure> {
         from_file(path, LinearFile::design)

@@ -91,7 +91,7 @@ pub fn evaluate(mut fields: Fields) -> Result<Answer, BadField> {
 }
 
 /// The default range of the fit, or as much more as puts this contact angle well inside.
-fn fit_range(contact_angle: f32) -> f32 {
+pub fn fit_range(contact_angle: f32) -> f32 {
     /// Two degrees: as far as the outermost node stands from the end of the default range.
     const MARGIN: f32 = 0.035;
     (contact_angle + MARGIN).max(DEFAULT_FIT_RANGE)

@@ -92,7 +92,7 @@ impl Caged {
 }
 
 /// An angle within half a turn either way, rad.
-fn wrapped(angle: f64) -> f32 {
+pub fn wrapped(angle: f64) -> f32 {
     let half = std::f64::consts::PI;
     ((angle + half).rem_euclid(2.0 * half) - half) as f32
 }
@@ -100,8 +100,10 @@ fn wrapped(angle: f64) -> f32 {
 /// One sample with what the models say to it.
 pub struct CagedRow {
     sample: ScrewSample,
-    outputs: Outputs,
-    reference: Option<Friction>,
+    /// What the scene puts out.
+    pub outputs: Outputs,
+    /// What the float64 reference says.
+    pub reference: Option<Friction>,
 }
 
 impl Scene for Caged {

@@ -1,7 +1,8 @@
 //! A linear bearing whose balls press on each other.
 
+use epas_friction::law::coefficient::OneCoefficient;
 use epas_friction::promises::STEP_LINEAR;
-use epas_friction::{FrictionModel, LinearBearingTrain, LinearInputs, LinearOutputs};
+use epas_friction::{Error, FrictionModel, LinearBearingTrain, LinearInputs, LinearOutputs};
 
 use super::manoeuvre::Manoeuvre;
 use super::memory::{self, Remembered, Remembering};
@@ -27,7 +28,8 @@ pub struct Linear {
 /// One sample with what the model says to it.
 pub struct LinearRow {
     sample: LinearSample,
-    train: TrainRow<LinearOutputs>,
+    /// What the scene puts out.
+    pub train: TrainRow<LinearOutputs>,
 }
 
 /// What a linear bearing's quantities are called.
@@ -56,6 +58,27 @@ impl<const N: usize> Balls<LinearSample, LinearOutputs> for FrictionModel<Linear
     fn pressing(&self) -> u64 {
         pressing(&self.state().circuit.train)
     }
+
+    fn reset(&mut self) {
+        FrictionModel::reset(self);
+    }
+
+    fn faulted_ticks(&self) -> u32 {
+        FrictionModel::faulted_ticks(self)
+    }
+
+    fn set_friction(&mut self, friction: f32) -> Result<(), Error> {
+        FrictionModel::<LinearBearingTrain<N>>::set_friction(self, friction)
+    }
+
+    fn set_place(&mut self, position: f32) -> bool {
+        self.set_carriage_position(position);
+        true
+    }
+
+    fn copied(&self) -> Box<dyn Balls<LinearSample, LinearOutputs>> {
+        Box::new(*self)
+    }
 }
 
 impl<const N: usize> Balls<LinearSample, LinearOutputs>
@@ -69,6 +92,26 @@ impl<const N: usize> Balls<LinearSample, LinearOutputs>
     fn pressing(&self) -> u64 {
         pressing(&self.state().scene.circuit.train)
     }
+
+    fn reset(&mut self) {
+        FrictionModel::reset(self);
+    }
+
+    fn faulted_ticks(&self) -> u32 {
+        FrictionModel::faulted_ticks(self)
+    }
+
+    fn set_friction(&mut self, friction: f32) -> Result<(), Error> {
+        self.set_coefficient(OneCoefficient::new(friction)?)
+    }
+
+    fn set_place(&mut self, _: f32) -> bool {
+        false
+    }
+
+    fn copied(&self) -> Box<dyn Balls<LinearSample, LinearOutputs>> {
+        Box::new(*self)
+    }
 }
 
 impl Linear {
@@ -77,30 +120,48 @@ impl Linear {
         trace: &Trace<LinearSample>,
         remembered: Option<&Remembered>,
     ) -> Result<Train<LinearSample, LinearOutputs>, Failure> {
-        let build = |tick| -> Built<LinearSample, LinearOutputs> {
-            let mut configuration = self.design.configuration;
-            configuration.tick = tick;
-            let Some(remembered) = remembered else {
-                return with_balls!(plain LinearBearingTrain, self.design.balls, &configuration);
-            };
-            let friction = configuration.friction;
-            let angle = memory::speed(tick)?;
-            let whole = memory::configuration(configuration, remembered, angle, friction)?;
-            with_balls!(remembering LinearBearingTrain, self.design.balls, &whole)
-        };
+        let build = |tick| self.model(tick, remembered);
         Train::new(trace, build).map_err(|failure| failure.of(self.name()))
+    }
+
+    /// The model for a tick, s.
+    ///
+    /// # Errors
+    /// [`Error`] naming a field out of range.
+    pub fn model(
+        &self,
+        tick: f32,
+        remembered: Option<&Remembered>,
+    ) -> Built<LinearSample, LinearOutputs> {
+        let mut configuration = self.design.configuration;
+        configuration.tick = tick;
+        let Some(remembered) = remembered else {
+            return with_balls!(plain LinearBearingTrain, self.design.balls, &configuration);
+        };
+        let friction = configuration.friction;
+        let angle = memory::speed(tick)?;
+        let whole = memory::configuration(configuration, remembered, angle, friction)?;
+        with_balls!(remembering LinearBearingTrain, self.design.balls, &whole)
     }
 }
 
 impl Linear {
-    /// Elements at the trace's mean load, where friction remembers.
-    fn remembered(&self, trace: &Trace<LinearSample>) -> Result<Option<Remembered>, Failure> {
+    /// Elements at a normal load, N.
+    ///
+    /// # Errors
+    /// [`Error`] naming a field out of range.
+    pub fn remembered_at(&self, normal_load: f32) -> Result<Remembered, Error> {
         let configuration = &self.design.configuration;
         let loaded = configuration.loaded_length;
         let part = loaded / (loaded + configuration.return_length);
         let balls = f32::from(self.design.balls) * part;
+        memory::of_bearing(configuration, balls, normal_load)
+    }
+
+    /// Elements at the trace's mean load, where friction remembers.
+    fn remembered(&self, trace: &Trace<LinearSample>) -> Result<Option<Remembered>, Failure> {
         self.memory
-            .then(|| memory::of_bearing(configuration, balls, memory::mean_load(trace)))
+            .then(|| self.remembered_at(memory::mean_load(trace)))
             .transpose()
             .map_err(|error| Failure::Data(format!("{}: {error}", self.name())))
     }

@@ -5,7 +5,7 @@
 //! divided into steps that are implicit in the speed ([`crate::mechanism`]): friction holds the nut at rest and lets it break away.
 
 use std::f64::consts::{PI, TAU};
-use std::io::{self, Write};
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 use epas_friction::{Inputs, Outputs};
@@ -19,8 +19,10 @@ use crate::controller::Controller;
 use crate::designs::Design;
 use crate::failure::Failure;
 use crate::files::{self, Existing, Pending, refuse_same};
+use crate::mdf4::Mapping;
 use crate::mechanism::{Mechanism, Resistance, Step};
 use crate::plot::{Axis, Chart, Mark, Panel, Series, render, thin};
+use crate::source::Source;
 
 /// Options of a mechanism.
 #[derive(Debug, clap::Args)]
@@ -165,13 +167,19 @@ struct Row {
 pub fn run(
     design: &Design,
     arguments: &MechanismArguments,
-    input: &Path,
+    [input, channels]: [Option<&Path>; 2],
     [output, plot]: [&Option<PathBuf>; 2],
     existing: Existing,
 ) -> Result<(), Failure> {
+    let input = input.ok_or_else(|| Failure::Data("there is no trace".into()))?;
+    let (source, mapping) = (Source(input), channels.map(Mapping::read).transpose()?);
     let (name, acting) = match arguments.controller {
-        Some(_) => moments(read::<Wanted>(input)?, |sample| sample.0),
-        None => moments(read::<Torque>(input)?, |sample| sample.0),
+        Some(_) => moments(read::<Wanted>(&source, mapping.as_ref())?, |sample| {
+            sample.0
+        }),
+        None => moments(read::<Torque>(&source, mapping.as_ref())?, |sample| {
+            sample.0
+        }),
     };
     let outputs = targets([output, plot], &name, &design.name);
     for path in outputs.iter().flatten() {
@@ -192,8 +200,13 @@ pub fn run(
     let mut written = Vec::new();
     if let [Some(table), _] = &outputs {
         let mut pending = Pending::new(table, existing)?;
-        write_table(pending.writer(), &rows)
-            .map_err(|error| Failure::file("write", table, &error))?;
+        let group = format!("{name} on {}", design.name);
+        super::write_table(
+            pending.writer(),
+            table,
+            (&group, &COLUMNS),
+            rows.iter().map(record),
+        )?;
         written.push(pending);
     }
     if let [_, Some(picture)] = &outputs {
@@ -204,7 +217,7 @@ pub fn run(
     for pending in written {
         pending.finish()?;
     }
-    let mut stdout = io::stdout().lock();
+    let mut stdout = files::told(outputs.iter().flatten());
     summary(&rows, inertia, tick).print(&mut stdout)?;
     lines.print(&mut stdout)?;
     for path in outputs.iter().flatten() {
@@ -332,34 +345,32 @@ fn motion(model: impl Remembers, course: &Course<'_>) -> Vec<Row> {
     rows
 }
 
-fn write_table(writer: &mut impl Write, rows: &[Row]) -> Result<(), csv::Error> {
-    let mut table = csv::Writer::from_writer(writer);
-    table.write_record([
-        "time",
-        "motor_torque",
-        "axial_load",
-        "nut_position",
-        "nut_speed",
-        "friction_torque",
-        "load_torque",
-        "faults",
-    ])?;
-    for row in rows {
-        let numbers = [
-            row.acting.time,
-            row.torque,
-            row.acting.axial_load,
-            row.angle,
-            row.speed,
-            row.outputs.friction_torque.into(),
-            row.outputs.load_torque.into(),
-        ];
-        let mut record: Vec<String> = numbers.map(|number| number.to_string()).to_vec();
-        record.push(row.outputs.faults.bits().to_string());
-        table.write_record(record)?;
-    }
-    table.flush()?;
-    Ok(())
+/// Columns of the table.
+pub const COLUMNS: [&str; 8] = [
+    "time",
+    "motor_torque",
+    "axial_load",
+    "nut_position",
+    "nut_speed",
+    "friction_torque",
+    "load_torque",
+    "faults",
+];
+
+/// The values of [`COLUMNS`].
+fn record(row: &Row) -> Vec<String> {
+    let numbers = [
+        row.acting.time,
+        row.torque,
+        row.acting.axial_load,
+        row.angle,
+        row.speed,
+        row.outputs.friction_torque.into(),
+        row.outputs.load_torque.into(),
+    ];
+    let mut record: Vec<String> = numbers.map(|number| number.to_string()).to_vec();
+    record.push(row.outputs.faults.bits().to_string());
+    record
 }
 
 /// How often the nut turned back, and what it did with its energy.

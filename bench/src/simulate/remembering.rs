@@ -18,9 +18,15 @@ use crate::designs::calibration::ElementsName;
 use crate::failure::Failure;
 
 /// A screw that remembers, whatever its elements, its sensor and its coefficient are.
-pub trait Remembers: Clone {
+pub trait Remembers: Clone + Send + Sync {
     /// What it says to a moment with a reading of its sensor.
     fn step(&mut self, inputs: Inputs, reading: f32) -> Outputs;
+    /// What it says to a reading between two moments.
+    fn between(&mut self, reading: f32) -> Outputs;
+    /// Back to the state before the first tick.
+    fn reset(&mut self);
+    /// Consecutive ticks with a fault.
+    fn faulted_ticks(&self) -> u32;
 }
 
 impl<E, A, L> Remembers for FrictionModel<WithMemory<CagedBallScrew, E, A, L>>
@@ -28,10 +34,22 @@ where
     E: Elements + Copy,
     A: NutAngle<Reading = f32> + Copy,
     L: CoefficientModel,
-    Self: Clone,
+    Self: Clone + Send + Sync,
 {
     fn step(&mut self, inputs: Inputs, reading: f32) -> Outputs {
         Self::step(self, memory::fresh(inputs, reading))
+    }
+
+    fn between(&mut self, reading: f32) -> Outputs {
+        Self::between(self, reading)
+    }
+
+    fn reset(&mut self) {
+        Self::reset(self);
+    }
+
+    fn faulted_ticks(&self) -> u32 {
+        Self::faulted_ticks(self)
     }
 }
 
@@ -62,7 +80,7 @@ pub fn remembering<A, U>(
     then: U,
 ) -> Result<(U::Made, Lines), Failure>
 where
-    A: NutAngle<Reading = f32> + Copy + 'static,
+    A: NutAngle<Reading = f32, State: Send + Sync> + Copy + Send + Sync + 'static,
     U: Use,
 {
     let refused = |error: Error| Failure::Data(format!("{}: {error}", design.name));
@@ -120,7 +138,7 @@ impl<A: NutAngle<Reading = f32> + Copy + 'static> Built<'_, A> {
         then: U,
     ) -> Result<U::Made, Error>
     where
-        FrictionModel<WithMemory<CagedBallScrew, E, A, CoefficientLaw>>: Clone,
+        FrictionModel<WithMemory<CagedBallScrew, E, A, CoefficientLaw>>: Clone + Send + Sync,
     {
         let whole: WithMemoryConfiguration<CagedBallScrewConfiguration, E, A, CoefficientLaw> =
             memory::with_coefficient(self.design.configuration, elements, self.angle, law);

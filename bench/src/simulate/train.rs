@@ -12,11 +12,25 @@ const MOST_BALLS: u8 = 64;
 const MOST_TICKS: u32 = 1 << 16;
 
 /// The in-loop model of a scene, whatever its number of balls.
-pub trait Balls<S, Outputs> {
+pub trait Balls<S, Outputs>: Send + Sync {
     /// What the model says to a sample.
     fn step(&mut self, sample: &S) -> Outputs;
     /// Balls that press on the one in front, one bit each.
     fn pressing(&self) -> u64;
+    /// Back to the state before the first tick.
+    fn reset(&mut self);
+    /// Consecutive ticks with a fault.
+    fn faulted_ticks(&self) -> u32;
+    /// Sets the friction coefficient of ball and groove.
+    ///
+    /// # Errors
+    /// [`Error`] naming it; the model goes on as it was.
+    fn set_friction(&mut self, friction: f32) -> Result<(), Error>;
+    /// Sets where the grooves' deviations are counted from: angle of the nut, rad, or place of the carriage, m. False where
+    /// the scene does not take it.
+    fn set_place(&mut self, place: f32) -> bool;
+    /// The same model in the same state.
+    fn copied(&self) -> Box<dyn Balls<S, Outputs>>;
 }
 
 /// Balls that press on the one in front, one bit each.

@@ -2,9 +2,11 @@
 
 use std::f64::consts::TAU;
 
+use epas_friction::law::coefficient::OneCoefficient;
 use epas_friction::promises::STEP_UNCAGED;
 use epas_friction::{
-    FrictionModel, Inputs, Outputs, UncagedBallScrew, UncagedBallScrewConfiguration, UncagedOutputs,
+    Error, FrictionModel, Inputs, Outputs, UncagedBallScrew, UncagedBallScrewConfiguration,
+    UncagedOutputs,
 };
 
 use super::exact_screw::exact_screw;
@@ -36,8 +38,10 @@ pub struct Uncaged {
 /// One sample with what the models say to it.
 pub struct UncagedRow {
     sample: ScrewSample,
-    train: TrainRow<UncagedOutputs>,
-    reference: Option<Friction>,
+    /// What the scene puts out.
+    pub train: TrainRow<UncagedOutputs>,
+    /// What the float64 reference says.
+    pub reference: Option<Friction>,
 }
 
 /// Inputs of a moment.
@@ -56,6 +60,27 @@ impl<const N: usize> Balls<ScrewSample, UncagedOutputs> for FrictionModel<Uncage
     fn pressing(&self) -> u64 {
         pressing(&self.state().circuit.train)
     }
+
+    fn reset(&mut self) {
+        FrictionModel::reset(self);
+    }
+
+    fn faulted_ticks(&self) -> u32 {
+        FrictionModel::faulted_ticks(self)
+    }
+
+    fn set_friction(&mut self, friction: f32) -> Result<(), Error> {
+        FrictionModel::<UncagedBallScrew<N>>::set_friction(self, friction)
+    }
+
+    fn set_place(&mut self, angle: f32) -> bool {
+        self.set_nut_angle(angle);
+        true
+    }
+
+    fn copied(&self) -> Box<dyn Balls<ScrewSample, UncagedOutputs>> {
+        Box::new(*self)
+    }
 }
 
 impl<const N: usize> Balls<ScrewSample, UncagedOutputs>
@@ -69,6 +94,27 @@ impl<const N: usize> Balls<ScrewSample, UncagedOutputs>
     fn pressing(&self) -> u64 {
         pressing(&self.state().scene.circuit.train)
     }
+
+    fn reset(&mut self) {
+        FrictionModel::reset(self);
+    }
+
+    fn faulted_ticks(&self) -> u32 {
+        FrictionModel::faulted_ticks(self)
+    }
+
+    fn set_friction(&mut self, friction: f32) -> Result<(), Error> {
+        self.set_coefficient(OneCoefficient::new(friction)?)
+    }
+
+    fn set_place(&mut self, angle: f32) -> bool {
+        self.set_nut_angle(angle);
+        true
+    }
+
+    fn copied(&self) -> Box<dyn Balls<ScrewSample, UncagedOutputs>> {
+        Box::new(*self)
+    }
 }
 
 impl Uncaged {
@@ -77,24 +123,37 @@ impl Uncaged {
         trace: &Trace<ScrewSample>,
         remembered: Option<&Remembered>,
     ) -> Result<Train<ScrewSample, UncagedOutputs>, Failure> {
-        let build = |tick| -> Built<ScrewSample, UncagedOutputs> {
-            let mut configuration = self.balls.configuration;
-            configuration.tick = tick;
-            let Some(remembered) = remembered else {
-                return with_balls!(plain UncagedBallScrew, self.balls.balls, &configuration);
-            };
-            let friction = configuration.friction;
-            let angle = memory::speed(tick)?;
-            let whole = memory::configuration(configuration, remembered, angle, friction)?;
-            with_balls!(remembering UncagedBallScrew, self.balls.balls, &whole)
-        };
+        let build = |tick| self.model(tick, remembered);
         Train::new(trace, build).map_err(|failure| failure.of(self.name()))
+    }
+
+    /// The model for a tick, s.
+    ///
+    /// # Errors
+    /// [`Error`] naming a field out of range.
+    pub fn model(
+        &self,
+        tick: f32,
+        remembered: Option<&Remembered>,
+    ) -> Built<ScrewSample, UncagedOutputs> {
+        let mut configuration = self.balls.configuration;
+        configuration.tick = tick;
+        let Some(remembered) = remembered else {
+            return with_balls!(plain UncagedBallScrew, self.balls.balls, &configuration);
+        };
+        let friction = configuration.friction;
+        let angle = memory::speed(tick)?;
+        let whole = memory::configuration(configuration, remembered, angle, friction)?;
+        with_balls!(remembering UncagedBallScrew, self.balls.balls, &whole)
     }
 }
 
 impl Uncaged {
-    /// Elements at the trace's mean load, where friction remembers.
-    fn remembered(&self, trace: &Trace<ScrewSample>) -> Result<Option<Remembered>, Failure> {
+    /// Elements at an axial load, N.
+    ///
+    /// # Errors
+    /// [`Error`] naming a field out of range.
+    pub fn remembered_at(&self, axial_load: f32) -> Result<Remembered, Error> {
         let UncagedBallScrewConfiguration {
             ref design,
             friction,
@@ -106,17 +165,22 @@ impl Uncaged {
         } = self.balls.configuration;
         let loaded =
             turns * std::f32::consts::TAU * design.pitch_radius() / design.cos_lead_angle();
-        let told = self.design.calibrated.is_some();
-        let screw = memory::Screw {
+        memory::Screw {
             design,
             friction,
             clearance,
             rolling_resistance,
             loaded_balls: f32::from(self.balls.balls) * loaded / (loaded + return_length),
-        };
+        }
+        .remembered(axial_load)
+    }
+
+    /// Elements at the trace's mean load, where friction remembers.
+    fn remembered(&self, trace: &Trace<ScrewSample>) -> Result<Option<Remembered>, Failure> {
+        let told = self.design.calibrated.is_some();
         let mut remembered = self
             .memory
-            .then(|| screw.remembered(memory::mean_load(trace)))
+            .then(|| self.remembered_at(memory::mean_load(trace)))
             .transpose()
             .map_err(|error| Failure::Data(format!("{}: {error}", self.name())))?;
         if let (Some(remembered), true) = (&mut remembered, told) {

@@ -1,0 +1,180 @@
+"""Tunes the friction task while it runs in QEMU, through the addresses of its A2L file alone.
+
+Memory is read and written by gdb, as a debug probe or an XCP driver would do it. Between two ticks of the friction task a page is
+written, and the numbers measured after the tick say what became of it.
+
+    python tuner.py IMAGE FILE
+"""
+
+import math
+import socket
+import struct
+import subprocess
+import sys
+import zlib
+
+from description import read_a2l
+from pygdbmi.gdbcontroller import GdbController
+
+QEMU = (
+    "qemu-system-arm -machine mps2-an386 -nographic -monitor none -serial none -icount shift=0 "
+    "-semihosting-config enable=on,target=native -S"
+).split()
+TAKEN, LAYOUT, CHECKSUM, RANGE, TOGETHER = range(5)
+
+
+class Gdb:
+    """The processor, stopped at a tick of the friction task."""
+
+    def __init__(self, image, port):
+        self.gdb = GdbController(["gdb-multiarch", "--nx", "--quiet", "--interpreter=mi3"])
+        self.say(f"-file-exec-and-symbols {image}")
+        self.say(f"-target-select remote localhost:{port}")
+        self.say("-break-insert -h *PendSV")
+
+    def say(self, command):
+        for answer in self.gdb.write(command, timeout_sec=20):
+            if answer["type"] == "result":
+                assert answer["message"] != "error", answer["payload"]["msg"]
+                return answer["payload"]
+        raise AssertionError(f"no answer to {command}")
+
+    def tick(self, count=1):
+        """To the beginning of a later tick."""
+        if count > 1:
+            self.say(f"-break-after 1 {count - 1}")
+        answers = self.gdb.write("-exec-continue", timeout_sec=20)
+        while not any(answer["message"] == "stopped" for answer in answers):
+            answers = self.gdb.get_gdb_response(timeout_sec=60)
+        stopped = next(a for a in answers if a["message"] == "stopped")
+        assert stopped["payload"]["reason"] == "breakpoint-hit", stopped
+
+    def read(self, address):
+        memory = self.say(f"-data-read-memory-bytes {address} 4")["memory"]
+        return bytes.fromhex(memory[0]["contents"])
+
+    def write(self, address, word):
+        self.say(f"-data-write-memory-bytes {address} {word.hex()}")
+
+
+class Tuner:
+    """Numbers by their names in the A2L file."""
+
+    def __init__(self, gdb, numbers):
+        self.gdb = gdb
+        self.numbers = numbers
+        # What the checksum goes over: the words of the page in the order of their addresses.
+        first = numbers["layout"][0]
+        last = numbers["checksum"][0]
+        page = [name for name, number in numbers.items() if first <= number[0] <= last]
+        self.page = sorted(page, key=lambda name: numbers[name][0])
+
+    def get(self, name):
+        address, kind, *_ = self.numbers[name]
+        return struct.unpack("<f" if kind == "FLOAT32_IEEE" else "<I", self.gdb.read(address))[0]
+
+    def words(self, **changes):
+        """The page as it stands, with some numbers changed and the checksum that belongs to it."""
+        words = {name: self.gdb.read(self.numbers[name][0]) for name in self.page}
+        for name, value in changes.items():
+            is_float = self.numbers[name][1] == "FLOAT32_IEEE"
+            words[name] = struct.pack("<f" if is_float else "<I", value)
+        sum_of = b"".join(words[name] for name in self.page[:-1])
+        words["checksum"] = struct.pack("<I", zlib.crc32(sum_of))
+        return words
+
+    def write(self, words):
+        for name, word in words.items():
+            self.gdb.write(self.numbers[name][0], word)
+
+    def reference(self):
+        return {name: self.gdb.read(self.numbers[f"reference.{name}"][0]) for name in self.page}
+
+
+def expect(tuner, what, state, taken, refused, friction, field=0):
+    """What a tick has made of the page; the friction torque is within 3 % of `friction`."""
+    tuner.gdb.tick()
+    found = [tuner.get(name) for name in ("page_state", "page_field", "pages_taken", "pages_refused")]
+    assert found == [state, field, taken, refused], f"{what}: {found}"
+    torque = tuner.get("friction_torque")
+    assert abs(torque / friction - 1) < 0.03, f"{what}: {torque} N m instead of {friction}"
+    assert tuner.get("regime") == 1, what
+    assert tuner.get("faults") & ~0x60 == 0, what
+    print(f"{what}: state {state}, friction torque {torque:.4f} N m")
+
+
+def tune(tuner):
+    # The nut turns steadily under a steady load from 1.5 s on.
+    tuner.gdb.tick(1550)
+    steps, friction = tuner.get("steps"), tuner.get("friction_torque")
+    level = tuner.get("level_forward")
+    tuner.gdb.tick()
+    assert tuner.get("steps") == steps + 1
+    reference = tuner.reference()
+    assert tuner.words() == reference, "the page in RAM is not that of the flash"
+
+    # Friction 25 % up, through both ends of its law: the model takes it within the tick, and goes on from where it was.
+    up = {
+        "friction_boundary": 1.25 * tuner.get("friction_boundary"),
+        "friction_full_film": 1.25 * tuner.get("friction_full_film"),
+    }
+    tuner.write(tuner.words(**up))
+    tuner.gdb.tick()
+    assert (tuner.get("page_state"), tuner.get("pages_taken")) == (TAKEN, 1)
+    print(f"friction torque {friction:.4f} N m, after one tick {tuner.get('friction_torque'):.4f} N m")
+    tuner.gdb.tick(20)
+    expect(tuner, "friction 25 % up, 20 ticks later", TAKEN, 1, 0, 1.25 * friction)
+    assert abs(tuner.get("level_forward") - level) < 0.01, "the adaptation has lost its level"
+    friction = tuner.get("friction_torque")
+    good = tuner.words()
+
+    # Damaged: one bit of a number, the checksum as it was.
+    damaged = bytes([good["share"][0] ^ 1]) + good["share"][1:]
+    tuner.write({"share": damaged})
+    expect(tuner, "one bit wrong", CHECKSUM, 1, 1, friction)
+    tuner.write(good)
+    expect(tuner, "mended", TAKEN, 1, 1, friction)
+
+    # Out of range, and no number, with a checksum that holds.
+    place = tuner.page.index("friction_boundary") - 1
+    upper = tuner.numbers["friction_boundary"][3][1]
+    tuner.write(tuner.words(friction_boundary=1.01 * upper))
+    expect(tuner, "friction out of range", RANGE, 1, 2, friction, place)
+    tuner.write(tuner.words(friction_boundary=math.nan))
+    expect(tuner, "friction not a number", RANGE, 1, 3, friction, place)
+    # Half written: numbers in one tick, the checksum in the next.
+    new = {**good, **tuner.words(**up, share=0.5)}
+    checksum = {"checksum": new.pop("checksum")}
+    tuner.write(new)
+    expect(tuner, "half written", CHECKSUM, 1, 4, friction)
+    tuner.write(checksum)
+    expect(tuner, "written", TAKEN, 2, 4, friction)
+    # Of another layout; and numbers that are sound one by one, but not together.
+    tuner.write(tuner.words(layout=1))
+    expect(tuner, "other layout", LAYOUT, 2, 5, friction)
+    tuner.write({**tuner.words(layout=struct.unpack("<I", good["layout"])[0], breakaway_angle=0.04)})
+    expect(tuner, "play too small for the breakaway angle", TOGETHER, 2, 6, friction)
+    # Back to the flash.
+    tuner.write(reference)
+    expect(tuner, "flash, one tick later", TAKEN, 3, 6, tuner.get("friction_torque"))
+    tuner.gdb.tick(20)
+    expect(tuner, "flash, 20 ticks later", TAKEN, 3, 6, friction / 1.25)
+
+
+def main(image, a2l):
+    numbers, _ = read_a2l(a2l)
+    with socket.socket() as free:
+        free.bind(("localhost", 0))
+        port = free.getsockname()[1]
+    qemu = subprocess.Popen([*QEMU, "-gdb", f"tcp:localhost:{port}", "-kernel", image])
+    try:
+        gdb = Gdb(image, port)
+        tune(Tuner(gdb, numbers))
+        gdb.gdb.exit()
+    finally:
+        qemu.kill()
+        qemu.wait()
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

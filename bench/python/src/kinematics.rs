@@ -1,0 +1,251 @@
+//! Motion of a ball between screw and nut, in single and in double precision.
+
+use epas_friction::kinematics::{ContactKinematics, ContactSlip, KinematicsParameters, SlipRatios};
+use epas_reference::kinematics::{self as exact, KinematicsInput, Revised};
+use pyo3::prelude::*;
+
+use crate::arrays::{Arguments, Real};
+use crate::contacts::{arguments, within};
+use crate::errors::Refused;
+use crate::kept::Kept;
+use crate::results::result;
+
+type Any<'py> = Bound<'py, PyAny>;
+
+/// Arguments in their order; the speed stands apart.
+const NAMES: [&str; 16] = [
+    "ball_diameter",
+    "pitch_radius",
+    "lead_angle",
+    "groove_radius_screw",
+    "groove_radius_nut",
+    "contact_angle_screw",
+    "contact_angle_nut",
+    "pitch_angle",
+    "yaw_angle",
+    "rolling_radius_screw",
+    "rolling_radius_nut",
+    "speed",
+    "semi_major_screw",
+    "semi_minor_screw",
+    "semi_major_nut",
+    "semi_minor_nut",
+];
+const SPEED: usize = 11;
+
+/// Largest speed of the screw, rad/s.
+const LARGEST_SPEED: f64 = 1e6;
+
+/// Motion of the ball, then slip at the screw and at the nut.
+const QUANTITIES: usize = 18;
+
+/// Slip of one contact in the order of `results.ContactSlip`; no direction where nothing slides.
+fn slip(slip: &ContactSlip, ratios: &SlipRatios) -> [f32; 8] {
+    let slides = ratios.slide_to_roll > 0.0;
+    [
+        slip.rolling_slip,
+        slip.side_slip,
+        slip.spin,
+        slip.entrainment_speed,
+        ratios.entrainment_angle,
+        ratios.slide_to_roll,
+        if slides { ratios.slide_angle } else { f32::NAN },
+        ratios.spin_to_roll,
+    ]
+}
+
+/// The same of the reference.
+fn exact_slip(contact: &exact::ContactKinematics) -> [f64; 8] {
+    [
+        contact.rolling_slip,
+        contact.side_slip,
+        contact.spin,
+        contact.entrainment_speed,
+        contact.entrainment_angle,
+        contact.slide_to_roll,
+        contact.slide_angle.unwrap_or(f64::NAN),
+        contact.spin_to_roll,
+    ]
+}
+
+/// Everything in one list.
+fn together<T: Copy>(ball: [T; 2], screw: [T; 8], nut: [T; 8]) -> [T; QUANTITIES] {
+    std::array::from_fn(|place| match place {
+        0 | 1 => ball[place],
+        2..10 => screw[place - 2],
+        _ => nut[place - 10],
+    })
+}
+
+/// Runs a kernel over the arguments, and names what it gives.
+fn evaluate<'py, T: Real>(
+    py: Python<'py>,
+    arguments: Arguments<'py, 16>,
+    kernel: impl FnMut([T; 16]) -> Result<[T; QUANTITIES], Refused> + Send,
+) -> PyResult<Any<'py>> {
+    let arrays = arguments.map(py, kernel)?.arrays(py)?;
+    let contact = |start: usize| {
+        let part = pyo3::types::PyTuple::new(py, &arrays[start..start + 8])?;
+        result(py, "ContactSlip", part)
+    };
+    let fields = (&arrays[0], &arrays[1], contact(2)?, contact(10)?);
+    result(py, "ContactKinematics", fields)
+}
+
+/// Motion of a ball, and slip, spin and entrainment at the centres of its two contacts.
+///
+/// Args:
+///     ball_diameter: m.
+///     pitch_radius: m.
+///     lead_angle: rad.
+///     groove_radius_screw: m.
+///     groove_radius_nut: m.
+///     contact_angle_screw: rad.
+///     contact_angle_nut: rad.
+///     pitch_angle: of the ball's own axis, rad.
+///     yaw_angle: of the ball's own axis, rad.
+///     rolling_radius_screw: radius of the deformed contact, m.
+///     rolling_radius_nut: the same at the nut, m.
+///     speed: of the screw, rad/s, -1e6 to 1e6.
+///     semi_major_screw: of the contact ellipse, m.
+///     semi_minor_screw: m.
+///     semi_major_nut: m.
+///     semi_minor_nut: m.
+///
+/// Returns:
+///     ContactKinematics: float32 arrays of the broadcast shape.
+///
+/// Raises:
+///     Error: a value out of its range, with its place in the arrays.
+#[pyfunction]
+#[pyo3(signature = (*, ball_diameter, pitch_radius, lead_angle, groove_radius_screw, groove_radius_nut, contact_angle_screw, contact_angle_nut, pitch_angle, yaw_angle, rolling_radius_screw, rolling_radius_nut, speed, semi_major_screw, semi_minor_screw, semi_major_nut, semi_minor_nut))]
+pub fn contact_kinematics<'py>(
+    py: Python<'py>,
+    ball_diameter: Any<'py>,
+    pitch_radius: Any<'py>,
+    lead_angle: Any<'py>,
+    groove_radius_screw: Any<'py>,
+    groove_radius_nut: Any<'py>,
+    contact_angle_screw: Any<'py>,
+    contact_angle_nut: Any<'py>,
+    pitch_angle: Any<'py>,
+    yaw_angle: Any<'py>,
+    rolling_radius_screw: Any<'py>,
+    rolling_radius_nut: Any<'py>,
+    speed: Any<'py>,
+    semi_major_screw: Any<'py>,
+    semi_minor_screw: Any<'py>,
+    semi_major_nut: Any<'py>,
+    semi_minor_nut: Any<'py>,
+) -> PyResult<Any<'py>> {
+    let values = [&ball_diameter, &pitch_radius, &lead_angle, &groove_radius_screw, &groove_radius_nut, &contact_angle_screw, &contact_angle_nut, &pitch_angle, &yaw_angle, &rolling_radius_screw, &rolling_radius_nut, &speed, &semi_major_screw, &semi_minor_screw, &semi_major_nut, &semi_minor_nut];
+    let mut kept = Kept::NONE;
+    evaluate(py, arguments(py, NAMES, values)?, move |numbers: [f32; 16]| {
+        let [ball_diameter, pitch_radius, lead_angle, groove_radius_screw, groove_radius_nut, contact_angle_screw, contact_angle_nut, pitch_angle, yaw_angle, rolling_radius_screw, rolling_radius_nut, speed, semi_major_screw, semi_minor_screw, semi_major_nut, semi_minor_nut] = numbers;
+        within("speed", speed.into(), -LARGEST_SPEED, LARGEST_SPEED)?;
+        let mut constants = numbers;
+        constants[SPEED] = 0.0;
+        let model = kept.get(constants, || {
+            ContactKinematics::new(&KinematicsParameters {
+                ball_diameter,
+                pitch_radius,
+                lead_angle,
+                groove_radius_screw,
+                groove_radius_nut,
+                contact_angle_screw,
+                contact_angle_nut,
+                pitch_angle,
+                yaw_angle,
+                rolling_radius_screw,
+                rolling_radius_nut,
+                semi_major_screw,
+                semi_minor_screw,
+                semi_major_nut,
+                semi_minor_nut,
+            })
+        })?;
+        let ball = model.tick(speed);
+        Ok(together(
+            [ball.orbital_speed, ball.spin_speed],
+            slip(&ball.screw, &model.screw().ratios()),
+            slip(&ball.nut, &model.nut().ratios()),
+        ))
+    })
+}
+
+/// Motion of a ball, and slip, spin and entrainment at the centres of its two contacts, in float64.
+///
+/// Args:
+///     ball_diameter: m.
+///     pitch_radius: m.
+///     lead_angle: rad.
+///     groove_radius_screw: m.
+///     groove_radius_nut: m.
+///     contact_angle_screw: rad.
+///     contact_angle_nut: rad.
+///     pitch_angle: of the ball's own axis, rad.
+///     yaw_angle: of the ball's own axis, rad.
+///     rolling_radius_screw: radius of the deformed contact, m.
+///     rolling_radius_nut: the same at the nut, m.
+///     speed: of the screw, rad/s, -1e6 to 1e6.
+///     semi_major_screw: of the contact ellipse, m.
+///     semi_minor_screw: m.
+///     semi_major_nut: m.
+///     semi_minor_nut: m.
+///
+/// Returns:
+///     ContactKinematics: float64 arrays of the broadcast shape.
+///
+/// Raises:
+///     Error: a value out of its range, with its place in the arrays.
+#[pyfunction]
+#[pyo3(name = "contact_kinematics", signature = (*, ball_diameter, pitch_radius, lead_angle, groove_radius_screw, groove_radius_nut, contact_angle_screw, contact_angle_nut, pitch_angle, yaw_angle, rolling_radius_screw, rolling_radius_nut, speed, semi_major_screw, semi_minor_screw, semi_major_nut, semi_minor_nut))]
+pub fn exact_contact_kinematics<'py>(
+    py: Python<'py>,
+    ball_diameter: Any<'py>,
+    pitch_radius: Any<'py>,
+    lead_angle: Any<'py>,
+    groove_radius_screw: Any<'py>,
+    groove_radius_nut: Any<'py>,
+    contact_angle_screw: Any<'py>,
+    contact_angle_nut: Any<'py>,
+    pitch_angle: Any<'py>,
+    yaw_angle: Any<'py>,
+    rolling_radius_screw: Any<'py>,
+    rolling_radius_nut: Any<'py>,
+    speed: Any<'py>,
+    semi_major_screw: Any<'py>,
+    semi_minor_screw: Any<'py>,
+    semi_major_nut: Any<'py>,
+    semi_minor_nut: Any<'py>,
+) -> PyResult<Any<'py>> {
+    let values = [&ball_diameter, &pitch_radius, &lead_angle, &groove_radius_screw, &groove_radius_nut, &contact_angle_screw, &contact_angle_nut, &pitch_angle, &yaw_angle, &rolling_radius_screw, &rolling_radius_nut, &speed, &semi_major_screw, &semi_minor_screw, &semi_major_nut, &semi_minor_nut];
+    evaluate(py, arguments(py, NAMES, values)?, |numbers: [f64; 16]| {
+        let [ball_diameter, pitch_radius, lead_angle, groove_radius_screw, groove_radius_nut, contact_angle_screw, contact_angle_nut, pitch_angle, yaw_angle, rolling_radius_screw, rolling_radius_nut, speed, semi_major_screw, semi_minor_screw, semi_major_nut, semi_minor_nut] = numbers;
+        within("speed", speed, -LARGEST_SPEED, LARGEST_SPEED)?;
+        let ball = Revised::new(&KinematicsInput {
+            ball_diameter,
+            pitch_radius,
+            lead_angle,
+            groove_radius_screw,
+            groove_radius_nut,
+            contact_angle_screw,
+            contact_angle_nut,
+            pitch_angle,
+            yaw_angle,
+            rolling_radius_screw,
+            rolling_radius_nut,
+            speed,
+            semi_major_screw,
+            semi_minor_screw,
+            semi_major_nut,
+            semi_minor_nut,
+        })?
+        .evaluate();
+        Ok(together(
+            [ball.orbital_speed, ball.spin_speed],
+            exact_slip(&ball.screw),
+            exact_slip(&ball.nut),
+        ))
+    })
+}

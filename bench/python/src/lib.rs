@@ -1,0 +1,64 @@
+//! `epas-friction` from Python: the crate's own functions and scenes over numpy arrays.
+
+// Python's functions take their arguments by value, and as many as a formula has.
+#![allow(clippy::needless_pass_by_value, clippy::too_many_arguments)]
+// Documentation is Python's, where back-quotes are doubled.
+#![allow(clippy::doc_markdown, clippy::missing_errors_doc)]
+
+mod arrays;
+mod calibration;
+mod contacts;
+mod design;
+mod errors;
+mod kept;
+mod kinematics;
+mod reference;
+mod results;
+mod runs;
+mod scenes;
+mod studies;
+
+use pyo3::prelude::*;
+
+/// What is compiled of the package `epas_friction`.
+#[pymodule]
+mod _native {
+    #[pymodule_export]
+    use crate::calibration::calibrate;
+    #[pymodule_export]
+    use crate::contacts::{
+        circular_groove_curvature, efficiency, ellipse, fitted_curvature, friction_map,
+        groove_curvature, literature_curvature,
+    };
+    #[pymodule_export]
+    use crate::design::{Design, LinearDesign, design_names};
+    #[pymodule_export]
+    use crate::kinematics::contact_kinematics;
+    #[pymodule_export]
+    use crate::runs::{
+        eval_json, manoeuvre, simulate_caged, simulate_linear, simulate_uncaged,
+    };
+    #[pymodule_export]
+    use crate::scenes::caged::CagedBallScrew;
+    #[pymodule_export]
+    use crate::scenes::remembering::CagedBallScrewWithMemory;
+    #[pymodule_export]
+    use crate::scenes::trains::{LinearBearingTrain, UncagedBallScrew};
+
+    #[pymodule_export]
+    use crate::studies::{design_figures, merge_sums, population, trace_sums};
+
+    #[pymodule_export]
+    use super::reference_module;
+}
+
+/// The float64 reference.
+#[pymodule(name = "_reference", submodule)]
+mod reference_module {
+    #[pymodule_export]
+    use crate::kinematics::exact_contact_kinematics;
+    #[pymodule_export]
+    use crate::reference::{efficiency, ellipse, friction_map, groove_curvature};
+    #[pymodule_export]
+    use crate::runs::{reference_caged, reference_uncaged};
+}

@@ -1,0 +1,341 @@
+//! Whole traces as the command `simulate` runs them, and the float64 reference over them; single evaluations of `eval`.
+
+use epas_bench::bindings::{
+    self, Caged, Linear, LinearSample, Manoeuvre, ReferenceModel, Scene, ScrewSample, Trace, Uncaged,
+};
+use numpy::PyArray1;
+use pyo3::prelude::*;
+
+use crate::arrays::shaped;
+use crate::contacts::arguments;
+use crate::design::{Design, LinearDesign};
+use crate::errors::{Refused, refused};
+use crate::results::result;
+use crate::scenes::columns::{Columns, LinearColumns, ScrewColumns, UncagedColumns};
+
+type Any<'py> = Bound<'py, PyAny>;
+
+/// The name of traces that have none.
+const NAME: &str = "trace";
+
+/// A trace of equal length arrays, whose times do not go back.
+fn trace<'py, S, const I: usize>(
+    py: Python<'py>,
+    names: [&'static str; I],
+    values: [&Any<'py>; I],
+    sample: impl Fn([f64; I]) -> S + Send + Sync,
+) -> PyResult<Trace<S>>
+where
+    S: Send,
+{
+    let arguments = arguments(py, names, values)?.trace(py, false)?;
+    let mut samples = Vec::with_capacity(arguments.len());
+    let mut last = f64::NEG_INFINITY;
+    arguments.each(py, |values: [f64; I]| {
+        if values[0] < last {
+            let message = format!("time goes back from {last} s to {} s", values[0]);
+            return Err(Refused::value("time", message));
+        }
+        last = values[0];
+        samples.push(sample(values));
+        Ok(())
+    })?;
+    if samples.is_empty() {
+        return Err(refused(py, Refused::shape("time", "a trace has one sample or more")));
+    }
+    Ok(Trace {
+        name: NAME.into(),
+        samples,
+    })
+}
+
+/// A trace of a ball screw.
+fn screw_trace<'py>(
+    py: Python<'py>,
+    values: [&Any<'py>; 3],
+) -> PyResult<Trace<ScrewSample>> {
+    let names = ["time", "nut_speed", "axial_load"];
+    trace(py, names, values, |[time, nut_speed, axial_load]| ScrewSample {
+        time,
+        nut_speed,
+        axial_load,
+    })
+}
+
+/// Outputs of a scene over a trace, as arrays.
+fn columns<C: Columns>(
+    py: Python<'_>,
+    outputs: impl ExactSizeIterator<Item = C::Outputs>,
+) -> PyResult<Bound<'_, PyAny>> {
+    let mut columns = C::with_capacity(outputs.len());
+    for outputs in outputs {
+        columns.push(&outputs);
+    }
+    columns.run(py)
+}
+
+/// The circuit of balls of a design.
+fn uncaged(py: Python<'_>, design: &Design, memory: bool) -> PyResult<Uncaged> {
+    let inner = (*design.inner).clone();
+    match inner.uncaged {
+        Some(balls) => Ok(Uncaged {
+            design: inner,
+            balls,
+            memory,
+        }),
+        None => {
+            let message = format!("{} says nothing of its circuit of balls", inner.name);
+            Err(refused(py, Refused::value("uncaged", message)))
+        }
+    }
+}
+
+/// A caged ball screw over a trace, as the command ``simulate`` runs it, to the bit.
+///
+/// Args:
+///     design: its geometry and what stands beside it.
+///     time: s, shape (n,), never going back.
+///     nut_speed: rad/s, shape (n,) or a number.
+///     axial_load: N, shape (n,) or a number.
+///     memory: whether friction remembers; elements are designed at the trace's mean load.
+///
+/// Returns:
+///     Run: arrays of shape (n,).
+///
+/// Raises:
+///     Error: a sample that is NaN or infinite, arrays that do not fit, a value out of its range.
+#[pyfunction]
+#[pyo3(signature = (design, time, nut_speed, axial_load, *, memory=false))]
+pub fn simulate_caged<'py>(
+    py: Python<'py>,
+    design: &Design,
+    time: Any<'py>,
+    nut_speed: Any<'py>,
+    axial_load: Any<'py>,
+    memory: bool,
+) -> PyResult<Any<'py>> {
+    let trace = screw_trace(py, [&time, &nut_speed, &axial_load])?;
+    let scene = Caged {
+        design: (*design.inner).clone(),
+        memory,
+    };
+    let (rows, _) = py
+        .detach(|| scene.rows(&trace, None, &|| ()))
+        .map_err(|failure| refused(py, failure))?;
+    columns::<ScrewColumns>(py, rows.iter().map(|row| row.outputs))
+}
+
+/// A ball screw without cage over a trace of equal steps of time, as the command ``simulate`` runs it, to the bit.
+///
+/// The model takes as many ticks for each sample as its balls need.
+///
+/// Args:
+///     design: with what it says of its circuit of balls.
+///     time: s, shape (n,), in equal steps.
+///     nut_speed: rad/s, shape (n,) or a number.
+///     axial_load: N, shape (n,) or a number.
+///     memory: whether friction remembers; elements are designed at the trace's mean load.
+///
+/// Returns:
+///     UncagedRun: arrays of shape (n,).
+///
+/// Raises:
+///     Error: a sample that is NaN or infinite, arrays that do not fit, a value out of its range.
+#[pyfunction]
+#[pyo3(signature = (design, time, nut_speed, axial_load, *, memory=false))]
+pub fn simulate_uncaged<'py>(
+    py: Python<'py>,
+    design: &Design,
+    time: Any<'py>,
+    nut_speed: Any<'py>,
+    axial_load: Any<'py>,
+    memory: bool,
+) -> PyResult<Any<'py>> {
+    let trace = screw_trace(py, [&time, &nut_speed, &axial_load])?;
+    let scene = uncaged(py, design, memory)?;
+    let (rows, _) = py
+        .detach(|| scene.rows(&trace, None, &|| ()))
+        .map_err(|failure| refused(py, failure))?;
+    columns::<UncagedColumns>(py, rows.iter().map(|row| row.train.outputs))
+}
+
+/// A linear bearing over a trace of equal steps of time, as the command ``simulate`` runs it, to the bit.
+///
+/// The model takes as many ticks for each sample as its balls need.
+///
+/// Args:
+///     design: with its circuit of balls.
+///     time: s, shape (n,), in equal steps.
+///     speed: of the carriage, m/s, shape (n,) or a number.
+///     normal_load: N, shape (n,) or a number.
+///     side_load: N, shape (n,) or a number.
+///     memory: whether friction remembers; elements are designed at the trace's mean load.
+///
+/// Returns:
+///     LinearRun: arrays of shape (n,).
+///
+/// Raises:
+///     Error: a sample that is NaN or infinite, arrays that do not fit, a value out of its range.
+#[pyfunction]
+#[pyo3(signature = (design, time, speed, normal_load, side_load, *, memory=false))]
+pub fn simulate_linear<'py>(
+    py: Python<'py>,
+    design: &LinearDesign,
+    time: Any<'py>,
+    speed: Any<'py>,
+    normal_load: Any<'py>,
+    side_load: Any<'py>,
+    memory: bool,
+) -> PyResult<Any<'py>> {
+    let names = ["time", "speed", "normal_load", "side_load"];
+    let values = [&time, &speed, &normal_load, &side_load];
+    let trace = trace(py, names, values, |[time, speed, normal_load, side_load]| {
+        LinearSample {
+            time,
+            speed,
+            normal_load,
+            side_load,
+        }
+    })?;
+    let scene = Linear {
+        design: (*design.inner).clone(),
+        memory,
+    };
+    let (rows, _) = py
+        .detach(|| scene.rows(&trace, None, &|| ()))
+        .map_err(|failure| refused(py, failure))?;
+    columns::<LinearColumns>(py, rows.iter().map(|row| row.train.outputs))
+}
+
+/// What the reference says, as arrays.
+fn reference_run(
+    py: Python<'_>,
+    rows: impl Iterator<Item = Option<bindings::Friction>>,
+) -> PyResult<Bound<'_, PyAny>> {
+    let (torque, efficiency): (Vec<f64>, Vec<f64>) = rows
+        .map(|friction| {
+            friction.map_or((f64::NAN, f64::NAN), |friction| {
+                (friction.friction_torque, friction.efficiency)
+            })
+        })
+        .unzip();
+    let shape = [torque.len()];
+    let fields = (shaped(py, torque, &shape)?, shaped(py, efficiency, &shape)?);
+    result(py, "ReferenceRun", fields)
+}
+
+/// A caged ball screw over a trace in float64: every ball's exact balance between elastic grooves.
+///
+/// Args:
+///     design: its geometry and what stands beside it.
+///     time: s, shape (n,), never going back.
+///     nut_speed: rad/s, shape (n,) or a number.
+///     axial_load: N, shape (n,) or a number.
+///
+/// Returns:
+///     ReferenceRun: float64 arrays of shape (n,).
+///
+/// Raises:
+///     Error: a sample that is NaN or infinite, arrays that do not fit, a value out of its range.
+#[pyfunction]
+#[pyo3(name = "simulate_caged", signature = (design, time, nut_speed, axial_load))]
+pub fn reference_caged<'py>(
+    py: Python<'py>,
+    design: &Design,
+    time: Any<'py>,
+    nut_speed: Any<'py>,
+    axial_load: Any<'py>,
+) -> PyResult<Any<'py>> {
+    let trace = screw_trace(py, [&time, &nut_speed, &axial_load])?;
+    let scene = Caged {
+        design: (*design.inner).clone(),
+        memory: false,
+    };
+    let (rows, _) = py
+        .detach(|| scene.rows(&trace, Some(ReferenceModel::Exact), &|| ()))
+        .map_err(|failure| refused(py, failure))?;
+    reference_run(py, rows.iter().map(|row| row.reference))
+}
+
+/// A ball screw without cage over a trace in float64: every ball in elastic grooves with exact contact integrals, and the
+/// forces between them. At most 10,000 states of 37 balls are solved, linear in between; some ten milliseconds each.
+///
+/// Args:
+///     design: with what it says of its circuit of balls.
+///     time: s, shape (n,), in equal steps.
+///     nut_speed: rad/s, shape (n,) or a number.
+///     axial_load: N, shape (n,) or a number.
+///
+/// Returns:
+///     ReferenceRun: float64 arrays of shape (n,).
+///
+/// Raises:
+///     Error: a sample that is NaN or infinite, arrays that do not fit, a value out of its range.
+#[pyfunction]
+#[pyo3(name = "simulate_uncaged", signature = (design, time, nut_speed, axial_load))]
+pub fn reference_uncaged<'py>(
+    py: Python<'py>,
+    design: &Design,
+    time: Any<'py>,
+    nut_speed: Any<'py>,
+    axial_load: Any<'py>,
+) -> PyResult<Any<'py>> {
+    let trace = screw_trace(py, [&time, &nut_speed, &axial_load])?;
+    let scene = uncaged(py, design, false)?;
+    let (rows, _) = py
+        .detach(|| scene.rows(&trace, Some(ReferenceModel::Exact), &|| ()))
+        .map_err(|failure| refused(py, failure))?;
+    reference_run(py, rows.iter().map(|row| row.reference))
+}
+
+/// A built-in manoeuvre of a steering gear: rack force and rack travel, turned to the nut by the design's lead.
+///
+/// Args:
+///     name: "parking", "weave", "kerb" or "turns".
+///     design: whose lead it is.
+///
+/// Returns:
+///     tuple[ndarray, ndarray, ndarray]: time in s, nut speed in rad/s and axial load in N; float64, shape (n,).
+///
+/// Raises:
+///     Error: a name that there is not.
+#[pyfunction]
+pub fn manoeuvre<'py>(
+    py: Python<'py>,
+    name: &str,
+    design: &Design,
+) -> PyResult<[Bound<'py, PyArray1<f64>>; 3]> {
+    let manoeuvre = match name {
+        "parking" => Manoeuvre::Parking,
+        "weave" => Manoeuvre::Weave,
+        "kerb" => Manoeuvre::Kerb,
+        "turns" => Manoeuvre::Turns,
+        _ => {
+            let message = format!("name = {name:?} is none of: parking, weave, kerb, turns");
+            return Err(refused(py, Refused::value("name", message)));
+        }
+    };
+    let trace = manoeuvre
+        .trace(design.inner.screw())
+        .map_err(|failure| refused(py, failure))?;
+    let of = |value: fn(&ScrewSample) -> f64| {
+        PyArray1::from_vec(py, trace.samples.iter().map(value).collect())
+    };
+    Ok([
+        of(|sample| sample.time),
+        of(|sample| sample.nut_speed),
+        of(|sample| sample.axial_load),
+    ])
+}
+
+/// The answer of the command ``eval`` to a request, both as JSON text; :func:`epas_friction.eval` takes and gives dicts.
+///
+/// Args:
+///     request: one JSON object.
+///
+/// Returns:
+///     str: one JSON object.
+#[pyfunction]
+pub fn eval_json(py: Python<'_>, request: String) -> String {
+    py.detach(|| bindings::eval(&request))
+}
