@@ -19,7 +19,7 @@ const SAMPLE: i32 = px(34);
 /// The legend's entries, with their places, broken into lines that fit; a name that is longer goes on in the next line.
 pub fn lines_of(series: &[Series], width: i32) -> Lines<'_> {
     // Narrow pictures have no room to stand in.
-    let start = if width < px(500) { px(12) } else { px(84) };
+    let start = if width < px(700) { px(12) } else { px(84) };
     let mut lines: Lines<'_> = Vec::new();
     let mut place = i32::MAX;
     for series in series.iter().filter(|series| !series.name.is_empty()) {

@@ -249,7 +249,8 @@ impl ColourMap {
         }
         for (index, (_, label)) in self.bounds.iter().enumerate().step_by(stride) {
             let place = top + (bands - 1 - index as i32) * step;
-            key.draw(&Text::new(label.clone(), (px(30), place), text.clone()))?;
+            let label = label.replace('-', "\u{2212}");
+            key.draw(&Text::new(label, (px(30), place), text.clone()))?;
         }
         Ok(())
     }
