@@ -31,6 +31,7 @@ mod failure;
 mod files;
 #[doc(hidden)]
 pub mod fmu;
+mod folder;
 mod headings;
 #[doc(hidden)]
 pub mod mdf4;

@@ -306,12 +306,18 @@ pub fn accepts_measurement(bytes: &[u8]) -> Result<usize, String> {
 fn list() -> Result<(), Failure> {
     let mut stdout = io::stdout().lock();
     for (name, parameters, loaded_balls) in designs::built_in() {
+        let design = name
+            .parse::<DesignSource>()
+            .map_err(Failure::Data)?
+            .load()?;
         write!(
             stdout,
-            "{name:14} pitch radius {:8.3} mm, lead {:5.1} mm, ball radius {:6.4} mm",
+            "{name:14} pitch radius {:8.3} mm, lead {:5.1} mm, ball radius {:6.4} mm, friction {:5.3}, clearance {:4.1} um",
             1e3 * parameters.pitch_radius,
             1e3 * parameters.lead,
             1e3 * parameters.ball_radius,
+            design.configuration.friction,
+            1e6 * design.configuration.clearance.gap(),
         )?;
         match loaded_balls {
             Some(balls) => writeln!(stdout, ", {balls} loaded balls")?,
@@ -328,5 +334,6 @@ fn list() -> Result<(), Failure> {
         "{name:14} linear bearing, ball radius {:6.4} mm, {balls} balls",
         1e3 * configuration.bearing.ball_radius(),
     )?;
+    writeln!(stdout, "{}", designs::SOURCES)?;
     Ok(())
 }

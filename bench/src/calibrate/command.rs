@@ -6,7 +6,7 @@ use super::answer::Calibration;
 use super::columns::{self, Frame};
 use super::controller::SeenController;
 use super::folder::{self, Folder, FolderArguments};
-use super::outputs::{Outcome, OutputArguments};
+use super::outputs::{Outcome, OutputArguments, folder_name};
 use super::screw::Request;
 use super::screw::choice::Wanted;
 use super::signals::{RowSettings, SmoothingSettings};
@@ -257,10 +257,7 @@ fn whole_folder(
     design: Option<&Design>,
     mapping: Option<&Mapping>,
 ) -> Result<(), Failure> {
-    let name = traces.file_name().map_or_else(
-        || "folder".into(),
-        |name| name.to_string_lossy().into_owned(),
-    );
+    let name = folder_name(traces);
     let output = arguments.outputs.folder(&name);
     let mut settings = format!(
         "{:?} {:?} {:?} {:?} {:?}",

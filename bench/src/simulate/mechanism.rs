@@ -12,6 +12,7 @@ use epas_friction::Outputs;
 
 use super::memory;
 use super::nut::{Nut, STEPS};
+use super::picture::Form;
 use super::remembering::{Remembers, Use, remembering};
 use super::summary::Lines;
 use super::targets::targets;
@@ -22,7 +23,7 @@ use crate::failure::Failure;
 use crate::files::{self, Existing, Pending, refuse_same};
 use crate::mdf4::Mapping;
 use crate::mechanism::Mechanism;
-use crate::plot::{Axis, Chart, Mark, Panel, Series, render, thin};
+use crate::plot::{Axis, Chart, Mark, Panel, Series};
 use crate::source::Source;
 
 /// Options of a mechanism.
@@ -171,7 +172,11 @@ pub fn run(
     }
     if let [_, Some(picture)] = &outputs {
         let mut pending = Pending::new(picture, existing)?;
-        files::all(&mut pending, picture, &drawn(&name, &design.name, &rows)?)?;
+        files::all(
+            &mut pending,
+            picture,
+            &drawn(&name, &design.name, &rows, Form::of(picture))?,
+        )?;
         written.push(pending);
     }
     for pending in written {
@@ -371,8 +376,9 @@ fn summary(rows: &[Row], inertia: f64, tick: f64) -> Lines {
     lines
 }
 
-fn drawn(trace: &str, design: &str, rows: &[Row]) -> Result<String, Failure> {
-    let curve = |value: &dyn Fn(&Row) -> f64| thin(rows, &|row| row.acting.time, value);
+fn drawn(trace: &str, design: &str, rows: &[Row], form: Form) -> Result<String, Failure> {
+    let title = format!("{trace} on {design}");
+    let curve = |value: &dyn Fn(&Row) -> f64| form.curve(rows, &|row| row.acting.time, value);
     let panel = |title: String, label: &str, curves: Vec<(&str, Vec<(f64, f64)>)>| {
         let series = curves.into_iter().enumerate();
         Panel::Chart(Chart {
@@ -387,7 +393,7 @@ fn drawn(trace: &str, design: &str, rows: &[Row]) -> Result<String, Failure> {
     };
     let panels = [
         panel(
-            format!("{trace} on {design}"),
+            title.clone(),
             "torque at the nut (N m)",
             vec![
                 ("motor", curve(&|row| row.torque)),
@@ -406,5 +412,5 @@ fn drawn(trace: &str, design: &str, rows: &[Row]) -> Result<String, Failure> {
             vec![("", curve(&|row| row.speed))],
         ),
     ];
-    render(&panels, 1, (1000, 270))
+    form.draw(&title, &panels)
 }
