@@ -268,7 +268,7 @@ fn whole_folder(
         arguments.filters(),
     );
     if let Some(mapping) = mapping {
-        settings += &format!(" {mapping:?}");
+        settings.extend([" ", &format!("{mapping:?}")]);
     }
     let folder = Folder {
         traces,
