@@ -355,8 +355,7 @@ mod tests {
         let speed = track("nut_speed", 0, vec![1.0; 100]);
         let refused = |other: &[f64]| {
             let load = track("axial_load", 1, vec![1.0; other.len()]);
-            align(&times(&[&grid, other]), &[speed.clone(), load], 0)
-                .map(|table| table.times.len())
+            align(&times(&[&grid, other]), &[speed.clone(), load], 0).map(|table| table.times.len())
         };
         let message = refused(&grid[..50]).unwrap_err();
         assert!(message.contains("90 %"), "{message}");
