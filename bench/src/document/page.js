@@ -9,20 +9,20 @@
   };
   menu.addEventListener("click", () => show(!nav.classList.contains("open")));
   // A link to something folded unfolds it, with all around it.
-  const unfold = () => {
-    const target = location.hash && document.getElementById(decodeURIComponent(location.hash.slice(1)));
+  const unfold = (hash) => {
+    const target = hash && document.getElementById(decodeURIComponent(hash.slice(1)));
     if (!target) return;
     for (let each = target; each; each = each.parentElement) if (each.tagName === "DETAILS") each.open = true;
     target.scrollIntoView();
   };
-  addEventListener("hashchange", unfold);
+  addEventListener("hashchange", () => unfold(location.hash));
   for (const link of links) {
     link.addEventListener("click", () => {
       show(false);
-      if (link.hash === location.hash) unfold();
+      unfold(link.hash);
     });
   }
-  unfold();
+  unfold(location.hash);
   const all = nav.querySelector(".all");
   let unfolded = false;
   all.addEventListener("click", () => {

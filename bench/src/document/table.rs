@@ -1,5 +1,6 @@
 //! A table and its forms: text, Markdown, CSV, JSON.
 
+use std::borrow::Cow;
 use std::fmt::Write as _;
 
 use serde_json::{Value, json};
@@ -21,6 +22,14 @@ pub struct Table {
 }
 
 impl Table {
+    /// How a value reads in a text: a line for a program stands in the file alone.
+    fn brief<'a>(&self, cell: &'a Cell) -> Cow<'a, str> {
+        match cell {
+            Cell::Code(_) => format!("in {}.csv", self.name).into(),
+            cell => cell.shown().into(),
+        }
+    }
+
     /// As text in columns.
     pub fn text(&self) -> String {
         let widths: Vec<usize> = (0..self.columns.len())
@@ -28,7 +37,7 @@ impl Table {
                 self.rows
                     .iter()
                     .filter_map(|row| row.get(column))
-                    .map(|cell| cell.shown().chars().count())
+                    .map(|cell| self.brief(cell).chars().count())
                     .chain([self.columns[column].chars().count()])
                     .max()
                     .unwrap_or(0)
@@ -59,11 +68,9 @@ impl Table {
                 .collect(),
         );
         for row in &self.rows {
-            line(
-                row.iter()
-                    .map(|cell| (cell.shown(), cell.is_number()))
-                    .collect(),
-            );
+            let shown: Vec<_> = row.iter().map(|cell| self.brief(cell)).collect();
+            let right = row.iter().map(Cell::is_number);
+            line(shown.iter().map(AsRef::as_ref).zip(right).collect());
         }
         text
     }
@@ -75,7 +82,8 @@ impl Table {
         text += &row(self.columns.iter().map(String::as_str).collect());
         let _ = writeln!(text, "|{}", "---|".repeat(self.columns.len()));
         for cells in &self.rows {
-            text += &row(cells.iter().map(Cell::shown).collect());
+            let shown: Vec<_> = cells.iter().map(|cell| self.brief(cell)).collect();
+            text += &row(shown.iter().map(AsRef::as_ref).collect());
         }
         text
     }

@@ -49,7 +49,7 @@ const Y_LABELS: i32 = px(84);
 /// Width of the numbers alone, where the label stands above.
 const Y_NUMBERS: i32 = px(60);
 /// Room for one number along a horizontal axis.
-const X_ROOM: i32 = px(76);
+const X_ROOM: i32 = px(58);
 /// Room for one number along a vertical axis.
 const Y_ROOM: i32 = px(30);
 

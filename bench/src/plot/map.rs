@@ -8,7 +8,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::chart::{draw_lines, draw_title, label_style, room, tick_style};
 use super::scale::Axis;
-use super::style::{TICK_SIZE, px, text_width};
+use super::style::{LABEL_SIZE, TICK_SIZE, px, text_width};
 
 /// Values on a grid of cells, in bands between the given bounds.
 #[derive(Clone, Debug)]
@@ -161,6 +161,12 @@ impl ColourMap {
     pub fn draw(&self, area: &DrawingArea<SVGBackend<'_>, Shift>) -> Result<(), Box<dyn Error>> {
         let mut header = draw_title(area, &self.title)? + px(8);
         header += draw_lines(area, &format!("colour: {}", self.quantity), header)?;
+        // A label that is longer than its axis stands above it.
+        let axis = area.dim_in_pixel().1 as i32 - header - px(66);
+        let above = text_width(&self.y.label, LABEL_SIZE) > axis;
+        if above {
+            header += draw_lines(area, &format!("upwards: {}", self.y.label), header)?;
+        }
         let (_, body) = area.split_vertically(header);
         let (width, height) = body.dim_in_pixel();
         let widest = self
@@ -178,24 +184,29 @@ impl ColourMap {
             .x_label_area_size(px(48))
             .y_label_area_size(px(64))
             .build_cartesian_2d(x.clone(), y.clone())?;
-        context
-            .configure_mesh()
-            .disable_mesh()
+        let (x_text, y_text) = (
+            |place: &f64| self.x.text(*place, &x),
+            |place: &f64| self.y.text(*place, &y),
+        );
+        let mut mesh = context.configure_mesh();
+        mesh.disable_mesh()
             .axis_style(RGBColor(120, 120, 120).stroke_width(px(1).unsigned_abs()))
             .set_all_tick_mark_size(px(4))
             .x_labels(
                 self.x
                     .labels(&x)
-                    .min(room(width as i32 - key_width, px(92))),
+                    .min(room(width as i32 - key_width, px(64))),
             )
             .y_labels(self.y.labels(&y).min(room(height as i32, px(40))))
-            .x_label_formatter(&|place| self.x.text(*place, &x))
-            .y_label_formatter(&|place| self.y.text(*place, &y))
+            .x_label_formatter(&x_text)
+            .y_label_formatter(&y_text)
             .x_desc(self.x.label.as_str())
-            .y_desc(self.y.label.as_str())
             .label_style(tick_style())
-            .axis_desc_style(label_style())
-            .draw()?;
+            .axis_desc_style(label_style());
+        if !above {
+            mesh.y_desc(self.y.label.as_str());
+        }
+        mesh.draw()?;
 
         let cell_height = (y.end - y.start) / self.values.len().max(1) as f64;
         for (row, values) in self.values.iter().enumerate() {
@@ -238,7 +249,8 @@ impl ColourMap {
         }
         for (index, (_, label)) in self.bounds.iter().enumerate().step_by(stride) {
             let place = top + (bands - 1 - index as i32) * step;
-            key.draw(&Text::new(label.clone(), (px(30), place), text.clone()))?;
+            let label = label.replace('-', "\u{2212}");
+            key.draw(&Text::new(label, (px(30), place), text.clone()))?;
         }
         Ok(())
     }

@@ -40,6 +40,10 @@ impl Rect {
             && other.bottom <= self.bottom
     }
 
+    const fn contains(&self, (x, y): (i32, i32)) -> bool {
+        self.left <= x && x <= self.right && self.top <= y && y <= self.bottom
+    }
+
     /// Whether a segment passes through: between its ends it comes into all four half planes (Liang and Barsky 1984).
     fn is_crossed(&self, from: (i32, i32), to: (i32, i32)) -> bool {
         let (dx, dy) = (f64::from(to.0 - from.0), f64::from(to.1 - from.1));
@@ -116,15 +120,30 @@ pub fn place(notes: &[((i32, i32), &str)], ground: &Ground<'_>) -> Vec<Option<Pl
                     })
                 })
             };
+            // A line to its point goes past other marks.
+            let leads_past = |candidate: &Placed| {
+                let near = (
+                    point.0.clamp(candidate.place.left, candidate.place.right),
+                    point.1.clamp(candidate.place.top, candidate.place.bottom),
+                );
+                !candidate.leads
+                    || !marks
+                        .iter()
+                        .any(|mark| !mark.contains(*point) && mark.is_crossed(*point, near))
+            };
             let all = || candidates(*point, text).filter(free);
-            let found = all().find(clear).or_else(|| all().next());
+            let found = all()
+                .find(|candidate| clear(candidate) && leads_past(candidate))
+                .or_else(|| all().find(leads_past))
+                .or_else(|| all().next());
             taken.extend(found.map(|found| found.place));
             found
         })
         .collect()
 }
 
-/// Places around a point: right, left, above, below, and the corners, in growing distances.
+/// Places around a point: right, left, above and below in the middle, the corners, and above and below with an end at the point, in
+/// growing distances.
 fn candidates((x, y): (i32, i32), text: &str) -> impl Iterator<Item = Placed> {
     let (width, height) = (text_width(text, TICK_SIZE), TICK_SIZE * 11 / 10);
     DISTANCES

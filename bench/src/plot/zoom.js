@@ -1,6 +1,6 @@
 (() => {
   const NS = "http://www.w3.org/2000/svg";
-  const LEFT = 92, RIGHT = 12, HEIGHT = 210, TOP = 44, BOTTOM = 24;
+  const LEFT = 92, RIGHT = 12, PLOT = 142, LINE = 18, BOTTOM = 24;
   const host = document.getElementById("panels");
   const make = (parent, name, attributes, text) => {
     const made = document.createElementNS(NS, name);
@@ -49,13 +49,27 @@
     }
     return text;
   };
+  // Width of an entry of a legend, with room for a value: letters are some seven pixels wide.
+  const START = 4;
+  const entry = (series) => 7.6 * (series.name.length + (series.mark === "band" || series.mark === "dots" ? 0 : 11)) + 12;
+  // Rows of a panel's legend.
+  const rows = (panel, width) => {
+    let count = 1, at = START;
+    for (const series of panel.series) {
+      const wide = 18 + entry(series);
+      if (at + wide > width && at > START) { at = START; count += 1; }
+      at += wide;
+    }
+    return count;
+  };
   const draw = () => {
     const width = host.clientWidth;
     const x = (at) => LEFT + (at - view[0]) / (view[1] - view[0]) * (width - LEFT - RIGHT);
     host.replaceChildren();
     PANELS.forEach((panel, index) => {
       const strip = panel.states !== undefined;
-      const height = strip ? panel.states.length * 22 + 14 : HEIGHT;
+      const top = strip ? 0 : 24 + LINE * rows(panel, width);
+      const height = strip ? panel.states.length * 22 + 14 : top + PLOT + BOTTOM;
       const svg = make(host, "svg", { height, viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": panel.y || "what holds when" });
       const clip = make(make(svg, "clipPath", { id: `clip-${index}` }), "rect", { x: LEFT, y: 0, width: width - LEFT - RIGHT, height });
       const body = document.createElementNS(NS, "g");
@@ -66,10 +80,10 @@
         for (const [state, from, to] of panel.stretches) {
           if (to >= view[0] && from <= view[1]) make(body, "rect", { x: x(from), y: state * 22 + 8, width: Math.max(1, x(to) - x(from)), height: 15, fill: `var(--series-${state % 7})` });
         }
-      } else chart(svg, body, panel, x, width);
+      } else chart(svg, body, panel, x, width, top, height);
     });
   };
-  const chart = (svg, body, panel, x, width) => {
+  const chart = (svg, body, panel, x, width, TOP, HEIGHT) => {
     let least = Infinity, most = -Infinity;
     for (const series of panel.series) for (const [at, value] of seen(series)) {
       if (value === null || at < view[0] || at > view[1]) continue;
@@ -93,7 +107,7 @@
     make(svg, "text", { x: width - RIGHT, y: HEIGHT - 8, "text-anchor": "end" }, panel.x);
     svg.append(body);
     make(svg, "rect", { x: LEFT, y: TOP, width: width - LEFT - RIGHT, height: HEIGHT - TOP - BOTTOM, class: "frame" });
-    let legend = LEFT;
+    let legend = START, row = 0;
     for (const series of panel.series) {
       const colour = `var(--series-${series.colour % 7})`;
       const points = seen(series);
@@ -106,8 +120,12 @@
         if (near && near[1] !== null) text = `${text} ${near[1].toPrecision(4).replace("-", "\u2212")}`;
       }
       if (!text) continue;
-      make(svg, "rect", { x: legend, y: 26, width: 14, height: 8, fill: colour, opacity: series.mark === "band" ? 0.4 : 1 });
-      legend += 18 + make(svg, "text", { x: legend + 18, y: 35 }, text).getComputedTextLength() + 14;
+      const wide = 18 + entry(series);
+      if (legend + wide > width && legend > START) { legend = START; row += 1; }
+      const y = 18 + LINE * row;
+      make(svg, "rect", { x: legend, y: y + 5, width: 14, height: 8, fill: colour, opacity: series.mark === "band" ? 0.4 : 1 });
+      make(svg, "text", { x: legend + 18, y: y + 14 }, text);
+      legend += wide;
     }
     if (cursor !== null) make(svg, "line", { x1: x(cursor), x2: x(cursor), y1: TOP, y2: HEIGHT - BOTTOM, class: "cursor" });
   };

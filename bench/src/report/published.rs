@@ -155,6 +155,7 @@ fn digits(record: &Record) -> String {
             "{:.decimals$}e{power}",
             record.computed / 10_f64.powi(power)
         ),
+        None if record.computed == 0.0 => "0".into(),
         None if record.printed == "0" => format!("{:.1e}", record.computed),
         None => format!("{:.decimals$}", record.computed),
     }

@@ -11,6 +11,7 @@ use std::path::{Path, PathBuf};
 use epas_friction::{Inputs, Outputs};
 
 use super::memory;
+use super::picture::Form;
 use super::remembering::{Remembers, Use, remembering};
 use super::summary::Lines;
 use super::targets::targets;
@@ -21,7 +22,7 @@ use crate::failure::Failure;
 use crate::files::{self, Existing, Pending, refuse_same};
 use crate::mdf4::Mapping;
 use crate::mechanism::{Mechanism, Resistance, Step};
-use crate::plot::{Axis, Chart, Mark, Panel, Series, render, thin};
+use crate::plot::{Axis, Chart, Mark, Panel, Series};
 use crate::source::Source;
 
 /// Options of a mechanism.
@@ -211,7 +212,11 @@ pub fn run(
     }
     if let [_, Some(picture)] = &outputs {
         let mut pending = Pending::new(picture, existing)?;
-        files::all(&mut pending, picture, &drawn(&name, &design.name, &rows)?)?;
+        files::all(
+            &mut pending,
+            picture,
+            &drawn(&name, &design.name, &rows, Form::of(picture))?,
+        )?;
         written.push(pending);
     }
     for pending in written {
@@ -420,8 +425,9 @@ fn summary(rows: &[Row], inertia: f64, tick: f64) -> Lines {
     lines
 }
 
-fn drawn(trace: &str, design: &str, rows: &[Row]) -> Result<String, Failure> {
-    let curve = |value: &dyn Fn(&Row) -> f64| thin(rows, &|row| row.acting.time, value);
+fn drawn(trace: &str, design: &str, rows: &[Row], form: Form) -> Result<String, Failure> {
+    let title = format!("{trace} on {design}");
+    let curve = |value: &dyn Fn(&Row) -> f64| form.curve(rows, &|row| row.acting.time, value);
     let panel = |title: String, label: &str, curves: Vec<(&str, Vec<(f64, f64)>)>| {
         let series = curves.into_iter().enumerate();
         Panel::Chart(Chart {
@@ -436,7 +442,7 @@ fn drawn(trace: &str, design: &str, rows: &[Row]) -> Result<String, Failure> {
     };
     let panels = [
         panel(
-            format!("{trace} on {design}"),
+            title.clone(),
             "torque at the nut (N m)",
             vec![
                 ("motor", curve(&|row| row.torque)),
@@ -455,5 +461,5 @@ fn drawn(trace: &str, design: &str, rows: &[Row]) -> Result<String, Failure> {
             vec![("", curve(&|row| row.speed))],
         ),
     ];
-    render(&panels, 1, (1000, 270))
+    form.draw(&title, &panels)
 }

@@ -23,9 +23,11 @@ use epas_reference::published::TABLE_A1;
 
 use super::group::{Group, List};
 use super::kernels::{libm, micromath, own};
-use super::race::{Measure, Mode, Race, Ratio};
+use super::measure::{Measure, Ratio};
+use super::race::{Mode, Race};
 use super::trains::trains;
 use crate::failure::Failure;
+use crate::progress::Progress;
 
 /// One function with its times.
 #[derive(Clone, Debug)]
@@ -54,17 +56,25 @@ pub fn compete(rounds: usize) -> Result<Vec<Competition>, Failure> {
     trains(&mut race, &mut list)?;
     kernels(&mut race, &mut list);
 
-    race.run(rounds);
+    let progress = Progress::new("times on this machine", rounds);
+    race.run(rounds, &|| progress.step());
+    let measure = |place| {
+        (
+            race.measure(place, Mode::Latency),
+            race.measure(place, Mode::Throughput),
+        )
+    };
     Ok(list
         .into_iter()
-        .map(|(key, place, unit)| Competition {
-            key,
-            latency: race.measure(place, Mode::Latency),
-            throughput: race.measure(place, Mode::Throughput),
-            ratios: (
-                race.ratio(place, unit, Mode::Latency),
-                race.ratio(place, unit, Mode::Throughput),
-            ),
+        .map(|(key, place, unit)| {
+            let ((latency, throughput), unit) = (measure(place), measure(unit));
+            let ratios = (latency.over(&unit.0), throughput.over(&unit.1));
+            Competition {
+                key,
+                latency,
+                throughput,
+                ratios,
+            }
         })
         .collect())
 }
