@@ -98,7 +98,7 @@ fn memory(working: &Variable, reference: &Variable) -> ModPar {
     for (name, about, program, kind, variable) in [
         (
             "working_page",
-            "Page in use: taken within a tick where checksum and ranges hold",
+            "Page in use: taken where checksum and ranges hold, else the last good one stays",
             PrgType::CalibrationVariables,
             MemoryType::Ram,
             working,

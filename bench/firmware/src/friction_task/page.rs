@@ -107,7 +107,8 @@ pub enum Refused {
     Together,
 }
 
-const CRC: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
+/// Not a constant, of which every use would have its own table on the stack.
+static CRC: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
 
 /// Checksum of names and units: another table is another layout.
 pub const LAYOUT: u32 = {
