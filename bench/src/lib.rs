@@ -21,6 +21,10 @@ mod eval;
 pub mod exact_ring;
 mod failure;
 mod files;
+mod folder;
+mod headings;
+#[doc(hidden)]
+pub mod mdf4;
 mod mechanism;
 mod peers;
 mod plot;
@@ -30,9 +34,12 @@ mod report;
 pub mod row;
 mod screws;
 mod simulate;
+mod source;
 mod study;
 mod target;
 mod timing;
+#[doc(hidden)]
+pub mod units;
 
 use std::process::ExitCode;
 
@@ -67,6 +74,18 @@ pub mod untrusted {
     /// What is wrong.
     pub fn calibration_trace(text: &[u8]) -> Result<usize, String> {
         crate::calibrate::accepts(text)
+    }
+
+    /// Reads a measurement file as `simulate --input` and `calibrate` do; its number of samples.
+    ///
+    /// # Errors
+    /// What is wrong.
+    pub fn measurement(bytes: &[u8]) -> Result<usize, String> {
+        let trace = crate::calibrate::columns::measured(bytes, "trace", None, None);
+        let simulated = crate::simulate::accepts_measurement(bytes)?;
+        trace
+            .map(|trace| trace.len().max(simulated))
+            .map_err(|failure| format!("{failure:?}"))
     }
 
     /// Reads a design file as `simulate --design` does.

@@ -7,8 +7,8 @@
 
 use epas_bench::design_study::{Design, Duty, Figures, figures};
 use polars::prelude::*;
-use pyo3::prelude::{PyModule, PyResult, pymodule};
 use pyo3::Bound;
+use pyo3::prelude::{PyModule, PyResult, pymodule};
 use pyo3_polars::PolarsAllocator;
 use pyo3_polars::derive::polars_expr;
 use serde::Deserialize;
@@ -84,7 +84,11 @@ fn design_figures(inputs: &[Series], kwargs: Settings) -> PolarsResult<Series> {
     if inputs.len() != INPUTS.len() {
         polars_bail!(InvalidOperation: "designs have the columns {}", INPUTS.join(", "));
     }
-    let rows = if inputs.iter().any(Series::is_empty) { 0 } else { inputs.iter().map(Series::len).max().unwrap_or(0) };
+    let rows = if inputs.iter().any(|input| input.is_empty()) {
+        0
+    } else {
+        inputs.iter().map(|input| input.len()).max().unwrap_or(0)
+    };
     let columns = inputs
         .iter()
         .zip(INPUTS)
@@ -93,7 +97,11 @@ fn design_figures(inputs: &[Series], kwargs: Settings) -> PolarsResult<Series> {
     let duty = kwargs.duty();
     let found: Vec<_> = (0..rows)
         .map(|row| {
-            let number = |at: usize| columns[at].get(row).ok_or_else(|| format!("{} is missing", INPUTS[at]));
+            let number = |at: usize| {
+                columns[at]
+                    .get(row)
+                    .ok_or_else(|| format!("{} is missing", INPUTS[at]))
+            };
             let design = Design {
                 pitch_radius: number(0)?,
                 lead: number(1)?,
@@ -115,10 +123,14 @@ fn answer(found: &[Result<Figures, String>]) -> PolarsResult<Series> {
         let known = values.map(|value| value.filter(|value| value.is_finite()));
         Float32Chunked::from_iter_options(name.into(), known).into_series()
     };
-    let balls = found
+    let balls = found.iter().map(|row| {
+        row.as_ref()
+            .ok()
+            .map(|figures| u32::from(figures.loaded_balls))
+    });
+    let refused = found
         .iter()
-        .map(|row| row.as_ref().ok().map(|figures| u32::from(figures.loaded_balls)));
-    let refused = found.iter().map(|row| row.as_ref().err().map(String::as_str));
+        .map(|row| row.as_ref().err().map(String::as_str));
     let fields = [
         UInt32Chunked::from_iter_options("loaded_balls".into(), balls).into_series(),
         numbers("friction_torque", |row| row.friction_torque),

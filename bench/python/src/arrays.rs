@@ -2,7 +2,8 @@
 
 use numpy::ndarray::IxDyn;
 use numpy::{
-    Element, PyArray, PyArray1, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArrayMethods,
+    Element, PyArray, PyArray1, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn,
+    PyUntypedArrayMethods,
 };
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyFloat, PyInt, PyString};
@@ -13,7 +14,7 @@ use crate::errors::{Refused, refused};
 const BLOCK: usize = 256;
 
 /// A number that kernels compute in: `f32` in the loop, `f64` in the reference.
-pub trait Real: Element + Copy + Send + Sync + Default {
+pub trait Real: Element + Copy + Send + Sync + Default + 'static {
     /// From single precision.
     fn of_single(value: f32) -> Self;
     /// From double precision.
@@ -111,22 +112,25 @@ impl<'py> Argument<'py> {
     fn column<T: Real>(&self) -> Column<'_, T> {
         match &self.source {
             Source::Number(number) => Column::Constant([T::of_double(*number); BLOCK]),
-            Source::Single(array) => match array.as_slice() {
-                Ok([value]) => Column::Constant([T::of_single(*value); BLOCK]),
-                Ok(values) => Column::Single(values),
-                Err(_) => {
-                    let values = array.as_array().into_iter();
-                    Column::Strided(Box::new(values.map(|value| T::of_single(*value))))
-                }
-            },
-            Source::Double(array) => match array.as_slice() {
-                Ok([value]) => Column::Constant([T::of_double(*value); BLOCK]),
-                Ok(values) => Column::Double(values),
-                Err(_) => {
-                    let values = array.as_array().into_iter();
-                    Column::Strided(Box::new(values.map(|value| T::of_double(*value))))
-                }
-            },
+            Source::Single(array) => column(array, T::of_single, Column::Single),
+            Source::Double(array) => column(array, T::of_double, Column::Double),
+        }
+    }
+}
+
+/// Values of an array: as they lie in memory where that is their order, else by strides.
+fn column<'a, S: Element + Copy + Sync, T: Real>(
+    array: &'a PyReadonlyArrayDyn<'_, S>,
+    convert: fn(S) -> T,
+    plain: fn(&'a [S]) -> Column<'a, T>,
+) -> Column<'a, T> {
+    // A slice is there for arrays in the order of Fortran too, whose values lie in another order.
+    match array.as_slice() {
+        Ok([value]) => Column::Constant([convert(*value); BLOCK]),
+        Ok(values) if array.is_c_contiguous() => plain(values),
+        _ => {
+            let values = array.as_array().into_iter();
+            Column::Strided(Box::new(values.map(move |value| convert(*value))))
         }
     }
 }
@@ -330,7 +334,9 @@ impl<T: Real, const O: usize> Results<T, O> {
         for values in self.values {
             arrays.push(shaped(py, values, &self.shape)?);
         }
-        arrays.try_into().map_err(|_| pyo3::exceptions::PyRuntimeError::new_err("results"))
+        arrays
+            .try_into()
+            .map_err(|_| pyo3::exceptions::PyRuntimeError::new_err("results"))
     }
 }
 
@@ -389,9 +395,8 @@ impl<'py, const I: usize> Arguments<'py, I> {
     {
         let length = self.len();
         let columns = self.arguments.each_ref().map(Argument::column);
-        let done = py.detach(move || {
-            compute(length, columns, |values| function(values).map(|()| []))
-        });
+        let done =
+            py.detach(move || compute(length, columns, |values| function(values).map(|()| [])));
         match done {
             Ok([]) => Ok(()),
             Err((place, error)) => Err(refused(py, error.at(&self.shape, place))),

@@ -11,8 +11,8 @@ use epas_friction::ranges::FRICTION_OR_NONE;
 use pyo3::prelude::*;
 
 use crate::arrays::{Argument, Arguments};
-use crate::kept::Kept;
 use crate::errors::{Refused, refused};
+use crate::kept::Kept;
 use crate::results::result;
 
 type Any<'py> = Bound<'py, PyAny>;
@@ -92,7 +92,14 @@ impl Arches {
     #[inline]
     fn at(
         &mut self,
-        [pitch_radius, lead_angle, contact_angle, groove_radius, offset_h, offset_l]: [f32; 6],
+        [
+            pitch_radius,
+            lead_angle,
+            contact_angle,
+            groove_radius,
+            offset_h,
+            offset_l,
+        ]: [f32; 6],
     ) -> Result<(GothicArch, ContactAngle), Refused> {
         let path = self.path.get([pitch_radius, lead_angle], || {
             HelixPath::checked_from_lead_angle(pitch_radius, lead_angle)
@@ -145,7 +152,14 @@ pub fn groove_curvature<'py>(
     offset_l: Any<'py>,
 ) -> PyResult<Any<'py>> {
     let mut arches = Arches::new(self::groove(py, groove)?);
-    let values = [&pitch_radius, &lead_angle, &contact_angle, &groove_radius, &offset_h, &offset_l];
+    let values = [
+        &pitch_radius,
+        &lead_angle,
+        &contact_angle,
+        &groove_radius,
+        &offset_h,
+        &offset_l,
+    ];
     let curvature = arguments(py, GROOVE, values)?.map(py, move |numbers| {
         let (arch, angle) = arches.at(numbers)?;
         let exact = arch.principal(angle);
@@ -178,12 +192,33 @@ pub fn fitted_curvature<'py>(
 ) -> PyResult<Any<'py>> {
     let mut arches = Arches::new(self::groove(py, groove)?);
     let mut fit = Kept::NONE;
-    let values = [&pitch_radius, &lead_angle, &contact_angle, &groove_radius, &offset_h, &offset_l];
+    let values = [
+        &pitch_radius,
+        &lead_angle,
+        &contact_angle,
+        &groove_radius,
+        &offset_h,
+        &offset_l,
+    ];
     let curvature = arguments(py, GROOVE, values)?.map(py, move |numbers| {
         let (arch, angle) = arches.at(numbers)?;
-        let [pitch_radius, lead_angle, contact_angle, groove_radius, offset_h, offset_l] = numbers;
+        let [
+            pitch_radius,
+            lead_angle,
+            contact_angle,
+            groove_radius,
+            offset_h,
+            offset_l,
+        ] = numbers;
         let range = fit_range(contact_angle);
-        let constants = [pitch_radius, lead_angle, groove_radius, offset_h, offset_l, range];
+        let constants = [
+            pitch_radius,
+            lead_angle,
+            groove_radius,
+            offset_h,
+            offset_l,
+            range,
+        ];
         let fit = fit.get(constants, || {
             Ok::<_, Refused>(FittedCurvature::new(&arch, range))
         })?;
@@ -222,16 +257,22 @@ pub fn circular_groove_curvature<'py>(
     groove_radius: Any<'py>,
 ) -> PyResult<Any<'py>> {
     let mut arches = Arches::new(self::groove(py, groove)?);
-    let names = ["pitch_radius", "lead_angle", "contact_angle", "groove_radius"];
+    let names = [
+        "pitch_radius",
+        "lead_angle",
+        "contact_angle",
+        "groove_radius",
+    ];
     let values = [&pitch_radius, &lead_angle, &contact_angle, &groove_radius];
-    let curvature = arguments(py, names, values)?.map(py, move |[pitch, lead, contact, radius]| {
-        let (_, angle) = arches.at([pitch, lead, contact, radius, 0.0, 0.0])?;
-        let path = arches.path.get([pitch, lead], || {
-            HelixPath::checked_from_lead_angle(pitch, lead)
+    let curvature =
+        arguments(py, names, values)?.map(py, move |[pitch, lead, contact, radius]| {
+            let (_, angle) = arches.at([pitch, lead, contact, radius, 0.0, 0.0])?;
+            let path = arches.path.get([pitch, lead], || {
+                HelixPath::checked_from_lead_angle(pitch, lead)
+            })?;
+            let form = CircularGrooveCurvature::new(arches.groove, path, radius);
+            Ok::<_, Refused>([form.first(angle)])
         })?;
-        let form = CircularGrooveCurvature::new(arches.groove, path, radius);
-        Ok::<_, Refused>([form.first(angle)])
-    })?;
     let [kappa1] = curvature.arrays(py)?;
     Ok(kappa1)
 }
@@ -260,12 +301,13 @@ pub fn literature_curvature<'py>(
     let groove = self::groove(py, groove)?;
     let names = ["pitch_radius", "contact_angle", "ball_radius"];
     let values = [&pitch_radius, &contact_angle, &ball_radius];
-    let curvature = arguments(py, names, values)?.map(py, move |[pitch, contact, ball]: [f32; 3]| {
-        within("pitch_radius", pitch.into(), 1e-9, 1e9)?;
-        within("ball_radius", ball.into(), 1e-9, 1e9)?;
-        let angle = ContactAngle::checked(contact)?;
-        Ok::<_, Refused>([LiteratureCurvature::new(groove, pitch, ball).first(angle)])
-    })?;
+    let curvature =
+        arguments(py, names, values)?.map(py, move |[pitch, contact, ball]: [f32; 3]| {
+            within("pitch_radius", pitch.into(), 1e-9, 1e9)?;
+            within("ball_radius", ball.into(), 1e-9, 1e9)?;
+            let angle = ContactAngle::checked(contact)?;
+            Ok::<_, Refused>([LiteratureCurvature::new(groove, pitch, ball).first(angle)])
+        })?;
     let [kappa1] = curvature.arrays(py)?;
     Ok(kappa1)
 }
@@ -291,21 +333,34 @@ pub fn ellipse<'py>(
     load: Any<'py>,
     contact_modulus: Any<'py>,
 ) -> PyResult<Any<'py>> {
-    let names = ["relative_radius_1", "relative_radius_2", "load", "contact_modulus"];
-    let values = [&relative_radius_1, &relative_radius_2, &load, &contact_modulus];
+    let names = [
+        "relative_radius_1",
+        "relative_radius_2",
+        "load",
+        "contact_modulus",
+    ];
+    let values = [
+        &relative_radius_1,
+        &relative_radius_2,
+        &load,
+        &contact_modulus,
+    ];
     let mut kept = Kept::NONE;
-    let ellipse = arguments(py, names, values)?.map(py, move |[one, two, load, modulus]: [f32; 4]| {
-        within("load", load.into(), 1e-12, 1e9)?;
-        let contact = kept.get([one, two, modulus], || HertzContact::checked(one, two, modulus))?;
-        let ellipse = contact.at(load);
-        Ok::<_, Refused>([
-            contact.axis_ratio(),
-            ellipse.semi_major,
-            ellipse.semi_minor,
-            ellipse.deflection,
-            ellipse.max_pressure,
-        ])
-    })?;
+    let ellipse =
+        arguments(py, names, values)?.map(py, move |[one, two, load, modulus]: [f32; 4]| {
+            within("load", load.into(), 1e-12, 1e9)?;
+            let contact = kept.get([one, two, modulus], || {
+                HertzContact::checked(one, two, modulus)
+            })?;
+            let ellipse = contact.at(load);
+            Ok::<_, Refused>([
+                contact.axis_ratio(),
+                ellipse.semi_major,
+                ellipse.semi_minor,
+                ellipse.deflection,
+                ellipse.max_pressure,
+            ])
+        })?;
     let [ratio, major, minor, deflection, pressure] = ellipse.arrays(py)?;
     result(py, "Ellipse", (ratio, major, minor, deflection, pressure))
 }
@@ -334,29 +389,46 @@ pub fn efficiency<'py>(
     ball_ratio: Any<'py>,
     rolling_tangent: Option<Any<'py>>,
 ) -> PyResult<Any<'py>> {
-    let names = ["lead_angle", "contact_angle", "friction", "ball_ratio", "rolling_tangent"];
+    let names = [
+        "lead_angle",
+        "contact_angle",
+        "friction",
+        "ball_ratio",
+        "rolling_tangent",
+    ];
     let rolling_tangent = rolling_tangent.unwrap_or_else(|| zero(py));
-    let values = [&lead_angle, &contact_angle, &friction, &ball_ratio, &rolling_tangent];
+    let values = [
+        &lead_angle,
+        &contact_angle,
+        &friction,
+        &ball_ratio,
+        &rolling_tangent,
+    ];
     let mut kept = Kept::NONE;
-    let efficiency = arguments(py, names, values)?.map(py, move |[lead, contact, f, ratio, t]: [f32; 5]| {
-        within("friction", f.into(), 0.0, FRICTION_OR_NONE.maximum.into())?;
-        within("rolling_tangent", t.into(), 0.0, 1.0)?;
-        let geometry = kept.get([lead, contact, ratio], || {
-            EfficiencyGeometry::new(lead, contact, ratio)
+    let efficiency =
+        arguments(py, names, values)?.map(py, move |[lead, contact, f, ratio, t]: [f32; 5]| {
+            within("friction", f.into(), 0.0, FRICTION_OR_NONE.maximum.into())?;
+            within("rolling_tangent", t.into(), 0.0, 1.0)?;
+            let geometry = kept.get([lead, contact, ratio], || {
+                EfficiencyGeometry::new(lead, contact, ratio)
+            })?;
+            Ok::<_, Refused>([
+                geometry.rolling_efficiency(f, t),
+                geometry.sliding_efficiency(f),
+                geometry.sliding_backdrive_efficiency(f),
+                geometry.sliding_loss(f),
+                f32::from(u8::from(geometry.locks(Drive::Driving, f))),
+                f32::from(u8::from(geometry.locks(Drive::BackDriving, f))),
+            ])
         })?;
-        Ok::<_, Refused>([
-            geometry.rolling_efficiency(f, t),
-            geometry.sliding_efficiency(f),
-            geometry.sliding_backdrive_efficiency(f),
-            geometry.sliding_loss(f),
-            f32::from(u8::from(geometry.locks(Drive::Driving, f))),
-            f32::from(u8::from(geometry.locks(Drive::BackDriving, f))),
-        ])
-    })?;
     let [rolling, drive, backdrive, loss, locked, locked_backdrive] = efficiency.arrays(py)?;
     let locked = locked.call_method1("astype", ("bool",))?;
     let locked_backdrive = locked_backdrive.call_method1("astype", ("bool",))?;
-    result(py, "Efficiency", (rolling, drive, backdrive, loss, locked, locked_backdrive))
+    result(
+        py,
+        "Efficiency",
+        (rolling, drive, backdrive, loss, locked, locked_backdrive),
+    )
 }
 
 /// The number zero.
@@ -383,12 +455,15 @@ pub fn friction_map<'py>(
 ) -> PyResult<Any<'py>> {
     let mut kept = Kept::NONE;
     let values = [&axis_ratio, &offset];
-    let map = arguments(py, ["axis_ratio", "offset"], values)?.map(py, move |[ratio, offset]: [f32; 2]| {
-        within("offset", offset.into(), -1e9, 1e9)?;
-        let map = kept.get([ratio], || FrictionMap::new(ratio))?;
-        let friction = map.evaluate(offset);
-        Ok::<_, Refused>([friction.force, friction.moment, friction.power])
-    })?;
+    let map = arguments(py, ["axis_ratio", "offset"], values)?.map(
+        py,
+        move |[ratio, offset]: [f32; 2]| {
+            within("offset", offset.into(), -1e9, 1e9)?;
+            let map = kept.get([ratio], || FrictionMap::new(ratio))?;
+            let friction = map.evaluate(offset);
+            Ok::<_, Refused>([friction.force, friction.moment, friction.power])
+        },
+    )?;
     let [force, moment, power] = map.arrays(py)?;
     result(py, "FrictionMap", (force, moment, power))
 }

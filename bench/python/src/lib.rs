@@ -33,10 +33,15 @@ mod _native {
     #[pymodule_export]
     use crate::design::{Design, LinearDesign, design_names};
     #[pymodule_export]
-    use crate::kinematics::contact_kinematics;
+    use crate::kinematics::{contact_kinematics, reference_contact_kinematics};
+    #[pymodule_export]
+    use crate::reference::{
+        reference_efficiency, reference_ellipse, reference_friction_map, reference_groove_curvature,
+    };
     #[pymodule_export]
     use crate::runs::{
-        eval_json, manoeuvre, simulate_caged, simulate_linear, simulate_uncaged,
+        eval_json, manoeuvre, reference_simulate_caged, reference_simulate_uncaged, simulate_caged,
+        simulate_linear, simulate_uncaged,
     };
     #[pymodule_export]
     use crate::scenes::caged::CagedBallScrew;
@@ -44,21 +49,6 @@ mod _native {
     use crate::scenes::remembering::CagedBallScrewWithMemory;
     #[pymodule_export]
     use crate::scenes::trains::{LinearBearingTrain, UncagedBallScrew};
-
     #[pymodule_export]
     use crate::studies::{design_figures, merge_sums, population, trace_sums};
-
-    #[pymodule_export]
-    use super::reference_module;
-}
-
-/// The float64 reference.
-#[pymodule(name = "_reference", submodule)]
-mod reference_module {
-    #[pymodule_export]
-    use crate::kinematics::exact_contact_kinematics;
-    #[pymodule_export]
-    use crate::reference::{efficiency, ellipse, friction_map, groove_curvature};
-    #[pymodule_export]
-    use crate::runs::{reference_caged, reference_uncaged};
 }

@@ -1,7 +1,8 @@
 //! Whole traces as the command `simulate` runs them, and the float64 reference over them; single evaluations of `eval`.
 
 use epas_bench::bindings::{
-    self, Caged, Linear, LinearSample, Manoeuvre, ReferenceModel, Scene, ScrewSample, Trace, Uncaged,
+    self, Caged, Linear, LinearSample, Manoeuvre, ReferenceModel, Scene, ScrewSample, Trace,
+    Uncaged,
 };
 use numpy::PyArray1;
 use pyo3::prelude::*;
@@ -41,7 +42,10 @@ where
         Ok(())
     })?;
     if samples.is_empty() {
-        return Err(refused(py, Refused::shape("time", "a trace has one sample or more")));
+        return Err(refused(
+            py,
+            Refused::shape("time", "a trace has one sample or more"),
+        ));
     }
     Ok(Trace {
         name: NAME.into(),
@@ -50,15 +54,14 @@ where
 }
 
 /// A trace of a ball screw.
-fn screw_trace<'py>(
-    py: Python<'py>,
-    values: [&Any<'py>; 3],
-) -> PyResult<Trace<ScrewSample>> {
+fn screw_trace<'py>(py: Python<'py>, values: [&Any<'py>; 3]) -> PyResult<Trace<ScrewSample>> {
     let names = ["time", "nut_speed", "axial_load"];
-    trace(py, names, values, |[time, nut_speed, axial_load]| ScrewSample {
-        time,
-        nut_speed,
-        axial_load,
+    trace(py, names, values, |[time, nut_speed, axial_load]| {
+        ScrewSample {
+            time,
+            nut_speed,
+            axial_load,
+        }
     })
 }
 
@@ -189,14 +192,17 @@ pub fn simulate_linear<'py>(
 ) -> PyResult<Any<'py>> {
     let names = ["time", "speed", "normal_load", "side_load"];
     let values = [&time, &speed, &normal_load, &side_load];
-    let trace = trace(py, names, values, |[time, speed, normal_load, side_load]| {
-        LinearSample {
+    let trace = trace(
+        py,
+        names,
+        values,
+        |[time, speed, normal_load, side_load]| LinearSample {
             time,
             speed,
             normal_load,
             side_load,
-        }
-    })?;
+        },
+    )?;
     let scene = Linear {
         design: (*design.inner).clone(),
         memory,
@@ -238,8 +244,8 @@ fn reference_run(
 /// Raises:
 ///     Error: a sample that is NaN or infinite, arrays that do not fit, a value out of its range.
 #[pyfunction]
-#[pyo3(name = "simulate_caged", signature = (design, time, nut_speed, axial_load))]
-pub fn reference_caged<'py>(
+#[pyo3(signature = (design, time, nut_speed, axial_load))]
+pub fn reference_simulate_caged<'py>(
     py: Python<'py>,
     design: &Design,
     time: Any<'py>,
@@ -272,8 +278,8 @@ pub fn reference_caged<'py>(
 /// Raises:
 ///     Error: a sample that is NaN or infinite, arrays that do not fit, a value out of its range.
 #[pyfunction]
-#[pyo3(name = "simulate_uncaged", signature = (design, time, nut_speed, axial_load))]
-pub fn reference_uncaged<'py>(
+#[pyo3(signature = (design, time, nut_speed, axial_load))]
+pub fn reference_simulate_uncaged<'py>(
     py: Python<'py>,
     design: &Design,
     time: Any<'py>,

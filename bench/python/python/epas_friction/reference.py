@@ -5,15 +5,23 @@ It shares no formula with them: a mistake in one shows in the other.
 
 from __future__ import annotations
 
-from ._native import _reference
+from ._native import (
+    reference_contact_kinematics,
+    reference_efficiency,
+    reference_ellipse,
+    reference_friction_map,
+    reference_groove_curvature,
+    reference_simulate_caged,
+    reference_simulate_uncaged,
+)
 
-groove_curvature = _reference.groove_curvature
-ellipse = _reference.ellipse
-efficiency = _reference.efficiency
-contact_kinematics = _reference.contact_kinematics
-friction_map = _reference.friction_map
-simulate_caged = _reference.simulate_caged
-simulate_uncaged = _reference.simulate_uncaged
+contact_kinematics = reference_contact_kinematics
+efficiency = reference_efficiency
+ellipse = reference_ellipse
+friction_map = reference_friction_map
+groove_curvature = reference_groove_curvature
+simulate_caged = reference_simulate_caged
+simulate_uncaged = reference_simulate_uncaged
 
 __all__ = [
     "contact_kinematics",

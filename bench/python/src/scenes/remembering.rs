@@ -141,8 +141,8 @@ impl CagedBallScrewWithMemory {
         allow_faults: bool,
     ) -> PyResult<Bound<'py, PyAny>> {
         let names = ["nut_speed", "axial_load", "nut_angle"];
-        let trace = arguments(py, names, [&nut_speed, &axial_load, &nut_angle])?
-            .trace(py, allow_faults)?;
+        let trace =
+            arguments(py, names, [&nut_speed, &axial_load, &nut_angle])?.trace(py, allow_faults)?;
         let mut columns = ScrewColumns::with_capacity(trace.len());
         let model = &mut self.model;
         trace.each(py, |[nut_speed, axial_load, angle]: [f64; 3]| {
