@@ -39,8 +39,8 @@ mod _native {
     };
     #[pymodule_export]
     use crate::runs::{
-        eval_json, manoeuvre, reference_simulate_caged, reference_simulate_uncaged, simulate_caged,
-        simulate_linear, simulate_uncaged,
+        eval_json, manoeuvre, reference_measured_trace, reference_simulate_caged,
+        reference_simulate_uncaged, simulate_caged, simulate_linear, simulate_uncaged,
     };
     #[pymodule_export]
     use crate::scenes::caged::CagedBallScrew;

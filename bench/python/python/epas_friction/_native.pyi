@@ -48,6 +48,7 @@ __all__ = [
     "reference_ellipse",
     "reference_friction_map",
     "reference_groove_curvature",
+    "reference_measured_trace",
     "reference_simulate_caged",
     "reference_simulate_uncaged",
     "simulate_caged",
@@ -137,6 +138,9 @@ def reference_contact_kinematics(
     semi_major_nut: ArrayLike,
     semi_minor_nut: ArrayLike,
 ) -> ContactKinematics: ...
+def reference_measured_trace(
+    course: Literal["vehicle", "rig", "whole"] = "vehicle", *, seed: int = 0
+) -> dict[str, npt.NDArray[np.float64]]: ...
 def reference_simulate_caged(
     design: Design, time: ArrayLike, nut_speed: ArrayLike, axial_load: ArrayLike
 ) -> ReferenceRun: ...
