@@ -379,6 +379,11 @@ impl<'py, const I: usize> Arguments<'py, I> {
         Ok(self)
     }
 
+    /// The shape that they broadcast to.
+    pub fn shape(&self) -> &[usize] {
+        &self.shape
+    }
+
     /// Number of values.
     pub fn len(&self) -> usize {
         self.shape.iter().product()

@@ -12,6 +12,7 @@ mod design;
 mod errors;
 mod kept;
 mod kinematics;
+mod press;
 mod reference;
 mod results;
 mod runs;
@@ -33,6 +34,8 @@ mod _native {
     use crate::design::{Design, LinearDesign, design_names};
     #[pymodule_export]
     use crate::kinematics::{contact_kinematics, reference_contact_kinematics};
+    #[pymodule_export]
+    use crate::press::contact_forces;
     #[pymodule_export]
     use crate::reference::{
         reference_efficiency, reference_ellipse, reference_friction_map, reference_groove_curvature,

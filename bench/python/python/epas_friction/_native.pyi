@@ -33,6 +33,7 @@ __all__ = [
     "UncagedBallScrew",
     "calibrate",
     "circular_groove_curvature",
+    "contact_forces",
     "contact_kinematics",
     "design_names",
     "efficiency",
@@ -162,6 +163,7 @@ def circular_groove_curvature(
 def literature_curvature(
     groove: _Groove, pitch_radius: ArrayLike, contact_angle: ArrayLike, ball_radius: ArrayLike
 ) -> _Single: ...
+def contact_forces(free_speed: ArrayLike, impedance: ArrayLike) -> _Single: ...
 def design_names() -> list[str]: ...
 def eval_json(request: str) -> str: ...
 def manoeuvre(
