@@ -38,10 +38,11 @@ def curvature(angle: Array, radius: float, lead_angle: float, groove: float, h: 
     return (h22 * spread + h12) * inverse, (h11 * spread - h12) * inverse
 
 
-def efficiency(lead_angle: Array, contact_angle: float, friction: float, ratio: float) -> tuple[Array, ...]:
+def efficiency(lead_angle: Array, contact_angle: float, friction: Any, ratio: float) -> tuple[Array, ...]:
     """Closed forms of Lin, Velinsky and Ravani 1994 and the locked states."""
     kind = lead_angle.dtype.type
-    sin, cos, f = kind(np.sin(contact_angle)), kind(np.cos(contact_angle)), kind(friction)
+    sin, cos = kind(np.sin(contact_angle)), kind(np.cos(contact_angle))
+    f = friction if isinstance(friction, np.ndarray) else kind(friction)
     tangent = np.tan(lead_angle)
     secant2 = 1 + tangent * tangent
     root = np.sqrt(cos * cos + tangent * tangent)
@@ -49,6 +50,14 @@ def efficiency(lead_angle: Array, contact_angle: float, friction: float, ratio: 
     loss = f * (secant2 / sin) / (root + f * sin)
     backdrive = 1 - f * (secant2 / root) / (sin + f * root)
     return rolling, 1 - loss, backdrive, loss, f * root >= sin, f * sin >= root
+
+
+def ellipse(load: Array) -> tuple[Array, ...]:
+    """Powers of the load, from the ellipse under 1 N."""
+    one = ef.ellipse(1e-3, 0.02, 1.0, 1e11)
+    root = np.cbrt(load)
+    ratio = np.full_like(load, one.axis_ratio)
+    return one.semi_major * root, one.semi_minor * root, one.deflection * root * root, one.max_pressure * root, ratio
 
 
 def forces(free: Array, impedance: Array) -> Array:
@@ -108,13 +117,21 @@ def main() -> None:
             f"groove curvature, {n:,} contact angles, {name}", n,
             lambda: ef.groove_curvature("screw", radius, lead, angle, groove, h, l), lambda: curvature(angle, *section), 5,
         )  # fmt: skip
+        friction = random.uniform(0.0, 0.5, n).astype(kind)
+        drive = ef.efficiency(0.19, 0.7854, friction, 0.16).sliding_drive
+        np.testing.assert_allclose(drive, efficiency(kind(0.19), 0.7854, friction, 0.16)[1], atol=2e-6)
+        good &= row(
+            f"efficiency, {n:,} friction coefficients, {name}", n,
+            lambda: ef.efficiency(0.19, 0.7854, friction, 0.16), lambda: efficiency(kind(0.19), 0.7854, friction, 0.16), 5,
+        )  # fmt: skip
         leads = random.uniform(0.02, 1.2, n).astype(kind)
-        drive = ef.efficiency(leads, 0.7854, 0.1, 0.16).sliding_drive
-        np.testing.assert_allclose(drive, efficiency(leads, 0.7854, 0.1, 0.16)[1], atol=2e-6)
         good &= row(
             f"efficiency, {n:,} lead angles, {name}", n,
             lambda: ef.efficiency(leads, 0.7854, 0.1, 0.16), lambda: efficiency(leads, 0.7854, 0.1, 0.16), 5,
         )  # fmt: skip
+        load = random.uniform(0.1, 1000.0, n).astype(kind)
+        np.testing.assert_allclose(ef.ellipse(1e-3, 0.02, load, 1e11).semi_major, ellipse(load)[0], rtol=1e-6)
+        good &= row(f"ellipse, {n:,} loads, {name}", n, lambda: ef.ellipse(1e-3, 0.02, load, 1e11), lambda: ellipse(load), 5)
     rows = 2000
     free, impedance = random.normal(0.0, 1e-3, (rows, 37)), random.uniform(0.5, 2.0, (rows, 37))
     np.testing.assert_allclose(ef.contact_forces(free, impedance), forces(free, impedance), atol=2e-8)

@@ -8,10 +8,13 @@
 mod arrays;
 mod calibration;
 mod contacts;
+mod curvature;
 mod design;
+mod efficiency;
 mod errors;
 mod kept;
 mod kinematics;
+mod numbers;
 mod press;
 mod reference;
 mod results;
@@ -26,12 +29,15 @@ mod _native {
     #[pymodule_export]
     use crate::calibration::calibrate;
     #[pymodule_export]
-    use crate::contacts::{
-        circular_groove_curvature, efficiency, ellipse, fitted_curvature, friction_map,
-        groove_curvature, literature_curvature,
+    use crate::contacts::{ellipse, friction_map};
+    #[pymodule_export]
+    use crate::curvature::{
+        circular_groove_curvature, fitted_curvature, groove_curvature, literature_curvature,
     };
     #[pymodule_export]
     use crate::design::{Design, LinearDesign, design_names};
+    #[pymodule_export]
+    use crate::efficiency::efficiency;
     #[pymodule_export]
     use crate::kinematics::{contact_kinematics, reference_contact_kinematics};
     #[pymodule_export]

@@ -4,8 +4,8 @@ use epas_friction::train::{IMPEDANCE_RANGE, LARGEST_FREE_SPEED, Press};
 use pyo3::prelude::*;
 
 use crate::arrays::shaped;
-use crate::contacts::{arguments, within};
 use crate::errors::{Refused, refused};
+use crate::numbers::{arguments, within};
 
 /// Most balls of a row.
 const MOST: usize = 64;
@@ -44,7 +44,7 @@ pub fn contact_forces<'py>(
         }
     };
     let mut forces = Vec::with_capacity(arguments.len() / balls * (balls - 1));
-    let mut row = Row::new(balls);
+    let mut row = row(balls);
     arguments.each(py, |[speed, impedance]: [f32; 2]| {
         let fastest = f64::from(LARGEST_FREE_SPEED);
         within("free_speed", speed.into(), -fastest, fastest)?;
@@ -56,31 +56,51 @@ pub fn contact_forces<'py>(
     shaped(py, forces, &shape)
 }
 
-/// A row that is filled ball by ball; what is beyond it touches nothing.
-struct Row {
-    balls: usize,
-    place: usize,
-    free: [f32; MOST],
-    impedance: [f32; MOST],
-    room: [f32; MOST],
-    press: Press<MOST>,
+/// A row that is filled ball by ball.
+trait Row: Send {
+    /// Takes in a ball; the last one of a row lets them press.
+    fn add(&mut self, speed: f32, impedance: f32, forces: &mut Vec<f32>);
 }
 
-impl Row {
+/// A row of so many balls.
+fn row(balls: usize) -> Box<dyn Row> {
+    match balls {
+        0..=8 => Box::new(RowOf::<8>::new(balls)),
+        9..=16 => Box::new(RowOf::<16>::new(balls)),
+        17..=24 => Box::new(RowOf::<24>::new(balls)),
+        25..=32 => Box::new(RowOf::<32>::new(balls)),
+        33..=40 => Box::new(RowOf::<40>::new(balls)),
+        41..=48 => Box::new(RowOf::<48>::new(balls)),
+        _ => Box::new(RowOf::<MOST>::new(balls)),
+    }
+}
+
+/// A row with room for `N` balls; what is beyond its balls touches nothing.
+struct RowOf<const N: usize> {
+    balls: usize,
+    place: usize,
+    free: [f32; N],
+    impedance: [f32; N],
+    room: [f32; N],
+    press: Press<N>,
+}
+
+impl<const N: usize> RowOf<N> {
     fn new(balls: usize) -> Self {
-        let mut room = [f32::INFINITY; MOST];
+        let mut room = [f32::INFINITY; N];
         room[..balls - 1].fill(0.0);
         Self {
             balls,
             place: 0,
-            free: [0.0; MOST],
-            impedance: [1.0; MOST],
+            free: [0.0; N],
+            impedance: [1.0; N],
             room,
             press: Press::new(),
         }
     }
+}
 
-    /// Takes in a ball; the last one of a row lets them press.
+impl<const N: usize> Row for RowOf<N> {
     fn add(&mut self, speed: f32, impedance: f32, forces: &mut Vec<f32>) {
         self.free[self.place] = speed;
         self.impedance[self.place] = impedance;

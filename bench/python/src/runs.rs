@@ -12,9 +12,9 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::arrays::shaped;
-use crate::contacts::arguments;
 use crate::design::{Design, LinearDesign};
 use crate::errors::{Refused, refused};
+use crate::numbers::arguments;
 use crate::results::result;
 use crate::scenes::columns::{Columns, LinearColumns, ScrewColumns, UncagedColumns};
 
