@@ -33,6 +33,7 @@ __all__ = [
     "UncagedBallScrew",
     "calibrate",
     "circular_groove_curvature",
+    "contact_forces",
     "contact_kinematics",
     "design_names",
     "efficiency",
@@ -48,6 +49,7 @@ __all__ = [
     "reference_ellipse",
     "reference_friction_map",
     "reference_groove_curvature",
+    "reference_measured_trace",
     "reference_simulate_caged",
     "reference_simulate_uncaged",
     "simulate_caged",
@@ -137,6 +139,9 @@ def reference_contact_kinematics(
     semi_major_nut: ArrayLike,
     semi_minor_nut: ArrayLike,
 ) -> ContactKinematics: ...
+def reference_measured_trace(
+    course: Literal["vehicle", "rig", "whole"] = "vehicle", *, seed: int = 0
+) -> dict[str, npt.NDArray[np.float64]]: ...
 def reference_simulate_caged(
     design: Design, time: ArrayLike, nut_speed: ArrayLike, axial_load: ArrayLike
 ) -> ReferenceRun: ...
@@ -158,6 +163,7 @@ def circular_groove_curvature(
 def literature_curvature(
     groove: _Groove, pitch_radius: ArrayLike, contact_angle: ArrayLike, ball_radius: ArrayLike
 ) -> _Single: ...
+def contact_forces(free_speed: ArrayLike, impedance: ArrayLike) -> _Single: ...
 def design_names() -> list[str]: ...
 def eval_json(request: str) -> str: ...
 def manoeuvre(
