@@ -20,6 +20,7 @@ use epas_friction::{
 use serde::Deserialize;
 
 use crate::failure::Failure;
+use crate::files::standard;
 use calibration::Calibrated;
 use loads::{LoadCase, LoadsTable};
 use tables::{MaterialTable, from_file, groove_size, material, radius, replace};
@@ -117,7 +118,7 @@ pub enum DesignSource {
     },
     /// The built-in linear bearing.
     LinearBearing,
-    /// A TOML file.
+    /// A TOML file; `-` is standard input.
     File(PathBuf),
 }
 
@@ -125,7 +126,8 @@ impl FromStr for DesignSource {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        if Path::new(text).extension().is_some_and(|end| end == "toml") {
+        let file = Path::new(text);
+        if standard(file) || file.extension().is_some_and(|end| end == "toml") {
             return Ok(Self::File(text.into()));
         }
         if text == train::LINEAR {

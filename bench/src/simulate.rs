@@ -34,7 +34,7 @@ use std::path::{Path, PathBuf};
 use crate::designs::train::LinearDesign;
 use crate::designs::{self, DesignSource};
 use crate::failure::Failure;
-use crate::files::{self, Existing, Pending, refuse_same};
+use crate::files::{self, Existing, Pending, refuse_same, refuse_shared};
 use crate::mdf4::{self, Mapping};
 use crate::source::Source;
 use choice::{Chosen, SceneName, choose};
@@ -162,6 +162,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.list {
         return list();
     }
+    let design = arguments.design.as_ref().and_then(DesignSource::file);
+    refuse_shared([design, arguments.input.as_deref()])?;
     let existing = if arguments.force {
         Existing::Replace
     } else {
