@@ -6,6 +6,7 @@ use crate::a2l;
 use crate::calibrate;
 use crate::eval;
 use crate::failure::Failure;
+use crate::fmu;
 use crate::progress::Working;
 use crate::report;
 use crate::screws;
@@ -31,6 +32,7 @@ enum Command {
     Eval(eval::Arguments),
     Target(target::Arguments),
     Screws(screws::Arguments),
+    Fmu(fmu::Arguments),
     A2l(a2l::Arguments),
 }
 
@@ -44,6 +46,7 @@ pub fn run() -> Result<(), Failure> {
         Some(Command::Eval(arguments)) => eval::run(&arguments),
         Some(Command::Target(arguments)) => target::run(&arguments),
         Some(Command::Screws(arguments)) => screws::run(&arguments),
+        Some(Command::Fmu(arguments)) => fmu::run(&arguments),
         Some(Command::A2l(arguments)) => a2l::run(&arguments),
         Some(Command::Report(arguments)) => report::run(&arguments),
         None => report::run(&report::Arguments::default()),
@@ -54,7 +57,7 @@ pub fn run() -> Result<(), Failure> {
 fn said(command: Option<&Command>) -> Option<&'static str> {
     match command {
         // A report tells its stages from the first moment on.
-        Some(Command::Eval(_) | Command::Report(_)) | None => None,
+        Some(Command::Eval(_) | Command::A2l(_) | Command::Report(_)) | None => None,
         Some(Command::Simulate(_)) => Some("simulating ..."),
         Some(Command::Calibrate(_)) => Some("fitting ..."),
         Some(Command::Target(_)) => Some(

@@ -20,10 +20,11 @@ use epas_friction::{
 use serde::Deserialize;
 
 use crate::failure::Failure;
+use crate::files::standard;
 use calibration::Calibrated;
 use loads::{LoadCase, LoadsTable};
 use tables::{MaterialTable, from_file, groove_size, material, radius, replace};
-use train::{UncagedDesign, UncagedTable};
+use train::{LinearDesign, UncagedDesign, UncagedTable};
 
 /// A design with what the in-loop model has to know beside it.
 #[derive(Clone, Debug)]
@@ -117,7 +118,7 @@ pub enum DesignSource {
     },
     /// The built-in linear bearing.
     LinearBearing,
-    /// A TOML file.
+    /// A TOML file; `-` is standard input.
     File(PathBuf),
 }
 
@@ -125,7 +126,8 @@ impl FromStr for DesignSource {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        if Path::new(text).extension().is_some_and(|end| end == "toml") {
+        let file = Path::new(text);
+        if standard(file) || file.extension().is_some_and(|end| end == "toml") {
             return Ok(Self::File(text.into()));
         }
         if text == train::LINEAR {
@@ -181,6 +183,18 @@ impl DesignSource {
                 train::LINEAR
             ))),
             Self::File(path) => from_file(path, DesignFile::design),
+        }
+    }
+
+    /// The linear bearing, checked.
+    pub fn load_bearing(&self) -> Result<LinearDesign, Failure> {
+        match self {
+            Self::LinearBearing => LinearDesign::built_in(),
+            Self::File(path) => LinearDesign::read(path),
+            Self::BuiltIn { name, .. } => Err(Failure::Data(format!(
+                "{name} is a ball screw; the built-in linear bearing is {}",
+                train::LINEAR
+            ))),
         }
     }
 }

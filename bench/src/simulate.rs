@@ -6,16 +6,17 @@ mod caged;
 mod caged_exact;
 mod choice;
 mod exact_screw;
-mod linear;
+pub(crate) mod linear;
 mod loads;
 mod manoeuvre;
 mod measurement;
 mod mechanism;
-mod memory;
+pub(crate) mod memory;
+pub(crate) mod nut;
 mod picture;
 mod progress;
 mod reference;
-mod remembering;
+pub(crate) mod remembering;
 mod samples;
 mod scene;
 mod screw;
@@ -25,7 +26,7 @@ mod targets;
 mod trace;
 mod train;
 mod train_picture;
-mod uncaged;
+pub(crate) mod uncaged;
 
 use std::io::{self, Cursor, Seek, Write};
 use std::path::{Path, PathBuf};
@@ -33,7 +34,7 @@ use std::path::{Path, PathBuf};
 use crate::designs::train::LinearDesign;
 use crate::designs::{self, DesignSource};
 use crate::failure::Failure;
-use crate::files::{self, Existing, Pending, refuse_same};
+use crate::files::{self, Existing, Pending, refuse_same, refuse_shared};
 use crate::mdf4::{self, Mapping};
 use crate::source::Source;
 use choice::{Chosen, SceneName, choose};
@@ -161,6 +162,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.list {
         return list();
     }
+    let design = arguments.design.as_ref().and_then(DesignSource::file);
+    refuse_shared([design, arguments.input.as_deref()])?;
     let existing = if arguments.force {
         Existing::Replace
     } else {

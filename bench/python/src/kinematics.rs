@@ -5,9 +5,9 @@ use epas_reference::kinematics::{self as exact, KinematicsInput, Revised};
 use pyo3::prelude::*;
 
 use crate::arrays::{Arguments, Real};
-use crate::contacts::{arguments, within};
 use crate::errors::Refused;
 use crate::kept::Kept;
+use crate::numbers::{arguments, within};
 use crate::results::result;
 
 type Any<'py> = Bound<'py, PyAny>;

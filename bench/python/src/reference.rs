@@ -6,16 +6,16 @@ use epas_reference::friction::maps::FrictionMap;
 use epas_reference::hertz::Hertz;
 use pyo3::prelude::*;
 
-use crate::contacts::{arguments, within, zero};
 use crate::errors::Refused;
 use crate::kept::Kept;
+use crate::numbers::{arguments, within, zero};
 use crate::results::result;
 
 type Any<'py> = Bound<'py, PyAny>;
 
 /// A groove by its name.
 fn groove(py: Python<'_>, name: &str) -> PyResult<Groove> {
-    crate::contacts::groove(py, name).map(|groove| match groove {
+    crate::numbers::groove(py, name).map(|groove| match groove {
         epas_friction::geometry::Groove::Screw => Groove::Screw,
         epas_friction::geometry::Groove::Nut => Groove::Nut,
     })

@@ -17,6 +17,7 @@ use super::without_design::{self, Filters};
 use crate::controller::Controller;
 use crate::designs::{Design, DesignSource};
 use crate::failure::Failure;
+use crate::files::refuse_shared;
 use crate::mdf4::{self, Mapping};
 use crate::source::Source;
 
@@ -134,6 +135,12 @@ fn setting(text: &str) -> Result<(String, f64), String> {
 
 /// Calibrates a trace, or the traces of a folder.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let file = arguments.design.as_ref().and_then(DesignSource::file);
+    refuse_shared([
+        file,
+        arguments.trace.as_deref(),
+        arguments.validate.as_deref(),
+    ])?;
     let design = arguments
         .design
         .as_ref()
@@ -268,7 +275,7 @@ fn whole_folder(
         arguments.filters(),
     );
     if let Some(mapping) = mapping {
-        settings += &format!(" {mapping:?}");
+        settings.extend([" ", &format!("{mapping:?}")]);
     }
     let folder = Folder {
         traces,

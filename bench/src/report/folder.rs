@@ -10,11 +10,16 @@ use crate::failure::Failure;
 /// First letters of a report as Markdown.
 const OURS: &str = "# epas-friction: ";
 
-/// Makes the folder, and fails where it cannot be written to or where another's `report.md` stands.
+/// Fails where the folder cannot be made or written to, or where another's `report.md` stands. Leaves nothing.
 pub fn check(folder: &Path, force: bool) -> Result<(), Failure> {
     let refused = |error: std::io::Error| Failure::file("write", folder, &error);
-    fs::create_dir_all(folder).map_err(refused)?;
-    tempfile_in(folder).map_err(refused)?;
+    // What is there of the way to the folder has to take a file.
+    let there = folder
+        .ancestors()
+        .find(|part| part.as_os_str().is_empty() || part.exists())
+        .filter(|part| !part.as_os_str().is_empty())
+        .unwrap_or(Path::new("."));
+    tempfile_in(there).map_err(refused)?;
     let markdown = folder.join("report.md");
     let ours = match fs::read(&markdown) {
         Ok(bytes) => bytes.starts_with(OURS.as_bytes()),

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 from typing_extensions import Self
 
 from .results import (
+    DesignFigures,
     Calibration,
     ContactKinematics,
     Efficiency,
@@ -33,7 +34,9 @@ __all__ = [
     "UncagedBallScrew",
     "calibrate",
     "circular_groove_curvature",
+    "contact_forces",
     "contact_kinematics",
+    "design_figures",
     "design_names",
     "efficiency",
     "ellipse",
@@ -43,16 +46,20 @@ __all__ = [
     "groove_curvature",
     "literature_curvature",
     "manoeuvre",
+    "merge_sums",
+    "population",
     "reference_contact_kinematics",
     "reference_efficiency",
     "reference_ellipse",
     "reference_friction_map",
     "reference_groove_curvature",
+    "reference_measured_trace",
     "reference_simulate_caged",
     "reference_simulate_uncaged",
     "simulate_caged",
     "simulate_linear",
     "simulate_uncaged",
+    "trace_sums",
 ]
 
 _Groove = Literal["screw", "nut"]
@@ -137,6 +144,9 @@ def reference_contact_kinematics(
     semi_major_nut: ArrayLike,
     semi_minor_nut: ArrayLike,
 ) -> ContactKinematics: ...
+def reference_measured_trace(
+    course: Literal["vehicle", "rig", "whole"] = "vehicle", *, seed: int = 0
+) -> dict[str, npt.NDArray[np.float64]]: ...
 def reference_simulate_caged(
     design: Design, time: ArrayLike, nut_speed: ArrayLike, axial_load: ArrayLike
 ) -> ReferenceRun: ...
@@ -158,6 +168,7 @@ def circular_groove_curvature(
 def literature_curvature(
     groove: _Groove, pitch_radius: ArrayLike, contact_angle: ArrayLike, ball_radius: ArrayLike
 ) -> _Single: ...
+def contact_forces(free_speed: ArrayLike, impedance: ArrayLike) -> _Single: ...
 def design_names() -> list[str]: ...
 def eval_json(request: str) -> str: ...
 def manoeuvre(
@@ -191,6 +202,30 @@ def calibrate(
     smoothing: float | None = None,
     rows: float | None = None,
 ) -> Calibration: ...
+
+def design_figures(
+    pitch_radius: ArrayLike,
+    lead: ArrayLike,
+    ball_radius: ArrayLike,
+    conformity: ArrayLike | None = None,
+    contact_angle: ArrayLike | None = None,
+    preload: ArrayLike | None = None,
+    *,
+    axial_load: float | None = None,
+    turns: float | None = None,
+    friction: float | None = None,
+    ball_friction: float | None = None,
+    deviation: float | None = None,
+    strict: bool = True,
+) -> DesignFigures: ...
+def trace_sums(
+    trace: Mapping[str, ArrayLike],
+    design: Design | None = None,
+    *,
+    ratio: float = 1.0,
+) -> str: ...
+def merge_sums(parts: list[str]) -> str: ...
+def population(sums: str) -> list[dict[str, Any]]: ...
 
 @final
 class Design:

@@ -11,6 +11,7 @@ from ._native import (
     reference_ellipse,
     reference_friction_map,
     reference_groove_curvature,
+    reference_measured_trace,
     reference_simulate_caged,
     reference_simulate_uncaged,
 )
@@ -20,6 +21,7 @@ efficiency = reference_efficiency
 ellipse = reference_ellipse
 friction_map = reference_friction_map
 groove_curvature = reference_groove_curvature
+measured_trace = reference_measured_trace
 simulate_caged = reference_simulate_caged
 simulate_uncaged = reference_simulate_uncaged
 
@@ -29,6 +31,7 @@ __all__ = [
     "ellipse",
     "friction_map",
     "groove_curvature",
+    "measured_trace",
     "simulate_caged",
     "simulate_uncaged",
 ]

@@ -5,9 +5,9 @@ use epas_friction::{Inputs, Outputs};
 use pyo3::prelude::*;
 
 use super::columns::{Columns, ScrewColumns};
-use crate::contacts::arguments;
 use crate::design::Design;
 use crate::errors::{Refused, refused};
+use crate::numbers::arguments;
 
 /// A screw that remembers, whatever its elements and its friction coefficient are.
 trait Memory: Send + Sync {
