@@ -16,7 +16,8 @@ use epas_bench::calibrate::without_design::{self, Filters};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
-use crate::arrays::{Argument, Arguments, shaped};
+use crate::argument::Argument;
+use crate::arrays::{Arguments, shaped};
 use crate::design::Design;
 use crate::errors::{Refused, refused};
 use crate::results::result;
@@ -223,10 +224,9 @@ pub fn calibrate<'py>(
         })
     } else {
         let unseen = validate.map(|trace| self::text(py, &trace)).transpose()?;
-        let controller = controller.map(|(gain_position, gain_speed)| Controller {
-            gain_position,
-            gain_speed,
-        });
+        let controller = controller
+            .map(|gains| self::controller(py, gains))
+            .transpose()?;
         let filters = Filters { smoothing, rows };
         py.detach(|| {
             let trace = read(text, None)?;
@@ -237,6 +237,17 @@ pub fn calibrate<'py>(
     }
     .map_err(|failure| refused(py, self::told(failure)))?;
     answered(py, &answer, picture)
+}
+
+/// Gains of a controller.
+fn controller(py: Python<'_>, (gain_position, gain_speed): (f64, f64)) -> PyResult<Controller> {
+    let range = (f64::MIN_POSITIVE, f64::MAX);
+    within(py, "gain_position", Some(gain_position), range)?;
+    within(py, "gain_speed", Some(gain_speed), range)?;
+    Ok(Controller {
+        gain_position,
+        gain_speed,
+    })
 }
 
 /// A trace of a file's text.

@@ -4,7 +4,8 @@ use epas_friction::kinematics::{ContactKinematics, ContactSlip, KinematicsParame
 use epas_reference::kinematics::{self as exact, KinematicsInput, Revised};
 use pyo3::prelude::*;
 
-use crate::arrays::{Arguments, Real};
+use crate::arrays::Arguments;
+use crate::blocks::Real;
 use crate::errors::Refused;
 use crate::kept::Kept;
 use crate::numbers::{arguments, within};
