@@ -46,18 +46,16 @@ def same(estimates: dict[str, ef.Estimate], expected: dict[str, Any]) -> None:
 
 
 def test_with_a_design(program: str, tmp_path: pathlib.Path) -> None:
-    trace = part(ef.reference.measured_trace("vehicle", seed=3), 12.0)
-    told = ef.calibrate(trace, DESIGN, estimate=["friction", "preload"], fix={"inertia": 4e-4})
+    trace = part(ef.reference.measured_trace("vehicle", seed=3), 25.0)
+    told = ef.calibrate(trace, DESIGN, estimate=["friction", "preload"], fix={"inertia": 4e-4}, models=False)
     answer = commanded(
         program, tmp_path, trace, "--design", "lin-4.1", "--estimate", "friction,preload", "--fix", "inertia=0.0004"
     )
     same(told.parameters, answer["parameters"])
-    assert (told.residual_rms, told.relative_error, told.cannot_tell, told.winner) == (
-        answer["residual_rms"], answer["relative_error"], answer["cannot_tell"], answer["winner"],
+    assert (told.residual_rms, told.relative_error, told.cannot_tell) == (
+        answer["residual_rms"], answer["relative_error"], answer["cannot_tell"],
     )  # fmt: skip
-    assert [model.name for model in told.models] == [model["name"] for model in answer["models"]]
-    for model, expected in zip(told.models, answer["models"]):
-        same(model.values, expected["values"])
+    assert told.models == [] and told.winner is None
     assert told["friction"].low < told["friction"].value < told["friction"].high
     assert told.time.shape == told.measured.shape == told.model.shape
     # The residual is what the picture's two curves leave.
@@ -66,8 +64,8 @@ def test_with_a_design(program: str, tmp_path: pathlib.Path) -> None:
 
 
 def sliding() -> dict[str, Any]:
-    """A mass of 20 kg with 8 N of friction and 30 N s/m of drag, shaken for 6 s."""
-    time = np.arange(6000) * 1e-3
+    """A mass of 20 kg with 8 N of friction and 30 N s/m of drag, shaken for 8 s."""
+    time = np.arange(2000) * 4e-3
     speed = 0.05 * np.sin(2 * np.pi * 0.4 * time) + 0.04 * np.sin(2 * np.pi * 1.3 * time + 0.4)
     acceleration = np.gradient(speed, time)
     noise = np.random.default_rng(2).normal(0.0, 0.05, time.size)
@@ -80,7 +78,11 @@ def test_without_a_design(program: str, tmp_path: pathlib.Path) -> None:
     told = ef.calibrate(trace)
     answer = commanded(program, tmp_path, trace)
     same(told.parameters, answer["parameters"])
-    assert told.winner == answer["winner"]
+    assert (told.winner, told.residual_rms) == (answer["winner"], answer["residual_rms"])
+    assert [model.name for model in told.models] == [model["name"] for model in answer["models"]]
+    for model, expected in zip(told.models, answer["models"]):
+        assert model.relative_error_unseen == expected["relative_error_unseen"]
+        same(model.values, expected["values"])
     # Twice the interval, where the truth is in 95 of 100 within one: the friction law of the trace is none of the models'.
     mass = told["mass"]
     assert abs(mass.value - 20.0) < max(2.0 * (mass.high - mass.low), 0.2)
@@ -90,12 +92,12 @@ def test_without_a_design(program: str, tmp_path: pathlib.Path) -> None:
     ("change", "field"),
     [
         ({"motor_force": None}, None),
-        ({"time": np.zeros(6000)}, None),
+        ({"time": np.zeros(2000)}, None),
         ({"speed": np.zeros(7)}, "speed"),
         ({"speed": ["a"]}, "speed"),
-        ({"speed": np.full(6000, np.nan)}, "speed"),
-        ({"speed_furlong": np.zeros(6000)}, "speed_furlong"),
-        ({"a,b": np.zeros(6000)}, "a,b"),
+        ({"speed": np.full(2000, np.nan)}, "speed"),
+        ({"speed_furlong": np.zeros(2000)}, "speed_furlong"),
+        ({"a,b": np.zeros(2000)}, "a,b"),
     ],
 )
 def test_bad_traces(change: dict[str, Any], field: str) -> None:
