@@ -1,5 +1,14 @@
 #![no_std]
-#![doc = include_str!("../README.md")]
+//! Friction of the ball screw of an electric power steering, inside the control interrupt: how much, and why.
+//!
+//! `no_std`, f32, fixed-size state, bounded time, no panic. [`FrictionModel`] with a scene is what firmware steps:
+//!
+//! | scene | what | outputs |
+//! |---|---|---|
+//! | [`CagedBallScrew`] | a ball screw whose balls do not touch | torque, efficiency |
+//! | [`UncagedBallScrew`] | a ball screw whose balls press on each other | torques of grooves and balls, forces between balls |
+//! | [`LinearBearingTrain`] | a linear bearing whose balls press on each other | forces |
+//! | [`scene::WithMemory`] | any of them, with friction that remembers | the same, and between two steps |
 //!
 //! # Conventions
 //!
@@ -41,9 +50,16 @@
 //! Everything is set up once, with errors that name the field, its value and the allowed range; from
 //! then on nothing returns a `Result`, nothing panics, and every output is finite and flagged.
 //!
+#![doc = include_str!("firmware.md")]
+//!
 #![doc = include_str!("nomenclature.md")]
 // Symbols of the papers are no code.
 #![allow(clippy::doc_markdown)]
+
+/// The README's examples are compiled as tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
 
 pub mod adaptation;
 pub mod ball;

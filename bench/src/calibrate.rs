@@ -6,7 +6,6 @@
 //! | [`trace`] | a measured trace on one sample clock, in SI units |
 //! | [`columns`] | reads a trace from a CSV file |
 //! | [`table`] | the file's numbers in SI units |
-//! | [`units`] | what a column's name says |
 //! | [`clock`] | one sample clock: tick, gaps, jitter |
 //! | [`channels`] | angles without jumps, the step of a sensor |
 //! | [`checks`] | whether a trace may be believed |
@@ -95,7 +94,6 @@ pub mod telling;
 mod toys;
 pub mod trace;
 pub mod uncertainty;
-pub mod units;
 mod wanted;
 pub mod with_design;
 pub mod without_design;

@@ -21,6 +21,9 @@ impl Existing {
     /// Fails before any work is done where something would be in the way: any file, or with
     /// [`Existing::Replace`] what is none, such as a device or a pipe.
     pub fn check(self, path: &Path) -> Result<(), Failure> {
+        if standard(path) {
+            return Ok(());
+        }
         // A link counts as its target, or as itself where the target is missing.
         let Ok(there) = fs::metadata(path).or_else(|_| fs::symlink_metadata(path)) else {
             return Ok(());
@@ -40,7 +43,8 @@ fn in_the_way(path: &Path) -> Failure {
     Failure::Data(format!("{} exists; --force replaces it", path.display()))
 }
 
-/// A temporary file beside its final place: moved there when it is complete, deleted when dropped before.
+/// A temporary file beside its final place: moved there when it is complete, deleted when dropped before. What is for standard
+/// output waits among the system's temporary files.
 pub struct Pending {
     path: PathBuf,
     existing: Existing,
@@ -51,7 +55,9 @@ impl Pending {
     /// A file that will stand at `path`; folders on the way are made.
     pub fn new(path: &Path, existing: Existing) -> Result<Self, Failure> {
         let failure = |error: io::Error| Failure::file("write", path, &error);
+        let waiting = std::env::temp_dir();
         let folder = match path.parent() {
+            _ if standard(path) => &waiting,
             Some(folder) if !folder.as_os_str().is_empty() => folder,
             _ => Path::new("."),
         };
@@ -70,7 +76,7 @@ impl Pending {
     }
 
     /// Where to write.
-    pub fn writer(&mut self) -> &mut impl Write {
+    pub fn writer(&mut self) -> &mut (impl Write + Seek + use<>) {
         &mut self.writer
     }
 
@@ -84,6 +90,11 @@ impl Pending {
         let file = writer
             .into_inner()
             .map_err(|error| Failure::file("write", &path, error.error()))?;
+        if standard(&path) {
+            let mut complete = file.reopen()?;
+            io::copy(&mut complete, &mut io::stdout().lock())?;
+            return Ok(());
+        }
         let placed = match existing {
             Existing::Replace => file.persist(&path),
             Existing::Keep => file.persist_noclobber(&path),
@@ -118,7 +129,9 @@ pub fn refuse_same<'a, const N: usize>(
     inputs: [Option<&Path>; N],
     outputs: impl Iterator<Item = &'a PathBuf>,
 ) -> Result<(), Failure> {
-    let mut taken: Vec<PathBuf> = inputs.into_iter().flatten().map(place).collect();
+    // What comes from standard input is not what goes to standard output.
+    let inputs = inputs.into_iter().flatten();
+    let mut taken: Vec<PathBuf> = inputs.filter(|path| !standard(path)).map(place).collect();
     for output in outputs {
         let place = place(output);
         if taken.contains(&place) {
@@ -141,6 +154,31 @@ fn place(path: &Path) -> PathBuf {
             _ => absolute,
         }
     })
+}
+
+/// Whether a path stands for standard input or output.
+pub fn standard(path: &Path) -> bool {
+    path.as_os_str() == "-"
+}
+
+/// Fails where several inputs are standard input, which can be read once.
+pub fn refuse_shared<const N: usize>(inputs: [Option<&Path>; N]) -> Result<(), Failure> {
+    let asked = inputs.into_iter().flatten().filter(|path| standard(path));
+    if asked.count() > 1 {
+        return Err(Failure::Data(
+            "two inputs are -, but standard input can be read once".into(),
+        ));
+    }
+    Ok(())
+}
+
+/// Where a run tells what it found: beside standard output where that is one of the outputs.
+pub fn told<'a>(mut outputs: impl Iterator<Item = &'a PathBuf>) -> Box<dyn Write> {
+    if outputs.any(|path| standard(path)) {
+        Box::new(io::stderr())
+    } else {
+        Box::new(io::stdout())
+    }
 }
 
 /// An input that ends with an error where it is longer than it may be.

@@ -8,14 +8,18 @@ mod cortex_m;
 mod curvature;
 mod efficiency;
 mod flagship;
+mod folder;
+mod friction;
 mod hertz;
 mod kernels;
 mod kinematics;
 mod loads;
 mod measured;
 mod memory;
+mod provenance;
 mod published;
 mod stability;
+mod stages;
 mod statistics;
 mod summary;
 mod times;
@@ -24,12 +28,13 @@ mod uncaged;
 
 use std::path::PathBuf;
 
-use crate::document::{Document, Section};
+use crate::document::{Document, Part, Section};
 use crate::failure::Failure;
 use crate::target::TargetFigures;
 use crate::timing::compete;
 use context::Context;
 use flagship::Flagship;
+use stages::Stages;
 
 /// Rounds whose medians are a measurement.
 const ROUNDS: usize = 1500;
@@ -43,7 +48,7 @@ const QUICK_ROUNDS: usize = 40;
 /// needs nothing else), and every figure as SVG, CSV and JSON.
 #[derive(Debug, PartialEq, Eq, clap::Args)]
 pub struct Arguments {
-    /// Folder to write to; reports written there before are replaced
+    /// Folder to write to; a report written there before is replaced
     #[arg(long, default_value = "target/report")]
     output: PathBuf,
     /// Timing rounds on this machine: a median over a few is a look, not a measurement
@@ -52,6 +57,9 @@ pub struct Arguments {
     /// Few timing rounds, coarser sweeps, stored figures of the target: a look, not a measurement
     #[arg(long, conflicts_with = "rounds")]
     quick: bool,
+    /// Replace files of the same names that no report wrote
+    #[arg(long)]
+    force: bool,
 }
 
 impl Default for Arguments {
@@ -60,6 +68,7 @@ impl Default for Arguments {
             output: "target/report".into(),
             rounds: ROUNDS,
             quick: false,
+            force: false,
         }
     }
 }
@@ -67,24 +76,92 @@ impl Default for Arguments {
 /// Makes a section.
 type MakeSection = fn(&Context) -> Result<Section, Failure>;
 
-/// Every section, in the order of the report.
-const SECTIONS: [MakeSection; 16] = [
-    summary::section,
-    curvature::section,
-    hertz::section,
-    efficiency::section,
-    kinematics::section,
-    loads::section,
-    bearings::section,
-    trains::section,
-    uncaged::section,
-    memory::section,
-    applications::section,
-    published::section,
-    measured::section,
-    kernels::section,
-    cortex_m::section,
-    stability::section,
+/// Heading of a part, whether it is unfolded, and its sections with a line on each.
+type Plan = (&'static str, bool, &'static [(MakeSection, &'static str)]);
+
+/// Every section, in the order of the report: friction first, then what it is made of, then the papers.
+const PARTS: [Plan; 4] = [
+    (
+        "Friction",
+        true,
+        &[(
+            friction::section,
+            "torque over a manoeuvre, its error and its cost",
+        )],
+    ),
+    (
+        "Friction in depth",
+        false,
+        &[
+            (
+                uncaged::section,
+                "37 balls against the exact whole screw; pairs; settings; closed forms",
+            ),
+            (
+                memory::section,
+                "reversals: loops, laws in use today, changing loads, noise, compensation",
+            ),
+            (
+                measured::section,
+                "figures of real screws beside the model; what decides the friction of a screw",
+            ),
+            (
+                cortex_m::section,
+                "instructions, modelled cycles, flash, RAM and stack of every function",
+            ),
+            (
+                stability::section,
+                "worst cases over whole domains, known limits, every promise",
+            ),
+        ],
+    ),
+    (
+        "What friction is made of",
+        false,
+        &[
+            (
+                summary::section,
+                "every formula: largest error beside the time of one call",
+            ),
+            (
+                trains::section,
+                "how balls are driven apart or together, and what rubbing costs",
+            ),
+            (
+                efficiency::section,
+                "rolling and full sliding, driving and back-driving",
+            ),
+            (
+                curvature::section,
+                "radius of curvature of helical grooves: literature, circular groove, fitted, exact",
+            ),
+            (
+                hertz::section,
+                "the contact ellipse against elliptic integrals",
+            ),
+            (
+                kinematics::section,
+                "slip, spin and entrainment at the contacts",
+            ),
+            (loads::section, "shares of the balls in the axial load"),
+            (kernels::section, "roots and angles in single precision"),
+        ],
+    ),
+    (
+        "The papers",
+        false,
+        &[
+            (
+                published::section,
+                "every printed number that can be computed, and what did not reproduce",
+            ),
+            (bearings::section, "rotary and linear bearings of Lin 2019"),
+            (
+                applications::section,
+                "lash, tie rod and wavy grooves of Lin 2019, chapter 4",
+            ),
+        ],
+    ),
 ];
 
 /// Makes the report.
@@ -94,21 +171,45 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     } else {
         arguments.rounds
     };
+    // A folder that cannot be written to is found before anything is computed.
+    folder::check(&arguments.output, arguments.force)?;
+    let sections: usize = PARTS.iter().map(|(_, _, sections)| sections.len()).sum();
+    let stages = Stages::new(sections + 3);
+    stages.next("times on this machine");
+    let competition = compete(rounds)?;
+    stages.next("counts on the target");
+    let target = TargetFigures::new(arguments.quick)?;
+    stages.next("37 balls beside the exact whole screw");
     let context = Context {
         quick: arguments.quick,
-        competition: compete(rounds)?,
-        target: TargetFigures::new(arguments.quick)?,
+        competition,
+        target,
         flagship: Flagship::new(arguments.quick)?,
     };
-    let sections = SECTIONS
-        .iter()
-        .map(|section| section(&context))
-        .collect::<Result<Vec<_>, _>>()?;
     let document = Document {
-        title: "epas-friction: error against run time".into(),
-        sections,
+        title: "epas-friction: friction of a ball screw, its error and its cost".into(),
+        made: provenance::lines(rounds),
+        parts: parts(&context, &stages)?,
     };
     // Files first: a reader that closes the output early still gets the whole report in files.
     document.write(&arguments.output)?;
     document.print(&arguments.output)
+}
+
+/// Makes every part, saying which section it is at.
+fn parts(context: &Context, stages: &Stages) -> Result<Vec<Part>, Failure> {
+    PARTS
+        .iter()
+        .map(|&(title, open, sections)| {
+            let sections = sections.iter().map(|(make, lead)| {
+                stages.next(lead);
+                Ok((*lead, make(context)?))
+            });
+            Ok(Part {
+                title,
+                sections: sections.collect::<Result<_, Failure>>()?,
+                open,
+            })
+        })
+        .collect()
 }

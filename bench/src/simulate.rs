@@ -6,44 +6,56 @@ mod caged;
 mod caged_exact;
 mod choice;
 mod exact_screw;
-mod linear;
+pub(crate) mod linear;
 mod loads;
 mod manoeuvre;
+mod measurement;
 mod mechanism;
-mod memory;
+pub(crate) mod memory;
+pub(crate) mod nut;
+mod picture;
 mod progress;
 mod reference;
-mod remembering;
+pub(crate) mod remembering;
 mod samples;
 mod scene;
 mod screw;
+mod shown;
 mod summary;
 mod targets;
 mod trace;
 mod train;
 mod train_picture;
-mod uncaged;
+pub(crate) mod uncaged;
 
-use std::io::{self, Cursor, Write};
-use std::path::PathBuf;
+use std::io::{self, Cursor, Seek, Write};
+use std::path::{Path, PathBuf};
 
 use crate::designs::train::LinearDesign;
 use crate::designs::{self, DesignSource};
 use crate::failure::Failure;
-use crate::files::{self, Existing, Pending, refuse_same};
+use crate::files::{self, Existing, Pending, refuse_same, refuse_shared};
+use crate::mdf4::{self, Mapping};
+use crate::source::Source;
 use choice::{Chosen, SceneName, choose};
 pub use manoeuvre::Manoeuvre;
+use picture::Form;
+pub use picture::Moment;
 use progress::Progress;
 use reference::ReferenceModel;
 use samples::ScrewSample;
 use scene::Scene;
+pub use shown::{Courses, courses};
 use targets::targets;
 
 /// Runs the in-loop friction model over a trace.
 ///
 /// The trace is a CSV file with the columns time (s), nut_speed (rad/s) and axial_load (N; positive
-/// where it opposes the travel that a positive nut speed makes), in any order, or one of the built-in
-/// manoeuvres. Written are a CSV file with the model's outputs at every sample and an SVG plot; a trace
+/// where it opposes the travel that a positive nut speed makes), in any order, a measurement file (MDF 4,
+/// .mf4) with channels of these names, or one of the built-in manoeuvres. Other units stand in the
+/// column's name, nut_speed_rpm or Nut speed [rpm]; a measurement file says them itself. Channels of
+/// several rasters are put on that of the speed: interpolated linearly, held for one tick of their own
+/// at the ends. Written are a CSV file with the model's outputs at every sample and an SVG plot; a trace
 /// that is refused leaves neither.
 ///
 /// A design file in TOML holds, in m and rad: pitch_radius or nominal_diameter, lead, ball_radius or
@@ -100,24 +112,29 @@ pub struct Arguments {
     /// uncaged, lin-3.3 linear]
     #[arg(long, value_name = "NAME|FILE.toml", required_unless_present_any = ["list", "manoeuvre"])]
     design: Option<DesignSource>,
-    /// Trace with the columns time, nut_speed, axial_load (linear: time, speed, normal_load, side_load)
+    /// Trace with the columns or channels time, nut_speed, axial_load (linear: time, speed, normal_load, side_load); - for standard input
     #[arg(
         long,
-        value_name = "TRACE.csv",
+        value_name = "TRACE.csv|TRACE.mf4",
         required_unless_present_any = ["list", "manoeuvre", "loads"],
         conflicts_with = "manoeuvre"
     )]
     input: Option<PathBuf>,
+    /// Which channel of a measurement file is which column, in TOML: nut_speed = "NAME", or with group, source and unit
+    /// nut_speed = { channel = "NAME", group = "GROUP", source = "SOURCE", unit = "rpm" }
+    #[arg(long, value_name = "MAPPING.toml", requires = "input")]
+    channels: Option<PathBuf>,
     /// Built-in trace of rack force and rack travel
     #[arg(long, value_enum)]
     manoeuvre: Option<Manoeuvre>,
     #[command(flatten)]
     loads: loads::LoadArguments,
-    /// Where the outputs go [default, with the plot: target/simulate/TRACE-DESIGN.csv; with --loads: stdout]
-    #[arg(long, value_name = "OUT.csv")]
+    /// Where the outputs go: a table, or a measurement file where it ends in .mf4; - for standard output [default, with the plot:
+    /// target/simulate/TRACE-DESIGN.csv; with --loads: stdout]
+    #[arg(long, value_name = "OUT.csv|OUT.mf4")]
     output: Option<PathBuf>,
-    /// Where the plot goes
-    #[arg(long, value_name = "OUT.svg")]
+    /// Where the plot goes: a picture, or a page in which to look closer
+    #[arg(long, value_name = "OUT.svg|OUT.html")]
     plot: Option<PathBuf>,
     /// Compute the float64 reference beside the model; uncaged, exactly without a name
     #[arg(
@@ -145,6 +162,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.list {
         return list();
     }
+    let design = arguments.design.as_ref().and_then(DesignSource::file);
+    refuse_shared([design, arguments.input.as_deref()])?;
     let existing = if arguments.force {
         Existing::Replace
     } else {
@@ -158,6 +177,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         )?;
         let loads = loads::Source {
             input: arguments.input.as_ref(),
+            channels: arguments.channels.as_deref(),
             manoeuvre: arguments.manoeuvre,
         };
         return loads::run(&source.load()?, &arguments.loads, loads, output, existing);
@@ -170,7 +190,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         return mechanism::run(
             &source.load()?,
             &arguments.mechanism,
-            input,
+            [Some(input), arguments.channels.as_deref()],
             [&arguments.output, &arguments.plot],
             existing,
         );
@@ -190,7 +210,11 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
 /// Runs one scene over its trace, and writes what is asked for.
 fn simulate<S: Scene>(scene: &S, arguments: &Arguments, existing: Existing) -> Result<(), Failure> {
     let trace = match (&arguments.input, arguments.manoeuvre) {
-        (Some(path), _) => trace::read(path)?,
+        (Some(path), _) => {
+            let channels = arguments.channels.as_deref();
+            let mapping = channels.map(Mapping::read).transpose()?;
+            trace::read(&Source(path), mapping.as_ref())?
+        }
         (None, Some(manoeuvre)) => scene.manoeuvre(manoeuvre)?,
         (None, None) => return Err(Failure::Data("there is no trace".into())),
     };
@@ -214,13 +238,13 @@ fn simulate<S: Scene>(scene: &S, arguments: &Arguments, existing: Existing) -> R
         .as_deref()
         .map(|path| {
             let mut pending = Pending::new(path, existing)?;
-            write_table::<S>(
-                pending.writer(),
-                arguments.reference.is_some(),
-                &rows,
-                &progress,
-            )
-            .map_err(|error| Failure::file("write", path, &error))?;
+            let columns = S::columns(arguments.reference.is_some());
+            let records = rows.iter().map(|row| {
+                progress.step();
+                S::record(row)
+            });
+            let group = format!("{} on {}", trace.name, scene.name());
+            write_table(pending.writer(), path, (&group, &columns), records)?;
             Ok::<_, Failure>(pending)
         })
         .transpose()?;
@@ -229,7 +253,7 @@ fn simulate<S: Scene>(scene: &S, arguments: &Arguments, existing: Existing) -> R
     let picture = plot
         .as_deref()
         .map(|path| {
-            let svg = scene.picture(&trace, &rows)?;
+            let svg = scene.picture(&trace, &rows, Form::of(path))?;
             let mut pending = Pending::new(path, existing)?;
             files::all(&mut pending, path, &svg)?;
             Ok::<_, Failure>(pending)
@@ -239,7 +263,7 @@ fn simulate<S: Scene>(scene: &S, arguments: &Arguments, existing: Existing) -> R
         pending.finish()?;
     }
 
-    let mut stdout = io::stdout().lock();
+    let mut stdout = files::told(output.iter().chain(&plot));
     scene.summary(&trace, &rows).print(&mut stdout)?;
     reference.print(&mut stdout)?;
     for path in output.iter().chain(&plot) {
@@ -248,20 +272,27 @@ fn simulate<S: Scene>(scene: &S, arguments: &Arguments, existing: Existing) -> R
     Ok(())
 }
 
-fn write_table<S: Scene>(
-    writer: &mut impl Write,
-    with_reference: bool,
-    rows: &[S::Row],
-    progress: &Progress,
-) -> Result<(), csv::Error> {
-    let mut table = csv::Writer::from_writer(writer);
-    table.write_record(S::columns(with_reference))?;
-    for row in rows {
-        table.write_record(S::record(row))?;
-        progress.step();
+/// Writes the rows of a table: as a measurement file where the path ends in .mf4, else as CSV.
+fn write_table(
+    writer: &mut (impl Write + Seek),
+    path: &Path,
+    (group, columns): (&str, &[&'static str]),
+    rows: impl Iterator<Item = Vec<String>>,
+) -> Result<(), Failure> {
+    if mdf4::named(path) {
+        let described = measurement::described(columns).map_err(Failure::Data)?;
+        return mdf4::write::write(writer, group, &described, rows)
+            .map_err(|message| Failure::file("write", path, &message));
     }
-    table.flush()?;
-    Ok(())
+    let failure = |error: csv::Error| Failure::file("write", path, &error);
+    let mut table = csv::Writer::from_writer(writer);
+    table.write_record(columns).map_err(failure)?;
+    for row in rows {
+        table.write_record(row).map_err(failure)?;
+    }
+    table
+        .flush()
+        .map_err(|error| Failure::file("write", path, &error))
 }
 
 /// Reads a trace; its number of samples.
@@ -269,15 +300,26 @@ pub fn accepts(text: &[u8]) -> Result<usize, String> {
     trace::samples::<ScrewSample>(Cursor::new(text)).map(|samples| samples.len())
 }
 
+/// Reads a measurement file; its number of samples.
+pub fn accepts_measurement(bytes: &[u8]) -> Result<usize, String> {
+    trace::measured::<ScrewSample>(bytes, None).map(|samples| samples.len())
+}
+
 fn list() -> Result<(), Failure> {
     let mut stdout = io::stdout().lock();
     for (name, parameters, loaded_balls) in designs::built_in() {
+        let design = name
+            .parse::<DesignSource>()
+            .map_err(Failure::Data)?
+            .load()?;
         write!(
             stdout,
-            "{name:14} pitch radius {:8.3} mm, lead {:5.1} mm, ball radius {:6.4} mm",
+            "{name:14} pitch radius {:8.3} mm, lead {:5.1} mm, ball radius {:6.4} mm, friction {:5.3}, clearance {:4.1} um",
             1e3 * parameters.pitch_radius,
             1e3 * parameters.lead,
             1e3 * parameters.ball_radius,
+            design.configuration.friction,
+            1e6 * design.configuration.clearance.gap(),
         )?;
         match loaded_balls {
             Some(balls) => writeln!(stdout, ", {balls} loaded balls")?,
@@ -294,5 +336,6 @@ fn list() -> Result<(), Failure> {
         "{name:14} linear bearing, ball radius {:6.4} mm, {balls} balls",
         1e3 * configuration.bearing.ball_radius(),
     )?;
+    writeln!(stdout, "{}", designs::SOURCES)?;
     Ok(())
 }

@@ -7,16 +7,19 @@
 //!   to go on;
 //! - **throughput**: the calls are independent, so that the processor works on several at once.
 //!
-//! Competitors take turns, one batch each in every round and in an order that moves on, so that
-//! whatever else the machine does hits all alike. In each round the time of an empty call over the same
-//! inputs is subtracted; what is reported are median and quartiles over the rounds, and the median of
-//! the ratios within each round.
+//! Competitors take turns, one batch each in every round and in an order that moves on, so that whatever else the machine does
+//! hits all alike. A batch is repeated until it is so long that reading the clock counts less than a hundredth of it. Right
+//! before it the empty call runs over the same inputs, right after it the unit: a chain of multiplications and additions that
+//! wait for each other. A machine that gets slower from one second to the next slows down all three. What is reported are
+//! medians and quartiles over the rounds: of the time less that of the empty call, and of that over the unit, round by round.
 
 mod competitors;
+mod feed;
 mod group;
 pub mod kernels;
+mod measure;
 mod race;
 mod trains;
 
 pub use competitors::{Competition, compete};
-pub use race::{Measure, Ratio};
+pub use measure::{Measure, Ratio, Spread};

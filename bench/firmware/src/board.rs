@@ -6,7 +6,8 @@
 use core::hint::black_box;
 use core::mem::MaybeUninit;
 
-use cortex_m::peripheral::DWT;
+use cortex_m::peripheral::scb::SystemHandler;
+use cortex_m::peripheral::{DWT, SCB};
 use cortex_m_semihosting::debug::{self, EXIT_FAILURE, EXIT_SUCCESS};
 use cortex_m_semihosting::hio::{HostStream, hstdout};
 
@@ -71,6 +72,12 @@ pub fn start_clock() {
 #[must_use]
 pub fn clock() -> u32 {
     DWT::cycle_count()
+}
+
+/// Gives `PendSV` the lowest priority, so that every other interrupt comes in the middle of it.
+pub fn give_pend_sv_the_lowest_priority(scb: &mut SCB) {
+    // SAFETY: no critical section here is made of priorities.
+    unsafe { scb.set_priority(SystemHandler::PendSV, 0xFF) };
 }
 
 /// Ends the program with the exit code 0, or 1.

@@ -10,6 +10,7 @@ pub mod contexts;
 pub mod control_loop;
 pub mod counted;
 pub mod devices;
+pub mod friction_task;
 pub mod inputs;
 pub mod numbers;
 pub mod peers;

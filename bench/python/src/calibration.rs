@@ -30,7 +30,7 @@ const FREQUENCIES: (f64, f64) = (1e-3, 1e6);
 const RATIOS: (f64, f64) = (0.01, 1000.0);
 
 /// Columns of a trace as the text of a CSV file, which the program reads and checks.
-fn text(py: Python<'_>, trace: &Bound<'_, PyAny>) -> PyResult<String> {
+pub fn text(py: Python<'_>, trace: &Bound<'_, PyAny>) -> PyResult<String> {
     use std::fmt::Write;
 
     let trace = &dict("trace", trace)?;
@@ -101,7 +101,7 @@ fn no_numbers(py: Python<'_>, name: &str) -> PyErr {
 }
 
 /// A column that an error of the program names.
-fn told(failure: Failure) -> Refused {
+pub fn told(failure: Failure) -> Refused {
     let refused = Refused::from(failure);
     match refused.said().split_once("column ") {
         Some((_, rest)) if !refused.has_field() => {
@@ -251,7 +251,7 @@ fn controller(py: Python<'_>, (gain_position, gain_speed): (f64, f64)) -> PyResu
 }
 
 /// A trace of a file's text.
-fn read(text: String, frame: Option<&Frame>) -> Result<Trace, Failure> {
+pub fn read(text: String, frame: Option<&Frame>) -> Result<Trace, Failure> {
     columns::from_reader(Cursor::new(text), "trace", frame)
 }
 

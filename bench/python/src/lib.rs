@@ -22,6 +22,7 @@ mod reference;
 mod results;
 mod runs;
 mod scenes;
+mod studies;
 
 use pyo3::prelude::*;
 
@@ -59,4 +60,6 @@ mod _native {
     use crate::scenes::remembering::CagedBallScrewWithMemory;
     #[pymodule_export]
     use crate::scenes::trains::{LinearBearingTrain, UncagedBallScrew};
+    #[pymodule_export]
+    use crate::studies::{design_figures, merge_sums, population, trace_sums};
 }

@@ -9,18 +9,17 @@
 //! plain position or speed is the nut's beside a torque, and the carriage's beside a force.
 
 use std::f64::consts::TAU;
-use std::fs::File;
 use std::io::{Read, Seek};
-use std::path::Path;
 
 use crate::failure::Failure;
-use crate::files::Bounded;
+use crate::mdf4::{self, Mapping};
+use crate::source::Source;
 
 use super::channels::{range, resolution, unwrap};
 use super::clock::Clock;
 use super::table::{self, Column, Table};
 use super::trace::{Coordinate, Trace};
-use super::units::{Dimension, Part, Quantity};
+use crate::units::{self, Dimension, Part, Quantity};
 
 /// Largest trace file, bytes: what twelve million samples of many columns need; a quoted field may span lines, and is
 /// held whole.
@@ -38,16 +37,66 @@ pub struct Frame {
     pub ratio: f64,
 }
 
-/// Reads a trace from a file.
+/// Reads a trace from a file: a table, or a measurement file with the channels of a mapping or those that have a column's name.
 ///
 /// # Errors
 /// A file that cannot be read, or what is wrong with it.
-pub fn read(path: &Path, frame: Option<&Frame>) -> Result<Trace, Failure> {
-    let file = File::open(path).map_err(|error| Failure::file("open", path, &error))?;
-    let name = path.file_stem().unwrap_or_default().to_string_lossy();
-    // What is no file, a pipe or a device, does not say its size and may never end.
-    from_reader(Bounded::new(file, LARGEST_FILE), &name, frame)
-        .map_err(|failure| failure.of(&path.display().to_string()))
+pub fn read(
+    source: &Source<'_>,
+    frame: Option<&Frame>,
+    channels: Option<&Mapping>,
+) -> Result<Trace, Failure> {
+    let input = source.open(LARGEST_FILE)?;
+    let name = source.name();
+    let trace = if input.measurement {
+        measured(input, &name, frame, channels)
+    } else {
+        source.without_channels(channels)?;
+        from_reader(input, &name, frame)
+    };
+    trace.map_err(|failure| failure.of(&source.shown()))
+}
+
+/// Reads a trace from a measurement file.
+///
+/// # Errors
+/// What is wrong with it.
+pub fn measured(
+    input: impl Read,
+    name: &str,
+    frame: Option<&Frame>,
+    channels: Option<&Mapping>,
+) -> Result<Trace, Failure> {
+    let wanted: Vec<mdf4::Wanted> = units::names()
+        .filter_map(|name| Some((name, units::quantity(name)?)))
+        // Of two names of a quantity the first, which messages use.
+        .filter(|(name, quantity)| {
+            *quantity != Quantity::Time
+                && units::names().find(|own| units::quantity(own) == Some(*quantity)) == Some(*name)
+        })
+        .map(|(name, quantity)| mdf4::Wanted {
+            name,
+            quantity,
+            refuses: None,
+        })
+        .collect();
+    let parts = [Part::Nut, Part::Motor, Part::Carriage, Part::Plain];
+    let master: Vec<Quantity> = parts
+        .map(Quantity::Position)
+        .into_iter()
+        .chain(parts.map(Quantity::Speed))
+        .collect();
+    let request = mdf4::Request {
+        wanted: &wanted,
+        master: &master,
+        mapping: channels,
+    };
+    let found = mdf4::read(input, &request).map_err(Failure::Data)?;
+    for note in &found.notes {
+        eprintln!("note: {name}: {note}");
+    }
+    let table = table::of_measurement(found).map_err(Failure::Data)?;
+    assemble(table, name, frame).map_err(Failure::Data)
 }
 
 /// Reads a trace.
@@ -78,9 +127,10 @@ fn assemble(mut table: Table, name: &str, frame: Option<&Frame>) -> Result<Trace
     let position = motion(&mut table, Quantity::Position);
     let speed = motion(&mut table, Quantity::Speed);
     let Some((_, part)) = position.as_ref().or(speed.as_ref()) else {
-        return Err(
-            "a column position or speed is missing (of nut_, motor_, carriage_ or plain)".into(),
-        );
+        return Err(absent(
+            "a column position or speed is missing (of nut_, motor_, carriage_ or plain)",
+            &table,
+        ));
     };
     let reference = take(&mut table, Quantity::ReferencePosition).map(|column| (column, *part));
     let [load, temperature] =
@@ -184,8 +234,22 @@ fn effort(table: &mut Table) -> Result<(Column, bool), String> {
             "columns {} and {}: give the effort once",
             torque.name, force.name
         )),
-        (None, None) => Err("column motor_torque or motor_force is missing".into()),
+        (None, None) => Err(absent(
+            "column motor_torque or motor_force is missing",
+            table,
+        )),
     }
+}
+
+/// What is missing, beside what is there.
+fn absent(missing: &str, table: &Table) -> String {
+    let known = table.columns.iter().map(|column| &column.name);
+    let all = known.chain(&table.ignored).map(String::as_str);
+    let names: Vec<&str> = all.take(12).collect();
+    if names.is_empty() {
+        return format!("{missing}; there are no other columns");
+    }
+    format!("{missing}; left are {}", names.join(", "))
 }
 
 /// The column that tells the motion best: the nut's, before the motor's, the carriage's and a plain one.

@@ -6,7 +6,7 @@ use super::answer::Calibration;
 use super::columns::{self, Frame};
 use super::controller::SeenController;
 use super::folder::{self, Folder, FolderArguments};
-use super::outputs::{Outcome, OutputArguments};
+use super::outputs::{Outcome, OutputArguments, folder_name};
 use super::screw::Request;
 use super::screw::choice::Wanted;
 use super::signals::{RowSettings, SmoothingSettings};
@@ -17,12 +17,17 @@ use super::without_design::{self, Filters};
 use crate::controller::Controller;
 use crate::designs::{Design, DesignSource};
 use crate::failure::Failure;
+use crate::files::refuse_shared;
+use crate::mdf4::{self, Mapping};
+use crate::source::Source;
 
 /// Fits a model to a measured trace, and says how sure it is and what the trace cannot tell.
 ///
-/// The trace is a CSV file with the columns time; position or speed (of the nut, or of motor_ or carriage_);
+/// The trace is a CSV file, or a measurement file (MDF 4, .mf4), with the columns or channels time; position or speed (of the nut, or of motor_ or carriage_);
 /// motor_torque or motor_force; and where there are any reference_position, axial_load, temperature. Units are SI (rad, m, N, N m, K);
-/// others stand in the column's name: nut_position_deg, motor_speed_rpm, axial_load_kN, temperature_C.
+/// others stand in the column's name: nut_position_deg, motor_speed_rpm, axial_load_kN, temperature_C, or in brackets behind it: Nut position [deg].
+/// A measurement file says the units itself; --channels names its channels where they have other names. All channels are put on the raster of
+/// the position, or of the speed where there is none.
 ///
 /// With a design the model is the one that firmware runs: friction coefficient by speed and temperature, preload, pre-sliding. Each
 /// parameter is estimated where the trace can tell it.
@@ -31,11 +36,14 @@ use crate::failure::Failure;
 /// friction are compared on what was not fitted: another trace (--validate), or the last third of this one. With --controller they are
 /// compared by the simulated closed loop.
 ///
-/// Of a folder every trace (*.csv) is fitted, and their parameters together; a run that was stopped goes on where it was.
+/// Of a folder every trace (*.csv, *.mf4) is fitted, and their parameters together; a run that was stopped goes on where it was.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// Measured trace, or a folder of them
-    #[arg(value_name = "TRACE.csv|FOLDER", required_unless_present = "wanted")]
+    /// Measured trace, or a folder of them; - for standard input
+    #[arg(
+        value_name = "TRACE.csv|TRACE.mf4|FOLDER",
+        required_unless_present = "wanted"
+    )]
     trace: Option<PathBuf>,
     /// Built-in design, or design file ending in .toml
     #[arg(long, value_name = "NAME|FILE.toml")]
@@ -71,8 +79,12 @@ pub struct Arguments {
     )]
     wanted: Option<String>,
     /// Trace that is not fitted, by which models are scored
-    #[arg(long, value_name = "OTHER.csv")]
+    #[arg(long, value_name = "OTHER.csv|OTHER.mf4")]
     validate: Option<PathBuf>,
+    /// Which channel of a measurement file is which column, in TOML: nut_speed = "NAME", or with group, source and unit
+    /// nut_speed = { channel = "NAME", group = "GROUP", source = "SOURCE", unit = "rpm" }
+    #[arg(long, value_name = "MAPPING.toml")]
+    channels: Option<PathBuf>,
     /// Controller of the trace: force = V (P (reference_position - position) - speed); where it has its speed from is found
     #[arg(
         long,
@@ -123,6 +135,12 @@ fn setting(text: &str) -> Result<(String, f64), String> {
 
 /// Calibrates a trace, or the traces of a folder.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let file = arguments.design.as_ref().and_then(DesignSource::file);
+    refuse_shared([
+        file,
+        arguments.trace.as_deref(),
+        arguments.validate.as_deref(),
+    ])?;
     let design = arguments
         .design
         .as_ref()
@@ -135,12 +153,18 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         return Err(Failure::Data("there is no trace".into()));
     };
     arguments.outputs.check(trace, arguments.design.as_ref())?;
+    let mapping = arguments
+        .channels
+        .as_deref()
+        .map(Mapping::read)
+        .transpose()?;
+    let mapping = mapping.as_ref();
     if trace.is_dir() || !arguments.folder.merge.is_empty() {
-        return whole_folder(arguments, trace, design.as_ref());
+        return whole_folder(arguments, trace, design.as_ref(), mapping);
     }
     match &design {
-        Some(design) => with_design(arguments, trace, design),
-        None => free(arguments, trace),
+        Some(design) => with_design(arguments, trace, design, mapping),
+        None => free(arguments, trace, mapping),
     }
 }
 
@@ -182,9 +206,14 @@ impl Arguments {
 }
 
 /// A trace of a screw whose design is known.
-fn with_design(arguments: &Arguments, trace: &Path, design: &Design) -> Result<(), Failure> {
+fn with_design(
+    arguments: &Arguments,
+    trace: &Path,
+    design: &Design,
+    mapping: Option<&Mapping>,
+) -> Result<(), Failure> {
     let frame = arguments.frame(design);
-    let trace = columns::read(trace, Some(&frame))?;
+    let trace = columns::read(&Source(trace), Some(&frame), mapping)?;
     let found = with_design::told(&trace, design, &arguments.request())?;
     arguments.outputs.write(Outcome {
         calibration: &found.answer,
@@ -195,12 +224,12 @@ fn with_design(arguments: &Arguments, trace: &Path, design: &Design) -> Result<(
 }
 
 /// A trace without a design.
-fn free(arguments: &Arguments, trace: &Path) -> Result<(), Failure> {
-    let trace = columns::read(trace, None)?;
+fn free(arguments: &Arguments, trace: &Path, mapping: Option<&Mapping>) -> Result<(), Failure> {
+    let trace = columns::read(&Source(trace), None, mapping)?;
     let unseen = arguments
         .validate
         .as_deref()
-        .map(|path| columns::read(path, None))
+        .map(|path| columns::read(&Source(path), None, mapping.filter(|_| mdf4::named(path))))
         .transpose()?;
     let told = without_design::calibrate(
         &trace,
@@ -233,13 +262,11 @@ fn whole_folder(
     arguments: &Arguments,
     traces: &Path,
     design: Option<&Design>,
+    mapping: Option<&Mapping>,
 ) -> Result<(), Failure> {
-    let name = traces.file_name().map_or_else(
-        || "folder".into(),
-        |name| name.to_string_lossy().into_owned(),
-    );
+    let name = folder_name(traces);
     let output = arguments.outputs.folder(&name);
-    let settings = format!(
+    let mut settings = format!(
         "{:?} {:?} {:?} {:?} {:?}",
         design.map(|design| (&design.configuration, &design.calibrated)),
         arguments.ratio,
@@ -247,6 +274,9 @@ fn whole_folder(
         arguments.fix,
         arguments.filters(),
     );
+    if let Some(mapping) = mapping {
+        settings.extend([" ", &format!("{mapping:?}")]);
+    }
     let folder = Folder {
         traces,
         output: &output,
@@ -254,19 +284,22 @@ fn whole_folder(
         settings: &settings,
         json: arguments.outputs.json,
     };
-    folder::run(&folder, |path| one(arguments, design, path))
+    folder::run(&folder, |path| one(arguments, design, mapping, path))
 }
 
 /// One trace of a folder.
 fn one(
     arguments: &Arguments,
     design: Option<&Design>,
+    mapping: Option<&Mapping>,
     path: &Path,
 ) -> Result<(Calibration, Sums), Failure> {
+    // A folder may hold tables beside measurement files.
+    let mapping = mapping.filter(|_| mdf4::named(path));
     let Some(design) = design else {
-        let trace = columns::read(path, None)?;
+        let trace = columns::read(&Source(path), None, mapping)?;
         return without_design::plain(&trace, &arguments.filters());
     };
-    let trace = columns::read(path, Some(&arguments.frame(design)))?;
+    let trace = columns::read(&Source(path), Some(&arguments.frame(design)), mapping)?;
     with_design::summed(&trace, design, &arguments.request())
 }

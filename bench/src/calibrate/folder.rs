@@ -88,6 +88,7 @@ pub fn run(
     fit: impl Fn(&Path) -> Result<(Calibration, Sums), Failure> + Sync,
 ) -> Result<(), Failure> {
     let together = answer(folder, &fit)?;
+    crate::folder::mark(folder.output)?;
     let document = page::document(&together);
     document.write(folder.output)?;
     if folder.json {
@@ -119,18 +120,20 @@ fn fitted(
     fit: &(impl Fn(&Path) -> Result<(Calibration, Sums), Failure> + Sync),
 ) -> Result<Vec<Stored>, Failure> {
     let part = folder.arguments.part.unwrap_or(Part { index: 0, count: 1 });
-    let traces: Vec<PathBuf> = store::list(folder.traces, "csv")?
+    let traces: Vec<PathBuf> = store::list(folder.traces, &["csv", "mf4"])?
         .into_iter()
         .skip(part.index)
         .step_by(part.count)
         .collect();
     if traces.is_empty() {
         return Err(Failure::Data(format!(
-            "{}: no trace (a file ending in .csv){}",
+            "{}: no trace (a file ending in .csv or .mf4){}",
             folder.traces.display(),
             if part.count > 1 { " in this part" } else { "" }
         )));
     }
+    // Answers are written one by one, and a run that is stopped here goes on.
+    crate::folder::mark(folder.output)?;
     let settings = crc32fast::hash(folder.settings.as_bytes());
     let progress = Progress::new("traces", traces.len());
     traces

@@ -69,10 +69,7 @@ pub fn document(calibration: &Calibration, picture: &Picture) -> Document {
     if !picture.correlations.names.is_empty() {
         sections.push(correlations(picture));
     }
-    Document {
-        title: format!("Calibration: {}", picture.name),
-        sections,
-    }
+    Document::of(format!("Calibration: {}", picture.name), sections)
 }
 
 /// Parameters, and what the trace cannot tell.
@@ -247,7 +244,7 @@ fn residual(picture: &Picture, words: &Words) -> Section {
         .iter()
         .map(|(name, values)| {
             let series = vec![
-                Series::new("rows", 5, Mark::Circles, cloud(values, &residual)),
+                Series::new("rows", 5, Mark::Dots, cloud(values, &residual)),
                 Series::new("mean of a group", 1, Mark::Line, groups(values, &residual)),
             ];
             chart("", name, &label, series)

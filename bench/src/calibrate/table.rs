@@ -1,12 +1,13 @@
-//! The table of a CSV file: which column holds what, and its numbers in SI units.
+//! The table of a CSV file or a measurement file: which column holds what, and its numbers in SI units.
 
 use std::io::{Read, Seek};
 
 use csv::{ByteRecord, ErrorKind, Reader, ReaderBuilder, Trim};
 
 use crate::files::line_of;
-
-use super::units::{Quantity, Unit, column};
+use crate::headings;
+use crate::mdf4;
+use crate::units::{Quantity, Unit, cut, heading};
 
 /// Most samples: more than three hours at 1 kHz, and less than fills a memory.
 pub const MOST_SAMPLES: usize = 12_000_000;
@@ -73,6 +74,44 @@ pub fn read(input: impl Read + Seek) -> Result<Table, String> {
     })
 }
 
+/// The table of a measurement file, with the checks of [`read`].
+///
+/// # Errors
+/// Too many samples.
+pub fn of_measurement(found: mdf4::Table) -> Result<Table, String> {
+    if found.times.len() > MOST_SAMPLES {
+        return Err(format!(
+            "a trace has at most {MOST_SAMPLES} samples; cut it"
+        ));
+    }
+    // A sample at the time of the one before is dropped, as of a CSV file.
+    let first = |sample: &usize| {
+        let before = sample
+            .checked_sub(1)
+            .and_then(|before| found.times.get(before));
+        before != found.times.get(*sample)
+    };
+    let kept: Vec<usize> = (0..found.times.len()).filter(first).collect();
+    let at = |values: &[f64]| -> Vec<f64> {
+        kept.iter()
+            .filter_map(|sample| values.get(*sample).copied())
+            .collect()
+    };
+    let columns = found.columns.iter().map(|column| Column {
+        name: column.name.clone(),
+        quantity: column.quantity,
+        unit: column.unit,
+        values: at(&column.values),
+        place: 0,
+    });
+    Ok(Table {
+        times: at(&found.times),
+        columns: columns.collect(),
+        repeated: found.times.len() - kept.len(),
+        ignored: found.ignored,
+    })
+}
+
 /// What the CSV reader found.
 fn message(error: &csv::Error) -> String {
     match error.kind() {
@@ -99,12 +138,7 @@ fn header(reader: &mut Reader<impl Read>) -> Result<Growing, String> {
     if header.len() > MOST_COLUMNS {
         return Err(format!("{} columns: at most {MOST_COLUMNS}", header.len()));
     }
-    if let Some(name) = header.iter().find(|name| name.contains([';', '\t'])) {
-        let shown: String = name.chars().take(40).collect();
-        return Err(format!(
-            "columns are separated by commas, and numbers have a decimal point; here stands {shown:?}"
-        ));
-    }
+    headings::separated(header)?;
     let mut table = Growing {
         columns: Vec::new(),
         ignored: Vec::new(),
@@ -113,8 +147,8 @@ fn header(reader: &mut Reader<impl Read>) -> Result<Growing, String> {
     for (place, name) in header.iter().enumerate() {
         // A spreadsheet may put a byte-order mark before the first name.
         let name = name.trim_start_matches('\u{feff}');
-        let Some((quantity, unit)) = column(name)? else {
-            table.ignored.push(name.chars().take(40).collect());
+        let Some((quantity, unit)) = heading(name)? else {
+            table.ignored.push(cut(name));
             continue;
         };
         if let Some(other) = table
@@ -139,7 +173,7 @@ fn header(reader: &mut Reader<impl Read>) -> Result<Growing, String> {
         .columns
         .iter()
         .position(|column| column.quantity == Quantity::Time)
-        .ok_or("column time is missing")?;
+        .ok_or_else(|| headings::missing("time", header))?;
     table.columns.swap(0, time);
     Ok(table)
 }
@@ -152,7 +186,7 @@ impl Growing {
                 continue;
             };
             let value = number(record.get(column.place).unwrap_or_default(), &column.name)?;
-            let value = value * column.unit.factor + column.unit.offset;
+            let value = column.unit.si(value);
             if place == 0 {
                 match column.values.last() {
                     Some(last) if value < *last => {
@@ -185,7 +219,7 @@ fn number(text: &[u8], column: &str) -> Result<f64, String> {
     let value: f64 = std::str::from_utf8(text)
         .ok()
         .and_then(|text| text.parse().ok())
-        .ok_or_else(|| fault("is no number"))?;
+        .ok_or_else(|| fault(headings::no_number(text)))?;
     if !value.is_finite() {
         return Err(fault("is not finite"));
     }

@@ -1,4 +1,4 @@
-//! Lines, points and areas over two axes, with the legend above.
+//! Series over two axes, with title, legend and texts beside points.
 
 use std::error::Error;
 use std::ops::Range;
@@ -7,58 +7,13 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
+use super::legend;
+use super::notes::{Ground, Placed, Rect, place};
 use super::scale::Axis;
+use super::series::{Axes, Series};
 use super::style::{
-    FONT, LABEL_SIZE, LINE_HEIGHT, PALETTE, STROKE, TEXT, TICK_SIZE, TITLE_SIZE, px, text_width,
+    FONT, LABEL_SIZE, LINE_HEIGHT, TEXT, TICK_SIZE, TITLE_SIZE, lines, px, text_width,
 };
-
-/// How a series is drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Mark {
-    /// A line.
-    Line,
-    /// A dashed line.
-    Dashed,
-    /// Round points.
-    Circles,
-    /// Crosses.
-    Crosses,
-    /// Triangles.
-    Triangles,
-    /// A line with the area down to the lower edge shaded.
-    ShadedBelow,
-    /// A line with the area up to the upper edge shaded.
-    ShadedAbove,
-}
-
-/// One quantity of a chart.
-#[derive(Clone, Debug)]
-pub struct Series {
-    /// Entry of the legend; none where empty.
-    pub name: String,
-    /// Index into the palette.
-    pub colour: usize,
-    /// How it is drawn.
-    pub mark: Mark,
-    /// Its points; those that are not finite interrupt a line.
-    pub points: Vec<(f64, f64)>,
-}
-
-impl Series {
-    /// A series.
-    pub fn new(name: &str, colour: usize, mark: Mark, points: Vec<(f64, f64)>) -> Self {
-        Self {
-            name: name.into(),
-            colour,
-            mark,
-            points,
-        }
-    }
-
-    fn rgb(&self) -> RGBColor {
-        PALETTE[self.colour % PALETTE.len()]
-    }
-}
 
 /// A chart.
 #[derive(Clone, Debug)]
@@ -82,25 +37,46 @@ pub struct Note {
     pub at: (f64, f64),
     /// What it is.
     pub text: String,
-    /// Whether it stands on the left of the point.
-    pub left: bool,
 }
 
-type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-type Drawn = Result<(), Box<dyn Error>>;
+pub type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+pub type Drawn = Result<(), Box<dyn Error>>;
 
-/// Draws a title in the first line of an area.
-pub fn draw_title(area: &Area<'_>, title: &str) -> Drawn {
-    let (width, _) = area.dim_in_pixel();
+/// Height of the numbers and the label below a horizontal axis.
+const X_LABELS: i32 = px(48);
+/// Width of the numbers and the label beside a vertical axis.
+const Y_LABELS: i32 = px(84);
+/// Width of the numbers alone, where the label stands above.
+const Y_NUMBERS: i32 = px(60);
+/// Room for one number along a horizontal axis.
+const X_ROOM: i32 = px(58);
+/// Room for one number along a vertical axis.
+const Y_ROOM: i32 = px(30);
+
+/// Draws a title in the first lines of an area; the height that it takes.
+pub fn draw_title(area: &Area<'_>, title: &str) -> Result<i32, Box<dyn Error>> {
+    let width = area.dim_in_pixel().0 as i32;
     let style = TextStyle::from((FONT, TITLE_SIZE).into_font())
         .color(&TEXT)
         .pos(Pos::new(HPos::Center, VPos::Top));
-    area.draw(&Text::new(
-        title.to_owned(),
-        (width as i32 / 2, px(6)),
-        style,
-    ))?;
-    Ok(())
+    let lines = lines(title, TITLE_SIZE, width - px(12));
+    for (index, line) in lines.iter().enumerate() {
+        let top = px(6) + LINE_HEIGHT * index as i32;
+        area.draw(&Text::new(line.clone(), (width / 2, top), style.clone()))?;
+    }
+    Ok(LINE_HEIGHT * lines.len() as i32)
+}
+
+/// Draws lines of text at the left from `top` on; the height that they take.
+pub fn draw_lines(area: &Area<'_>, text: &str, top: i32) -> Result<i32, Box<dyn Error>> {
+    let width = area.dim_in_pixel().0 as i32;
+    let style = label_style().pos(Pos::new(HPos::Left, VPos::Top));
+    let lines = lines(text, LABEL_SIZE, width - px(20));
+    for (index, line) in lines.iter().enumerate() {
+        let place = (px(10), top + LINE_HEIGHT * index as i32);
+        area.draw(&Text::new(line.clone(), place, style.clone()))?;
+    }
+    Ok(LINE_HEIGHT * lines.len() as i32)
 }
 
 /// Style of the numbers along an axis.
@@ -113,112 +89,63 @@ pub fn label_style() -> TextStyle<'static> {
     TextStyle::from((FONT, LABEL_SIZE).into_font()).color(&TEXT)
 }
 
+/// How many numbers an axis of this length has room for.
+pub fn room(length: i32, each: i32) -> usize {
+    (length / each).max(2) as usize
+}
+
 impl Chart {
     /// Draws the chart into its area.
     pub fn draw(&self, area: &Area<'_>) -> Drawn {
-        let legend = self.legend_lines(area.dim_in_pixel().0 as i32);
-        let title_lines = i32::from(!self.title.is_empty());
-        let header = px(8) + LINE_HEIGHT * (title_lines + legend.len() as i32);
-        if title_lines > 0 {
-            draw_title(area, &self.title)?;
+        let (width, height) = area.dim_in_pixel();
+        let (width, height) = (width as i32, height as i32);
+        let legend = legend::lines_of(&self.series, width);
+        let mut header = draw_title(area, &self.title)?;
+        legend::draw(area, &legend, px(4) + header)?;
+        header += px(8) + LINE_HEIGHT * legend.len() as i32;
+        // A label that is longer than its axis stands above it.
+        let left = height - header - X_LABELS - px(12);
+        let above = text_width(&self.y.label, LABEL_SIZE) > left;
+        if above {
+            header += draw_lines(area, &self.y.label, header)?;
         }
-        draw_legend(area, &legend, px(4) + LINE_HEIGHT * title_lines)?;
 
         let (_, body) = area.split_vertically(header);
         let x = self.x.range(self.points().map(|(x, _)| x));
         let y = self.y.range(self.points().map(|(_, y)| y));
+        // Charts below each other keep their edges in line where there is room.
+        let narrow = above && width < px(500);
+        let side = if narrow { Y_NUMBERS } else { Y_LABELS };
         let mut context = ChartBuilder::on(&body)
             .margin(px(6))
             .margin_right(px(22))
-            .x_label_area_size(px(48))
-            .y_label_area_size(px(74))
+            .x_label_area_size(X_LABELS)
+            .y_label_area_size(side)
             .build_cartesian_2d(x.clone(), y.clone())?;
-        context
-            .configure_mesh()
-            .x_labels(self.x.labels(&x))
-            .y_labels(self.y.labels(&y))
-            .x_label_formatter(&|place| self.x.text(*place, &x))
-            .y_label_formatter(&|place| self.y.text(*place, &y))
+        let mut mesh = context.configure_mesh();
+        let (across, up) = (room(width - side, X_ROOM), room(left, Y_ROOM));
+        let x_text = |place: &f64| self.x.text(*place, &x);
+        let y_text = |place: &f64| self.y.text(*place, &y);
+        mesh.x_labels(self.x.labels(&x).min(across))
+            .y_labels(self.y.labels(&y).min(up))
+            .x_label_formatter(&x_text)
+            .y_label_formatter(&y_text)
             .x_desc(self.x.label.as_str())
-            .y_desc(self.y.label.as_str())
             .label_style(tick_style())
             .axis_desc_style(label_style())
             .axis_style(RGBColor(120, 120, 120).stroke_width(px(1).unsigned_abs()))
             .bold_line_style(RGBColor(222, 222, 222).stroke_width(px(1).unsigned_abs()))
             .set_all_tick_mark_size(px(4))
-            .light_line_style(TRANSPARENT)
-            .draw()?;
+            .light_line_style(TRANSPARENT);
+        if !above {
+            mesh.y_desc(self.y.label.as_str());
+        }
+        mesh.draw()?;
 
         for series in &self.series {
-            let colour = series.rgb();
-            let line = colour.stroke_width(STROKE);
-            let places = || {
-                series
-                    .points
-                    .iter()
-                    .map(|&(at_x, at_y)| Some((self.x.place(at_x)?, self.y.place(at_y)?)))
-            };
-            let visible = || {
-                places().flatten().filter(|(at_x, at_y)| {
-                    (x.start..=x.end).contains(at_x) && (y.start..=y.end).contains(at_y)
-                })
-            };
-            match series.mark {
-                Mark::Circles => {
-                    context.draw_series(
-                        visible().map(|point| Circle::new(point, px(5), colour.filled())),
-                    )?;
-                }
-                Mark::Crosses => {
-                    context.draw_series(visible().map(|point| Cross::new(point, px(5), line)))?;
-                }
-                Mark::Triangles => {
-                    context.draw_series(
-                        visible().map(|point| TriangleMarker::new(point, px(7), colour.filled())),
-                    )?;
-                }
-                Mark::Line | Mark::Dashed | Mark::ShadedBelow | Mark::ShadedAbove => {
-                    for piece in pieces(places(), &y) {
-                        if matches!(series.mark, Mark::ShadedBelow | Mark::ShadedAbove) {
-                            let base = if series.mark == Mark::ShadedBelow {
-                                y.start
-                            } else {
-                                y.end
-                            };
-                            context.draw_series(AreaSeries::new(
-                                piece.clone(),
-                                base,
-                                colour.mix(0.22),
-                            ))?;
-                        }
-                        if series.mark == Mark::Dashed {
-                            context.draw_series(DashedLineSeries::new(
-                                piece,
-                                px(7).unsigned_abs(),
-                                px(5).unsigned_abs(),
-                                line,
-                            ))?;
-                        } else {
-                            context.draw_series(LineSeries::new(piece, line))?;
-                        }
-                    }
-                }
-            }
+            series.draw(&mut context, (&self.x, &self.y), (&x, &y))?;
         }
-        for Note { at, text, left } in &self.notes {
-            if let (Some(x), Some(y)) = (self.x.place(at.0), self.y.place(at.1)) {
-                let (side, distance) = if *left {
-                    (HPos::Right, px(-10))
-                } else {
-                    (HPos::Left, px(10))
-                };
-                let style = tick_style().pos(Pos::new(side, VPos::Center));
-                context.draw_series([
-                    EmptyElement::at((x, y)) + Text::new(text.clone(), (distance, 0), style)
-                ])?;
-            }
-        }
-        Ok(())
+        self.draw_notes(&context, area, &x, &y)
     }
 
     fn points(&self) -> impl Iterator<Item = (f64, f64)> {
@@ -227,134 +154,78 @@ impl Chart {
             .flat_map(|series| series.points.iter().copied())
     }
 
-    /// The legend's entries, with their places, broken into lines that fit.
-    fn legend_lines(&self, width: i32) -> Vec<Vec<(i32, &Series)>> {
-        const START: i32 = px(84);
-        const SAMPLE: i32 = px(34);
-        let mut lines: Vec<Vec<(i32, &Series)>> = Vec::new();
-        let mut place = i32::MAX;
-        for series in self.series.iter().filter(|series| !series.name.is_empty()) {
-            let entry = SAMPLE + text_width(&series.name, TICK_SIZE) + px(16);
-            if place.saturating_add(entry) > width {
-                lines.push(Vec::new());
-                place = START;
-            }
-            if let Some(line) = lines.last_mut() {
-                line.push((place, series));
-            }
-            place += entry;
+    /// Texts beside points, where there is room for them.
+    fn draw_notes(
+        &self,
+        context: &Axes<'_, '_>,
+        area: &Area<'_>,
+        x: &Range<f64>,
+        y: &Range<f64>,
+    ) -> Drawn {
+        if self.notes.is_empty() {
+            return Ok(());
         }
-        lines
+        // Places count from the whole picture, those of texts from the area.
+        let (origin_x, origin_y) = area.get_base_pixel();
+        let pixel = |&(at_x, at_y): &(f64, f64)| {
+            let (at_x, at_y) = (self.x.place(at_x)?, self.y.place(at_y)?);
+            let inside = (x.start..=x.end).contains(&at_x) && (y.start..=y.end).contains(&at_y);
+            let (at_x, at_y) = context.backend_coord(&(at_x, at_y));
+            inside.then_some((at_x - origin_x, at_y - origin_y))
+        };
+        let notes: Vec<_> = self
+            .notes
+            .iter()
+            .filter_map(|note| Some((pixel(&note.at)?, note.text.as_str())))
+            .collect();
+        let (lines, points): (Vec<&Series>, Vec<&Series>) =
+            self.series.iter().partition(|series| series.is_line());
+        let pixels =
+            |series: &Series| -> Vec<_> { series.points.iter().filter_map(pixel).collect() };
+        let range = context.plotting_area().get_pixel_range();
+        let ground = Ground {
+            area: Rect {
+                left: range.0.start - origin_x,
+                top: range.1.start - origin_y,
+                right: range.0.end - origin_x,
+                bottom: range.1.end - origin_y,
+            },
+            points: &points.into_iter().flat_map(pixels).collect::<Vec<_>>(),
+            lines: &lines.into_iter().map(pixels).collect::<Vec<_>>(),
+        };
+        let places = place(&notes, &ground);
+        for ((point, text), placed) in notes.iter().zip(places) {
+            if let Some(placed) = placed {
+                draw_note(area, *point, text, &placed)?;
+            }
+        }
+        Ok(())
     }
 }
 
-/// Draws the legend's lines from `top` on.
-fn draw_legend(area: &Area<'_>, lines: &[Vec<(i32, &Series)>], top: i32) -> Drawn {
-    for (index, line) in lines.iter().enumerate() {
-        let middle = top + LINE_HEIGHT * index as i32 + LINE_HEIGHT / 2;
-        for &(place, series) in line {
-            let colour = series.rgb();
-            let stroke = colour.stroke_width(STROKE);
-            let centre = (place + px(13), middle);
-            match series.mark {
-                Mark::Line => area.draw(&PathElement::new(
-                    vec![(place, middle), (place + px(26), middle)],
-                    stroke,
-                ))?,
-                Mark::Dashed => {
-                    for start in [place, place + px(10), place + px(20)] {
-                        area.draw(&PathElement::new(
-                            vec![(start, middle), (start + px(6), middle)],
-                            stroke,
-                        ))?;
-                    }
-                }
-                Mark::Circles => area.draw(&Circle::new(centre, px(5), colour.filled()))?,
-                Mark::Crosses => area.draw(&Cross::new(centre, px(5), stroke))?,
-                Mark::Triangles => {
-                    area.draw(&TriangleMarker::new(centre, px(7), colour.filled()))?;
-                }
-                Mark::ShadedBelow | Mark::ShadedAbove => area.draw(&Rectangle::new(
-                    [(place, middle - px(6)), (place + px(26), middle + px(6))],
-                    colour.mix(0.4).filled(),
-                ))?,
-            }
-            let style = tick_style().pos(Pos::new(HPos::Left, VPos::Center));
-            area.draw(&Text::new(
-                series.name.clone(),
-                (place + px(34), middle),
-                style,
-            ))?;
-        }
+/// Draws one text, with a line to its point where that is not right beside it.
+fn draw_note(area: &Area<'_>, point: (i32, i32), text: &str, placed: &Placed) -> Drawn {
+    let Rect {
+        left,
+        top,
+        right,
+        bottom,
+    } = placed.place;
+    if placed.leads {
+        let nearest = (point.0.clamp(left, right), point.1.clamp(top, bottom));
+        let thin = RGBColor(120, 120, 120).stroke_width(px(1).unsigned_abs());
+        area.draw(&PathElement::new(vec![point, nearest], thin))?;
     }
+    // The end towards the point is exact; the width of the text is an estimate.
+    let (side, x) = if left > point.0 {
+        (HPos::Left, left)
+    } else if right < point.0 {
+        (HPos::Right, right)
+    } else {
+        (HPos::Center, i32::midpoint(left, right))
+    };
+    let style = tick_style().pos(Pos::new(side, VPos::Center));
+    let place = (x, i32::midpoint(top, bottom));
+    area.draw(&Text::new(text.to_owned(), place, style))?;
     Ok(())
-}
-
-/// Cuts a line where it is interrupted or leaves the axis, so that nothing is drawn outside.
-fn pieces(
-    points: impl Iterator<Item = Option<(f64, f64)>>,
-    range: &Range<f64>,
-) -> Vec<Vec<(f64, f64)>> {
-    let inside = |y: f64| (range.start..=range.end).contains(&y);
-    let mut pieces = vec![Vec::new()];
-    let mut last: Option<(f64, f64)> = None;
-    for point in points {
-        match (last, point) {
-            (Some(from), Some(to)) => {
-                // Where the segment crosses an edge of the axis, between its ends.
-                let mut cuts: Vec<_> = [range.start, range.end]
-                    .into_iter()
-                    .map(|edge| ((edge - from.1) / (to.1 - from.1), edge))
-                    .filter(|(share, _)| *share > 0.0 && *share < 1.0)
-                    .collect();
-                cuts.sort_by(|one, other| one.0.total_cmp(&other.0));
-                for (share, edge) in cuts {
-                    push(&mut pieces, (from.0 + share * (to.0 - from.0), edge));
-                    // A segment that leaves ends its piece; one that enters began a new one.
-                    if inside(from.1) && !inside(to.1) {
-                        pieces.push(Vec::new());
-                    }
-                }
-                if inside(to.1) {
-                    push(&mut pieces, to);
-                } else if !pieces.last().is_some_and(Vec::is_empty) && !inside(from.1) {
-                    pieces.push(Vec::new());
-                }
-            }
-            (None, Some(to)) if inside(to.1) => push(&mut pieces, to),
-            (_, None) => pieces.push(Vec::new()),
-            (None, Some(_)) => {}
-        }
-        last = point;
-    }
-    pieces.retain(|piece| piece.len() > 1);
-    pieces
-}
-
-fn push(pieces: &mut [Vec<(f64, f64)>], point: (f64, f64)) {
-    if let Some(piece) = pieces.last_mut() {
-        piece.push(point);
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_line_is_cut_at_the_edges_and_at_gaps() {
-        let points = [(0.0, 0.0), (1.0, 2.0), (2.0, 0.0), (3.0, 0.5)].map(Some);
-        assert_eq!(
-            pieces(points.into_iter(), &(0.0..1.0)),
-            vec![
-                vec![(0.0, 0.0), (0.5, 1.0)],
-                vec![(1.5, 1.0), (2.0, 0.0), (3.0, 0.5)]
-            ]
-        );
-        let through = [Some((0.0, -1.0)), Some((3.0, 2.0)), None, Some((4.0, 0.5))];
-        assert_eq!(
-            pieces(through.into_iter(), &(0.0..1.0)),
-            vec![vec![(1.0, 0.0), (2.0, 1.0)]]
-        );
-    }
 }

@@ -6,9 +6,9 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::chart::{draw_title, label_style, tick_style};
+use super::chart::{draw_lines, draw_title, label_style, room, tick_style};
 use super::scale::Axis;
-use super::style::{LINE_HEIGHT, px};
+use super::style::{LABEL_SIZE, TICK_SIZE, px, text_width};
 
 /// Values on a grid of cells, in bands between the given bounds.
 #[derive(Clone, Debug)]
@@ -77,6 +77,22 @@ fn colour(colours: Colours, share: f64) -> RGBColor {
     RGBColor(mix(low.0, high.0), mix(low.1, high.1), mix(low.2, high.2))
 }
 
+impl Colours {
+    /// By the bounds of the bands: with a sign where some lie below zero and some above.
+    pub fn of<'a>(bounds: impl IntoIterator<Item = &'a f64>) -> Self {
+        let (below, above) = bounds
+            .into_iter()
+            .fold((false, false), |(below, above), bound| {
+                (below || *bound < 0.0, above || *bound > 0.0)
+            });
+        if below && above {
+            Self::Diverging
+        } else {
+            Self::Sequential
+        }
+    }
+}
+
 impl ColourMap {
     /// Centre and value of every cell.
     pub fn cells(&self) -> impl Iterator<Item = (f64, f64, f64)> + '_ {
@@ -110,38 +126,87 @@ impl ColourMap {
     }
 
     fn band_colour(&self, band: usize) -> RGBColor {
-        colour(self.colours, band as f64 / self.bounds.len().max(1) as f64)
+        let last = self.bounds.len().max(1) as f64;
+        let place = band as f64;
+        if self.colours == Colours::Sequential {
+            return colour(self.colours, place / last);
+        }
+        // White is at zero, wherever that is among the bounds: between two bands, or in the middle of one.
+        let below = |bound: &&(f64, String)| bound.0 < 0.0;
+        let at_zero = self.bounds.iter().any(|(bound, _)| *bound == 0.0);
+        let half = if at_zero { 0.5 } else { 0.0 };
+        let zero = self.bounds.iter().filter(below).count() as f64 + half;
+        let share = if place < zero {
+            0.5 * place / zero
+        } else {
+            0.5 + 0.5 * (place - zero) / (last - zero).max(1e-9)
+        };
+        colour(self.colours, share)
+    }
+
+    /// This map with every second cell each way where it has many, for a small picture.
+    pub fn coarser(&self) -> Self {
+        const MANY: usize = 60;
+        let stride = |count: usize| count.div_ceil(MANY).max(1);
+        let rows = self.values.iter().step_by(stride(self.values.len()));
+        Self {
+            values: rows
+                .map(|row| row.iter().step_by(stride(row.len())).copied().collect())
+                .collect(),
+            ..self.clone()
+        }
     }
 
     /// Draws the map into its area, its bands in a column at the right.
     pub fn draw(&self, area: &DrawingArea<SVGBackend<'_>, Shift>) -> Result<(), Box<dyn Error>> {
-        const KEY_WIDTH: i32 = px(92);
-        draw_title(area, &self.title)?;
-        let (_, body) = area.split_vertically(px(8) + LINE_HEIGHT);
+        let mut header = draw_title(area, &self.title)? + px(8);
+        header += draw_lines(area, &format!("colour: {}", self.quantity), header)?;
+        // A label that is longer than its axis stands above it.
+        let axis = area.dim_in_pixel().1 as i32 - header - px(66);
+        let above = text_width(&self.y.label, LABEL_SIZE) > axis;
+        if above {
+            header += draw_lines(area, &format!("upwards: {}", self.y.label), header)?;
+        }
+        let (_, body) = area.split_vertically(header);
         let (width, height) = body.dim_in_pixel();
-        let (left, key) = body.split_horizontally(width as i32 - KEY_WIDTH);
+        let widest = self
+            .bounds
+            .iter()
+            .map(|(_, label)| text_width(label, TICK_SIZE))
+            .max();
+        let key_width = px(40) + widest.unwrap_or(0);
+        let (left, key) = body.split_horizontally(width as i32 - key_width);
 
         let x = self.x.range(std::iter::empty());
         let y = self.y.range(std::iter::empty());
         let mut context = ChartBuilder::on(&left)
             .margin(px(6))
-            .x_label_area_size(px(46))
-            .y_label_area_size(px(58))
+            .x_label_area_size(px(48))
+            .y_label_area_size(px(64))
             .build_cartesian_2d(x.clone(), y.clone())?;
-        context
-            .configure_mesh()
-            .disable_mesh()
+        let (x_text, y_text) = (
+            |place: &f64| self.x.text(*place, &x),
+            |place: &f64| self.y.text(*place, &y),
+        );
+        let mut mesh = context.configure_mesh();
+        mesh.disable_mesh()
             .axis_style(RGBColor(120, 120, 120).stroke_width(px(1).unsigned_abs()))
             .set_all_tick_mark_size(px(4))
-            .x_labels(self.x.labels(&x))
-            .y_labels(self.y.labels(&y))
-            .x_label_formatter(&|place| self.x.text(*place, &x))
-            .y_label_formatter(&|place| self.y.text(*place, &y))
+            .x_labels(
+                self.x
+                    .labels(&x)
+                    .min(room(width as i32 - key_width, px(64))),
+            )
+            .y_labels(self.y.labels(&y).min(room(height as i32, px(40))))
+            .x_label_formatter(&x_text)
+            .y_label_formatter(&y_text)
             .x_desc(self.x.label.as_str())
-            .y_desc(self.y.label.as_str())
             .label_style(tick_style())
-            .axis_desc_style(label_style())
-            .draw()?;
+            .axis_desc_style(label_style());
+        if !above {
+            mesh.y_desc(self.y.label.as_str());
+        }
+        mesh.draw()?;
 
         let cell_height = (y.end - y.start) / self.values.len().max(1) as f64;
         for (row, values) in self.values.iter().enumerate() {
@@ -170,14 +235,11 @@ impl ColourMap {
         }
 
         let bands = self.bounds.len() as i32 + 1;
-        let top = px(30);
-        let step = ((height as i32 - px(90) - top) / bands).clamp(px(12), px(34));
+        let top = px(8);
+        let step = ((height as i32 - px(70) - top) / bands).clamp(px(8), px(34));
+        // Every so many bounds have their text, so that none stands over another.
+        let stride = (px(17) / step.max(1) + 1).max(1) as usize;
         let text = tick_style().pos(Pos::new(HPos::Left, VPos::Center));
-        key.draw(&Text::new(
-            self.quantity.clone(),
-            (px(4), px(12)),
-            text.clone(),
-        ))?;
         for band in 0..bands {
             let upper = top + (bands - 1 - band) * step;
             key.draw(&Rectangle::new(
@@ -185,9 +247,10 @@ impl ColourMap {
                 self.band_colour(band as usize).filled(),
             ))?;
         }
-        for (index, (_, label)) in self.bounds.iter().enumerate() {
+        for (index, (_, label)) in self.bounds.iter().enumerate().step_by(stride) {
             let place = top + (bands - 1 - index as i32) * step;
-            key.draw(&Text::new(label.clone(), (px(30), place), text.clone()))?;
+            let label = label.replace('-', "\u{2212}");
+            key.draw(&Text::new(label, (px(30), place), text.clone()))?;
         }
         Ok(())
     }

@@ -1,21 +1,31 @@
 //! Curves over many rows, thinned to what a picture can show.
 
 /// Buckets of rows that a curve is thinned to: about the pixels of its width.
-const BUCKETS: usize = 900;
+pub const BUCKETS: usize = 900;
 
-/// At most four points for each bucket of rows: first, lowest, highest and last, in their order, so that no
-/// peak is lost.
+/// A curve over rows, thinned to what a picture can show.
 pub fn thin<Row>(
     rows: &[Row],
     place: &dyn Fn(&Row) -> f64,
     value: &dyn Fn(&Row) -> f64,
 ) -> Vec<(f64, f64)> {
-    let size = rows.len().div_ceil(BUCKETS).max(1);
+    thin_to(BUCKETS, rows, place, value)
+}
+
+/// At most four points for each of so many buckets of rows: first, lowest, highest and last, in their order, so that no
+/// peak is lost.
+pub fn thin_to<Row>(
+    buckets: usize,
+    rows: &[Row],
+    place: &dyn Fn(&Row) -> f64,
+    value: &dyn Fn(&Row) -> f64,
+) -> Vec<(f64, f64)> {
+    let size = rows.len().div_ceil(buckets).max(1);
     let point = |row: &Row| (place(row), value(row));
     if size <= 4 {
         return rows.iter().map(point).collect();
     }
-    let mut points = Vec::with_capacity(4 * BUCKETS);
+    let mut points = Vec::with_capacity(4 * buckets);
     for bucket in rows.chunks(size) {
         let by_value =
             |one: &(usize, &Row), other: &(usize, &Row)| value(one.1).total_cmp(&value(other.1));

@@ -185,7 +185,7 @@ fn figure_4_3(curves: &[LashCurves]) -> Figure {
     Figure {
         name: "lin_figure_4_3",
         caption:
-            "Lash curves of a ball screw with its balls in four places of the track (Figure 4.3)"
+            "Lin 2019, Figure 4.3: lash curves of a ball screw with its balls in four places of the track."
                 .into(),
         panels: vec![
             panel("axial", "axial displacement (um)", |curves| &curves.axial),
@@ -226,7 +226,7 @@ fn figure_4_5(turned: &[TieRodLoads]) -> Figure {
     Figure {
         name: "lin_figure_4_5",
         caption:
-            "Loads of each ball under 14500 N of rack load at four tie-rod angles (Figure 4.5)"
+            "Lin 2019, Figure 4.5: loads of each ball under 14500 N of rack load at four tie-rod angles."
                 .into(),
         panels: vec![
             panel("four-point bearing", true),

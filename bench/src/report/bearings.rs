@@ -73,7 +73,7 @@ fn figure_3_7(quick: bool) -> Result<Figure, Failure> {
     };
     Ok(Figure {
         name: "lin_figure_3_7",
-        caption: "Figure 3.7: sum of the contact forces and friction torque of one ball of a rotary bearing under 100 N. Forces grow \
+        caption: "Lin 2019, Figure 3.7: sum of the contact forces and friction torque of one ball of a rotary bearing under 100 N. Forces grow \
                   by two thirds, friction thirteen times, as two-point contact becomes four-point contact. The printed sum of case \
                   III, 434.8 N, is not that of its printed forces, 470.9 N."
             .into(),
@@ -110,7 +110,7 @@ fn map(
         x: Axis::linear("contact angle deviation (deg)").between(-3.0, 3.0),
         y: Axis::linear("side force ratio").between(-0.6, 0.6),
         quantity: quantity.into(),
-        colours: Colours::Sequential,
+        colours: Colours::of(bounds),
         bounds: bounds
             .iter()
             .map(|bound| (*bound, bound.to_string()))
@@ -137,7 +137,7 @@ fn figure_3_14(quick: bool) -> Result<Figure, Failure> {
     };
     Ok(Figure {
         name: "lin_figure_3_14",
-        caption: "Figure 3.14: difference of the speed deviations of two balls in a linear bearing over contact angle deviation and \
+        caption: "Lin 2019, Figure 3.14: difference of the speed deviations of two balls in a linear bearing over contact angle deviation and \
                   side force ratio, by the exact model and by the closed form (3.54)."
             .into(),
         panels: vec![
@@ -162,7 +162,7 @@ fn figure_3_15(quick: bool) -> Result<Figure, Failure> {
     let slip = analytic_ball_slip(std::f64::consts::FRAC_PI_4, 0.01);
     Ok(Figure {
         name: "lin_figure_3_15",
-        caption: "Figure 3.15: force between the balls of Figure 3.14 and friction loss, of that without their contact. In the \
+        caption: "Lin 2019, Figure 3.15: force between the balls of Figure 3.14 and friction loss, of that without their contact. In the \
                   corner the loss is 185 %: the printed increase of \"185.2 %\" is the total."
             .into(),
         panels: vec![
@@ -228,7 +228,7 @@ fn turning_load(quick: bool) -> Result<Figure, Failure> {
     }
     Ok(Figure {
         name: "lin_figure_4_7",
-        caption: "Figure 4.7: friction torque of a four-point and of a double-row angular contact bearing under 3000 N that turn from \
+        caption: "Lin 2019, Figure 4.7: friction torque of a four-point and of a double-row angular contact bearing under 3000 N that turn from \
                   axial to radial (Table 4.2); in the legend the largest over the least. Undersize, tilt and friction (here 0.1) are not printed; in kind the result is the \
                   printed one: the four-point bearing varies several times over (printed: 5.69), the double-row one hardly."
             .into(),

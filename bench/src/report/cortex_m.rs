@@ -263,7 +263,6 @@ impl Rivals {
                 .map(|point| Note {
                     at: (point.cycles, point.error),
                     text: point.name.clone(),
-                    left: false,
                 })
                 .collect(),
         })

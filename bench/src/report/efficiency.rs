@@ -215,7 +215,7 @@ fn figure_3(quick: bool) -> Result<Figure, Failure> {
     }
     Ok(Figure {
         name: "efficiency_figure_3",
-        caption: "Figure 3: efficiency over lead and contact angle. Points: the exact steady state where it \
+        caption: "Lin, Velinsky, Ravani 1994, Figure 3: efficiency over lead and contact angle. Points: the exact steady state where it \
                   exists; it differs from (14) by less than 2e-5 (the paper states 0.33 and 0.86 %, which do \
                   not reproduce). Crosses: the same equations with their rates, integrated over ten turns from a rolling \
                   start, lead to eq. (3)."
@@ -234,7 +234,7 @@ fn figure_5() -> Figure {
     let own = screw.slip_angle().to_degrees();
     Figure {
         name: "efficiency_figure_5",
-        caption: "Figure 5: efficiency over the slip angle at the screw, eq. (11) with its sign corrected; \
+        caption: "Lin, Velinsky, Ravani 1994, Figure 5: efficiency over the slip angle at the screw, eq. (11) with its sign corrected; \
                   ball ratio 0.1, lead angle 10 degrees. Friction across the groove costs least."
             .into(),
         panels: vec![Panel::Chart(Chart {
@@ -290,7 +290,7 @@ fn figure_6() -> Result<Figure, Failure> {
     }
     Ok(Figure {
         name: "efficiency_figure_6",
-        caption: "Figure 6: contact angle of highest efficiency in full sliding, in closed form (lines: the \
+        caption: "Lin, Velinsky, Ravani 1994, Figure 6: contact angle of highest efficiency in full sliding, in closed form (lines: the \
                   crate in f32; points: the reference). Each ends where the optimum ceases to exist."
             .into(),
         panels: vec![Panel::Chart(Chart {
@@ -354,7 +354,7 @@ fn figure_7() -> Figure {
     }
     Figure {
         name: "efficiency_figure_7",
-        caption: "Figure 7: the space of designs that brake themselves in full sliding, eq. (16) and (19); the \
+        caption: "Lin, Velinsky, Ravani 1994, Figure 7: the space of designs that brake themselves in full sliding, eq. (16) and (19); the \
                   paper draws friction 0.075."
             .into(),
         panels,

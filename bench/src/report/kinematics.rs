@@ -29,14 +29,14 @@ pub fn section(context: &Context) -> Result<Section, Failure> {
             Block::Figure(figure_9()?),
             Block::Figure(sweep(
                 "kinematics_figure_10",
-                "Figure 10: both rolling radii.",
+                "Alberdi et al., Figure 10: slip at the screw and the nut over the rolling radii of both.",
                 "rolling radius (mm)",
                 1e3,
                 &figures::rolling_radius_sweep(steps)?,
             )),
             Block::Figure(sweep(
                 "kinematics_figure_11",
-                "Figure 11: yaw angle. Side slip vanishes at -2.3 degrees at the nut and 3.1 degrees at the \
+                "Alberdi et al., Figure 11: slip at the screw and the nut over the yaw angle of the ball's axis. Side slip vanishes at -2.3 degrees at the nut and 3.1 degrees at the \
                  screw, never at both.",
                 "yaw angle (deg)",
                 180.0 / std::f64::consts::PI,
@@ -44,7 +44,7 @@ pub fn section(context: &Context) -> Result<Section, Failure> {
             )),
             Block::Figure(sweep(
                 "kinematics_figure_12",
-                "Figure 12: pitch angle.",
+                "Alberdi et al., Figure 12: slip at the screw and the nut over the pitch angle of the ball's axis.",
                 "pitch angle (deg)",
                 180.0 / std::f64::consts::PI,
                 &figures::pitch_sweep(steps)?,
@@ -131,7 +131,7 @@ fn figure_6(steps: usize) -> Result<Figure, Failure> {
     }
     Ok(Figure {
         name: "kinematics_figure_6",
-        caption: "Figure 6: revised and traditional formulation over the lead angle. The traditional one takes \
+        caption: "Alberdi et al., Figure 6: revised and traditional formulation over the lead angle. The traditional one takes \
                   the ball's rotation relative to the moving frame, and its classic speeds: wrong for rolling \
                   slip and spin even without lead, where side slip vanishes in both."
             .into(),
@@ -197,7 +197,7 @@ fn figure_9() -> Result<Figure, Failure> {
     Ok(Figure {
         name: "kinematics_figure_9",
         caption: format!(
-            "Figure 9: three slip fields with the same slide-to-roll ratio of {:.2} %: the ratio alone \
+            "Alberdi et al., Figure 9: three slip fields with the same slide-to-roll ratio of {:.2} %: the ratio alone \
              tells neither the direction of slip nor the spin.",
             100.0 * same.slide_to_roll
         ),
@@ -245,7 +245,7 @@ fn fields() -> Result<Figure, Failure> {
         .collect();
     Ok(Figure {
         name: "kinematics_figures_7_8",
-        caption: "Figures 7 and 8: slip over the contact ellipse at the screw. In a bearing there is spin; a \
+        caption: "Alberdi et al., Figures 7 and 8: slip over the contact ellipse at the screw. In a bearing there is spin; a \
                   lead adds side slip, which the traditional formula makes three times too large."
             .into(),
         panels,
@@ -328,7 +328,7 @@ fn figure_13(steps: usize) -> Figure {
     }
     Figure {
         name: "kinematics_figure_13",
-        caption: "Figure 13: pitch angle by each method over the axial load. ITE is not specified in the paper; \
+        caption: "Alberdi et al., Figure 13: pitch angle by each method over the axial load. ITE is not specified in the paper; \
                   the angle of balanced spin power stands beside the others in its place."
             .into(),
         panels,

@@ -152,7 +152,7 @@ fn figures_2_9_and_10(nominal: &StaticSolution) -> Result<Figure, Failure> {
     };
     Ok(Figure {
         name: "lin_figures_2_9_2_10",
-        caption: "Figures 2.9 and 2.10: loads of the 32 balls under 5000 N, by the beam and by a screw that only stretches, and the \
+        caption: "Lin 2019, Figures 2.9 and 2.10: loads of the 32 balls under 5000 N, by the beam and by a screw that only stretches, and the \
                   beam's centreline: an axial load bends the screw."
             .into(),
         panels: vec![
@@ -185,7 +185,7 @@ fn figures_2_11_and_12(nominal: &StaticSolution) -> Result<Figure, Failure> {
     let (straight, aside) = (solve(&case_3(false))?, solve(&case_3(true))?);
     Ok(Figure {
         name: "lin_figures_2_11_2_12",
-        caption: "Figures 2.11 and 2.12: ball 17 with 1 µm more radius takes a fifth more, its neighbours 2 % less; with 7 µm on every \
+        caption: "Lin 2019, Figures 2.11 and 2.12: ball 17 with 1 µm more radius takes a fifth more, its neighbours 2 % less; with 7 µm on every \
                   ball all four contacts carry, and 300 µm aside at the end squeeze the last balls on SR and NL."
             .into(),
         panels: vec![
@@ -272,7 +272,7 @@ fn figure_2_14(nominal: &StaticSolution) -> Result<Figure, Failure> {
     )?;
     Ok(Figure {
         name: "lin_figure_2_14",
-        caption: "Figure 2.14: errors of groove profile, pitch and ball radius (a normal sequence of its own, 1 µm; the printed one is \
+        caption: "Lin 2019, Figure 2.14: errors of groove profile, pitch and ball radius (a normal sequence of its own, 1 µm; the printed one is \
                   not given), each alone and all together, on case study 1. Some balls of the text's touch SR and NL then; here the \
                   elastic approach of 9 to 18 µm keeps these open."
             .into(),
@@ -339,7 +339,7 @@ fn figure_4_10() -> Result<Figure, Failure> {
     }
     Ok(Figure {
         name: "lin_figure_4_10",
-        caption: "Figure 4.10: pitch against roundness error of 5 µm under 1000 N. Two cycles a revolution unload balls, one cycle is \
+        caption: "Lin 2019, Figure 4.10: pitch against roundness error of 5 µm under 1000 N. Two cycles a revolution unload balls, one cycle is \
                   mostly taken up by the screw's moving aside. Which screw the dissertation took is not printed."
             .into(),
         panels,

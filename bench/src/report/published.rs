@@ -24,8 +24,8 @@ pub fn section(_: &Context) -> Result<Section, Failure> {
         blocks: vec![
             Block::Text(format!(
                 "{} printed numbers of the four papers, computed again with the float64 reference: {} come out to their last \
-                 digit or within the stated tolerance. The table \"published\" has them all; printed here are the {} that do not, \
-                 and why. Run times and finite-element results are not computed again.",
+                 digit or within the stated tolerance. The table \"published\" has them all; the {} that do not come \
+                 first, and why. Run times and finite-element results are not computed again.",
                 records.len(),
                 records.iter().filter(|record| record.agrees()).count(),
                 rest.len(),
@@ -93,7 +93,7 @@ fn table(name: &'static str, caption: &str, records: &[&Record]) -> Table {
                         Cell::power(record.deviation())
                     } else {
                         let percent = 100.0 * record.deviation() / printed.abs();
-                        Cell::Number(percent, format!("{percent:+.3} %"))
+                        percent_cell(percent)
                     },
                 )
             } else {
@@ -132,6 +132,15 @@ fn table(name: &'static str, caption: &str, records: &[&Record]) -> Table {
     }
 }
 
+/// A deviation in per cent with its sign; one that rounding makes zero has none.
+fn percent_cell(percent: f64) -> Cell {
+    if percent.abs() < 5e-4 {
+        Cell::Number(percent, "0.000 %".into())
+    } else {
+        Cell::Number(percent, format!("{percent:+.3} %"))
+    }
+}
+
 /// The computed number with one digit more than the printed one.
 fn digits(record: &Record) -> String {
     let (mantissa, power) = record
@@ -146,6 +155,7 @@ fn digits(record: &Record) -> String {
             "{:.decimals$}e{power}",
             record.computed / 10_f64.powi(power)
         ),
+        None if record.computed == 0.0 => "0".into(),
         None if record.printed == "0" => format!("{:.1e}", record.computed),
         None => format!("{:.decimals$}", record.computed),
     }

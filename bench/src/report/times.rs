@@ -1,7 +1,7 @@
 //! Times and their ratios in a table: a number, or an upper limit where the time is below the resolution.
 
 use crate::document::Cell;
-use crate::timing::{Measure, Ratio};
+use crate::timing::{Measure, Ratio, Spread};
 
 /// The median of a time, ns.
 pub fn time(measure: &Measure, decimals: usize) -> Cell {
@@ -16,18 +16,24 @@ pub fn time(measure: &Measure, decimals: usize) -> Cell {
 pub fn quartiles(measure: &Measure, decimals: usize) -> Cell {
     let (low, high) = measure.quartiles;
     if low >= measure.resolution {
-        format!("{low:.decimals$}-{high:.decimals$}").into()
+        format!("{low:.decimals$}\u{2013}{high:.decimals$}").into()
     } else if high >= measure.resolution {
-        format!("{}-{high:.decimals$}", below(measure, decimals)).into()
+        format!("{}\u{2013}{high:.decimals$}", below(measure, decimals)).into()
     } else {
         below(measure, decimals).into()
     }
 }
 
-/// One time over another.
+/// One time over another, with the quartiles of the rounds.
 pub fn ratio(ratio: Ratio, decimals: usize) -> Cell {
     match ratio {
-        Ratio::Is(ratio) => Cell::fixed(ratio, decimals),
+        Ratio::Is(Spread {
+            median,
+            quartiles: (low, high),
+        }) => Cell::Number(
+            median,
+            format!("{median:.decimals$} ({low:.decimals$}\u{2013}{high:.decimals$})"),
+        ),
         Ratio::Below(ratio) => format!("< {ratio:.decimals$}").into(),
         Ratio::Above(ratio) => format!("> {ratio:.decimals$}").into(),
         Ratio::Unknown => "not resolved".into(),

@@ -1,13 +1,17 @@
 //! A ball screw whose balls do not touch.
 
+use std::f64::consts::TAU;
+
+use epas_friction::promises::{Promise, STEP_CAGED, STEP_CAGED_LAW, STEP_CAGED_MEMORY};
 use epas_friction::{
     CagedBallScrew, CagedBallScrewConfiguration, Error, FrictionBranch, FrictionModel, Inputs,
-    Outputs,
+    Outputs, RollingResistance,
 };
 
 use super::caged_exact::ExactCaged;
 use super::manoeuvre::Manoeuvre;
 use super::memory;
+use super::picture::{self, Form, Labels, Moment};
 use super::reference::{CagedReference, Friction, ReferenceModel};
 use super::remembering::{Remembers, Use, remembering};
 use super::samples::ScrewSample;
@@ -17,7 +21,9 @@ use super::summary::Lines;
 use super::trace::Trace;
 use crate::designs::Design;
 use crate::failure::Failure;
-use crate::plot::{Axis, Chart, Mark, Panel, Series, render, thin};
+
+/// Largest load of a ball for which errors of the friction are promised, N.
+const LARGEST_BALL_LOAD: f64 = 300.0;
 
 /// The scene.
 pub struct Caged {
@@ -170,60 +176,94 @@ impl Scene for Caged {
         summary.lines(trace, &self.design, None)
     }
 
-    /// Load, speed, friction torque and efficiency against time.
-    fn picture(&self, trace: &Trace<ScrewSample>, rows: &[CagedRow]) -> Result<String, Failure> {
-        let curve = |value: &dyn Fn(&CagedRow) -> f64| thin(rows, &|row| row.sample.time, value);
-        let single =
-            |value: &dyn Fn(&CagedRow) -> f64| vec![Series::new("", 0, Mark::Line, curve(value))];
-        let with_reference = rows.first().is_some_and(|row| row.reference.is_some());
-        let pair = |value: &dyn Fn(&CagedRow) -> f64, reference: fn(&Friction) -> f64| {
-            let mut series = vec![Series::new("in the loop, f32", 0, Mark::Line, curve(value))];
-            if with_reference {
-                let exact = |row: &CagedRow| row.reference.as_ref().map_or(f64::NAN, reference);
-                series.push(Series::new(
-                    "reference, f64",
-                    1,
-                    Mark::Dashed,
-                    curve(&exact),
-                ));
+    fn picture(
+        &self,
+        trace: &Trace<ScrewSample>,
+        rows: &[CagedRow],
+        form: Form,
+    ) -> Result<String, Failure> {
+        let labels = self.labels(trace);
+        let moments = self.moments(trace, rows)?;
+        form.draw(&labels.title, &picture::panels(&labels, &moments, form))
+    }
+}
+
+impl Caged {
+    /// What the error of this scene is, where it is promised.
+    fn promise(&self) -> Option<Promise> {
+        match (self.design.configuration.branch, self.memory) {
+            (FrictionBranch::Contacts, true) if self.design.calibrated.is_some() => {
+                Some(STEP_CAGED_LAW)
             }
-            series
-        };
-        let panels = [
-            (
-                format!("{} on {}", trace.name, self.name()),
-                "axial load (N)",
-                single(&|row| row.sample.axial_load),
-            ),
-            (
-                String::new(),
-                "nut speed (rad/s)",
-                single(&|row| row.sample.nut_speed),
-            ),
-            (
-                String::new(),
-                "friction torque (N m)",
-                pair(&|row| row.outputs.friction_torque.into(), |friction| {
-                    friction.friction_torque
-                }),
-            ),
-            (
-                String::new(),
-                "efficiency",
-                pair(&|row| row.outputs.efficiency.into(), |friction| {
-                    friction.efficiency
-                }),
-            ),
-        ]
-        .map(|(title, label, series)| {
-            Panel::Chart(Chart {
-                title,
-                x: Axis::linear("time (s)"),
-                y: Axis::linear(label),
-                series,
-                notes: Vec::new(),
+            (FrictionBranch::Contacts, true) => Some(STEP_CAGED_MEMORY),
+            (FrictionBranch::Contacts, false) => Some(STEP_CAGED),
+            _ => None,
+        }
+    }
+
+    fn labels(&self, trace: &Trace<ScrewSample>) -> Labels {
+        let error = self.promise().map_or(0.0, |promise| promise.largest);
+        Labels {
+            title: format!("{} on {}", trace.name, self.design.name),
+            place: "time (s)",
+            loads: ["axial load (N)", ""],
+            speed: "nut speed (rad/s)",
+            friction: ("friction torque", "N m"),
+            parts: ["slip and spin", "rolling resistance"],
+            error: format!("largest error promised, {:.1} %", 100.0 * error),
+            reference: if self.memory {
+                "reference, which does not remember"
+            } else {
+                "reference"
+            },
+        }
+    }
+
+    /// Every sample for the picture. Slip and spin are the friction without rolling resistance.
+    pub fn moments(
+        &self,
+        trace: &Trace<ScrewSample>,
+        rows: &[CagedRow],
+    ) -> Result<Vec<Moment>, Failure> {
+        let configuration = &self.design.configuration;
+        let resists = configuration.rolling_resistance != RollingResistance::NONE;
+        let slips = (resists && configuration.branch == FrictionBranch::Contacts)
+            .then(|| {
+                let mut design = self.design.clone();
+                design.configuration.rolling_resistance = RollingResistance::NONE;
+                let slipping = Self {
+                    design,
+                    memory: self.memory,
+                };
+                slipping.rows(trace, None, &|| ())
             })
-        });
-        render(&panels, 1, (1000, 270))
+            .transpose()?;
+        let promise = self.promise();
+        let reduced_lead = f64::from(self.design.screw().lead()) / TAU;
+        let largest_load = LARGEST_BALL_LOAD * f64::from(configuration.loaded_balls);
+        let moment = |(index, row): (usize, &CagedRow)| {
+            let friction = f64::from(row.outputs.friction_torque);
+            let load = row.sample.axial_load;
+            let slip = slips.as_ref().and_then(|(rows, _)| rows.get(index));
+            Moment {
+                place: row.sample.time,
+                load,
+                side: None,
+                speed: row.sample.nut_speed,
+                motor: Some(load * reduced_lead + friction),
+                friction,
+                parts: slip.map(|slip| {
+                    let slip = f64::from(slip.outputs.friction_torque);
+                    [slip, friction - slip]
+                }),
+                error: promise
+                    .filter(|_| load.abs() <= largest_load)
+                    .map(|promise| promise.largest * friction.abs()),
+                reference: row.reference.map(|reference| reference.friction_torque),
+                regime: row.outputs.regime,
+                flagged: row.outputs.faults.any(),
+            }
+        };
+        Ok(rows.iter().enumerate().map(moment).collect())
     }
 }

@@ -1,17 +1,19 @@
 //! A linear bearing whose balls press on each other.
 
 use epas_friction::law::coefficient::OneCoefficient;
+use epas_friction::promises::STEP_LINEAR;
 use epas_friction::{Error, FrictionModel, LinearBearingTrain, LinearInputs, LinearOutputs};
 
 use super::manoeuvre::Manoeuvre;
 use super::memory::{self, Remembered, Remembering};
+use super::picture::{self, Form, Labels};
 use super::reference::ReferenceModel;
 use super::samples::LinearSample;
 use super::scene::Scene;
 use super::summary::{Course, Lines, Moment, Pressing, Words, regime_name};
 use super::trace::{Sample, Trace};
 use super::train::{Balls, Built, Train, TrainRow, pressing, with_balls};
-use super::train_picture::{Labels, TrainPoint, draw};
+use super::train_picture::{TrainPoint, draw};
 use crate::designs::train::LinearDesign;
 use crate::failure::Failure;
 
@@ -270,23 +272,37 @@ impl Scene for Linear {
         lines
     }
 
-    fn picture(&self, trace: &Trace<LinearSample>, rows: &[LinearRow]) -> Result<String, Failure> {
+    fn picture(
+        &self,
+        trace: &Trace<LinearSample>,
+        rows: &[LinearRow],
+        form: Form,
+    ) -> Result<String, Failure> {
         // Where the motion turns back, a place on the rail stands for more than one moment.
         let reverses = trace.reverses();
         let points: Vec<_> = rows
             .iter()
             .map(|row| {
                 let outputs = row.train.outputs;
+                let friction = f64::from(outputs.friction_force);
                 TrainPoint {
-                    place: if reverses {
-                        row.sample.time
-                    } else {
-                        1e3 * row.train.motion
+                    moment: picture::Moment {
+                        place: if reverses {
+                            row.sample.time
+                        } else {
+                            1e3 * row.train.motion
+                        },
+                        load: row.sample.normal_load,
+                        side: Some(row.sample.side_load),
+                        speed: row.sample.speed,
+                        motor: None,
+                        friction,
+                        parts: Some([outputs.groove_force, outputs.ball_force].map(f64::from)),
+                        error: Some(STEP_LINEAR.largest * f64::from(outputs.groove_force).abs()),
+                        reference: None,
+                        regime: outputs.regime,
+                        flagged: outputs.faults.any(),
                     },
-                    groove: outputs.groove_force,
-                    ball: outputs.ball_force,
-                    friction: outputs.friction_force,
-                    reference: None,
                     contacts: outputs.contacts,
                     largest_contact_force: outputs.largest_contact_force,
                     pressing: row.train.pressing,
@@ -296,8 +312,16 @@ impl Scene for Linear {
         let labels = Labels {
             title: format!("{} on {}", trace.name, self.name()),
             place: if reverses { "time (s)" } else { "travel (mm)" },
-            friction: "friction force (N)",
+            loads: ["normal load (N)", "side load (N)"],
+            speed: "speed (m/s)",
+            friction: ("friction force", "N"),
+            parts: ["grooves", "ball to ball"],
+            error: format!(
+                "largest error promised of the grooves, {:.1} %",
+                100.0 * STEP_LINEAR.largest
+            ),
+            reference: "",
         };
-        draw(labels, &points)
+        draw(&labels, &points, form)
     }
 }

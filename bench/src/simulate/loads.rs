@@ -16,6 +16,8 @@ use crate::designs::Design;
 use crate::designs::loads::LoadCase;
 use crate::failure::Failure;
 use crate::files::{self, Existing};
+use crate::mdf4::Mapping;
+use crate::source::Source as Input;
 use said::{Answer, BALL_LOADS, answer, range_of, text};
 pub use table::Format;
 
@@ -62,6 +64,8 @@ const COUNTED: f64 = 0.01;
 pub struct Source<'a> {
     /// A trace.
     pub input: Option<&'a PathBuf>,
+    /// Which of its channels are which columns.
+    pub channels: Option<&'a Path>,
     /// A manoeuvre.
     pub manoeuvre: Option<Manoeuvre>,
 }
@@ -124,7 +128,10 @@ impl Wanted {
         let trace = match source {
             Source {
                 input: Some(path), ..
-            } => Some(trace::read::<ScrewSample>(path)?),
+            } => {
+                let mapping = source.channels.map(Mapping::read).transpose()?;
+                Some(trace::read::<ScrewSample>(&Input(path), mapping.as_ref())?)
+            }
             Source {
                 manoeuvre: Some(manoeuvre),
                 ..

@@ -5,12 +5,14 @@
 //! divided into steps that are implicit in the speed ([`crate::mechanism`]): friction holds the nut at rest and lets it break away.
 
 use std::f64::consts::{PI, TAU};
-use std::io::{self, Write};
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
-use epas_friction::{Inputs, Outputs};
+use epas_friction::Outputs;
 
 use super::memory;
+use super::nut::{Nut, STEPS};
+use super::picture::Form;
 use super::remembering::{Remembers, Use, remembering};
 use super::summary::Lines;
 use super::targets::targets;
@@ -19,8 +21,10 @@ use crate::controller::Controller;
 use crate::designs::Design;
 use crate::failure::Failure;
 use crate::files::{self, Existing, Pending, refuse_same};
-use crate::mechanism::{Mechanism, Resistance, Step};
-use crate::plot::{Axis, Chart, Mark, Panel, Series, render, thin};
+use crate::mdf4::Mapping;
+use crate::mechanism::Mechanism;
+use crate::plot::{Axis, Chart, Mark, Panel, Series};
+use crate::source::Source;
 
 /// Options of a mechanism.
 #[derive(Debug, clap::Args)]
@@ -56,9 +60,6 @@ impl MechanismArguments {
         self.mechanism
     }
 }
-
-/// Steps in a tick.
-const STEPS: usize = 4;
 
 /// One moment of what acts.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -114,44 +115,6 @@ macro_rules! sample {
 sample!(Torque, "motor_torque");
 sample!(Wanted, "reference_position");
 
-/// A nut with the model's friction.
-#[derive(Clone)]
-struct Nut<M> {
-    model: M,
-    /// Torque of the load, over that of a screw without friction.
-    gain: f64,
-    drag: f64,
-    offset: f64,
-    axial_load: f64,
-    outputs: Option<Outputs>,
-}
-
-impl<M: Remembers> Nut<M> {
-    fn step(&mut self, step: &Step) -> f64 {
-        let inputs = Inputs {
-            nut_speed: step.speed as f32,
-            axial_load: self.axial_load as f32,
-        };
-        let speed = step.end_speed();
-        let outputs = self.model.step(inputs, speed as f32);
-        self.outputs = Some(outputs);
-        self.gain * f64::from(outputs.load_torque)
-            + f64::from(outputs.friction_torque)
-            + self.drag * speed
-            + self.offset
-    }
-}
-
-impl<M: Remembers> Resistance for Nut<M> {
-    fn against(&self, step: &Step) -> f64 {
-        self.clone().step(step)
-    }
-
-    fn follow(&mut self, step: &Step) -> f64 {
-        self.step(step)
-    }
-}
-
 /// What the nut did at a tick.
 struct Row {
     acting: Acting,
@@ -165,13 +128,19 @@ struct Row {
 pub fn run(
     design: &Design,
     arguments: &MechanismArguments,
-    input: &Path,
+    [input, channels]: [Option<&Path>; 2],
     [output, plot]: [&Option<PathBuf>; 2],
     existing: Existing,
 ) -> Result<(), Failure> {
+    let input = input.ok_or_else(|| Failure::Data("there is no trace".into()))?;
+    let (source, mapping) = (Source(input), channels.map(Mapping::read).transpose()?);
     let (name, acting) = match arguments.controller {
-        Some(_) => moments(read::<Wanted>(input)?, |sample| sample.0),
-        None => moments(read::<Torque>(input)?, |sample| sample.0),
+        Some(_) => moments(read::<Wanted>(&source, mapping.as_ref())?, |sample| {
+            sample.0
+        }),
+        None => moments(read::<Torque>(&source, mapping.as_ref())?, |sample| {
+            sample.0
+        }),
     };
     let outputs = targets([output, plot], &name, &design.name);
     for path in outputs.iter().flatten() {
@@ -192,19 +161,28 @@ pub fn run(
     let mut written = Vec::new();
     if let [Some(table), _] = &outputs {
         let mut pending = Pending::new(table, existing)?;
-        write_table(pending.writer(), &rows)
-            .map_err(|error| Failure::file("write", table, &error))?;
+        let group = format!("{name} on {}", design.name);
+        super::write_table(
+            pending.writer(),
+            table,
+            (&group, &COLUMNS),
+            rows.iter().map(record),
+        )?;
         written.push(pending);
     }
     if let [_, Some(picture)] = &outputs {
         let mut pending = Pending::new(picture, existing)?;
-        files::all(&mut pending, picture, &drawn(&name, &design.name, &rows)?)?;
+        files::all(
+            &mut pending,
+            picture,
+            &drawn(&name, &design.name, &rows, Form::of(picture))?,
+        )?;
         written.push(pending);
     }
     for pending in written {
         pending.finish()?;
     }
-    let mut stdout = io::stdout().lock();
+    let mut stdout = files::told(outputs.iter().flatten());
     summary(&rows, inertia, tick).print(&mut stdout)?;
     lines.print(&mut stdout)?;
     for path in outputs.iter().flatten() {
@@ -288,16 +266,7 @@ fn motion(model: impl Remembers, course: &Course<'_>) -> Vec<Row> {
         controller,
         tick,
     } = *course;
-    let told = |value: Option<f32>, without: f64| value.map_or(without, f64::from);
-    let calibrated = design.calibrated.as_ref();
-    let nut = Nut {
-        model,
-        gain: told(calibrated.and_then(|found| found.gain), 1.0),
-        drag: told(calibrated.and_then(|found| found.drag), 0.0),
-        offset: told(calibrated.and_then(|found| found.offset), 0.0),
-        axial_load: 0.0,
-        outputs: None,
-    };
+    let nut = Nut::of(design, model);
     let start = match (controller, acting.first()) {
         (Some(_), Some(first)) => first.command,
         _ => 0.0,
@@ -332,34 +301,32 @@ fn motion(model: impl Remembers, course: &Course<'_>) -> Vec<Row> {
     rows
 }
 
-fn write_table(writer: &mut impl Write, rows: &[Row]) -> Result<(), csv::Error> {
-    let mut table = csv::Writer::from_writer(writer);
-    table.write_record([
-        "time",
-        "motor_torque",
-        "axial_load",
-        "nut_position",
-        "nut_speed",
-        "friction_torque",
-        "load_torque",
-        "faults",
-    ])?;
-    for row in rows {
-        let numbers = [
-            row.acting.time,
-            row.torque,
-            row.acting.axial_load,
-            row.angle,
-            row.speed,
-            row.outputs.friction_torque.into(),
-            row.outputs.load_torque.into(),
-        ];
-        let mut record: Vec<String> = numbers.map(|number| number.to_string()).to_vec();
-        record.push(row.outputs.faults.bits().to_string());
-        table.write_record(record)?;
-    }
-    table.flush()?;
-    Ok(())
+/// Columns of the table.
+pub const COLUMNS: [&str; 8] = [
+    "time",
+    "motor_torque",
+    "axial_load",
+    "nut_position",
+    "nut_speed",
+    "friction_torque",
+    "load_torque",
+    "faults",
+];
+
+/// The values of [`COLUMNS`].
+fn record(row: &Row) -> Vec<String> {
+    let numbers = [
+        row.acting.time,
+        row.torque,
+        row.acting.axial_load,
+        row.angle,
+        row.speed,
+        row.outputs.friction_torque.into(),
+        row.outputs.load_torque.into(),
+    ];
+    let mut record: Vec<String> = numbers.map(|number| number.to_string()).to_vec();
+    record.push(row.outputs.faults.bits().to_string());
+    record
 }
 
 /// How often the nut turned back, and what it did with its energy.
@@ -409,8 +376,9 @@ fn summary(rows: &[Row], inertia: f64, tick: f64) -> Lines {
     lines
 }
 
-fn drawn(trace: &str, design: &str, rows: &[Row]) -> Result<String, Failure> {
-    let curve = |value: &dyn Fn(&Row) -> f64| thin(rows, &|row| row.acting.time, value);
+fn drawn(trace: &str, design: &str, rows: &[Row], form: Form) -> Result<String, Failure> {
+    let title = format!("{trace} on {design}");
+    let curve = |value: &dyn Fn(&Row) -> f64| form.curve(rows, &|row| row.acting.time, value);
     let panel = |title: String, label: &str, curves: Vec<(&str, Vec<(f64, f64)>)>| {
         let series = curves.into_iter().enumerate();
         Panel::Chart(Chart {
@@ -425,7 +393,7 @@ fn drawn(trace: &str, design: &str, rows: &[Row]) -> Result<String, Failure> {
     };
     let panels = [
         panel(
-            format!("{trace} on {design}"),
+            title.clone(),
             "torque at the nut (N m)",
             vec![
                 ("motor", curve(&|row| row.torque)),
@@ -444,5 +412,5 @@ fn drawn(trace: &str, design: &str, rows: &[Row]) -> Result<String, Failure> {
             vec![("", curve(&|row| row.speed))],
         ),
     ];
-    render(&panels, 1, (1000, 270))
+    form.draw(&title, &panels)
 }

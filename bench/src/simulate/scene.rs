@@ -2,6 +2,7 @@
 //! decided once, from the design.
 
 use super::manoeuvre::Manoeuvre;
+use super::picture::Form;
 use super::reference::ReferenceModel;
 use super::summary::Lines;
 use super::trace::{Sample, Trace};
@@ -38,6 +39,11 @@ pub trait Scene {
     /// What a run comes to.
     fn summary(&self, trace: &Trace<Self::Sample>, rows: &[Self::Row]) -> Lines;
 
-    /// The run as a picture, SVG.
-    fn picture(&self, trace: &Trace<Self::Sample>, rows: &[Self::Row]) -> Result<String, Failure>;
+    /// The run as a picture of some form.
+    fn picture(
+        &self,
+        trace: &Trace<Self::Sample>,
+        rows: &[Self::Row],
+        form: Form,
+    ) -> Result<String, Failure>;
 }

@@ -1,13 +1,15 @@
-//! Traces of speed and load, and how they are read from CSV.
+//! Traces of speed and load, and how they are read from tables and measurement files.
 
-use std::fs::File;
 use std::io::{Read, Seek};
-use std::path::Path;
 
 use csv::{ErrorKind, Position, Reader, ReaderBuilder, StringRecord, Trim};
 
 use crate::failure::Failure;
-use crate::files::{Bounded, line_of};
+use crate::files::line_of;
+use crate::headings;
+use crate::mdf4::{self, Mapping};
+use crate::source::Source;
+use crate::units::{Dimension, Quantity, Unit, channel, cut, heading};
 
 /// One moment of a trace: what one scene's columns hold.
 pub trait Sample: Copy {
@@ -62,20 +64,97 @@ const MOST_SAMPLES: usize = 5_000_000;
 /// whole.
 const LARGEST_FILE: u64 = 1 << 29;
 
-/// Reads a trace.
-pub fn read<S: Sample>(path: &Path) -> Result<Trace<S>, Failure> {
-    let file = File::open(path).map_err(|error| Failure::file("open", path, &error))?;
-    // What is no file, a pipe or a device, does not say its size and may never end.
-    let samples = samples(Bounded::new(file, LARGEST_FILE))
-        .map_err(|message| Failure::Data(format!("{}, {message}", path.display())))?;
+/// Reads a trace: a table, or a measurement file with the channels of a mapping or those that have a column's name.
+pub fn read<S: Sample>(
+    source: &Source<'_>,
+    channels: Option<&Mapping>,
+) -> Result<Trace<S>, Failure> {
+    let input = source.open(LARGEST_FILE)?;
+    let samples = if input.measurement {
+        let found = measured(input, channels);
+        found.map_err(|message| Failure::Data(format!("{}: {message}", source.shown())))?
+    } else {
+        source.without_channels(channels)?;
+        samples(input).map_err(|message| Failure::Data(format!("{}, {message}", source.shown())))?
+    };
     Ok(Trace {
-        name: path
-            .file_stem()
-            .unwrap_or_default()
-            .to_string_lossy()
-            .into_owned(),
+        name: source.name(),
         samples,
     })
+}
+
+/// What a column cannot be measured in: a carriage travels, and a wanted angle of the nut is one.
+fn refused(column: &str) -> Option<Dimension> {
+    match column {
+        "speed" => Some(Dimension::Angle),
+        "reference_position" => Some(Dimension::Length),
+        _ => None,
+    }
+}
+
+/// The samples of a measurement file.
+pub fn measured<S: Sample>(input: impl Read, channels: Option<&Mapping>) -> Result<Vec<S>, String> {
+    let wanted: Vec<mdf4::Wanted> = S::COLUMNS
+        .iter()
+        .filter_map(|name| {
+            let (quantity, _) = channel(name).ok()??;
+            (quantity != Quantity::Time).then(|| mdf4::Wanted {
+                name,
+                quantity,
+                refuses: refused(name),
+            })
+        })
+        .collect();
+    let first: Vec<Quantity> = wanted
+        .iter()
+        .take(1)
+        .map(|wanted| wanted.quantity)
+        .collect();
+    let request = mdf4::Request {
+        wanted: &wanted,
+        master: &first,
+        mapping: channels,
+    };
+    let found = mdf4::read(input, &request)?;
+    for note in &found.notes {
+        eprintln!("note: {note}");
+    }
+    let mut places = Vec::new();
+    for wanted in &wanted {
+        let column = found
+            .columns
+            .iter()
+            .find(|column| column.quantity == wanted.quantity);
+        places.push(column.ok_or_else(|| {
+            format!(
+                "channel {} is missing; a file for --channels says which channel it is",
+                wanted.name
+            )
+        })?);
+    }
+    let mut samples: Vec<S> = Vec::new();
+    for (row, time) in found.times.iter().enumerate() {
+        let sample = S::read(|column| {
+            let place = wanted.iter().position(|wanted| wanted.name == column);
+            let column = place.and_then(|place| places.get(place));
+            column
+                .map_or(Some(*time), |column| column.values.get(row).copied())
+                .ok_or("a sample is missing")
+        })?;
+        samples
+            .push(follows(&samples, sample).map_err(|message| format!("sample {row}: {message}"))?);
+    }
+    enough(&samples)?;
+    Ok(samples)
+}
+
+/// A trace has a duration.
+fn enough<S>(samples: &[S]) -> Result<(), String> {
+    match samples.len() {
+        0 => Err("the trace is empty".into()),
+        1 => Err("the trace has a single sample: at least 2".into()),
+        _ => Ok(()),
+    }
 }
 
 /// The samples of a trace, or what is wrong in which line.
@@ -121,6 +200,9 @@ fn parse<S: Sample>(input: impl Read + Seek) -> Result<Vec<S>, Fault> {
         Ok(header) => header.clone(),
         Err(error) => return Err(Fault::from_csv(&error, reader, &start)),
     };
+    if !header.is_empty() {
+        headings::separated(&header).map_err(|message| Fault::new(1, message))?;
+    }
     let places = S::COLUMNS
         .iter()
         .map(|column| place(&header, column))
@@ -137,8 +219,10 @@ fn parse<S: Sample>(input: impl Read + Seek) -> Result<Vec<S>, Fault> {
         }
         let sample = S::read(|column| {
             let index = S::COLUMNS.iter().position(|known| *known == column);
-            let place = index.and_then(|index| places.get(index));
-            number(&record, place.copied().unwrap_or(usize::MAX), column)
+            let (place, unit) = index
+                .and_then(|index| places.get(index))
+                .ok_or("a column is missing")?;
+            number(&record, *place, column).map(|value| unit.map_or(value, |unit| unit.si(value)))
         });
         match sample.and_then(|sample| follows(&samples, sample)) {
             Ok(sample) => samples.push(sample),
@@ -148,9 +232,7 @@ fn parse<S: Sample>(input: impl Read + Seek) -> Result<Vec<S>, Fault> {
             }
         }
     }
-    if samples.is_empty() {
-        return Err(Fault::new(reader.position().line(), "the trace is empty"));
-    }
+    enough(&samples).map_err(|message| Fault::new(reader.position().line(), message))?;
     Ok(samples)
 }
 
@@ -165,24 +247,71 @@ fn follows<S: Sample>(samples: &[S], sample: S) -> Result<S, String> {
             last.time(),
             sample.time()
         )),
+        Some(last) if sample.time() == last.time() => Err(format!(
+            "time = {} stands twice: samples at the same time cannot be told apart",
+            sample.time()
+        )),
         _ => Ok(sample),
     }
 }
 
-/// Place of a column, which must be there once.
-fn place(header: &StringRecord, column: &str) -> Result<usize, Fault> {
-    // A spreadsheet may put a byte-order mark before the first name.
-    let mut found = header
-        .iter()
-        .enumerate()
-        .filter(|(_, name)| name.trim_start_matches('\u{feff}') == column)
-        .map(|(index, _)| index);
-    match (found.next(), found.next()) {
-        (Some(index), None) => Ok(index),
-        (Some(_), Some(_)) => Err(Fault::new(1, format!("column {column} is there twice"))),
-        (None, _) if header.is_empty() => Err(Fault::new(1, "the file is empty")),
-        (None, _) => Err(Fault::new(1, format!("column {column} is missing"))),
+/// Place of a column and its unit, which must be there once: under its own name, else with a unit behind it or in brackets.
+fn place(header: &StringRecord, column: &str) -> Result<(usize, Option<Unit>), Fault> {
+    let fault = |message: String| Err(Fault::new(1, message));
+    if header.is_empty() {
+        return fault("the file is empty".into());
     }
+    // A spreadsheet may put a byte-order mark before the first name.
+    let names = || {
+        header
+            .iter()
+            .map(|name| name.trim_start_matches('\u{feff}'))
+            .enumerate()
+    };
+    let exact: Vec<usize> = names()
+        .filter(|(_, name)| *name == column)
+        .map(|(place, _)| place)
+        .collect();
+    match exact[..] {
+        [place] => return Ok((place, None)),
+        [_, _, ..] => return fault(format!("column {column} is there twice")),
+        [] => {}
+    }
+    let wanted = channel(column).ok().flatten().map(|(quantity, _)| quantity);
+    let mut found = Vec::new();
+    let mut unknown = None;
+    for (place, name) in names() {
+        match heading(name) {
+            Ok(Some((quantity, unit))) if Some(quantity) == wanted => {
+                found.push((place, name, unit))
+            }
+            Err(message) if starts_like(name, column) => unknown = Some(message),
+            _ => {}
+        }
+    }
+    match (&found[..], unknown) {
+        ([(_, name, unit)], _) if refused(column) == Some(unit.dimension) => fault(format!(
+            "column {}: {column} is not measured in {}",
+            cut(name),
+            unit.shown()
+        )),
+        ([(place, _, unit)], _) => Ok((*place, Some(*unit))),
+        ([(_, one, _), (_, other, _), ..], _) => fault(format!(
+            "columns {} and {} are both {column}",
+            cut(one),
+            cut(other)
+        )),
+        ([], Some(message)) => fault(message),
+        ([], None) => fault(headings::missing(column, header)),
+    }
+}
+
+fn starts_like(name: &str, column: &str) -> bool {
+    let own = name
+        .get(..column.len())
+        .unwrap_or_default()
+        .replace([' ', '-'], "_");
+    own.eq_ignore_ascii_case(column)
 }
 
 /// A number that f32 can hold.
@@ -192,7 +321,9 @@ fn number(record: &StringRecord, index: usize, column: &str) -> Result<f64, Stri
         let shown: String = text.chars().take(40).collect();
         format!("{column} = {shown:?} {problem}")
     };
-    let value: f64 = text.parse().map_err(|_| fault("is no number"))?;
+    let value: f64 = text
+        .parse()
+        .map_err(|_| fault(headings::no_number(text.as_bytes())))?;
     if !value.is_finite() {
         return Err(fault("is not finite"));
     }
@@ -263,6 +394,21 @@ mod tests {
     }
 
     #[test]
+    fn headings_say_their_units() {
+        let text = "Time [ms],Nut speed (1/min),axial_load_kN\n0,60,1\n500,-60,-0\n";
+        let samples = parse(text.as_bytes()).unwrap();
+        let turn = 60.0 * (std::f64::consts::TAU / 60.0);
+        assert_eq!(
+            samples,
+            [(0.0, turn, 1e3), (0.5, -turn, 0.0)].map(|(time, speed, load)| Moment {
+                time,
+                speed,
+                load
+            })
+        );
+    }
+
+    #[test]
     fn every_fault_names_its_line() {
         for (text, line, word) in [
             ("", 1, "empty"),
@@ -279,6 +425,35 @@ mod tests {
                 "time,nut_speed,axial_load\r\n0,1,2\r\n1,fast,2\r\n",
                 3,
                 "fast",
+            ),
+            ("time,nut_speed,axial_load\n0,1,2\n", 3, "single sample"),
+            (
+                "time,nut_speed,axial_load\n0,1,2\n0,1,2\n",
+                3,
+                "stands twice",
+            ),
+            ("time;nut_speed;axial_load\n0,5;1;2\n", 1, "semicolons"),
+            ("time\tnut_speed\taxial_load\n0\t1\t2\n", 1, "tabs"),
+            (
+                "time,nut_speed,axial_load\n0,\"1,5\",2\n",
+                2,
+                "in place of the comma",
+            ),
+            (
+                "time,nut_spd,axial_load\n0,1,2\n",
+                1,
+                "nut_speed is missing; the first line has time, nut_spd, axial_load",
+            ),
+            (
+                "time,nut_speed (m/s),axial_load\n0,1,2\n",
+                1,
+                "rad/s, deg/s",
+            ),
+            ("time,nut_speed_mm,axial_load\n0,1,2\n", 1, "nut_speed_rpm"),
+            (
+                "Time,Nut speed,nut_speed_rpm,axial_load\n0,1,1,2\n",
+                1,
+                "are both nut_speed",
             ),
             ("time,nut_speed,axial_load\n0,1,NaN\n", 2, "finite"),
             ("time,nut_speed,axial_load\n0,1,-inf\n", 2, "finite"),

@@ -1,6 +1,9 @@
 //! A ball screw whose balls press on each other.
 
+use std::f64::consts::TAU;
+
 use epas_friction::law::coefficient::OneCoefficient;
+use epas_friction::promises::STEP_UNCAGED;
 use epas_friction::{
     Error, FrictionModel, Inputs, Outputs, UncagedBallScrew, UncagedBallScrewConfiguration,
     UncagedOutputs,
@@ -9,6 +12,7 @@ use epas_friction::{
 use super::exact_screw::exact_screw;
 use super::manoeuvre::Manoeuvre;
 use super::memory::{self, Remembered, Remembering};
+use super::picture::{Form, Labels, Moment};
 use super::reference::{Friction, ReferenceModel, whole_screw};
 use super::samples::ScrewSample;
 use super::scene::Scene;
@@ -16,7 +20,7 @@ use super::screw::{self, ScrewSummary};
 use super::summary::{Lines, Pressing};
 use super::trace::Trace;
 use super::train::{Balls, Built, Train, TrainRow, pressing, with_balls};
-use super::train_picture::{Labels, TrainPoint, draw};
+use super::train_picture::{TrainPoint, draw};
 use crate::designs::Design;
 use crate::designs::train::UncagedDesign;
 use crate::failure::Failure;
@@ -284,38 +288,66 @@ impl Scene for Uncaged {
         summary.lines(trace, &self.design, Some(&pressing))
     }
 
-    fn picture(&self, trace: &Trace<ScrewSample>, rows: &[UncagedRow]) -> Result<String, Failure> {
+    fn picture(
+        &self,
+        trace: &Trace<ScrewSample>,
+        rows: &[UncagedRow],
+        form: Form,
+    ) -> Result<String, Failure> {
+        draw(&self.labels(trace), &self.points(trace, rows), form)
+    }
+}
+
+impl Uncaged {
+    /// Every sample for the picture.
+    pub fn points(&self, trace: &Trace<ScrewSample>, rows: &[UncagedRow]) -> Vec<TrainPoint> {
         // Where the motion turns back, an angle stands for more than one moment.
         let reverses = trace.reverses();
-        let points: Vec<_> = rows
-            .iter()
+        let reduced_lead = f64::from(self.design.screw().lead()) / TAU;
+        rows.iter()
             .map(|row| {
                 let outputs = row.train.outputs;
+                let friction = f64::from(outputs.friction_torque);
                 TrainPoint {
-                    place: if reverses {
-                        row.sample.time
-                    } else {
-                        row.train.motion.to_degrees()
+                    moment: Moment {
+                        place: if reverses {
+                            row.sample.time
+                        } else {
+                            row.train.motion.to_degrees()
+                        },
+                        load: row.sample.axial_load,
+                        side: None,
+                        speed: row.sample.nut_speed,
+                        motor: Some(row.sample.axial_load * reduced_lead + friction),
+                        friction,
+                        parts: Some([outputs.groove_torque, outputs.ball_torque].map(f64::from)),
+                        error: Some(STEP_UNCAGED.rms * friction.abs()),
+                        reference: row.reference.map(|friction| friction.friction_torque),
+                        regime: outputs.regime,
+                        flagged: outputs.faults.any(),
                     },
-                    groove: outputs.groove_torque,
-                    ball: outputs.ball_torque,
-                    friction: outputs.friction_torque,
-                    reference: row.reference.map(|friction| friction.friction_torque),
                     contacts: outputs.contacts,
                     largest_contact_force: outputs.largest_contact_force,
                     pressing: row.train.pressing,
                 }
             })
-            .collect();
-        let labels = Labels {
+            .collect()
+    }
+
+    fn labels(&self, trace: &Trace<ScrewSample>) -> Labels {
+        Labels {
             title: format!("{} on {}", trace.name, self.name()),
-            place: if reverses {
+            place: if trace.reverses() {
                 "time (s)"
             } else {
                 "nut angle (degrees)"
             },
-            friction: "friction torque (N m)",
-        };
-        draw(labels, &points)
+            loads: ["axial load (N)", ""],
+            speed: "nut speed (rad/s)",
+            friction: ("friction torque", "N m"),
+            parts: ["grooves", "ball to ball"],
+            error: format!("rms error promised, {:.1} %", 100.0 * STEP_UNCAGED.rms),
+            reference: "reference",
+        }
     }
 }

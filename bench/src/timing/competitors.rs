@@ -1,5 +1,6 @@
 //! What is timed.
 
+use std::f32::consts::{PI, TAU};
 use std::hint::black_box;
 
 use epas_friction::curvature::{
@@ -8,6 +9,11 @@ use epas_friction::curvature::{
 use epas_friction::efficiency::{DynamicCorrection, EfficiencyGeometry};
 use epas_friction::geometry::{ContactAngle, Groove};
 use epas_friction::hertz::HertzContact;
+use epas_friction::law::breakaway::{Breakaway, BreakawayConfiguration, ScrewContacts, Tables};
+use epas_friction::law::coefficient::OneCoefficient;
+use epas_friction::law::memory::{ProportionalElements, SLIP_4, SPIN_4};
+use epas_friction::law::motion::{WrappedAngle, WrappedAngleParameters};
+use epas_friction::scene::{WithMemory, WithMemoryConfiguration, WithMemoryInputs};
 use epas_friction::{
     BallScrew, CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, Clearance, FrictionBranch,
     FrictionModel, Inputs, Limits, RollingResistance, math,
@@ -17,9 +23,11 @@ use epas_reference::published::TABLE_A1;
 
 use super::group::{Group, List};
 use super::kernels::{libm, micromath, own};
-use super::race::{Measure, Mode, Race, Ratio};
+use super::measure::{Measure, Ratio};
+use super::race::{Mode, Race};
 use super::trains::trains;
 use crate::failure::Failure;
+use crate::progress::Progress;
 
 /// One function with its times.
 #[derive(Clone, Debug)]
@@ -48,17 +56,25 @@ pub fn compete(rounds: usize) -> Result<Vec<Competition>, Failure> {
     trains(&mut race, &mut list)?;
     kernels(&mut race, &mut list);
 
-    race.run(rounds);
+    let progress = Progress::new("times on this machine", rounds);
+    race.run(rounds, &|| progress.step());
+    let measure = |place| {
+        (
+            race.measure(place, Mode::Latency),
+            race.measure(place, Mode::Throughput),
+        )
+    };
     Ok(list
         .into_iter()
-        .map(|(key, place, unit)| Competition {
-            key,
-            latency: race.measure(place, Mode::Latency),
-            throughput: race.measure(place, Mode::Throughput),
-            ratios: (
-                race.ratio(place, unit, Mode::Latency),
-                race.ratio(place, unit, Mode::Throughput),
-            ),
+        .map(|(key, place, unit)| {
+            let ((latency, throughput), unit) = (measure(place), measure(unit));
+            let ratios = (latency.over(&unit.0), throughput.over(&unit.1));
+            Competition {
+                key,
+                latency,
+                throughput,
+                ratios,
+            }
         })
         .collect())
 }
@@ -162,12 +178,12 @@ fn ellipses(race: &mut Race, list: &mut List, design: &BallScrew) {
 }
 
 fn caged_step(race: &mut Race, list: &mut List, design: BallScrew) -> Result<(), Failure> {
-    let mut model = FrictionModel::<CagedBallScrew>::new(&CagedBallScrewConfiguration {
+    let configuration = CagedBallScrewConfiguration {
         design,
         friction: 0.075,
-        rolling_resistance: RollingResistance::NONE,
+        rolling_resistance: RollingResistance::STEEL,
         rolling_tangent: 0.0,
-        branch: FrictionBranch::Rolling,
+        branch: FrictionBranch::Contacts,
         clearance: black_box(Clearance::new(-1e-6).map_err(refused)?),
         loaded_balls: 40,
         reversal_speed: 0.5,
@@ -176,8 +192,10 @@ fn caged_step(race: &mut Race, list: &mut List, design: BallScrew) -> Result<(),
             axial_load: 20e3,
             friction_torque: 10.0,
         },
-    })
-    .map_err(refused)?;
+    };
+    let mut model = FrictionModel::<CagedBallScrew>::new(&configuration).map_err(refused)?;
+    let mut remembering = remembering(configuration).map_err(refused)?;
+    let mut angle = 0.0;
     Group::new(
         race,
         list,
@@ -187,8 +205,59 @@ fn caged_step(race: &mut Race, list: &mut List, design: BallScrew) -> Result<(),
         },
         |inputs: Inputs| inputs.nut_speed,
     )
-    .time("step_caged", move |inputs| model.step(inputs));
+    .time("step_caged", move |inputs| model.step(inputs))
+    .time("step_caged_memory", move |inputs| {
+        angle += 1e-3 * inputs.nut_speed;
+        remembering.step(WithMemoryInputs {
+            scene: inputs,
+            reading: angle % TAU,
+            load_age: 0.0,
+            temperature: 313.0,
+            temperature_age: 0.0,
+        })
+    });
     Ok(())
+}
+
+type Remembering =
+    WithMemory<CagedBallScrew, ProportionalElements<8>, WrappedAngle, OneCoefficient>;
+
+/// A caged screw with elements for 1 kN.
+fn remembering(
+    screw: CagedBallScrewConfiguration,
+) -> Result<FrictionModel<Remembering>, epas_friction::Error> {
+    let CagedBallScrewConfiguration {
+        design,
+        friction,
+        clearance,
+        rolling_resistance,
+        loaded_balls,
+        ..
+    } = screw;
+    let contact_load = ScrewContacts::of(&design).preloaded(1000.0, loaded_balls, clearance);
+    let breakaway = Breakaway::of(
+        &design,
+        &BreakawayConfiguration {
+            friction,
+            clearance,
+            rolling_resistance,
+            loaded_balls,
+            contact_load,
+        },
+    )?;
+    let elements = breakaway.elements(&Tables {
+        slip: &SLIP_4.elements,
+        spin: &SPIN_4.elements,
+        rolling_resistance: &[],
+    })?;
+    let sensor = WrappedAngle::new(WrappedAngleParameters {
+        lowest: -TAU,
+        period: 2.0 * TAU,
+        largest_turn: PI,
+    })?;
+    FrictionModel::new(&WithMemoryConfiguration::new(
+        screw, friction, elements, sensor, 1000.0,
+    )?)
 }
 
 fn kernels(race: &mut Race, list: &mut List) {

@@ -1,6 +1,7 @@
 //! Functions that are timed over the same inputs.
 
-use super::race::{Feed, Place, Race, Taken};
+use super::feed::{Feed, Taken};
+use super::race::{Place, Race};
 
 /// Inputs of a batch.
 const INPUTS: usize = 256;

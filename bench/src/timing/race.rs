@@ -3,100 +3,8 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use epas_friction::curvature::PrincipalCurvatures;
-use epas_friction::geometry::ContactAngle;
-use epas_friction::hertz::{ContactEllipse, HertzContact};
-use epas_friction::{Inputs, Outputs};
-
-/// An input that can be made to wait for an output.
-pub trait Feed: Copy {
-    /// The same number, `by` being zero; the processor does not know.
-    fn shifted(self, by: f32) -> Self;
-}
-
-impl Feed for f32 {
-    fn shifted(self, by: f32) -> Self {
-        self + by
-    }
-}
-
-impl Feed for f64 {
-    fn shifted(self, by: f32) -> Self {
-        self + Self::from(by)
-    }
-}
-
-impl Feed for ContactAngle {
-    fn shifted(self, by: f32) -> Self {
-        Self {
-            cos: self.cos + by,
-            sin: self.sin + by,
-        }
-    }
-}
-
-impl Feed for Inputs {
-    fn shifted(self, by: f32) -> Self {
-        Self {
-            nut_speed: self.nut_speed + by,
-            axial_load: self.axial_load + by,
-        }
-    }
-}
-
-/// An output that the next input can wait for.
-pub trait Taken {
-    /// One number of it.
-    fn value(&self) -> f32;
-}
-
-impl Taken for f32 {
-    fn value(&self) -> f32 {
-        *self
-    }
-}
-
-impl Taken for f64 {
-    fn value(&self) -> f32 {
-        *self as f32
-    }
-}
-
-impl Taken for (f32, f32) {
-    fn value(&self) -> f32 {
-        self.0
-    }
-}
-
-impl Taken for PrincipalCurvatures {
-    fn value(&self) -> f32 {
-        self.kappa1
-    }
-}
-
-impl Taken for epas_reference::curvature::PrincipalCurvatures {
-    fn value(&self) -> f32 {
-        self.kappa1 as f32
-    }
-}
-
-impl Taken for HertzContact {
-    fn value(&self) -> f32 {
-        self.axis_ratio()
-    }
-}
-
-impl Taken for ContactEllipse {
-    fn value(&self) -> f32 {
-        self.semi_major
-    }
-}
-
-impl Taken for Outputs {
-    fn value(&self) -> f32 {
-        self.friction_torque
-    }
-}
+use super::feed::{Feed, Taken};
+use super::measure::{Measure, quantile};
 
 /// How calls follow each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -107,19 +15,66 @@ pub enum Mode {
     Throughput,
 }
 
-/// A batch of calls.
-type Batch = Box<dyn FnMut()>;
+const MODES: [Mode; 2] = [Mode::Latency, Mode::Throughput];
+
+/// Least time of a batch, ns: reading the clock takes some tens of nanoseconds, and so less than a hundredth of it.
+const BATCH: f64 = 10_000.0;
+
+/// Most repetitions of a batch.
+const MOST: usize = 1000;
+
+/// Steps of the unit's chain in a call.
+const CHAIN: usize = 64;
+
+/// Calls over all inputs, so many times over.
+struct Batch {
+    /// Runs it.
+    run: Box<dyn FnMut(usize)>,
+    /// Calls in one repetition.
+    calls: usize,
+    /// How often it is repeated.
+    repeats: usize,
+}
+
+impl Batch {
+    fn new(calls: usize, run: Box<dyn FnMut(usize)>) -> Self {
+        Self {
+            run,
+            calls,
+            repeats: 1,
+        }
+    }
+
+    /// Nanoseconds of a call.
+    fn time(&mut self) -> f64 {
+        let start = Instant::now();
+        (self.run)(self.repeats);
+        start.elapsed().as_secs_f64() * 1e9 / (self.calls * self.repeats) as f64
+    }
+
+    /// Repeats it as often as makes it long enough.
+    fn lengthen(&mut self) {
+        // The first call is slow: the machine has not seen it yet.
+        self.time();
+        let whole = self.time() * self.calls as f64;
+        self.repeats = ((BATCH / whole).ceil() as usize).clamp(1, MOST);
+    }
+}
+
+/// What a batch took in a round, with the empty call and the unit right beside it, ns a call.
+#[derive(Clone, Copy, Debug)]
+struct Sample {
+    time: f64,
+    empty: f64,
+    unit: f64,
+}
 
 /// A competitor with its two batches and what they took.
 struct Entry {
     baseline: usize,
-    calls: usize,
     batches: [Batch; 2],
-    /// Nanoseconds a call, for each round.
-    samples: [Vec<f64>; 2],
+    samples: [Vec<Sample>; 2],
 }
-
-const MODES: [Mode; 2] = [Mode::Latency, Mode::Throughput];
 
 /// Competitors that run in turns.
 #[derive(Default)]
@@ -130,61 +85,6 @@ pub struct Race {
 /// A competitor's place in a race.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Place(usize);
-
-/// What a call takes, ns, less the empty call.
-///
-/// A time below the resolution is none: whether it comes out positive or negative is chance.
-#[derive(Clone, Debug)]
-pub struct Measure {
-    /// Median over the rounds.
-    pub median: f64,
-    /// Lower and upper quartile over the rounds.
-    pub quartiles: (f64, f64),
-    /// Every round.
-    pub rounds: Vec<f64>,
-    /// What the race cannot tell from an empty call.
-    pub resolution: f64,
-}
-
-/// One time over another, as far as the resolution lets both be told.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Ratio {
-    /// It is this.
-    Is(f64),
-    /// The upper time is below its resolution: the ratio is less than this.
-    Below(f64),
-    /// The lower time is below its resolution: the ratio is more than this.
-    Above(f64),
-    /// Both are below their resolutions.
-    Unknown,
-}
-
-impl Measure {
-    /// The median, or the resolution where the median is below it: for an axis of a figure.
-    pub fn at_least_resolved(&self) -> f64 {
-        self.median.max(self.resolution)
-    }
-
-    /// Whether the median stands out from an empty call.
-    pub fn is_resolved(&self) -> bool {
-        self.median >= self.resolution
-    }
-
-    /// The median over that of another one.
-    pub fn over(&self, unit: &Self) -> Ratio {
-        self.ratio(unit, self.median / unit.median)
-    }
-
-    /// The given ratio of this time to another, as far as both are resolved.
-    fn ratio(&self, unit: &Self, ratio: f64) -> Ratio {
-        match (self.is_resolved(), unit.is_resolved()) {
-            (true, true) => Ratio::Is(ratio),
-            (false, true) => Ratio::Below(self.resolution / unit.median),
-            (true, false) => Ratio::Above(self.median / unit.resolution),
-            (false, false) => Ratio::Unknown,
-        }
-    }
-}
 
 impl Race {
     /// Adds the empty call over some inputs, which others are measured against.
@@ -205,96 +105,106 @@ impl Race {
         function: impl FnMut(I) -> O + Clone + 'static,
     ) -> Place {
         let place = Place(self.entries.len());
+        let calls = inputs.len();
         self.entries.push(Entry {
             baseline: baseline.0,
-            calls: inputs.len(),
             batches: [
-                latency(inputs.to_vec(), function.clone()),
-                throughput(inputs.to_vec(), function),
+                Batch::new(calls, latency(inputs.to_vec(), function.clone())),
+                Batch::new(calls, throughput(inputs.to_vec(), function)),
             ],
             samples: [Vec::new(), Vec::new()],
         });
         place
     }
 
-    /// Runs the rounds, after one that only warms up.
-    pub fn run(&mut self, rounds: usize) {
+    /// Runs the rounds; `done` is called after each.
+    pub fn run(&mut self, rounds: usize, done: &dyn Fn()) {
+        let mut unit = unit();
+        unit.lengthen();
+        for entry in &mut self.entries {
+            entry.batches.iter_mut().for_each(Batch::lengthen);
+        }
         let count = self.entries.len();
-        for round in 0..=rounds {
+        for round in 0..rounds {
             for turn in 0..count {
-                let entry = &mut self.entries[(turn + round) % count];
-                for (batch, samples) in entry.batches.iter_mut().zip(&mut entry.samples) {
-                    let start = Instant::now();
-                    batch();
-                    let time = start.elapsed().as_secs_f64() * 1e9 / entry.calls as f64;
-                    if round > 0 {
-                        samples.push(time);
-                    }
+                let place = (turn + round) % count;
+                for mode in 0..MODES.len() {
+                    let baseline = self.entries[place].baseline;
+                    let empty = self.entries[baseline].batches[mode].time();
+                    let time = self.entries[place].batches[mode].time();
+                    let unit = unit.time() / CHAIN as f64;
+                    self.entries[place].samples[mode].push(Sample { time, empty, unit });
                 }
             }
+            done();
         }
     }
 
-    /// Time of a competitor in each round, less that of its baseline in the same round.
+    fn samples(&self, place: Place, mode: Mode) -> &[Sample] {
+        &self.entries[place.0].samples[usize::from(mode == MODES[1])]
+    }
+
+    /// Time of a competitor in each round, less that of the empty call beside it.
     fn net(&self, place: Place, mode: Mode) -> Vec<f64> {
-        let index = usize::from(mode == MODES[1]);
-        let entry = &self.entries[place.0];
-        let baseline = &self.entries[entry.baseline];
-        entry.samples[index]
-            .iter()
-            .zip(&baseline.samples[index])
-            .map(|(time, empty)| time - empty)
-            .collect()
+        let samples = self.samples(place, mode).iter();
+        samples.map(|sample| sample.time - sample.empty).collect()
     }
 
     /// Median, quartiles and rounds of a competitor.
     pub fn measure(&self, place: Place, mode: Mode) -> Measure {
         let rounds = self.net(place, mode);
+        let samples = self.samples(place, mode).iter();
         Measure {
             median: quantile(&rounds, 0.5),
             quartiles: (quantile(&rounds, 0.25), quantile(&rounds, 0.75)),
+            in_units: samples
+                .map(|sample| (sample.time - sample.empty) / sample.unit)
+                .collect(),
             rounds,
             resolution: self.resolution(place, mode),
         }
     }
 
-    /// What cannot be told from the empty call of a competitor, ns: the largest of a step of the clock over
-    /// the calls of a batch, the quartiles' distance of the empty call itself, and the most by which any
-    /// competitor with this empty call came out faster than it, which no call is.
+    /// What cannot be told from the empty call of a competitor, ns: the larger of the quartiles' distance of the empty call
+    /// less itself, and the most by which any competitor with this empty call came out faster than it, which no call is.
     fn resolution(&self, place: Place, mode: Mode) -> f64 {
-        const CLOCK_STEP: f64 = 1.0;
         let baseline = self.entries[place.0].baseline;
-        let empty = &self.entries[baseline];
-        let times = &empty.samples[usize::from(mode == MODES[1])];
-        let spread = quantile(times, 0.75) - quantile(times, 0.25);
+        let itself = self.net(Place(baseline), mode);
+        let spread = quantile(&itself, 0.75) - quantile(&itself, 0.25);
         let faster = (0..self.entries.len())
             .filter(|&entry| self.entries[entry].baseline == baseline)
             .map(|entry| -quantile(&self.net(Place(entry), mode), 0.5));
-        faster.fold(spread.max(CLOCK_STEP / empty.calls as f64), f64::max)
+        faster.fold(spread, f64::max)
     }
+}
 
-    /// Median over the rounds of the time of one competitor over that of another.
-    pub fn ratio(&self, place: Place, to: Place, mode: Mode) -> Ratio {
-        let ratios: Vec<_> = self
-            .net(place, mode)
-            .into_iter()
-            .zip(self.net(to, mode))
-            .map(|(time, unit)| time / unit)
-            .collect();
-        let (time, unit) = (self.measure(place, mode), self.measure(to, mode));
-        time.ratio(&unit, quantile(&ratios, 0.5))
-    }
+/// The unit: a chain of multiplications and additions, each of which waits for the one before.
+fn unit() -> Batch {
+    const CALLS: usize = 64;
+    let run = |repeats: usize| {
+        let (factor, term) = (black_box(0.5_f32), black_box(1.0_f32));
+        let mut value = black_box(1.0_f32);
+        for _ in 0..repeats * CALLS {
+            for _ in 0..CHAIN {
+                value = value * factor + term;
+            }
+            value = black_box(value);
+        }
+    };
+    Batch::new(CALLS, Box::new(run))
 }
 
 fn latency<I: Feed + 'static, O: Taken + 'static>(
     inputs: Vec<I>,
     mut function: impl FnMut(I) -> O + 'static,
-) -> Batch {
-    Box::new(move || {
+) -> Box<dyn FnMut(usize)> {
+    Box::new(move |repeats| {
         let zero = black_box(0.0_f32);
         let mut last = 0.0_f32;
-        for &input in &inputs {
-            last = black_box(function(black_box(input).shifted(zero * last))).value();
+        for _ in 0..repeats {
+            for &input in &inputs {
+                last = black_box(function(black_box(input).shifted(zero * last))).value();
+            }
         }
         black_box(last);
     })
@@ -303,36 +213,20 @@ fn latency<I: Feed + 'static, O: Taken + 'static>(
 fn throughput<I: Feed + 'static, O: Taken + 'static>(
     inputs: Vec<I>,
     mut function: impl FnMut(I) -> O + 'static,
-) -> Batch {
-    Box::new(move || {
-        for &input in &inputs {
-            black_box(function(black_box(input)));
+) -> Box<dyn FnMut(usize)> {
+    Box::new(move |repeats| {
+        for _ in 0..repeats {
+            for &input in &inputs {
+                black_box(function(black_box(input)));
+            }
         }
     })
 }
 
-/// The value below which the share `share` of all values lies.
-fn quantile(values: &[f64], share: f64) -> f64 {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let place = share * (sorted.len().saturating_sub(1)) as f64;
-    let (low, high) = (place.floor() as usize, place.ceil() as usize);
-    match (sorted.get(low), sorted.get(high)) {
-        (Some(low), Some(high)) => low + place.fract() * (high - low),
-        _ => f64::NAN,
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::measure::Ratio;
     use super::*;
-
-    #[test]
-    fn quantiles_lie_between_the_values() {
-        assert_eq!(quantile(&[3.0, 1.0, 2.0, 4.0], 0.5), 2.5);
-        assert_eq!(quantile(&[1.0, 2.0, 3.0, 4.0, 5.0], 0.25), 2.0);
-        assert!(quantile(&[], 0.5).is_nan());
-    }
 
     /// Twice the dependent work takes about twice the time; the bounds leave room for a busy machine.
     #[test]
@@ -345,16 +239,16 @@ mod tests {
         let empty = race.baseline(&inputs, |input: f32| input);
         let single = race.competitor(empty, &inputs, work(20));
         let double = race.competitor(empty, &inputs, work(40));
-        race.run(60);
-        let ratio = race.ratio(double, single, Mode::Latency);
+        race.run(60, &|| ());
+        let [single, double] = [single, double].map(|place| race.measure(place, Mode::Latency));
+        let ratio = double.over(&single);
         assert!(
-            matches!(ratio, Ratio::Is(ratio) if (1.4..2.8).contains(&ratio)),
+            matches!(ratio, Ratio::Is(ratio) if (1.4..2.8).contains(&ratio.median)),
             "{ratio:?}"
         );
-        assert_eq!(race.measure(empty, Mode::Latency).median, 0.0);
     }
 
-    /// Samples of a race that was not run: an empty call that takes 2 ns with quartiles 0.2 ns apart, and
+    /// Samples of a race that was not run: an empty call that differs from itself by 0.2 ns between the quartiles, and
     /// others that take so much more.
     fn samples(more: &[f64]) -> (Race, Vec<Place>) {
         let mut race = Race::default();
@@ -364,30 +258,24 @@ mod tests {
             .map(|_| race.competitor(empty, &[0.0_f32; 256], |input: f32| input))
             .collect();
         for (entry, more) in race.entries.iter_mut().zip([&0.0].into_iter().chain(more)) {
-            let times = [1.9, 1.9, 2.0, 2.1, 2.1].map(|empty| empty + more).to_vec();
+            let times: Vec<_> = [1.9, 1.9, 2.0, 2.1, 2.1]
+                .map(|time| Sample {
+                    time: time + more,
+                    empty: 2.0,
+                    unit: 2.0,
+                })
+                .into();
             entry.samples = [times.clone(), times];
         }
         (race, places)
     }
 
     #[test]
-    fn a_time_below_the_resolution_is_none() {
+    fn a_call_faster_than_none_tells_the_resolution() {
         let (race, places) = samples(&[5.0, 0.1, -0.5]);
-        let measures: Vec<_> = places
-            .iter()
-            .map(|&place| race.measure(place, Mode::Throughput))
-            .collect();
-        let [long, short, negative] = &measures[..] else {
-            unreachable!()
-        };
-        // The third call came out half a nanosecond faster than none: so much is not told.
+        let long = race.measure(places[0], Mode::Throughput);
         assert!((long.resolution - 0.5).abs() < 1e-9, "{}", long.resolution);
-        assert!(long.is_resolved() && !short.is_resolved() && !negative.is_resolved());
-        assert_eq!(negative.at_least_resolved(), negative.resolution);
-        assert!(matches!(long.over(long), Ratio::Is(ratio) if ratio == 1.0));
-        assert!(matches!(short.over(long), Ratio::Below(ratio) if (ratio - 0.1).abs() < 1e-9));
-        assert!(matches!(long.over(negative), Ratio::Above(ratio) if (ratio - 10.0).abs() < 1e-9));
-        assert_eq!(short.over(negative), Ratio::Unknown);
+        assert!((long.median - 5.0).abs() < 1e-9);
         // Without it the spread of the empty call is what is not told.
         let (race, places) = samples(&[5.0, 0.1]);
         let resolution = race.measure(places[0], Mode::Latency).resolution;

@@ -12,8 +12,9 @@ use epas_friction::train::Press;
 use epas_friction::train::Train;
 use epas_friction::{Inputs, LoadShare, UncagedOutputs};
 
+use super::feed::{Feed, Taken};
 use super::group::{Group, List};
-use super::race::{Feed, Race, Taken};
+use super::race::Race;
 use crate::failure::Failure;
 use crate::study;
 

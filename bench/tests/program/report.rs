@@ -24,6 +24,7 @@ fn the_report_reproduces_the_printed_tables_and_writes_every_figure() {
     let (page, markdown) = (read("report.html"), read("report.md"));
     let json: Value = serde_json::from_str(&read("report.json")).unwrap();
     let figures = [
+        "friction_over_a_manoeuvre",
         "error_against_time",
         "curvature_figure_8",
         "curvature_figure_9",
@@ -69,6 +70,7 @@ fn the_report_reproduces_the_printed_tables_and_writes_every_figure() {
         assert!(json[figure]["panels"].is_array(), "{figure}");
     }
     for table in [
+        "friction",
         "table_a1",
         "table_a2",
         "summary",
@@ -125,11 +127,48 @@ fn the_report_reproduces_the_printed_tables_and_writes_every_figure() {
             path.extension().is_some_and(|end| end == "svg")
         })
         .count();
-    assert_eq!(page.matches("<svg").count(), pictures);
+    assert_eq!(page.matches("<figure id=\"figure-").count(), pictures);
     // The page asks for nothing: no script, no style sheet, no picture from elsewhere.
-    for link in ["src=", "<script", "<link", "@import", "url("] {
-        assert!(!page.contains(link), "{link}");
+    let own = page
+        .replace("http://www.w3.org/2000/svg", "")
+        .replace("<link rel=\"icon\" href=\"data:,\">", "");
+    for link in ["src=", "<link", "@import", "url(", "http:", "https:"] {
+        assert!(!own.contains(link), "{link}");
     }
+    // Every section has its link, in the order of the page; friction comes first.
+    let links: Vec<_> = page
+        .split("<a href=\"#")
+        .skip(1)
+        .filter_map(|rest| rest.split('"').next())
+        .collect();
+    let sections: Vec<_> = page
+        .split("<details class=\"section\" id=\"")
+        .skip(1)
+        .filter_map(|rest| rest.split('"').next())
+        .collect();
+    assert_eq!(links, sections);
+    assert_eq!(sections.first(), Some(&"friction-of-the-whole-screw"));
+    // The processor, the compiler and the day are named.
+    assert!(markdown.contains("built by rustc ") && markdown.contains("Made on 2"));
+}
+
+/// A page of another stands in the way before anything is computed; a folder that is a file as well.
+#[test]
+fn the_report_of_another_stays() {
+    let folder = tempdir().unwrap();
+    let mine = folder.path().join("report.md");
+    fs::write(&mine, "# Minutes of Monday\n").unwrap();
+    for output in [".", "report.md", "report.md/below"] {
+        let run = run_in(
+            folder.path(),
+            &["report", "--quick", "--output", output],
+            "",
+        );
+        assert_eq!(run.code, 1, "{}", run.stderr);
+        assert!(!run.stderr.contains("[1/"), "{}", run.stderr);
+    }
+    assert_eq!(fs::read_to_string(mine).unwrap(), "# Minutes of Monday\n");
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
 }
 
 /// Every worst case of the error maps, run as the line that the table prints, gives the error of the table;

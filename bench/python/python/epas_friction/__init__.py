@@ -30,6 +30,7 @@ from ._native import (
     circular_groove_curvature,
     contact_forces,
     contact_kinematics,
+    design_figures,
     design_names,
     efficiency,
     ellipse,
@@ -39,15 +40,19 @@ from ._native import (
     groove_curvature,
     literature_curvature,
     manoeuvre,
+    merge_sums,
+    population,
     simulate_caged,
     simulate_linear,
     simulate_uncaged,
+    trace_sums,
 )
 from .errors import Error, NumberTypeError, ShapeError
 from .results import (
     Calibration,
     ContactKinematics,
     ContactSlip,
+    DesignFigures,
     Efficiency,
     Ellipse,
     Estimate,
@@ -72,6 +77,7 @@ __all__ = [
     "ContactKinematics",
     "ContactSlip",
     "Design",
+    "DesignFigures",
     "Efficiency",
     "Ellipse",
     "Error",
@@ -97,6 +103,7 @@ __all__ = [
     "circular_groove_curvature",
     "contact_forces",
     "contact_kinematics",
+    "design_figures",
     "design_names",
     "efficiency",
     "ellipse",
@@ -107,10 +114,13 @@ __all__ = [
     "groove_curvature",
     "literature_curvature",
     "manoeuvre",
+    "merge_sums",
+    "population",
     "reference",
     "simulate_caged",
     "simulate_linear",
     "simulate_uncaged",
+    "trace_sums",
 ]
 
 

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 from typing_extensions import Self
 
 from .results import (
+    DesignFigures,
     Calibration,
     ContactKinematics,
     Efficiency,
@@ -35,6 +36,7 @@ __all__ = [
     "circular_groove_curvature",
     "contact_forces",
     "contact_kinematics",
+    "design_figures",
     "design_names",
     "efficiency",
     "ellipse",
@@ -44,6 +46,8 @@ __all__ = [
     "groove_curvature",
     "literature_curvature",
     "manoeuvre",
+    "merge_sums",
+    "population",
     "reference_contact_kinematics",
     "reference_efficiency",
     "reference_ellipse",
@@ -55,6 +59,7 @@ __all__ = [
     "simulate_caged",
     "simulate_linear",
     "simulate_uncaged",
+    "trace_sums",
 ]
 
 _Groove = Literal["screw", "nut"]
@@ -197,6 +202,30 @@ def calibrate(
     smoothing: float | None = None,
     rows: float | None = None,
 ) -> Calibration: ...
+
+def design_figures(
+    pitch_radius: ArrayLike,
+    lead: ArrayLike,
+    ball_radius: ArrayLike,
+    conformity: ArrayLike | None = None,
+    contact_angle: ArrayLike | None = None,
+    preload: ArrayLike | None = None,
+    *,
+    axial_load: float | None = None,
+    turns: float | None = None,
+    friction: float | None = None,
+    ball_friction: float | None = None,
+    deviation: float | None = None,
+    strict: bool = True,
+) -> DesignFigures: ...
+def trace_sums(
+    trace: Mapping[str, ArrayLike],
+    design: Design | None = None,
+    *,
+    ratio: float = 1.0,
+) -> str: ...
+def merge_sums(parts: list[str]) -> str: ...
+def population(sums: str) -> list[dict[str, Any]]: ...
 
 @final
 class Design:

@@ -381,3 +381,18 @@ class Calibration:
     def __getitem__(self, name: str) -> Estimate:
         """A parameter by its name."""
         return self.parameters[name]
+
+
+class DesignFigures(NamedTuple):
+    """What designs do, float32; NaN where there is none."""
+
+    #: Balls under load.
+    loaded_balls: Array
+    #: On the nut, N m.
+    friction_torque: Array
+    #: Work out over work in of a nut that moves the load.
+    efficiency: Array
+    #: Largest contact pressure in either groove, Pa.
+    max_pressure: Array
+    #: Between two neighbouring balls, N.
+    contact_force: Array

@@ -63,10 +63,7 @@ pub fn document(together: &Together) -> Document {
             })],
         });
     }
-    Document {
-        title: "Calibration of a folder".into(),
-        sections,
-    }
+    Document::of("Calibration of a folder".into(), sections)
 }
 
 /// A number with four digits.

@@ -203,25 +203,27 @@ pub fn write(output: &Path, stored: &Stored) -> Result<(), Failure> {
 /// A folder or a file that cannot be read.
 pub fn all(output: &Path) -> Result<Vec<Stored>, Failure> {
     let folder = output.join("traces");
-    list(&folder, "json")?
+    list(&folder, &["json"])?
         .iter()
         .map(|path| read(path))
         .collect()
 }
 
-/// Files with an ending in a folder, in the order of their names; hidden ones are none.
+/// Files with one of these endings in a folder, in the order of their names; hidden ones are none.
 ///
 /// # Errors
 /// A folder that cannot be read.
-pub fn list(folder: &Path, ending: &str) -> Result<Vec<PathBuf>, Failure> {
+pub fn list(folder: &Path, endings: &[&str]) -> Result<Vec<PathBuf>, Failure> {
     let failure = |error: io::Error| Failure::file("read", folder, &error);
     let mut paths = Vec::new();
     for entry in fs::read_dir(folder).map_err(failure)? {
         let path = entry.map_err(failure)?.path();
         let hidden = name(&path).starts_with('.');
-        let fits = path
-            .extension()
-            .is_some_and(|own| own.eq_ignore_ascii_case(ending));
+        let fits = path.extension().is_some_and(|own| {
+            endings
+                .iter()
+                .any(|ending| own.eq_ignore_ascii_case(ending))
+        });
         if fits && !hidden && path.is_file() {
             paths.push(path);
         }

@@ -101,7 +101,7 @@ mod tests {
         let table = table().unwrap();
         let number = |cell: &Cell| match cell {
             Cell::Number(value, _) => *value,
-            Cell::Text(_) => f64::NAN,
+            Cell::Code(_) | Cell::Text(_) => f64::NAN,
         };
         assert_eq!(table.rows.len(), 9);
         for row in &table.rows {

@@ -105,7 +105,6 @@ fn picture(context: &Context, found: &[(&Candidate, Comparison)]) -> Figure {
             notes.push(Note {
                 at,
                 text: candidate.name.replace("this crate, ", ""),
-                left: ours,
             });
         }
         series.push(Series::new(name, usize::from(ours), mark, points));

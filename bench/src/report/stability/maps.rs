@@ -501,6 +501,19 @@ pub const COLUMNS: [&str; 10] = [
     "worst case",
 ];
 
+/// What is promised, and where, if it is less than the largest error found.
+fn promised(promise: Option<f64>, found: f64) -> Cell {
+    let Some(promise) = promise else {
+        return "".into();
+    };
+    let cell = Cell::power(promise);
+    if found > promise {
+        format!("{} on its domain, a part of the map", cell.shown()).into()
+    } else {
+        cell
+    }
+}
+
 /// A map, drawn.
 pub struct Drawn {
     pub panel: Panel,
@@ -604,12 +617,11 @@ impl Map {
             Cell::power(errors.largest),
             Cell::power(errors.rms()),
             Cell::power(errors.mean()),
-            self.promise
-                .map_or_else(|| "".into(), |promise| Cell::power(promise.largest)),
+            promised(self.promise.map(|promise| promise.largest), errors.largest),
             in_loop.into(),
             reference.into(),
             self.over.unwrap_or("").into(),
-            worst.1.into(),
+            Cell::Code(worst.1),
         ];
         Drawn {
             panel,

@@ -27,7 +27,11 @@ const TRAINS: [(u8, [&str; 3]); 9] = [
 ];
 
 /// What the keys time.
-const PARTS: [&str; 3] = ["forces", "forces and positions", "whole tick of the screw"];
+const PARTS: [&str; 3] = [
+    "forces alone, from speeds that vary from ball to ball",
+    "forces and positions, from speeds of a run",
+    "whole tick of the screw",
+];
 
 /// Tables and figures.
 pub fn blocks(context: &Context) -> Result<Vec<Block>, Failure> {
@@ -64,7 +68,7 @@ fn printed_times(context: &Context) -> Result<Table, Failure> {
     let mut row = |name: &str, time: f64, against: &str, printed: f64| {
         rows.push(vec![
             Cell::from(name),
-            Cell::fixed(1e9 * time, 0),
+            Cell::power(1e9 * time),
             against.into(),
             Cell::Number(printed, printed.to_string()),
             Cell::power(printed / time),
@@ -75,7 +79,8 @@ fn printed_times(context: &Context) -> Result<Table, Failure> {
         screw.solve(ScrewSupport::Load(-100.0))?;
         Ok(())
     })?;
-    let time = |key: &str| Ok::<f64, Failure>(1e-9 * context.times(key)?.latency.median);
+    let time =
+        |key: &str| Ok::<f64, Failure>(1e-9 * context.times(key)?.latency.at_least_resolved());
     row(
         "linear bearing, closed form (3.43), (3.51), f32",
         time("pair_analytic")?,
@@ -164,8 +169,8 @@ fn train_times(context: &Context) -> Result<Table, Failure> {
     }
     Ok(Table {
         name: "train_times",
-        caption: "Latency in ns of a train: its forces from free speeds and impedances (Press::solve, one exact pass), \
-                  with its positions (Train::step), and of a tick of the ball screw without cage that holds it; \
+        caption: "Latency in ns of a train: its forces from free speeds and impedances that vary from ball to ball (`Press::solve`, one exact pass), \
+                  forces and positions from speeds of a run, where fewer balls press (`Train::step`), and of a tick of the ball screw without cage that holds it; \
                   quartiles, and the latency of the tick for each ball"
             .into(),
         columns: [

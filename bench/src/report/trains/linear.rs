@@ -319,7 +319,6 @@ fn picture(context: &Context, grid: &Grid, swing: &Errors) -> Result<Figure, Fai
                 notes.push(Note {
                     at,
                     text: name.into(),
-                    left: variant + 1 == VARIANTS.len(),
                 });
             }
         }
@@ -360,7 +359,7 @@ fn map(title: &str, quantity: &str, bounds: &[(f64, &str)], values: Vec<Vec<f64>
         x: Axis::linear("side-force ratio").between(-LARGEST_RATIO, LARGEST_RATIO),
         y: Axis::linear("angle deviation (deg)").between(-LARGEST_TURN, LARGEST_TURN),
         quantity: quantity.into(),
-        colours: Colours::Sequential,
+        colours: Colours::of(bounds.iter().map(|(bound, _)| bound)),
         bounds: bounds
             .iter()
             .map(|(bound, text)| (*bound, (*text).to_owned()))

@@ -240,7 +240,6 @@ fn picture(context: &Context, cases: &[Case]) -> Result<Figure, Failure> {
                     notes.push(Note {
                         at,
                         text: name.into(),
-                        left: variant + 1 == VARIANTS.len(),
                     });
                 }
             }
@@ -251,20 +250,16 @@ fn picture(context: &Context, cases: &[Case]) -> Result<Figure, Failure> {
     let forces = |variant: Option<usize>| {
         let mut points: Vec<_> = cases
             .iter()
-            .filter(|case| case.load == 50.0 && case.degrees > 0.0)
+            .filter(|case| case.load == 50.0)
             .map(|case| {
                 let force = variant.map_or(case.exact, |variant| case.forces[variant]);
-                (
-                    if case.sign == 0 {
-                        case.degrees
-                    } else {
-                        -case.degrees
-                    },
-                    force,
-                )
+                let side = if case.sign == 0 { 1.0 } else { -1.0 };
+                (side * case.degrees.abs(), force)
             })
             .collect();
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        // Of the two directions of the load the first.
+        points.dedup_by_key(|point| point.0);
         points
     };
     let mut of_force = vec![Series::new("elastic model", 0, Mark::Line, forces(None))];
@@ -279,7 +274,7 @@ fn picture(context: &Context, cases: &[Case]) -> Result<Figure, Failure> {
     Ok(Figure {
         name: "screw_ball_error_against_time",
         caption: "Force between two balls of a ball screw. Left: largest error against the time of one call. Right: \
-                  the force at 50 N a ball; favourable deviations to the right, unfavourable ones to the left."
+                  the force at 50 N a ball; favourable deviations to the right, unfavourable ones to the left, a load to the left."
             .into(),
         panels: vec![
             Panel::Chart(Chart {

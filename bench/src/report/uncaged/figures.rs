@@ -116,7 +116,7 @@ pub fn blocks(quick: bool) -> Result<Vec<Block>, Failure> {
     Ok(vec![
         Block::Table(Table {
             name: "lin_figure_3_25_exact",
-            caption: "Figures 3.24 and 3.25 again: 37 balls, 1500 N on SR and NL, friction 0.1, two waves a turn on the screw, first turn of the nut. The \
+            caption: "Lin 2019, Figures 3.24 and 3.25, again: 37 balls, 1500 N on SR and NL, friction 0.1, two waves a turn on the screw, first turn of the nut. The \
                       amplitude is not printed"
                 .into(),
             columns: [
@@ -176,11 +176,11 @@ fn figure(runs: &[Run]) -> Figure {
     };
     Figure {
         name: "lin_figures_3_24_3_25_exact",
-        caption: "Figures 3.24 and 3.25 from the exact whole screw: torque of the grooves, and torque between balls over it.".into(),
+        caption: "Lin 2019, Figures 3.24 and 3.25, from the exact whole screw: torque of the grooves, and torque between balls over it.".into(),
         panels: vec![
-            chart("Figure 3.24", "groove torque (N m)", |moment| moment.1),
+            chart("Lin 2019, Figure 3.24", "groove torque (N m)", |moment| moment.1),
             chart(
-                "Figure 3.25",
+                "Lin 2019, Figure 3.25",
                 "ball torque over groove torque (%)",
                 |moment| 100.0 * moment.2 / moment.1,
             ),

@@ -1,0 +1,8 @@
+//! Measurement files: any bytes are read or refused, without a panic.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|data: &[u8]| {
+    let _ = epas_bench::untrusted::measurement(data);
+});

@@ -1,0 +1,205 @@
+//! Studies of many designs and of many traces, in parts that any engine may run anywhere.
+
+use epas_bench::calibrate::columns::Frame;
+use epas_bench::calibrate::screw::Request;
+use epas_bench::calibrate::sums::Sums;
+use epas_bench::calibrate::without_design::{self, Filters};
+use epas_bench::calibrate::with_design;
+use epas_bench::design_study::{Design as StudiedDesign, Duty, figures};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList};
+
+use crate::calibration::{read, text, told};
+use crate::numbers::arguments;
+use crate::design::Design;
+use crate::errors::{Refused, refused};
+use crate::results::result;
+
+type Any<'py> = Bound<'py, PyAny>;
+
+/// Figures of ball screws of steel, as firmware computes them.
+///
+/// Arrays broadcast against each other. A design's figures follow from its own numbers alone, so that any part of a study gives
+/// the same bits.
+///
+/// Args:
+///     pitch_radius: radius of the cylinder on which the ball centres run, m.
+///     lead: axial travel in one turn, m.
+///     ball_radius: m.
+///     conformity: groove radius over ball diameter, above 0.5.
+///     contact_angle: rad, 0.05 to 1.5.
+///     preload: load of each contact of an oversized ball without a load, N; 0, or from 1e-3 on.
+///     axial_load: N, 1e-3 to 1e7; it opposes the travel.
+///     turns: turns of the track that are filled with balls side by side.
+///     friction: coefficient of ball and groove, 1e-6 to 0.5.
+///     ball_friction: coefficient of ball and ball, 0 to 0.5.
+///     deviation: by which the contact angle at one of two neighbouring balls is off, rad, 0 to 0.2.
+///     strict: whether a design out of range is an error; else its figures are NaN.
+///
+/// Returns:
+///     DesignFigures: loaded_balls, friction_torque (N m), efficiency, max_pressure (Pa), contact_force (between two balls, N;
+///     NaN where a ball leaves the model), float32, of the broadcast shape.
+///
+/// Raises:
+///     Error: a value out of its range, with its place in the arrays.
+#[pyfunction]
+#[pyo3(signature = (pitch_radius, lead, ball_radius, conformity=None, contact_angle=None, preload=None, *, axial_load=None, turns=None, friction=None, ball_friction=None, deviation=None, strict=true))]
+pub fn design_figures<'py>(
+    py: Python<'py>,
+    pitch_radius: Any<'py>,
+    lead: Any<'py>,
+    ball_radius: Any<'py>,
+    conformity: Option<Any<'py>>,
+    contact_angle: Option<Any<'py>>,
+    preload: Option<Any<'py>>,
+    axial_load: Option<f32>,
+    turns: Option<f32>,
+    friction: Option<f32>,
+    ball_friction: Option<f32>,
+    deviation: Option<f32>,
+    strict: bool,
+) -> PyResult<Any<'py>> {
+    let or = |given: Option<Any<'py>>, usual: f64| -> PyResult<Any<'py>> {
+        given.map_or_else(|| Ok(usual.into_pyobject(py)?.into_any()), Ok)
+    };
+    let conformity = or(conformity, 0.54)?;
+    let contact_angle = or(contact_angle, std::f64::consts::FRAC_PI_4)?;
+    let preload = or(preload, 0.0)?;
+    let usual = Duty::DEFAULT;
+    let duty = Duty {
+        axial_load: axial_load.unwrap_or(usual.axial_load),
+        turns: turns.unwrap_or(usual.turns),
+        friction: friction.unwrap_or(usual.friction),
+        ball_friction: ball_friction.unwrap_or(usual.ball_friction),
+        deviation: deviation.unwrap_or(usual.deviation),
+    };
+    let names = ["pitch_radius", "lead", "ball_radius", "conformity", "contact_angle", "preload"];
+    let values = [&pitch_radius, &lead, &ball_radius, &conformity, &contact_angle, &preload];
+    let found = arguments(py, names, values)?.map(py, move |numbers: [f32; 6]| {
+        let [pitch_radius, lead, ball_radius, conformity, contact_angle, preload] = numbers;
+        let design = StudiedDesign {
+            pitch_radius,
+            lead,
+            ball_radius,
+            conformity,
+            contact_angle,
+            preload,
+        };
+        match figures(&design, &duty) {
+            Ok(found) => Ok([
+                f32::from(found.loaded_balls),
+                found.friction_torque,
+                found.efficiency,
+                found.max_pressure,
+                found.contact_force,
+            ]),
+            Err(error) if strict => Err(Refused::from(error).renamed("contact_force", "preload")),
+            Err(_) => Ok([f32::NAN; 5]),
+        }
+    })?;
+    let [loaded_balls, friction_torque, efficiency, max_pressure, contact_force] = found.arrays(py)?;
+    result(
+        py,
+        "DesignFigures",
+        (loaded_balls, friction_torque, efficiency, max_pressure, contact_force),
+    )
+}
+
+/// Fits one trace of many; what it says, as sums that merge (JSON).
+///
+/// Args:
+///     trace: dict of column names to arrays of shape (n,), as of :func:`calibrate`.
+///     design: of the screw, where it is known; else a mass or an inertia with load-free friction is fitted.
+///     ratio: turns of the motor in a turn of the nut, with a design.
+///
+/// Returns:
+///     str: sums, for :func:`merge_sums` and :func:`population`.
+///
+/// Raises:
+///     Error: a trace from which nothing can be told.
+#[pyfunction]
+#[pyo3(signature = (trace, design=None, *, ratio=1.0))]
+pub fn trace_sums(
+    py: Python<'_>,
+    trace: &Any<'_>,
+    design: Option<&Design>,
+    ratio: f64,
+) -> PyResult<String> {
+    let text = text(py, trace)?;
+    let summed = py.detach(|| match design {
+        None => without_design::plain(&read(text, None)?, &Filters::default()),
+        Some(design) => {
+            let frame = Frame {
+                lead: design.inner.screw().lead().into(),
+                ratio,
+            };
+            let request = Request::default();
+            with_design::summed(&read(text, Some(&frame))?, &design.inner, &request)
+        }
+    });
+    let (_, sums) = summed.map_err(|failure| refused(py, told(failure)))?;
+    written(py, &sums)
+}
+
+/// Sums of parts as those of the whole: in any order and grouping, to the last rounding.
+///
+/// Args:
+///     parts: list of sums; one or more.
+///
+/// Returns:
+///     str: their sums.
+///
+/// Raises:
+///     Error: text that holds no sums, or sums of other parameters.
+#[pyfunction]
+pub fn merge_sums(py: Python<'_>, parts: Vec<String>) -> PyResult<String> {
+    let mut whole: Option<Sums> = None;
+    for part in &parts {
+        let part = parsed(py, part)?;
+        match &mut whole {
+            None => whole = Some(part),
+            Some(whole) => whole
+                .merge(&part)
+                .map_err(|error| refused(py, Refused::value("parts", error.to_string())))?,
+        }
+    }
+    let none = || refused(py, Refused::value("parts", "there are no sums to merge"));
+    written(py, &whole.ok_or_else(none)?)
+}
+
+/// Mean and spread of each parameter over the traces of sums.
+///
+/// Args:
+///     sums: of :func:`trace_sums` or :func:`merge_sums`.
+///
+/// Returns:
+///     list of dict: name, traces, mean, mean_interval (95 %), spread (None where one trace tells it), next (where the next
+///     trace's value will be, 95 %).
+///
+/// Raises:
+///     Error: text that holds no sums.
+#[pyfunction]
+pub fn population<'py>(py: Python<'py>, sums: &str) -> PyResult<Bound<'py, PyList>> {
+    let list = PyList::empty(py);
+    for one in parsed(py, sums)?.population() {
+        let entry = PyDict::new(py);
+        entry.set_item("name", one.name)?;
+        entry.set_item("traces", one.traces)?;
+        entry.set_item("mean", one.mean)?;
+        entry.set_item("mean_interval", one.mean_interval)?;
+        entry.set_item("spread", one.spread)?;
+        entry.set_item("next", one.next)?;
+        list.append(entry)?;
+    }
+    Ok(list)
+}
+
+fn parsed(py: Python<'_>, text: &str) -> PyResult<Sums> {
+    serde_json::from_str(text)
+        .map_err(|error| refused(py, Refused::value("sums", format!("no sums: {error}"))))
+}
+
+fn written(py: Python<'_>, sums: &Sums) -> PyResult<String> {
+    serde_json::to_string(sums)
+        .map_err(|error| refused(py, Refused::value("sums", error.to_string())))
+}

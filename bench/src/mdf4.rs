@@ -1,0 +1,47 @@
+//! Measurement files of ASAM MDF 4 (`.mf4`): their channels in SI units on one raster, and files that hold what a table would.
+//!
+//! | module | what |
+//! |---|---|
+//! | [`blocks`] | a block within the file's bounds, a text |
+//! | [`chain`] | the bytes of a data group, through lists and compression |
+//! | [`records`] | the records of a channel group among those bytes |
+//! | [`file`] | groups and channels |
+//! | [`samples`] | the values of a channel, and which of them are invalid |
+//! | [`mapping`] | which channel is which column, where names differ |
+//! | [`choice`] | the channels of the wanted quantities, their units |
+//! | [`raster`] | channels of several rasters on one |
+//! | [`table`] | what a command asks for, and gets |
+//! | [`write`] | writes a table |
+//!
+//! The structures of the blocks, the numbers of a record and the conversions are those of the crate `mdf4-rs`. It slices a file
+//! without looking at its size, takes counts as they stand, drops a record that goes over the end of a data block, and knows no
+//! data group of several channel groups; so it is given blocks that were measured before, and the way through the data is ours.
+
+pub mod blocks;
+pub mod chain;
+pub mod choice;
+pub mod file;
+pub mod mapping;
+pub mod raster;
+pub mod records;
+pub mod samples;
+pub mod table;
+#[cfg(test)]
+mod tests;
+pub mod write;
+
+pub use mapping::Mapping;
+pub use table::{Request, Table, Wanted, read};
+
+use std::path::Path;
+
+/// Whether a path names a measurement file by its ending.
+pub fn named(path: &Path) -> bool {
+    path.extension()
+        .is_some_and(|ending| ending.eq_ignore_ascii_case("mf4"))
+}
+
+/// Whether bytes start as a measurement file does, of whatever version.
+pub fn starts(bytes: &[u8]) -> bool {
+    bytes.starts_with(b"MDF     ") || bytes.starts_with(b"UnFinMF ")
+}

@@ -1,0 +1,234 @@
+//! Friction of the whole screw, first of all: what the scenes that firmware runs say over a manoeuvre, their error and their cost.
+
+use epas_friction::promises::{Promise, STEP_CAGED, STEP_CAGED_MEMORY, STEP_UNCAGED};
+
+use super::context::Context;
+use super::statistics::Errors;
+use super::times::time;
+use crate::document::{Block, Cell, Figure, Section, Table};
+use crate::failure::Failure;
+use crate::peers::candidates::ours;
+use crate::peers::compare::Comparison;
+use crate::plot::{Axis, Chart, Mark, Panel, Series, thin};
+use crate::simulate::{Courses, Manoeuvre, Moment, courses};
+
+/// The screw of Lin 2019, Section 3.4.4: pitch circle of 33 mm, lead 20 mm, 37 balls.
+const DESIGN: &str = "lin-3.6";
+
+/// Cycles in a millisecond of a processor of 168 MHz.
+const CYCLES_A_MILLISECOND: f64 = 168_000.0;
+
+/// The section.
+pub fn section(context: &Context) -> Result<Section, Failure> {
+    let weave = courses(DESIGN, Manoeuvre::Weave)?;
+    Ok(Section {
+        title: "Friction of the whole screw",
+        blocks: vec![
+            Block::Text(
+                "A step takes nut speed and axial load and says how much motor torque friction takes. Three scenes: balls in a cage, which do \
+                 not touch; the same with memory, where friction comes back over an angle after a reversal; and 37 balls that press on each other. \
+                 Exact is a float64 reference from other formulas: every ball in elastic balance with Coulomb friction by integrals over its \
+                 contacts; for reversals Mindlin's first loading repeated from every turning point; for 37 balls the whole screw by \
+                 complementarity."
+                    .into(),
+            ),
+            Block::Table(errors_and_costs(context, &weave)?),
+            Block::Figure(over_the_weave(&weave)),
+        ],
+    })
+}
+
+/// Largest and rms of an error with their words.
+struct Found {
+    largest: f64,
+    rms: f64,
+    kind: String,
+}
+
+/// One scene.
+struct Row {
+    scene: &'static str,
+    found: Found,
+    promise: Promise,
+    time: &'static str,
+    counted: &'static str,
+}
+
+fn errors_and_costs(context: &Context, weave: &Courses) -> Result<Table, Failure> {
+    let eight = ours()
+        .into_iter()
+        .find(|candidate| candidate.name.ends_with("8 elements"))
+        .ok_or_else(|| Failure::Data("no law of eight elements".into()))?;
+    let (rms, largest) = Comparison::new(&eight)?.random;
+    let [whole_largest, whole_rms, _] = context.flagship.comparison.torque.relative();
+    let rows = [
+        Row {
+            scene: "balls in a cage",
+            found: against_exact(&weave.caged),
+            promise: STEP_CAGED,
+            time: "step_caged",
+            counted: "step_caged",
+        },
+        Row {
+            scene: "balls in a cage, with memory",
+            found: Found {
+                largest,
+                rms,
+                kind: "torque over that of sliding: elements, random strokes, exact hysteresis"
+                    .into(),
+            },
+            promise: STEP_CAGED_MEMORY,
+            time: "step_caged_memory",
+            counted: "step_caged_memory",
+        },
+        Row {
+            scene: "37 balls that press on each other",
+            found: Found {
+                largest: whole_largest,
+                rms: whole_rms,
+                kind: format!(
+                    "torque over its largest: {} turns under 50 N a ball, exact whole screw",
+                    context.flagship.turns
+                ),
+            },
+            promise: STEP_UNCAGED,
+            time: "step_train_37",
+            counted: "step_train_37_pressing",
+        },
+    ];
+    Ok(Table {
+        name: "friction",
+        caption: "Error and cost of a step. What was found in this run; the largest error promised holds over the whole domain of the scene (table \"promises\"), \
+                  for memory beyond the reversal alone. Cycles: the most on a Cortex-M4F, where every ball presses."
+            .into(),
+        columns: [
+            "scene",
+            "largest error (%)",
+            "rms (%)",
+            "of what, against what",
+            "promised largest (%)",
+            "time of a step here (ns)",
+            "cycles",
+            "of a 168 MHz core at 1 kHz (%)",
+        ]
+        .map(String::from)
+        .to_vec(),
+        rows: rows
+            .iter()
+            .map(|row| cells(context, row))
+            .collect::<Result<_, _>>()?,
+    })
+}
+
+fn cells(context: &Context, row: &Row) -> Result<Vec<Cell>, Failure> {
+    let function = context.target.figures.function(row.counted);
+    let cycles = function.map(|function| f64::from(function.cycles_max));
+    Ok(vec![
+        row.scene.into(),
+        Cell::power(100.0 * row.found.largest),
+        Cell::power(100.0 * row.found.rms),
+        row.found.kind.as_str().into(),
+        Cell::power(100.0 * row.promise.largest),
+        time(&context.times(row.time)?.latency, 0),
+        cycles.map_or("not counted".into(), |cycles| Cell::fixed(cycles, 0)),
+        cycles.map_or("".into(), |cycles| {
+            Cell::fixed(100.0 * cycles / CYCLES_A_MILLISECOND, 1)
+        }),
+    ])
+}
+
+/// Differences from the reference over its largest torque.
+fn against_exact(moments: &[Moment]) -> Found {
+    let pairs = || {
+        moments
+            .iter()
+            .filter_map(|moment| Some((moment.friction, moment.reference?)))
+    };
+    let largest = pairs().fold(0.0, |largest: f64, (_, exact)| largest.max(exact.abs()));
+    let errors: Errors = pairs()
+        .map(|(friction, exact)| (friction - exact) / largest)
+        .collect();
+    Found {
+        largest: errors.largest,
+        rms: errors.rms(),
+        kind: "torque over its largest: weave, exact ball".into(),
+    }
+}
+
+fn between(moments: &[Moment], (start, end): (f64, f64)) -> &[Moment] {
+    let from = moments.partition_point(|moment| moment.place < start);
+    let to = moments.partition_point(|moment| moment.place <= end);
+    &moments[from..to.max(from)]
+}
+
+/// The start of the reversal under the largest load, s.
+fn reversal(moments: &[Moment]) -> f64 {
+    let reversals = moments
+        .windows(2)
+        .filter(|pair| pair[0].speed * pair[1].speed <= 0.0);
+    reversals
+        .max_by(|one, other| one[0].load.abs().total_cmp(&other[0].load.abs()))
+        .map_or(0.0, |pair| pair[0].place)
+}
+
+fn over_the_weave(weave: &Courses) -> Figure {
+    const WHOLE: (f64, f64) = (0.0, 5.0);
+    let start = reversal(&weave.memory);
+    let close = (start - 0.02, start + 0.06);
+    let line = |name: &str, colour, moments: &[Moment], ends, value: &dyn Fn(&Moment) -> f64| {
+        let points = thin(between(moments, ends), &|moment| moment.place, value);
+        Series::new(name, colour, Mark::Line, points)
+    };
+    let chart = |title: &str, label: &str, ends: (f64, f64), series| {
+        Panel::Chart(Chart {
+            title: title.into(),
+            x: Axis::linear("time (s)").between(ends.0, ends.1),
+            y: Axis::linear(label),
+            series,
+            notes: Vec::new(),
+        })
+    };
+    let friction = |moment: &Moment| moment.friction;
+    let three = |ends| {
+        vec![
+            line("cage", 0, &weave.caged, ends, &friction),
+            line("cage, memory", 1, &weave.memory, ends, &friction),
+            line("37 balls, memory", 2, &weave.balls, ends, &friction),
+        ]
+    };
+    let part =
+        |index: usize| move |moment: &Moment| moment.parts.map_or(f64::NAN, |parts| parts[index]);
+    let motor = |moment: &Moment| moment.motor.unwrap_or(f64::NAN);
+    let load = |moment: &Moment| motor(moment) - moment.friction;
+    Figure {
+        name: "friction_over_a_manoeuvre",
+        caption: "Friction torque of a screw of 33 mm and lead 20 mm with 37 balls, on centre. A weave at 0.2 Hz with small corrections; the \
+                  reversal under the largest load closer; motor torque at the nut without inertia; and friction of the 37 balls in its parts. Without memory \
+                  friction turns round with the speed, with memory over an angle. Model of this crate; geometry of Lin 2019, Table 3.6."
+            .into(),
+        panels: vec![
+            chart("Friction on centre", "friction torque (N m)", WHOLE, three(WHOLE)),
+            chart("One reversal", "friction torque (N m)", close, three(close)),
+            chart(
+                "What the motor has to do",
+                "motor torque (N m)",
+                WHOLE,
+                vec![
+                    line("load alone", 6, &weave.balls, WHOLE, &load),
+                    line("load and friction of 37 balls", 1, &weave.balls, WHOLE, &motor),
+                ],
+            ),
+            chart(
+                "Friction of 37 balls in its parts",
+                "friction torque (N m)",
+                WHOLE,
+                vec![
+                    line("grooves", 0, &weave.balls, WHOLE, &part(0)),
+                    line("ball to ball", 1, &weave.balls, WHOLE, &part(1)),
+                ],
+            ),
+        ],
+        columns: 2,
+        size: (540, 350),
+    }
+}

@@ -1,0 +1,495 @@
+//! What a column or a channel holds: which quantity, of what, in which unit. One table for every file that is read.
+//!
+//! A CSV file says the unit behind the name (`nut_speed_rpm`) or in brackets (`Nut speed [rpm]`); a measurement file
+//! says it in the channel's metadata.
+
+use std::f64::consts::{PI, TAU};
+
+/// What moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// Not said.
+    Plain,
+    /// The motor's shaft.
+    Motor,
+    /// The nut.
+    Nut,
+    /// The carriage, or the rack.
+    Carriage,
+}
+
+/// What a column holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// Time.
+    Time,
+    /// Position of a part.
+    Position(Part),
+    /// Speed of a part.
+    Speed(Part),
+    /// Wanted position, of the part whose position is measured.
+    ReferencePosition,
+    /// Force of the motor along the travel.
+    MotorForce,
+    /// Torque of the motor.
+    MotorTorque,
+    /// Axial load.
+    Load,
+    /// Load that presses a carriage on its rail.
+    NormalLoad,
+    /// Load across a rail.
+    SideLoad,
+    /// Temperature.
+    Temperature,
+}
+
+/// How a unit becomes SI: `factor value + offset`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Unit {
+    /// What follows the quantity in a column's name.
+    pub name: &'static str,
+    /// How else it is written, in brackets or in metadata.
+    pub spellings: &'static [&'static str],
+    /// Factor to SI.
+    pub factor: f64,
+    /// Added after it.
+    pub offset: f64,
+    /// What it measures.
+    pub dimension: Dimension,
+}
+
+/// What a unit measures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Dimension {
+    /// The name has no unit: SI.
+    Unsaid,
+    /// An angle, or its speed.
+    Angle,
+    /// A length, or its speed.
+    Length,
+    /// Anything else.
+    Other,
+}
+
+impl Unit {
+    /// A value of the unit in SI.
+    pub fn si(self, value: f64) -> f64 {
+        if self.factor == 1.0 && self.offset == 0.0 {
+            // Adding nothing would take the sign of a zero.
+            return value;
+        }
+        value * self.factor + self.offset
+    }
+
+    /// How messages show it.
+    pub fn shown(self) -> &'static str {
+        self.spellings.first().copied().unwrap_or(self.name)
+    }
+}
+
+const fn unit(
+    name: &'static str,
+    spellings: &'static [&'static str],
+    factor: f64,
+    dimension: Dimension,
+) -> Unit {
+    Unit {
+        name,
+        spellings,
+        factor,
+        offset: 0.0,
+        dimension,
+    }
+}
+
+use Dimension::{Angle, Length, Other, Unsaid};
+
+const UNSAID: Unit = unit("", &[], 1.0, Unsaid);
+
+const TIME: &[Unit] = &[
+    unit("s", &["s", "sec", "second", "seconds"], 1.0, Other),
+    unit("ms", &["ms"], 1e-3, Other),
+    unit("us", &["us"], 1e-6, Other),
+    unit("ns", &["ns"], 1e-9, Other),
+];
+const POSITION: &[Unit] = &[
+    unit("rad", &["rad"], 1.0, Angle),
+    unit("mrad", &["mrad"], 1e-3, Angle),
+    unit("deg", &["deg", "degree", "degrees"], PI / 180.0, Angle),
+    unit("rev", &["rev", "revolutions"], TAU, Angle),
+    unit("m", &["m"], 1.0, Length),
+    unit("mm", &["mm"], 1e-3, Length),
+    unit("um", &["um"], 1e-6, Length),
+];
+const SPEED: &[Unit] = &[
+    unit("rad_s", &["rad/s", "rads^-1", "rads-1"], 1.0, Angle),
+    unit("deg_s", &["deg/s", "degs^-1", "degs-1"], PI / 180.0, Angle),
+    unit(
+        "rpm",
+        &[
+            "rpm", "1/min", "rev/min", "r/min", "u/min", "min^-1", "min-1",
+        ],
+        TAU / 60.0,
+        Angle,
+    ),
+    unit("rps", &["rps", "rev/s"], TAU, Angle),
+    unit("m_s", &["m/s", "ms^-1"], 1.0, Length),
+    unit("mm_s", &["mm/s"], 1e-3, Length),
+    unit("um_s", &["um/s"], 1e-6, Length),
+    unit("km_h", &["km/h", "kmh", "kph"], 1.0 / 3.6, Length),
+];
+const FORCE: &[Unit] = &[
+    unit("N", &["N", "newton"], 1.0, Other),
+    unit("kN", &["kN"], 1e3, Other),
+];
+const TORQUE: &[Unit] = &[
+    unit("Nm", &["Nm", "N*m", "N.m"], 1.0, Other),
+    unit("mNm", &["mNm"], 1e-3, Other),
+];
+const TEMPERATURE: &[Unit] = &[
+    unit("K", &["K", "kelvin"], 1.0, Other),
+    Unit {
+        name: "C",
+        spellings: &["degC", "C", "celsius"],
+        factor: 1.0,
+        offset: 273.15,
+        dimension: Other,
+    },
+];
+
+/// Every name without a unit. A longer name stands before one that it starts with.
+const NAMES: &[(&str, Quantity)] = &[
+    ("time", Quantity::Time),
+    ("position", Quantity::Position(Part::Plain)),
+    ("motor_position", Quantity::Position(Part::Motor)),
+    ("nut_position", Quantity::Position(Part::Nut)),
+    ("carriage_position", Quantity::Position(Part::Carriage)),
+    ("speed", Quantity::Speed(Part::Plain)),
+    ("motor_speed", Quantity::Speed(Part::Motor)),
+    ("nut_speed", Quantity::Speed(Part::Nut)),
+    ("carriage_speed", Quantity::Speed(Part::Carriage)),
+    ("reference_position", Quantity::ReferencePosition),
+    ("motor_force", Quantity::MotorForce),
+    ("motor_torque", Quantity::MotorTorque),
+    ("axial_load", Quantity::Load),
+    ("normal_load", Quantity::NormalLoad),
+    ("side_load", Quantity::SideLoad),
+    ("rack_force", Quantity::Load),
+    ("temperature", Quantity::Temperature),
+];
+
+impl Quantity {
+    /// Units that may follow its name.
+    pub fn units(self) -> &'static [Unit] {
+        match self {
+            Self::Time => TIME,
+            Self::Position(_) | Self::ReferencePosition => POSITION,
+            Self::Speed(_) => SPEED,
+            Self::MotorForce | Self::Load | Self::NormalLoad | Self::SideLoad => FORCE,
+            Self::MotorTorque => TORQUE,
+            Self::Temperature => TEMPERATURE,
+        }
+    }
+}
+
+impl Quantity {
+    /// Units that the quantity of this part can have.
+    pub fn accepted(self) -> impl Iterator<Item = Unit> {
+        let units = self.units().iter().copied();
+        units.filter(move |unit| fits(self, unit.dimension))
+    }
+}
+
+/// What a column's name says; `None` where it is none of the names. Its unit may stand behind it, or in brackets; capitals,
+/// spaces and hyphens count as their plain letters and underscores.
+///
+/// # Errors
+/// A name that goes on with what is no unit of its quantity.
+pub fn heading(heading: &str) -> Result<Option<(Quantity, Unit)>, String> {
+    let (name, bracketed) = brackets(heading);
+    let plain: String = name
+        .chars()
+        .map(|letter| match letter {
+            ' ' | '-' => '_',
+            _ => letter,
+        })
+        .collect();
+    let Some((quantity, stem, suffix)) = split(&plain, str::eq_ignore_ascii_case) else {
+        return Ok(None);
+    };
+    match (suffix, bracketed) {
+        (None, None) => Ok(Some((quantity, UNSAID))),
+        (Some(suffix), None) => known(heading, quantity, stem, suffix).map(Some),
+        (None, Some(unit)) => written(quantity, unit)
+            .map(|unit| Some((quantity, unit)))
+            .map_err(|accepted| {
+                format!(
+                    "column {}: its unit {unit:?} is not known; known are {accepted}",
+                    cut(heading)
+                )
+            }),
+        (Some(_), Some(_)) => Ok(None),
+    }
+}
+
+/// What the name of a channel says, letter by letter; `None` where it is none of the names.
+///
+/// # Errors
+/// A name that goes on with what is no unit of its quantity.
+pub fn channel(name: &str) -> Result<Option<(Quantity, Unit)>, String> {
+    match split(name, |own, stem| own == stem) {
+        None => Ok(None),
+        Some((quantity, _, None)) => Ok(Some((quantity, UNSAID))),
+        Some((quantity, stem, Some(suffix))) => known(name, quantity, stem, suffix).map(Some),
+    }
+}
+
+/// The quantity of one of our column names, as a mapping names it.
+pub fn quantity(name: &str) -> Option<Quantity> {
+    NAMES
+        .iter()
+        .find(|(own, _)| *own == name)
+        .map(|(_, quantity)| *quantity)
+}
+
+/// Every name of a column, without units.
+pub fn names() -> impl Iterator<Item = &'static str> {
+    NAMES.iter().map(|(name, _)| *name)
+}
+
+/// The unit that a text stands for, in the ways that units are written.
+///
+/// # Errors
+/// The units that the quantity accepts.
+pub fn written(quantity: Quantity, text: &str) -> Result<Unit, String> {
+    let plain = plain(text);
+    let units = quantity
+        .units()
+        .iter()
+        .filter(|unit| fits(quantity, unit.dimension));
+    let same = |own: &str| {
+        // M and m are mega and milli; words may be written in capitals.
+        own == plain
+            || (own.len() > 2 && !own.starts_with(['m', 'k']) && own.eq_ignore_ascii_case(&plain))
+    };
+    units
+        .clone()
+        .find(|unit| unit.name == plain || unit.spellings.iter().any(|own| same(own)))
+        .copied()
+        .ok_or_else(|| {
+            units
+                .map(|unit| unit.shown())
+                .collect::<Vec<_>>()
+                .join(", ")
+        })
+}
+
+/// A unit with the letters of the table.
+fn plain(text: &str) -> String {
+    text.trim()
+        .replace("\u{b0}", "deg")
+        .replace(['\u{b5}', '\u{3bc}'], "u")
+        .replace(['\u{b7}', '\u{22c5}', ' '], "")
+        .replace('\u{2212}', "-")
+        .replace("\u{207b}\u{b9}", "^-1")
+}
+
+/// A name, and the unit in brackets behind it.
+fn brackets(heading: &str) -> (&str, Option<&str>) {
+    let heading = heading.trim();
+    for (open, close) in [('(', ')'), ('[', ']')] {
+        let inside = heading
+            .strip_suffix(close)
+            .and_then(|rest| rest.split_once(open));
+        if let Some((name, unit)) = inside {
+            return (name.trim_end(), Some(unit.trim()));
+        }
+    }
+    (heading, None)
+}
+
+/// The quantity that a name starts with, its own name, and what follows.
+fn split(
+    name: &str,
+    same: impl Fn(&str, &str) -> bool,
+) -> Option<(Quantity, &'static str, Option<&str>)> {
+    NAMES.iter().find_map(|(stem, quantity)| {
+        let own = name.get(..stem.len()).filter(|own| same(own, stem))?;
+        let rest = &name[own.len()..];
+        match rest.strip_prefix('_') {
+            Some(suffix) => Some((*quantity, *stem, Some(suffix))),
+            None => rest.is_empty().then_some((*quantity, *stem, None)),
+        }
+    })
+}
+
+/// The unit that ends a name.
+fn known(
+    name: &str,
+    quantity: Quantity,
+    stem: &str,
+    suffix: &str,
+) -> Result<(Quantity, Unit), String> {
+    let units = quantity.units().iter();
+    units
+        .filter(|unit| fits(quantity, unit.dimension))
+        .find(|unit| unit.name == suffix)
+        .map(|unit| (quantity, *unit))
+        .ok_or_else(|| unknown(name, quantity, stem, suffix))
+}
+
+/// A name, cut where it is long.
+pub fn cut(name: &str) -> String {
+    name.chars().take(40).collect()
+}
+
+/// Whether a part can be measured so: a shaft and a nut turn, a carriage travels.
+fn fits(quantity: Quantity, dimension: Dimension) -> bool {
+    match quantity {
+        Quantity::Position(part) | Quantity::Speed(part) => match part {
+            Part::Plain => true,
+            Part::Motor | Part::Nut => dimension != Length,
+            Part::Carriage => dimension != Angle,
+        },
+        _ => true,
+    }
+}
+
+fn unknown(name: &str, quantity: Quantity, stem: &str, suffix: &str) -> String {
+    let shown = cut(name);
+    if suffix == "counts" {
+        return format!(
+            "column {shown}: counts are no unit without the sensor's counts of a turn; give the position in rad or deg"
+        );
+    }
+    let units: Vec<String> = quantity
+        .units()
+        .iter()
+        .filter(|unit| fits(quantity, unit.dimension))
+        .map(|unit| format!("{stem}_{}", unit.name))
+        .collect();
+    format!(
+        "column {shown}: it starts like {stem}, but ends in no unit that is known; known are {stem} (SI), {}",
+        units.join(", ")
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_say_quantity_and_unit() {
+        for (name, quantity, one) in [
+            ("time", Quantity::Time, 1.0),
+            ("time_ms", Quantity::Time, 1e-3),
+            (
+                "nut_position_deg",
+                Quantity::Position(Part::Nut),
+                PI / 180.0,
+            ),
+            ("motor_speed_rpm", Quantity::Speed(Part::Motor), PI / 30.0),
+            ("position_um", Quantity::Position(Part::Plain), 1e-6),
+            ("carriage_speed_mm_s", Quantity::Speed(Part::Carriage), 1e-3),
+            ("motor_torque_mNm", Quantity::MotorTorque, 1e-3),
+            ("motor_force", Quantity::MotorForce, 1.0),
+            ("axial_load_kN", Quantity::Load, 1e3),
+            ("rack_force", Quantity::Load, 1.0),
+            ("temperature_C", Quantity::Temperature, 274.15),
+            ("temperature_K", Quantity::Temperature, 1.0),
+            ("reference_position_mm", Quantity::ReferencePosition, 1e-3),
+        ] {
+            let (found, unit) = heading(name).unwrap().unwrap();
+            assert_eq!(found, quantity, "{name}");
+            let value = unit.factor + unit.offset;
+            assert!((value - one).abs() <= 1e-15 * one, "{name}: {value}");
+        }
+    }
+
+    #[test]
+    fn other_names_are_left_alone_and_wrong_units_refused() {
+        for name in [
+            "gear",
+            "",
+            "steering_angle",
+            "positions",
+            "timer",
+            "\u{e9}\u{e9}\u{e9}",
+        ] {
+            assert_eq!(heading(name), Ok(None), "{name}");
+        }
+        for (name, word) in [
+            ("nut_position_counts", "counts of a turn"),
+            ("nut_position_mm", "nut_position_deg"),
+            ("carriage_position_deg", "carriage_position_mm"),
+            ("motor_torque_Ncm", "motor_torque_mNm"),
+            ("temperature_F", "temperature_C"),
+            ("time_h", "time_ms"),
+        ] {
+            let message = heading(name).unwrap_err();
+            assert!(message.contains(word), "{message}");
+        }
+    }
+
+    #[test]
+    fn headings_may_have_brackets_and_capitals() {
+        for (name, quantity, factor) in [
+            ("Time (s)", Quantity::Time, 1.0),
+            ("TIME [ms]", Quantity::Time, 1e-3),
+            ("Nut speed [1/min]", Quantity::Speed(Part::Nut), TAU / 60.0),
+            (
+                "nut-position (\u{b0})",
+                Quantity::Position(Part::Nut),
+                PI / 180.0,
+            ),
+            ("axial_load[kN]", Quantity::Load, 1e3),
+            ("side_load", Quantity::SideLoad, 1.0),
+        ] {
+            let (found, unit) = heading(name).unwrap().unwrap();
+            assert_eq!((found, unit.factor), (quantity, factor), "{name}");
+            assert_eq!(
+                channel(name).unwrap().is_some(),
+                name == "side_load",
+                "{name}"
+            );
+        }
+        let message = heading("nut_speed (bar)").unwrap_err();
+        assert!(message.contains("rad/s, deg/s, rpm"), "{message}");
+    }
+
+    #[test]
+    fn units_of_metadata_are_known_or_refused() {
+        let motor = Quantity::Speed(Part::Motor);
+        for (quantity, text, factor) in [
+            (motor, "rpm", TAU / 60.0),
+            (motor, "RPM", TAU / 60.0),
+            (motor, "U/min", TAU / 60.0),
+            (motor, "\u{b0}/s", PI / 180.0),
+            (Quantity::Speed(Part::Carriage), "km/h", 1.0 / 3.6),
+            (Quantity::MotorTorque, "N\u{b7}m", 1.0),
+            (Quantity::MotorTorque, "N m", 1.0),
+            (Quantity::Position(Part::Plain), "\u{b5}m", 1e-6),
+            (Quantity::Temperature, "\u{b0}C", 1.0),
+        ] {
+            let unit = written(quantity, text).unwrap();
+            assert_eq!(unit.factor, factor, "{text}");
+        }
+        for (quantity, text) in [
+            (motor, "m/s"),
+            (motor, "km/h"),
+            (Quantity::MotorTorque, "MNm"),
+            (Quantity::Load, "bar"),
+            (Quantity::Temperature, "\u{b0}F"),
+            (Quantity::Position(Part::Plain), "Mm"),
+            (Quantity::Position(Part::Plain), ""),
+        ] {
+            assert!(written(quantity, text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn the_sign_of_a_zero_stays() {
+        let (_, unit) = heading("axial_load").unwrap().unwrap();
+        assert!(unit.si(-0.0).is_sign_negative());
+    }
+}
