@@ -6,6 +6,8 @@ use crate::a2l;
 use crate::calibrate;
 use crate::eval;
 use crate::failure::Failure;
+use crate::fmu;
+use crate::progress::Working;
 use crate::report;
 use crate::screws;
 use crate::simulate;
@@ -30,20 +32,39 @@ enum Command {
     Eval(eval::Arguments),
     Target(target::Arguments),
     Screws(screws::Arguments),
+    Fmu(fmu::Arguments),
     A2l(a2l::Arguments),
 }
 
 /// Reads the arguments and runs what they ask for.
 pub fn run() -> Result<(), Failure> {
-    match Cli::parse().command {
+    let command = Cli::parse().command;
+    let _working = said(command.as_ref()).map(Working::new);
+    match command {
         Some(Command::Simulate(arguments)) => simulate::run(&arguments),
         Some(Command::Calibrate(arguments)) => calibrate::run(&arguments),
         Some(Command::Eval(arguments)) => eval::run(&arguments),
         Some(Command::Target(arguments)) => target::run(&arguments),
         Some(Command::Screws(arguments)) => screws::run(&arguments),
+        Some(Command::Fmu(arguments)) => fmu::run(&arguments),
         Some(Command::A2l(arguments)) => a2l::run(&arguments),
         Some(Command::Report(arguments)) => report::run(&arguments),
         None => report::run(&report::Arguments::default()),
+    }
+}
+
+/// What a command says after a second. The answers of `eval` come one by one.
+fn said(command: Option<&Command>) -> Option<&'static str> {
+    match command {
+        // A report tells its stages from the first moment on.
+        Some(Command::Eval(_) | Command::A2l(_) | Command::Report(_)) | None => None,
+        Some(Command::Simulate(_)) => Some("simulating ..."),
+        Some(Command::Calibrate(_)) => Some("fitting ..."),
+        Some(Command::Target(_)) => Some(
+            "building the firmware and counting its instructions: some minutes the first time ...",
+        ),
+        Some(Command::Screws(_)) => Some("computing whole screws ..."),
+        Some(Command::A2l(_)) => Some("reading the image ..."),
     }
 }
 

@@ -2,6 +2,7 @@
 
 pub mod calibration;
 pub mod loads;
+mod plausible;
 mod tables;
 pub mod text;
 pub mod train;
@@ -10,6 +11,7 @@ use std::f32::consts::TAU;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
+use epas_friction::geometry::{FINE_LEAD_SIZES, STEERING_SIZES};
 use epas_friction::{
     BallScrew, BallScrewParameters, CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration,
     Clearance, DISSERTATION_DESIGNS, FrictionBranch, FrictionModel, GrooveSize, Limits,
@@ -18,10 +20,11 @@ use epas_friction::{
 use serde::Deserialize;
 
 use crate::failure::Failure;
+use crate::files::standard;
 use calibration::Calibrated;
 use loads::{LoadCase, LoadsTable};
 use tables::{MaterialTable, from_file, groove_size, material, radius, replace};
-use train::{UncagedDesign, UncagedTable};
+use train::{LinearDesign, UncagedDesign, UncagedTable};
 
 /// A design with what the in-loop model has to know beside it.
 #[derive(Clone, Debug)]
@@ -39,6 +42,16 @@ pub struct Design {
     /// What a measured trace has told of it, where there is one.
     pub calibrated: Option<Calibrated>,
 }
+
+/// Where the numbers of the built-in designs come from.
+pub const SOURCES: &str = "
+Sizes: 125x10x7.144 to 25x80x3.5 of Bertolino et al. 2023, Tables A1 and A2; 16x5x3.175 to 63x10x6.35 usual catalogue sizes;
+25x7x3.5 to 30x8x4.762 assumed, near a steering gear's; lin-... of Lin 2019.
+Friction: 0.075 for the papers' sizes, that of the example of Lin et al. 1994; 0.1 for the others, with which the drag torque of
+braced nuts is that of JIS B 1192.
+Clearance: -1 um is an oversize, the least preload that sorted balls set; 0 balls that just fit.
+Rolling resistance of all: 0.01 of the elastic energy, hardened steel, without lubricant drag.
+A design file sets friction, clearance or preload, hysteresis_loss and lubricant_drag; calibrate fits them to a trace.";
 
 /// Settings that a catalogue does not print.
 const FRICTION: f32 = 0.075;
@@ -80,9 +93,11 @@ impl Design {
 
 /// Every built-in design, those of the dissertation last.
 pub fn built_in() -> impl Iterator<Item = (&'static str, BallScrewParameters, Option<u16>)> {
-    let catalogue = CATALOGUE
+    let sizes = CATALOGUE
         .iter()
-        .map(|size| (size.name, size.parameters(), None));
+        .chain(&FINE_LEAD_SIZES)
+        .chain(&STEERING_SIZES);
+    let catalogue = sizes.map(|size| (size.name, size.parameters(), None));
     let dissertation = DISSERTATION_DESIGNS
         .iter()
         .map(|design| (design.name, design.parameters, Some(design.loaded_balls)));
@@ -103,7 +118,7 @@ pub enum DesignSource {
     },
     /// The built-in linear bearing.
     LinearBearing,
-    /// A TOML file.
+    /// A TOML file; `-` is standard input.
     File(PathBuf),
 }
 
@@ -111,7 +126,8 @@ impl FromStr for DesignSource {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        if Path::new(text).extension().is_some_and(|end| end == "toml") {
+        let file = Path::new(text);
+        if standard(file) || file.extension().is_some_and(|end| end == "toml") {
             return Ok(Self::File(text.into()));
         }
         if text == train::LINEAR {
@@ -125,9 +141,11 @@ impl FromStr for DesignSource {
                 loaded_balls,
             })
             .ok_or_else(|| {
-                "no built-in design has this name (`simulate --list` prints them), and a design file \
-                 ends in .toml"
-                    .into()
+                let near = plausible::nearest(text, built_in().map(|(name, ..)| name));
+                format!(
+                    "no built-in design has this name; the nearest is {near} (`simulate --list` prints all), and a \
+                     design file ends in .toml"
+                )
             })
     }
 }
@@ -149,15 +167,34 @@ impl DesignSource {
                 parameters,
                 loaded_balls,
             } => {
-                let design = BallScrew::new(*parameters)
+                let screw = BallScrew::new(*parameters)
                     .map_err(|error| Failure::Data(format!("{name}: {error}")))?;
-                Ok(Design::built_in(name, design, *loaded_balls))
+                let mut design = Design::built_in(name, screw, *loaded_balls);
+                // The designs of the papers keep the numbers that their stored results have.
+                let mut ours = FINE_LEAD_SIZES.iter().chain(&STEERING_SIZES);
+                if ours.any(|size| size.name == *name) {
+                    design.configuration.friction = defaults::FRICTION;
+                    design.configuration.clearance = defaults::CLEARANCE;
+                }
+                Ok(design)
             }
             Self::LinearBearing => Err(Failure::Data(format!(
                 "{} is a linear bearing: its scene is linear",
                 train::LINEAR
             ))),
             Self::File(path) => from_file(path, DesignFile::design),
+        }
+    }
+
+    /// The linear bearing, checked.
+    pub fn load_bearing(&self) -> Result<LinearDesign, Failure> {
+        match self {
+            Self::LinearBearing => LinearDesign::built_in(),
+            Self::File(path) => LinearDesign::read(path),
+            Self::BuiltIn { name, .. } => Err(Failure::Data(format!(
+                "{name} is a ball screw; the built-in linear bearing is {}",
+                train::LINEAR
+            ))),
         }
     }
 }
@@ -262,7 +299,12 @@ impl DesignFile {
             ball_material: material(self.ball_material.as_ref(), &common),
             groove_material: material(self.groove_material.as_ref(), &common),
         };
-        let screw = BallScrew::new(parameters).map_err(|error| error.to_string())?;
+        let given = plausible::Given {
+            nominal_diameter: self.nominal_diameter.is_some(),
+            ball_diameter: self.ball_diameter.is_some(),
+        };
+        let screw = BallScrew::new(parameters).map_err(|error| given.words(&error))?;
+        given.plausible(&parameters)?;
         if self.loaded_balls == Some(0) {
             return Err("loaded_balls = 0 is out of range; allowed: 1 to 1000".into());
         }

@@ -161,6 +161,17 @@ pub fn standard(path: &Path) -> bool {
     path.as_os_str() == "-"
 }
 
+/// Fails where several inputs are standard input, which can be read once.
+pub fn refuse_shared<const N: usize>(inputs: [Option<&Path>; N]) -> Result<(), Failure> {
+    let asked = inputs.into_iter().flatten().filter(|path| standard(path));
+    if asked.count() > 1 {
+        return Err(Failure::Data(
+            "two inputs are -, but standard input can be read once".into(),
+        ));
+    }
+    Ok(())
+}
+
 /// Where a run tells what it found: beside standard output where that is one of the outputs.
 pub fn told<'a>(mut outputs: impl Iterator<Item = &'a PathBuf>) -> Box<dyn Write> {
     if outputs.any(|path| standard(path)) {

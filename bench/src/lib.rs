@@ -4,45 +4,65 @@
 // The documentation of arguments is the program's help text, where back-quotes would be noise and
 // square brackets are no links.
 #![allow(clippy::doc_markdown, rustdoc::broken_intra_doc_links)]
+// What only the program calls is there for it.
+#![cfg_attr(not(feature = "program"), allow(dead_code, unused))]
 
+#[cfg(feature = "program")]
 mod a2l;
+#[cfg(feature = "program")]
 #[doc(hidden)]
 pub mod bindings;
 #[doc(hidden)]
 pub mod calibrate;
+#[cfg(feature = "program")]
 mod cli;
 mod controller;
+#[cfg(feature = "program")]
 #[doc(hidden)]
 pub mod design_study;
 mod designs;
 mod document;
+#[cfg(feature = "program")]
 mod eval;
+#[cfg(feature = "program")]
 #[doc(hidden)]
 pub mod exact_ring;
 mod failure;
 mod files;
+#[doc(hidden)]
+pub mod fmu;
+mod folder;
 mod headings;
 #[doc(hidden)]
 pub mod mdf4;
 mod mechanism;
+#[cfg(feature = "program")]
 mod peers;
 mod plot;
 mod progress;
+#[cfg(feature = "program")]
 mod report;
+#[cfg(feature = "program")]
 #[doc(hidden)]
 pub mod row;
+#[cfg(feature = "program")]
 mod screws;
 mod simulate;
 mod source;
+#[cfg(feature = "program")]
 mod study;
+#[cfg(feature = "program")]
 mod target;
+#[cfg(feature = "program")]
 mod timing;
 #[doc(hidden)]
 pub mod units;
 
+#[cfg(feature = "program")]
 use std::process::ExitCode;
 
 /// Runs the program with the arguments of the process.
+#[cfg(feature = "program")]
 pub fn run() -> ExitCode {
     match cli::run() {
         Ok(()) => ExitCode::SUCCESS,
@@ -51,6 +71,7 @@ pub fn run() -> ExitCode {
 }
 
 /// What reads untrusted text, without files: for the fuzz targets.
+#[cfg(feature = "program")]
 #[doc(hidden)]
 pub mod untrusted {
     /// Answers one line as `eval` does; whether it was a good request.

@@ -1,13 +1,58 @@
-//! A progress bar for work that takes longer than a second, fed from any thread.
+//! What is to be seen of work that takes longer than a second: a bar on a terminal, lines in a log.
 
+use std::io::{IsTerminal as _, stderr};
+use std::sync::Mutex;
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-/// A progress bar that appears only when the work takes longer than a second.
+/// Time after which something is to be seen.
+const SOON: Duration = Duration::from_millis(900);
+/// Time between two lines of a log.
+const BETWEEN: Duration = Duration::from_secs(30);
+
+/// A line about work that takes longer than a second, from whichever part of it: silence is not to be taken for a fault.
+pub struct Working {
+    ended: Option<Sender<()>>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl Working {
+    /// Work that begins.
+    pub fn new(said: &'static str) -> Self {
+        let (ended, ends) = channel();
+        let thread = thread::spawn(move || {
+            if ends.recv_timeout(SOON) == Err(RecvTimeoutError::Timeout) {
+                eprintln!("{said}");
+            }
+        });
+        Self {
+            ended: Some(ended),
+            thread: Some(thread),
+        }
+    }
+}
+
+impl Drop for Working {
+    fn drop(&mut self) {
+        drop(self.ended.take());
+        if let Some(thread) = self.thread.take() {
+            // A line that could not be written is no fault of the work.
+            let _ = thread.join();
+        }
+    }
+}
+
+/// Progress of work that takes longer than a second, fed from any thread: a bar, or a line every half minute where standard
+/// error is no terminal.
 pub struct Progress {
     bar: ProgressBar,
+    work: &'static str,
     start: Instant,
+    /// When the next line is due; none on a terminal.
+    line: Option<Mutex<Instant>>,
 }
 
 impl Progress {
@@ -18,18 +63,50 @@ impl Progress {
             bar.set_style(style);
         }
         bar.set_message(work);
+        let start = Instant::now();
+        let line = !stderr().is_terminal();
         Self {
             bar,
-            start: Instant::now(),
+            work,
+            start,
+            line: line.then(|| Mutex::new(start + SOON)),
         }
     }
 
     /// One step more is done.
     pub fn step(&self) {
-        if self.bar.is_hidden() && self.start.elapsed() > Duration::from_secs(1) {
-            self.bar.set_draw_target(ProgressDrawTarget::stderr());
+        self.steps(1);
+    }
+
+    /// So many steps more are done.
+    pub fn steps(&self, steps: u64) {
+        self.bar.inc(steps);
+        let Some(line) = &self.line else {
+            if self.bar.is_hidden() && self.start.elapsed() > SOON {
+                self.bar.set_draw_target(ProgressDrawTarget::stderr());
+            }
+            return;
+        };
+        let now = Instant::now();
+        // Another thread that holds it writes the line.
+        if let Ok(mut due) = line.try_lock()
+            && now >= *due
+        {
+            *due = now + BETWEEN;
+            let (done, all) = (self.bar.position(), self.bar.length().unwrap_or(0));
+            let share = done as f64 / all.max(1) as f64;
+            let left = self.start.elapsed().as_secs_f64() * (1.0 - share) / share.max(1e-9);
+            eprintln!(
+                "{}: {:.0} %, about {left:.0} s left",
+                self.work,
+                100.0 * share
+            );
         }
-        self.bar.inc(1);
+    }
+
+    /// Takes the bar off the screen.
+    pub fn clear(&self) {
+        self.bar.finish_and_clear();
     }
 }
 

@@ -6,16 +6,17 @@ mod caged;
 mod caged_exact;
 mod choice;
 mod exact_screw;
-mod linear;
+pub(crate) mod linear;
 mod loads;
 mod manoeuvre;
 mod measurement;
 mod mechanism;
-mod memory;
+pub(crate) mod memory;
+pub(crate) mod nut;
 mod picture;
 mod progress;
 mod reference;
-mod remembering;
+pub(crate) mod remembering;
 mod samples;
 mod scene;
 mod screw;
@@ -25,7 +26,7 @@ mod targets;
 mod trace;
 mod train;
 mod train_picture;
-mod uncaged;
+pub(crate) mod uncaged;
 
 use std::io::{self, Cursor, Seek, Write};
 use std::path::{Path, PathBuf};
@@ -33,7 +34,7 @@ use std::path::{Path, PathBuf};
 use crate::designs::train::LinearDesign;
 use crate::designs::{self, DesignSource};
 use crate::failure::Failure;
-use crate::files::{self, Existing, Pending, refuse_same};
+use crate::files::{self, Existing, Pending, refuse_same, refuse_shared};
 use crate::mdf4::{self, Mapping};
 use crate::source::Source;
 use choice::{Chosen, SceneName, choose};
@@ -161,6 +162,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.list {
         return list();
     }
+    let design = arguments.design.as_ref().and_then(DesignSource::file);
+    refuse_shared([design, arguments.input.as_deref()])?;
     let existing = if arguments.force {
         Existing::Replace
     } else {
@@ -305,12 +308,18 @@ pub fn accepts_measurement(bytes: &[u8]) -> Result<usize, String> {
 fn list() -> Result<(), Failure> {
     let mut stdout = io::stdout().lock();
     for (name, parameters, loaded_balls) in designs::built_in() {
+        let design = name
+            .parse::<DesignSource>()
+            .map_err(Failure::Data)?
+            .load()?;
         write!(
             stdout,
-            "{name:14} pitch radius {:8.3} mm, lead {:5.1} mm, ball radius {:6.4} mm",
+            "{name:14} pitch radius {:8.3} mm, lead {:5.1} mm, ball radius {:6.4} mm, friction {:5.3}, clearance {:4.1} um",
             1e3 * parameters.pitch_radius,
             1e3 * parameters.lead,
             1e3 * parameters.ball_radius,
+            design.configuration.friction,
+            1e6 * design.configuration.clearance.gap(),
         )?;
         match loaded_balls {
             Some(balls) => writeln!(stdout, ", {balls} loaded balls")?,
@@ -327,5 +336,6 @@ fn list() -> Result<(), Failure> {
         "{name:14} linear bearing, ball radius {:6.4} mm, {balls} balls",
         1e3 * configuration.bearing.ball_radius(),
     )?;
+    writeln!(stdout, "{}", designs::SOURCES)?;
     Ok(())
 }

@@ -1,4 +1,5 @@
-//! Built-in designs: the 31 catalogue sizes of Bertolino et al. 2023 and three of Lin 2019.
+//! Built-in designs: the 31 catalogue sizes of Bertolino et al. 2023, fine-lead sizes that makers offer, sizes near a steering
+//! gear's, and three of Lin 2019. [`named`] finds one by its name.
 
 use core::f32::consts::FRAC_PI_4;
 
@@ -47,7 +48,7 @@ impl CatalogueSize {
     /// The validated design of this size; a constant can take it.
     ///
     /// # Errors
-    /// As [`BallScrew::new`]; none of [`CATALOGUE`] fails.
+    /// As [`BallScrew::new`]; none of [`CATALOGUE`], [`FINE_LEAD_SIZES`] and [`STEERING_SIZES`] fails.
     pub const fn design(&self) -> Result<BallScrew, Error> {
         BallScrew::new(self.parameters())
     }
@@ -152,5 +153,109 @@ const fn size(
         nominal_diameter,
         lead,
         ball_diameter,
+    }
+}
+
+/// Fine-lead sizes that are usual in the catalogues of makers of ball screws, with a ball diameter that one or several of them
+/// print for the size. None is of a paper: the published tables of errors hold [`CATALOGUE`].
+pub const FINE_LEAD_SIZES: [CatalogueSize; 15] = [
+    size("16x5x3.175", 16e-3, 5e-3, 3.175e-3),
+    size("20x5x3.175", 20e-3, 5e-3, 3.175e-3),
+    size("25x5x3.175", 25e-3, 5e-3, 3.175e-3),
+    size("25x10x3.969", 25e-3, 10e-3, 3.969e-3),
+    size("25x10x4.762", 25e-3, 10e-3, 4.762e-3),
+    size("32x5x3.175", 32e-3, 5e-3, 3.175e-3),
+    size("32x5x3.5", 32e-3, 5e-3, 3.5e-3),
+    size("32x10x3.969", 32e-3, 10e-3, 3.969e-3),
+    size("32x10x6.35", 32e-3, 10e-3, 6.35e-3),
+    size("40x5x3.175", 40e-3, 5e-3, 3.175e-3),
+    size("40x5x3.5", 40e-3, 5e-3, 3.5e-3),
+    size("40x10x6.35", 40e-3, 10e-3, 6.35e-3),
+    size("50x5x3.175", 50e-3, 5e-3, 3.175e-3),
+    size("50x10x6.35", 50e-3, 10e-3, 6.35e-3),
+    size("63x10x6.35", 63e-3, 10e-3, 6.35e-3),
+];
+
+/// Round sizes near that of a rack-assist steering gear (Lin 2019, Table 4.1: 29 x 7 x 4). Assumed, of no maker: a start where
+/// the drawing is not at hand.
+pub const STEERING_SIZES: [CatalogueSize; 3] = [
+    size("25x7x3.5", 25e-3, 7e-3, 3.5e-3),
+    size("28x7x3.969", 28e-3, 7e-3, 3.969e-3),
+    size("30x8x4.762", 30e-3, 8e-3, 4.762e-3),
+];
+
+/// The parameters of a built-in design by its name, as `25x5x3.175` or `lin-4.1`; a constant can take them.
+///
+/// ```
+/// use epas_friction::{BallScrew, geometry::named};
+///
+/// let design = BallScrew::new(named("25x5x3.175").unwrap())?;
+/// assert_eq!(design.lead(), 5e-3);
+/// assert!(named("25x5").is_none());
+/// # Ok::<(), epas_friction::Error>(())
+/// ```
+#[must_use]
+pub const fn named(name: &str) -> Option<BallScrewParameters> {
+    let lists: [&[CatalogueSize]; 3] = [&CATALOGUE, &FINE_LEAD_SIZES, &STEERING_SIZES];
+    let mut list = 0;
+    while list < lists.len() {
+        let mut place = 0;
+        while place < lists[list].len() {
+            let size = lists[list][place];
+            if same(size.name, name) {
+                return Some(size.parameters());
+            }
+            place += 1;
+        }
+        list += 1;
+    }
+    let mut place = 0;
+    while place < DISSERTATION_DESIGNS.len() {
+        if same(DISSERTATION_DESIGNS[place].name, name) {
+            return Some(DISSERTATION_DESIGNS[place].parameters);
+        }
+        place += 1;
+    }
+    None
+}
+
+/// Whether two texts are equal, in a constant.
+const fn same(one: &str, other: &str) -> bool {
+    let (one, other) = (one.as_bytes(), other.as_bytes());
+    if one.len() != other.len() {
+        return false;
+    }
+    let mut place = 0;
+    while place < one.len() {
+        if one[place] != other[place] {
+            return false;
+        }
+        place += 1;
+    }
+    true
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_name_is_found_and_says_its_size() {
+        let sizes = CATALOGUE.iter().chain(&FINE_LEAD_SIZES).chain(&STEERING_SIZES);
+        for size in sizes {
+            assert_eq!(named(size.name), Some(size.parameters()), "{}", size.name);
+            let said = size.name.split('x').map(|number| number.parse::<f32>().unwrap());
+            let own = [size.nominal_diameter, size.lead, size.ball_diameter];
+            for (said, own) in said.zip(own) {
+                // One rounding of the printed number, one of the length, one of the product.
+                assert!((own * 1e3 - said).abs() <= 3.0 * f32::EPSILON * said, "{}", size.name);
+            }
+            assert!(size.design().is_ok(), "{}", size.name);
+        }
+        for design in &DISSERTATION_DESIGNS {
+            assert_eq!(named(design.name), Some(design.parameters));
+        }
+        assert_eq!(named("25x5"), None);
+        const _: () = assert!(named("lin-4.1").is_some() && named("lin-4.2").is_none());
     }
 }

@@ -120,7 +120,7 @@ static uint32_t interrupts(void)
 
 int main(void)
 {
-    const uint32_t wrong = test_cases() + test_refusals() + stacks() + interrupts();
+    const uint32_t wrong = test_cases() + test_refusals() + test_reaction() + stacks() + interrupts();
 
     test_put((wrong == 0u) ? "passed\n" : "FAILED\n");
     return (wrong == 0u) ? 0 : 1;

@@ -28,4 +28,7 @@ uint32_t test_cases(void);
 /* refusals.c: what is refused, and how; the number of failed checks. */
 uint32_t test_refusals(void);
 
+/* reaction.c: the README's example under a load beyond its limit, and without an input; the number of failed checks. */
+uint32_t test_reaction(void);
+
 #endif

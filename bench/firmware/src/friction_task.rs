@@ -4,6 +4,7 @@
 //! |---|---|---|
 //! | [`fast`] | encoder to torque, every 50 us: [`between`](epas_friction::FrictionModel::between) | `SysTick`, high |
 //! | [`slow`] | load, temperature, balls, adaptation, every ms: [`step`](epas_friction::FrictionModel::step) | `PendSV`, lowest |
+//! | [`watch`] | the calibration page, checked and made into constants | background |
 //! | [`gear`] | the scene and its constants from the calibration | |
 //! | [`reaction`] | what becomes of the torque while something is missing: hold, fade, never a jump | |
 //! | [`page`] | the calibration page: one table of names, units, limits and values; its checks | |
@@ -22,6 +23,7 @@ pub mod reaction;
 pub mod slow;
 pub mod table;
 pub mod vehicle;
+pub mod watch;
 
 #[cfg(target_arch = "arm")]
 pub mod memory;

@@ -2,7 +2,8 @@
 
 use numpy::ndarray::IxDyn;
 use numpy::{
-    Element, PyArray, PyArray1, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArrayMethods,
+    Element, PyArray, PyArray1, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn,
+    PyUntypedArrayMethods,
 };
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyFloat, PyInt, PyString};
@@ -10,10 +11,10 @@ use pyo3::types::{PyBool, PyFloat, PyInt, PyString};
 use crate::errors::{Refused, refused};
 
 /// Values that are computed at once: their conversions stay in the processor's nearest memory.
-const BLOCK: usize = 256;
+pub const BLOCK: usize = 256;
 
 /// A number that kernels compute in: `f32` in the loop, `f64` in the reference.
-pub trait Real: Element + Copy + Send + Sync + Default {
+pub trait Real: Element + Copy + Send + Sync + Default + 'static {
     /// From single precision.
     fn of_single(value: f32) -> Self;
     /// From double precision.
@@ -111,22 +112,25 @@ impl<'py> Argument<'py> {
     fn column<T: Real>(&self) -> Column<'_, T> {
         match &self.source {
             Source::Number(number) => Column::Constant([T::of_double(*number); BLOCK]),
-            Source::Single(array) => match array.as_slice() {
-                Ok([value]) => Column::Constant([T::of_single(*value); BLOCK]),
-                Ok(values) => Column::Single(values),
-                Err(_) => {
-                    let values = array.as_array().into_iter();
-                    Column::Strided(Box::new(values.map(|value| T::of_single(*value))))
-                }
-            },
-            Source::Double(array) => match array.as_slice() {
-                Ok([value]) => Column::Constant([T::of_double(*value); BLOCK]),
-                Ok(values) => Column::Double(values),
-                Err(_) => {
-                    let values = array.as_array().into_iter();
-                    Column::Strided(Box::new(values.map(|value| T::of_double(*value))))
-                }
-            },
+            Source::Single(array) => column(array, T::of_single, Column::Single),
+            Source::Double(array) => column(array, T::of_double, Column::Double),
+        }
+    }
+}
+
+/// Values of an array: as they lie in memory where that is their order, else by strides.
+fn column<'a, S: Element + Copy + Sync, T: Real>(
+    array: &'a PyReadonlyArrayDyn<'_, S>,
+    convert: fn(S) -> T,
+    plain: fn(&'a [S]) -> Column<'a, T>,
+) -> Column<'a, T> {
+    // A slice is there for arrays in the order of Fortran too, whose values lie in another order.
+    match array.as_slice() {
+        Ok([value]) => Column::Constant([convert(*value); BLOCK]),
+        Ok(values) if array.is_c_contiguous() => plain(values),
+        _ => {
+            let values = array.as_array().into_iter();
+            Column::Strided(Box::new(values.map(move |value| convert(*value))))
         }
     }
 }
@@ -203,7 +207,8 @@ impl<T: Real> Column<'_, T> {
     /// Puts the values of a block into its buffer.
     fn fill(&mut self, start: usize, buffer: &mut [T]) {
         match self {
-            Self::Constant(values) => buffer.copy_from_slice(&values[..buffer.len()]),
+            // Put there once.
+            Self::Constant(_) => {}
             Self::Single(values) => {
                 for (to, from) in buffer.iter_mut().zip(&values[start..]) {
                     *to = T::of_single(*from);
@@ -263,6 +268,22 @@ impl<'py, const I: usize> Arguments<'py, I> {
         T: Real,
         F: FnMut([T; I]) -> Result<[T; O], Refused> + Send,
     {
+        self.map_blocks(py, One(kernel))
+    }
+
+    /// The same by a kernel that may take a whole block at once.
+    ///
+    /// # Errors
+    /// What the kernel refuses, with its place.
+    pub fn map_blocks<T, K, const O: usize>(
+        self,
+        py: Python<'py>,
+        kernel: K,
+    ) -> PyResult<Results<T, O>>
+    where
+        T: Real,
+        K: Kernel<T, I, O> + Send,
+    {
         let length = self.shape.iter().product();
         let columns = self.arguments.each_ref().map(Argument::column);
         let values = py.detach(move || compute(length, columns, kernel));
@@ -273,6 +294,44 @@ impl<'py, const I: usize> Arguments<'py, I> {
             }),
             Err((place, error)) => Err(refused(py, error.at(&self.shape, place))),
         }
+    }
+}
+
+/// Inputs that lie one after the other, and the places of their results; all lists are equally long.
+pub struct Block<'a, T, const I: usize, const O: usize> {
+    /// Values of each argument.
+    pub inputs: [&'a [T]; I],
+    /// Whether an argument is one number all along.
+    pub constant: [bool; I],
+    /// Where the results go.
+    pub outputs: [&'a mut [T]; O],
+}
+
+/// What is computed for each set of inputs.
+pub trait Kernel<T, const I: usize, const O: usize> {
+    /// One set of inputs.
+    ///
+    /// # Errors
+    /// What is out of its range.
+    fn one(&mut self, inputs: [T; I]) -> Result<[T; O], Refused>;
+
+    /// All of a block at once, with the same results; false where it has to go one by one, as where something is refused.
+    fn block(&mut self, block: &mut Block<'_, T, I, O>) -> bool {
+        let _ = block;
+        false
+    }
+}
+
+/// A kernel for one set of inputs after the other.
+struct One<F>(F);
+
+impl<T, F, const I: usize, const O: usize> Kernel<T, I, O> for One<F>
+where
+    F: FnMut([T; I]) -> Result<[T; O], Refused>,
+{
+    #[inline]
+    fn one(&mut self, inputs: [T; I]) -> Result<[T; O], Refused> {
+        self.0(inputs)
     }
 }
 
@@ -294,20 +353,38 @@ fn widen(shape: &mut Vec<usize>, other: &[usize]) -> bool {
 fn compute<T: Real, const I: usize, const O: usize>(
     length: usize,
     mut columns: [Column<'_, T>; I],
-    mut kernel: impl FnMut([T; I]) -> Result<[T; O], Refused>,
+    mut kernel: impl Kernel<T, I, O>,
 ) -> Result<[Vec<T>; O], (usize, Refused)> {
     let mut results: [Vec<T>; O] = std::array::from_fn(|_| vec![T::default(); length]);
     let mut buffers = [[T::default(); BLOCK]; I];
+    let constant = columns
+        .each_ref()
+        .map(|column| matches!(column, Column::Constant(_)));
+    for (column, buffer) in columns.iter_mut().zip(&mut buffers) {
+        if let Column::Constant(values) = column {
+            *buffer = *values;
+        }
+    }
     for start in (0..length).step_by(BLOCK) {
         let size = BLOCK.min(length - start);
         for (column, buffer) in columns.iter_mut().zip(&mut buffers) {
             column.fill(start, &mut buffer[..size]);
         }
+        let mut block = Block {
+            inputs: buffers.each_ref().map(|buffer| &buffer[..size]),
+            constant,
+            outputs: results
+                .each_mut()
+                .map(|result| &mut result[start..start + size]),
+        };
+        if kernel.block(&mut block) {
+            continue;
+        }
         for place in 0..size {
-            let inputs = std::array::from_fn(|argument| buffers[argument][place]);
-            let outputs = kernel(inputs).map_err(|error| (start + place, error))?;
-            for (result, output) in results.iter_mut().zip(outputs) {
-                result[start + place] = output;
+            let inputs = block.inputs.map(|values| values[place]);
+            let outputs = kernel.one(inputs).map_err(|error| (start + place, error))?;
+            for (result, output) in block.outputs.iter_mut().zip(outputs) {
+                result[place] = output;
             }
         }
     }
@@ -330,7 +407,9 @@ impl<T: Real, const O: usize> Results<T, O> {
         for values in self.values {
             arrays.push(shaped(py, values, &self.shape)?);
         }
-        arrays.try_into().map_err(|_| pyo3::exceptions::PyRuntimeError::new_err("results"))
+        arrays
+            .try_into()
+            .map_err(|_| pyo3::exceptions::PyRuntimeError::new_err("results"))
     }
 }
 
@@ -373,6 +452,11 @@ impl<'py, const I: usize> Arguments<'py, I> {
         Ok(self)
     }
 
+    /// The shape that they broadcast to.
+    pub fn shape(&self) -> &[usize] {
+        &self.shape
+    }
+
     /// Number of values.
     pub fn len(&self) -> usize {
         self.shape.iter().product()
@@ -389,9 +473,8 @@ impl<'py, const I: usize> Arguments<'py, I> {
     {
         let length = self.len();
         let columns = self.arguments.each_ref().map(Argument::column);
-        let done = py.detach(move || {
-            compute(length, columns, |values| function(values).map(|()| []))
-        });
+        let done = py
+            .detach(move || compute(length, columns, One(|values| function(values).map(|()| []))));
         match done {
             Ok([]) => Ok(()),
             Err((place, error)) => Err(refused(py, error.at(&self.shape, place))),

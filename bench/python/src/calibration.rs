@@ -1,5 +1,6 @@
 //! Measured traces to constants.
 
+use std::collections::BTreeMap;
 use std::io::Cursor;
 
 use epas_bench::bindings::{Controller, Failure};
@@ -10,8 +11,8 @@ use epas_bench::calibrate::screw::Request;
 use epas_bench::calibrate::screw::choice::Wanted;
 use epas_bench::calibrate::signals::{RowSettings, SmoothingSettings};
 use epas_bench::calibrate::trace::Trace;
-use epas_bench::calibrate::without_design::{self, Filters};
 use epas_bench::calibrate::with_design;
+use epas_bench::calibrate::without_design::{self, Filters};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
@@ -28,8 +29,10 @@ const FREQUENCIES: (f64, f64) = (1e-3, 1e6);
 const RATIOS: (f64, f64) = (0.01, 1000.0);
 
 /// Columns of a trace as the text of a CSV file, which the program reads and checks.
-pub fn text(py: Python<'_>, trace: &Bound<'_, PyDict>) -> PyResult<String> {
+pub fn text(py: Python<'_>, trace: &Bound<'_, PyAny>) -> PyResult<String> {
     use std::fmt::Write;
+
+    let trace = &dict("trace", trace)?;
 
     let mut names = Vec::new();
     let mut columns: Vec<Vec<f64>> = Vec::new();
@@ -37,7 +40,8 @@ pub fn text(py: Python<'_>, trace: &Bound<'_, PyDict>) -> PyResult<String> {
         let name: String = name.extract()?;
         // A name that is a field of a CSV file by itself.
         if name.contains([',', '"', '\n', '\r']) {
-            let message = format!("column {name:?}: a name has no commas, quotes and ends of lines");
+            let message =
+                format!("column {name:?}: a name has no commas, quotes and ends of lines");
             return Err(refused(py, Refused::value(&name, message)));
         }
         let argument = Argument::new("column", &values).map_err(|_| no_numbers(py, &name))?;
@@ -77,6 +81,19 @@ pub fn text(py: Python<'_>, trace: &Bound<'_, PyDict>) -> PyResult<String> {
     }))
 }
 
+/// A mapping, or a table of columns, as a dict.
+fn dict<'py>(name: &str, mapping: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyDict>> {
+    let py = mapping.py();
+    let made = py.get_type::<PyDict>().call1((mapping,));
+    match made.ok().and_then(|dict| dict.cast_into::<PyDict>().ok()) {
+        Some(dict) => Ok(dict),
+        None => {
+            let message = format!("{name} must be a dict, not {}", mapping.get_type().name()?);
+            Err(refused(py, Refused::type_of(name, message)))
+        }
+    }
+}
+
 fn no_numbers(py: Python<'_>, name: &str) -> PyErr {
     let message = format!("column {name} must be an array of numbers");
     refused(py, Refused::type_of(name, message))
@@ -87,7 +104,11 @@ pub fn told(failure: Failure) -> Refused {
     let refused = Refused::from(failure);
     match refused.said().split_once("column ") {
         Some((_, rest)) if !refused.has_field() => {
-            let name = rest.split([' ', ':']).next().unwrap_or_default().to_string();
+            let name = rest
+                .split([' ', ':'])
+                .next()
+                .unwrap_or_default()
+                .to_string();
             refused.of_field(&name)
         }
         _ => refused,
@@ -114,7 +135,7 @@ fn within(py: Python<'_>, field: &str, value: Option<f64>, range: (f64, f64)) ->
 /// fitted, and models of friction are compared on what was not fitted.
 ///
 /// Args:
-///     trace: dict of column names to arrays of shape (n,).
+///     trace: dict of column names to arrays of shape (n,), or a table whose columns are such.
 ///     design: of the screw, where it is known.
 ///     ratio: turns of the motor in a turn of the nut, 0.01 to 1000; with a design.
 ///     estimate: names of parameters to estimate; what the trace can tell without it; with a design.
@@ -134,13 +155,13 @@ fn within(py: Python<'_>, field: &str, value: Option<f64>, range: (f64, f64)) ->
 #[pyo3(signature = (trace, design=None, *, ratio=None, estimate=None, fix=None, models=true, validate=None, controller=None, smoothing=None, rows=None))]
 pub fn calibrate<'py>(
     py: Python<'py>,
-    trace: &Bound<'py, PyDict>,
+    trace: Any<'py>,
     design: Option<&Design>,
     ratio: Option<f64>,
     estimate: Option<Vec<String>>,
-    fix: Option<std::collections::BTreeMap<String, f64>>,
+    fix: Option<Any<'py>>,
     models: bool,
-    validate: Option<&Bound<'py, PyDict>>,
+    validate: Option<Any<'py>>,
     controller: Option<(f64, f64)>,
     smoothing: Option<f64>,
     rows: Option<f64>,
@@ -167,16 +188,20 @@ pub fn calibrate<'py>(
             return Err(refused(py, Refused::value(name, message)));
         }
     }
-    let text = text(py, trace)?;
+    let text = text(py, &trace)?;
     let frame = design.map(|design| Frame {
         lead: design.inner.screw().lead().into(),
         ratio: ratio.unwrap_or(1.0),
     });
+    let fix = match &fix {
+        Some(fix) => dict("fix", fix)?.extract::<BTreeMap<String, f64>>()?,
+        None => BTreeMap::new(),
+    };
     let (answer, picture) = if let Some(design) = design {
         let request = Request {
             wanted: Wanted {
                 estimate,
-                fix: fix.unwrap_or_default().into_iter().collect(),
+                fix: fix.into_iter().collect(),
                 ..Wanted::default()
             },
             smoothing: SmoothingSettings {
@@ -197,7 +222,7 @@ pub fn calibrate<'py>(
             Ok((told.answer, told.picture))
         })
     } else {
-        let unseen = validate.map(|trace| self::text(py, trace)).transpose()?;
+        let unseen = validate.map(|trace| self::text(py, &trace)).transpose()?;
         let controller = controller.map(|(gain_position, gain_speed)| Controller {
             gain_position,
             gain_speed,
@@ -206,8 +231,7 @@ pub fn calibrate<'py>(
         py.detach(|| {
             let trace = read(text, None)?;
             let unseen = unseen.map(|text| read(text, None)).transpose()?;
-            let told =
-                without_design::calibrate(&trace, unseen.as_ref(), controller, &filters)?;
+            let told = without_design::calibrate(&trace, unseen.as_ref(), controller, &filters)?;
             Ok((told.answer, told.picture))
         })
     }
@@ -263,13 +287,18 @@ fn model<'py>(py: Python<'py>, score: &ModelScore) -> PyResult<Any<'py>> {
         score.relative_error.into_pyobject(py)?.into_any(),
         score.relative_error_unseen.into_pyobject(py)?.into_any(),
         score.relative_error_inverse.into_pyobject(py)?.into_any(),
-        score.relative_error_inverse_unseen.into_pyobject(py)?.into_any(),
+        score
+            .relative_error_inverse_unseen
+            .into_pyobject(py)?
+            .into_any(),
         score.position_error.into_pyobject(py)?.into_any(),
         score.residual_unseen.into_pyobject(py)?.into_any(),
         score.information_criterion.into_pyobject(py)?.into_any(),
         score.parameters.into_pyobject(py)?.into_any(),
         score.cycles.into_pyobject(py)?.into_any(),
-        pyo3::types::PyBool::new(py, score.cycles_estimated).to_owned().into_any(),
+        pyo3::types::PyBool::new(py, score.cycles_estimated)
+            .to_owned()
+            .into_any(),
         estimates(py, &score.values)?.into_any(),
     ];
     result(py, "ModelScore", PyTuple::new(py, fields)?)

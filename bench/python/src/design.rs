@@ -12,8 +12,9 @@ use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyString};
 use toml::{Table, Value};
 
 use crate::arrays::{Argument, Arguments};
-use crate::contacts::{groove, within};
+use crate::contacts::ellipse_at;
 use crate::errors::{Refused, refused};
+use crate::numbers::{groove, within};
 use crate::results::result;
 
 /// Names of the built-in ball screws: nominal diameter x lead x ball diameter in mm, and those of the dissertation.
@@ -178,14 +179,7 @@ impl Design {
         let arguments = Arguments::new(py, [Argument::new("load", &load)?])?;
         let results = arguments.map(py, move |[load]: [f32; 1]| {
             within("load", load.into(), 1e-12, 1e9)?;
-            let ellipse = contact.at(load);
-            Ok::<_, Refused>([
-                contact.axis_ratio(),
-                ellipse.semi_major,
-                ellipse.semi_minor,
-                ellipse.deflection,
-                ellipse.max_pressure,
-            ])
+            Ok::<_, Refused>(ellipse_at(&contact, load))
         })?;
         let [ratio, major, minor, deflection, pressure] = results.arrays(py)?;
         result(py, "Ellipse", (ratio, major, minor, deflection, pressure))

@@ -5,9 +5,9 @@ use epas_reference::kinematics::{self as exact, KinematicsInput, Revised};
 use pyo3::prelude::*;
 
 use crate::arrays::{Arguments, Real};
-use crate::contacts::{arguments, within};
 use crate::errors::Refused;
 use crate::kept::Kept;
+use crate::numbers::{arguments, within};
 use crate::results::result;
 
 type Any<'py> = Bound<'py, PyAny>;
@@ -138,15 +138,30 @@ pub fn contact_kinematics<'py>(
     semi_major_nut: Any<'py>,
     semi_minor_nut: Any<'py>,
 ) -> PyResult<Any<'py>> {
-    let values = [&ball_diameter, &pitch_radius, &lead_angle, &groove_radius_screw, &groove_radius_nut, &contact_angle_screw, &contact_angle_nut, &pitch_angle, &yaw_angle, &rolling_radius_screw, &rolling_radius_nut, &speed, &semi_major_screw, &semi_minor_screw, &semi_major_nut, &semi_minor_nut];
+    let values = [
+        &ball_diameter,
+        &pitch_radius,
+        &lead_angle,
+        &groove_radius_screw,
+        &groove_radius_nut,
+        &contact_angle_screw,
+        &contact_angle_nut,
+        &pitch_angle,
+        &yaw_angle,
+        &rolling_radius_screw,
+        &rolling_radius_nut,
+        &speed,
+        &semi_major_screw,
+        &semi_minor_screw,
+        &semi_major_nut,
+        &semi_minor_nut,
+    ];
     let mut kept = Kept::NONE;
-    evaluate(py, arguments(py, NAMES, values)?, move |numbers: [f32; 16]| {
-        let [ball_diameter, pitch_radius, lead_angle, groove_radius_screw, groove_radius_nut, contact_angle_screw, contact_angle_nut, pitch_angle, yaw_angle, rolling_radius_screw, rolling_radius_nut, speed, semi_major_screw, semi_minor_screw, semi_major_nut, semi_minor_nut] = numbers;
-        within("speed", speed.into(), -LARGEST_SPEED, LARGEST_SPEED)?;
-        let mut constants = numbers;
-        constants[SPEED] = 0.0;
-        let model = kept.get(constants, || {
-            ContactKinematics::new(&KinematicsParameters {
+    evaluate(
+        py,
+        arguments(py, NAMES, values)?,
+        move |numbers: [f32; 16]| {
+            let [
                 ball_diameter,
                 pitch_radius,
                 lead_angle,
@@ -158,19 +173,42 @@ pub fn contact_kinematics<'py>(
                 yaw_angle,
                 rolling_radius_screw,
                 rolling_radius_nut,
+                speed,
                 semi_major_screw,
                 semi_minor_screw,
                 semi_major_nut,
                 semi_minor_nut,
-            })
-        })?;
-        let ball = model.tick(speed);
-        Ok(together(
-            [ball.orbital_speed, ball.spin_speed],
-            slip(&ball.screw, &model.screw().ratios()),
-            slip(&ball.nut, &model.nut().ratios()),
-        ))
-    })
+            ] = numbers;
+            within("speed", speed.into(), -LARGEST_SPEED, LARGEST_SPEED)?;
+            let mut constants = numbers;
+            constants[SPEED] = 0.0;
+            let model = kept.get(constants, || {
+                ContactKinematics::new(&KinematicsParameters {
+                    ball_diameter,
+                    pitch_radius,
+                    lead_angle,
+                    groove_radius_screw,
+                    groove_radius_nut,
+                    contact_angle_screw,
+                    contact_angle_nut,
+                    pitch_angle,
+                    yaw_angle,
+                    rolling_radius_screw,
+                    rolling_radius_nut,
+                    semi_major_screw,
+                    semi_minor_screw,
+                    semi_major_nut,
+                    semi_minor_nut,
+                })
+            })?;
+            let ball = model.tick(speed);
+            Ok(together(
+                [ball.orbital_speed, ball.spin_speed],
+                slip(&ball.screw, &model.screw().ratios()),
+                slip(&ball.nut, &model.nut().ratios()),
+            ))
+        },
+    )
 }
 
 /// Motion of a ball, and slip, spin and entrainment at the centres of its two contacts, in float64.
@@ -199,8 +237,8 @@ pub fn contact_kinematics<'py>(
 /// Raises:
 ///     Error: a value out of its range, with its place in the arrays.
 #[pyfunction]
-#[pyo3(name = "contact_kinematics", signature = (*, ball_diameter, pitch_radius, lead_angle, groove_radius_screw, groove_radius_nut, contact_angle_screw, contact_angle_nut, pitch_angle, yaw_angle, rolling_radius_screw, rolling_radius_nut, speed, semi_major_screw, semi_minor_screw, semi_major_nut, semi_minor_nut))]
-pub fn exact_contact_kinematics<'py>(
+#[pyo3(signature = (*, ball_diameter, pitch_radius, lead_angle, groove_radius_screw, groove_radius_nut, contact_angle_screw, contact_angle_nut, pitch_angle, yaw_angle, rolling_radius_screw, rolling_radius_nut, speed, semi_major_screw, semi_minor_screw, semi_major_nut, semi_minor_nut))]
+pub fn reference_contact_kinematics<'py>(
     py: Python<'py>,
     ball_diameter: Any<'py>,
     pitch_radius: Any<'py>,
@@ -219,9 +257,43 @@ pub fn exact_contact_kinematics<'py>(
     semi_major_nut: Any<'py>,
     semi_minor_nut: Any<'py>,
 ) -> PyResult<Any<'py>> {
-    let values = [&ball_diameter, &pitch_radius, &lead_angle, &groove_radius_screw, &groove_radius_nut, &contact_angle_screw, &contact_angle_nut, &pitch_angle, &yaw_angle, &rolling_radius_screw, &rolling_radius_nut, &speed, &semi_major_screw, &semi_minor_screw, &semi_major_nut, &semi_minor_nut];
+    let values = [
+        &ball_diameter,
+        &pitch_radius,
+        &lead_angle,
+        &groove_radius_screw,
+        &groove_radius_nut,
+        &contact_angle_screw,
+        &contact_angle_nut,
+        &pitch_angle,
+        &yaw_angle,
+        &rolling_radius_screw,
+        &rolling_radius_nut,
+        &speed,
+        &semi_major_screw,
+        &semi_minor_screw,
+        &semi_major_nut,
+        &semi_minor_nut,
+    ];
     evaluate(py, arguments(py, NAMES, values)?, |numbers: [f64; 16]| {
-        let [ball_diameter, pitch_radius, lead_angle, groove_radius_screw, groove_radius_nut, contact_angle_screw, contact_angle_nut, pitch_angle, yaw_angle, rolling_radius_screw, rolling_radius_nut, speed, semi_major_screw, semi_minor_screw, semi_major_nut, semi_minor_nut] = numbers;
+        let [
+            ball_diameter,
+            pitch_radius,
+            lead_angle,
+            groove_radius_screw,
+            groove_radius_nut,
+            contact_angle_screw,
+            contact_angle_nut,
+            pitch_angle,
+            yaw_angle,
+            rolling_radius_screw,
+            rolling_radius_nut,
+            speed,
+            semi_major_screw,
+            semi_minor_screw,
+            semi_major_nut,
+            semi_minor_nut,
+        ] = numbers;
         within("speed", speed, -LARGEST_SPEED, LARGEST_SPEED)?;
         let ball = Revised::new(&KinematicsInput {
             ball_diameter,

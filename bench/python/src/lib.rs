@@ -8,10 +8,14 @@
 mod arrays;
 mod calibration;
 mod contacts;
+mod curvature;
 mod design;
+mod efficiency;
 mod errors;
 mod kept;
 mod kinematics;
+mod numbers;
+mod press;
 mod reference;
 mod results;
 mod runs;
@@ -26,17 +30,27 @@ mod _native {
     #[pymodule_export]
     use crate::calibration::calibrate;
     #[pymodule_export]
-    use crate::contacts::{
-        circular_groove_curvature, efficiency, ellipse, fitted_curvature, friction_map,
-        groove_curvature, literature_curvature,
+    use crate::contacts::{ellipse, friction_map};
+    #[pymodule_export]
+    use crate::curvature::{
+        circular_groove_curvature, fitted_curvature, groove_curvature, literature_curvature,
     };
     #[pymodule_export]
     use crate::design::{Design, LinearDesign, design_names};
     #[pymodule_export]
-    use crate::kinematics::contact_kinematics;
+    use crate::efficiency::efficiency;
+    #[pymodule_export]
+    use crate::kinematics::{contact_kinematics, reference_contact_kinematics};
+    #[pymodule_export]
+    use crate::press::contact_forces;
+    #[pymodule_export]
+    use crate::reference::{
+        reference_efficiency, reference_ellipse, reference_friction_map, reference_groove_curvature,
+    };
     #[pymodule_export]
     use crate::runs::{
-        eval_json, manoeuvre, simulate_caged, simulate_linear, simulate_uncaged,
+        eval_json, manoeuvre, reference_measured_trace, reference_simulate_caged,
+        reference_simulate_uncaged, simulate_caged, simulate_linear, simulate_uncaged,
     };
     #[pymodule_export]
     use crate::scenes::caged::CagedBallScrew;
@@ -44,21 +58,6 @@ mod _native {
     use crate::scenes::remembering::CagedBallScrewWithMemory;
     #[pymodule_export]
     use crate::scenes::trains::{LinearBearingTrain, UncagedBallScrew};
-
     #[pymodule_export]
     use crate::studies::{design_figures, merge_sums, population, trace_sums};
-
-    #[pymodule_export]
-    use super::reference_module;
-}
-
-/// The float64 reference.
-#[pymodule(name = "_reference", submodule)]
-mod reference_module {
-    #[pymodule_export]
-    use crate::kinematics::exact_contact_kinematics;
-    #[pymodule_export]
-    use crate::reference::{efficiency, ellipse, friction_map, groove_curvature};
-    #[pymodule_export]
-    use crate::runs::{reference_caged, reference_uncaged};
 }

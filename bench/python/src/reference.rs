@@ -6,16 +6,16 @@ use epas_reference::friction::maps::FrictionMap;
 use epas_reference::hertz::Hertz;
 use pyo3::prelude::*;
 
-use crate::contacts::{arguments, within, zero};
 use crate::errors::Refused;
 use crate::kept::Kept;
+use crate::numbers::{arguments, within, zero};
 use crate::results::result;
 
 type Any<'py> = Bound<'py, PyAny>;
 
 /// A groove by its name.
 fn groove(py: Python<'_>, name: &str) -> PyResult<Groove> {
-    crate::contacts::groove(py, name).map(|groove| match groove {
+    crate::numbers::groove(py, name).map(|groove| match groove {
         epas_friction::geometry::Groove::Screw => Groove::Screw,
         epas_friction::geometry::Groove::Nut => Groove::Nut,
     })
@@ -38,7 +38,7 @@ fn groove(py: Python<'_>, name: &str) -> PyResult<Groove> {
 /// Raises:
 ///     Error: a value out of its range, with its place in the arrays.
 #[pyfunction]
-pub fn groove_curvature<'py>(
+pub fn reference_groove_curvature<'py>(
     py: Python<'py>,
     groove: &str,
     pitch_radius: Any<'py>,
@@ -49,11 +49,32 @@ pub fn groove_curvature<'py>(
     offset_l: Any<'py>,
 ) -> PyResult<Any<'py>> {
     let groove = self::groove(py, groove)?;
-    let names = ["pitch_radius", "lead_angle", "contact_angle", "groove_radius", "offset_h", "offset_l"];
-    let values = [&pitch_radius, &lead_angle, &contact_angle, &groove_radius, &offset_h, &offset_l];
+    let names = [
+        "pitch_radius",
+        "lead_angle",
+        "contact_angle",
+        "groove_radius",
+        "offset_h",
+        "offset_l",
+    ];
+    let values = [
+        &pitch_radius,
+        &lead_angle,
+        &contact_angle,
+        &groove_radius,
+        &offset_h,
+        &offset_l,
+    ];
     let curvature = arguments(py, names, values)?.map(
         py,
-        |[pitch_radius, lead_angle, contact_angle, groove_radius, offset_h, offset_l]| {
+        |[
+            pitch_radius,
+            lead_angle,
+            contact_angle,
+            groove_radius,
+            offset_h,
+            offset_l,
+        ]| {
             let surface = Surface {
                 groove,
                 pitch_radius,
@@ -85,28 +106,39 @@ pub fn groove_curvature<'py>(
 /// Raises:
 ///     Error: a value out of its range, with its place in the arrays.
 #[pyfunction]
-pub fn ellipse<'py>(
+pub fn reference_ellipse<'py>(
     py: Python<'py>,
     relative_radius_1: Any<'py>,
     relative_radius_2: Any<'py>,
     load: Any<'py>,
     contact_modulus: Any<'py>,
 ) -> PyResult<Any<'py>> {
-    let names = ["relative_radius_1", "relative_radius_2", "load", "contact_modulus"];
-    let values = [&relative_radius_1, &relative_radius_2, &load, &contact_modulus];
+    let names = [
+        "relative_radius_1",
+        "relative_radius_2",
+        "load",
+        "contact_modulus",
+    ];
+    let values = [
+        &relative_radius_1,
+        &relative_radius_2,
+        &load,
+        &contact_modulus,
+    ];
     let mut kept = Kept::NONE;
-    let ellipse = arguments(py, names, values)?.map(py, move |[one, two, load, modulus]: [f64; 4]| {
-        within("load", load, 1e-12, 1e9)?;
-        let contact = kept.get([one, two, modulus], || Hertz::new(one, two, modulus))?;
-        let ellipse = contact.at(load);
-        Ok::<_, Refused>([
-            contact.axis_ratio,
-            ellipse.semi_major,
-            ellipse.semi_minor,
-            ellipse.deflection,
-            ellipse.max_pressure,
-        ])
-    })?;
+    let ellipse =
+        arguments(py, names, values)?.map(py, move |[one, two, load, modulus]: [f64; 4]| {
+            within("load", load, 1e-12, 1e9)?;
+            let contact = kept.get([one, two, modulus], || Hertz::new(one, two, modulus))?;
+            let ellipse = contact.at(load);
+            Ok::<_, Refused>([
+                contact.axis_ratio,
+                ellipse.semi_major,
+                ellipse.semi_minor,
+                ellipse.deflection,
+                ellipse.max_pressure,
+            ])
+        })?;
     let [ratio, major, minor, deflection, pressure] = ellipse.arrays(py)?;
     result(py, "Ellipse", (ratio, major, minor, deflection, pressure))
 }
@@ -127,7 +159,7 @@ pub fn ellipse<'py>(
 ///     Error: a value out of its range, with its place in the arrays.
 #[pyfunction]
 #[pyo3(signature = (lead_angle, contact_angle, friction, ball_ratio, rolling_tangent=None))]
-pub fn efficiency<'py>(
+pub fn reference_efficiency<'py>(
     py: Python<'py>,
     lead_angle: Any<'py>,
     contact_angle: Any<'py>,
@@ -135,13 +167,31 @@ pub fn efficiency<'py>(
     ball_ratio: Any<'py>,
     rolling_tangent: Option<Any<'py>>,
 ) -> PyResult<Any<'py>> {
-    let names = ["lead_angle", "contact_angle", "friction", "ball_ratio", "rolling_tangent"];
+    let names = [
+        "lead_angle",
+        "contact_angle",
+        "friction",
+        "ball_ratio",
+        "rolling_tangent",
+    ];
     let rolling_tangent = rolling_tangent.unwrap_or_else(|| zero(py));
-    let values = [&lead_angle, &contact_angle, &friction, &ball_ratio, &rolling_tangent];
+    let values = [
+        &lead_angle,
+        &contact_angle,
+        &friction,
+        &ball_ratio,
+        &rolling_tangent,
+    ];
     let mut kept = Kept::NONE;
     let efficiency = arguments(py, names, values)?.map(
         py,
-        move |[lead_angle, contact_angle, friction, ball_ratio, rolling_tangent]: [f64; 5]| {
+        move |[
+            lead_angle,
+            contact_angle,
+            friction,
+            ball_ratio,
+            rolling_tangent,
+        ]: [f64; 5]| {
             within("friction", friction, 0.0, 1.0)?;
             within("rolling_tangent", rolling_tangent, 0.0, 1.0)?;
             // One set of ranges, that of the control interrupt.
@@ -170,7 +220,11 @@ pub fn efficiency<'py>(
     let [rolling, drive, backdrive, loss, locked, locked_backdrive] = efficiency.arrays(py)?;
     let locked = locked.call_method1("astype", ("bool",))?;
     let locked_backdrive = locked_backdrive.call_method1("astype", ("bool",))?;
-    result(py, "Efficiency", (rolling, drive, backdrive, loss, locked, locked_backdrive))
+    result(
+        py,
+        "Efficiency",
+        (rolling, drive, backdrive, loss, locked, locked_backdrive),
+    )
 }
 
 /// Friction of one contact that slips along the track and spins, normalised, by integrals in float64.
@@ -185,20 +239,28 @@ pub fn efficiency<'py>(
 /// Raises:
 ///     Error: a value out of its range, with its place in the arrays.
 #[pyfunction]
-pub fn friction_map<'py>(
+pub fn reference_friction_map<'py>(
     py: Python<'py>,
     axis_ratio: Any<'py>,
     offset: Any<'py>,
 ) -> PyResult<Any<'py>> {
     let mut kept = Kept::NONE;
     let values = [&axis_ratio, &offset];
-    let map = arguments(py, ["axis_ratio", "offset"], values)?.map(py, move |[ratio, offset]: [f64; 2]| {
-        within("axis_ratio", ratio, epas_friction::contact::SMALLEST_AXIS_RATIO.into(), 1.0)?;
-        within("offset", offset, -1e9, 1e9)?;
-        let map = kept.get([ratio], || FrictionMap::new(ratio))?;
-        let friction = map.at(offset);
-        Ok::<_, Refused>([friction.force, friction.moment, friction.power])
-    })?;
+    let map = arguments(py, ["axis_ratio", "offset"], values)?.map(
+        py,
+        move |[ratio, offset]: [f64; 2]| {
+            within(
+                "axis_ratio",
+                ratio,
+                epas_friction::contact::SMALLEST_AXIS_RATIO.into(),
+                1.0,
+            )?;
+            within("offset", offset, -1e9, 1e9)?;
+            let map = kept.get([ratio], || FrictionMap::new(ratio))?;
+            let friction = map.at(offset);
+            Ok::<_, Refused>([friction.force, friction.moment, friction.power])
+        },
+    )?;
     let [force, moment, power] = map.arrays(py)?;
     result(py, "FrictionMap", (force, moment, power))
 }

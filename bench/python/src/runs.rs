@@ -1,15 +1,20 @@
 //! Whole traces as the command `simulate` runs them, and the float64 reference over them; single evaluations of `eval`.
 
 use epas_bench::bindings::{
-    self, Caged, Linear, LinearSample, Manoeuvre, ReferenceModel, Scene, ScrewSample, Trace, Uncaged,
+    self, Caged, Linear, LinearSample, Manoeuvre, ReferenceModel, Scene, ScrewSample, Trace,
+    Uncaged,
 };
+use epas_reference::rig::course::Course;
+use epas_reference::rig::parameters::Parameters;
+use epas_reference::rig::{Rig, Sensors};
 use numpy::PyArray1;
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 
 use crate::arrays::shaped;
-use crate::contacts::arguments;
 use crate::design::{Design, LinearDesign};
 use crate::errors::{Refused, refused};
+use crate::numbers::arguments;
 use crate::results::result;
 use crate::scenes::columns::{Columns, LinearColumns, ScrewColumns, UncagedColumns};
 
@@ -41,7 +46,10 @@ where
         Ok(())
     })?;
     if samples.is_empty() {
-        return Err(refused(py, Refused::shape("time", "a trace has one sample or more")));
+        return Err(refused(
+            py,
+            Refused::shape("time", "a trace has one sample or more"),
+        ));
     }
     Ok(Trace {
         name: NAME.into(),
@@ -50,15 +58,14 @@ where
 }
 
 /// A trace of a ball screw.
-fn screw_trace<'py>(
-    py: Python<'py>,
-    values: [&Any<'py>; 3],
-) -> PyResult<Trace<ScrewSample>> {
+fn screw_trace<'py>(py: Python<'py>, values: [&Any<'py>; 3]) -> PyResult<Trace<ScrewSample>> {
     let names = ["time", "nut_speed", "axial_load"];
-    trace(py, names, values, |[time, nut_speed, axial_load]| ScrewSample {
-        time,
-        nut_speed,
-        axial_load,
+    trace(py, names, values, |[time, nut_speed, axial_load]| {
+        ScrewSample {
+            time,
+            nut_speed,
+            axial_load,
+        }
     })
 }
 
@@ -189,14 +196,17 @@ pub fn simulate_linear<'py>(
 ) -> PyResult<Any<'py>> {
     let names = ["time", "speed", "normal_load", "side_load"];
     let values = [&time, &speed, &normal_load, &side_load];
-    let trace = trace(py, names, values, |[time, speed, normal_load, side_load]| {
-        LinearSample {
+    let trace = trace(
+        py,
+        names,
+        values,
+        |[time, speed, normal_load, side_load]| LinearSample {
             time,
             speed,
             normal_load,
             side_load,
-        }
-    })?;
+        },
+    )?;
     let scene = Linear {
         design: (*design.inner).clone(),
         memory,
@@ -238,8 +248,8 @@ fn reference_run(
 /// Raises:
 ///     Error: a sample that is NaN or infinite, arrays that do not fit, a value out of its range.
 #[pyfunction]
-#[pyo3(name = "simulate_caged", signature = (design, time, nut_speed, axial_load))]
-pub fn reference_caged<'py>(
+#[pyo3(signature = (design, time, nut_speed, axial_load))]
+pub fn reference_simulate_caged<'py>(
     py: Python<'py>,
     design: &Design,
     time: Any<'py>,
@@ -272,8 +282,8 @@ pub fn reference_caged<'py>(
 /// Raises:
 ///     Error: a sample that is NaN or infinite, arrays that do not fit, a value out of its range.
 #[pyfunction]
-#[pyo3(name = "simulate_uncaged", signature = (design, time, nut_speed, axial_load))]
-pub fn reference_uncaged<'py>(
+#[pyo3(signature = (design, time, nut_speed, axial_load))]
+pub fn reference_simulate_uncaged<'py>(
     py: Python<'py>,
     design: &Design,
     time: Any<'py>,
@@ -326,6 +336,51 @@ pub fn manoeuvre<'py>(
         of(|sample| sample.nut_speed),
         of(|sample| sample.axial_load),
     ])
+}
+
+/// A synthetic trace of a steering gear's screw, "lin-4.1", by physics of its own in float64, with noise of sensors:
+/// something to try :func:`epas_friction.calibrate` on.
+///
+/// Args:
+///     course: "vehicle" (what a steering gear sees), "rig" (what a test rig adds), or "whole".
+///     seed: of the noise.
+///
+/// Returns:
+///     dict[str, ndarray]: time (s), nut_position (rad), motor_torque (N m, on the nut), axial_load (N), temperature (K);
+///         float64, shape (n,).
+///
+/// Raises:
+///     Error: a course that there is not.
+#[pyfunction]
+#[pyo3(signature = (course="vehicle", *, seed=0))]
+pub fn reference_measured_trace<'py>(
+    py: Python<'py>,
+    course: &str,
+    seed: u64,
+) -> PyResult<Bound<'py, PyDict>> {
+    let course = match course {
+        "vehicle" => Course::vehicle(),
+        "rig" => Course::rig(),
+        "whole" => Course::whole(),
+        _ => {
+            let message = format!("course = {course:?} is none of: vehicle, rig, whole");
+            return Err(refused(py, Refused::value("course", message)));
+        }
+    };
+    let trace = py
+        .detach(|| Rig::new(Parameters::default(), Sensors::default())?.run(&course, seed))
+        .map_err(|error| refused(py, error))?;
+    let dict = PyDict::new(py);
+    for (name, values) in [
+        ("time", trace.time),
+        ("nut_position", trace.nut_position),
+        ("motor_torque", trace.motor_torque),
+        ("axial_load", trace.axial_load),
+        ("temperature", trace.temperature),
+    ] {
+        dict.set_item(name, PyArray1::from_vec(py, values))?;
+    }
+    Ok(dict)
 }
 
 /// The answer of the command ``eval`` to a request, both as JSON text; :func:`epas_friction.eval` takes and gives dicts.

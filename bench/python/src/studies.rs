@@ -121,7 +121,7 @@ pub fn design_figures<'py>(
 #[pyo3(signature = (trace, design=None, *, ratio=1.0))]
 pub fn trace_sums(
     py: Python<'_>,
-    trace: &Bound<'_, PyDict>,
+    trace: &Any<'_>,
     design: Option<&Design>,
     ratio: f64,
 ) -> PyResult<String> {

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import itertools
-from typing import Any
+from typing import Any, Callable
 
 import numpy as np
 import numpy.typing as npt
 import pytest
 
 import epas_friction as ef
-from conftest import Ask
+
+#: Answers of ``eval`` to requests of one model.
+Ask = Callable[[str, list[dict[str, Any]]], list[dict[str, Any]]]
 
 SLIP = ["rolling_slip", "side_slip", "spin", "entrainment_speed", "entrainment_angle", "slide_to_roll", "slide_angle", "spin_to_roll"]
 

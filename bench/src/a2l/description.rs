@@ -24,6 +24,9 @@ const MEASURED: &str = "MEASURED";
 /// Where the numbers of a page stand in it.
 const NUMBERS: &str = "numbers.";
 
+/// Addresses are written as everybody reads them.
+const HEXADECIMAL: bool = true;
+
 /// Plain numbers.
 const PLAIN: &str = "plain";
 
@@ -95,7 +98,7 @@ fn memory(working: &Variable, reference: &Variable) -> ModPar {
     for (name, about, program, kind, variable) in [
         (
             "working_page",
-            "Page in use: taken within a tick where checksum and ranges hold",
+            "Page in use: taken where checksum and ranges hold, else the last good one stays",
             PrgType::CalibrationVariables,
             MemoryType::Ram,
             working,
@@ -108,7 +111,7 @@ fn memory(working: &Variable, reference: &Variable) -> ModPar {
             reference,
         ),
     ] {
-        memory.memory_segment.push(MemorySegment::new(
+        let mut segment = MemorySegment::new(
             name.into(),
             about.into(),
             program,
@@ -117,7 +120,10 @@ fn memory(working: &Variable, reference: &Variable) -> ModPar {
             variable.address,
             variable.size,
             [-1; 5],
-        ));
+        );
+        let places = &mut segment.get_layout_mut().item_location;
+        (places.5.1, places.6.1) = (HEXADECIMAL, HEXADECIMAL);
+        memory.memory_segment.push(segment);
     }
     memory
 }
@@ -205,35 +211,7 @@ fn conversion(unit: &str) -> String {
 
 /// The numbers of a page, with layout and checksum: as such of the page in RAM, read-only under `reference.` of that in flash.
 fn page(module: &mut Module, variable: &Variable, reference: bool) -> Result<(), Failure> {
-    let mut names = RefCharacteristic::new();
-    let own = |name: &str| {
-        if reference {
-            format!("reference.{name}")
-        } else {
-            name.to_owned()
-        }
-    };
-    let mut add =
-        |field: &Field, name: &str, about: &str, conversion: String, limits: (f64, f64)| {
-            let mut number = Characteristic::new(
-                own(name),
-                about.to_owned(),
-                CharacteristicType::Value,
-                field.address,
-                layout_name(field.number).into(),
-                0.0,
-                conversion,
-                limits.0,
-                limits.1,
-            );
-            number.symbol_link = Some(SymbolLink::new(field.symbol.clone(), 0));
-            if reference || name == "layout" {
-                number.read_only = Some(ReadOnly::new());
-            }
-            names.identifier_list.push(own(name));
-            module.characteristic.push(number);
-        };
-    let words = (0.0, f64::from(u32::MAX));
+    let mut numbers = Vec::new();
     for (name, about) in [
         ("layout", "Which numbers the page has, in which order"),
         (
@@ -241,18 +219,27 @@ fn page(module: &mut Module, variable: &Variable, reference: bool) -> Result<(),
             "CRC-32 (as in zip files) of all bytes before it: write it last",
         ),
     ] {
-        let field = word(variable, name)?;
-        add(field, name, about, PLAIN.into(), words);
+        let limits = (0.0, f64::from(u32::MAX));
+        numbers.push((word(variable, name)?, name, about, PLAIN.into(), limits));
     }
     for (field, row) in rows(variable, NUMBERS, &CALIBRATION)? {
         let limits = (decimal(row.minimum), decimal(row.maximum));
-        add(
-            field,
-            row.name,
-            row.description.trim(),
-            conversion(row.unit),
-            limits,
-        );
+        let unit = conversion(row.unit);
+        numbers.push((field, row.name, row.description.trim(), unit, limits));
+    }
+    let mut names = RefCharacteristic::new();
+    for (field, name, about, unit, limits) in numbers {
+        let own = if reference {
+            format!("reference.{name}")
+        } else {
+            name.to_owned()
+        };
+        let mut number = characteristic(field, own.clone(), about, unit, limits);
+        if reference || name == "layout" {
+            number.read_only = Some(ReadOnly::new());
+        }
+        names.identifier_list.push(own);
+        module.characteristic.push(number);
     }
     let (name, about) = if reference {
         (
@@ -264,6 +251,30 @@ fn page(module: &mut Module, variable: &Variable, reference: bool) -> Result<(),
     };
     module.group.push(group(name, about, Some(names), None));
     Ok(())
+}
+
+/// A number of a page.
+fn characteristic(
+    field: &Field,
+    name: String,
+    about: &str,
+    unit: String,
+    (lower, upper): (f64, f64),
+) -> Characteristic {
+    let mut number = Characteristic::new(
+        name,
+        about.to_owned(),
+        CharacteristicType::Value,
+        field.address,
+        layout_name(field.number).into(),
+        0.0,
+        unit,
+        lower,
+        upper,
+    );
+    number.get_layout_mut().item_location.3.1 = HEXADECIMAL;
+    number.symbol_link = Some(SymbolLink::new(field.symbol.clone(), 0));
+    number
 }
 
 fn measurements(module: &mut Module, variable: &Variable) -> Result<(), Failure> {
@@ -284,7 +295,9 @@ fn measurements(module: &mut Module, variable: &Variable) -> Result<(), Failure>
             decimal(row.minimum),
             decimal(row.maximum),
         );
-        measurement.ecu_address = Some(EcuAddress::new(field.address));
+        let mut address = EcuAddress::new(field.address);
+        address.get_layout_mut().item_location.0.1 = HEXADECIMAL;
+        measurement.ecu_address = Some(address);
         measurement.symbol_link = Some(SymbolLink::new(field.symbol.clone(), 0));
         names.identifier_list.push(row.name.into());
         module.measurement.push(measurement);

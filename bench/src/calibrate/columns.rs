@@ -127,9 +127,10 @@ fn assemble(mut table: Table, name: &str, frame: Option<&Frame>) -> Result<Trace
     let position = motion(&mut table, Quantity::Position);
     let speed = motion(&mut table, Quantity::Speed);
     let Some((_, part)) = position.as_ref().or(speed.as_ref()) else {
-        return Err(
-            "a column position or speed is missing (of nut_, motor_, carriage_ or plain)".into(),
-        );
+        return Err(absent(
+            "a column position or speed is missing (of nut_, motor_, carriage_ or plain)",
+            &table,
+        ));
     };
     let reference = take(&mut table, Quantity::ReferencePosition).map(|column| (column, *part));
     let [load, temperature] =
@@ -233,8 +234,22 @@ fn effort(table: &mut Table) -> Result<(Column, bool), String> {
             "columns {} and {}: give the effort once",
             torque.name, force.name
         )),
-        (None, None) => Err("column motor_torque or motor_force is missing".into()),
+        (None, None) => Err(absent(
+            "column motor_torque or motor_force is missing",
+            table,
+        )),
     }
+}
+
+/// What is missing, beside what is there.
+fn absent(missing: &str, table: &Table) -> String {
+    let known = table.columns.iter().map(|column| &column.name);
+    let all = known.chain(&table.ignored).map(String::as_str);
+    let names: Vec<&str> = all.take(12).collect();
+    if names.is_empty() {
+        return format!("{missing}; there are no other columns");
+    }
+    format!("{missing}; left are {}", names.join(", "))
 }
 
 /// The column that tells the motion best: the nut's, before the motor's, the carriage's and a plain one.

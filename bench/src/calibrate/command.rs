@@ -6,7 +6,7 @@ use super::answer::Calibration;
 use super::columns::{self, Frame};
 use super::controller::SeenController;
 use super::folder::{self, Folder, FolderArguments};
-use super::outputs::{Outcome, OutputArguments};
+use super::outputs::{Outcome, OutputArguments, folder_name};
 use super::screw::Request;
 use super::screw::choice::Wanted;
 use super::signals::{RowSettings, SmoothingSettings};
@@ -17,6 +17,7 @@ use super::without_design::{self, Filters};
 use crate::controller::Controller;
 use crate::designs::{Design, DesignSource};
 use crate::failure::Failure;
+use crate::files::refuse_shared;
 use crate::mdf4::{self, Mapping};
 use crate::source::Source;
 
@@ -134,6 +135,12 @@ fn setting(text: &str) -> Result<(String, f64), String> {
 
 /// Calibrates a trace, or the traces of a folder.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let file = arguments.design.as_ref().and_then(DesignSource::file);
+    refuse_shared([
+        file,
+        arguments.trace.as_deref(),
+        arguments.validate.as_deref(),
+    ])?;
     let design = arguments
         .design
         .as_ref()
@@ -257,10 +264,7 @@ fn whole_folder(
     design: Option<&Design>,
     mapping: Option<&Mapping>,
 ) -> Result<(), Failure> {
-    let name = traces.file_name().map_or_else(
-        || "folder".into(),
-        |name| name.to_string_lossy().into_owned(),
-    );
+    let name = folder_name(traces);
     let output = arguments.outputs.folder(&name);
     let mut settings = format!(
         "{:?} {:?} {:?} {:?} {:?}",
@@ -271,7 +275,7 @@ fn whole_folder(
         arguments.filters(),
     );
     if let Some(mapping) = mapping {
-        settings += &format!(" {mapping:?}");
+        settings.extend([" ", &format!("{mapping:?}")]);
     }
     let folder = Folder {
         traces,

@@ -88,6 +88,7 @@ pub fn run(
     fit: impl Fn(&Path) -> Result<(Calibration, Sums), Failure> + Sync,
 ) -> Result<(), Failure> {
     let together = answer(folder, &fit)?;
+    crate::folder::mark(folder.output)?;
     let document = page::document(&together);
     document.write(folder.output)?;
     if folder.json {
@@ -131,6 +132,8 @@ fn fitted(
             if part.count > 1 { " in this part" } else { "" }
         )));
     }
+    // Answers are written one by one, and a run that is stopped here goes on.
+    crate::folder::mark(folder.output)?;
     let settings = crc32fast::hash(folder.settings.as_bytes());
     let progress = Progress::new("traces", traces.len());
     traces

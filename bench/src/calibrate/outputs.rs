@@ -13,6 +13,8 @@ use super::{constants, shown};
 use crate::designs::{DesignSource, text};
 use crate::failure::Failure;
 use crate::files::{self, Existing, refuse_same};
+use crate::folder;
+use crate::source::Source;
 
 /// Where the outputs of a calibration go.
 #[derive(Clone, Debug, Default, PartialEq, Eq, clap::Args)]
@@ -26,7 +28,7 @@ pub struct OutputArguments {
     /// Where Rust constants for firmware go
     #[arg(long, value_name = "OUT.rs", requires = "design")]
     pub constants: Option<PathBuf>,
-    /// Replace a design file or constants that exist
+    /// Replace a design file or constants that exist, and write to a folder that holds other files
     #[arg(long)]
     pub force: bool,
     /// Print one JSON object
@@ -57,7 +59,13 @@ impl OutputArguments {
             self.existing().check(path)?;
         }
         let design = design.and_then(DesignSource::file);
-        refuse_same([Some(trace), design], self.files())
+        refuse_same([Some(trace), design], self.files())?;
+        let name = if trace.is_dir() {
+            folder_name(trace)
+        } else {
+            Source(trace).name()
+        };
+        folder::check(&self.folder(&name), self.force)
     }
 
     fn files(&self) -> impl Iterator<Item = &PathBuf> {
@@ -102,6 +110,7 @@ impl OutputArguments {
         } = outcome;
         let folder = self.folder(&picture.name);
         let document = page::document(calibration, picture);
+        folder::mark(&folder)?;
         document.write(&folder)?;
         let mut told = Vec::new();
         if let (Some(source), true) = (design, self.files().next().is_some()) {
@@ -144,6 +153,14 @@ fn calibrated(source: &DesignSource, outcome: Outcome<'_>) -> Result<Written, Fa
     let told = (outcome.calibration, outcome.screw);
     design_file::written(&text, told, &trace)
         .map_err(|message| Failure::Data(format!("the calibrated design: {message}")))
+}
+
+/// Name of a folder of traces.
+pub fn folder_name(traces: &Path) -> String {
+    traces.file_name().map_or_else(
+        || "folder".into(),
+        |name| name.to_string_lossy().into_owned(),
+    )
 }
 
 /// One JSON object on a line.

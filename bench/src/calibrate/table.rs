@@ -138,7 +138,7 @@ fn header(reader: &mut Reader<impl Read>) -> Result<Growing, String> {
     if header.len() > MOST_COLUMNS {
         return Err(format!("{} columns: at most {MOST_COLUMNS}", header.len()));
     }
-    headings::separated(&header)?;
+    headings::separated(header)?;
     let mut table = Growing {
         columns: Vec::new(),
         ignored: Vec::new(),
@@ -173,7 +173,7 @@ fn header(reader: &mut Reader<impl Read>) -> Result<Growing, String> {
         .columns
         .iter()
         .position(|column| column.quantity == Quantity::Time)
-        .ok_or_else(|| headings::missing("time", &header))?;
+        .ok_or_else(|| headings::missing("time", header))?;
     table.columns.swap(0, time);
     Ok(table)
 }

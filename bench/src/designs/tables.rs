@@ -1,7 +1,7 @@
 //! What design files of screws and of bearings have in common.
 
 use std::fs::File;
-use std::io::Read;
+use std::io::{self, Read};
 use std::path::Path;
 
 use epas_friction::{GrooveSize, Material};
@@ -9,7 +9,7 @@ use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
 use crate::failure::Failure;
-use crate::files::Bounded;
+use crate::files::{Bounded, standard};
 
 /// Elastic constants and density of a body, as they are written.
 #[derive(Debug, Deserialize)]
@@ -40,9 +40,13 @@ pub fn from_file<Table: DeserializeOwned, Made>(
 }
 
 fn read_text(path: &Path) -> Result<String, Failure> {
-    let file = File::open(path).map_err(|error| Failure::file("open", path, &error))?;
+    let input: Box<dyn Read> = if standard(path) {
+        Box::new(io::stdin())
+    } else {
+        Box::new(File::open(path).map_err(|error| Failure::file("open", path, &error))?)
+    };
     let mut text = String::new();
-    Bounded::new(file, LARGEST_FILE)
+    Bounded::new(input, LARGEST_FILE)
         .read_to_string(&mut text)
         .map_err(|error| Failure::file("read", path, &error))?;
     Ok(text)

@@ -2,7 +2,7 @@ use super::*;
 
 #[test]
 fn every_built_in_design_is_valid_and_found_by_its_name() {
-    assert_eq!(built_in().count(), 34);
+    assert_eq!(built_in().count(), 52);
     for (name, ..) in built_in() {
         let design = name.parse::<DesignSource>().unwrap().load().unwrap();
         assert_eq!(design.name, name);

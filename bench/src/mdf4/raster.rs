@@ -37,7 +37,7 @@ pub struct Track {
 ///
 /// # Errors
 /// Too many invalid samples, a channel that covers too little or has gaps.
-pub fn align(times: &Times, tracks: Vec<Track>, master: usize) -> Result<Table, String> {
+pub fn align(times: &Times, tracks: &[Track], master: usize) -> Result<Table, String> {
     let own = times
         .get(&master)
         .ok_or("the file is damaged: a group lost its time")?;
@@ -74,7 +74,7 @@ pub fn align(times: &Times, tracks: Vec<Track>, master: usize) -> Result<Table, 
     let grid = at(&own.values);
     let mut curves = others.iter();
     let mut columns = Vec::new();
-    for track in tracks.iter() {
+    for track in tracks {
         let values = if direct(track) {
             at(&track.samples.values)
         } else {
@@ -318,7 +318,7 @@ mod tests {
             track("nut_speed", 0, vec![1.0; 7]),
             track("axial_load", 1, vec![10.0, 20.0, 30.0]),
         ];
-        let table = align(&times(&[&grid, &[0.25, 0.75, 1.25]]), tracks, 0).unwrap();
+        let table = align(&times(&[&grid, &[0.25, 0.75, 1.25]]), &tracks, 0).unwrap();
         assert_eq!(table.times, grid);
         assert_eq!(
             table.columns[1].values,
@@ -355,8 +355,7 @@ mod tests {
         let speed = track("nut_speed", 0, vec![1.0; 100]);
         let refused = |other: &[f64]| {
             let load = track("axial_load", 1, vec![1.0; other.len()]);
-            align(&times(&[&grid, other]), vec![speed.clone(), load], 0)
-                .map(|table| table.times.len())
+            align(&times(&[&grid, other]), &[speed.clone(), load], 0).map(|table| table.times.len())
         };
         let message = refused(&grid[..50]).unwrap_err();
         assert!(message.contains("90 %"), "{message}");
@@ -374,10 +373,10 @@ mod tests {
         );
         let mut invalid = speed.clone();
         invalid.samples.valid = (0..100).map(|sample| sample % 50 != 3).collect();
-        let table = align(&times(&[&grid]), vec![invalid.clone()], 0).unwrap();
+        let table = align(&times(&[&grid]), &[invalid.clone()], 0).unwrap();
         assert_eq!(table.times.len(), 98);
         invalid.samples.valid[0] = false;
-        let message = align(&times(&[&grid]), vec![invalid], 0).unwrap_err();
+        let message = align(&times(&[&grid]), &[invalid], 0).unwrap_err();
         assert!(message.contains("3 of 100 samples"), "{message}");
     }
 }

@@ -94,7 +94,7 @@ pub fn of(bytes: Vec<u8>, request: &Request<'_>) -> Result<Table, String> {
         .take(MOST_IGNORED)
         .map(|channel| cut(&channel.name))
         .collect();
-    let aligned = align(&times, tracks, master.group)?;
+    let aligned = align(&times, &tracks, master.group)?;
     Ok(Table { ignored, ..aligned })
 }
 

@@ -5,7 +5,7 @@ use super::linear::Linear;
 use super::manoeuvre::Manoeuvre;
 use super::uncaged::Uncaged;
 use crate::designs::DesignSource;
-use crate::designs::train::{LINEAR, LinearDesign};
+use crate::designs::train::LinearDesign;
 use crate::failure::Failure;
 
 /// A scene of the in-loop model, by its name.
@@ -68,16 +68,9 @@ pub fn choose(
                 memory,
             })))
         }
-        SceneName::Linear => linear(source).map(|design| Chosen::Linear(Linear { design, memory })),
-    }
-}
-
-fn linear(source: Option<&DesignSource>) -> Result<LinearDesign, Failure> {
-    match source {
-        None | Some(DesignSource::LinearBearing) => LinearDesign::built_in(),
-        Some(DesignSource::File(path)) => LinearDesign::read(path),
-        Some(DesignSource::BuiltIn { name, .. }) => Err(Failure::Data(format!(
-            "{name} is a ball screw; the built-in linear bearing is {LINEAR}"
-        ))),
+        SceneName::Linear => {
+            let design = source.map_or_else(LinearDesign::built_in, DesignSource::load_bearing)?;
+            Ok(Chosen::Linear(Linear { design, memory }))
+        }
     }
 }

@@ -8,9 +8,10 @@ use std::f64::consts::{PI, TAU};
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
-use epas_friction::{Inputs, Outputs};
+use epas_friction::Outputs;
 
 use super::memory;
+use super::nut::{Nut, STEPS};
 use super::picture::Form;
 use super::remembering::{Remembers, Use, remembering};
 use super::summary::Lines;
@@ -21,7 +22,7 @@ use crate::designs::Design;
 use crate::failure::Failure;
 use crate::files::{self, Existing, Pending, refuse_same};
 use crate::mdf4::Mapping;
-use crate::mechanism::{Mechanism, Resistance, Step};
+use crate::mechanism::Mechanism;
 use crate::plot::{Axis, Chart, Mark, Panel, Series};
 use crate::source::Source;
 
@@ -59,9 +60,6 @@ impl MechanismArguments {
         self.mechanism
     }
 }
-
-/// Steps in a tick.
-const STEPS: usize = 4;
 
 /// One moment of what acts.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -116,44 +114,6 @@ macro_rules! sample {
 
 sample!(Torque, "motor_torque");
 sample!(Wanted, "reference_position");
-
-/// A nut with the model's friction.
-#[derive(Clone)]
-struct Nut<M> {
-    model: M,
-    /// Torque of the load, over that of a screw without friction.
-    gain: f64,
-    drag: f64,
-    offset: f64,
-    axial_load: f64,
-    outputs: Option<Outputs>,
-}
-
-impl<M: Remembers> Nut<M> {
-    fn step(&mut self, step: &Step) -> f64 {
-        let inputs = Inputs {
-            nut_speed: step.speed as f32,
-            axial_load: self.axial_load as f32,
-        };
-        let speed = step.end_speed();
-        let outputs = self.model.step(inputs, speed as f32);
-        self.outputs = Some(outputs);
-        self.gain * f64::from(outputs.load_torque)
-            + f64::from(outputs.friction_torque)
-            + self.drag * speed
-            + self.offset
-    }
-}
-
-impl<M: Remembers> Resistance for Nut<M> {
-    fn against(&self, step: &Step) -> f64 {
-        self.clone().step(step)
-    }
-
-    fn follow(&mut self, step: &Step) -> f64 {
-        self.step(step)
-    }
-}
 
 /// What the nut did at a tick.
 struct Row {
@@ -306,16 +266,7 @@ fn motion(model: impl Remembers, course: &Course<'_>) -> Vec<Row> {
         controller,
         tick,
     } = *course;
-    let told = |value: Option<f32>, without: f64| value.map_or(without, f64::from);
-    let calibrated = design.calibrated.as_ref();
-    let nut = Nut {
-        model,
-        gain: told(calibrated.and_then(|found| found.gain), 1.0),
-        drag: told(calibrated.and_then(|found| found.drag), 0.0),
-        offset: told(calibrated.and_then(|found| found.offset), 0.0),
-        axial_load: 0.0,
-        outputs: None,
-    };
+    let nut = Nut::of(design, model);
     let start = match (controller, acting.first()) {
         (Some(_), Some(first)) => first.command,
         _ => 0.0,

@@ -23,7 +23,7 @@ pub type Elements = ProportionalElements<ELEMENTS>;
 pub type Remembering<S> = WithMemory<S, Elements, SpeedOverTick, OneCoefficient>;
 
 /// Temperature of every simulation, K. The friction coefficient does not follow it.
-const TEMPERATURE: f32 = 293.15;
+pub const TEMPERATURE: f32 = 293.15;
 
 /// What stands in for a temperature that is too old: the same one.
 const FADE: TemperatureFade = match TemperatureFade::new(TEMPERATURE, 1.0, 1.0) {

@@ -5,9 +5,10 @@ use epas_friction::law::Elements;
 use epas_friction::law::coefficient::{CoefficientLaw, CoefficientModel};
 use epas_friction::law::memory::Hysteresis;
 use epas_friction::law::motion::{NutAngle, Steady};
-use epas_friction::scene::{WithMemory, WithMemoryConfiguration};
+use epas_friction::scene::{WithMemory, WithMemoryConfiguration, WithMemoryInputs};
+use epas_friction::stored::{Fingerprinted, Stored};
 use epas_friction::{
-    CagedBallScrew, CagedBallScrewConfiguration, Error, FrictionModel, Inputs, Outputs,
+    CagedBallScrew, CagedBallScrewConfiguration, Error, FrictionModel, Inputs, Outputs, Refusal,
 };
 
 use super::memory::{self, Remembered};
@@ -19,8 +20,25 @@ use crate::failure::Failure;
 
 /// A screw that remembers, whatever its elements, its sensor and its coefficient are.
 pub trait Remembers: Clone + Send + Sync {
-    /// What it says to a moment with a reading of its sensor.
-    fn step(&mut self, inputs: Inputs, reading: f32) -> Outputs;
+    /// What it says to a moment with a reading of its sensor, at a temperature, K.
+    fn step_at(&mut self, inputs: Inputs, reading: f32, temperature: f32) -> Outputs;
+
+    /// The same at the temperature of every simulation.
+    fn step(&mut self, inputs: Inputs, reading: f32) -> Outputs {
+        self.step_at(inputs, reading, memory::TEMPERATURE)
+    }
+
+    /// Its state as a block.
+    ///
+    /// # Errors
+    /// What the crate refuses.
+    fn export(&self) -> Result<Vec<u8>, Refusal>;
+
+    /// Takes the state of a block over, its sensor's last reading too.
+    ///
+    /// # Errors
+    /// What the crate refuses; the state is as it was.
+    fn import(&mut self, block: &[u8]) -> Result<(), Refusal>;
     /// What it says to a reading between two moments.
     fn between(&mut self, reading: f32) -> Outputs;
     /// Back to the state before the first tick.
@@ -31,13 +49,17 @@ pub trait Remembers: Clone + Send + Sync {
 
 impl<E, A, L> Remembers for FrictionModel<WithMemory<CagedBallScrew, E, A, L>>
 where
-    E: Elements + Copy,
-    A: NutAngle<Reading = f32> + Copy,
+    E: Elements<State: Stored> + Fingerprinted + Copy,
+    A: Sensor,
     L: CoefficientModel,
     Self: Clone + Send + Sync,
 {
-    fn step(&mut self, inputs: Inputs, reading: f32) -> Outputs {
-        Self::step(self, memory::fresh(inputs, reading))
+    fn step_at(&mut self, inputs: Inputs, reading: f32, temperature: f32) -> Outputs {
+        let inputs = WithMemoryInputs {
+            temperature,
+            ..memory::fresh(inputs, reading)
+        };
+        Self::step(self, inputs)
     }
 
     fn between(&mut self, reading: f32) -> Outputs {
@@ -51,6 +73,33 @@ where
     fn faulted_ticks(&self) -> u32 {
         Self::faulted_ticks(self)
     }
+
+    fn export(&self) -> Result<Vec<u8>, Refusal> {
+        let mut block = vec![0; Self::STATE_BYTES];
+        Self::export(self, &mut block)?;
+        Ok(block)
+    }
+
+    fn import(&mut self, block: &[u8]) -> Result<(), Refusal> {
+        self.import_with_reading(block)
+    }
+}
+
+/// A sensor of an angle or a speed whose last reading can be kept.
+pub trait Sensor:
+    NutAngle<Reading = f32, State: Stored + Send + Sync> + Fingerprinted + Copy + Send + Sync + 'static
+{
+}
+
+impl<
+    A: NutAngle<Reading = f32, State: Stored + Send + Sync>
+        + Fingerprinted
+        + Copy
+        + Send
+        + Sync
+        + 'static,
+> Sensor for A
+{
 }
 
 /// What is done with such a screw.
@@ -80,7 +129,7 @@ pub fn remembering<A, U>(
     then: U,
 ) -> Result<(U::Made, Lines), Failure>
 where
-    A: NutAngle<Reading = f32, State: Send + Sync> + Copy + Send + Sync + 'static,
+    A: Sensor,
     U: Use,
 {
     let refused = |error: Error| Failure::Data(format!("{}: {error}", design.name));
@@ -130,8 +179,8 @@ where
     }
 }
 
-impl<A: NutAngle<Reading = f32> + Copy + 'static> Built<'_, A> {
-    fn with<E: Hysteresis + Elements + Copy + 'static, U: Use>(
+impl<A: Sensor> Built<'_, A> {
+    fn with<E: Hysteresis + Elements<State: Stored> + Fingerprinted + Copy + 'static, U: Use>(
         &self,
         elements: (E, f32),
         law: CoefficientLaw,

@@ -41,7 +41,16 @@ pub fn pressing<const N: usize>(train: &epas_friction::train::Train<N>) -> u64 {
         .fold(0, |bits, contact| bits | 1 << contact.ball)
 }
 
+/// Without the program no row of balls is needed, whatever its number is.
+#[cfg(not(feature = "program"))]
+macro_rules! with_balls {
+    ($kind:ident $scene:ident, $balls:expr, $configuration:expr) => {
+        Ok(None)
+    };
+}
+
 /// A scene with the number of balls that is known only when the program runs; none where it is out of range.
+#[cfg(feature = "program")]
 macro_rules! with_balls {
     (plain $scene:ident, $balls:expr, $configuration:expr; $($count:literal)*) => {
         match $balls {

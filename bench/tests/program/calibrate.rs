@@ -62,6 +62,28 @@ fn calibrated(folder: &Path, arguments: &[&str]) -> serde_json::Value {
 }
 
 #[test]
+fn a_folder_of_the_users_stays() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("slide.csv"), "time,position\n0,0\n").unwrap();
+    let run = run_in(
+        folder.path(),
+        &["calibrate", "slide.csv", "--output", "."],
+        "",
+    );
+    assert_eq!(run.code, 1);
+    // Before the trace is looked at.
+    assert!(run.stderr.contains("such as slide.csv"), "{}", run.stderr);
+    let forced = ["calibrate", "slide.csv", "--output", ".", "--force"];
+    let run = run_in(folder.path(), &forced, "");
+    assert!(
+        run.stderr
+            .contains("motor_force is missing; left are position"),
+        "{}",
+        run.stderr
+    );
+}
+
+#[test]
 fn a_slide_is_told_with_intervals_that_hold_the_truth() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("slide.csv"), trace(8, 0.0)).unwrap();

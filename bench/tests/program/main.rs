@@ -4,6 +4,7 @@ mod calibrate;
 mod calibrate_folder;
 mod calibrated;
 mod eval;
+mod friction_task;
 mod loads;
 mod pairs;
 mod report;

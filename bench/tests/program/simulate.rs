@@ -47,8 +47,11 @@ fn files(folder: &Path) -> Vec<String> {
 #[test]
 fn the_list_holds_every_built_in_design() {
     let list = run(&["simulate", "--list"], "");
-    assert_eq!((list.code, list.stdout.lines().count()), (0, 35));
+    let designs = list.stdout.lines().take_while(|line| !line.is_empty());
+    assert_eq!((list.code, designs.count()), (0, 53));
     for name in [
+        "25x5x3.175",
+        "28x7x3.969",
         "32x20x6.35",
         "20x60x3.5",
         "lin-2.1",
@@ -58,6 +61,73 @@ fn the_list_holds_every_built_in_design() {
     ] {
         assert!(list.stdout.lines().any(|line| line.starts_with(name)));
     }
+}
+
+#[test]
+fn standard_input_and_output_are_a_dash() {
+    let folder = folder();
+    let run = simulate(
+        folder.path(),
+        &[
+            "--design",
+            "design.toml",
+            "--input",
+            "trace.csv",
+            "--output",
+            "out.csv",
+        ],
+    );
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    let table = fs::read_to_string(folder.path().join("out.csv")).unwrap();
+    let dash = [
+        "simulate",
+        "--design",
+        "design.toml",
+        "--input",
+        "-",
+        "--output",
+        "-",
+    ];
+    let run = run_in(folder.path(), &dash, TRACE);
+    assert_eq!((run.code, run.stdout), (0, table.clone()), "{}", run.stderr);
+    let design = [
+        "simulate",
+        "--design",
+        "-",
+        "--input",
+        "trace.csv",
+        "--output",
+        "-",
+    ];
+    let run = run_in(folder.path(), &design, DESIGN);
+    assert_eq!((run.code, run.stdout), (0, table), "{}", run.stderr);
+    let both = ["simulate", "--design", "-", "--input", "-"];
+    let run = run_in(folder.path(), &both, DESIGN);
+    assert!(
+        run.code == 1 && run.stderr.contains("can be read once"),
+        "{}",
+        run.stderr
+    );
+    assert!(!files(folder.path()).contains(&"-".to_string()));
+}
+
+#[test]
+fn a_name_that_is_near_is_suggested() {
+    let run = run(
+        &[
+            "simulate",
+            "--design",
+            "25x5x3.17",
+            "--manoeuvre",
+            "parking",
+        ],
+        "",
+    );
+    assert!(
+        run.code == 2 && run.stderr.contains("nearest is 25x5x3.175"),
+        "{}",
+        run.stderr
+    );
 }
 
 /// The f32 model is within a few 2^-24 of the same scene in float64.

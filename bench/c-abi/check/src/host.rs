@@ -40,14 +40,17 @@ pub fn check(root: &Path) -> Outcome<()> {
         &example,
         examples(&fs::read_to_string(root.join("README.md"))?),
     )?;
-    run(compile("c99").arg("-fsyntax-only").arg(&example))?;
 
     let program = out.join("host");
     let test = root.join("test");
     run(compile("c99")
         .args(["-O2", "-Wl,--gc-sections", "-o"])
         .arg(&program)
-        .args(["host.c", "cases.c", "setups.c", "refusals.c"].map(|file| test.join(file)))
+        .args(
+            ["host.c", "cases.c", "setups.c", "refusals.c", "reaction.c"]
+                .map(|file| test.join(file)),
+        )
+        .arg(&example)
         .arg(&archive)
         .arg("-lm"))?;
     print!("on the host\n{}", run(&mut Command::new(&program))?);

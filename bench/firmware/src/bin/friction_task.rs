@@ -23,6 +23,7 @@ use epas_firmware::friction_task::page::Calibration;
 use epas_firmware::friction_task::reaction::ReactionParameters;
 use epas_firmware::friction_task::slow::{Message, Reading, SlowInputs, SlowTask};
 use epas_firmware::friction_task::vehicle::{self, EVENTS, Motor, STEPS};
+use epas_firmware::friction_task::watch::{Offer, PageReport, Watch};
 use epas_firmware::friction_task::{RATIO, judge};
 use try_lock::TryLock;
 
@@ -51,6 +52,10 @@ static TORQUE: AtomicU32 = AtomicU32::new(0);
 static STEPS_DONE: AtomicU32 = AtomicU32::new(0);
 static REACTION: Mutex<Cell<ReactionParameters>> =
     Mutex::new(Cell::new(ReactionParameters::of(&Calibration::REFERENCE)));
+
+/// From the background to the friction task: a calibration that may be taken, and what was found of the page.
+static OFFER: TryLock<Option<Offer>> = TryLock::new(None);
+static PAGE: Mutex<Cell<PageReport>> = Mutex::new(Cell::new(PageReport::START));
 
 /// Mailboxes of a bus: what came since the friction task looked.
 static LOAD: Mutex<Cell<Option<Message>>> = Mutex::new(Cell::new(None));
@@ -129,14 +134,12 @@ fn PendSV() {
 }
 
 fn slow(task: &mut SlowTask, time: u32) {
-    let page = free(|key| WORKING_PAGE.read(key));
-    let constants = task.look(&page);
     let inputs = free(|key| SlowInputs {
         load: LOAD.borrow(key).take(),
         temperature: TEMPERATURE.borrow(key).take(),
     });
-    let parameters = ReactionParameters::of(task.calibration());
-    free(|key| REACTION.borrow(key).set(parameters));
+    // Where the background is putting one there, it is for the next tick.
+    let offer = OFFER.try_lock().and_then(|mut offer| offer.take());
 
     let Some(mut gear) = GEAR.try_lock() else {
         return;
@@ -146,12 +149,18 @@ fn slow(task: &mut SlowTask, time: u32) {
     };
     // Read while nobody else can give the model a younger angle.
     let reading = free(|key| READING.borrow(key).get());
-    let outputs = task.step(model, constants, reading, &inputs);
+    let outputs = task.step(model, offer, reading, &inputs);
     drop(gear);
+
+    let parameters = ReactionParameters::of(task.calibration());
+    let page = free(|key| {
+        REACTION.borrow(key).set(parameters);
+        PAGE.borrow(key).get()
+    });
 
     task.adapt(&outputs, vehicle::observed(&outputs, task.level()));
     let torque = f32::from_bits(TORQUE.load(Ordering::Acquire));
-    let measured = task.measured(torque);
+    let measured = task.measured(torque, &page);
     free(|key| MEASURED.write(key, measured));
     judge(|judge| judge.slow(time, outputs.faults));
 }
@@ -181,11 +190,25 @@ fn main() -> ! {
     core.SYST.clear_current();
     core.SYST.enable_counter();
     core.SYST.enable_interrupt();
+    let mut watch = Watch::new(&calibration);
     while !OVER.load(Ordering::Acquire) {
+        background(&mut watch);
         cortex_m::asm::wfi();
     }
     core.SYST.disable_interrupt();
     finish(report(&mut console, &calibration))
+}
+
+/// Whenever no interrupt runs: the calibration page.
+fn background(watch: &mut Watch) {
+    let page = free(|key| WORKING_PAGE.read(key));
+    let offer = watch.look(&page);
+    free(|key| PAGE.borrow(key).set(watch.report()));
+    if offer.is_some()
+        && let Some(mut place) = OFFER.try_lock()
+    {
+        *place = offer;
+    }
 }
 
 /// Model and task in their places.

@@ -5,11 +5,11 @@ use super::table::table;
 table! {
     /// Numbers of the last tick of the friction task.
     pub struct Measured, MEASURED_FIELDS {
-        /// Torque about the nut's axis that the motor is asked for
+        /// Torque about the axis of the nut that the motor is asked for
         torque: f32, "N m", -20.0 to 20.0;
         /// Friction torque of the model
         friction_torque: f32, "N m", -20.0 to 20.0;
-        /// Torque about the nut's axis that holds the load without friction
+        /// Torque about the axis of the nut that holds the load without friction
         load_torque: f32, "N m", -100.0 to 100.0;
         /// Nut speed
         nut_speed: f32, "rad/s", -1_000.0 to 1_000.0;

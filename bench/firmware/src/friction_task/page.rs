@@ -11,7 +11,7 @@ table! {
         largest_nut_speed: f32, "rad/s", 10.0 to 700.0;
         /// Axial load of either sign beyond which the limit stands in for it
         largest_axial_load: f32, "N", 1_000.0 to 50_000.0;
-        /// Friction torque about the nut's axis that is never exceeded
+        /// Friction torque about the axis of the nut that is never exceeded
         largest_friction_torque: f32, "N m", 0.1 to 20.0;
         /// Friction coefficient of ball and groove at standstill
         friction_boundary: f32, "", 0.02 to 0.3;
@@ -27,7 +27,7 @@ table! {
         churning: f32, "m^3", 0.0 to 0.001;
         /// Reversal: nut angle after which friction has turned round, the high end of what was identified
         breakaway_angle: f32, "rad", 0.0005 to 0.05;
-        /// Reversal: half width of the play that keeps the encoder's noise from the friction
+        /// Reversal: half width of the play that keeps the noise of the encoder from the friction
         angle_play: f32, "rad", 0.0001 to 0.01;
         /// Share of the friction torque that the motor puts out
         share: f32, "", 0.0 to 0.95;
@@ -107,7 +107,8 @@ pub enum Refused {
     Together,
 }
 
-const CRC: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
+/// Not a constant, of which every use would have its own table on the stack.
+static CRC: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
 
 /// Checksum of names and units: another table is another layout.
 pub const LAYOUT: u32 = {

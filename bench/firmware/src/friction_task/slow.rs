@@ -1,4 +1,4 @@
-//! The friction task: load, temperature, calibration, balls and adaptation, every millisecond.
+//! The friction task: load, temperature, balls and adaptation, every millisecond; and a new calibration where there is one.
 
 use epas_friction::adaptation::{Adaptation, AdaptationConfiguration, AdaptationInputs};
 use epas_friction::law::FrictionLevel;
@@ -6,9 +6,10 @@ use epas_friction::law::motion::{CountReading, CountSensor, NutAngle, Turn};
 use epas_friction::scene::WithMemoryInputs;
 use epas_friction::{Error, Faults, Inputs, Outputs};
 
-use super::gear::{self, Constants, Gear, NO_READING};
+use super::gear::{self, Gear, NO_READING};
 use super::measured::Measured;
-use super::page::{Calibration, CalibrationPage, Refused};
+use super::page::{Calibration, Refused};
+use super::watch::{Offer, PageReport};
 use super::{FAST_TICK, SLOW_TICK};
 
 /// A number that comes by message, with its age when it was sent.
@@ -86,22 +87,10 @@ pub struct SlowInputs {
     pub temperature: Option<Message>,
 }
 
-/// What was found of the calibration page.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum PageState {
-    /// The numbers in use.
-    Taken,
-    /// Another page, which may not be taken: the last good numbers stay in use.
-    Refused(Refused),
-}
-
 /// What the friction task's interrupt has for itself.
 #[derive(Clone, Copy, Debug)]
 pub struct SlowTask {
     calibration: Calibration,
-    page: PageState,
-    /// Checksum of the page that was looked at last.
-    seen: u32,
     load: Aged,
     temperature: Aged,
     speed: NutSpeed,
@@ -126,8 +115,6 @@ impl SlowTask {
         });
         let task = Self {
             calibration: *calibration,
-            page: PageState::Taken,
-            seen: CalibrationPage::of(*calibration).sum(),
             load: nothing,
             temperature: nothing,
             speed: NutSpeed {
@@ -151,50 +138,20 @@ impl SlowTask {
         &self.calibration
     }
 
-    /// Looks at the calibration page; constants for the model where it is another one, and may be taken. The model is not in
-    /// anybody's hands meanwhile.
-    pub fn look(&mut self, page: &CalibrationPage) -> Option<Constants> {
-        let sum = page.sum();
-        let checked = page.checked().and_then(|calibration| {
-            if calibration == self.calibration {
-                return Ok(None);
-            }
-            let constants = gear::constants(&calibration).map_err(|_| Refused::Together)?;
-            Ok(Some((calibration, constants)))
-        });
-        let is_new = sum != self.seen;
-        self.seen = sum;
-        match checked {
-            Ok(constants) => {
-                self.page = PageState::Taken;
-                constants.map(|(calibration, constants)| {
-                    self.calibration = calibration;
-                    self.measured.pages_taken = self.measured.pages_taken.wrapping_add(1);
-                    constants
-                })
-            }
-            Err(refused) => {
-                if is_new || self.page != PageState::Refused(refused) {
-                    self.measured.pages_refused = self.measured.pages_refused.wrapping_add(1);
-                }
-                self.page = PageState::Refused(refused);
-                None
-            }
-        }
-    }
-
     /// One tick of the model, which the task has for itself as long as this takes.
     #[inline]
     pub fn step(
         &mut self,
         gear: &mut Gear,
-        constants: Option<Constants>,
+        offer: Option<Offer>,
         reading: Reading,
         inputs: &SlowInputs,
     ) -> Outputs {
-        if let Some(constants) = constants {
-            // Checked when they were made; were they refused here, the model would go on with the last ones.
-            let _ = gear.swap_constants(constants);
+        if let Some(offer) = offer
+            && gear.swap_constants(offer.constants).is_ok()
+        {
+            self.calibration = offer.calibration;
+            self.measured.pages_taken = self.measured.pages_taken.wrapping_add(1);
         }
         let _ = gear.set_level(gear::bounded(self.level, &self.calibration));
         let load = self.load.tick(inputs.load);
@@ -257,16 +214,16 @@ impl SlowTask {
         self.level = adapted.estimates.level();
     }
 
-    /// What the task shows to a tool, with the torque that is put out.
+    /// What the task shows to a tool, with the torque that is put out and what was found of the calibration page.
     #[must_use]
-    pub fn measured(&self, torque: f32) -> Measured {
+    pub fn measured(&self, torque: f32, page: &PageReport) -> Measured {
         let level = gear::bounded(self.level, &self.calibration);
-        let (page_state, page_field) = match self.page {
-            PageState::Taken => (0, 0),
-            PageState::Refused(Refused::Layout) => (1, 0),
-            PageState::Refused(Refused::Checksum) => (2, 0),
-            PageState::Refused(Refused::Range(field)) => (3, field),
-            PageState::Refused(Refused::Together) => (4, 0),
+        let (page_state, page_field) = match page.refused {
+            None => (0, 0),
+            Some(Refused::Layout) => (1, 0),
+            Some(Refused::Checksum) => (2, 0),
+            Some(Refused::Range(field)) => (3, field),
+            Some(Refused::Together) => (4, 0),
         };
         Measured {
             torque,
@@ -274,6 +231,7 @@ impl SlowTask {
             level_backward: level.backward,
             page_state,
             page_field,
+            pages_refused: page.pages_refused,
             ..self.measured
         }
     }

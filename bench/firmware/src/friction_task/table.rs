@@ -54,6 +54,15 @@ macro_rules! table {
             pub const fn words(&self) -> [u32; Self::LENGTH] {
                 [$($crate::friction_task::table::Word(self.$field).bits()),+]
             }
+
+            /// The numbers with these bits, in their order.
+            #[must_use]
+            pub const fn of_words(words: [u32; Self::LENGTH]) -> Self {
+                let [$($field),+] = words;
+                Self {
+                    $($field: $crate::friction_task::table::Word::<$type>::of($field).0,)+
+                }
+            }
         }
     };
 }
@@ -65,6 +74,12 @@ pub(crate) use table;
 pub struct Word<T>(pub T);
 
 impl Word<f32> {
+    /// The number with these bits.
+    #[must_use]
+    pub const fn of(bits: u32) -> Self {
+        Self(f32::from_bits(bits))
+    }
+
     /// Its bits.
     #[must_use]
     pub const fn bits(self) -> u32 {
@@ -73,6 +88,12 @@ impl Word<f32> {
 }
 
 impl Word<u32> {
+    /// The number with these bits.
+    #[must_use]
+    pub const fn of(bits: u32) -> Self {
+        Self(bits)
+    }
+
     /// Its bits.
     #[must_use]
     pub const fn bits(self) -> u32 {

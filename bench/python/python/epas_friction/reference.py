@@ -5,15 +5,25 @@ It shares no formula with them: a mistake in one shows in the other.
 
 from __future__ import annotations
 
-from ._native import _reference
+from ._native import (
+    reference_contact_kinematics,
+    reference_efficiency,
+    reference_ellipse,
+    reference_friction_map,
+    reference_groove_curvature,
+    reference_measured_trace,
+    reference_simulate_caged,
+    reference_simulate_uncaged,
+)
 
-groove_curvature = _reference.groove_curvature
-ellipse = _reference.ellipse
-efficiency = _reference.efficiency
-contact_kinematics = _reference.contact_kinematics
-friction_map = _reference.friction_map
-simulate_caged = _reference.simulate_caged
-simulate_uncaged = _reference.simulate_uncaged
+contact_kinematics = reference_contact_kinematics
+efficiency = reference_efficiency
+ellipse = reference_ellipse
+friction_map = reference_friction_map
+groove_curvature = reference_groove_curvature
+measured_trace = reference_measured_trace
+simulate_caged = reference_simulate_caged
+simulate_uncaged = reference_simulate_uncaged
 
 __all__ = [
     "contact_kinematics",
@@ -21,6 +31,7 @@ __all__ = [
     "ellipse",
     "friction_map",
     "groove_curvature",
+    "measured_trace",
     "simulate_caged",
     "simulate_uncaged",
 ]

@@ -7,9 +7,9 @@ use epas_friction::{
 use pyo3::prelude::*;
 
 use super::columns::{Columns, ScrewColumns};
-use crate::contacts::arguments;
 use crate::design::Design;
 use crate::errors::{Refused, refused};
+use crate::numbers::arguments;
 
 /// A ball screw whose balls do not touch: friction of the grooves alone.
 ///

@@ -5,9 +5,9 @@ use epas_friction::{Inputs, Outputs};
 use pyo3::prelude::*;
 
 use super::columns::{Columns, ScrewColumns};
-use crate::contacts::arguments;
 use crate::design::Design;
 use crate::errors::{Refused, refused};
+use crate::numbers::arguments;
 
 /// A screw that remembers, whatever its elements and its friction coefficient are.
 trait Memory: Send + Sync {
@@ -141,8 +141,8 @@ impl CagedBallScrewWithMemory {
         allow_faults: bool,
     ) -> PyResult<Bound<'py, PyAny>> {
         let names = ["nut_speed", "axial_load", "nut_angle"];
-        let trace = arguments(py, names, [&nut_speed, &axial_load, &nut_angle])?
-            .trace(py, allow_faults)?;
+        let trace =
+            arguments(py, names, [&nut_speed, &axial_load, &nut_angle])?.trace(py, allow_faults)?;
         let mut columns = ScrewColumns::with_capacity(trace.len());
         let model = &mut self.model;
         trace.each(py, |[nut_speed, axial_load, angle]: [f64; 3]| {

@@ -5,9 +5,9 @@ use epas_friction::{LinearOutputs, UncagedOutputs};
 use pyo3::prelude::*;
 
 use super::columns::{Columns, LinearColumns, UncagedColumns};
-use crate::contacts::arguments;
 use crate::design::{Design, LinearDesign};
 use crate::errors::{Refused, refused};
+use crate::numbers::arguments;
 
 /// A model as it was built.
 fn model<S, O>(py: Python<'_>, built: Built<S, O>) -> PyResult<Box<dyn Balls<S, O>>> {
@@ -307,7 +307,7 @@ impl LinearBearingTrain {
         allow_faults: bool,
     ) -> PyResult<Bound<'py, PyAny>> {
         let names = ["speed", "normal_load", "side_load"];
-        let side_load = side_load.unwrap_or_else(|| crate::contacts::zero(py));
+        let side_load = side_load.unwrap_or_else(|| crate::numbers::zero(py));
         let trace =
             arguments(py, names, [&speed, &normal_load, &side_load])?.trace(py, allow_faults)?;
         let mut columns = LinearColumns::with_capacity(trace.len());

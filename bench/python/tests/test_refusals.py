@@ -1,0 +1,157 @@
+"""Bad input is an exception with field, value and range, and nothing is lost."""
+
+from __future__ import annotations
+
+import pathlib
+import pickle
+from typing import Any, Callable
+
+import numpy as np
+import pytest
+
+import epas_friction as ef
+
+DESIGN: dict[str, Any] = {
+    "pitch_radius": 0.0165, "lead": 0.02, "ball_radius": 2.778e-3, "conformity": 0.56, "contact_angle": 0.7854, "loaded_balls": 37,
+}  # fmt: skip
+
+
+def refusal(call: Callable[[], Any]) -> ef.Error:
+    with pytest.raises(ef.Error) as error:
+        call()
+    return error.value
+
+
+@pytest.mark.parametrize(
+    ("change", "field", "value"),
+    [
+        ({"lead": -1.0}, "lead", -1.0),
+        ({"lead": float("nan")}, "lead", None),
+        ({"lead": float("inf")}, "lead", float("inf")),
+        ({"friction": 0.7}, "friction", 0.7),
+        ({"clearance": 0.5}, "clearance", 0.5),
+        ({"ball_radius": 0.5}, "ball_radius", 0.5),
+        ({"limits": {"nut_speed": -3}}, "nut_speed", -3.0),
+        ({"loaded_balls": 0}, "loaded_balls", 0.0),
+        ({"lead_": 0.1}, "lead_", None),
+        ({"lead": None}, "lead", None),
+        ({"lead": object()}, "lead", None),
+        ({"lead": "7"}, None, None),
+        ({"branch": "spinning"}, None, None),
+        ({"preload": 1.0, "clearance": 0.0}, None, None),
+    ],
+)
+def test_designs(change: dict[str, Any], field: str, value: float) -> None:
+    error = refusal(lambda: ef.Design(**{**DESIGN, **change}))
+    assert isinstance(error, ValueError)
+    assert error.field == field
+    if value is not None:
+        assert error.value == pytest.approx(value) and error.range is not None
+        assert error.range[0] <= error.range[1] and not error.range[0] <= value <= error.range[1]
+
+
+def test_designs_from_elsewhere(tmp_path: pathlib.Path) -> None:
+    assert refusal(lambda: ef.Design.built_in("lin-9")).field == "name"
+    refusal(lambda: ef.Design.read(tmp_path / "none.toml"))
+    file = tmp_path / "design.toml"
+    file.write_text("lead = [")
+    refusal(lambda: ef.Design.read(file))
+    file.write_text(ef.Design(**DESIGN, friction=0.11).toml())
+    again = ef.Design.read(str(file))
+    assert (again.friction, again.lead) == (np.float32(0.11), np.float32(0.02))
+    with pytest.raises(TypeError):
+        ef.Design.read(7)  # type: ignore[arg-type]
+    assert len(ef.design_names()) > 30
+
+
+@pytest.mark.parametrize(
+    "value", ["0.3", None, True, [0.1, "a"], [[0.1], [0.2, 0.3]], np.array(["0.1"]), 0.1j, np.array([True]), {}, object(),
+              np.ma.masked_array([0.1, 0.2], [False, True]), np.array([0.1, None], dtype=object)],
+)  # fmt: skip
+def test_what_is_no_number(value: Any) -> None:
+    error = refusal(lambda: ef.friction_map(0.3, value))
+    assert isinstance(error, ef.NumberTypeError) and isinstance(error, TypeError)
+    assert error.field == "offset" and "offset must be" in str(error)
+
+
+def test_values_in_arrays() -> None:
+    angles = np.full((3, 4), 0.7)
+    angles[1, 2] = 2.0
+    error = refusal(lambda: ef.groove_curvature("nut", 0.0165, 0.19, angles, 3.1e-3, 2e-4, 2e-4))
+    assert (error.field, error.value, error.index) == ("contact_angle", 2.0, (1, 2))
+    assert error.range == (0.0, np.float32(np.pi / 2))
+    for bad in [np.nan, np.inf, -np.inf, 1e300]:
+        error = refusal(lambda: ef.ellipse(1e-3, 2e-3, [1.0, bad], 1e11))
+        assert (error.field, error.index) == ("load", (1,))
+    assert refusal(lambda: ef.reference.ellipse(1e-3, -2e-3, 1.0, 1e11)).index is None
+    assert refusal(lambda: ef.efficiency(0.1, 0.7, 0.1, [0.1, 9.0])).index == (1,)
+    assert refusal(lambda: ef.reference.efficiency(0.1, 0.7, 0.1, [0.1, 9.0])).index == (1,)
+    assert refusal(lambda: ef.groove_curvature("Screw", 1, 1, 1, 1, 1, 1)).field == "groove"
+    assert refusal(lambda: ef.reference.friction_map([0.5, 1e-9], 0.0)).field == "axis_ratio"
+
+
+def test_shapes() -> None:
+    error = refusal(lambda: ef.friction_map(np.zeros(3), np.zeros((2, 4))))
+    assert isinstance(error, ef.ShapeError)
+    assert "axis_ratio [3], offset [2, 4]" in str(error)
+    screw = ef.CagedBallScrew(ef.Design(**DESIGN))
+    for speed, load in [(np.zeros(3), np.zeros(4)), (np.zeros((2, 3)), 1.0)]:
+        assert isinstance(refusal(lambda: screw.run(speed, load)), ef.ShapeError)
+    assert screw.run([], 1.0).friction_torque.shape == (0,)
+
+
+def test_a_refused_trace_leaves_the_model_as_it_was() -> None:
+    screw = ef.UncagedBallScrew(ef.Design.built_in("lin-3.6"))
+    screw.run(np.full(300, 5.0), 1500.0)
+    expected = screw.copy().step(5.0, 1500.0)
+    error = refusal(lambda: screw.run([5.0, 5.0, np.nan], 1500.0))
+    assert (error.field, error.index) == ("nut_speed", (2,)) and np.isnan(error.value or 0.0)
+    assert screw.step(5.0, 1500.0) == expected
+
+
+def test_faults_are_flagged_where_they_are_let_in() -> None:
+    screw = ef.CagedBallScrew(ef.Design(**DESIGN))
+    run = screw.run([5.0, np.nan, 5.0], [1e3, 1e3, np.inf], allow_faults=True)
+    assert [ef.Faults(bits) for bits in run.faults] == [
+        ef.Faults.NONE, ef.Faults.SPEED_NOT_FINITE, ef.Faults.LOAD_NOT_FINITE,
+    ]  # fmt: skip
+    assert screw.faulted_ticks == 2
+    outputs = screw.step(float("nan"), 1e3)
+    assert outputs.friction_torque == 0.0 and outputs.faults == ef.Faults.SPEED_NOT_FINITE
+
+
+def test_scenes() -> None:
+    design = ef.Design(**DESIGN)
+    assert refusal(lambda: ef.UncagedBallScrew(design)).field == "uncaged"
+    pressing = ef.Design.built_in("lin-3.6")
+    for options, field in [({"tick": 1.0}, "tick"), ({"friction": -1.0}, "friction"), ({"tick": float("nan")}, "tick")]:
+        assert refusal(lambda: ef.UncagedBallScrew(pressing, **options)).field == field
+        assert refusal(lambda: ef.LinearBearingTrain(ef.LinearDesign.built_in(), **options)).field == field
+    assert refusal(lambda: ef.CagedBallScrew(design, branch="none")).field == "branch"
+    assert refusal(lambda: ef.CagedBallScrew(design, friction=2.0)).range == (np.float32(1e-6), 0.5)
+    assert refusal(lambda: ef.CagedBallScrewWithMemory(design, reference_load=-1.0)).field == "reference_load"
+    with pytest.raises(OverflowError):
+        ef.CagedBallScrew(design, loaded_balls=70_000)
+    with pytest.raises(TypeError):
+        ef.CagedBallScrew("lin-4.1")  # type: ignore[arg-type]
+    assert refusal(lambda: ef.simulate_uncaged(pressing, [0.0, 1e-3, 5e-3], 1.0, 1.0)).args
+    assert refusal(lambda: ef.simulate_caged(design, [0.0, -1e-3], 1.0, 1.0)).field == "time"
+    assert refusal(lambda: ef.simulate_caged(design, [], 1.0, 1.0)).field == "time"
+    assert refusal(lambda: ef.manoeuvre("drift", design)).field == "name"
+    with_memory = ef.LinearBearingTrain(ef.LinearDesign.built_in(), memory_load=100.0)
+    assert refusal(lambda: with_memory.set_carriage_position(0.1)).field == "position"
+
+
+def test_eval() -> None:
+    assert refusal(lambda: ef.eval("hertz")).field == "relative_radius_1"
+    assert refusal(lambda: ef.eval("friction_map", axis_ratio=np.float32(0.5), offset=np.array(2e10))).field == "offset"
+    assert refusal(lambda: ef.eval("nothing")).field == "model"
+    assert refusal(lambda: ef.eval("friction_map", axis_ratio=float("nan"), offset=0.0)).field == "request"
+    with pytest.raises(TypeError):
+        ef.eval("hertz", load=object())
+
+
+def test_errors_go_from_process_to_process() -> None:
+    error = refusal(lambda: ef.ellipse(1e-3, 2e-3, [1.0, -1.0], 1e11))
+    again = pickle.loads(pickle.dumps(error))
+    assert type(again) is type(error) and str(again) == str(error) and vars(again) == vars(error)

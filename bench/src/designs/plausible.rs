@@ -1,0 +1,219 @@
+//! Errors in the words of the design file, and numbers that are allowed but mean another unit.
+
+use epas_friction::{BallScrewParameters, Error};
+
+/// Which lengths a file gives as diameters.
+#[derive(Clone, Copy, Debug)]
+pub struct Given {
+    /// In place of the pitch radius.
+    pub nominal_diameter: bool,
+    /// In place of the ball radius.
+    pub ball_diameter: bool,
+}
+
+/// Largest lead angle, as its tangent: 60 degrees. The steepest screw of the catalogues has 46.
+const STEEPEST: f32 = 1.732;
+/// Ball diameters over pitch diameters: those of catalogues go from 0.05 to 0.26.
+const BALLS: [f32; 2] = [0.01, 0.5];
+
+impl Given {
+    /// An error with the name and the value that the file has, and the unit that it may be in.
+    pub fn words(self, error: &Error) -> String {
+        let (field, factor) = match error.field() {
+            "pitch_radius" if self.nominal_diameter => ("nominal_diameter", 2.0),
+            "ball_radius" if self.ball_diameter => ("ball_diameter", 2.0),
+            field => (field, 1.0),
+        };
+        let allowed = error.allowed();
+        let (value, hint) = (factor * error.value(), hint(error));
+        let said = if factor == 1.0 {
+            error.to_string()
+        } else {
+            let [low, high] = [allowed.minimum, allowed.maximum].map(|end| factor * end);
+            let problem = if value.is_finite() {
+                "is out of range"
+            } else {
+                "is not a finite number"
+            };
+            format!(
+                "{field} = {value} {problem}; allowed: {low} to {high} m; lengths are in metres"
+            )
+        };
+        match hint {
+            Some(unit) => format!("{said} ({})", unit.asked(value)),
+            None => said,
+        }
+    }
+
+    /// Refuses what no screw has: turns of the groove that cross, balls of another size, a lead angle beyond 60 degrees.
+    ///
+    /// # Errors
+    /// The numbers, and the unit that one of them may be in.
+    pub fn plausible(self, parameters: &BallScrewParameters) -> Result<(), String> {
+        let BallScrewParameters {
+            pitch_radius,
+            lead,
+            ball_radius,
+            ..
+        } = *parameters;
+        let ball = if self.ball_diameter {
+            format!("ball_diameter = {}", 2.0 * ball_radius)
+        } else {
+            format!("ball_radius = {ball_radius}")
+        };
+        let screw = if self.nominal_diameter {
+            format!("nominal_diameter = {}", 2.0 * pitch_radius)
+        } else {
+            format!("pitch_radius = {pitch_radius}")
+        };
+        let tangent = lead / (core::f32::consts::TAU * pitch_radius);
+        let share = ball_radius / pitch_radius;
+        if tangent > STEEPEST {
+            return Err(format!(
+                "lead = {lead} with {screw} is a lead angle of {:.0} degrees; allowed: 0 to 60. Lengths are in metres: 7 mm is 0.007",
+                tangent.atan().to_degrees()
+            ));
+        }
+        if !(BALLS[0]..=BALLS[1]).contains(&share) {
+            return Err(format!(
+                "{ball} with {screw}: the balls have {share} of the screw's diameter; allowed: {} to {}. Lengths are in metres: 4 mm is 0.004",
+                BALLS[0], BALLS[1]
+            ));
+        }
+        // Without a lead it is a bearing. Within a rounding, balls may fill the lead.
+        if lead > 0.0 && 2.0 * ball_radius > 1.001 * lead {
+            return Err(format!(
+                "lead = {lead} with {ball}: the groove's turns would cross; a lead is at least the ball's diameter. Lengths are in metres: 7 mm is 0.007"
+            ));
+        }
+        Ok(())
+    }
+}
+
+/// A unit that a value may be in.
+#[derive(Clone, Copy, Debug)]
+enum Meant {
+    Millimetres,
+    Degrees,
+}
+
+impl Meant {
+    fn asked(self, value: f32) -> String {
+        let value = f64::from(value);
+        match self {
+            Self::Millimetres => format!("{value} mm? that is {}", shown(value / 1e3)),
+            Self::Degrees => format!("{value} degrees? that is {:.5}", value.to_radians()),
+        }
+    }
+}
+
+/// Six digits: what a file's number has.
+fn shown(value: f64) -> String {
+    let digits = format!("{value:.6}");
+    digits.trim_end_matches('0').trim_end_matches('.').into()
+}
+
+/// The unit in which the value would be allowed.
+fn hint(error: &Error) -> Option<Meant> {
+    let (value, allowed) = (error.value(), error.allowed());
+    let length = [
+        "pitch_radius",
+        "lead",
+        "ball_radius",
+        "groove_radius",
+        "clearance",
+    ];
+    if length.contains(&error.field()) && allowed.contains(value * 1e-3) {
+        return Some(Meant::Millimetres);
+    }
+    let angle = error.field() == "contact_angle" && allowed.contains(value.to_radians());
+    angle.then_some(Meant::Degrees)
+}
+
+/// The name that is most like a text.
+pub fn nearest<'a>(text: &str, names: impl Iterator<Item = &'a str>) -> &'a str {
+    // What is long is like nothing, and need not be looked at whole.
+    let text = &*text.chars().take(40).collect::<String>();
+    let likeness = |name: &str| {
+        // A start counts most: 25x5 is short of 25x5x3.175.
+        if let Some(rest) = name.strip_prefix(text) {
+            return (usize::from(!rest.is_empty()), 0);
+        }
+        let start = text
+            .chars()
+            .zip(name.chars())
+            .take_while(|(a, b)| a == b)
+            .count();
+        (strsim::damerau_levenshtein(text, name), usize::MAX - start)
+    };
+    names.min_by_key(|name| likeness(name)).unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::designs::{built_in, read};
+
+    const REST: &str = "conformity = 0.54\ncontact_angle = 0.785\n";
+
+    #[test]
+    fn errors_have_the_words_of_the_file_and_suggest_a_unit() {
+        for (text, words) in [
+            (
+                "nominal_diameter = 29\nlead = 7e-3\nball_diameter = 4e-3\n",
+                "nominal_diameter = 29 is out of range; allowed: 0.002 to 1 m; lengths are in metres (29 mm? that is 0.029)",
+            ),
+            (
+                "nominal_diameter = 29e-3\nlead = 7\nball_diameter = 4e-3\n",
+                "lead = 7 is out of range; allowed: 0 to 0.2 m; lengths are in metres (7 mm? that is 0.007)",
+            ),
+            (
+                "pitch_radius = 14.5e-3\nlead = 7e-3\nball_radius = 2\n",
+                "ball_radius = 2 is out of range",
+            ),
+            (
+                "nominal_diameter = 29e-3\nlead = 7e-3\nball_diameter = 4\n",
+                "ball_diameter = 4 is out of range",
+            ),
+            (
+                "nominal_diameter = nan\nlead = 7e-3\nball_diameter = 4e-3\n",
+                "nominal_diameter = NaN is not a finite number",
+            ),
+            (
+                "nominal_diameter = 29e-3\nlead = 0.19\nball_diameter = 4e-3\n",
+                "a lead angle of 64 degrees",
+            ),
+            (
+                "nominal_diameter = 29e-3\nlead = 7e-3\nball_diameter = 2.1e-4\n",
+                "ball_diameter = 0.00021 with nominal_diameter = 0.029",
+            ),
+            (
+                "nominal_diameter = 29e-3\nlead = 7e-4\nball_diameter = 4e-3\n",
+                "turns would cross",
+            ),
+        ] {
+            let message = read(&format!("{text}{REST}"), "x").unwrap_err();
+            assert!(message.contains(words), "{text}: {message}");
+        }
+        let degrees = "nominal_diameter = 29e-3\nlead = 7e-3\nball_diameter = 4e-3\nconformity = 0.54\ncontact_angle = 45\n";
+        let message = read(degrees, "x").unwrap_err();
+        assert!(message.contains("45 degrees? that is 0.78540"), "{message}");
+    }
+
+    #[test]
+    fn built_in_designs_are_plausible_and_near_names_are_found() {
+        let given = Given {
+            nominal_diameter: true,
+            ball_diameter: true,
+        };
+        for (name, parameters, _) in built_in() {
+            given
+                .plausible(&parameters)
+                .unwrap_or_else(|message| panic!("{name}: {message}"));
+        }
+        let near = |text| nearest(text, built_in().map(|(name, ..)| name));
+        assert_eq!(near("25x5x3.17"), "25x5x3.175");
+        assert_eq!(near("lin4.1"), "lin-4.1");
+        assert!(near("25x5").starts_with("25x"), "{}", near("25x5"));
+    }
+}

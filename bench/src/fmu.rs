@@ -1,0 +1,155 @@
+//! `fmu`: a scene with a design as a co-simulation unit for FMI 2.0 and 3.0.
+//!
+//! `variables` and `parameters` say what a unit shows, `description` writes that as XML, `running` holds the models behind it, `unit` puts
+//! them together; `library` builds the shared library from `bench/fmu`, whose one job is the foreign interface, and `run` packs the file.
+//! The models are those of `simulate`, and their outputs its bits.
+
+mod description;
+mod library;
+mod parameters;
+mod running;
+mod scene;
+#[cfg(test)]
+mod tests;
+mod unit;
+mod units;
+mod variables;
+
+use std::io::{self, Cursor, Write};
+use std::path::PathBuf;
+
+use epas_friction::Faults;
+use zip::ZipWriter;
+use zip::write::SimpleFileOptions;
+
+use crate::designs::DesignSource;
+use crate::failure::Failure;
+use crate::files::{Existing, Pending, refuse_same};
+use description::{Version, description};
+pub use library::mark;
+pub use running::{Moment, Running};
+pub use scene::SceneName;
+pub use unit::{Stored, Unit};
+pub use variables::{Causality, Choice, Kind, Variable};
+
+/// Flags of accuracy alone: nothing is wrong with the inputs.
+pub const ACCURACY: u32 = Faults::ACCURACY.bits() as u32;
+
+/// What flags mean, in words.
+pub fn fault_words(faults: u32) -> String {
+    let words: Vec<_> = [
+        (Faults::SPEED_NOT_FINITE, "the speed is no finite number"),
+        (Faults::LOAD_NOT_FINITE, "a load is no finite number"),
+        (Faults::SPEED_RANGE, "the speed is beyond its limit"),
+        (Faults::LOAD_RANGE, "a load is beyond its limit"),
+        (Faults::FRICTION_LIMIT, "friction was cut to its limit"),
+        (Faults::BEYOND_MODEL, "beyond the model's accuracy"),
+        (Faults::SETTLING, "balls settle"),
+        (Faults::ANGLE_NOT_VALID, "the angle cannot be right"),
+        (Faults::TEMPERATURE_RANGE, "the temperature is out of range"),
+    ]
+    .into_iter()
+    .filter(|(flag, _)| faults & u32::from(flag.bits()) != 0)
+    .map(|(_, words)| words)
+    .collect();
+    words.join(", ")
+}
+
+/// Where a unit's design stands in its file.
+pub const RESOURCE: &str = "unit.toml";
+
+/// Writes a co-simulation unit (FMU) of a scene and a design.
+///
+/// The unit has the inputs, outputs and parameters of the scene: parameters start with the numbers of the design, and may be set before
+/// the unit is initialised. Its outputs are those of `simulate`, bit for bit. The shared library is built from bench/fmu with cargo, for
+/// this machine's platform.
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    /// Print the scenes
+    #[arg(long, exclusive = true)]
+    list: bool,
+    /// What the unit is made of
+    #[arg(long, value_enum, required_unless_present = "list")]
+    scene: Option<SceneName>,
+    /// Built-in design, or design file ending in .toml
+    #[arg(long, value_name = "NAME|FILE.toml", required_unless_present = "list")]
+    design: Option<DesignSource>,
+    /// Version of FMI, 2.0 or 3.0
+    #[arg(long, value_name = "2|3", default_value = "2", value_parser = version)]
+    fmi: Version,
+    /// Where the unit goes
+    #[arg(long, value_name = "OUT.fmu", required_unless_present = "list")]
+    output: Option<PathBuf>,
+    /// Replace a file that exists
+    #[arg(long)]
+    force: bool,
+}
+
+fn version(text: &str) -> Result<Version, String> {
+    match text {
+        "2" | "2.0" => Ok(Version::Two),
+        "3" | "3.0" => Ok(Version::Three),
+        _ => Err("allowed: 2 (FMI 2.0), 3 (FMI 3.0)".into()),
+    }
+}
+
+/// Writes the unit, or lists the scenes.
+pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let mut stdout = io::stdout().lock();
+    let (Some(scene), Some(design), Some(output)) =
+        (arguments.scene, &arguments.design, &arguments.output)
+    else {
+        for scene in SceneName::ALL {
+            writeln!(stdout, "{:22} {}", scene.name(), scene.about())?;
+        }
+        return Ok(());
+    };
+    let existing = if arguments.force {
+        Existing::Replace
+    } else {
+        Existing::Keep
+    };
+    existing.check(output)?;
+    refuse_same([design.file()], std::iter::once(output))?;
+    let unit = Unit::new(scene, design)?;
+    let place = library::place(arguments.fmi)?;
+    let library = library::build(unit.stored.balls)?;
+    let file = packed(&unit, arguments.fmi, &place, &library)?;
+    let mut pending = Pending::new(output, existing)?;
+    pending
+        .writer()
+        .write_all(&file)
+        .map_err(|error| Failure::file("write", output, &error))?;
+    pending.finish()?;
+    writeln!(
+        stdout,
+        "wrote {}: {} of {}, {} variables",
+        output.display(),
+        scene.name(),
+        unit.stored.design,
+        unit.variables.len()
+    )?;
+    Ok(())
+}
+
+/// The file of a unit.
+fn packed(unit: &Unit, version: Version, place: &str, library: &[u8]) -> Result<Vec<u8>, Failure> {
+    let failure = |error: &dyn std::fmt::Display| {
+        Failure::Data(format!("the unit cannot be packed: {error}"))
+    };
+    let stored = toml::to_string(&unit.stored).map_err(|error| failure(&error))?;
+    let description = description(unit, version);
+    let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
+    let options = SimpleFileOptions::default();
+    for (name, bytes) in [
+        ("modelDescription.xml", description.as_bytes()),
+        (&format!("resources/{RESOURCE}"), stored.as_bytes()),
+        (place, library),
+    ] {
+        zip.start_file(name, options)
+            .map_err(|error| failure(&error))?;
+        zip.write_all(bytes).map_err(|error| failure(&error))?;
+    }
+    let file = zip.finish().map_err(|error| failure(&error))?;
+    Ok(file.into_inner())
+}

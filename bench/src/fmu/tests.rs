@@ -1,0 +1,214 @@
+//! The model description, parameters and arguments of units.
+
+use std::collections::BTreeSet;
+
+use clap::Parser;
+use quick_xml::Reader;
+use quick_xml::events::Event;
+
+use super::description::{Version, description};
+use super::unit::{Stored, Unit};
+use super::{Arguments, Causality, Kind, SceneName};
+
+/// The program's arguments, alone.
+#[derive(Debug, Parser)]
+struct Cli {
+    #[command(flatten)]
+    fmu: Arguments,
+}
+
+/// A design that has the scene.
+const fn design(scene: SceneName) -> &'static str {
+    match scene {
+        SceneName::Linear | SceneName::LinearWithMemory => "lin-3.3",
+        SceneName::Uncaged | SceneName::UncagedWithMemory => "lin-3.6",
+        _ => "lin-4.1",
+    }
+}
+
+fn unit(scene: SceneName) -> Unit {
+    Unit::new(scene, &design(scene).parse().unwrap()).unwrap()
+}
+
+/// A value of a parameter by its name, the others as they start.
+fn with(unit: &Unit, name: &str, value: f64) -> Vec<f64> {
+    let place = unit
+        .variables
+        .iter()
+        .position(|variable| variable.name == name && variable.causality == Causality::Parameter);
+    let mut values = unit.starts();
+    values[place.unwrap()] = value;
+    values
+}
+
+/// Starts a model; what it says where it is refused.
+fn start(unit: &Unit, values: &[f64]) -> Result<(), String> {
+    match unit.stored.balls {
+        0 => unit.start::<1>(values).map(drop),
+        12 => unit.start::<12>(values).map(drop),
+        _ => unit.start::<37>(values).map(drop),
+    }
+}
+
+/// Elements with their attributes.
+fn elements(text: &str) -> Vec<(String, Vec<(String, String)>)> {
+    let mut reader = Reader::from_str(text);
+    let mut found = Vec::new();
+    loop {
+        match reader.read_event().unwrap() {
+            Event::Eof => return found,
+            Event::Start(element) | Event::Empty(element) => {
+                let attributes = element.attributes().map(|attribute| {
+                    let attribute = attribute.unwrap();
+                    (
+                        String::from_utf8(attribute.key.as_ref().to_vec()).unwrap(),
+                        String::from_utf8(attribute.value.to_vec()).unwrap(),
+                    )
+                });
+                let name = String::from_utf8(element.name().as_ref().to_vec()).unwrap();
+                found.push((name, attributes.collect()));
+            }
+            _ => {}
+        }
+    }
+}
+
+#[test]
+fn every_variable_stands_in_the_description_once_with_its_place() {
+    for scene in SceneName::ALL {
+        let unit = unit(scene);
+        let names: BTreeSet<_> = unit
+            .variables
+            .iter()
+            .map(|variable| variable.name)
+            .collect();
+        assert_eq!(names.len(), unit.variables.len(), "{scene:?}");
+        for version in [Version::Two, Version::Three] {
+            let text = description(&unit, version);
+            let references: Vec<(String, usize)> = elements(&text)
+                .into_iter()
+                .filter_map(|(_, attributes)| {
+                    let of = |name: &str| {
+                        let pair = attributes.iter().find(|(key, _)| key == name);
+                        pair.map(|(_, value)| value.clone())
+                    };
+                    Some((of("name")?, of("valueReference")?.parse().ok()?))
+                })
+                .collect();
+            let own: Vec<(String, usize)> = unit
+                .variables
+                .iter()
+                .enumerate()
+                .map(|(place, variable)| (variable.name.to_owned(), place))
+                .collect();
+            assert_eq!(references, own, "{scene:?} {version:?}");
+        }
+    }
+}
+
+#[test]
+fn start_values_are_the_numbers_of_the_design_to_the_bit() {
+    for scene in SceneName::ALL {
+        let unit = unit(scene);
+        for variable in &unit.variables {
+            if variable.kind == Kind::Float32 {
+                let text = variable.start.to_string();
+                let single: f32 = text.parse().unwrap();
+                assert_eq!(
+                    single.to_bits(),
+                    (variable.start as f32).to_bits(),
+                    "{scene:?} {}",
+                    variable.name
+                );
+            }
+        }
+    }
+    let unit = unit(SceneName::Caged);
+    let friction = unit.variables.iter().find(|known| known.name == "friction");
+    assert_eq!(friction.unwrap().start, 0.075);
+}
+
+#[test]
+fn every_scene_starts_with_its_own_numbers_and_a_stored_unit_is_the_same() {
+    for scene in SceneName::ALL {
+        let unit = unit(scene);
+        start(&unit, &unit.starts()).unwrap();
+        let text = toml::to_string(&unit.stored).unwrap();
+        let stored: Stored = toml::from_str(&text).unwrap();
+        let again = Unit::restored(&stored).unwrap();
+        assert_eq!(again.token(), unit.token());
+        assert_eq!(again.variables, unit.variables);
+    }
+}
+
+#[test]
+fn a_wrong_parameter_is_told_with_its_value_and_range() {
+    for (scene, name, value) in [
+        (SceneName::Caged, "friction", -1.0),
+        (SceneName::Caged, "loaded_balls", 0.0),
+        (SceneName::Caged, "branch", 3.0),
+        (SceneName::Caged, "ball_material.density", 0.5),
+        (SceneName::Caged, "groove_material.density", 0.5),
+        (SceneName::CagedWithMemory, "mean_load", f64::NAN),
+        (SceneName::Mechanism, "inertia", 0.0),
+        (SceneName::Mechanism, "tick", 2.0),
+        (SceneName::Mechanism, "gain", 11.0),
+        (SceneName::Uncaged, "tick", 2.0),
+        (SceneName::Uncaged, "turns", 0.0),
+        (SceneName::Uncaged, "ball_friction", 2.0),
+        (SceneName::UncagedWithMemory, "clearance", 1.0),
+        (SceneName::Linear, "wavelength", -1.0),
+        (SceneName::LinearWithMemory, "mean_load", -1.0),
+    ] {
+        let unit = unit(scene);
+        let message = start(&unit, &with(&unit, name, value)).unwrap_err();
+        assert!(
+            message.contains(name) && message.contains("allowed"),
+            "{scene:?} {name}: {message}"
+        );
+    }
+}
+
+#[test]
+fn a_library_for_another_number_of_balls_says_so() {
+    let unit = unit(SceneName::Uncaged);
+    let message = unit.start::<12>(&unit.starts()).err().unwrap();
+    assert!(
+        message.contains("12") && message.contains("37"),
+        "{message}"
+    );
+}
+
+#[test]
+fn a_design_without_the_scene_is_refused() {
+    let refused = |scene, design: &str| {
+        let failure = Unit::new(scene, &design.parse().unwrap()).unwrap_err();
+        format!("{failure:?}")
+    };
+    assert!(refused(SceneName::Uncaged, "lin-4.1").contains("lin-3.6"));
+    assert!(refused(SceneName::Linear, "lin-4.1").contains("ball screw"));
+    assert!(refused(SceneName::Caged, "lin-3.3").contains("linear bearing"));
+}
+
+#[test]
+fn wrong_arguments_are_refused() {
+    let parsed = |arguments: &[&str]| Cli::try_parse_from([&["fmu"], arguments].concat());
+    let good = [
+        "--scene", "caged", "--design", "lin-4.1", "--output", "a.fmu",
+    ];
+    assert!(parsed(&good).is_ok());
+    assert!(parsed(&["--list"]).is_ok());
+    assert!(parsed(&[]).is_err());
+    assert!(parsed(&good[..4]).is_err());
+    assert!(parsed(&[&good[..], &["--fmi", "1"]].concat()).is_err());
+    assert!(parsed(&[&good[..], &["--fmi", "3.0"]].concat()).is_ok());
+    let unknown = [
+        "--scene",
+        "efficiency",
+        "--design",
+        "lin-4.1",
+        "--output",
+        "a.fmu",
+    ];
+    assert!(parsed(&unknown).is_err());
+}

@@ -1,0 +1,440 @@
+//! A unit: a scene with a design, its variables, and models of it.
+
+use epas_friction::{CagedBallScrew, Error, FrictionModel, LinearBearingTrain, UncagedBallScrew};
+use serde::{Deserialize, Serialize};
+
+use super::parameters::{Values, changed_bearing, changed_screw, of_bearing, of_screw};
+use super::running::{ByAngle, Moving, Row, Running};
+use super::scene::SceneName;
+use super::variables::{Causality, Kind, TIME, Variable, inputs, outputs, parameter};
+use crate::designs::train::LinearDesign;
+use crate::designs::{self, Design, DesignSource};
+use crate::failure::Failure;
+use crate::simulate::linear::Linear;
+use crate::simulate::memory::{self, Remembering};
+use crate::simulate::nut::{Nut, STEPS};
+use crate::simulate::remembering::{Sensor, Use, remembering};
+use crate::simulate::uncaged::Uncaged;
+
+/// Mean size of the load, N, where a design does not say one.
+const MEAN_LOAD: f32 = 1000.0;
+
+/// Inertia at the nut, kg m², where a design does not say one.
+const INERTIA: f64 = 4e-4;
+
+/// Tick of a scene that has one, s, and how often it is halved where that is too long for the limits of a design.
+const TICK: (f64, u32) = (1e-3, 16);
+
+/// A design of any scene.
+#[derive(Clone, Debug)]
+enum Source {
+    Screw(Box<Design>),
+    Bearing(Box<LinearDesign>),
+}
+
+/// What of a unit stands in the resources of its file.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Stored {
+    /// Scene.
+    pub scene: SceneName,
+    /// Name of the design.
+    pub design: String,
+    /// Balls in the circuit; 0 without a row of balls.
+    pub balls: u8,
+    /// Tick before another one is set, s; none for a scene without.
+    pub tick: Option<f64>,
+    /// Text of the design file; none for a built-in design.
+    pub text: Option<String>,
+}
+
+/// A scene with a design.
+#[derive(Clone, Debug)]
+pub struct Unit {
+    /// What of it is stored.
+    pub stored: Stored,
+    /// Its variables; value references are places in the list.
+    pub variables: Vec<Variable>,
+    source: Source,
+}
+
+impl Unit {
+    /// The unit of a design.
+    ///
+    /// # Errors
+    /// What is wrong with the design, or that it has no such scene.
+    pub fn new(scene: SceneName, design: &DesignSource) -> Result<Self, Failure> {
+        let text = match design.file() {
+            None => None,
+            Some(path) => Some(
+                std::fs::read_to_string(path)
+                    .map_err(|error| Failure::file("read", path, &error))?,
+            ),
+        };
+        let source = if scene.is_linear() {
+            Source::Bearing(Box::new(design.load_bearing()?))
+        } else {
+            Source::Screw(Box::new(design.load()?))
+        };
+        let tick = longest_tick(scene, &source).map_err(Failure::Data)?;
+        Self::of(scene, source, text, tick).map_err(Failure::Data)
+    }
+
+    /// The unit that is stored.
+    ///
+    /// # Errors
+    /// What is wrong.
+    pub fn restored(stored: &Stored) -> Result<Self, String> {
+        let Stored {
+            scene,
+            design,
+            text,
+            ..
+        } = stored;
+        let source = match (scene.is_linear(), text) {
+            (true, Some(text)) => Source::Bearing(Box::new(LinearDesign::parse(text, design)?)),
+            (false, Some(text)) => Source::Screw(Box::new(designs::read(text, design)?)),
+            (linear, None) => {
+                let source: DesignSource = design.parse()?;
+                let said = |failure| match failure {
+                    Failure::Data(message) => message,
+                    _ => "the design cannot be read".into(),
+                };
+                if linear {
+                    Source::Bearing(Box::new(source.load_bearing().map_err(said)?))
+                } else {
+                    Source::Screw(Box::new(source.load().map_err(said)?))
+                }
+            }
+        };
+        let unit = Self::of(*scene, source, text.clone(), stored.tick)?;
+        if unit.stored == *stored {
+            Ok(unit)
+        } else {
+            Err("the unit's design is not the one that it was made of".into())
+        }
+    }
+
+    fn of(
+        scene: SceneName,
+        source: Source,
+        text: Option<String>,
+        tick: Option<f64>,
+    ) -> Result<Self, String> {
+        let (design, balls) = match &source {
+            Source::Screw(design) => (
+                design.name.clone(),
+                design.uncaged.as_ref().map(|train| train.balls),
+            ),
+            Source::Bearing(design) => (design.name.clone(), Some(design.balls)),
+        };
+        let balls = match (scene.has_row(), balls) {
+            (false, _) => 0,
+            (true, Some(balls)) => balls,
+            (true, None) => {
+                return Err(format!(
+                    "{design} says nothing of its balls: a design file does in a table [uncaged], and of the built-in designs lin-3.6"
+                ));
+            }
+        };
+        let mut variables = vec![TIME];
+        variables.extend(inputs(scene));
+        variables.extend(outputs(scene));
+        variables.extend(match &source {
+            Source::Screw(design) => of_screw(design, scene),
+            Source::Bearing(design) => of_bearing(design),
+        });
+        variables.extend(beside(scene, &source, tick));
+        Ok(Self {
+            stored: Stored {
+                scene,
+                design,
+                balls,
+                tick,
+                text,
+            },
+            variables,
+            source,
+        })
+    }
+
+    /// What tells this unit from others: its scene, version, design and variables.
+    pub fn token(&self) -> String {
+        let Stored { scene, design, .. } = &self.stored;
+        let all = format!("{:?} {:?}", self.stored, self.variables);
+        format!(
+            "epas-friction {} {} {design} {:08x}",
+            env!("CARGO_PKG_VERSION"),
+            scene.name(),
+            crc32fast::hash(all.as_bytes())
+        )
+    }
+
+    /// Places of the variables of a causality.
+    pub fn places(&self, causality: Causality) -> impl Iterator<Item = usize> {
+        self.variables
+            .iter()
+            .enumerate()
+            .filter(move |(_, variable)| variable.causality == causality)
+            .map(|(place, _)| place)
+    }
+
+    /// Values before anything is set.
+    pub fn starts(&self) -> Vec<f64> {
+        self.variables
+            .iter()
+            .map(|variable| variable.start)
+            .collect()
+    }
+
+    /// Its tick, s, where its scene has one.
+    pub fn tick(&self, values: &[f64]) -> Option<f64> {
+        self.stored
+            .scene
+            .has_tick()
+            .then(|| self.values(values).of("tick"))
+    }
+
+    const fn values<'a>(&'a self, values: &'a [f64]) -> Values<'a> {
+        Values {
+            variables: self.variables.as_slice(),
+            values,
+        }
+    }
+
+    /// A model with the values of parameters, for a row of `N` balls where the scene has one.
+    ///
+    /// # Errors
+    /// The parameter that is wrong, its value and what is allowed.
+    pub fn start<const N: usize>(&self, values: &[f64]) -> Result<Box<dyn Running>, String> {
+        let (scene, values) = (self.stored.scene, self.values(values));
+        if scene.has_row() && usize::from(self.stored.balls) != N {
+            return Err(format!(
+                "this library was built for {N} balls, and the unit has {}",
+                self.stored.balls
+            ));
+        }
+        match &self.source {
+            Source::Screw(design) => {
+                let design = changed_screw(design, scene, &values)?;
+                match scene {
+                    SceneName::Caged => {
+                        let model = FrictionModel::<CagedBallScrew>::new(&design.configuration);
+                        Ok(Box::new(model.map_err(said)?))
+                    }
+                    SceneName::CagedWithMemory => {
+                        let angle = memory::angle().map_err(said)?;
+                        with_memory(&design, mean_load(&values)?, angle, ByAngle)
+                    }
+                    SceneName::Mechanism => mechanism::<N>(&design, &values),
+                    _ => uncaged::<N>(design, scene, &values),
+                }
+            }
+            Source::Bearing(design) => {
+                linear::<N>(changed_bearing(design, &values)?, scene, &values)
+            }
+        }
+    }
+}
+
+/// Parameters beside those of the design.
+fn beside(scene: SceneName, source: &Source, tick: Option<f64>) -> Vec<Variable> {
+    let calibrated = match source {
+        Source::Screw(design) => design.calibrated.as_ref(),
+        Source::Bearing(_) => None,
+    };
+    let mut list = Vec::new();
+    if scene.has_memory() {
+        let load = calibrated.and_then(|found| found.reference_load);
+        list.push(parameter(
+            Kind::Float32,
+            "mean_load",
+            Some("N"),
+            "mean size of the load, 0 to 1e7: elements of the memory are designed for it",
+            load.unwrap_or(MEAN_LOAD).into(),
+        ));
+    }
+    if let Some(tick) = tick {
+        list.push(parameter(
+            Kind::Float64,
+            "tick",
+            Some("s"),
+            "time between two steps of the model, 1e-6 to 1; a communication step is one or more of them",
+            tick,
+        ));
+    }
+    if scene == SceneName::Mechanism {
+        let inertia = calibrated.and_then(|found| found.inertia);
+        let [gain, drag, offset] = match source {
+            Source::Screw(design) => told(design),
+            Source::Bearing(_) => [1.0, 0.0, 0.0],
+        };
+        for (name, unit, about, start) in [
+            (
+                "inertia",
+                Some("kg.m2"),
+                "inertia of all that turns, about the nut's axis, 1e-9 to 1e3",
+                inertia.map_or(INERTIA, f64::from),
+            ),
+            (
+                "gain",
+                None,
+                "torque of the load over that of a screw without friction, -10 to 10",
+                gain,
+            ),
+            (
+                "drag",
+                Some("N.m.s/rad"),
+                "drag without a load over the speed, -1e3 to 1e3",
+                drag,
+            ),
+            (
+                "offset",
+                Some("N.m"),
+                "torque without motion or load, -1e3 to 1e3",
+                offset,
+            ),
+        ] {
+            list.push(parameter(Kind::Float64, name, unit, about, start));
+        }
+    }
+    list
+}
+
+/// Gain, drag and offset that a trace has told of a design.
+fn told(design: &Design) -> [f64; 3] {
+    let nut = Nut::of(design, ());
+    [nut.gain, nut.drag, nut.offset]
+}
+
+/// The longest tick that the limits of a design leave its balls, s; none for a scene without a tick.
+fn longest_tick(scene: SceneName, source: &Source) -> Result<Option<f64>, String> {
+    let (mut tick, halvings) = TICK;
+    if !scene.has_row() {
+        return Ok(scene.has_tick().then_some(tick));
+    }
+    for _ in 0..halvings {
+        let built = match source {
+            Source::Screw(design) => screw_row(design)?.model(tick as f32, None).map(drop),
+            Source::Bearing(design) => Linear {
+                design: (**design).clone(),
+                memory: false,
+            }
+            .model(tick as f32, None)
+            .map(drop),
+        };
+        match built {
+            Err(error) if error.field() == "tick" => tick *= 0.5,
+            Err(error) => return Err(said(error)),
+            Ok(()) => break,
+        }
+    }
+    Ok(Some(tick))
+}
+
+fn said(error: Error) -> String {
+    error.to_string()
+}
+
+fn mean_load(values: &Values<'_>) -> Result<f32, String> {
+    values.within("mean_load", 0.0, 1e7).map(|load| load as f32)
+}
+
+/// The tick of a scene that has one, s.
+fn checked_tick(values: &Values<'_>) -> Result<f64, String> {
+    values.within("tick", 1e-6, 1.0)
+}
+
+/// A caged screw that remembers.
+fn with_memory<A, U>(
+    design: &Design,
+    load: f32,
+    angle: A,
+    then: U,
+) -> Result<Box<dyn Running>, String>
+where
+    A: Sensor,
+    U: Use<Made = Box<dyn Running>>,
+{
+    // A wrong number of the design is told under its own name, whatever a law or elements make of it.
+    FrictionModel::<CagedBallScrew>::new(&design.configuration).map_err(said)?;
+    match remembering(design, load, angle, then) {
+        Ok((running, _)) => Ok(running),
+        Err(Failure::Data(message)) => Err(message),
+        Err(_) => Err("the model cannot be made".into()),
+    }
+}
+
+// Of `N` so that it is compiled with the library of the unit, as are rows of balls.
+fn mechanism<const N: usize>(
+    design: &Design,
+    values: &Values<'_>,
+) -> Result<Box<dyn Running>, String> {
+    let tick = checked_tick(values)?;
+    let moving = Moving {
+        told: [
+            values.within("gain", -10.0, 10.0)?,
+            values.within("drag", -1e3, 1e3)?,
+            values.within("offset", -1e3, 1e3)?,
+        ],
+        inertia: values.within("inertia", 1e-9, 1e3)?,
+        tick,
+    };
+    let speed = memory::speed((tick / STEPS as f64) as f32).map_err(said)?;
+    with_memory(design, mean_load(values)?, speed, moving)
+}
+
+fn screw_row(design: &Design) -> Result<Uncaged, String> {
+    Ok(Uncaged {
+        design: design.clone(),
+        balls: design.uncaged.ok_or("the design has no row of balls")?,
+        memory: true,
+    })
+}
+
+fn uncaged<const N: usize>(
+    design: Design,
+    scene: SceneName,
+    values: &Values<'_>,
+) -> Result<Box<dyn Running>, String> {
+    let row = screw_row(&design)?;
+    let mut configuration = row.balls.configuration;
+    configuration.tick = checked_tick(values)? as f32;
+    if scene.has_memory() {
+        let remembered = row.remembered_at(mean_load(values)?).map_err(said)?;
+        let friction = configuration.friction;
+        let speed = memory::speed(configuration.tick).map_err(said)?;
+        let model = memory::configuration(configuration, &remembered, speed, friction)
+            .and_then(|whole| FrictionModel::<Remembering<UncagedBallScrew<N>>>::new(&whole))
+            .map_err(said)?;
+        Ok(Box::new(Row { model, motion: 0.0 }))
+    } else {
+        let model = FrictionModel::<UncagedBallScrew<N>>::new(&configuration).map_err(said)?;
+        Ok(Box::new(Row { model, motion: 0.0 }))
+    }
+}
+
+fn linear<const N: usize>(
+    design: LinearDesign,
+    scene: SceneName,
+    values: &Values<'_>,
+) -> Result<Box<dyn Running>, String> {
+    let mut configuration = design.configuration;
+    configuration.tick = checked_tick(values)? as f32;
+    if scene.has_memory() {
+        let row = Linear {
+            design,
+            memory: true,
+        };
+        let remembered = row.remembered_at(mean_load(values)?).map_err(said)?;
+        let friction = configuration.friction;
+        let speed = memory::speed(configuration.tick).map_err(said)?;
+        let model = memory::configuration(configuration, &remembered, speed, friction)
+            .and_then(|whole| FrictionModel::<Remembering<LinearBearingTrain<N>>>::new(&whole))
+            .map_err(said)?;
+        Ok(Box::new(Row { model, motion: 0.0 }))
+    } else {
+        let model = FrictionModel::<LinearBearingTrain<N>>::new(&configuration).map_err(said)?;
+        Ok(Box::new(Row { model, motion: 0.0 }))
+    }
+}
