@@ -57,7 +57,7 @@ pub fn run() -> Result<(), Failure> {
 fn said(command: Option<&Command>) -> Option<&'static str> {
     match command {
         // A report tells its stages from the first moment on.
-        Some(Command::Eval(_) | Command::A2l(_) | Command::Report(_)) | None => None,
+        Some(Command::Eval(_) | Command::Report(_)) | None => None,
         Some(Command::Simulate(_)) => Some("simulating ..."),
         Some(Command::Calibrate(_)) => Some("fitting ..."),
         Some(Command::Target(_)) => Some(
