@@ -92,7 +92,8 @@ impl Design {
 }
 
 /// Every built-in design, those of the dissertation last.
-pub fn built_in() -> impl Iterator<Item = (&'static str, BallScrewParameters, Option<u16>)> {
+pub fn built_in() -> impl Iterator<Item = (&'static str, BallScrewParameters, Option<u16>)> + Clone
+{
     let sizes = CATALOGUE
         .iter()
         .chain(&FINE_LEAD_SIZES)
@@ -143,7 +144,7 @@ impl FromStr for DesignSource {
             .ok_or_else(|| {
                 let near = plausible::nearest(text, built_in().map(|(name, ..)| name));
                 format!(
-                    "no built-in design has this name; the nearest is {near} (`simulate --list` prints all), and a \
+                    "no built-in design has this name; perhaps {near} (`simulate --list` prints all), and a \
                      design file ends in .toml"
                 )
             })

@@ -124,7 +124,7 @@ fn a_name_that_is_near_is_suggested() {
         "",
     );
     assert!(
-        run.code == 2 && run.stderr.contains("nearest is 25x5x3.175"),
+        run.code == 2 && run.stderr.contains("perhaps 25x5x3.175"),
         "{}",
         run.stderr
     );
