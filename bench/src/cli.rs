@@ -64,6 +64,7 @@ fn said(command: Option<&Command>) -> Option<&'static str> {
             "building the firmware and counting its instructions: some minutes the first time ...",
         ),
         Some(Command::Screws(_)) => Some("computing whole screws ..."),
+        Some(Command::Fmu(_)) => Some("building the unit's library ..."),
         Some(Command::A2l(_)) => Some("reading the image ..."),
         Some(_) => Some("working ..."),
     }

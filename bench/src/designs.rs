@@ -191,6 +191,9 @@ impl DesignSource {
     }
 
     /// The linear bearing, checked.
+    ///
+    /// # Errors
+    /// What is wrong with its file, or that it is a ball screw.
     pub fn load_bearing(&self) -> Result<LinearDesign, Failure> {
         match self {
             Self::LinearBearing => LinearDesign::built_in(),

@@ -212,7 +212,7 @@ impl Caged {
             parts: ["slip and spin", "rolling resistance"],
             error: format!("largest error promised, {:.1} %", 100.0 * error),
             reference: if self.memory {
-                "reference, which does not remember"
+                "reference without memory"
             } else {
                 "reference"
             },
