@@ -1,13 +1,13 @@
 //! A quantity over two axes, in bands of colour.
 
-use std::error::Error;
+use std::ops::Range;
 
-use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::chart::{draw_lines, draw_title, label_style, room, tick_style};
+use super::chart::{Area, Drawn, draw_lines, draw_title, label_style, room, tick_style};
 use super::scale::Axis;
+use super::series::Axes;
 use super::style::{LABEL_SIZE, TICK_SIZE, px, text_width};
 
 /// Values on a grid of cells, in bands between the given bounds.
@@ -158,7 +158,7 @@ impl ColourMap {
     }
 
     /// Draws the map into its area, its bands in a column at the right.
-    pub fn draw(&self, area: &DrawingArea<SVGBackend<'_>, Shift>) -> Result<(), Box<dyn Error>> {
+    pub fn draw(&self, area: &Area<'_>) -> Drawn {
         let mut header = draw_title(area, &self.title)? + px(8);
         header += draw_lines(area, &format!("colour: {}", self.quantity), header)?;
         // A label that is longer than its axis stands above it.
@@ -208,12 +208,17 @@ impl ColourMap {
         }
         mesh.draw()?;
 
+        self.draw_cells(&mut context, &x, &y)?;
+        self.draw_key(&key, height as i32)
+    }
+
+    /// Draws the cells; neighbours of one band are one rectangle.
+    fn draw_cells(&self, context: &mut Axes<'_, '_>, x: &Range<f64>, y: &Range<f64>) -> Drawn {
         let cell_height = (y.end - y.start) / self.values.len().max(1) as f64;
         for (row, values) in self.values.iter().enumerate() {
             let bottom = y.start + row as f64 * cell_height;
             let cell_width = (x.end - x.start) / values.len().max(1) as f64;
             let mut start = 0;
-            // Neighbours of one band are one rectangle.
             for run in values.chunk_by(|one, other| self.band(*one) == self.band(*other)) {
                 let end = start + run.len();
                 if let Some(band) = run.first().and_then(|value| self.band(*value)) {
@@ -233,10 +238,14 @@ impl ColourMap {
                 start = end;
             }
         }
+        Ok(())
+    }
 
+    /// Draws the bands in a column, with their bounds.
+    fn draw_key(&self, key: &Area<'_>, height: i32) -> Drawn {
         let bands = self.bounds.len() as i32 + 1;
         let top = px(8);
-        let step = ((height as i32 - px(70) - top) / bands).clamp(px(8), px(34));
+        let step = ((height - px(70) - top) / bands).clamp(px(8), px(34));
         // Every so many bounds have their text, so that none stands over another.
         let stride = (px(17) / step.max(1) + 1).max(1) as usize;
         let text = tick_style().pos(Pos::new(HPos::Left, VPos::Center));

@@ -8,6 +8,7 @@ use plotters::prelude::*;
 use super::chart::Drawn;
 use super::scale::Axis;
 use super::style::{PALETTE, STROKE, px};
+use super::thin::straightened;
 
 /// A chart with its axes, on the way to a picture.
 pub type Axes<'a, 'b> =
@@ -87,6 +88,8 @@ impl Series {
                 .iter()
                 .map(|&(at_x, at_y)| Some((axis_x.place(at_x)?, axis_y.place(at_y)?)))
         };
+        // A tenth of a pixel of a common picture.
+        let tolerance = (y.end - y.start).abs() / 4000.0;
         let visible = || {
             places().flatten().filter(|(at_x, at_y)| {
                 (x.start..=x.end).contains(at_x) && (y.start..=y.end).contains(at_y)
@@ -115,37 +118,44 @@ impl Series {
                 let inside = |(at_x, at_y): (f64, f64)| {
                     (at_x.clamp(x.start, x.end), at_y.clamp(y.start, y.end))
                 };
-                context.draw_series([Polygon::new(
-                    places().flatten().map(inside).collect::<Vec<_>>(),
-                    colour.mix(0.3).filled(),
-                )])?;
+                let edges: Vec<_> = places().flatten().map(inside).collect();
+                let (upper, lower) = edges.split_at(edges.len() / 2);
+                let back: Vec<_> = lower.iter().rev().copied().collect();
+                let mut edges = straightened(upper, tolerance);
+                edges.extend(straightened(&back, tolerance).into_iter().rev());
+                context.draw_series([Polygon::new(edges, colour.mix(0.3).filled())])?;
             }
             Mark::Line | Mark::Dashed | Mark::ShadedBelow | Mark::ShadedAbove => {
                 for piece in pieces(places(), y) {
-                    if matches!(self.mark, Mark::ShadedBelow | Mark::ShadedAbove) {
-                        let base = if self.mark == Mark::ShadedBelow {
-                            y.start
-                        } else {
-                            y.end
-                        };
-                        context.draw_series(AreaSeries::new(
-                            piece.clone(),
-                            base,
-                            colour.mix(0.22),
-                        ))?;
-                    }
-                    if self.mark == Mark::Dashed {
-                        context.draw_series(DashedLineSeries::new(
-                            piece,
-                            px(7).unsigned_abs(),
-                            px(5).unsigned_abs(),
-                            line,
-                        ))?;
-                    } else {
-                        context.draw_series(LineSeries::new(piece, line))?;
-                    }
+                    self.draw_piece(context, straightened(&piece, tolerance), y)?;
                 }
             }
+        }
+        Ok(())
+    }
+
+    /// Draws a line without gaps, and what is shaded beside it.
+    fn draw_piece(
+        &self,
+        context: &mut Axes<'_, '_>,
+        piece: Vec<(f64, f64)>,
+        y: &Range<f64>,
+    ) -> Drawn {
+        let colour = self.rgb();
+        let line = colour.stroke_width(STROKE);
+        let base = match self.mark {
+            Mark::ShadedBelow => Some(y.start),
+            Mark::ShadedAbove => Some(y.end),
+            _ => None,
+        };
+        if let Some(base) = base {
+            context.draw_series(AreaSeries::new(piece.clone(), base, colour.mix(0.22)))?;
+        }
+        if self.mark == Mark::Dashed {
+            let (on, off) = (px(7).unsigned_abs(), px(5).unsigned_abs());
+            context.draw_series(DashedLineSeries::new(piece, on, off, line))?;
+        } else {
+            context.draw_series(LineSeries::new(piece, line))?;
         }
         Ok(())
     }

@@ -47,10 +47,14 @@ mod tests {
 
     #[test]
     fn a_page_chooses_the_colours_but_those_of_maps() {
-        let svg = "<svg>\n<rect x=\"0\" fill=\"#FFFFFF\"/>\n<text fill=\"#282828\"/>                   <line stroke=\"#D55E00\"/><rect fill=\"#00224E\"/></svg>";
-        assert_eq!(
-            themed(svg),
-            "<svg>\n\n<text fill=\"var(--ink)\"/><line stroke=\"var(--series-1)\"/>             <rect fill=\"#00224E\"/></svg>"
+        let svg = concat!(
+            "<svg><rect x=\"0\" fill=\"#FFFFFF\"/><text fill=\"#282828\"/>",
+            "<line stroke=\"#D55E00\"/><rect fill=\"#00224E\"/></svg>"
         );
+        let page = concat!(
+            "<svg><text fill=\"var(--ink)\"/>",
+            "<line stroke=\"var(--series-1)\"/><rect fill=\"#00224E\"/></svg>"
+        );
+        assert_eq!(themed(svg), page);
     }
 }

@@ -122,9 +122,9 @@
       if (!text) continue;
       const wide = 18 + entry(series);
       if (legend + wide > width && legend > START) { legend = START; row += 1; }
-      const y = 18 + LINE * row;
-      make(svg, "rect", { x: legend, y: y + 5, width: 14, height: 8, fill: colour, opacity: series.mark === "band" ? 0.4 : 1 });
-      make(svg, "text", { x: legend + 18, y: y + 14 }, text);
+      const above = 18 + LINE * row;
+      make(svg, "rect", { x: legend, y: above + 5, width: 14, height: 8, fill: colour, opacity: series.mark === "band" ? 0.4 : 1 });
+      make(svg, "text", { x: legend + 18, y: above + 14 }, text);
       legend += wide;
     }
     if (cursor !== null) make(svg, "line", { x1: x(cursor), x2: x(cursor), y1: TOP, y2: HEIGHT - BOTTOM, class: "cursor" });

@@ -212,7 +212,7 @@ impl Caged {
             parts: ["slip and spin", "rolling resistance"],
             error: format!("largest error promised, {:.1} %", 100.0 * error),
             reference: if self.memory {
-                "reference, which does not remember"
+                "reference without memory"
             } else {
                 "reference"
             },
@@ -220,6 +220,9 @@ impl Caged {
     }
 
     /// Every sample for the picture. Slip and spin are the friction without rolling resistance.
+    ///
+    /// # Errors
+    /// A trace that does not fit the picture.
     pub fn moments(
         &self,
         trace: &Trace<ScrewSample>,
