@@ -160,6 +160,9 @@ impl DesignSource {
     }
 
     /// The ball screw, checked.
+    ///
+    /// # Errors
+    /// A file that cannot be read, or what is wrong with it; a design of another kind.
     pub fn load(&self) -> Result<Design, Failure> {
         match self {
             Self::BuiltIn {
@@ -187,6 +190,9 @@ impl DesignSource {
     }
 
     /// The linear bearing, checked.
+    ///
+    /// # Errors
+    /// What is wrong with its file, or that it is a ball screw.
     pub fn load_bearing(&self) -> Result<LinearDesign, Failure> {
         match self {
             Self::LinearBearing => LinearDesign::built_in(),
@@ -265,6 +271,9 @@ pub fn accepts(text: &str) -> Result<(), String> {
 }
 
 /// The design of a file's text; its name where it has none.
+///
+/// # Errors
+/// What is wrong with the text.
 pub fn read(text: &str, name: &str) -> Result<Design, String> {
     let file: DesignFile = toml::from_str(text).map_err(|error| error.to_string())?;
     file.design(name)

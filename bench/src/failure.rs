@@ -26,6 +26,7 @@ impl Failure {
     }
 
     /// The same failure of something with a name.
+    #[must_use]
     pub fn of(self, name: &str) -> Self {
         match self {
             Self::Data(message) => Self::Data(format!("{name}: {message}")),

@@ -1,12 +1,14 @@
 //! `fmu`: a scene with a design as a co-simulation unit for FMI 2.0 and 3.0.
 //!
-//! `variables` and `parameters` say what a unit shows, `description` writes that as XML, `running` holds the models behind it, `unit` puts
-//! them together; `library` builds the shared library from `bench/fmu`, whose one job is the foreign interface, and `run` packs the file.
-//! The models are those of `simulate`, and their outputs its bits.
+//! `variables` and `parameters` say what a unit shows, `description` writes that as XML, `models` makes the models behind it and `running`
+//! steps them, `rows` those of rows of balls, `unit` puts them together; `library` builds the shared library from `bench/fmu`, whose one job
+//! is the foreign interface, and `run` packs the file. The models are those of `simulate`, and their outputs its bits.
 
 mod description;
 mod library;
+mod models;
 mod parameters;
+mod rows;
 mod running;
 mod scene;
 #[cfg(test)]

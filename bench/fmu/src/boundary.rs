@@ -8,6 +8,7 @@
 #![allow(clippy::missing_safety_doc, missing_docs)]
 
 mod fmi2;
+mod fmi2_absent;
 mod fmi3;
 mod fmi3_absent;
 mod logger;

@@ -6,6 +6,7 @@
 
 mod boundary;
 mod instance;
+mod kinds;
 mod registry;
 mod state;
 

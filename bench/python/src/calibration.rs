@@ -16,7 +16,8 @@ use epas_bench::calibrate::without_design::{self, Filters};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
-use crate::arrays::{Argument, Arguments, shaped};
+use crate::argument::Argument;
+use crate::arrays::{Arguments, shaped};
 use crate::design::Design;
 use crate::errors::{Refused, refused};
 use crate::results::result;
@@ -169,64 +170,37 @@ pub fn calibrate<'py>(
     within(py, "ratio", ratio, RATIOS)?;
     within(py, "smoothing", smoothing, FREQUENCIES)?;
     within(py, "rows", rows, FREQUENCIES)?;
-    for (name, given) in [
+    let of_a_design = [
         ("ratio", ratio.is_some()),
         ("estimate", estimate.is_some()),
         ("fix", fix.is_some()),
-    ] {
-        if given && design.is_none() {
-            let message = format!("{name} needs a design");
-            return Err(refused(py, Refused::value(name, message)));
-        }
-    }
-    for (name, given) in [
+    ];
+    let of_none = [
         ("validate", validate.is_some()),
         ("controller", controller.is_some()),
-    ] {
-        if given && design.is_some() {
-            let message = format!("{name} is for traces without a design");
-            return Err(refused(py, Refused::value(name, message)));
-        }
-    }
+    ];
+    options(py, design.is_some(), of_a_design, of_none)?;
     let text = text(py, &trace)?;
     let frame = design.map(|design| Frame {
         lead: design.inner.screw().lead().into(),
         ratio: ratio.unwrap_or(1.0),
     });
-    let fix = match &fix {
-        Some(fix) => dict("fix", fix)?.extract::<BTreeMap<String, f64>>()?,
-        None => BTreeMap::new(),
-    };
-    let (answer, picture) = if let Some(design) = design {
-        let request = Request {
-            wanted: Wanted {
-                estimate,
-                fix: fix.into_iter().collect(),
-                ..Wanted::default()
-            },
-            smoothing: SmoothingSettings {
-                cutoff: smoothing,
-                ..SmoothingSettings::default()
-            },
-            rows: RowSettings {
-                cutoff: rows,
-                ..RowSettings::default()
-            },
-            without_models: !models,
-            ..Request::default()
+    let told = if let Some(design) = design {
+        let fix = match &fix {
+            Some(fix) => dict("fix", fix)?.extract::<BTreeMap<String, f64>>()?,
+            None => BTreeMap::new(),
         };
-        let design = &design.inner;
+        let request = request(estimate, fix, models, [smoothing, rows]);
         py.detach(|| {
             let trace = read(text, frame.as_ref())?;
-            let told = with_design::told(&trace, design, &request)?;
+            let told = with_design::told(&trace, &design.inner, &request)?;
             Ok((told.answer, told.picture))
         })
     } else {
         let unseen = validate.map(|trace| self::text(py, &trace)).transpose()?;
-        let controller = controller.map(|(gain_position, gain_speed)| Controller {
-            gain_position,
-            gain_speed,
-        });
+        let controller = controller
+            .map(|gains| self::controller(py, gains))
+            .transpose()?;
         let filters = Filters { smoothing, rows };
         py.detach(|| {
             let trace = read(text, None)?;
@@ -234,9 +208,66 @@ pub fn calibrate<'py>(
             let told = without_design::calibrate(&trace, unseen.as_ref(), controller, &filters)?;
             Ok((told.answer, told.picture))
         })
-    }
-    .map_err(|failure| refused(py, self::told(failure)))?;
+    };
+    let (answer, picture) = told.map_err(|failure| refused(py, self::told(failure)))?;
     answered(py, &answer, picture)
+}
+
+/// Refuses options that belong to the other kind of trace.
+fn options(
+    py: Python<'_>,
+    design: bool,
+    of_a_design: [(&str, bool); 3],
+    of_none: [(&str, bool); 2],
+) -> PyResult<()> {
+    let needless = of_none.iter().filter(|(_, given)| *given && design);
+    let missing = of_a_design.iter().filter(|(_, given)| *given && !design);
+    let needless = needless.map(|(name, _)| (name, "is for traces without a design"));
+    match missing
+        .map(|(name, _)| (name, "needs a design"))
+        .chain(needless)
+        .next()
+    {
+        Some((name, why)) => Err(refused(py, Refused::value(name, format!("{name} {why}")))),
+        None => Ok(()),
+    }
+}
+
+/// What is asked of a trace whose design is known; cut-offs of motion and rows.
+fn request(
+    estimate: Option<Vec<String>>,
+    fix: BTreeMap<String, f64>,
+    models: bool,
+    [smoothing, rows]: [Option<f64>; 2],
+) -> Request {
+    Request {
+        wanted: Wanted {
+            estimate,
+            fix: fix.into_iter().collect(),
+            ..Wanted::default()
+        },
+        smoothing: SmoothingSettings {
+            cutoff: smoothing,
+            ..SmoothingSettings::default()
+        },
+        rows: RowSettings {
+            cutoff: rows,
+            ..RowSettings::default()
+        },
+        without_models: !models,
+        ..Request::default()
+    }
+}
+
+/// Gains of a controller.
+fn controller(py: Python<'_>, (gain_position, gain_speed): (f64, f64)) -> PyResult<Controller> {
+    let range = (f64::MIN_POSITIVE, f64::MAX);
+    within(py, "gain_position", Some(gain_position), range)?;
+    within(py, "gain_speed", Some(gain_speed), range)?;
+    Ok(Controller {
+        gain_position,
+        gain_speed,
+    })
 }
 
 /// A trace of a file's text.

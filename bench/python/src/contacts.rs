@@ -4,7 +4,7 @@ use epas_friction::contact::FrictionMap;
 use epas_friction::hertz::HertzContact;
 use pyo3::prelude::*;
 
-use crate::arrays::{Block, Kernel};
+use crate::blocks::{Block, Kernel};
 use crate::errors::Refused;
 use crate::kept::Kept;
 use crate::numbers::{arguments, within};
@@ -37,11 +37,15 @@ impl Kernel<f32, 4, 5> for Ellipses {
         let Some(contact) = self.0.get([one, two, modulus], make).ok().filter(|_| good) else {
             return false;
         };
-        for (place, &load) in loads.iter().enumerate() {
-            let ellipse = ellipse_at(contact, load);
-            for (output, value) in block.outputs.iter_mut().zip(ellipse) {
-                output[place] = value;
-            }
+        let [ratio, major, minor, deflection, pressure] = &mut block.outputs;
+        ratio.fill(contact.axis_ratio());
+        let outputs = major
+            .iter_mut()
+            .zip(&mut **minor)
+            .zip(&mut **deflection)
+            .zip(&mut **pressure);
+        for (&load, (((major, minor), deflection), pressure)) in loads.iter().zip(outputs) {
+            [_, *major, *minor, *deflection, *pressure] = ellipse_at(contact, load);
         }
         true
     }

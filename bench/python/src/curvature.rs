@@ -6,7 +6,7 @@ use epas_friction::curvature::{
 use epas_friction::geometry::{ContactAngle, Groove, GrooveProfile, HelixPath};
 use pyo3::prelude::*;
 
-use crate::arrays::{BLOCK, Block, Kernel};
+use crate::blocks::{BLOCK, Block, Kernel};
 use crate::errors::Refused;
 use crate::kept::Kept;
 use crate::numbers::{self, arguments, within};
@@ -122,11 +122,20 @@ impl Kernel<f32, 6, 2> for Arches {
             return false;
         };
         let [kappa1, kappa2] = &mut block.outputs;
-        for ((kappa1, kappa2), angle) in kappa1.iter_mut().zip(kappa2.iter_mut()).zip(&angles) {
-            let exact = arch.principal(*angle);
-            (*kappa1, *kappa2) = (exact.kappa1, exact.kappa2);
-        }
+        principal(&arch, &angles[..kappa1.len()], kappa1, kappa2);
         true
+    }
+}
+
+/// Both curvatures at many angles, with the widest registers that the processor has; operations and their order are the same in all.
+#[multiversion::multiversion(targets(
+    "x86_64+avx+avx2",
+    "x86_64+avx+avx2+avx512f+avx512dq+avx512vl"
+))]
+fn principal(arch: &GothicArch, angles: &[ContactAngle], kappa1: &mut [f32], kappa2: &mut [f32]) {
+    for ((angle, kappa1), kappa2) in angles.iter().zip(kappa1).zip(kappa2) {
+        let exact = arch.principal(*angle);
+        (*kappa1, *kappa2) = (exact.kappa1, exact.kappa2);
     }
 }
 

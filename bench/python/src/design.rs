@@ -11,7 +11,8 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyString};
 use toml::{Table, Value};
 
-use crate::arrays::{Argument, Arguments};
+use crate::argument::Argument;
+use crate::arrays::Arguments;
 use crate::contacts::ellipse_at;
 use crate::errors::{Refused, refused};
 use crate::numbers::{groove, within};

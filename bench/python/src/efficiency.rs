@@ -4,7 +4,7 @@ use epas_friction::efficiency::{Drive, EfficiencyGeometry};
 use epas_friction::ranges::FRICTION_OR_NONE;
 use pyo3::prelude::*;
 
-use crate::arrays::{Block, Kernel};
+use crate::blocks::{Block, Kernel};
 use crate::errors::Refused;
 use crate::kept::Kept;
 use crate::numbers::{arguments, within, zero};
@@ -54,13 +54,40 @@ impl Kernel<f32, 5, 6> for Efficiencies {
         else {
             return false;
         };
-        for (place, (&friction, &tangent)) in friction.iter().zip(tangent).enumerate() {
-            let values = efficiency_at(geometry, friction, tangent);
-            for (output, value) in block.outputs.iter_mut().zip(values) {
-                output[place] = value;
-            }
+        if !block.constant[4] {
+            return false;
         }
+        all(geometry, friction, tangent[0], &mut block.outputs);
         true
+    }
+}
+
+/// All closed forms at many friction coefficients, with the widest registers that the processor has; operations and their order are
+/// the same in all.
+#[multiversion::multiversion(targets(
+    "x86_64+avx+avx2",
+    "x86_64+avx+avx2+avx512f+avx512dq+avx512vl"
+))]
+fn all(
+    geometry: &EfficiencyGeometry,
+    friction: &[f32],
+    tangent: f32,
+    outputs: &mut [&mut [f32]; 6],
+) {
+    // Checked already; here it tells the compiler that a branch is never taken.
+    if !(tangent >= 0.0) {
+        return;
+    }
+    let [one, two, three, four, five, six] = outputs;
+    let outputs = one
+        .iter_mut()
+        .zip(&mut **two)
+        .zip(&mut **three)
+        .zip(&mut **four)
+        .zip(&mut **five)
+        .zip(&mut **six);
+    for (&friction, (((((one, two), three), four), five), six)) in friction.iter().zip(outputs) {
+        [*one, *two, *three, *four, *five, *six] = efficiency_at(geometry, friction, tangent);
     }
 }
 

@@ -1,6 +1,6 @@
 //! What was set up for the same numbers just before.
 
-use crate::arrays::Real;
+use crate::blocks::Real;
 use crate::errors::Refused;
 
 /// Constants that are set up anew only where their numbers change from one value of an array to the next.

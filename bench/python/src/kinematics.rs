@@ -4,7 +4,8 @@ use epas_friction::kinematics::{ContactKinematics, ContactSlip, KinematicsParame
 use epas_reference::kinematics::{self as exact, KinematicsInput, Revised};
 use pyo3::prelude::*;
 
-use crate::arrays::{Arguments, Real};
+use crate::arrays::Arguments;
+use crate::blocks::Real;
 use crate::errors::Refused;
 use crate::kept::Kept;
 use crate::numbers::{arguments, within};
@@ -75,6 +76,85 @@ fn together<T: Copy>(ball: [T; 2], screw: [T; 8], nut: [T; 8]) -> [T; QUANTITIES
         2..10 => screw[place - 2],
         _ => nut[place - 10],
     })
+}
+
+/// Numbers in their order as the crate takes them.
+fn parameters(numbers: [f32; 16]) -> KinematicsParameters {
+    let [
+        ball_diameter,
+        pitch_radius,
+        lead_angle,
+        groove_radius_screw,
+        groove_radius_nut,
+        contact_angle_screw,
+        contact_angle_nut,
+        pitch_angle,
+        yaw_angle,
+        rolling_radius_screw,
+        rolling_radius_nut,
+        _,
+        semi_major_screw,
+        semi_minor_screw,
+        semi_major_nut,
+        semi_minor_nut,
+    ] = numbers;
+    KinematicsParameters {
+        ball_diameter,
+        pitch_radius,
+        lead_angle,
+        groove_radius_screw,
+        groove_radius_nut,
+        contact_angle_screw,
+        contact_angle_nut,
+        pitch_angle,
+        yaw_angle,
+        rolling_radius_screw,
+        rolling_radius_nut,
+        semi_major_screw,
+        semi_minor_screw,
+        semi_major_nut,
+        semi_minor_nut,
+    }
+}
+
+/// The same as the reference takes them.
+fn input(numbers: [f64; 16]) -> KinematicsInput {
+    let [
+        ball_diameter,
+        pitch_radius,
+        lead_angle,
+        groove_radius_screw,
+        groove_radius_nut,
+        contact_angle_screw,
+        contact_angle_nut,
+        pitch_angle,
+        yaw_angle,
+        rolling_radius_screw,
+        rolling_radius_nut,
+        speed,
+        semi_major_screw,
+        semi_minor_screw,
+        semi_major_nut,
+        semi_minor_nut,
+    ] = numbers;
+    KinematicsInput {
+        ball_diameter,
+        pitch_radius,
+        lead_angle,
+        groove_radius_screw,
+        groove_radius_nut,
+        contact_angle_screw,
+        contact_angle_nut,
+        pitch_angle,
+        yaw_angle,
+        rolling_radius_screw,
+        rolling_radius_nut,
+        speed,
+        semi_major_screw,
+        semi_minor_screw,
+        semi_major_nut,
+        semi_minor_nut,
+    }
 }
 
 /// Runs a kernel over the arguments, and names what it gives.
@@ -161,46 +241,11 @@ pub fn contact_kinematics<'py>(
         py,
         arguments(py, NAMES, values)?,
         move |numbers: [f32; 16]| {
-            let [
-                ball_diameter,
-                pitch_radius,
-                lead_angle,
-                groove_radius_screw,
-                groove_radius_nut,
-                contact_angle_screw,
-                contact_angle_nut,
-                pitch_angle,
-                yaw_angle,
-                rolling_radius_screw,
-                rolling_radius_nut,
-                speed,
-                semi_major_screw,
-                semi_minor_screw,
-                semi_major_nut,
-                semi_minor_nut,
-            ] = numbers;
+            let speed = numbers[SPEED];
             within("speed", speed.into(), -LARGEST_SPEED, LARGEST_SPEED)?;
             let mut constants = numbers;
             constants[SPEED] = 0.0;
-            let model = kept.get(constants, || {
-                ContactKinematics::new(&KinematicsParameters {
-                    ball_diameter,
-                    pitch_radius,
-                    lead_angle,
-                    groove_radius_screw,
-                    groove_radius_nut,
-                    contact_angle_screw,
-                    contact_angle_nut,
-                    pitch_angle,
-                    yaw_angle,
-                    rolling_radius_screw,
-                    rolling_radius_nut,
-                    semi_major_screw,
-                    semi_minor_screw,
-                    semi_major_nut,
-                    semi_minor_nut,
-                })
-            })?;
+            let model = kept.get(constants, || ContactKinematics::new(&parameters(numbers)))?;
             let ball = model.tick(speed);
             Ok(together(
                 [ball.orbital_speed, ball.spin_speed],
@@ -276,44 +321,9 @@ pub fn reference_contact_kinematics<'py>(
         &semi_minor_nut,
     ];
     evaluate(py, arguments(py, NAMES, values)?, |numbers: [f64; 16]| {
-        let [
-            ball_diameter,
-            pitch_radius,
-            lead_angle,
-            groove_radius_screw,
-            groove_radius_nut,
-            contact_angle_screw,
-            contact_angle_nut,
-            pitch_angle,
-            yaw_angle,
-            rolling_radius_screw,
-            rolling_radius_nut,
-            speed,
-            semi_major_screw,
-            semi_minor_screw,
-            semi_major_nut,
-            semi_minor_nut,
-        ] = numbers;
+        let speed = numbers[SPEED];
         within("speed", speed, -LARGEST_SPEED, LARGEST_SPEED)?;
-        let ball = Revised::new(&KinematicsInput {
-            ball_diameter,
-            pitch_radius,
-            lead_angle,
-            groove_radius_screw,
-            groove_radius_nut,
-            contact_angle_screw,
-            contact_angle_nut,
-            pitch_angle,
-            yaw_angle,
-            rolling_radius_screw,
-            rolling_radius_nut,
-            speed,
-            semi_major_screw,
-            semi_minor_screw,
-            semi_major_nut,
-            semi_minor_nut,
-        })?
-        .evaluate();
+        let ball = Revised::new(&input(numbers))?.evaluate();
         Ok(together(
             [ball.orbital_speed, ball.spin_speed],
             exact_slip(&ball.screw),

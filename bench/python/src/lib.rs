@@ -5,7 +5,9 @@
 // Documentation is Python's, where back-quotes are doubled.
 #![allow(clippy::doc_markdown, clippy::missing_errors_doc)]
 
+mod argument;
 mod arrays;
+mod blocks;
 mod calibration;
 mod contacts;
 mod curvature;

@@ -3,7 +3,8 @@
 use epas_friction::geometry::Groove;
 use pyo3::prelude::*;
 
-use crate::arrays::{Argument, Arguments};
+use crate::argument::Argument;
+use crate::arrays::Arguments;
 use crate::errors::{Refused, refused};
 
 /// A groove by its name.

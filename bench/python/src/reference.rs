@@ -143,6 +143,19 @@ pub fn reference_ellipse<'py>(
     result(py, "Ellipse", (ratio, major, minor, deflection, pressure))
 }
 
+/// All closed forms in the order of `results.Efficiency`.
+fn efficiencies(screw: &Screw) -> [f64; 6] {
+    let truth = |locked: bool| f64::from(u8::from(locked));
+    [
+        screw.rolling_screw(),
+        screw.sliding_drive(),
+        screw.sliding_backdrive(),
+        screw.loss_drive(),
+        truth(screw.locked_drive()),
+        truth(screw.locked_backdrive()),
+    ]
+}
+
 /// Efficiency of a ball screw by the closed forms of Lin, Velinsky and Ravani 1994, in float64.
 ///
 /// Args:
@@ -207,14 +220,7 @@ pub fn reference_efficiency<'py>(
                 ball_ratio,
                 rolling_tangent,
             };
-            Ok::<_, Refused>([
-                screw.rolling_screw(),
-                screw.sliding_drive(),
-                screw.sliding_backdrive(),
-                screw.loss_drive(),
-                f64::from(u8::from(screw.locked_drive())),
-                f64::from(u8::from(screw.locked_backdrive())),
-            ])
+            Ok::<_, Refused>(efficiencies(&screw))
         },
     )?;
     let [rolling, drive, backdrive, loss, locked, locked_backdrive] = efficiency.arrays(py)?;

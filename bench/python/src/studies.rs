@@ -3,16 +3,16 @@
 use epas_bench::calibrate::columns::Frame;
 use epas_bench::calibrate::screw::Request;
 use epas_bench::calibrate::sums::Sums;
-use epas_bench::calibrate::without_design::{self, Filters};
 use epas_bench::calibrate::with_design;
+use epas_bench::calibrate::without_design::{self, Filters};
 use epas_bench::design_study::{Design as StudiedDesign, Duty, figures};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
 use crate::calibration::{read, text, told};
-use crate::contacts::arguments;
 use crate::design::Design;
 use crate::errors::{Refused, refused};
+use crate::numbers::arguments;
 use crate::results::result;
 
 type Any<'py> = Bound<'py, PyAny>;
@@ -73,10 +73,31 @@ pub fn design_figures<'py>(
         ball_friction: ball_friction.unwrap_or(usual.ball_friction),
         deviation: deviation.unwrap_or(usual.deviation),
     };
-    let names = ["pitch_radius", "lead", "ball_radius", "conformity", "contact_angle", "preload"];
-    let values = [&pitch_radius, &lead, &ball_radius, &conformity, &contact_angle, &preload];
+    let names = [
+        "pitch_radius",
+        "lead",
+        "ball_radius",
+        "conformity",
+        "contact_angle",
+        "preload",
+    ];
+    let values = [
+        &pitch_radius,
+        &lead,
+        &ball_radius,
+        &conformity,
+        &contact_angle,
+        &preload,
+    ];
     let found = arguments(py, names, values)?.map(py, move |numbers: [f32; 6]| {
-        let [pitch_radius, lead, ball_radius, conformity, contact_angle, preload] = numbers;
+        let [
+            pitch_radius,
+            lead,
+            ball_radius,
+            conformity,
+            contact_angle,
+            preload,
+        ] = numbers;
         let design = StudiedDesign {
             pitch_radius,
             lead,
@@ -97,11 +118,23 @@ pub fn design_figures<'py>(
             Err(_) => Ok([f32::NAN; 5]),
         }
     })?;
-    let [loaded_balls, friction_torque, efficiency, max_pressure, contact_force] = found.arrays(py)?;
+    let [
+        loaded_balls,
+        friction_torque,
+        efficiency,
+        max_pressure,
+        contact_force,
+    ] = found.arrays(py)?;
     result(
         py,
         "DesignFigures",
-        (loaded_balls, friction_torque, efficiency, max_pressure, contact_force),
+        (
+            loaded_balls,
+            friction_torque,
+            efficiency,
+            max_pressure,
+            contact_force,
+        ),
     )
 }
 

@@ -239,6 +239,9 @@ impl UncagedTable {
 impl LinearDesign {
     /// The bearing of Lin 2019, Table 3.3; number of balls, length and deviation are this program's: the
     /// text has two balls.
+    ///
+    /// # Errors
+    /// Numbers that no bearing can have; none of the built-in one.
     pub fn built_in() -> Result<Self, Failure> {
         let file = LinearFile {
             name: Some(LINEAR.into()),
@@ -282,6 +285,9 @@ impl LinearDesign {
     }
 
     /// Reads a design file.
+    ///
+    /// # Errors
+    /// A file that cannot be read, or what is wrong with it.
     pub fn read(path: &Path) -> Result<Self, Failure> {
         from_file(path, LinearFile::design)
     }

@@ -1,15 +1,13 @@
 //! Parameters of a unit: the numbers of its design, and a design with other numbers.
 
-use epas_friction::{
-    BallScrew, BallScrewParameters, Clearance, Error, FrictionBranch, GrooveSize, Limits,
-    LinearBearing, LinearBearingParameters, Material, RollingResistance,
-    UncagedBallScrewConfiguration,
-};
+mod bearing;
+mod screw;
 
-use super::scene::SceneName;
-use super::variables::{Choice, Kind, Variable, parameter};
-use crate::designs::Design;
-use crate::designs::train::LinearDesign;
+use epas_friction::{Error, GrooveSize, Material};
+
+use super::variables::{Causality, Kind, Variable, parameter};
+pub use bearing::{changed_bearing, of_bearing};
+pub use screw::{changed_screw, of_screw};
 
 /// Values of parameters by their names.
 pub struct Values<'a> {
@@ -25,8 +23,7 @@ impl Values<'_> {
         let mut pairs = self.variables.iter().zip(self.values);
         pairs
             .find(|(variable, _)| {
-                variable.name == name
-                    && variable.causality == super::variables::Causality::Parameter
+                variable.name == name && variable.causality == Causality::Parameter
             })
             .map_or(f64::NAN, |(_, value)| *value)
     }
@@ -53,7 +50,7 @@ impl Values<'_> {
 }
 
 /// A parameter of single precision.
-fn single(
+pub fn single(
     list: &mut Vec<Variable>,
     name: &'static str,
     unit: Option<&'static str>,
@@ -66,22 +63,24 @@ fn single(
 }
 
 /// Names of a material's fields.
-struct MaterialNames([&'static str; 3]);
+pub struct MaterialNames([&'static str; 3]);
 
-const BALL: MaterialNames = MaterialNames([
+/// Of the balls.
+pub const BALL: MaterialNames = MaterialNames([
     "ball_material.youngs_modulus",
     "ball_material.poisson_ratio",
     "ball_material.density",
 ]);
 
-const GROOVE: MaterialNames = MaterialNames([
+/// Of screw and nut, or of rail and carriage.
+pub const GROOVE: MaterialNames = MaterialNames([
     "groove_material.youngs_modulus",
     "groove_material.poisson_ratio",
     "groove_material.density",
 ]);
 
 impl MaterialNames {
-    fn list(&self, list: &mut Vec<Variable>, material: &Material) {
+    pub fn list(&self, list: &mut Vec<Variable>, material: &Material) {
         let [modulus, ratio, density] = self.0;
         single(
             list,
@@ -106,7 +105,7 @@ impl MaterialNames {
         );
     }
 
-    fn of(&self, values: &Values<'_>) -> Material {
+    pub fn of(&self, values: &Values<'_>) -> Material {
         let [youngs_modulus, poisson_ratio, density] = self.0.map(|name| values.single(name));
         Material {
             youngs_modulus,
@@ -117,15 +116,18 @@ impl MaterialNames {
 }
 
 /// Names of a groove's size, as conformity and as radius.
-struct GrooveNames([&'static str; 2]);
+pub struct GrooveNames([&'static str; 2]);
 
-const SCREW: GrooveNames = GrooveNames(["screw_conformity", "screw_groove_radius"]);
-const NUT: GrooveNames = GrooveNames(["nut_conformity", "nut_groove_radius"]);
-const BOTH: GrooveNames = GrooveNames(["conformity", "groove_radius"]);
+/// Of the screw.
+pub const SCREW: GrooveNames = GrooveNames(["screw_conformity", "screw_groove_radius"]);
+/// Of the nut.
+pub const NUT: GrooveNames = GrooveNames(["nut_conformity", "nut_groove_radius"]);
+/// Of both grooves of a bearing.
+pub const BOTH: GrooveNames = GrooveNames(["conformity", "groove_radius"]);
 
 impl GrooveNames {
     /// The size as the design has it: the one follows from the other only to rounding.
-    fn list(&self, list: &mut Vec<Variable>, size: GrooveSize) {
+    pub fn list(&self, list: &mut Vec<Variable>, size: GrooveSize) {
         let [conformity, radius] = self.0;
         match size {
             GrooveSize::Conformity(value) => single(
@@ -145,7 +147,7 @@ impl GrooveNames {
         }
     }
 
-    fn of(&self, values: &Values<'_>, as_in: GrooveSize) -> GrooveSize {
+    pub fn of(&self, values: &Values<'_>, as_in: GrooveSize) -> GrooveSize {
         let [conformity, radius] = self.0;
         match as_in {
             GrooveSize::Conformity(_) => GrooveSize::Conformity(values.single(conformity)),
@@ -154,198 +156,18 @@ impl GrooveNames {
     }
 }
 
-/// What both scenes of a ball screw have; a built-in design has other numbers of its own where its balls press on each other.
-struct Common {
-    friction: f32,
-    rolling_resistance: RollingResistance,
-    clearance: Clearance,
-    reversal_speed: f32,
-    limits: Limits,
-}
-
-impl Common {
-    fn of(design: &Design, scene: SceneName) -> Self {
-        if let (true, Some(train)) = (scene.has_row(), &design.uncaged) {
-            let row = &train.configuration;
-            return Self {
-                friction: row.friction,
-                rolling_resistance: row.rolling_resistance,
-                clearance: row.clearance,
-                reversal_speed: row.reversal_speed,
-                limits: row.limits,
-            };
-        }
-        let caged = &design.configuration;
-        Self {
-            friction: caged.friction,
-            rolling_resistance: caged.rolling_resistance,
-            clearance: caged.clearance,
-            reversal_speed: caged.reversal_speed,
-            limits: caged.limits,
-        }
-    }
-}
-
 /// A parameter's name, unit, meaning with its range, and start.
-type Row = (&'static str, Option<&'static str>, &'static str, f32);
+pub type Row = (&'static str, Option<&'static str>, &'static str, f32);
 
-fn list<const N: usize>(l: &mut Vec<Variable>, rows: [Row; N]) {
+/// Lists parameters.
+pub fn list<const N: usize>(l: &mut Vec<Variable>, rows: [Row; N]) {
     for (name, unit, about, start) in rows {
         single(l, name, unit, about, start);
     }
 }
 
-/// Parameters of a ball screw's scene.
-pub fn of_screw(design: &Design, scene: SceneName) -> Vec<Variable> {
-    let common = Common::of(design, scene);
-    let mut l = Vec::new();
-    geometry(&mut l, design.screw().parameters());
-    common.contacts(&mut l);
-    match (scene.has_row(), &design.uncaged) {
-        (true, Some(train)) => row(&mut l, &train.configuration),
-        _ => caged(&mut l, design),
-    }
-    common.limits(&mut l);
-    l
-}
-
-impl Common {
-    fn contacts(&self, l: &mut Vec<Variable>) {
-        let friction = "Coulomb friction coefficient of ball and groove, 1e-6 to 0.5";
-        let loss = "share of the elastic energy that is lost while a contact passes, 0 to 0.2";
-        let drag = "drag of the lubricant on one contact under 100 N, 0 to 10";
-        let gap = "radial gap of every contact without load; play above 0, oversize below; -0.02 to 0.05 ball radii";
-        let reversal = "nut speed over which friction changes its direction, 1e-6 to 1e3";
-        let rolling = self.rolling_resistance;
-        list(
-            l,
-            [
-                ("friction", None, friction, self.friction),
-                ("hysteresis_loss", None, loss, rolling.hysteresis_loss),
-                ("lubricant_drag", Some("N"), drag, rolling.lubricant_drag),
-                ("clearance", Some("m"), gap, self.clearance.gap()),
-                (
-                    "reversal_speed",
-                    Some("rad/s"),
-                    reversal,
-                    self.reversal_speed,
-                ),
-            ],
-        );
-    }
-
-    fn limits(&self, l: &mut Vec<Variable>) {
-        let Limits {
-            nut_speed,
-            axial_load,
-            friction_torque,
-        } = self.limits;
-        let speed = "largest nut speed that is believed, 1e-3 to 1e6";
-        let load = "largest axial load that is believed, 1e-3 to 1e7";
-        let torque = "largest friction torque that is put out, 1e-6 to 1e6";
-        list(
-            l,
-            [
-                ("limits.nut_speed", Some("rad/s"), speed, nut_speed),
-                ("limits.axial_load", Some("N"), load, axial_load),
-                (
-                    "limits.friction_torque",
-                    Some("N.m"),
-                    torque,
-                    friction_torque,
-                ),
-            ],
-        );
-    }
-}
-
-/// What only a screw with a row of balls has.
-fn row(l: &mut Vec<Variable>, train: &UncagedBallScrewConfiguration) {
-    let friction = "Coulomb friction coefficient of ball and ball, 0 to 1";
-    let turns = "turns of the loaded track, 0.1 to 100";
-    list(
-        l,
-        [
-            ("ball_friction", None, friction, train.ball_friction),
-            ("turns", None, turns, train.turns),
-            (
-                "return_length",
-                Some("m"),
-                "length of the return, 0 to 10",
-                train.return_length,
-            ),
-        ],
-    );
-}
-
-fn geometry(l: &mut Vec<Variable>, screw: &BallScrewParameters) {
-    single(
-        l,
-        "pitch_radius",
-        Some("m"),
-        "radius of the cylinder on which the ball centres run, 1e-3 to 0.5",
-        screw.pitch_radius,
-    );
-    single(
-        l,
-        "lead",
-        Some("m"),
-        "axial travel in one turn, 0 to 0.2",
-        screw.lead,
-    );
-    single(
-        l,
-        "ball_radius",
-        Some("m"),
-        "ball radius, 1e-4 to 0.05, up to 0.9 pitch radii",
-        screw.ball_radius,
-    );
-    SCREW.list(l, screw.screw_groove);
-    NUT.list(l, screw.nut_groove);
-    single(
-        l,
-        "contact_angle",
-        Some("rad"),
-        "nominal contact angle, 0.01 to 1.5533",
-        screw.contact_angle,
-    );
-    BALL.list(l, &screw.ball_material);
-    GROOVE.list(l, &screw.groove_material);
-}
-
-/// What only a screw without ball-to-ball friction has.
-fn caged(l: &mut Vec<Variable>, design: &Design) {
-    let configuration = &design.configuration;
-    single(
-        l,
-        "rolling_tangent",
-        None,
-        "lever arm of rolling friction over ball_radius sin(contact_angle), 0 to 0.1; for the closed forms alone",
-        configuration.rolling_tangent,
-    );
-    let branch = match configuration.branch {
-        FrictionBranch::Contacts => 0.0,
-        FrictionBranch::Rolling => 1.0,
-        FrictionBranch::Sliding => 2.0,
-    };
-    l.push(parameter(
-        Kind::Choice(Choice::Branch),
-        "branch",
-        None,
-        "which state of a ball friction is computed for",
-        branch,
-    ));
-    l.push(parameter(
-        Kind::Int32,
-        "loaded_balls",
-        None,
-        "balls that carry load, 1 to 1000",
-        configuration.loaded_balls.into(),
-    ));
-}
-
 /// A material's error under the name of its parameter.
-fn named(error: &Error, ball: &Material) -> String {
+pub fn named(error: &Error, ball: &Material) -> String {
     let text = error.to_string();
     let own = [
         ("youngs_modulus", ball.youngs_modulus),
@@ -360,152 +182,4 @@ fn named(error: &Error, ball: &Material) -> String {
         Some(_) => format!("groove_material.{text}"),
         None => text,
     }
-}
-
-/// A ball screw's design with other numbers.
-///
-/// # Errors
-/// The parameter that is wrong, its value and what is allowed.
-pub fn changed_screw(
-    design: &Design,
-    scene: SceneName,
-    values: &Values<'_>,
-) -> Result<Design, String> {
-    let as_in = design.screw().parameters();
-    let parameters = BallScrewParameters {
-        pitch_radius: values.single("pitch_radius"),
-        lead: values.single("lead"),
-        ball_radius: values.single("ball_radius"),
-        screw_groove: SCREW.of(values, as_in.screw_groove),
-        nut_groove: NUT.of(values, as_in.nut_groove),
-        contact_angle: values.single("contact_angle"),
-        ball_material: BALL.of(values),
-        groove_material: GROOVE.of(values),
-    };
-    let screw =
-        BallScrew::new(parameters).map_err(|error| named(&error, &parameters.ball_material))?;
-    let clearance = Clearance::new(values.single("clearance"))
-        .and_then(|clearance| clearance.checked(&screw))
-        .map_err(|error| error.to_string())?;
-    let mut changed = design.clone();
-    let configuration = &mut changed.configuration;
-    configuration.design = screw;
-    configuration.friction = values.single("friction");
-    configuration.rolling_resistance.hysteresis_loss = values.single("hysteresis_loss");
-    configuration.rolling_resistance.lubricant_drag = values.single("lubricant_drag");
-    configuration.clearance = clearance;
-    configuration.reversal_speed = values.single("reversal_speed");
-    configuration.limits.nut_speed = values.single("limits.nut_speed");
-    configuration.limits.axial_load = values.single("limits.axial_load");
-    configuration.limits.friction_torque = values.single("limits.friction_torque");
-    if scene.has_row() {
-        changed_row(&mut changed, values);
-    } else {
-        let configuration = &mut changed.configuration;
-        configuration.rolling_tangent = values.single("rolling_tangent");
-        configuration.branch = match values.within("branch", 0.0, 2.0)? {
-            1.0 => FrictionBranch::Rolling,
-            2.0 => FrictionBranch::Sliding,
-            _ => FrictionBranch::Contacts,
-        };
-        configuration.loaded_balls = values.within("loaded_balls", 1.0, 1000.0)? as u16;
-    }
-    Ok(changed)
-}
-
-/// The numbers of its row of balls.
-fn changed_row(design: &mut Design, values: &Values<'_>) {
-    let configuration = design.configuration;
-    if let Some(train) = &mut design.uncaged {
-        let row = &mut train.configuration;
-        row.design = configuration.design;
-        row.friction = configuration.friction;
-        row.rolling_resistance = configuration.rolling_resistance;
-        row.clearance = configuration.clearance;
-        row.reversal_speed = configuration.reversal_speed;
-        row.limits = configuration.limits;
-        row.ball_friction = values.single("ball_friction");
-        row.turns = values.single("turns");
-        row.return_length = values.single("return_length");
-    }
-}
-
-/// Parameters of a linear bearing.
-pub fn of_bearing(design: &LinearDesign) -> Vec<Variable> {
-    let own = &design.configuration;
-    let bearing = own.bearing.parameters();
-    let mut l = Vec::new();
-    let (radius, angle) = (bearing.ball_radius, bearing.contact_angle);
-    list(
-        &mut l,
-        [(
-            "ball_radius",
-            Some("m"),
-            "ball radius, 1e-4 to 0.05",
-            radius,
-        )],
-    );
-    BOTH.list(&mut l, bearing.groove);
-    let about = "nominal contact angle, 0.01 to 1.5533";
-    list(&mut l, [("contact_angle", Some("rad"), about, angle)]);
-    BALL.list(&mut l, &bearing.ball_material);
-    GROOVE.list(&mut l, &bearing.groove_material);
-    let friction = "Coulomb friction coefficient of ball and groove, 1e-3 to 1";
-    let balls = "Coulomb friction coefficient of ball and ball, 0 to 1";
-    let loaded = "length of the loaded track, 1e-4 to 100";
-    let back = "length of the return, 0 to 100";
-    let wave = "length that counts as one turn of the deviations, 1e-4 to 100";
-    let reversal = "speed over which friction changes its direction, 1e-9 to 10";
-    let speed = "largest speed that is believed, 1e-6 to 1e3";
-    let load = "largest normal and side load that is believed, 1e-3 to 1e7";
-    let force = "largest friction force that is put out, 1e-6 to 1e6";
-    list(
-        &mut l,
-        [
-            ("friction", None, friction, own.friction),
-            ("ball_friction", None, balls, own.ball_friction),
-            ("loaded_length", Some("m"), loaded, own.loaded_length),
-            ("return_length", Some("m"), back, own.return_length),
-            ("wavelength", Some("m"), wave, own.wavelength),
-            ("reversal_speed", Some("m/s"), reversal, own.reversal_speed),
-            ("limits.speed", Some("m/s"), speed, own.limits.speed),
-            ("limits.load", Some("N"), load, own.limits.load),
-            (
-                "limits.friction_force",
-                Some("N"),
-                force,
-                own.limits.friction_force,
-            ),
-        ],
-    );
-    l
-}
-
-/// A linear bearing's design with other numbers.
-///
-/// # Errors
-/// The parameter that is wrong, its value and what is allowed.
-pub fn changed_bearing(design: &LinearDesign, values: &Values<'_>) -> Result<LinearDesign, String> {
-    let parameters = LinearBearingParameters {
-        ball_radius: values.single("ball_radius"),
-        groove: BOTH.of(values, design.configuration.bearing.parameters().groove),
-        contact_angle: values.single("contact_angle"),
-        ball_material: BALL.of(values),
-        groove_material: GROOVE.of(values),
-    };
-    let bearing =
-        LinearBearing::new(parameters).map_err(|error| named(&error, &parameters.ball_material))?;
-    let mut changed = design.clone();
-    let configuration = &mut changed.configuration;
-    configuration.bearing = bearing;
-    configuration.friction = values.single("friction");
-    configuration.ball_friction = values.single("ball_friction");
-    configuration.loaded_length = values.single("loaded_length");
-    configuration.return_length = values.single("return_length");
-    configuration.wavelength = values.single("wavelength");
-    configuration.reversal_speed = values.single("reversal_speed");
-    configuration.limits.speed = values.single("limits.speed");
-    configuration.limits.load = values.single("limits.load");
-    configuration.limits.friction_force = values.single("limits.friction_force");
-    Ok(changed)
 }

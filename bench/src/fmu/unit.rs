@@ -1,20 +1,17 @@
 //! A unit: a scene with a design, its variables, and models of it.
 
-use epas_friction::{CagedBallScrew, Error, FrictionModel, LinearBearingTrain, UncagedBallScrew};
 use serde::{Deserialize, Serialize};
 
+use super::models;
 use super::parameters::{Values, changed_bearing, changed_screw, of_bearing, of_screw};
-use super::running::{ByAngle, Moving, Row, Running};
+use super::running::Running;
 use super::scene::SceneName;
 use super::variables::{Causality, Kind, TIME, Variable, inputs, outputs, parameter};
 use crate::designs::train::LinearDesign;
 use crate::designs::{self, Design, DesignSource};
 use crate::failure::Failure;
 use crate::simulate::linear::Linear;
-use crate::simulate::memory::{self, Remembering};
-use crate::simulate::nut::{Nut, STEPS};
-use crate::simulate::remembering::{Sensor, Use, remembering};
-use crate::simulate::uncaged::Uncaged;
+use crate::simulate::nut::Nut;
 
 /// Mean size of the load, N, where a design does not say one.
 const MEAN_LOAD: f32 = 1000.0;
@@ -218,20 +215,14 @@ impl Unit {
             Source::Screw(design) => {
                 let design = changed_screw(design, scene, &values)?;
                 match scene {
-                    SceneName::Caged => {
-                        let model = FrictionModel::<CagedBallScrew>::new(&design.configuration);
-                        Ok(Box::new(model.map_err(said)?))
-                    }
-                    SceneName::CagedWithMemory => {
-                        let angle = memory::angle().map_err(said)?;
-                        with_memory(&design, mean_load(&values)?, angle, ByAngle)
-                    }
-                    SceneName::Mechanism => mechanism::<N>(&design, &values),
-                    _ => uncaged::<N>(design, scene, &values),
+                    SceneName::Caged => models::caged(&design),
+                    SceneName::CagedWithMemory => models::caged_with_memory(&design, &values),
+                    SceneName::Mechanism => models::mechanism::<N>(&design, &values),
+                    _ => models::uncaged::<N>(&design, scene, &values),
                 }
             }
             Source::Bearing(design) => {
-                linear::<N>(changed_bearing(design, &values)?, scene, &values)
+                models::linear::<N>(changed_bearing(design, &values)?, scene, &values)
             }
         }
     }
@@ -315,7 +306,7 @@ fn longest_tick(scene: SceneName, source: &Source) -> Result<Option<f64>, String
     }
     for _ in 0..halvings {
         let built = match source {
-            Source::Screw(design) => screw_row(design)?.model(tick as f32, None).map(drop),
+            Source::Screw(design) => models::row(design)?.model(tick as f32, None).map(drop),
             Source::Bearing(design) => Linear {
                 design: (**design).clone(),
                 memory: false,
@@ -325,116 +316,9 @@ fn longest_tick(scene: SceneName, source: &Source) -> Result<Option<f64>, String
         };
         match built {
             Err(error) if error.field() == "tick" => tick *= 0.5,
-            Err(error) => return Err(said(error)),
+            Err(error) => return Err(error.to_string()),
             Ok(()) => break,
         }
     }
     Ok(Some(tick))
-}
-
-fn said(error: Error) -> String {
-    error.to_string()
-}
-
-fn mean_load(values: &Values<'_>) -> Result<f32, String> {
-    values.within("mean_load", 0.0, 1e7).map(|load| load as f32)
-}
-
-/// The tick of a scene that has one, s.
-fn checked_tick(values: &Values<'_>) -> Result<f64, String> {
-    values.within("tick", 1e-6, 1.0)
-}
-
-/// A caged screw that remembers.
-fn with_memory<A, U>(
-    design: &Design,
-    load: f32,
-    angle: A,
-    then: U,
-) -> Result<Box<dyn Running>, String>
-where
-    A: Sensor,
-    U: Use<Made = Box<dyn Running>>,
-{
-    // A wrong number of the design is told under its own name, whatever a law or elements make of it.
-    FrictionModel::<CagedBallScrew>::new(&design.configuration).map_err(said)?;
-    match remembering(design, load, angle, then) {
-        Ok((running, _)) => Ok(running),
-        Err(Failure::Data(message)) => Err(message),
-        Err(_) => Err("the model cannot be made".into()),
-    }
-}
-
-// Of `N` so that it is compiled with the library of the unit, as are rows of balls.
-fn mechanism<const N: usize>(
-    design: &Design,
-    values: &Values<'_>,
-) -> Result<Box<dyn Running>, String> {
-    let tick = checked_tick(values)?;
-    let moving = Moving {
-        told: [
-            values.within("gain", -10.0, 10.0)?,
-            values.within("drag", -1e3, 1e3)?,
-            values.within("offset", -1e3, 1e3)?,
-        ],
-        inertia: values.within("inertia", 1e-9, 1e3)?,
-        tick,
-    };
-    let speed = memory::speed((tick / STEPS as f64) as f32).map_err(said)?;
-    with_memory(design, mean_load(values)?, speed, moving)
-}
-
-fn screw_row(design: &Design) -> Result<Uncaged, String> {
-    Ok(Uncaged {
-        design: design.clone(),
-        balls: design.uncaged.ok_or("the design has no row of balls")?,
-        memory: true,
-    })
-}
-
-fn uncaged<const N: usize>(
-    design: Design,
-    scene: SceneName,
-    values: &Values<'_>,
-) -> Result<Box<dyn Running>, String> {
-    let row = screw_row(&design)?;
-    let mut configuration = row.balls.configuration;
-    configuration.tick = checked_tick(values)? as f32;
-    if scene.has_memory() {
-        let remembered = row.remembered_at(mean_load(values)?).map_err(said)?;
-        let friction = configuration.friction;
-        let speed = memory::speed(configuration.tick).map_err(said)?;
-        let model = memory::configuration(configuration, &remembered, speed, friction)
-            .and_then(|whole| FrictionModel::<Remembering<UncagedBallScrew<N>>>::new(&whole))
-            .map_err(said)?;
-        Ok(Box::new(Row { model, motion: 0.0 }))
-    } else {
-        let model = FrictionModel::<UncagedBallScrew<N>>::new(&configuration).map_err(said)?;
-        Ok(Box::new(Row { model, motion: 0.0 }))
-    }
-}
-
-fn linear<const N: usize>(
-    design: LinearDesign,
-    scene: SceneName,
-    values: &Values<'_>,
-) -> Result<Box<dyn Running>, String> {
-    let mut configuration = design.configuration;
-    configuration.tick = checked_tick(values)? as f32;
-    if scene.has_memory() {
-        let row = Linear {
-            design,
-            memory: true,
-        };
-        let remembered = row.remembered_at(mean_load(values)?).map_err(said)?;
-        let friction = configuration.friction;
-        let speed = memory::speed(configuration.tick).map_err(said)?;
-        let model = memory::configuration(configuration, &remembered, speed, friction)
-            .and_then(|whole| FrictionModel::<Remembering<LinearBearingTrain<N>>>::new(&whole))
-            .map_err(said)?;
-        Ok(Box::new(Row { model, motion: 0.0 }))
-    } else {
-        let model = FrictionModel::<LinearBearingTrain<N>>::new(&configuration).map_err(said)?;
-        Ok(Box::new(Row { model, motion: 0.0 }))
-    }
 }

@@ -220,6 +220,9 @@ impl Caged {
     }
 
     /// Every sample for the picture. Slip and spin are the friction without rolling resistance.
+    ///
+    /// # Errors
+    /// A trace that does not fit the picture.
     pub fn moments(
         &self,
         trace: &Trace<ScrewSample>,

@@ -84,6 +84,9 @@ impl Manoeuvre {
     }
 
     /// The trace of a linear bearing.
+    ///
+    /// # Errors
+    /// A manoeuvre of another mechanism.
     pub fn linear_trace(self) -> Result<Trace<LinearSample>, Failure> {
         if self != Self::Stroke {
             return Err(Failure::Data(format!(
@@ -102,6 +105,9 @@ impl Manoeuvre {
     }
 
     /// The trace for one design.
+    ///
+    /// # Errors
+    /// A manoeuvre of another mechanism.
     pub fn trace(self, design: &BallScrew) -> Result<Trace<ScrewSample>, Failure> {
         match self {
             Self::Stroke => {

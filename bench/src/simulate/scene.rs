@@ -19,10 +19,16 @@ pub trait Scene {
     fn name(&self) -> &str;
 
     /// A manoeuvre for this design.
+    ///
+    /// # Errors
+    /// A manoeuvre of another mechanism.
     fn manoeuvre(&self, manoeuvre: Manoeuvre) -> Result<Trace<Self::Sample>, Failure>;
 
     /// Runs the in-loop model over a trace, with the float64 reference where one is wanted; `done` is called
     /// after each sample. Lines tell what of the reference was computed.
+    ///
+    /// # Errors
+    /// A design or a trace that the models refuse.
     fn rows(
         &self,
         trace: &Trace<Self::Sample>,
@@ -40,6 +46,9 @@ pub trait Scene {
     fn summary(&self, trace: &Trace<Self::Sample>, rows: &[Self::Row]) -> Lines;
 
     /// The run as a picture of some form.
+    ///
+    /// # Errors
+    /// A picture that cannot be drawn.
     fn picture(
         &self,
         trace: &Trace<Self::Sample>,

@@ -22,6 +22,9 @@ impl Lines {
     }
 
     /// Prints them.
+    ///
+    /// # Errors
+    /// What cannot be written.
     pub fn print(&self, out: &mut impl Write) -> io::Result<()> {
         for (name, text) in &self.0 {
             writeln!(out, "{name:30} {text}")?;

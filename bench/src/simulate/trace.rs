@@ -283,7 +283,7 @@ fn place(header: &StringRecord, column: &str) -> Result<(usize, Option<Unit>), F
     for (place, name) in names() {
         match heading(name) {
             Ok(Some((quantity, unit))) if Some(quantity) == wanted => {
-                found.push((place, name, unit))
+                found.push((place, name, unit));
             }
             Err(message) if starts_like(name, column) => unknown = Some(message),
             _ => {}

@@ -9,13 +9,13 @@ use crate::instance::{Instance, Said, Wanted};
 use crate::registry::{self, Outcome, call};
 
 /// `fmi2Component`, a handle.
-type Component = *mut c_void;
+pub type Component = *mut c_void;
 /// `fmi2FMUstate`, a handle.
 type State = *mut c_void;
 /// `fmi2Status`
-type Status = i32;
+pub type Status = i32;
 /// `fmi2Boolean`
-type Boolean = i32;
+pub type Boolean = i32;
 
 const OK: Status = 0;
 const WARNING: Status = 1;
@@ -31,7 +31,7 @@ pub struct Callbacks {
     environment: *mut c_void,
 }
 
-fn on(component: Component, action: impl FnOnce(&mut Instance, &mut Logger) -> Said) -> Status {
+pub fn on(component: Component, action: impl FnOnce(&mut Instance, &mut Logger) -> Said) -> Status {
     match call(component.addr(), action) {
         Outcome::Fine => OK,
         Outcome::Warning => WARNING,
@@ -339,48 +339,6 @@ pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
     })
 }
 
-/// What this unit does not have.
-fn absent(component: Component, name: &str) -> Status {
-    on(component, |_, _| {
-        Err(format!("{name} is called, which this unit does not have"))
-    })
-}
-
-#[unsafe(no_mangle)]
-pub extern "C" fn fmi2GetDirectionalDerivative(
-    component: Component,
-    _unknowns: *const u32,
-    _unknown_count: usize,
-    _knowns: *const u32,
-    _known_count: usize,
-    _seed: *const f64,
-    _sensitivity: *mut f64,
-) -> Status {
-    absent(component, "fmi2GetDirectionalDerivative")
-}
-
-#[unsafe(no_mangle)]
-pub extern "C" fn fmi2SetRealInputDerivatives(
-    component: Component,
-    _references: *const u32,
-    _count: usize,
-    _orders: *const i32,
-    _values: *const f64,
-) -> Status {
-    absent(component, "fmi2SetRealInputDerivatives")
-}
-
-#[unsafe(no_mangle)]
-pub extern "C" fn fmi2GetRealOutputDerivatives(
-    component: Component,
-    _references: *const u32,
-    _count: usize,
-    _orders: *const i32,
-    _values: *mut f64,
-) -> Status {
-    absent(component, "fmi2GetRealOutputDerivatives")
-}
-
 #[unsafe(no_mangle)]
 pub extern "C" fn fmi2DoStep(
     component: Component,
@@ -391,16 +349,6 @@ pub extern "C" fn fmi2DoStep(
     on(component, |instance, _| {
         instance.do_step("fmi2DoStep", point, size)
     })
-}
-
-#[unsafe(no_mangle)]
-pub extern "C" fn fmi2CancelStep(component: Component) -> Status {
-    absent(component, "fmi2CancelStep")
-}
-
-#[unsafe(no_mangle)]
-pub extern "C" fn fmi2GetStatus(component: Component, _kind: i32, _value: *mut Status) -> Status {
-    absent(component, "fmi2GetStatus")
 }
 
 /// `fmi2LastSuccessfulTime`
@@ -422,31 +370,4 @@ pub unsafe extern "C" fn fmi2GetRealStatus(
         *unsafe { place(value, "value") }? = instance.time();
         Ok(None)
     })
-}
-
-#[unsafe(no_mangle)]
-pub extern "C" fn fmi2GetIntegerStatus(
-    component: Component,
-    _kind: i32,
-    _value: *mut i32,
-) -> Status {
-    absent(component, "fmi2GetIntegerStatus")
-}
-
-#[unsafe(no_mangle)]
-pub extern "C" fn fmi2GetBooleanStatus(
-    component: Component,
-    _kind: i32,
-    _value: *mut Boolean,
-) -> Status {
-    absent(component, "fmi2GetBooleanStatus")
-}
-
-#[unsafe(no_mangle)]
-pub extern "C" fn fmi2GetStringStatus(
-    component: Component,
-    _kind: i32,
-    _value: *mut *const c_char,
-) -> Status {
-    absent(component, "fmi2GetStringStatus")
 }
