@@ -19,7 +19,8 @@ pub use angle::ContactAngle;
 pub use ball_bearing::{BallBearing, BallBearingParameters};
 pub use ball_screw::{BallScrew, BallScrewParameters};
 pub use catalogue::{
-    CATALOGUE, CatalogueSize, DISSERTATION_DESIGNS, FINE_LEAD_SIZES, NamedDesign, STEERING_SIZES, named,
+    CATALOGUE, CatalogueSize, DISSERTATION_DESIGNS, FINE_LEAD_SIZES, NamedDesign, STEERING_SIZES,
+    named,
 };
 pub use limits::{
     BALL_RADIUS, LARGEST_CONFORMITY, LARGEST_CONTACT_ANGLE, LEAD, PITCH_RADIUS, SMALLEST_CONFORMITY,

@@ -66,7 +66,6 @@ fn said(command: Option<&Command>) -> Option<&'static str> {
         Some(Command::Screws(_)) => Some("computing whole screws ..."),
         Some(Command::Fmu(_)) => Some("building the unit's library ..."),
         Some(Command::A2l(_)) => Some("reading the image ..."),
-        Some(_) => Some("working ..."),
     }
 }
 

@@ -241,14 +241,24 @@ mod tests {
 
     #[test]
     fn every_name_is_found_and_says_its_size() {
-        let sizes = CATALOGUE.iter().chain(&FINE_LEAD_SIZES).chain(&STEERING_SIZES);
+        let sizes = CATALOGUE
+            .iter()
+            .chain(&FINE_LEAD_SIZES)
+            .chain(&STEERING_SIZES);
         for size in sizes {
             assert_eq!(named(size.name), Some(size.parameters()), "{}", size.name);
-            let said = size.name.split('x').map(|number| number.parse::<f32>().unwrap());
+            let said = size
+                .name
+                .split('x')
+                .map(|number| number.parse::<f32>().unwrap());
             let own = [size.nominal_diameter, size.lead, size.ball_diameter];
             for (said, own) in said.zip(own) {
                 // One rounding of the printed number, one of the length, one of the product.
-                assert!((own * 1e3 - said).abs() <= 3.0 * f32::EPSILON * said, "{}", size.name);
+                assert!(
+                    (own * 1e3 - said).abs() <= 3.0 * f32::EPSILON * said,
+                    "{}",
+                    size.name
+                );
             }
             assert!(size.design().is_ok(), "{}", size.name);
         }

@@ -50,8 +50,8 @@ fn scene(design: &Design, duty: &Duty) -> (f32, f32) {
 fn a_study_has_the_friction_of_the_caged_scene() {
     for (preload, lead) in [(0.0, 7e-3), (30.0, 7e-3), (0.0, 20e-3), (100.0, 10e-3)] {
         let design = Design {
-            preload,
             lead,
+            preload,
             ..SCREW
         };
         let found = figures(&design, &Duty::DEFAULT).unwrap();

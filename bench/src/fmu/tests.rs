@@ -61,11 +61,11 @@ fn elements(text: &str) -> Vec<(String, Vec<(String, String)>)> {
                 let attributes = element.attributes().map(|attribute| {
                     let attribute = attribute.unwrap();
                     (
-                        String::from_utf8(attribute.key.as_ref().to_vec()).unwrap(),
-                        String::from_utf8(attribute.value.to_vec()).unwrap(),
+                        attribute.key.as_ref().to_string(),
+                        attribute.value.to_string(),
                     )
                 });
-                let name = String::from_utf8(element.name().as_ref().to_vec()).unwrap();
+                let name = element.name().as_ref().to_string();
                 found.push((name, attributes.collect()));
             }
             _ => {}

@@ -120,7 +120,7 @@ pub fn place(notes: &[((i32, i32), &str)], ground: &Ground<'_>) -> Vec<Option<Pl
                     })
                 })
             };
-            // A line to its point goes past other marks.
+            // A line to its point goes past other marks and texts.
             let leads_past = |candidate: &Placed| {
                 let near = (
                     point.0.clamp(candidate.place.left, candidate.place.right),

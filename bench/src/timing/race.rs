@@ -26,6 +26,10 @@ const MOST: usize = 1000;
 /// Steps of the unit's chain in a call.
 const CHAIN: usize = 64;
 
+/// Places of the stack, and bytes between two of them at least: together a page, after which places repeat.
+const DEPTHS: usize = 20;
+const STEP: usize = 208;
+
 /// Calls over all inputs, so many times over.
 struct Batch {
     /// Runs it.
@@ -128,15 +132,20 @@ impl Race {
         for round in 0..rounds {
             for turn in 0..count {
                 let place = (turn + round) % count;
-                for mode in 0..MODES.len() {
-                    let baseline = self.entries[place].baseline;
-                    let empty = self.entries[baseline].batches[mode].time();
-                    let time = self.entries[place].batches[mode].time();
-                    let unit = unit.time() / CHAIN as f64;
-                    self.entries[place].samples[mode].push(Sample { time, empty, unit });
-                }
+                deeper(round % DEPTHS, &mut || self.turn(place, &mut unit));
             }
             done();
+        }
+    }
+
+    /// A batch of each kind, between the empty call and the unit.
+    fn turn(&mut self, place: usize, unit: &mut Batch) {
+        for mode in 0..MODES.len() {
+            let baseline = self.entries[place].baseline;
+            let empty = self.entries[baseline].batches[mode].time();
+            let time = self.entries[place].batches[mode].time();
+            let unit = unit.time() / CHAIN as f64;
+            self.entries[place].samples[mode].push(Sample { time, empty, unit });
         }
     }
 
@@ -176,6 +185,18 @@ impl Race {
             .map(|entry| -quantile(&self.net(Place(entry), mode), 0.5));
         faster.fold(spread, f64::max)
     }
+}
+
+/// Calls something with the stack so many steps further down. The system puts the stack somewhere else in every run, and where it
+/// lies to the data makes some calls slower by a quarter: a run goes through all places, or it would not come out as the next one.
+#[inline(never)]
+fn deeper(steps: usize, call: &mut dyn FnMut()) {
+    let room = black_box([0_u8; STEP]);
+    match steps.checked_sub(1) {
+        Some(steps) => deeper(steps, call),
+        None => call(),
+    }
+    black_box(room);
 }
 
 /// The unit: a chain of multiplications and additions, each of which waits for the one before.

@@ -239,7 +239,10 @@ fn picture(context: &Context, cases: &[Case]) -> Result<Figure, Failure> {
                 if sign == 1 && load == 50.0 {
                     notes.push(Note {
                         at,
-                        text: name.into(),
+                        text: name
+                            .trim_start_matches("closed form of ")
+                            .trim_start_matches("the ")
+                            .replace("impedance ", ""),
                     });
                 }
             }
