@@ -156,7 +156,7 @@ impl<T: Real, const O: usize> Results<T, O> {
     ///
     /// # Errors
     /// None that is known.
-    pub fn arrays<'py>(self, py: Python<'py>) -> PyResult<[Bound<'py, PyAny>; O]> {
+    pub fn arrays(self, py: Python<'_>) -> PyResult<[Bound<'_, PyAny>; O]> {
         let mut arrays = Vec::with_capacity(O);
         for values in self.values {
             arrays.push(shaped(py, values, &self.shape)?);

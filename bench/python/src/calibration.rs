@@ -86,13 +86,11 @@ pub fn text(py: Python<'_>, trace: &Bound<'_, PyAny>) -> PyResult<String> {
 fn dict<'py>(name: &str, mapping: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyDict>> {
     let py = mapping.py();
     let made = py.get_type::<PyDict>().call1((mapping,));
-    match made.ok().and_then(|dict| dict.cast_into::<PyDict>().ok()) {
-        Some(dict) => Ok(dict),
-        None => {
-            let message = format!("{name} must be a dict, not {}", mapping.get_type().name()?);
-            Err(refused(py, Refused::type_of(name, message)))
-        }
+    if let Some(dict) = made.ok().and_then(|dict| dict.cast_into::<PyDict>().ok()) {
+        return Ok(dict);
     }
+    let message = format!("{name} must be a dict, not {}", mapping.get_type().name()?);
+    Err(refused(py, Refused::type_of(name, message)))
 }
 
 fn no_numbers(py: Python<'_>, name: &str) -> PyErr {

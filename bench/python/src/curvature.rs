@@ -79,7 +79,7 @@ impl Arches {
     fn of_block(
         &mut self,
         inputs: &[&[f32]; 6],
-        constant: &[bool; 6],
+        constant: [bool; 6],
     ) -> Option<(GothicArch, [ContactAngle; BLOCK])> {
         if !matches!(constant, [true, true, _, true, true, true]) {
             return None;
@@ -118,7 +118,7 @@ impl Kernel<f32, 6, 2> for Arches {
 
     /// One groove at many contact angles.
     fn block(&mut self, block: &mut Block<'_, f32, 6, 2>) -> bool {
-        let Some((arch, angles)) = self.of_block(&block.inputs, &block.constant) else {
+        let Some((arch, angles)) = self.of_block(&block.inputs, block.constant) else {
             return false;
         };
         let [kappa1, kappa2] = &mut block.outputs;
@@ -232,7 +232,7 @@ impl Kernel<f32, 6, 1> for Fits {
         if fit_range(largest) > fit_range(0.0) {
             return false;
         }
-        let Some((arch, angles)) = self.arches.of_block(&block.inputs, &block.constant) else {
+        let Some((arch, angles)) = self.arches.of_block(&block.inputs, block.constant) else {
             return false;
         };
         let numbers = block.inputs.map(|values| values[0]);

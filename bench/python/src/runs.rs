@@ -84,17 +84,15 @@ fn columns<C: Columns>(
 /// The circuit of balls of a design.
 fn uncaged(py: Python<'_>, design: &Design, memory: bool) -> PyResult<Uncaged> {
     let inner = (*design.inner).clone();
-    match inner.uncaged {
-        Some(balls) => Ok(Uncaged {
+    if let Some(balls) = inner.uncaged {
+        return Ok(Uncaged {
             design: inner,
             balls,
             memory,
-        }),
-        None => {
-            let message = format!("{} says nothing of its circuit of balls", inner.name);
-            Err(refused(py, Refused::value("uncaged", message)))
-        }
+        });
     }
+    let message = format!("{} says nothing of its circuit of balls", inner.name);
+    Err(refused(py, Refused::value("uncaged", message)))
 }
 
 /// A caged ball screw over a trace, as the command ``simulate`` runs it, to the bit.

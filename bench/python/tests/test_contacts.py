@@ -135,3 +135,28 @@ def test_layouts_of_memory_give_the_same() -> None:
     np.testing.assert_array_equal(whole, ef.friction_map(1.0, np.array([0, 1, 2], np.uint8)).force)
     assert ef.friction_map(0.3, np.zeros((0, 4))).force.shape == (0, 4)
     assert ef.friction_map(0.3, 0.1).force.shape == ()
+
+
+@pytest.mark.parametrize("balls", [2, 8, 9, 37, 64])
+def test_balls_that_press(balls: int) -> None:
+    random = np.random.default_rng(balls)
+    free, impedance = random.normal(0.0, 1e-3, (200, balls)), random.uniform(0.5, 2.0, (200, balls))
+    forces = ef.contact_forces(free, impedance)
+    assert forces.shape == (200, balls - 1) and forces.dtype == np.float32
+    # No ball passes through another, none pulls, and none presses on one that runs away: within 6e-7 of the largest force, which is
+    # the promise for impedances that differ by a factor of 4, twice for the sums of two forces, and the rounding of the inputs.
+    push = np.pad(forces.astype(np.float64), ((0, 0), (1, 1)))
+    speed = free + (push[:, :-1] - push[:, 1:]) / impedance
+    gap = np.diff(speed, axis=1)
+    slack = 4e-6 * max(forces.max(), 1e-3) / 0.5
+    assert forces.min() >= 0.0 and gap.min() > -slack
+    assert np.abs(gap[forces > 0.0]).max() < slack and (forces > 0.0).any()
+
+
+def test_rows_of_balls_are_refused() -> None:
+    for shape in [(), (1,), (3, 65), (0,)]:
+        with pytest.raises(ef.ShapeError):
+            ef.contact_forces(np.zeros(shape), 1.0)
+    with pytest.raises(ef.Error) as error:
+        ef.contact_forces(np.zeros((2, 3)), [1.0, 0.0, 1.0])
+    assert (error.value.field, error.value.index) == ("impedance", (0, 1))

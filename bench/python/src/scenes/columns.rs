@@ -41,11 +41,11 @@ pub trait Columns: Send + Sized {
 }
 
 /// A regime and a set of faults as Python knows them.
-fn flags<'py>(
-    py: Python<'py>,
+fn flags(
+    py: Python<'_>,
     regime: Regime,
     faults: epas_friction::Faults,
-) -> PyResult<[Bound<'py, PyAny>; 2]> {
+) -> PyResult<[Bound<'_, PyAny>; 2]> {
     Ok([
         result(py, "Regime", (self::regime(regime),))?,
         result(py, "Faults", (faults.bits(),))?,
