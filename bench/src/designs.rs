@@ -19,11 +19,13 @@ use epas_friction::{
 };
 use serde::Deserialize;
 
+pub use plausible::SOURCES;
+
 use crate::failure::Failure;
 use crate::files::standard;
 use calibration::Calibrated;
 use loads::{LoadCase, LoadsTable};
-use tables::{MaterialTable, from_file, groove_size, material, radius, replace};
+use tables::{MaterialTable, clearance, from_file, groove_size, material, radius, replace};
 use train::{LinearDesign, UncagedDesign, UncagedTable};
 
 /// A design with what the in-loop model has to know beside it.
@@ -42,16 +44,6 @@ pub struct Design {
     /// What a measured trace has told of it, where there is one.
     pub calibrated: Option<Calibrated>,
 }
-
-/// Where the numbers of the built-in designs come from.
-pub const SOURCES: &str = "
-Sizes: 125x10x7.144 to 25x80x3.5 of Bertolino et al. 2023, Tables A1 and A2; 16x5x3.175 to 63x10x6.35 usual catalogue sizes;
-25x7x3.5 to 30x8x4.762 assumed, near a steering gear's; lin-... of Lin 2019.
-Friction: 0.075 for the papers' sizes, that of the example of Lin et al. 1994; 0.1 for the others, with which the drag torque of
-braced nuts is that of JIS B 1192.
-Clearance: -1 um is an oversize, the least preload that sorted balls set; 0 balls that just fit.
-Rolling resistance of all: 0.01 of the elastic energy, hardened steel, without lubricant drag.
-A design file sets friction, clearance or preload, hysteresis_loss and lubricant_drag; calibrate fits them to a trace.";
 
 /// Settings that a catalogue does not print.
 const FRICTION: f32 = 0.075;
@@ -92,7 +84,8 @@ impl Design {
 }
 
 /// Every built-in design, those of the dissertation last.
-pub fn built_in() -> impl Iterator<Item = (&'static str, BallScrewParameters, Option<u16>)> {
+pub fn built_in() -> impl Iterator<Item = (&'static str, BallScrewParameters, Option<u16>)> + Clone
+{
     let sizes = CATALOGUE
         .iter()
         .chain(&FINE_LEAD_SIZES)
@@ -143,7 +136,7 @@ impl FromStr for DesignSource {
             .ok_or_else(|| {
                 let near = plausible::nearest(text, built_in().map(|(name, ..)| name));
                 format!(
-                    "no built-in design has this name; the nearest is {near} (`simulate --list` prints all), and a \
+                    "no built-in design has this name; perhaps {near} (`simulate --list` prints all), and a \
                      design file ends in .toml"
                 )
             })
@@ -390,24 +383,6 @@ fn usual_balls(design: &BallScrew) -> u16 {
     let turn = TAU * design.pitch_radius() / design.cos_lead_angle();
     // Not less than one, and within the range of a configuration.
     (2.5 * turn / (2.0 * design.ball_radius())).clamp(1.0, 1e3) as u16
-}
-
-/// How balls fit between the grooves: the gap, m, or the preload of a contact, N, whichever a file gives.
-fn clearance(
-    design: &BallScrew,
-    gap: Option<f32>,
-    preload: Option<f32>,
-) -> Result<Clearance, String> {
-    match (gap, preload) {
-        (None, None | Some(0.0)) => Ok(Clearance::ZERO),
-        (Some(gap), None) => Clearance::new(gap)
-            .and_then(|clearance| clearance.checked(design))
-            .map_err(|error| error.to_string()),
-        (None, Some(force)) => {
-            Clearance::of_preload(design, force).map_err(|error| format!("preload: {error}"))
-        }
-        (Some(_), Some(_)) => Err("clearance and preload say the same; give one of them".into()),
-    }
 }
 
 /// A groove's own table, or what is given for both.

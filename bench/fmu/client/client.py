@@ -40,7 +40,7 @@ contact_angle = 0.7853982
 friction = 0.08
 loaded_balls = 16
 [limits]
-nut_speed = 100.0
+nut_speed = 500.0
 [uncaged]
 balls = 16
 turns = 1.1

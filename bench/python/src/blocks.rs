@@ -22,7 +22,7 @@ impl Real for f32 {
         value
     }
 
-    #[expect(clippy::cast_possible_truncation, reason = "rounded, as eval does")]
+    /// Rounded, as `eval` does.
     fn of_double(value: f64) -> Self {
         value as Self
     }

@@ -1,10 +1,5 @@
 //! `epas-friction` from Python: the crate's own functions and scenes over numpy arrays.
 
-// Python's functions take their arguments by value, and as many as a formula has.
-#![allow(clippy::needless_pass_by_value, clippy::too_many_arguments)]
-// Documentation is Python's, where back-quotes are doubled.
-#![allow(clippy::doc_markdown, clippy::missing_errors_doc)]
-
 mod argument;
 mod arrays;
 mod blocks;

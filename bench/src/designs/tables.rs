@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
-use epas_friction::{GrooveSize, Material};
+use epas_friction::{BallScrew, Clearance, GrooveSize, Material};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
@@ -111,5 +111,23 @@ pub fn material(own: Option<&MaterialTable>, common: &MaterialTable) -> Material
             common.density,
             Material::STEEL.density,
         ),
+    }
+}
+
+/// How balls fit between the grooves: the gap, m, or the preload of a contact, N, whichever a file gives.
+pub fn clearance(
+    design: &BallScrew,
+    gap: Option<f32>,
+    preload: Option<f32>,
+) -> Result<Clearance, String> {
+    match (gap, preload) {
+        (None, None | Some(0.0)) => Ok(Clearance::ZERO),
+        (Some(gap), None) => Clearance::new(gap)
+            .and_then(|clearance| clearance.checked(design))
+            .map_err(|error| error.to_string()),
+        (None, Some(force)) => {
+            Clearance::of_preload(design, force).map_err(|error| format!("preload: {error}"))
+        }
+        (Some(_), Some(_)) => Err("clearance and preload say the same; give one of them".into()),
     }
 }

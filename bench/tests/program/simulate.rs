@@ -124,7 +124,7 @@ fn a_name_that_is_near_is_suggested() {
         "",
     );
     assert!(
-        run.code == 2 && run.stderr.contains("nearest is 25x5x3.175"),
+        run.code == 2 && run.stderr.contains("perhaps 25x5x3.175"),
         "{}",
         run.stderr
     );
@@ -394,9 +394,9 @@ fn a_wrong_design_file_is_named_with_its_field() {
         (
             "= 0.032",
             "= 32",
-            "pitch_radius = 16 is out of range; allowed: 0.001 to 0.5 m",
+            "nominal_diameter = 32 is out of range; allowed: 0.002 to 1 m; lengths are in metres (32 mm? that is 0.032)",
         ),
-        ("= 6.35e-3", "= 6.35", "ball_radius"),
+        ("= 6.35e-3", "= 6.35", "ball_diameter = 6.35 is"),
         (
             "preload = 7",
             "preload = 7\nclearance = 0",

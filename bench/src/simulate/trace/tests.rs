@@ -1,0 +1,142 @@
+//! Tables of traces, good and refused.
+
+use super::*;
+use std::io::Cursor;
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Moment {
+    time: f64,
+    speed: f64,
+    load: f64,
+}
+
+impl Sample for Moment {
+    const COLUMNS: &'static [&'static str] = &["time", "nut_speed", "axial_load"];
+
+    fn read<E>(mut column: impl FnMut(&'static str) -> Result<f64, E>) -> Result<Self, E> {
+        Ok(Self {
+            time: column("time")?,
+            speed: column("nut_speed")?,
+            load: column("axial_load")?,
+        })
+    }
+
+    fn record(&self) -> Vec<String> {
+        [self.time, self.speed, self.load]
+            .map(|x| x.to_string())
+            .to_vec()
+    }
+
+    fn time(&self) -> f64 {
+        self.time
+    }
+
+    fn speed(&self) -> f64 {
+        self.speed
+    }
+
+    fn load(&self) -> f64 {
+        0.0
+    }
+}
+
+fn parse(text: &[u8]) -> Result<Vec<Moment>, Fault> {
+    super::parse(Cursor::new(text))
+}
+
+#[test]
+fn columns_stand_in_any_order_among_others() {
+    let text = "\u{feff}axial_load, gear ,time,nut_speed\n1e3,3,0,-2\n\n1e3,3,0.5,2\n";
+    let samples = parse(text.as_bytes()).unwrap();
+    assert_eq!(
+        samples,
+        [(0.0, -2.0), (0.5, 2.0)].map(|(time, speed)| Moment {
+            time,
+            speed,
+            load: 1e3,
+        })
+    );
+}
+
+#[test]
+fn headings_say_their_units() {
+    let text = "Time [ms],Nut speed (1/min),axial_load_kN\n0,60,1\n500,-60,-0\n";
+    let samples = parse(text.as_bytes()).unwrap();
+    let turn = 60.0 * (std::f64::consts::TAU / 60.0);
+    assert_eq!(
+        samples,
+        [(0.0, turn, 1e3), (0.5, -turn, 0.0)].map(|(time, speed, load)| Moment {
+            time,
+            speed,
+            load
+        })
+    );
+}
+
+#[test]
+fn every_fault_names_its_line() {
+    for (text, line, word) in [
+        ("", 1, "empty"),
+        ("time,nut_speed\n0,1\n", 1, "axial_load"),
+        ("time,nut_speed,axial_load,time\n0,1,2,3\n", 1, "twice"),
+        ("time,nut_speed,axial_load\n", 2, "empty"),
+        ("time,nut_speed,axial_load\n0,1,2\n1,fast,2\n", 3, "fast"),
+        (
+            "time,nut_speed,axial_load\n0,1,2\n\n\n1,fast,2\n",
+            5,
+            "fast",
+        ),
+        (
+            "time,nut_speed,axial_load\r\n0,1,2\r\n1,fast,2\r\n",
+            3,
+            "fast",
+        ),
+        ("time,nut_speed,axial_load\n0,1,2\n", 3, "single sample"),
+        (
+            "time,nut_speed,axial_load\n0,1,2\n0,1,2\n",
+            3,
+            "stands twice",
+        ),
+        ("time;nut_speed;axial_load\n0,5;1;2\n", 1, "semicolons"),
+        ("time\tnut_speed\taxial_load\n0\t1\t2\n", 1, "tabs"),
+        (
+            "time,nut_speed,axial_load\n0,\"1,5\",2\n",
+            2,
+            "in place of the comma",
+        ),
+        (
+            "time,nut_spd,axial_load\n0,1,2\n",
+            1,
+            "nut_speed is missing; the first line has time, nut_spd, axial_load",
+        ),
+        (
+            "time,nut_speed (m/s),axial_load\n0,1,2\n",
+            1,
+            "rad/s, deg/s",
+        ),
+        ("time,nut_speed_mm,axial_load\n0,1,2\n", 1, "nut_speed_rpm"),
+        (
+            "Time,Nut speed,nut_speed_rpm,axial_load\n0,1,1,2\n",
+            1,
+            "are both nut_speed",
+        ),
+        ("time,nut_speed,axial_load\n0,1,NaN\n", 2, "finite"),
+        ("time,nut_speed,axial_load\n0,1,-inf\n", 2, "finite"),
+        ("time,nut_speed,axial_load\n0,1,1e39\n", 2, "float32"),
+        ("time,nut_speed,axial_load\n0,1,2\n1,1\n", 3, "columns"),
+        ("time,nut_speed,axial_load\n0,1,\n", 2, "no number"),
+        (
+            "time,nut_speed,axial_load\n0,1,2\n1,1,2\n0.5,1,2\n",
+            4,
+            "back",
+        ),
+    ] {
+        let fault = parse(text.as_bytes()).unwrap_err();
+        assert!(
+            fault.line == line && fault.message.contains(word),
+            "{text:?}: {fault:?}"
+        );
+    }
+    let fault = parse(b"time,nut_speed,axial_load\n0,1,2\n0,\xff,2\n").unwrap_err();
+    assert_eq!(fault.line, 3);
+}
