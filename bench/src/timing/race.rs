@@ -188,7 +188,7 @@ impl Race {
 }
 
 /// Calls something with the stack so many steps further down. The system puts the stack somewhere else in every run, and where it
-/// lies to the data makes some calls slower by a quarter: a run goes through all places, or it would not come out as the next one.
+/// lies to the data may make a call slower: a run goes through all places, so that it comes out as the next one.
 #[inline(never)]
 fn deeper(steps: usize, call: &mut dyn FnMut()) {
     let room = black_box([0_u8; STEP]);
