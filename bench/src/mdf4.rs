@@ -8,9 +8,10 @@
 //! | [`file`] | groups and channels |
 //! | [`samples`] | the values of a channel, and which of them are invalid |
 //! | [`mapping`] | which channel is which column, where names differ |
+//! | [`columns`] | the columns that a command asks for, and gets |
 //! | [`choice`] | the channels of the wanted quantities, their units |
 //! | [`raster`] | channels of several rasters on one |
-//! | [`table`] | what a command asks for, and gets |
+//! | [`table`] | a file's columns |
 //! | [`write`] | writes a table |
 //!
 //! The structures of the blocks, the numbers of a record and the conversions are those of the crate `mdf4-rs`. It slices a file
@@ -20,6 +21,7 @@
 pub mod blocks;
 pub mod chain;
 pub mod choice;
+pub mod columns;
 pub mod file;
 pub mod mapping;
 pub mod raster;
@@ -30,8 +32,9 @@ pub mod table;
 mod tests;
 pub mod write;
 
+pub use columns::{Request, Table, Wanted};
 pub use mapping::Mapping;
-pub use table::{Request, Table, Wanted, read};
+pub use table::read;
 
 use std::path::Path;
 

@@ -16,6 +16,7 @@ mod strip;
 mod style;
 mod theme;
 mod thin;
+mod words;
 mod zoom;
 
 use plotters::prelude::*;
@@ -64,7 +65,7 @@ impl Panel {
         }
     }
 
-    fn draw(&self, area: &chart::Area<'_>) -> chart::Drawn {
+    fn draw(&self, area: &words::Area<'_>) -> words::Drawn {
         match self {
             Self::Chart(chart) | Self::Tall(chart) => chart.draw(area),
             Self::Map(map) => map.draw(area),
@@ -125,7 +126,7 @@ fn draw(size: (u32, u32), places: &[Place<'_>]) -> Result<String, Failure> {
     let mut svg = String::new();
     {
         let root = SVGBackend::with_string(&mut svg, drawn).into_drawing_area();
-        let draw = || -> chart::Drawn {
+        let draw = || -> words::Drawn {
             root.fill(&WHITE)?;
             for (panel, (left, top), (width, height)) in places {
                 let area = root

@@ -7,8 +7,8 @@
 
 use std::f64::consts::TAU;
 
+use super::columns::{Column, Table, Times};
 use super::samples::Samples;
-use super::table::{Column, Table, Times};
 use crate::units::{Dimension, Quantity, Unit, cut};
 
 /// Largest share of samples that may be invalid: what `calibrate` fills.

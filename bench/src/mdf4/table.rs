@@ -1,62 +1,13 @@
 //! What a command asks of a measurement file, and what it gets: columns in SI units on one raster.
 
-use std::collections::BTreeMap;
 use std::io::Read;
 
 use super::choice::{Chosen, choose, found};
+use super::columns::{Request, Table, Times};
 use super::file::{File, Group};
-use super::mapping::Mapping;
 use super::raster::{Track, align};
 use super::samples::{self, Samples};
-use crate::units::{Dimension, Quantity, Unit, cut, written};
-
-/// A quantity that a command reads.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Wanted {
-    /// Its column's name.
-    pub name: &'static str,
-    /// What it is.
-    pub quantity: Quantity,
-    /// What it cannot be measured in.
-    pub refuses: Option<Dimension>,
-}
-
-/// What a command asks for.
-#[derive(Clone, Copy, Debug)]
-pub struct Request<'a> {
-    /// Which quantities.
-    pub wanted: &'a [Wanted],
-    /// Whose raster is taken: the first of these that the file has.
-    pub master: &'a [Quantity],
-    /// Which channels, where not by name.
-    pub mapping: Option<&'a Mapping>,
-}
-
-/// A column.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Column {
-    /// Name of its channel.
-    pub name: String,
-    /// What it holds.
-    pub quantity: Quantity,
-    /// Unit in the file.
-    pub unit: Unit,
-    /// Values, SI.
-    pub values: Vec<f64>,
-}
-
-/// Columns on one raster.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Table {
-    /// Times, s, which never go back.
-    pub times: Vec<f64>,
-    /// Columns, as long.
-    pub columns: Vec<Column>,
-    /// Names of channels that were left aside, the first few.
-    pub ignored: Vec<String>,
-    /// What was done to the samples.
-    pub notes: Vec<String>,
-}
+use crate::units::{Quantity, Unit, cut, written};
 
 /// Most names of channels that are kept.
 const MOST_IGNORED: usize = 50;
@@ -112,9 +63,6 @@ fn absent(file: &File, request: &Request<'_>) -> String {
         found(file)
     )
 }
-
-/// Times of the groups by their numbers, each with whether it is valid.
-pub type Times = BTreeMap<usize, Samples>;
 
 /// Reads the chosen channels, group by group.
 fn tracks(file: &File, chosen: &[Chosen<'_>]) -> Result<(Times, Vec<Track>), String> {

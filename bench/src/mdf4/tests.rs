@@ -2,7 +2,8 @@
 
 use miniz_oxide::deflate::compress_to_vec_zlib;
 
-use super::table::{Request, Table, Wanted, of};
+use super::columns::{Request, Table, Wanted};
+use super::table::of;
 use crate::units::{Part, Quantity};
 
 const WANTED: [Wanted; 2] = [

@@ -1,9 +1,7 @@
 //! Series over two axes, with title, legend and texts beside points.
 
-use std::error::Error;
 use std::ops::Range;
 
-use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
@@ -11,9 +9,8 @@ use super::legend;
 use super::notes::{Ground, Placed, Rect, place};
 use super::scale::Axis;
 use super::series::{Axes, Series};
-use super::style::{
-    FONT, LABEL_SIZE, LINE_HEIGHT, TEXT, TICK_SIZE, TITLE_SIZE, lines, px, text_width,
-};
+use super::style::{LABEL_SIZE, LINE_HEIGHT, px, text_width};
+use super::words::{Area, Drawn, draw_lines, draw_title, label_style, tick_style};
 
 /// A chart.
 #[derive(Clone, Debug)]
@@ -39,9 +36,6 @@ pub struct Note {
     pub text: String,
 }
 
-pub type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-pub type Drawn = Result<(), Box<dyn Error>>;
-
 /// Height of the numbers and the label below a horizontal axis.
 const X_LABELS: i32 = px(48);
 /// Width of the numbers and the label beside a vertical axis.
@@ -52,42 +46,6 @@ const Y_NUMBERS: i32 = px(60);
 const X_ROOM: i32 = px(58);
 /// Room for one number along a vertical axis.
 const Y_ROOM: i32 = px(30);
-
-/// Draws a title in the first lines of an area; the height that it takes.
-pub fn draw_title(area: &Area<'_>, title: &str) -> Result<i32, Box<dyn Error>> {
-    let width = area.dim_in_pixel().0 as i32;
-    let style = TextStyle::from((FONT, TITLE_SIZE).into_font())
-        .color(&TEXT)
-        .pos(Pos::new(HPos::Center, VPos::Top));
-    let lines = lines(title, TITLE_SIZE, width - px(12));
-    for (index, line) in lines.iter().enumerate() {
-        let top = px(6) + LINE_HEIGHT * index as i32;
-        area.draw(&Text::new(line.clone(), (width / 2, top), style.clone()))?;
-    }
-    Ok(LINE_HEIGHT * lines.len() as i32)
-}
-
-/// Draws lines of text at the left from `top` on; the height that they take.
-pub fn draw_lines(area: &Area<'_>, text: &str, top: i32) -> Result<i32, Box<dyn Error>> {
-    let width = area.dim_in_pixel().0 as i32;
-    let style = label_style().pos(Pos::new(HPos::Left, VPos::Top));
-    let lines = lines(text, LABEL_SIZE, width - px(20));
-    for (index, line) in lines.iter().enumerate() {
-        let place = (px(10), top + LINE_HEIGHT * index as i32);
-        area.draw(&Text::new(line.clone(), place, style.clone()))?;
-    }
-    Ok(LINE_HEIGHT * lines.len() as i32)
-}
-
-/// Style of the numbers along an axis.
-pub fn tick_style() -> TextStyle<'static> {
-    TextStyle::from((FONT, TICK_SIZE).into_font()).color(&TEXT)
-}
-
-/// Style of an axis' label.
-pub fn label_style() -> TextStyle<'static> {
-    TextStyle::from((FONT, LABEL_SIZE).into_font()).color(&TEXT)
-}
 
 /// How many numbers an axis of this length has room for.
 pub fn room(length: i32, each: i32) -> usize {

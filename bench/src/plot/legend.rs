@@ -3,9 +3,9 @@
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::chart::{Area, Drawn, tick_style};
 use super::series::{Mark, Series};
 use super::style::{LINE_HEIGHT, STROKE, TICK_SIZE, lines as pieces, px, text_width};
+use super::words::{Area, Drawn, tick_style};
 
 /// An entry of a legend: its place, its series where its sample stands before it, and its words.
 pub type Entry<'a> = (i32, Option<&'a Series>, String);

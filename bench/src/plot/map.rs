@@ -5,10 +5,11 @@ use std::ops::Range;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::chart::{Area, Drawn, draw_lines, draw_title, label_style, room, tick_style};
+use super::chart::room;
 use super::scale::Axis;
 use super::series::Axes;
 use super::style::{LABEL_SIZE, TICK_SIZE, px, text_width};
+use super::words::{Area, Drawn, draw_lines, draw_title, label_style, tick_style};
 
 /// Values on a grid of cells, in bands between the given bounds.
 #[derive(Clone, Debug)]

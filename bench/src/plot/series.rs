@@ -5,10 +5,10 @@ use std::ops::Range;
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 
-use super::chart::Drawn;
 use super::scale::Axis;
 use super::style::{PALETTE, STROKE, px};
 use super::thin::straightened;
+use super::words::Drawn;
 
 /// A chart with its axes, on the way to a picture.
 pub type Axes<'a, 'b> =

@@ -3,9 +3,9 @@
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::chart::{Area, Drawn, tick_style};
 use super::scale::Axis;
 use super::style::{PALETTE, px};
+use super::words::{Area, Drawn, tick_style};
 
 /// States over a horizontal axis.
 #[derive(Clone, Debug)]
