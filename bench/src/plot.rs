@@ -111,9 +111,15 @@ pub fn narrow(panel: &Panel) -> Panel {
     }
 }
 
-/// Draws one panel, so many pixels wide and, where it is no strip, so many high.
+/// Draws one panel, so many pixels wide and, where it is no strip, so many high, or more where a long legend needs it.
 pub fn render_one(panel: &Panel, (width, height): (u32, u32)) -> Result<String, Failure> {
-    let height = panel.height(height);
+    let least = match panel {
+        Panel::Chart(chart) | Panel::Tall(chart) => {
+            (chart.least_height(width as i32 * SCALE) / SCALE).unsigned_abs()
+        }
+        Panel::Map(_) | Panel::Strip(_) => 0,
+    };
+    let height = panel.height(height).max(least);
     draw((width, height), &[(panel, (0, 0), (width, height))])
 }
 

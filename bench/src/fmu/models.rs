@@ -95,9 +95,16 @@ pub fn mechanism<const N: usize>(
 pub fn row(design: &Design) -> Result<Uncaged, String> {
     Ok(Uncaged {
         design: design.clone(),
-        balls: design.uncaged.ok_or("the design has no row of balls")?,
+        balls: design.uncaged.ok_or_else(|| no_row(&design.name))?,
         memory: true,
     })
+}
+
+/// What a design lacks that says nothing of a row of balls.
+pub fn no_row(design: &str) -> String {
+    format!(
+        "{design} says nothing of its balls: a design file does in a table [uncaged], and of the built-in designs lin-3.6"
+    )
 }
 
 /// A screw whose balls press on each other.

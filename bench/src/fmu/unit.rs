@@ -128,11 +128,7 @@ impl Unit {
         let balls = match (scene.has_row(), balls) {
             (false, _) => 0,
             (true, Some(balls)) => balls,
-            (true, None) => {
-                return Err(format!(
-                    "{design} says nothing of its balls: a design file does in a table [uncaged], and of the built-in designs lin-3.6"
-                ));
-            }
+            (true, None) => return Err(models::no_row(&design)),
         };
         let mut variables = vec![TIME];
         variables.extend(inputs(scene));

@@ -9,7 +9,7 @@ use super::legend;
 use super::notes::{Ground, Placed, Rect, place};
 use super::scale::Axis;
 use super::series::{Axes, Series};
-use super::style::{LABEL_SIZE, LINE_HEIGHT, px, text_width};
+use super::style::{LABEL_SIZE, LINE_HEIGHT, TITLE_SIZE, lines, px, text_width};
 use super::words::{Area, Drawn, draw_lines, draw_title, label_style, tick_style};
 
 /// A chart.
@@ -42,6 +42,8 @@ const X_LABELS: i32 = px(48);
 const Y_LABELS: i32 = px(84);
 /// Width of the numbers alone, where the label stands above.
 const Y_NUMBERS: i32 = px(60);
+/// Height of the shortest vertical axis.
+const LEAST_AXIS: i32 = px(120);
 /// Room for one number along a horizontal axis.
 const X_ROOM: i32 = px(58);
 /// Room for one number along a vertical axis.
@@ -53,6 +55,15 @@ pub fn room(length: i32, each: i32) -> usize {
 }
 
 impl Chart {
+    /// Height, in pixels of the drawing, at which title and legend leave the axes room in a drawing so many pixels wide.
+    pub fn least_height(&self, width: i32) -> i32 {
+        let title = lines(&self.title, TITLE_SIZE, width - px(12)).len();
+        let legend = legend::lines_of(&self.series, width).len();
+        // A line for the label of the vertical axis.
+        let header = LINE_HEIGHT * (title + legend + 1) as i32;
+        header + px(20) + X_LABELS + LEAST_AXIS
+    }
+
     /// Draws the chart into its area.
     pub fn draw(&self, area: &Area<'_>) -> Drawn {
         let (width, height) = area.dim_in_pixel();
