@@ -230,7 +230,7 @@ fn what_a_train_cannot_run_is_named() {
                 "--input",
                 "single.csv",
             ],
-            "two samples",
+            "single sample",
         ),
         (
             &[
