@@ -13,7 +13,7 @@ use crate::simulate::remembering::{Remembers, Use};
 /// What a step is told.
 #[derive(Clone, Copy, Debug)]
 pub struct Moment<'a> {
-    /// Inputs, in the order of [`super::variables::inputs`].
+    /// Inputs, in the order of `variables::inputs`.
     pub inputs: &'a [f64],
     /// Time at its start, s.
     pub time: f64,
@@ -32,7 +32,7 @@ impl Moment<'_> {
 
 /// A model that runs.
 pub trait Running: Send {
-    /// Outputs at the end of a step, in the order of [`super::variables::outputs`].
+    /// Outputs at the end of a step, in the order of `variables::outputs`.
     ///
     /// # Errors
     /// An input under which there is no motion; nothing has moved.

@@ -80,7 +80,7 @@ pub struct Variable {
     pub causality: Causality,
     /// What it holds.
     pub kind: Kind,
-    /// Unit, one of [`super::units`]; none for a plain number.
+    /// Unit, one of `units`; none for a plain number.
     pub unit: Option<&'static str>,
     /// What it is, in words, with its range where it has one.
     pub about: &'static str,
