@@ -4,6 +4,7 @@
 #include "epas_test.h"
 
 static epas_caged_t caged;
+static epas_memory_t memory;
 static epas_screw_t screw;
 static epas_linear_t linear;
 
@@ -16,9 +17,11 @@ static epas_linear_t linear;
 #define STEP_STACK 640u
 
 static const epas_inputs_t inputs = {120.0f, 8000.0f};
+static const epas_memory_inputs_t memory_inputs = {120.0f, 8000.0f, 100u, 0.0f, 303.15f, 0.0f};
 static const epas_linear_inputs_t linear_inputs = {0.3f, 2000.0f, 700.0f};
 
 static void set_up_caged(void) { (void)test_setup_caged(&caged); }
+static void set_up_memory(void) { (void)test_setup_memory(&memory); }
 static void set_up_screw(void) { (void)test_setup_screw(&screw); }
 static void set_up_linear(void) { (void)test_setup_linear(&linear); }
 
@@ -27,6 +30,8 @@ static epas_screw_outputs_t screw_outputs;
 static epas_linear_outputs_t linear_outputs;
 
 static void step_caged(void) { (void)epas_caged_step(&caged, &inputs, &outputs); }
+static void step_memory(void) { (void)epas_memory_step(&memory, &memory_inputs, &outputs); }
+static void between_memory(void) { (void)epas_memory_between(&memory, 103u, &outputs); }
 static void step_screw(void) { (void)epas_screw_step(&screw, &inputs, &screw_outputs); }
 static void step_linear(void) { (void)epas_linear_step(&linear, &linear_inputs, &linear_outputs); }
 
@@ -64,9 +69,12 @@ static uint32_t stacks(void)
 
     /* Set-up happens once, outside of the control loop: no bound but that of the paint. */
     wrong += stack_within("epas_caged_init", set_up_caged, (4u * PAINTED_WORDS) - 4u);
+    wrong += stack_within("epas_memory_init", set_up_memory, (4u * PAINTED_WORDS) - 4u);
     wrong += stack_within("epas_screw_init with its tables", set_up_screw, (4u * PAINTED_WORDS) - 4u);
     wrong += stack_within("epas_linear_init with its table", set_up_linear, (4u * PAINTED_WORDS) - 4u);
     wrong += stack_within("epas_caged_step", step_caged, STEP_STACK);
+    wrong += stack_within("epas_memory_step", step_memory, STEP_STACK);
+    wrong += stack_within("epas_memory_between", between_memory, STEP_STACK);
     wrong += stack_within("epas_screw_step", step_screw, STEP_STACK);
     wrong += stack_within("epas_linear_step", step_linear, STEP_STACK);
     return wrong;
@@ -120,7 +128,7 @@ static uint32_t interrupts(void)
 
 int main(void)
 {
-    const uint32_t wrong = test_cases() + test_refusals() + test_reaction() + stacks() + interrupts();
+    const uint32_t wrong = test_cases() + test_refusals() + test_changes() + test_reaction() + stacks() + interrupts();
 
     test_put((wrong == 0u) ? "passed\n" : "FAILED\n");
     return (wrong == 0u) ? 0 : 1;

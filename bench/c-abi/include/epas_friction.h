@@ -519,6 +519,121 @@ extern "C" {
 #define EPAS_FIELD_HYSTERESIS 73u
 
 /**
+ * `encoder.period`
+ */
+#define EPAS_FIELD_PERIOD 74u
+
+/**
+ * `encoder.turn_per_count`
+ */
+#define EPAS_FIELD_TURN_PER_COUNT 75u
+
+/**
+ * `encoder.largest_turn`
+ */
+#define EPAS_FIELD_LARGEST_TURN 76u
+
+/**
+ * `encoder.play`
+ */
+#define EPAS_FIELD_PLAY 77u
+
+/**
+ * `coefficient.boundary`
+ */
+#define EPAS_FIELD_BOUNDARY 78u
+
+/**
+ * `coefficient.full_film`
+ */
+#define EPAS_FIELD_FULL_FILM 79u
+
+/**
+ * `coefficient.half_share_speed`
+ */
+#define EPAS_FIELD_HALF_SHARE_SPEED 80u
+
+/**
+ * `coefficient.reference_temperature`
+ */
+#define EPAS_FIELD_REFERENCE_TEMPERATURE 81u
+
+/**
+ * `forward`
+ */
+#define EPAS_FIELD_FORWARD 82u
+
+/**
+ * `backward`
+ */
+#define EPAS_FIELD_BACKWARD 83u
+
+/**
+ * `coefficient.churning`
+ */
+#define EPAS_FIELD_CHURNING 84u
+
+/**
+ * `oil.kinematic_viscosity_40`
+ */
+#define EPAS_FIELD_KINEMATIC_VISCOSITY_40 85u
+
+/**
+ * `oil.kinematic_viscosity_100`
+ */
+#define EPAS_FIELD_KINEMATIC_VISCOSITY_100 86u
+
+/**
+ * `oil.density`
+ */
+#define EPAS_FIELD_OIL_DENSITY 87u
+
+/**
+ * `oil.pour_point`
+ */
+#define EPAS_FIELD_POUR_POINT 88u
+
+/**
+ * The least or largest friction coefficient of a law, with its factors.
+ */
+#define EPAS_FIELD_COEFFICIENT 89u
+
+/**
+ * `reference_load`
+ */
+#define EPAS_FIELD_REFERENCE_LOAD 90u
+
+/**
+ * `breakaway_angle`
+ */
+#define EPAS_FIELD_BREAKAWAY_ANGLE 91u
+
+/**
+ * `load_hold`
+ */
+#define EPAS_FIELD_LOAD_HOLD 92u
+
+/**
+ * `load_fade`
+ */
+#define EPAS_FIELD_LOAD_FADE 93u
+
+/**
+ * `fallback_temperature`
+ */
+#define EPAS_FIELD_FALLBACK_TEMPERATURE 94u
+
+/**
+ * `temperature_hold`
+ */
+#define EPAS_FIELD_TEMPERATURE_HOLD 95u
+
+/**
+ * `temperature_fade`
+ */
+#define EPAS_FIELD_TEMPERATURE_FADE 96u
+
+/**
  * Samples in a period of a deviation.
  */
 #define EPAS_DEVIATION_SAMPLES 64
@@ -585,12 +700,12 @@ extern "C" {
 #define EPAS_REGIME_LOCKED 3u
 
 /**
- * The speed is NaN or infinite: no friction is put out.
+ * The speed is NaN or infinite: no friction is put out; in `epas_memory_t` the last sound speed and load stand in.
  */
 #define EPAS_FAULT_SPEED_NOT_FINITE 1u
 
 /**
- * A load is NaN or infinite: no friction is put out.
+ * A load is NaN or infinite: as for the speed.
  */
 #define EPAS_FAULT_LOAD_NOT_FINITE 2u
 
@@ -622,6 +737,26 @@ extern "C" {
 #define EPAS_FAULT_SETTLING 64u
 
 /**
+ * A reading of the angle is missing or cannot be right: friction stays where it is, and the next reading spans the gap.
+ */
+#define EPAS_FAULT_ANGLE_NOT_VALID 128u
+
+/**
+ * The temperature is NaN or beyond its range: the last one, or the bound, stands in for it.
+ */
+#define EPAS_FAULT_TEMPERATURE_RANGE 256u
+
+/**
+ * A load is older than it may be: its friction fades away.
+ */
+#define EPAS_FAULT_LOAD_STALE 512u
+
+/**
+ * A temperature is older than it may be: the fallback stands in for it.
+ */
+#define EPAS_FAULT_TEMPERATURE_STALE 1024u
+
+/**
  * The call itself was refused (its status says why): no friction is put out.
  */
 #define EPAS_FAULT_CALL 2147483648u
@@ -635,6 +770,16 @@ extern "C" {
  * Size of `epas_caged_t` in words of eight bytes.
  */
 #define EPAS_CAGED_WORDS 271
+
+/**
+ * Bytes of a state of a screw whose friction remembers, as `epas_memory_export` writes it.
+ */
+#define EPAS_MEMORY_STATE_BYTES 225u
+
+/**
+ * Size of `epas_memory_t` in words of eight bytes.
+ */
+#define EPAS_MEMORY_WORDS 726
 
 /**
  * Balls in the circuit of `epas_screw_t`, return included. A screw with another number needs the library
@@ -672,7 +817,7 @@ extern "C" {
  * Version of the structures and functions of this header; `epas_abi_version` returns the library's. It rises
  * whenever a structure, a function or what a place holds changes.
  */
-#define EPAS_ABI_VERSION 5u
+#define EPAS_ABI_VERSION 6u
 
 /**
  * Place for the constants and the state of an adaptation; as `epas_caged_t`.
@@ -879,16 +1024,14 @@ typedef struct epas_adaptation_outputs_t {
 } epas_adaptation_outputs_t;
 
 /**
- * Place for the constants and the state of a caged ball screw. The caller provides it, in memory of
- * static duration or any other; nothing in it is for the caller to read or write. Zero it, or leave it
- * as a static object is; then give it to `epas_caged_init`.
+ * Place for the constants and the state of a caged ball screw whose friction remembers; as `epas_caged_t`.
  */
-typedef struct epas_caged_t {
+typedef struct epas_memory_t {
     /**
      * Not for the caller. Its type gives the place its alignment.
      */
-    uint64_t words[EPAS_CAGED_WORDS];
-} epas_caged_t;
+    uint64_t words[EPAS_MEMORY_WORDS];
+} epas_memory_t;
 
 /**
  * An isotropic elastic material.
@@ -1015,19 +1158,167 @@ typedef struct epas_caged_configuration_t {
 } epas_caged_configuration_t;
 
 /**
- * What the control interrupt knows at a tick.
+ * An encoder that counts turns of the nut.
  */
-typedef struct epas_inputs_t {
+typedef struct epas_encoder_t {
     /**
-     * Angular speed of the nut relative to the screw, rad/s.
+     * Counts after which the counter starts again at 0: 2 to 4294967295; 0 for a counter of all 32 bits.
+     */
+    uint32_t period;
+    /**
+     * Turn of the nut for one count, rad, negative where the counter runs the other way; size 1e-9 to 1. A motor's
+     * encoder of 14 bits with a belt of ratio 2.5: `2 pi / 16384 / 2.5`.
+     */
+    float turn_per_count;
+    /**
+     * Most that the nut turns between two readings, rad: largest speed times the longest gap; at most half a period.
+     */
+    float largest_turn;
+    /**
+     * Half of the play behind which the model follows the counts, rad, 0 to 1e3: at least half the width of the
+     * encoder's noise, counts included. Noise within it turns nothing; after a reversal friction is late by twice that.
+     */
+    float play;
+} epas_encoder_t;
+
+/**
+ * A lubricant by its data sheet; of a grease its base oil.
+ */
+typedef struct epas_oil_t {
+    /**
+     * Kinematic viscosity at 40 degrees Celsius, m^2/s; at least 1.5 times that at 100 degrees. 100 mm^2/s is 100e-6.
+     */
+    float kinematic_viscosity_40;
+    /**
+     * Kinematic viscosity at 100 degrees Celsius, m^2/s; 1e-7 to 1e-2.
+     */
+    float kinematic_viscosity_100;
+    /**
+     * Density at 15 degrees Celsius, kg/m^3, 500 to 2000.
+     */
+    float density;
+    /**
+     * Pour point, K, 150 to 313.15: the oil does not flow below it.
+     */
+    float pour_point;
+} epas_oil_t;
+
+/**
+ * Friction coefficient by speed, temperature and direction; one number where `boundary` and `full_film` are the same and
+ * both factors 1.
+ */
+typedef struct epas_coefficient_t {
+    /**
+     * Coefficient at standstill, 1e-6 to 0.5: boundary lubrication.
+     */
+    float boundary;
+    /**
+     * Coefficient at high speed, 1e-6 to 0.5: a film carries.
+     */
+    float full_film;
+    /**
+     * Nut speed at which half of the difference is gone, at the reference temperature, rad/s, 1e-3 to 1e4.
+     */
+    float half_share_speed;
+    /**
+     * Temperature of that speed, K, to 500.
+     */
+    float reference_temperature;
+    /**
+     * Factor of both coefficients in the positive direction, 0.1 to 10.
+     */
+    float forward;
+    /**
+     * The same in the negative direction.
+     */
+    float backward;
+    /**
+     * Torque of churned lubricant over its viscosity and the nut speed, m^3, 0 to 1; 0 for none.
+     */
+    float churning;
+    /**
+     * The lubricant.
+     */
+    struct epas_oil_t oil;
+} epas_coefficient_t;
+
+/**
+ * What the engineer sets for a caged ball screw whose friction remembers.
+ */
+typedef struct epas_memory_configuration_t {
+    /**
+     * The screw. Its branch is `EPAS_BRANCH_CONTACTS`, its friction coefficient 1e-6 to 0.5: that of which its first
+     * motion after a reversal is computed, best the boundary coefficient. Its reversal speed has no meaning here.
+     */
+    struct epas_caged_configuration_t screw;
+    /**
+     * The nut's angle.
+     */
+    struct epas_encoder_t encoder;
+    /**
+     * The friction coefficient in the loop.
+     */
+    struct epas_coefficient_t coefficient;
+    /**
+     * Axial load for which the first motion after a reversal is computed, N, 0 to 1e7: the usual one.
+     */
+    float reference_load;
+    /**
+     * Turn of the nut after a reversal within which slip of the balls builds up, rad, 1e-6 to 10, as measured; 0 for what
+     * follows from the design.
+     */
+    float breakaway_angle;
+    /**
+     * Age up to which a load counts as it is, s, 0 to 1e3.
+     */
+    float load_hold;
+    /**
+     * Time after that in which it fades to none, s, 1e-6 to 1e3.
+     */
+    float load_fade;
+    /**
+     * Temperature that stands in for one that is too old, K, 150 to 500.
+     */
+    float fallback_temperature;
+    /**
+     * Age up to which a temperature counts as it is, s, 0 to 86400.
+     */
+    float temperature_hold;
+    /**
+     * Time after that in which it gives way to the fallback, s, 1e-3 to 86400.
+     */
+    float temperature_fade;
+} epas_memory_configuration_t;
+
+/**
+ * What the control interrupt knows at a tick of a screw whose friction remembers.
+ */
+typedef struct epas_memory_inputs_t {
+    /**
+     * Angular speed of the nut relative to the screw, rad/s: the friction coefficient follows it.
      */
     float nut_speed;
     /**
-     * Axial force of the load, N; positive where it opposes the travel that a positive nut speed
-     * makes.
+     * Axial force of the load, N; as in `epas_inputs_t`.
      */
     float axial_load;
-} epas_inputs_t;
+    /**
+     * The encoder's count: the memory follows it. `period` or more is no reading.
+     */
+    uint32_t count;
+    /**
+     * Time since the load was found, s.
+     */
+    float load_age;
+    /**
+     * Temperature of the screw, K, 150 to 500.
+     */
+    float temperature;
+    /**
+     * Time since the temperature was found, s.
+     */
+    float temperature_age;
+} epas_memory_inputs_t;
 
 /**
  * What a ball screw whose balls do not touch returns at a tick; every number is finite.
@@ -1056,6 +1347,33 @@ typedef struct epas_outputs_t {
      */
     uint32_t faults;
 } epas_outputs_t;
+
+/**
+ * Place for the constants and the state of a caged ball screw. The caller provides it, in memory of
+ * static duration or any other; nothing in it is for the caller to read or write. Zero it, or leave it
+ * as a static object is; then give it to `epas_caged_init`.
+ */
+typedef struct epas_caged_t {
+    /**
+     * Not for the caller. Its type gives the place its alignment.
+     */
+    uint64_t words[EPAS_CAGED_WORDS];
+} epas_caged_t;
+
+/**
+ * What the control interrupt knows at a tick.
+ */
+typedef struct epas_inputs_t {
+    /**
+     * Angular speed of the nut relative to the screw, rad/s.
+     */
+    float nut_speed;
+    /**
+     * Axial force of the load, N; positive where it opposes the travel that a positive nut speed
+     * makes.
+     */
+    float axial_load;
+} epas_inputs_t;
 
 /**
  * Place for the constants and the state of a ball screw whose balls press on each other; as
@@ -1565,6 +1883,85 @@ uint32_t epas_adaptation_export(const struct epas_adaptation_t *place, uint8_t *
 uint32_t epas_adaptation_import(struct epas_adaptation_t *place, const uint8_t *bytes, uint32_t length);
 
 /**
+ * Makes a caged ball screw whose friction remembers in the place; as `epas_caged_init`.
+ */
+uint32_t epas_memory_init(struct epas_memory_t *place,
+                          const struct epas_memory_configuration_t *configuration,
+                          struct epas_failure_t *failure);
+
+/**
+ * One tick, every millisecond or so; as `epas_caged_step`. Where speed or load is no number the last ones stand in, and where
+ * the count is none friction stays where it is: flagged.
+ */
+uint32_t epas_memory_step(struct epas_memory_t *place,
+                          const struct epas_memory_inputs_t *inputs,
+                          struct epas_outputs_t *outputs);
+
+/**
+ * Friction between two steps, after a new count: for a current loop that runs faster than the step. Loads and the friction
+ * coefficient stay as the last step found them; before the first one there is no friction.
+ */
+uint32_t epas_memory_between(struct epas_memory_t *place,
+                             uint32_t count,
+                             struct epas_outputs_t *outputs);
+
+/**
+ * Sets the law of the friction coefficient, from the next step on; `epas_memory_reset` brings the configuration's back. Where
+ * it is refused the model goes on as it was. `failure` may be NULL. In the task of the step.
+ */
+uint32_t epas_memory_set_coefficient(struct epas_memory_t *place,
+                                     const struct epas_coefficient_t *law,
+                                     struct epas_failure_t *failure);
+
+/**
+ * Sets how large friction is beside that of the configuration in each direction, 0.1 to 10, from the next step or count on:
+ * what an `epas_adaptation_t` has found goes in here. `epas_memory_reset` brings 1 back. Where it is refused the model goes
+ * on as it was. `failure` may be NULL.
+ */
+uint32_t epas_memory_set_level(struct epas_memory_t *place,
+                               float forward,
+                               float backward,
+                               struct epas_failure_t *failure);
+
+/**
+ * Sets how balls fit between the grooves while the model runs; as `epas_caged_set_clearance`. The memory stays.
+ */
+uint32_t epas_memory_set_clearance(struct epas_memory_t *place,
+                                   float clearance,
+                                   struct epas_failure_t *failure);
+
+/**
+ * Back to the state before the first tick.
+ */
+uint32_t epas_memory_reset(struct epas_memory_t *place);
+
+/**
+ * Consecutive ticks with a fault; as `epas_caged_faulted_ticks`.
+ */
+uint32_t epas_memory_faulted_ticks(const struct epas_memory_t *place, uint32_t *ticks);
+
+/**
+ * Writes the state as a block of `EPAS_MEMORY_STATE_BYTES` bytes; as `epas_caged_export`.
+ */
+uint32_t epas_memory_export(const struct epas_memory_t *place, uint8_t *bytes, uint32_t length);
+
+/**
+ * Takes the state of a block over; as `epas_caged_import`. The turn since the block was written is unknown: the first count
+ * begins anew.
+ */
+uint32_t epas_memory_import(struct epas_memory_t *place,
+                            const uint8_t *bytes,
+                            uint32_t length);
+
+/**
+ * The same with the last count: the turn of the next one spans the time without power. Right only for an encoder that is
+ * absolute over all that the nut may have turned by.
+ */
+uint32_t epas_memory_import_with_count(struct epas_memory_t *place,
+                                       const uint8_t *bytes,
+                                       uint32_t length);
+
+/**
  * Makes a caged ball screw in the place. Set-up only. Where it fails, every step is refused until it
  * succeeds. `failure` may be NULL.
  */
@@ -1590,6 +1987,23 @@ uint32_t epas_caged_reset(struct epas_caged_t *place);
  * accuracy alone (`EPAS_FAULT_BEYOND_MODEL`, `EPAS_FAULT_SETTLING`).
  */
 uint32_t epas_caged_faulted_ticks(const struct epas_caged_t *place, uint32_t *ticks);
+
+/**
+ * Sets the friction coefficient of ball and groove while the model runs, 1e-6 to 0.5; `epas_caged_reset` brings the
+ * configuration's back. From the first call on a ball is renewed in every tick, which then takes about twice as long; until
+ * friction is exact again, after some ticks, it is flagged `EPAS_FAULT_SETTLING`. The closed forms keep their friction. Where
+ * it is refused the model goes on as it was. `failure` may be NULL. In the task of the step.
+ */
+uint32_t epas_caged_set_friction(struct epas_caged_t *place,
+                                 float friction,
+                                 struct epas_failure_t *failure);
+
+/**
+ * Sets how balls fit between the grooves, m, -0.02 to 0.05 ball radii; as `epas_caged_set_friction`.
+ */
+uint32_t epas_caged_set_clearance(struct epas_caged_t *place,
+                                  float clearance,
+                                  struct epas_failure_t *failure);
 
 /**
  * Makes a ball screw of `EPAS_SCREW_BALLS` balls in the place. Set-up only. Where it fails, every step is
@@ -1624,6 +2038,21 @@ uint32_t epas_screw_reset(struct epas_screw_t *place);
 uint32_t epas_screw_faulted_ticks(const struct epas_screw_t *place, uint32_t *ticks);
 
 /**
+ * Sets the friction coefficient of ball and groove, 1e-6 to 0.5; as `epas_caged_set_friction`. Balls take it over as their
+ * turn comes; where it jumps they settle, flagged `EPAS_FAULT_SETTLING`.
+ */
+uint32_t epas_screw_set_friction(struct epas_screw_t *place,
+                                 float friction,
+                                 struct epas_failure_t *failure);
+
+/**
+ * Sets how balls fit between the grooves, m; as `epas_screw_set_friction`.
+ */
+uint32_t epas_screw_set_clearance(struct epas_screw_t *place,
+                                  float clearance,
+                                  struct epas_failure_t *failure);
+
+/**
  * Makes a linear bearing of `EPAS_LINEAR_BALLS` balls in the place. Set-up only. Where it fails, every step is
  * refused until it succeeds. `failure` may be NULL.
  */
@@ -1655,6 +2084,14 @@ uint32_t epas_linear_reset(struct epas_linear_t *place);
  * accuracy alone (`EPAS_FAULT_BEYOND_MODEL`, `EPAS_FAULT_SETTLING`).
  */
 uint32_t epas_linear_faulted_ticks(const struct epas_linear_t *place, uint32_t *ticks);
+
+/**
+ * Sets the friction coefficient of ball and groove, 1e-6 to 1; as `epas_caged_set_friction`. Friction and all forces between
+ * balls follow it in proportion, from the next tick on.
+ */
+uint32_t epas_linear_set_friction(struct epas_linear_t *place,
+                                  float friction,
+                                  struct epas_failure_t *failure);
 
 /**
  * Writes the state as a block of `EPAS_CAGED_STATE_BYTES` bytes to the begin of `bytes`, which are `length` long: for the next

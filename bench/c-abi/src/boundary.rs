@@ -10,6 +10,7 @@
 #![allow(clippy::missing_safety_doc)]
 
 mod adaptation;
+mod memory;
 mod models;
 mod pointers;
 mod scenes;
@@ -17,6 +18,7 @@ mod stateless;
 mod tables;
 
 pub use adaptation::*;
+pub use memory::*;
 pub use scenes::*;
 pub use stateless::*;
 pub use tables::*;

@@ -1,7 +1,7 @@
 //! `epas-friction` from C: a static library without allocator, panic or global state.
 //!
-//! `types`, `requests`, `tables`, `status` and `version` are what the header shows; `adaptation` shows and translates what follows the vehicle; `caged`, `screw`, `linear` and
-//! `one_shot` translate between them and the crate; `boundary` is the one folder with pointers: every
+//! `types`, `requests`, `tables`, `status` and `version` are what the header shows; `adaptation` and `memory` show and translate
+//! what follows the vehicle and the screw that remembers; `caged`, `screw`, `linear` and `one_shot` translate between them and the crate; `boundary` is the one folder with pointers: every
 //! exported function.
 //!
 //! # A further scene
@@ -19,6 +19,7 @@ mod boundary;
 mod caged;
 mod design;
 mod linear;
+mod memory;
 mod one_shot;
 mod requests;
 mod scene;
@@ -30,6 +31,7 @@ mod version;
 
 pub use adaptation::*;
 pub use boundary::*;
+pub use memory::*;
 pub use requests::*;
 pub use status::*;
 pub use tables::*;

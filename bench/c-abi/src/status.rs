@@ -2,6 +2,7 @@
 
 use core::ffi::CStr;
 
+use epas_friction::error::Range;
 use epas_friction::{Error, Refusal};
 
 /// Everything went well.
@@ -179,10 +180,56 @@ pub const EPAS_FIELD_FALL: u32 = 71u32;
 pub const EPAS_FIELD_RISE: u32 = 72u32;
 /// `hysteresis`
 pub const EPAS_FIELD_HYSTERESIS: u32 = 73u32;
+/// `encoder.period`
+pub const EPAS_FIELD_PERIOD: u32 = 74u32;
+/// `encoder.turn_per_count`
+pub const EPAS_FIELD_TURN_PER_COUNT: u32 = 75u32;
+/// `encoder.largest_turn`
+pub const EPAS_FIELD_LARGEST_TURN: u32 = 76u32;
+/// `encoder.play`
+pub const EPAS_FIELD_PLAY: u32 = 77u32;
+/// `coefficient.boundary`
+pub const EPAS_FIELD_BOUNDARY: u32 = 78u32;
+/// `coefficient.full_film`
+pub const EPAS_FIELD_FULL_FILM: u32 = 79u32;
+/// `coefficient.half_share_speed`
+pub const EPAS_FIELD_HALF_SHARE_SPEED: u32 = 80u32;
+/// `coefficient.reference_temperature`
+pub const EPAS_FIELD_REFERENCE_TEMPERATURE: u32 = 81u32;
+/// `forward`
+pub const EPAS_FIELD_FORWARD: u32 = 82u32;
+/// `backward`
+pub const EPAS_FIELD_BACKWARD: u32 = 83u32;
+/// `coefficient.churning`
+pub const EPAS_FIELD_CHURNING: u32 = 84u32;
+/// `oil.kinematic_viscosity_40`
+pub const EPAS_FIELD_KINEMATIC_VISCOSITY_40: u32 = 85u32;
+/// `oil.kinematic_viscosity_100`
+pub const EPAS_FIELD_KINEMATIC_VISCOSITY_100: u32 = 86u32;
+/// `oil.density`
+pub const EPAS_FIELD_OIL_DENSITY: u32 = 87u32;
+/// `oil.pour_point`
+pub const EPAS_FIELD_POUR_POINT: u32 = 88u32;
+/// The least or largest friction coefficient of a law, with its factors.
+pub const EPAS_FIELD_COEFFICIENT: u32 = 89u32;
+/// `reference_load`
+pub const EPAS_FIELD_REFERENCE_LOAD: u32 = 90u32;
+/// `breakaway_angle`
+pub const EPAS_FIELD_BREAKAWAY_ANGLE: u32 = 91u32;
+/// `load_hold`
+pub const EPAS_FIELD_LOAD_HOLD: u32 = 92u32;
+/// `load_fade`
+pub const EPAS_FIELD_LOAD_FADE: u32 = 93u32;
+/// `fallback_temperature`
+pub const EPAS_FIELD_FALLBACK_TEMPERATURE: u32 = 94u32;
+/// `temperature_hold`
+pub const EPAS_FIELD_TEMPERATURE_HOLD: u32 = 95u32;
+/// `temperature_fade`
+pub const EPAS_FIELD_TEMPERATURE_FADE: u32 = 96u32;
 
 /// Number, name in C, and the crate's name: empty where only this layer names the field. A field to which the crate
 /// gives a name of its own in each scene has a row for each.
-const FIELDS: [(u32, &CStr, &str); 75] = [
+const FIELDS: [(u32, &CStr, &str); 98] = [
     (EPAS_FIELD_PITCH_RADIUS, c"pitch_radius", "pitch_radius"),
     (EPAS_FIELD_LEAD, c"lead", "lead"),
     (EPAS_FIELD_BALL_RADIUS, c"ball_radius", "ball_radius"),
@@ -358,6 +405,73 @@ const FIELDS: [(u32, &CStr, &str); 75] = [
     (EPAS_FIELD_FALL, c"fall", "fall"),
     (EPAS_FIELD_RISE, c"rise", "rise"),
     (EPAS_FIELD_HYSTERESIS, c"hysteresis", "hysteresis"),
+    (EPAS_FIELD_PERIOD, c"encoder.period", "period"),
+    (
+        EPAS_FIELD_TURN_PER_COUNT,
+        c"encoder.turn_per_count",
+        "turn_per_count",
+    ),
+    (
+        EPAS_FIELD_LARGEST_TURN,
+        c"encoder.largest_turn",
+        "largest_turn",
+    ),
+    (EPAS_FIELD_PLAY, c"encoder.play", "half_width"),
+    (EPAS_FIELD_BOUNDARY, c"coefficient.boundary", "boundary"),
+    (EPAS_FIELD_FULL_FILM, c"coefficient.full_film", "full_film"),
+    (
+        EPAS_FIELD_HALF_SHARE_SPEED,
+        c"coefficient.half_share_speed",
+        "half_share_speed",
+    ),
+    (
+        EPAS_FIELD_REFERENCE_TEMPERATURE,
+        c"coefficient.reference_temperature",
+        "reference_temperature",
+    ),
+    (EPAS_FIELD_FORWARD, c"forward", "forward"),
+    (EPAS_FIELD_BACKWARD, c"backward", "backward"),
+    (EPAS_FIELD_CHURNING, c"coefficient.churning", "churning"),
+    (
+        EPAS_FIELD_KINEMATIC_VISCOSITY_40,
+        c"oil.kinematic_viscosity_40",
+        "kinematic_viscosity_40",
+    ),
+    (
+        EPAS_FIELD_KINEMATIC_VISCOSITY_100,
+        c"oil.kinematic_viscosity_100",
+        "kinematic_viscosity_100",
+    ),
+    (EPAS_FIELD_OIL_DENSITY, c"oil.density", "density"),
+    (EPAS_FIELD_POUR_POINT, c"oil.pour_point", "pour_point"),
+    (EPAS_FIELD_COEFFICIENT, c"coefficient", "coefficient"),
+    (
+        EPAS_FIELD_REFERENCE_LOAD,
+        c"reference_load",
+        "reference_load",
+    ),
+    (
+        EPAS_FIELD_BREAKAWAY_ANGLE,
+        c"breakaway_angle",
+        "breakaway_angle",
+    ),
+    (EPAS_FIELD_LOAD_HOLD, c"load_hold", "load_hold"),
+    (EPAS_FIELD_LOAD_FADE, c"load_fade", "load_fade"),
+    (
+        EPAS_FIELD_FALLBACK_TEMPERATURE,
+        c"fallback_temperature",
+        "fallback_temperature",
+    ),
+    (
+        EPAS_FIELD_TEMPERATURE_HOLD,
+        c"temperature_hold",
+        "hold_time",
+    ),
+    (
+        EPAS_FIELD_TEMPERATURE_FADE,
+        c"temperature_fade",
+        "fade_time",
+    ),
 ];
 
 const STATUS_NAMES: [(u32, &CStr); 13] = [
@@ -470,6 +584,22 @@ impl Failure {
             value: error.value(),
             minimum: error.allowed().minimum,
             maximum: error.allowed().maximum,
+        }
+    }
+
+    /// A number out of its range.
+    pub(crate) const fn number(field: u32, value: f32, range: Range) -> Self {
+        Self {
+            status: if value.is_finite() {
+                EPAS_OUT_OF_RANGE
+            } else {
+                EPAS_NOT_FINITE
+            },
+            field,
+            index: 0,
+            value,
+            minimum: range.minimum,
+            maximum: range.maximum,
         }
     }
 

@@ -25,9 +25,9 @@ pub const EPAS_REGIME_BACK_DRIVING: u32 = 2u32;
 /// No torque moves the load, or the load alone does not sustain the motion.
 pub const EPAS_REGIME_LOCKED: u32 = 3u32;
 
-/// The speed is NaN or infinite: no friction is put out.
+/// The speed is NaN or infinite: no friction is put out; in `epas_memory_t` the last sound speed and load stand in.
 pub const EPAS_FAULT_SPEED_NOT_FINITE: u32 = 1u32;
-/// A load is NaN or infinite: no friction is put out.
+/// A load is NaN or infinite: as for the speed.
 pub const EPAS_FAULT_LOAD_NOT_FINITE: u32 = 2u32;
 /// The speed is beyond its limit: the limit stands in for it.
 pub const EPAS_FAULT_SPEED_RANGE: u32 = 4u32;
@@ -41,6 +41,14 @@ pub const EPAS_FAULT_BEYOND_MODEL: u32 = 32u32;
 /// Balls still settle after a start, a reversal, or a jump of the load by a factor of three: forces between them are
 /// estimates for some milliseconds. No fault of the inputs, either.
 pub const EPAS_FAULT_SETTLING: u32 = 64u32;
+/// A reading of the angle is missing or cannot be right: friction stays where it is, and the next reading spans the gap.
+pub const EPAS_FAULT_ANGLE_NOT_VALID: u32 = 128u32;
+/// The temperature is NaN or beyond its range: the last one, or the bound, stands in for it.
+pub const EPAS_FAULT_TEMPERATURE_RANGE: u32 = 256u32;
+/// A load is older than it may be: its friction fades away.
+pub const EPAS_FAULT_LOAD_STALE: u32 = 512u32;
+/// A temperature is older than it may be: the fallback stands in for it.
+pub const EPAS_FAULT_TEMPERATURE_STALE: u32 = 1024u32;
 /// The call itself was refused (its status says why): no friction is put out.
 pub const EPAS_FAULT_CALL: u32 = 0x80000000u32;
 
@@ -164,6 +172,12 @@ pub struct CagedPlace {
     /// Not for the caller. Its type gives the place its alignment.
     pub words: [u64; EPAS_CAGED_WORDS],
 }
+
+/// Bytes of a state of a screw whose friction remembers, as `epas_memory_export` writes it.
+pub const EPAS_MEMORY_STATE_BYTES: u32 = 225u32;
+
+/// Size of `epas_memory_t` in words of eight bytes.
+pub const EPAS_MEMORY_WORDS: usize = 726;
 
 /// Balls in the circuit of `epas_screw_t`, return included. A screw with another number needs the library
 /// built with that number.

@@ -64,6 +64,49 @@ uint32_t test_caged_tick(epas_caged_t *place, uint32_t tick)
     return differ(found, &row[2], 5u);
 }
 
+/* What changes on the way, as in the stored case. */
+static uint32_t memory_changes(epas_memory_t *place, uint32_t tick)
+{
+    epas_coefficient_t law = test_memory_configuration.coefficient;
+    uint32_t status = EPAS_OK;
+
+    if (tick == 64u) {
+        status = epas_memory_set_level(place, 1.2f, 0.9f, NULL);
+    } else if (tick == 128u) {
+        status = epas_memory_set_clearance(place, -2e-6f, NULL);
+    } else if (tick == 192u) {
+        law.boundary = 0.15f;
+        status = epas_memory_set_coefficient(place, &law, NULL);
+    } else {
+        /* Nothing changes. */
+    }
+    return status;
+}
+
+uint32_t test_memory_tick(epas_memory_t *place, uint32_t tick)
+{
+    const uint32_t *row = stored_memory[tick];
+    const epas_memory_inputs_t inputs = {number(row[0]), number(row[1]), row[2],
+                                         number(row[3]), number(row[4]), number(row[5])};
+    epas_outputs_t outputs;
+    epas_outputs_t between;
+    uint32_t found[8];
+
+    if ((memory_changes(place, tick) != EPAS_OK) || (epas_memory_step(place, &inputs, &outputs) != EPAS_OK)
+        || (epas_memory_between(place, row[6], &between) != EPAS_OK)) {
+        return 1u;
+    }
+    found[0] = bits(outputs.friction_torque);
+    found[1] = bits(outputs.load_torque);
+    found[2] = bits(outputs.efficiency);
+    found[3] = outputs.regime;
+    found[4] = outputs.faults;
+    found[5] = bits(between.friction_torque);
+    found[6] = between.regime;
+    found[7] = between.faults;
+    return differ(found, &row[7], 8u);
+}
+
 uint32_t test_screw_tick(epas_screw_t *place, uint32_t tick)
 {
     const uint32_t *row = stored_screw[tick];
@@ -166,6 +209,7 @@ static uint32_t reported(const char *name, uint32_t cases, uint32_t differing)
 uint32_t test_cases(void)
 {
     static epas_caged_t caged;
+    static epas_memory_t memory;
     static epas_screw_t screw;
     static epas_linear_t linear;
     uint32_t total = 0u;
@@ -177,6 +221,19 @@ uint32_t test_cases(void)
         differing += test_caged_tick(&caged, row);
     }
     total += reported("caged ball screw", ROWS(stored_caged), differing);
+
+    differing = (test_setup_memory(&memory) == EPAS_OK) ? 0u : 1u;
+    for (row = 0u; row < ROWS(stored_memory); row++) {
+        differing += test_memory_tick(&memory, row);
+    }
+    total += reported("ball screw whose friction remembers", ROWS(stored_memory), differing);
+
+    /* A reset brings back what was set on the way. */
+    differing = (epas_memory_reset(&memory) == EPAS_OK) ? 0u : 1u;
+    for (row = 0u; row < ROWS(stored_memory); row++) {
+        differing += test_memory_tick(&memory, row);
+    }
+    total += reported("the same after a reset", ROWS(stored_memory), differing);
 
     differing = (test_setup_screw(&screw) == EPAS_OK) ? 0u : 1u;
     for (row = 0u; row < ROWS(stored_screw); row++) {

@@ -8,17 +8,20 @@
 void test_put(const char *text);
 void test_put_number(uint32_t number);
 
-/* setups.c: the three scenes, set up as a user would. Each returns the status. */
+/* setups.c: the scenes, set up as a user would. Each returns the status. */
 extern const epas_caged_configuration_t test_caged_configuration;
 extern epas_screw_configuration_t test_screw_configuration;
 extern epas_linear_configuration_t test_linear_configuration;
+extern const epas_memory_configuration_t test_memory_configuration;
 uint32_t test_setup_caged(epas_caged_t *place);
+uint32_t test_setup_memory(epas_memory_t *place);
 uint32_t test_setup_screw(epas_screw_t *place);
 uint32_t test_setup_linear(epas_linear_t *place);
 
 /* cases.c: one stored tick; 1 where a result differs from the stored one in a bit, else 0. */
 extern const uint32_t test_ticks;
 uint32_t test_caged_tick(epas_caged_t *place, uint32_t tick);
+uint32_t test_memory_tick(epas_memory_t *place, uint32_t tick);
 uint32_t test_screw_tick(epas_screw_t *place, uint32_t tick);
 uint32_t test_linear_tick(epas_linear_t *place, uint32_t tick);
 
@@ -27,6 +30,9 @@ uint32_t test_cases(void);
 
 /* refusals.c: what is refused, and how; the number of failed checks. */
 uint32_t test_refusals(void);
+
+/* changes.c: what is set while a model runs; the number of failed checks. */
+uint32_t test_changes(void);
 
 /* reaction.c: the README's example under a load beyond its limit, and without an input; the number of failed checks. */
 uint32_t test_reaction(void);

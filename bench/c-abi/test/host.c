@@ -15,7 +15,7 @@ void test_put_number(uint32_t number)
 
 int main(void)
 {
-    const uint32_t wrong = test_cases() + test_refusals() + test_reaction();
+    const uint32_t wrong = test_cases() + test_refusals() + test_changes() + test_reaction();
 
     return (wrong == 0u) ? 0 : 1;
 }

@@ -1,4 +1,4 @@
-/* The three scenes, set up as a user would: constant configurations, places of static duration. */
+/* The scenes, set up as a user would: constant configurations, places of static duration. */
 #include "epas_test.h"
 
 #include <stddef.h>
@@ -6,26 +6,58 @@
 #define STEEL {210e9f, 0.28f, 7800.0f}
 
 /* The rack-assist gear of Lin 2019, chapter 4. */
-const epas_caged_configuration_t test_caged_configuration = {
-    .design = {
-        .pitch_radius = 14.5e-3f,
-        .lead = 7e-3f,
-        .ball_radius = 2e-3f,
-        .screw_conformity = 0.54f,
-        .nut_conformity = 0.54f,
-        .contact_angle = 0.785398163f,
-        .ball_material = STEEL,
-        .groove_material = STEEL,
+#define GEAR \
+    { \
+        .design = { \
+            .pitch_radius = 14.5e-3f, \
+            .lead = 7e-3f, \
+            .ball_radius = 2e-3f, \
+            .screw_conformity = 0.54f, \
+            .nut_conformity = 0.54f, \
+            .contact_angle = 0.785398163f, \
+            .ball_material = STEEL, \
+            .groove_material = STEEL, \
+        }, \
+        .friction = 0.075f, \
+        .hysteresis_loss = 0.01f, \
+        .lubricant_drag = 0.006f, \
+        .rolling_tangent = 0.0f, \
+        .branch = EPAS_BRANCH_CONTACTS, \
+        .clearance = -2.653692e-7f, \
+        .loaded_balls = 70u, \
+        .reversal_speed = 0.5f, \
+        .limits = {.nut_speed = 500.0f, .axial_load = 20000.0f, .friction_torque = 2.0f}, \
+    }
+
+/* 100 N on each flank of the nut. */
+const epas_caged_configuration_t test_caged_configuration = GEAR;
+
+/* The same gear with a memory, behind an encoder of 14 bits on its motor and a belt of ratio 2.5. */
+const epas_memory_configuration_t test_memory_configuration = {
+    .screw = GEAR,
+    .encoder = {.period = 16384u, .turn_per_count = 1.533981e-4f, .largest_turn = 1.2f, .play = 1e-4f},
+    .coefficient = {
+        .boundary = 0.12f,
+        .full_film = 0.05f,
+        .half_share_speed = 4.9f,
+        .reference_temperature = 293.15f,
+        .forward = 1.0f,
+        .backward = 1.1f,
+        .churning = 1e-6f,
+        .oil = {
+            .kinematic_viscosity_40 = 100e-6f,
+            .kinematic_viscosity_100 = 11.2e-6f,
+            .density = 880.0f,
+            .pour_point = 233.15f,
+        },
     },
-    .friction = 0.075f,
-    .hysteresis_loss = 0.01f,
-    .lubricant_drag = 0.006f,
-    .rolling_tangent = 0.0f,
-    .branch = EPAS_BRANCH_CONTACTS,
-    .clearance = -2.653692e-7f, /* 100 N on each flank. */
-    .loaded_balls = 70u,
-    .reversal_speed = 0.5f,
-    .limits = {.nut_speed = 500.0f, .axial_load = 20000.0f, .friction_torque = 2.0f},
+    .reference_load = 5000.0f,
+    .breakaway_angle = 0.0f, /* by the design */
+    .load_hold = 0.01f,
+    .load_fade = 0.09f,
+    .fallback_temperature = 313.15f,
+    .temperature_hold = 10.0f,
+    .temperature_fade = 60.0f,
 };
 
 /* Deviations and shares of the load stay for as long as a model uses them. */
@@ -88,6 +120,11 @@ epas_linear_configuration_t test_linear_configuration = {
 uint32_t test_setup_caged(epas_caged_t *place)
 {
     return epas_caged_init(place, &test_caged_configuration, NULL);
+}
+
+uint32_t test_setup_memory(epas_memory_t *place)
+{
+    return epas_memory_init(place, &test_memory_configuration, NULL);
 }
 
 uint32_t test_setup_screw(epas_screw_t *place)

@@ -1,5 +1,7 @@
 //! Contacts in single precision, as the control interrupt computes them: ellipse and friction map.
 
+use std::ops::RangeInclusive;
+
 use epas_friction::contact::FrictionMap;
 use epas_friction::hertz::HertzContact;
 use pyo3::prelude::*;
@@ -16,12 +18,14 @@ type Any<'py> = Bound<'py, PyAny>;
 struct Ellipses(Kept<3, HertzContact>);
 
 /// Loads, N.
-const LOADS: (f32, f32) = (1e-12, 1e9);
+const LOADS: RangeInclusive<f32> = 1e-12..=1e9;
 
 impl Kernel<f32, 4, 5> for Ellipses {
     #[inline]
     fn one(&mut self, [one, two, load, modulus]: [f32; 4]) -> Result<[f32; 5], Refused> {
-        within("load", load.into(), 1e-12, 1e9)?;
+        if !LOADS.contains(&load) {
+            return Err(Refused::range("load", load.into(), 1e-12, 1e9));
+        }
         let make = || HertzContact::checked(one, two, modulus);
         Ok(ellipse_at(self.0.get([one, two, modulus], make)?, load))
     }
@@ -31,9 +35,8 @@ impl Kernel<f32, 4, 5> for Ellipses {
         let [one, two, loads, modulus] = block.inputs;
         let [one, two, modulus] = [one[0], two[0], modulus[0]];
         let make = || HertzContact::checked(one, two, modulus);
-        let (least, most) = LOADS;
         let good = matches!(block.constant, [true, true, _, true])
-            && loads.iter().all(|load| (least..=most).contains(load));
+            && loads.iter().all(|load| LOADS.contains(load));
         let Some(contact) = self.0.get([one, two, modulus], make).ok().filter(|_| good) else {
             return false;
         };

@@ -197,6 +197,15 @@ fn angles_keep_their_bounds_over_all_inputs() {
     check_angles(1);
 }
 
+/// Every significand, with an odd and an even exponent: the others differ by a power of four, and so do their roots. The
+/// standard library's root is the processor's, correctly rounded.
+#[test]
+fn the_root_of_set_up_is_that_of_the_processor() {
+    for x in (1.0_f32.to_bits()..4.0_f32.to_bits()).map(f32::from_bits) {
+        assert_eq!(math::constant::sqrt(x).to_bits(), x.sqrt().to_bits(), "{x}");
+    }
+}
+
 #[test]
 fn special_values_are_as_documented() {
     for x in [0.0_f32, f32::INFINITY] {

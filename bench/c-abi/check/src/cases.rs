@@ -5,7 +5,9 @@ use std::fmt::Write as _;
 use epas_friction::curvature::{CircularGrooveCurvature, GothicArch, LiteratureCurvature};
 use epas_friction::efficiency::{Drive, EfficiencyGeometry};
 use epas_friction::geometry::{ContactAngle, Groove};
-use epas_friction::{CATALOGUE, Error, Inputs, LinearInputs, Regime};
+use epas_friction::law::FrictionLevel;
+use epas_friction::scene::WithMemoryInputs;
+use epas_friction::{CATALOGUE, Clearance, Error, Inputs, LinearInputs, Regime};
 
 use crate::outcome::Outcome;
 use crate::setups;
@@ -94,6 +96,76 @@ fn caged() -> Result<Vec<Vec<u32>>, Error> {
             ]
         })
         .collect())
+}
+
+/// A count that no encoder of the case gives.
+const NO_COUNT: u32 = 16_384;
+
+/// Reversals within the breakaway angle and beyond, with readings between two ticks; level, clearance and the coefficient's
+/// law change on the way, and some readings, loads and temperatures are none, or old.
+fn memory() -> Result<Vec<Vec<u32>>, Error> {
+    let mut model = setups::memory()?;
+    let mut numbers = Numbers(0x2026_0013);
+    let mut load = Wander {
+        value: 3_000.0,
+        bound: 20_000.0,
+    };
+    let mut count = 16_300.0_f32;
+    let mut speed = 0.0_f32;
+    (0..TICKS)
+        .map(|tick| {
+            match tick {
+                64 => model.set_level(FrictionLevel {
+                    forward: 1.2,
+                    backward: 0.9,
+                })?,
+                128 => model.set_clearance(Clearance::new(-2e-6)?)?,
+                192 => model.set_coefficient(setups::law(0.15)?)?,
+                _ => {}
+            }
+            // Slow for some dozen ticks, then fast.
+            let most = if tick % 48 < 32 { 12.0 } else { 700.0 };
+            let mut turned = || {
+                count = (count + numbers.within(-most, most) + 16_384.0) % 16_384.0;
+                count as u32
+            };
+            let (first, second) = (turned(), turned());
+            speed = 0.5 * speed + numbers.within(-1.0, 1.0) * most * 0.02;
+            let inputs = WithMemoryInputs {
+                scene: Inputs {
+                    nut_speed: if tick % 97 == 96 { f32::NAN } else { speed },
+                    axial_load: load.next(&mut numbers, tick, 30),
+                },
+                reading: if tick % 41 == 40 { NO_COUNT } else { first },
+                load_age: if tick % 53 == 52 { 0.05 } else { 0.001 },
+                temperature: match tick % 67 {
+                    65 => f32::NAN,
+                    66 => 600.0,
+                    _ => 263.15 + 0.3 * tick as f32,
+                },
+                temperature_age: if tick % 71 == 70 { 40.0 } else { 0.5 },
+            };
+            let outputs = model.step(inputs);
+            let between = model.between(second);
+            Ok(vec![
+                inputs.scene.nut_speed.to_bits(),
+                inputs.scene.axial_load.to_bits(),
+                inputs.reading,
+                inputs.load_age.to_bits(),
+                inputs.temperature.to_bits(),
+                inputs.temperature_age.to_bits(),
+                second,
+                outputs.friction_torque.to_bits(),
+                outputs.load_torque.to_bits(),
+                outputs.efficiency.to_bits(),
+                regime(outputs.regime),
+                outputs.faults.bits().into(),
+                between.friction_torque.to_bits(),
+                regime(between.regime),
+                between.faults.bits().into(),
+            ])
+        })
+        .collect()
 }
 
 fn screw() -> Result<Vec<Vec<u32>>, Error> {
@@ -263,6 +335,13 @@ pub fn generated() -> Outcome<String> {
         "stored_caged",
         "nut_speed, axial_load; friction_torque, load_torque, efficiency, regime, faults",
         &caged()?,
+    )?;
+    table(
+        &mut text,
+        "stored_memory",
+        "nut_speed, axial_load, count, load_age, temperature, temperature_age, count between two steps; \
+         friction_torque, load_torque, efficiency, regime, faults; between: friction_torque, regime, faults",
+        &memory()?,
     )?;
     table(
         &mut text,

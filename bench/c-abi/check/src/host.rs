@@ -47,7 +47,7 @@ pub fn check(root: &Path) -> Outcome<()> {
         .args(["-O2", "-Wl,--gc-sections", "-o"])
         .arg(&program)
         .args(
-            ["host.c", "cases.c", "setups.c", "refusals.c", "reaction.c"]
+            ["host.c", "cases.c", "setups.c", "refusals.c", "changes.c", "reaction.c"]
                 .map(|file| test.join(file)),
         )
         .arg(&example)

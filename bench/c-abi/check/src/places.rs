@@ -10,6 +10,7 @@ use epas_friction::{
 };
 
 use crate::outcome::Outcome;
+use crate::setups::Remembering;
 
 /// As the library keeps a model.
 #[repr(C)]
@@ -24,12 +25,17 @@ const fn words<S: Scene>() -> usize {
 }
 
 /// The constants of `types.rs` with what they have to be, and the README's line of each.
-fn needed() -> [(&'static str, &'static str, usize); 4] {
+fn needed() -> [(&'static str, &'static str, usize); 5] {
     [
         (
             "EPAS_CAGED_WORDS",
             "`epas_caged_t`",
             words::<CagedBallScrew>(),
+        ),
+        (
+            "EPAS_MEMORY_WORDS",
+            "`epas_memory_t`",
+            words::<Remembering>(),
         ),
         (
             "EPAS_SCREW_WORDS",

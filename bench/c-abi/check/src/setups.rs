@@ -1,5 +1,12 @@
-//! The three scenes of the stored cases, set up in Rust; `test/setups.c` sets the same up in C, as a user would.
+//! The scenes of the stored cases, set up in Rust; `test/setups.c` sets the same up in C, as a user would.
 
+use epas_friction::law::breakaway::{Breakaway, BreakawayConfiguration, ScrewContacts, Tables};
+use epas_friction::law::coefficient::{
+    CoefficientLaw, CoefficientParameters, OilData, TemperatureFade, Viscosity,
+};
+use epas_friction::law::memory::{Hysteresis, ProportionalElements, SLIP_4, SPIN_4};
+use epas_friction::law::motion::{CountSensor, CountSensorParameters, Steady};
+use epas_friction::scene::{Freshness, WithMemory, WithMemoryConfiguration};
 use epas_friction::{
     BallScrew, BallScrewParameters, CagedBallScrew, CagedBallScrewConfiguration, Clearance,
     DeviationMap, Error, FrictionBranch, FrictionModel, GrooveSize, Harmonic, Limits,
@@ -9,8 +16,8 @@ use epas_friction::{
 };
 
 /// The rack-assist gear of Lin 2019, chapter 4.
-pub fn caged() -> Result<FrictionModel<CagedBallScrew>, Error> {
-    FrictionModel::<CagedBallScrew>::new(&CagedBallScrewConfiguration {
+fn gear() -> Result<CagedBallScrewConfiguration, Error> {
+    Ok(CagedBallScrewConfiguration {
         design: BallScrew::new(BallScrewParameters {
             pitch_radius: 14.5e-3,
             lead: 7e-3,
@@ -36,6 +43,79 @@ pub fn caged() -> Result<FrictionModel<CagedBallScrew>, Error> {
             nut_speed: 500.0,
             axial_load: 20_000.0,
             friction_torque: 2.0,
+        },
+    })
+}
+
+/// The rack-assist gear.
+pub fn caged() -> Result<FrictionModel<CagedBallScrew>, Error> {
+    FrictionModel::<CagedBallScrew>::new(&gear()?)
+}
+
+/// The same gear with a memory, behind an encoder of 14 bits on its motor.
+pub type Remembering =
+    WithMemory<CagedBallScrew, ProportionalElements<8>, Steady<CountSensor>, CoefficientLaw>;
+
+/// Turn of the nut for a count: a belt of ratio 2.5.
+pub const TURN_PER_COUNT: f32 = 1.533_981e-4;
+
+/// The gear's friction coefficient by speed and temperature, with this one at standstill.
+pub fn law(boundary: f32) -> Result<CoefficientLaw, Error> {
+    CoefficientLaw::new(&CoefficientParameters {
+        boundary,
+        full_film: 0.05,
+        half_share_speed: 4.9,
+        reference_temperature: 293.15,
+        viscosity: Viscosity::of_oil(&OilData {
+            kinematic_viscosity_40: 100e-6,
+            kinematic_viscosity_100: 11.2e-6,
+            density: 880.0,
+            pour_point: 233.15,
+        })?,
+        forward: 1.0,
+        backward: 1.1,
+        churning: 1e-6,
+    })
+}
+
+/// The rack-assist gear whose friction remembers.
+pub fn memory() -> Result<FrictionModel<Remembering>, Error> {
+    let scene = gear()?;
+    let breakaway = Breakaway::of(
+        &scene.design,
+        &BreakawayConfiguration {
+            friction: scene.friction,
+            clearance: scene.clearance,
+            rolling_resistance: scene.rolling_resistance,
+            loaded_balls: scene.loaded_balls,
+            contact_load: ScrewContacts::of(&scene.design).preloaded(
+                5_000.0,
+                scene.loaded_balls,
+                scene.clearance,
+            ),
+        },
+    )?;
+    let elements: ProportionalElements<8> = breakaway.elements(&Tables {
+        slip: &SLIP_4.elements,
+        spin: &SPIN_4.elements,
+        rolling_resistance: &[],
+    })?;
+    let counts = CountSensor::new(CountSensorParameters {
+        period: 16_384,
+        turn_per_count: TURN_PER_COUNT,
+        largest_turn: 1.2,
+    })?;
+    FrictionModel::<Remembering>::new(&WithMemoryConfiguration {
+        scene,
+        elements,
+        angle: Steady::new(counts, 1e-4)?,
+        reference_load: 5_000.0,
+        play: elements.breakaway(),
+        coefficient: law(0.12)?,
+        temperature: TemperatureFade::new(313.15, 10.0, 60.0)?,
+        freshness: Freshness {
+            load_hold: 0.01,
+            load_fade: 0.09,
         },
     })
 }

@@ -1,9 +1,14 @@
 //! What the exported functions of every scene do to a model in its place.
 
+use epas_friction::{Error, FrictionModel};
+
 use super::pointers::{bare, read, report, usable};
 use super::tables::tables;
 use crate::scene::{CScene, Placed, model};
 use crate::status::{EPAS_NOT_INITIALISED, EPAS_OK, Failure, refused};
+
+/// The crate's model of a scene.
+pub(super) type Model<C> = FrictionModel<<C as CScene>::Scene>;
 
 /// The model in a place, if it is this scene's.
 pub(super) unsafe fn placed<'a, C: CScene>(
@@ -59,6 +64,18 @@ pub(super) unsafe fn step<C: CScene>(
     };
     unsafe { outputs.write(answer) };
     status
+}
+
+/// Changes a model while it runs; where the change is refused it goes on as it was.
+pub(super) unsafe fn change<C: CScene>(
+    place: *mut C::Place,
+    how: impl FnOnce(&mut Model<C>) -> Result<(), Error>,
+    failure: *mut Failure,
+) -> u32 {
+    let outcome = unsafe { placed::<C>(place) }
+        .map_err(bare)
+        .and_then(|placed| how(&mut placed.model).map_err(Failure::of));
+    unsafe { report(outcome, failure) }
 }
 
 /// The state before the first tick.

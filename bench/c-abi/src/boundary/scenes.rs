@@ -1,6 +1,8 @@
 //! The exported functions of the scenes, each one line that calls the generic one.
 
-use super::models::{export, faulted_ticks, import, init, placed, reset, step};
+use epas_friction::Clearance;
+
+use super::models::{change, export, faulted_ticks, import, init, placed, reset, step};
 use crate::caged::Caged;
 use crate::linear::Linear;
 use crate::screw::Screw;
@@ -46,6 +48,35 @@ pub unsafe extern "C" fn epas_caged_faulted_ticks(
     ticks: *mut u32,
 ) -> u32 {
     unsafe { faulted_ticks::<Caged>(place, ticks) }
+}
+
+/// Sets the friction coefficient of ball and groove while the model runs, 1e-6 to 0.5; `epas_caged_reset` brings the
+/// configuration's back. From the first call on a ball is renewed in every tick, which then takes about twice as long; until
+/// friction is exact again, after some ticks, it is flagged `EPAS_FAULT_SETTLING`. The closed forms keep their friction. Where
+/// it is refused the model goes on as it was. `failure` may be NULL. In the task of the step.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn epas_caged_set_friction(
+    place: *mut CagedPlace,
+    friction: f32,
+    failure: *mut Failure,
+) -> u32 {
+    unsafe { change::<Caged>(place, |model| model.set_friction(friction), failure) }
+}
+
+/// Sets how balls fit between the grooves, m, -0.02 to 0.05 ball radii; as `epas_caged_set_friction`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn epas_caged_set_clearance(
+    place: *mut CagedPlace,
+    clearance: f32,
+    failure: *mut Failure,
+) -> u32 {
+    unsafe {
+        change::<Caged>(
+            place,
+            |model| model.set_clearance(Clearance::new(clearance)?),
+            failure,
+        )
+    }
 }
 
 /// Makes a ball screw of `EPAS_SCREW_BALLS` balls in the place. Set-up only. Where it fails, every step is
@@ -96,6 +127,33 @@ pub unsafe extern "C" fn epas_screw_faulted_ticks(
     ticks: *mut u32,
 ) -> u32 {
     unsafe { faulted_ticks::<Screw>(place, ticks) }
+}
+
+/// Sets the friction coefficient of ball and groove, 1e-6 to 0.5; as `epas_caged_set_friction`. Balls take it over as their
+/// turn comes; where it jumps they settle, flagged `EPAS_FAULT_SETTLING`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn epas_screw_set_friction(
+    place: *mut ScrewPlace,
+    friction: f32,
+    failure: *mut Failure,
+) -> u32 {
+    unsafe { change::<Screw>(place, |model| model.set_friction(friction), failure) }
+}
+
+/// Sets how balls fit between the grooves, m; as `epas_screw_set_friction`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn epas_screw_set_clearance(
+    place: *mut ScrewPlace,
+    clearance: f32,
+    failure: *mut Failure,
+) -> u32 {
+    unsafe {
+        change::<Screw>(
+            place,
+            |model| model.set_clearance(Clearance::new(clearance)?),
+            failure,
+        )
+    }
 }
 
 /// Makes a linear bearing of `EPAS_LINEAR_BALLS` balls in the place. Set-up only. Where it fails, every step is
@@ -149,6 +207,17 @@ pub unsafe extern "C" fn epas_linear_faulted_ticks(
     ticks: *mut u32,
 ) -> u32 {
     unsafe { faulted_ticks::<Linear>(place, ticks) }
+}
+
+/// Sets the friction coefficient of ball and groove, 1e-6 to 1; as `epas_caged_set_friction`. Friction and all forces between
+/// balls follow it in proportion, from the next tick on.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn epas_linear_set_friction(
+    place: *mut LinearPlace,
+    friction: f32,
+    failure: *mut Failure,
+) -> u32 {
+    unsafe { change::<Linear>(place, |model| model.set_friction(friction), failure) }
 }
 
 /// Writes the state as a block of `EPAS_CAGED_STATE_BYTES` bytes to the begin of `bytes`, which are `length` long: for the next

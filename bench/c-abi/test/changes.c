@@ -1,0 +1,248 @@
+/* What is set while a model runs: friction coefficient, clearance, law, level; and what is refused of it. */
+#include "epas_test.h"
+
+#include <stddef.h>
+
+static uint32_t failed;
+
+static void check(uint32_t holds, const char *what)
+{
+    if (holds == 0u) {
+        failed++;
+        test_put("failed: ");
+        test_put(what);
+        test_put("\n");
+    }
+}
+
+/* Within a part of the second number. */
+static uint32_t near(float found, float wanted, float part)
+{
+    const float most = (wanted < 0.0f) ? (-part * wanted) : (part * wanted);
+    const float off = found - wanted;
+
+    return ((off <= most) && (off >= -most)) ? 1u : 0u;
+}
+
+static float no_number(void)
+{
+    static volatile float zero = 0.0f;
+
+    return zero / zero;
+}
+
+/* Friction is that of a model that was set up so, once what has changed has settled: within a thousandth. */
+#define SETTLED 1e-3f
+
+static void caged(void)
+{
+    static epas_caged_t changed;
+    static epas_caged_t made;
+    const epas_inputs_t inputs = {60.0f, 6000.0f};
+    epas_caged_configuration_t configuration = test_caged_configuration;
+    epas_outputs_t before = {0};
+    epas_outputs_t found = {0};
+    epas_outputs_t wanted = {0};
+    epas_failure_t failure;
+    uint32_t tick;
+
+    check(test_setup_caged(&changed) == EPAS_OK, "a caged screw");
+    configuration.friction = 0.11f;
+    configuration.clearance = -1e-6f;
+    check(epas_caged_init(&made, &configuration, NULL) == EPAS_OK, "another one");
+    (void)epas_caged_step(&changed, &inputs, &before);
+    check(epas_caged_set_friction(&changed, 0.6f, &failure) == EPAS_OUT_OF_RANGE, "a friction coefficient too large");
+    check((failure.field == EPAS_FIELD_FRICTION) && (failure.maximum == 0.5f), "and which");
+    check(epas_caged_set_clearance(&changed, 1.0f, NULL) == EPAS_OUT_OF_RANGE, "a clearance too large");
+    (void)epas_caged_step(&changed, &inputs, &found);
+    check(found.friction_torque == before.friction_torque, "what was refused changes nothing");
+
+    check(epas_caged_set_friction(&changed, 0.11f, &failure) == EPAS_OK, "another friction coefficient");
+    check(failure.status == EPAS_OK, "and no failure");
+    check(epas_caged_set_clearance(&changed, -1e-6f, NULL) == EPAS_OK, "another clearance");
+    for (tick = 0u; tick < 300u; tick++) {
+        (void)epas_caged_step(&changed, &inputs, &found);
+        (void)epas_caged_step(&made, &inputs, &wanted);
+    }
+    check(near(found.friction_torque, wanted.friction_torque, SETTLED), "friction of a caged screw that was changed");
+    check(near(found.friction_torque, before.friction_torque, 0.2f) == 0u, "which is another one");
+    check(epas_caged_reset(&changed) == EPAS_OK, "a reset");
+    (void)epas_caged_step(&changed, &inputs, &found);
+    check(found.friction_torque == before.friction_torque, "brings the configuration's back");
+    check(epas_caged_set_friction(NULL, 0.1f, NULL) == EPAS_NULL_POINTER, "no place");
+}
+
+/* Without deviations of the grooves: with them, where each ball presses depends on what was before. */
+static void screw(void)
+{
+    static epas_screw_t changed;
+    static epas_screw_t made;
+    const epas_inputs_t inputs = {60.0f, 6000.0f};
+    epas_screw_configuration_t configuration = test_screw_configuration;
+    epas_screw_outputs_t found = {0};
+    epas_screw_outputs_t wanted = {0};
+    uint32_t settled = 0u;
+    uint32_t tick;
+
+    configuration.screw_deviation = NULL;
+    configuration.nut_deviation = NULL;
+    configuration.load_shares = NULL;
+    check(epas_screw_init(&changed, &configuration, NULL) == EPAS_OK, "a screw");
+    configuration.friction = 0.13f;
+    configuration.clearance = -5e-7f;
+    check(epas_screw_init(&made, &configuration, NULL) == EPAS_OK, "another one");
+    check(epas_screw_set_friction(&changed, 0.0f, NULL) == EPAS_OUT_OF_RANGE, "no friction");
+    check(epas_screw_set_friction(&changed, 0.13f, NULL) == EPAS_OK, "another friction coefficient");
+    check(epas_screw_set_clearance(&changed, -5e-7f, NULL) == EPAS_OK, "another clearance");
+    for (tick = 0u; tick < 600u; tick++) {
+        (void)epas_screw_step(&changed, &inputs, &found);
+        (void)epas_screw_step(&made, &inputs, &wanted);
+        if ((found.faults & EPAS_FAULT_SETTLING) == 0u) {
+            settled++;
+        }
+        if (tick >= 400u) {
+            check(near(found.friction_torque, wanted.friction_torque, SETTLED), "friction of a screw that was changed");
+        }
+    }
+    check((settled > 300u) && (settled < 590u), "which settled in between");
+}
+
+static void linear(void)
+{
+    static epas_linear_t place;
+    const epas_linear_inputs_t inputs = {0.3f, 2000.0f, 300.0f};
+    epas_linear_outputs_t before = {0};
+    epas_linear_outputs_t found = {0};
+    uint32_t tick;
+
+    check(test_setup_linear(&place) == EPAS_OK, "a bearing");
+    for (tick = 0u; tick < 40u; tick++) {
+        (void)epas_linear_step(&place, &inputs, &before);
+    }
+    check(test_setup_linear(&place) == EPAS_OK, "a bearing again");
+    check(epas_linear_set_friction(&place, 2.0f, NULL) == EPAS_OUT_OF_RANGE, "a friction coefficient too large");
+    check(epas_linear_set_friction(&place, 0.2f, NULL) == EPAS_OK, "twice the friction coefficient");
+    for (tick = 0u; tick < 40u; tick++) {
+        (void)epas_linear_step(&place, &inputs, &found);
+    }
+    /* A handful of roundings. */
+    check(near(found.friction_force, 2.0f * before.friction_force, 1e-6f), "twice the friction");
+    check(near(found.largest_contact_force, 2.0f * before.largest_contact_force, 1e-6f), "twice the forces");
+}
+
+/* Once round, in steps of a count. */
+static epas_outputs_t turned(epas_memory_t *place, uint32_t start, uint32_t counts, uint32_t backwards)
+{
+    epas_memory_inputs_t inputs = {0.0f, 5000.0f, 0u, 0.0f, 293.15f, 0.0f};
+    epas_outputs_t outputs = {0};
+    uint32_t count;
+
+    for (count = 0u; count <= counts; count++) {
+        inputs.count = (backwards != 0u) ? (start - count) : (start + count);
+        (void)epas_memory_step(place, &inputs, &outputs);
+    }
+    return outputs;
+}
+
+static void memory(void)
+{
+    static epas_memory_t place;
+    static epas_memory_t next;
+    static epas_memory_t zeros;
+    static uint8_t block[EPAS_MEMORY_STATE_BYTES];
+    static uint8_t caged_block[EPAS_CAGED_STATE_BYTES];
+    epas_memory_configuration_t wrong = test_memory_configuration;
+    epas_memory_configuration_t soft = test_memory_configuration;
+    epas_memory_inputs_t inputs = {0.0f, 5000.0f, 1000u, 0.0f, 293.15f, 0.0f};
+    epas_coefficient_t law = test_memory_configuration.coefficient;
+    epas_outputs_t forward;
+    epas_outputs_t other;
+    epas_failure_t failure;
+
+    wrong.encoder.play = -1.0f;
+    check(epas_memory_init(&place, &wrong, &failure) == EPAS_OUT_OF_RANGE, "a play below zero");
+    check(failure.field == EPAS_FIELD_PLAY, "and which field");
+    wrong = test_memory_configuration;
+    wrong.screw.branch = EPAS_BRANCH_SLIDING;
+    check(epas_memory_init(&place, &wrong, &failure) == EPAS_OUT_OF_RANGE, "a closed form");
+    check(failure.field == EPAS_FIELD_BRANCH, "and which field");
+    wrong = test_memory_configuration;
+    wrong.coefficient.oil.pour_point = 400.0f;
+    check(epas_memory_init(&place, &wrong, &failure) == EPAS_OUT_OF_RANGE, "no pour point");
+    check(failure.field == EPAS_FIELD_POUR_POINT, "and which field");
+    wrong = test_memory_configuration;
+    wrong.coefficient.boundary = 0.9f;
+    check(epas_memory_init(&place, &wrong, &failure) == EPAS_OUT_OF_RANGE, "a coefficient too large for the screw");
+    check((failure.field == EPAS_FIELD_COEFFICIENT) && (failure.maximum == 0.5f), "and which field");
+    wrong = test_memory_configuration;
+    wrong.reference_load = -1.0f;
+    check(epas_memory_init(&place, &wrong, &failure) == EPAS_OUT_OF_RANGE, "no load");
+    check(failure.field == EPAS_FIELD_REFERENCE_LOAD, "and which field");
+    check(epas_memory_step(&place, &inputs, &other) == EPAS_NOT_INITIALISED, "what was refused has no model");
+    check((other.faults == EPAS_FAULT_CALL) && (other.friction_torque == 0.0f), "no torque, flagged");
+    check(epas_memory_between(&zeros, 0u, &other) == EPAS_NOT_INITIALISED, "between, of zeros");
+    check(other.faults == EPAS_FAULT_CALL, "between, flagged");
+
+    check(test_setup_memory(&place) == EPAS_OK, "a screw that remembers");
+    check(epas_memory_between(&place, 1000u, &other) == EPAS_OK, "before the first step");
+    check(other.friction_torque == 0.0f, "there is no friction");
+    forward = turned(&place, 1000u, 400u, 0u);
+    check((forward.friction_torque > 0.0f) && (forward.faults == 0u), "friction forward");
+    other = turned(&place, 1400u, 0u, 0u);
+    check(other.friction_torque == forward.friction_torque, "at rest friction stays");
+    /* The play and one count take nothing away; a motion beyond the breakaway angle turns it round. */
+    other = turned(&place, 1400u, 1u, 1u);
+    check(other.friction_torque == forward.friction_torque, "the play");
+    other = turned(&place, 1399u, 400u, 1u);
+    check(other.friction_torque < (-0.9f * forward.friction_torque), "friction backward");
+    check(epas_memory_between(&place, 99999u, &forward) == EPAS_OK, "a count that is none");
+    check((forward.faults == EPAS_FAULT_ANGLE_NOT_VALID) && (forward.friction_torque == other.friction_torque),
+          "friction stays, flagged");
+
+    /* A larger breakaway angle: friction builds up later. */
+    soft.breakaway_angle = 0.1f;
+    check(epas_memory_init(&next, &soft, NULL) == EPAS_OK, "a breakaway angle as measured");
+    (void)turned(&next, 1000u, 4000u, 0u);
+    (void)turned(&place, 1000u, 4000u, 0u);
+    forward = turned(&place, 5000u, 10u, 1u);
+    other = turned(&next, 5000u, 10u, 1u);
+    check(other.friction_torque > forward.friction_torque, "the larger angle");
+
+    check(epas_memory_set_level(&place, 20.0f, 1.0f, &failure) == EPAS_OUT_OF_RANGE, "a level too large");
+    check(failure.field == EPAS_FIELD_FORWARD, "and which");
+    law.full_film = 0.0f;
+    check(epas_memory_set_coefficient(&place, &law, &failure) == EPAS_OUT_OF_RANGE, "a law without friction");
+    check(failure.field == EPAS_FIELD_FULL_FILM, "and which field");
+    check(epas_memory_set_coefficient(&place, NULL, NULL) == EPAS_NULL_POINTER, "no law");
+    check(epas_memory_set_clearance(&place, no_number(), NULL) == EPAS_NOT_FINITE, "no clearance");
+
+    check(epas_memory_export(&place, block, sizeof block - 1u) == EPAS_STATE_LENGTH, "no room");
+    check(epas_memory_export(&place, block, sizeof block) == EPAS_OK, "export");
+    check(test_setup_memory(&next) == EPAS_OK, "the next ignition");
+    block[40] ^= 1u;
+    check(epas_memory_import(&next, block, sizeof block) == EPAS_STATE_DAMAGED, "a damaged block");
+    block[40] ^= 1u;
+    check(epas_caged_import(NULL, caged_block, sizeof caged_block) == EPAS_NULL_POINTER, "no place");
+    check(epas_memory_import_with_count(&next, block, sizeof block) == EPAS_OK, "import with the count");
+    inputs.count = 4990u;
+    (void)epas_memory_step(&place, &inputs, &forward);
+    (void)epas_memory_step(&next, &inputs, &other);
+    check(forward.friction_torque == other.friction_torque, "a tick after an import");
+    check(epas_memory_import(&next, block, sizeof block) == EPAS_OK, "import without the count");
+    inputs.count = 12000u;
+    (void)epas_memory_step(&next, &inputs, &other);
+    check((other.faults == 0u) && (other.friction_torque == forward.friction_torque), "the turn in between is unknown");
+}
+
+uint32_t test_changes(void)
+{
+    failed = 0u;
+    caged();
+    screw();
+    linear();
+    memory();
+    test_put("changes while a model runs: ");
+    test_put_number(failed);
+    test_put(" failed\n");
+    return failed;
+}
