@@ -10,6 +10,8 @@ pub use super::own::{cbrt, cbrt_squared, sin_cos};
 ///
 /// NaN and negative numbers give NaN; -0 gives -0; infinity gives infinity. Some 60 cycles on a Cortex-M4F: for
 /// set-up only.
+// Set-up has many roots, and flash is dearer than a call.
+#[inline(never)]
 #[must_use]
 pub const fn sqrt(x: f32) -> f32 {
     const TWO_TO_24: f32 = 16_777_216.0;
@@ -37,6 +39,7 @@ const SEED: u32 = 0x5f37_59df;
 /// its square differs from the significand is exact in integers, and says whether that unit is to be added, taken away,
 /// or neither. The bound of one unit was found with every significand, odd and even exponents
 /// (`host-tests/tests/formulas/math_sweeps.rs` compares every one of them with the exact root).
+#[inline(always)]
 const fn normal_root(x: f32) -> f32 {
     const SIGNIFICAND_BITS: u32 = 23;
     const BIAS: i32 = 127;

@@ -81,6 +81,8 @@ static void screw(void)
     epas_screw_configuration_t configuration = test_screw_configuration;
     epas_screw_outputs_t found = {0};
     epas_screw_outputs_t wanted = {0};
+    float sum = 0.0f;
+    float wanted_sum = 0.0f;
     uint32_t settled = 0u;
     uint32_t tick;
 
@@ -101,9 +103,12 @@ static void screw(void)
             settled++;
         }
         if (tick >= 400u) {
-            check(near(found.friction_torque, wanted.friction_torque, SETTLED), "friction of a screw that was changed");
+            sum += found.friction_torque;
+            wanted_sum += wanted.friction_torque;
         }
     }
+    /* A ball that comes into the loaded part a tick earlier counts for a 33rd in that tick, and not in the mean. */
+    check(near(sum, wanted_sum, SETTLED), "friction of a screw that was changed");
     check((settled > 300u) && (settled < 590u), "which settled in between");
 }
 
