@@ -26,6 +26,12 @@ impl Numbers {
         (self.0 >> 8) as f32 / 16_777_216.0
     }
 
+    /// A whole number below another one.
+    fn below(&mut self, most: u32) -> u32 {
+        self.next();
+        self.0 % most
+    }
+
     /// Between two numbers.
     fn within(&mut self, least: f32, most: f32) -> f32 {
         least + (most - least) * self.next()
@@ -110,7 +116,7 @@ fn memory() -> Result<Vec<Vec<u32>>, Error> {
         value: 3_000.0,
         bound: 20_000.0,
     };
-    let mut count = 16_300.0_f32;
+    let mut count = 16_300;
     let mut speed = 0.0_f32;
     (0..TICKS)
         .map(|tick| {
@@ -124,13 +130,15 @@ fn memory() -> Result<Vec<Vec<u32>>, Error> {
                 _ => {}
             }
             // Slow for some dozen ticks, then fast.
-            let most = if tick % 48 < 32 { 12.0 } else { 700.0 };
+            let most: u16 = if tick % 48 < 32 { 12 } else { 700 };
             let mut turned = || {
-                count = (count + numbers.within(-most, most) + 16_384.0) % 16_384.0;
-                count as u32
+                count = (count + NO_COUNT + numbers.below(2 * u32::from(most) + 1)
+                    - u32::from(most))
+                    % NO_COUNT;
+                count
             };
             let (first, second) = (turned(), turned());
-            speed = 0.5 * speed + numbers.within(-1.0, 1.0) * most * 0.02;
+            speed = 0.5 * speed + numbers.within(-1.0, 1.0) * f32::from(most) * 0.02;
             let inputs = WithMemoryInputs {
                 scene: Inputs {
                     nut_speed: if tick % 97 == 96 { f32::NAN } else { speed },

@@ -47,8 +47,15 @@ pub fn check(root: &Path) -> Outcome<()> {
         .args(["-O2", "-Wl,--gc-sections", "-o"])
         .arg(&program)
         .args(
-            ["host.c", "cases.c", "setups.c", "refusals.c", "changes.c", "reaction.c"]
-                .map(|file| test.join(file)),
+            [
+                "host.c",
+                "cases.c",
+                "setups.c",
+                "refusals.c",
+                "changes.c",
+                "reaction.c",
+            ]
+            .map(|file| test.join(file)),
         )
         .arg(&example)
         .arg(&archive)
