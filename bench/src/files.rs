@@ -221,6 +221,23 @@ impl<R: Seek> Seek for Bounded<R> {
     }
 }
 
+/// The text of a file, or of standard input, of at most `largest` bytes.
+///
+/// # Errors
+/// A file that cannot be read, is longer, or is no text.
+pub fn read_text(path: &Path, largest: u64) -> Result<String, Failure> {
+    let input: Box<dyn Read> = if standard(path) {
+        Box::new(io::stdin())
+    } else {
+        Box::new(fs::File::open(path).map_err(|error| Failure::file("open", path, &error))?)
+    };
+    let mut text = String::new();
+    Bounded::new(input, largest)
+        .read_to_string(&mut text)
+        .map_err(|error| Failure::file("read", path, &error))?;
+    Ok(text)
+}
+
 /// Line of the record that starts at this byte of an input, where a CSV reader says that it starts at `line`: the reader
 /// counts blank lines before a record as part of it.
 pub fn line_of(mut input: impl Read + Seek, byte: u64, line: u64) -> u64 {

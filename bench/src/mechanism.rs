@@ -15,14 +15,34 @@ pub struct Step {
     pub speed: f64,
     /// Way, rad or m.
     pub turn: f64,
+    /// Speed at its end, rad/s or m/s; of a mechanism its way over its time (Euler's backward rule).
+    pub end_speed: f64,
     /// Time, s, above 0.
     pub time: f64,
 }
 
 impl Step {
-    /// Speed at its end, by Euler's backward rule.
-    pub fn end_speed(&self) -> f64 {
-        self.turn / self.time
+    /// To the turning point and back, where the motion turns round on the way: with the speed as a straight line over time.
+    pub fn halves(&self) -> Option<(Self, Self)> {
+        if self.speed * self.end_speed >= 0.0 {
+            return None;
+        }
+        let time = self.time * self.speed / (self.speed - self.end_speed);
+        let turn = 0.5 * self.speed * time;
+        let there = Self {
+            turn,
+            end_speed: 0.0,
+            time,
+            ..*self
+        };
+        let back = Self {
+            position: self.position + turn,
+            speed: 0.0,
+            turn: self.turn - turn,
+            time: self.time - time,
+            ..*self
+        };
+        Some((there, back))
     }
 }
 
@@ -55,6 +75,7 @@ impl<R: Resistance> Mechanism<R> {
             position: self.position,
             speed: self.speed,
             turn: end_speed * time,
+            end_speed,
             time,
         };
         let excess = |end_speed: f64| {
@@ -110,7 +131,7 @@ mod tests {
     impl Resistance for Slider {
         fn against(&self, step: &Step) -> f64 {
             let held = self.held + self.stiffness * step.turn;
-            held.clamp(-self.limit, self.limit) + self.drag * step.end_speed()
+            held.clamp(-self.limit, self.limit) + self.drag * step.end_speed
         }
 
         fn follow(&mut self, step: &Step) -> f64 {

@@ -121,7 +121,7 @@ pub struct Arguments {
     )]
     input: Option<PathBuf>,
     /// Which channel of a measurement file is which column, in TOML: nut_speed = "NAME", or with group, source and unit
-    /// nut_speed = { channel = "NAME", group = "GROUP", source = "SOURCE", unit = "rpm" }
+    /// nut_speed = { channel = "NAME", group = "GROUP", source = "SOURCE", unit = "rpm" }; - for standard input
     #[arg(long, value_name = "MAPPING.toml", requires = "input")]
     channels: Option<PathBuf>,
     /// Built-in trace of rack force and rack travel
@@ -163,7 +163,11 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         return list();
     }
     let design = arguments.design.as_ref().and_then(DesignSource::file);
-    refuse_shared([design, arguments.input.as_deref()])?;
+    refuse_shared([
+        design,
+        arguments.input.as_deref(),
+        arguments.channels.as_deref(),
+    ])?;
     let existing = if arguments.force {
         Existing::Replace
     } else {

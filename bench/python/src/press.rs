@@ -4,6 +4,7 @@ use epas_friction::train::{IMPEDANCE_RANGE, LARGEST_FREE_SPEED, Press};
 use pyo3::prelude::*;
 
 use crate::arrays::shaped;
+use crate::blocks::{Block, Kernel};
 use crate::errors::{Refused, refused};
 use crate::numbers::{arguments, within};
 
@@ -44,22 +45,49 @@ pub fn contact_forces<'py>(
         }
     };
     let mut forces = Vec::with_capacity(arguments.len() / balls * (balls - 1));
-    let mut row = row(balls);
-    arguments.each(py, |[speed, impedance]: [f32; 2]| {
+    let rows = Rows {
+        row: row(balls),
+        forces: &mut forces,
+    };
+    arguments.map_blocks::<f32, _, 0>(py, rows)?;
+    shaped(py, forces, &shape)
+}
+
+/// Rows one after the other, with the forces that were found.
+struct Rows<'a> {
+    row: Box<dyn Row>,
+    forces: &'a mut Vec<f32>,
+}
+
+impl Kernel<f32, 2, 0> for Rows<'_> {
+    fn one(&mut self, [speed, impedance]: [f32; 2]) -> Result<[f32; 0], Refused> {
         let fastest = f64::from(LARGEST_FREE_SPEED);
         within("free_speed", speed.into(), -fastest, fastest)?;
         let (least, most) = IMPEDANCE_RANGE;
         within("impedance", impedance.into(), least.into(), most.into())?;
-        row.add(speed, impedance, &mut forces);
-        Ok(())
-    })?;
-    shaped(py, forces, &shape)
+        self.row.add(&[speed], &[impedance], self.forces);
+        Ok([])
+    }
+
+    /// All balls of a block, which begins and ends anywhere in a row.
+    fn block(&mut self, block: &mut Block<'_, f32, 2, 0>) -> bool {
+        let [speeds, impedances] = block.inputs;
+        let (least, most) = IMPEDANCE_RANGE;
+        let good = speeds.iter().all(|speed| speed.abs() <= LARGEST_FREE_SPEED)
+            && impedances
+                .iter()
+                .all(|impedance| (least..=most).contains(impedance));
+        if good {
+            self.row.add(speeds, impedances, self.forces);
+        }
+        good
+    }
 }
 
-/// A row that is filled ball by ball.
+/// A row that is filled with balls as they come.
 trait Row: Send {
-    /// Takes in a ball; the last one of a row lets them press.
-    fn add(&mut self, speed: f32, impedance: f32, forces: &mut Vec<f32>);
+    /// Takes in balls; the last one of a row lets them press.
+    fn add(&mut self, speeds: &[f32], impedances: &[f32], forces: &mut Vec<f32>);
 }
 
 /// A row of so many balls.
@@ -101,14 +129,19 @@ impl<const N: usize> RowOf<N> {
 }
 
 impl<const N: usize> Row for RowOf<N> {
-    fn add(&mut self, speed: f32, impedance: f32, forces: &mut Vec<f32>) {
-        self.free[self.place] = speed;
-        self.impedance[self.place] = impedance;
-        self.place += 1;
-        if self.place == self.balls {
-            self.place = 0;
-            self.press.solve(&self.free, &self.impedance, &self.room);
-            forces.extend(self.press.forces().take(self.balls - 1));
+    fn add(&mut self, mut speeds: &[f32], mut impedances: &[f32], forces: &mut Vec<f32>) {
+        while !speeds.is_empty() {
+            let end = self.balls.min(self.place + speeds.len());
+            let count = end - self.place;
+            self.free[self.place..end].copy_from_slice(&speeds[..count]);
+            self.impedance[self.place..end].copy_from_slice(&impedances[..count]);
+            (speeds, impedances) = (&speeds[count..], &impedances[count..]);
+            self.place = end;
+            if end == self.balls {
+                self.place = 0;
+                self.press.solve(&self.free, &self.impedance, &self.room);
+                forces.extend(self.press.forces().take(self.balls - 1));
+            }
         }
     }
 }

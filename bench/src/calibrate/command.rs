@@ -82,7 +82,7 @@ pub struct Arguments {
     #[arg(long, value_name = "OTHER.csv|OTHER.mf4")]
     validate: Option<PathBuf>,
     /// Which channel of a measurement file is which column, in TOML: nut_speed = "NAME", or with group, source and unit
-    /// nut_speed = { channel = "NAME", group = "GROUP", source = "SOURCE", unit = "rpm" }
+    /// nut_speed = { channel = "NAME", group = "GROUP", source = "SOURCE", unit = "rpm" }; - for standard input
     #[arg(long, value_name = "MAPPING.toml")]
     channels: Option<PathBuf>,
     /// Controller of the trace: force = V (P (reference_position - position) - speed); where it has its speed from is found
@@ -140,6 +140,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         file,
         arguments.trace.as_deref(),
         arguments.validate.as_deref(),
+        arguments.channels.as_deref(),
     ])?;
     let design = arguments
         .design

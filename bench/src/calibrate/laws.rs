@@ -252,12 +252,43 @@ pub struct Friction {
 }
 
 impl Friction {
+    /// Friction at every sample of a motion, over its highest level.
+    ///
+    /// Where a motion turns round between two samples it goes to the turning point first, and comes back from there: the way from
+    /// sample to sample alone would let friction turn round half a sample late. Friction that is late pushes where the acceleration
+    /// is largest, and counts as inertia (1.5 % of it in a drive with half of its effort in friction, sampled at 500 Hz).
+    pub fn along(mut self, position: &[f64], speed: &[f64], tick: f64) -> Vec<f64> {
+        let mut before = None;
+        let samples = position.iter().zip(speed);
+        samples
+            .map(|(&position, &speed)| {
+                let (start, start_speed) = before
+                    .replace((position, speed))
+                    .unwrap_or((position, speed));
+                let whole = Step {
+                    position: start,
+                    speed: start_speed,
+                    turn: position - start,
+                    end_speed: speed,
+                    time: tick,
+                };
+                match whole.halves() {
+                    Some((there, back)) => {
+                        self.follow(&there);
+                        self.follow(&back)
+                    }
+                    None => self.follow(&whole),
+                }
+            })
+            .collect()
+    }
+
     /// Friction after a step, over its highest level, and remembered. The level is that of the speed at the step's start.
     pub fn follow(&mut self, step: &Step) -> f64 {
         let level = self.level.at(step.speed);
         match &mut self.memory {
             Memory::Speed(reversal) => {
-                let speed = step.end_speed();
+                let speed = step.end_speed;
                 level * speed / speed.hypot(*reversal)
             }
             Memory::Bristle { way, held } => {

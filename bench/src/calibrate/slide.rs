@@ -155,25 +155,10 @@ impl<'a> Slide<'a> {
 
     /// The law's friction at these nonlinear parameters, at every sample; nothing where the crate refuses them.
     fn friction(&self, nonlinear: &[f64]) -> Vec<f64> {
-        let Ok(mut friction) = self.law.friction(&self.scales, nonlinear) else {
+        let Ok(friction) = self.law.friction(&self.scales, nonlinear) else {
             return vec![0.0; self.motion.position.len()];
         };
-        let time = self.scales.tick;
-        let mut before = self.motion.position.first().copied().unwrap_or(0.0);
-        let mut speed = self.motion.speed.first().copied().unwrap_or(0.0);
-        let motion = self.motion.position.iter().zip(&self.motion.speed);
-        motion
-            .map(|(position, now)| {
-                let step = Step {
-                    position: before,
-                    speed,
-                    turn: position - before,
-                    time,
-                };
-                (before, speed) = (*position, *now);
-                friction.follow(&step)
-            })
-            .collect()
+        friction.along(&self.motion.position, &self.motion.speed, self.scales.tick)
     }
 
     /// Columns that do not depend on the law, in the order of [`Separable::linear`] without those of the friction, as rows so many ticks
@@ -411,7 +396,7 @@ impl SlideResistance {
         let place = step.position - self.middle;
         let (sine, cosine) = (self.wavenumber * step.position).sin_cos();
         let [forward, backward] = self.drag;
-        let speed = step.end_speed();
+        let speed = step.end_speed;
         let drag = if speed > 0.0 { forward } else { backward };
         // Friction never drives, however steep its slope.
         let level = (self.level + self.slope * place).max(0.0);

@@ -359,3 +359,6 @@ fn picture(prepared: &Prepared<'_>, terms: Terms, sure: &Uncertainty) -> Result<
         },
     })
 }
+
+#[cfg(test)]
+mod tests;

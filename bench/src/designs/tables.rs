@@ -1,7 +1,5 @@
 //! What design files of screws and of bearings have in common.
 
-use std::fs::File;
-use std::io::{self, Read};
 use std::path::Path;
 
 use epas_friction::{BallScrew, Clearance, GrooveSize, Material};
@@ -9,7 +7,7 @@ use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
 use crate::failure::Failure;
-use crate::files::{Bounded, standard};
+use crate::files::read_text;
 
 /// Elastic constants and density of a body, as they are written.
 #[derive(Debug, Deserialize)]
@@ -32,24 +30,11 @@ pub fn from_file<Table: DeserializeOwned, Made>(
     design: impl FnOnce(Table, &str) -> Result<Made, String>,
 ) -> Result<Made, Failure> {
     let failure = |message: String| Failure::Data(format!("{}: {message}", path.display()));
-    let text = read_text(path)?;
+    let text = read_text(path, LARGEST_FILE)?;
     let file: Table =
         toml::from_str(&text).map_err(|error| failure(error.to_string().trim_end().into()))?;
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     design(file, &stem).map_err(failure)
-}
-
-fn read_text(path: &Path) -> Result<String, Failure> {
-    let input: Box<dyn Read> = if standard(path) {
-        Box::new(io::stdin())
-    } else {
-        Box::new(File::open(path).map_err(|error| Failure::file("open", path, &error))?)
-    };
-    let mut text = String::new();
-    Bounded::new(input, LARGEST_FILE)
-        .read_to_string(&mut text)
-        .map_err(|error| Failure::file("read", path, &error))?;
-    Ok(text)
 }
 
 /// Puts a given value in the place of another one.

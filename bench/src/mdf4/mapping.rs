@@ -5,12 +5,10 @@
 //! axial_load = { channel = "RackForce", group = "XCP 1ms", source = "ECU", unit = "kN" }
 //! ```
 
-use std::fs::File;
-use std::io::Read as _;
 use std::path::Path;
 
 use crate::failure::Failure;
-use crate::files::Bounded;
+use crate::files::read_text;
 use crate::units::{self, Quantity, cut, quantity};
 
 /// Largest mapping file, bytes.
@@ -41,18 +39,13 @@ pub struct Mapping {
 }
 
 impl Mapping {
-    /// Reads a mapping file.
+    /// Reads a mapping file, or standard input.
     ///
     /// # Errors
     /// A file that cannot be read, or what is wrong with it.
     pub fn read(path: &Path) -> Result<Self, Failure> {
-        let failure = |error: std::io::Error| Failure::file("read", path, &error);
-        let mut text = String::new();
-        let file = File::open(path).map_err(failure)?;
-        Bounded::new(file, LARGEST)
-            .read_to_string(&mut text)
-            .map_err(failure)?;
-        Self::of(&text).map_err(|message| Failure::Data(format!("{}: {message}", path.display())))
+        Self::of(&read_text(path, LARGEST)?)
+            .map_err(|message| Failure::Data(format!("{}: {message}", path.display())))
     }
 
     /// Reads a mapping.

@@ -52,7 +52,7 @@ impl<M: Remembers> Nut<M> {
             nut_speed: step.speed as f32,
             axial_load: self.axial_load as f32,
         };
-        let speed = step.end_speed();
+        let speed = step.end_speed;
         let outputs = self.model.step_at(inputs, speed as f32, self.temperature);
         self.outputs = Some(outputs);
         self.gain * f64::from(outputs.load_torque)

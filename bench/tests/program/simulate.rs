@@ -112,6 +112,57 @@ fn standard_input_and_output_are_a_dash() {
 }
 
 #[test]
+fn a_mapping_comes_from_standard_input_too() {
+    let folder = folder();
+    let measured = [
+        "simulate",
+        "--design",
+        "design.toml",
+        "--input",
+        "trace.csv",
+    ];
+    let run = run_in(
+        folder.path(),
+        &[&measured[..], &["--output", "out.mf4"]].concat(),
+        "",
+    );
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    let mapped = [
+        "simulate",
+        "--design",
+        "design.toml",
+        "--input",
+        "out.mf4",
+        "--output",
+        "-",
+        "--channels",
+        "-",
+    ];
+    let run = run_in(
+        folder.path(),
+        &mapped,
+        "nut_speed = \"nut_speed\"\naxial_load = \"axial_load\"\n",
+    );
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    let there = run_in(
+        folder.path(),
+        &[&measured[..], &["--output", "-"]].concat(),
+        "",
+    );
+    assert_eq!(run.stdout, there.stdout);
+    let wrong = run_in(
+        folder.path(),
+        &mapped,
+        "nut_speed = \"nut_speed\"\naxial_load = \"no_such\"\n",
+    );
+    assert!(
+        wrong.code == 1 && wrong.stderr.contains("no_such"),
+        "{}",
+        wrong.stderr
+    );
+}
+
+#[test]
 fn a_name_that_is_near_is_suggested() {
     let run = run(
         &[

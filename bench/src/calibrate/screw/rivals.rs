@@ -12,7 +12,6 @@ use crate::calibrate::laws::{Law, Scales};
 use crate::calibrate::problem::{Evaluation, LinearParameter, Parameter, Scale, Separable};
 use crate::calibrate::signals::{Motion, Rows};
 use crate::calibrate::trace::Trace;
-use crate::mechanism::Step;
 
 /// A law of the literature on a screw.
 pub struct Rival<'a> {
@@ -90,29 +89,17 @@ impl<'a> Rival<'a> {
 
     /// Friction of unit level at every sample; no numbers where the law refuses its parameters.
     fn friction(&self, nonlinear: &[f64]) -> Vec<f64> {
-        let none = || vec![f64::NAN; self.trace.len()];
-        let Ok(mut friction) = self.law.friction(&self.scales, nonlinear) else {
-            return none();
+        let Ok(friction) = self.law.friction(&self.scales, nonlinear) else {
+            return vec![f64::NAN; self.trace.len()];
         };
-        let mut before = self.motion.position.first().copied().unwrap_or(0.0);
-        let mut speed = self.motion.speed.first().copied().unwrap_or(0.0);
-        let motion = self.motion.position.iter().zip(&self.motion.speed);
-        let friction = motion.map(|(position, now)| {
-            let step = Step {
-                position: before,
-                speed,
-                turn: position - before,
-                time: self.scales.tick,
-            };
-            (before, speed) = (*position, *now);
-            friction.follow(&step)
-        });
+        let friction = friction.along(&self.motion.position, &self.motion.speed, self.scales.tick);
         match (&self.trace.load, nonlinear.last()) {
             (Some(load), Some(&preload)) if self.has_preload() => friction
+                .iter()
                 .zip(load)
                 .map(|(friction, load)| friction * flank_sum(preload, *load) / (2.0 * preload))
                 .collect(),
-            _ => friction.collect(),
+            _ => friction,
         }
     }
 
