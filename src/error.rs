@@ -57,7 +57,7 @@ pub enum Error {
         /// What is allowed.
         allowed: Range,
     },
-    /// The groove surface would fold past the axis of the screw (`A <= 0`): the other fields leave
+    /// The groove surface would fold past the axis of the screw (`A < 1e-4`): the other fields leave
     /// no room for the value. The allowed range is the one that these other fields leave.
     FoldedGroove {
         /// Name of the field, as it is spelled in the structure given.

@@ -23,7 +23,8 @@ pub use catalogue::{
     named,
 };
 pub use limits::{
-    BALL_RADIUS, LARGEST_CONFORMITY, LARGEST_CONTACT_ANGLE, LEAD, PITCH_RADIUS, SMALLEST_CONFORMITY,
+    BALL_RADIUS, LARGEST_CONFORMITY, LARGEST_CONTACT_ANGLE, LEAD, PITCH_RADIUS, SMALLEST_AREA,
+    SMALLEST_CONFORMITY,
 };
 pub use linear_bearing::{LinearBearing, LinearBearingParameters};
 pub use profile::{Groove, GrooveProfile, GrooveSize, HelixPath};

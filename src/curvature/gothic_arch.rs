@@ -1,7 +1,8 @@
 //! The exact principal curvatures of a gothic-arch groove.
 
 use crate::error::{Error, attempt, in_range};
-use crate::geometry::{BallScrew, ContactAngle, Groove, GrooveProfile, HelixPath};
+
+use crate::geometry::{BallScrew, ContactAngle, Groove, GrooveProfile, HelixPath, SMALLEST_AREA};
 use crate::math::{self, constant};
 
 /// Both principal curvatures at a contact point, 1/m; normal into the metal, `kappa1 > kappa2`.
@@ -81,8 +82,17 @@ pub struct GothicArch {
     twist_radius: f32,
 }
 
-/// Largest groove radius times curvature or torsion of the path.
-const LARGEST_RADIUS: f32 = 1e3;
+/// Largest groove radius times curvature or torsion of the path. A groove is smaller than its path; more than 1 is
+/// for the study of surfaces close to their fold.
+const LARGEST_RADIUS: f32 = 10.0;
+
+/// Largest offset of the nut's profile, relative to the path's radius: with its centre on the axis the nut's two
+/// curvatures are equal, and beyond it they change places.
+const LARGEST_OFFSET: f32 = 0.9;
+
+/// Groove radius relative to the path's radius of curvature, or to 1 / torsion, up to which the two curvatures never
+/// change places (swept: `tests/formulas/curvature`).
+const SURELY_APART: f32 = 0.5;
 
 /// The shape operator in orthonormal directions, its elements times `D³`, before the two roots that its
 /// eigenvalues need: the loop takes them by an instruction, set-up by integers, and all else is written
@@ -157,10 +167,11 @@ impl GothicArch {
     /// angles near `contact_angle`.
     ///
     /// # Errors
-    /// [`Error`] naming `curvature`, `torsion`, `groove_radius` (1e-9 to 1e9, and a thousand radii of the
-    /// path), `offset_h` or `offset_l`;
-    /// [`Error::FoldedGroove`] where the surface folds at this contact angle (`A <= 0`), or the centre of
-    /// the nut's profile would lie beyond the axis.
+    /// [`Error`] naming `curvature`, `torsion`, `groove_radius` (1e-9 to 1e9, and ten radii of the path),
+    /// `offset_h` or `offset_l`;
+    /// [`Error::FoldedGroove`] where the surface folds at this contact angle (`A < 1e-4`), where the centre of
+    /// the nut's profile would lie within a tenth of the path's radius from the axis or beyond it, and where a groove
+    /// larger than its path twists so that its two curvatures change places.
     pub const fn checked(
         groove: Groove,
         path: &HelixPath,
@@ -169,7 +180,7 @@ impl GothicArch {
     ) -> Result<Self, Error> {
         attempt!(in_range("curvature", path.curvature, 0.0, 1e9));
         attempt!(in_range("torsion", path.torsion, -1e9, 1e9));
-        // Cubes of radius times curvature have to stay within f32; a groove is smaller than its path.
+        // Cubes of radius times curvature have to stay within f32.
         let steepest = path.curvature.max(path.torsion.abs());
         let largest = (LARGEST_RADIUS / steepest).min(1e9);
         let radius = attempt!(in_range(
@@ -181,29 +192,32 @@ impl GothicArch {
         attempt!(in_range("offset_h", profile.offset_h, 0.0, radius));
         attempt!(in_range("offset_l", profile.offset_l, 0.0, radius));
         let arch = Self::new(groove, path, profile);
-        // A = 1 + zeta kappa (H - r_s c): the screw folds by its groove radius, the nut by its offset,
-        // and before it folds its two curvatures change places where the profile's centre lies beyond
-        // the axis.
-        let beyond = matches!(groove, Groove::Nut) && path.curvature * profile.offset_h >= 1.0;
-        if arch.area(contact_angle) > 0.0 && !beyond {
-            return Ok(arch);
-        }
+        // A = 1 + zeta kappa (H - r_s c): the screw folds by its groove radius, the nut by its offset.
         let path_radius = 1.0 / path.curvature;
-        Err(match groove {
-            Groove::Screw => Error::folded(
-                "groove_radius",
-                radius,
-                0.0,
-                (path_radius + profile.offset_h) / contact_angle.cos,
-            ),
-            Groove::Nut => Error::folded("offset_h", profile.offset_h, 0.0, path_radius),
-        })
+        let nut = matches!(groove, Groove::Nut);
+        if nut && path.curvature * profile.offset_h > LARGEST_OFFSET {
+            let largest = LARGEST_OFFSET * path_radius;
+            return Err(Error::folded("offset_h", profile.offset_h, 0.0, largest));
+        }
+        if arch.area(contact_angle) < SMALLEST_AREA {
+            let room = (1.0 - SMALLEST_AREA) * path_radius + profile.offset_h;
+            let largest = room / contact_angle.cos;
+            return Err(Error::folded("groove_radius", radius, 0.0, largest));
+        }
+        // Half the difference of the curvatures about along and about across the path: where it is not positive, its
+        // sum with the root cancels, and the first curvature no longer belongs to the path.
+        let shape = arch.shape_operator(contact_angle);
+        if shape.half_difference <= 0.0 {
+            let largest = SURELY_APART / steepest;
+            return Err(Error::folded("groove_radius", radius, 0.0, largest));
+        }
+        Ok(arch)
     }
 
     /// Both principal curvatures, 1/m.
     ///
-    /// Cost: 2 square roots, 1 division, 44 other operations. Any finite contact angle gives finite
-    /// values while the surface does not fold (`A > 0`).
+    /// Cost: 2 square roots, 1 division, 44 other operations. A contact angle at which [`GothicArch::checked`]
+    /// accepts the groove gives finite values; a design of [`BallScrew::new`] is accepted at every one.
     #[inline]
     #[must_use]
     pub fn principal(&self, contact_angle: ContactAngle) -> PrincipalCurvatures {

@@ -3,7 +3,7 @@
 use core::f32::consts::{FRAC_PI_2, TAU};
 
 use super::angle::ContactAngle;
-use super::limits::{BALL_RADIUS, LARGEST_CONTACT_ANGLE, LEAD, PITCH_RADIUS};
+use super::limits::{BALL_RADIUS, LARGEST_CONTACT_ANGLE, LEAD, PITCH_RADIUS, SMALLEST_AREA};
 use super::profile::{Groove, GrooveProfile, GrooveSize, HelixPath};
 use crate::error::{Error, attempt, in_range};
 use crate::material::Material;
@@ -125,7 +125,7 @@ impl BallScrew {
     /// # Errors
     /// [`Error`] naming the first field that is not finite or out of range: `pitch_radius`, `lead`,
     /// `ball_radius`, `contact_angle`, `conformity` or `groove_radius`, or a material's field;
-    /// [`Error::FoldedGroove`] where the screw's groove would reach past its axis (`A <= 0`).
+    /// [`Error::FoldedGroove`] where the screw's groove would reach past its axis (`A < 1e-4`).
     pub const fn new(parameters: BallScrewParameters) -> Result<Self, Error> {
         let BallScrewParameters {
             pitch_radius,
@@ -280,9 +280,9 @@ impl BallScrew {
 }
 
 /// The surface is regular while `A = 1 + kappa H - kappa r_s cos(beta) > 0`; the bottom of the groove
-/// (`cos(beta) = 1`) folds first.
+/// (`cos(beta) = 1`) folds first. Curvatures keep four digits down to [`SMALLEST_AREA`].
 const fn refuse_folded(path: &HelixPath, screw: &GrooveProfile) -> Result<(), Error> {
-    let largest = 1.0 / path.curvature + screw.offset_h;
+    let largest = (1.0 - SMALLEST_AREA) / path.curvature + screw.offset_h;
     if screw.groove_radius < largest {
         Ok(())
     } else {

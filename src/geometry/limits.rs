@@ -23,3 +23,7 @@ pub const LARGEST_CONFORMITY: f32 = 1.0;
 
 /// Largest accepted nominal contact angle, rad (89 degrees).
 pub const LARGEST_CONTACT_ANGLE: f32 = 1.5533;
+
+/// Smallest `A = 1 + zeta kappa (H - r_s cos(beta))` of a groove, a pure number: at 0 its surface folds, and its curvatures
+/// have an error of `6e-8 / A`.
+pub const SMALLEST_AREA: f32 = 1e-4;
