@@ -59,25 +59,31 @@ pub struct TargetFigures {
 impl TargetFigures {
     /// Measures, or takes the stored figures: where a look is enough, or tools are missing.
     pub fn new(quick: bool) -> Result<Self, Failure> {
-        let stored = |why: String| {
-            Ok(Self {
-                figures: stored::figures()?,
-                source: format!("Figures stored in bench/target.json{why}."),
-            })
-        };
         if quick {
-            return stored(String::new());
+            return Self::stored("");
         }
-        match tools::check() {
+        Self::counted(tools::check())
+    }
+
+    /// Measures where the tools are there; else takes the stored figures and says what is missing.
+    fn counted(tools: Result<(), Failure>) -> Result<Self, Failure> {
+        match tools {
             Ok(()) => Ok(Self {
                 figures: measure()?,
                 source: "Counted in this run.".into(),
             }),
-            Err(Failure::Data(missing)) => stored(format!(
+            Err(Failure::Data(missing)) => Self::stored(&format!(
                 ", because nothing can be counted on this machine: {missing}"
             )),
             Err(other) => Err(other),
         }
+    }
+
+    fn stored(why: &str) -> Result<Self, Failure> {
+        Ok(Self {
+            figures: stored::figures()?,
+            source: format!("Figures stored in bench/target.json{why}."),
+        })
     }
 }
 
@@ -108,4 +114,23 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         stored::gate(&figures)?;
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn where_tools_are_missing_the_stored_figures_say_so() {
+        let missing = Failure::Data("qemu-system-arm is not installed".into());
+        let found = TargetFigures::counted(Err(missing)).unwrap();
+        let stored = stored::figures().unwrap();
+        assert_eq!(found.figures.functions.len(), stored.functions.len());
+        assert_eq!(
+            found.source,
+            "Figures stored in bench/target.json, because nothing can be counted on this machine: qemu-system-arm is not installed."
+        );
+        // A fault of another kind is no reason to print old figures.
+        assert!(TargetFigures::counted(Err(Failure::BrokenPipe)).is_err());
+    }
 }

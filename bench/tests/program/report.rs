@@ -1,12 +1,11 @@
 //! `report`: what it prints and what it writes.
 
-use std::path::{Path, PathBuf};
-use std::{env, fs};
+use std::fs;
 
 use serde_json::Value;
 use tempfile::tempdir;
 
-use super::{run, run_in, run_with};
+use super::{run, run_in};
 
 #[test]
 fn the_report_reproduces_the_printed_tables_and_writes_every_figure() {
@@ -214,48 +213,6 @@ fn worst_cases_are_reproduced(table: &Value) {
         );
         assert!(cell(row, "inputs").as_f64().unwrap() >= 30.0, "{row}");
     }
-}
-
-/// The finest sweeps, and few timing rounds. Where nothing can be counted on the target, the report says what
-/// is missing and takes the stored figures.
-#[test]
-fn the_whole_report_takes_the_stored_figures_where_qemu_is_missing() {
-    let report = whole_report(
-        &["report", "--rounds", "40"],
-        &[("PATH", Path::new("")), ("RUSTC", &rustc())],
-    );
-    assert!(report.contains("Figures stored in bench/target.json, because"));
-    assert!(report.contains("qemu-system-arm is not installed"));
-}
-
-#[test]
-#[ignore = "needs QEMU and the target, and takes minutes"]
-fn without_a_subcommand_the_report_counts_on_the_target() {
-    assert!(whole_report(&[], &[]).contains("Counted in this run."));
-}
-
-/// The Markdown that the program writes to its own folder of reports, with some changed variables.
-fn whole_report(arguments: &[&str], variables: &[(&str, &Path)]) -> String {
-    let folder = tempdir().unwrap();
-    let run = run_with(folder.path(), arguments, "", variables);
-    assert_eq!(run.code, 0, "{}", run.stderr);
-    let report = folder.path().join("target").join("report");
-    assert!(report.join("report.html").is_file());
-    assert!(run.stdout.contains("report.html"));
-    fs::read_to_string(report.join("report.md")).unwrap()
-}
-
-/// Where the compiler is.
-fn rustc() -> PathBuf {
-    let folders = env::var_os("PATH").unwrap();
-    env::split_paths(&folders)
-        .map(|folder| {
-            folder
-                .join("rustc")
-                .with_extension(env::consts::EXE_EXTENSION)
-        })
-        .find(|path| path.is_file())
-        .unwrap()
 }
 
 /// Files are written when everything is computed, each beside its place first: a run that is cancelled leaves

@@ -1,6 +1,9 @@
 //! `target` where QEMU and the target are there; both are skipped by default and run by `.ci/run`.
 
-use super::run;
+use std::env;
+use std::path::{Path, PathBuf};
+
+use super::{run, run_with};
 
 use epas_firmware::inputs::CASES;
 use epas_firmware::scenes::{caged_configuration, course};
@@ -87,6 +90,38 @@ fn figures_are_one_object() {
     );
     assert_eq!(figures["panic_free"], true);
     assert_eq!(figures["soft_double"], false);
+}
+
+/// What is missing is named, with the command that adds it.
+#[test]
+fn without_qemu_the_command_that_adds_it_is_printed() {
+    let folder = tempfile::tempdir().unwrap();
+    let variables = [("PATH", Path::new("")), ("RUSTC", &rustc())];
+    let run = run_with(folder.path(), &["target", "--gate"], "", &variables);
+    assert_ne!(run.code, 0);
+    assert!(
+        run.stderr.contains("qemu-system-arm is not installed"),
+        "{}",
+        run.stderr
+    );
+    assert!(
+        run.stderr.contains("apt-get install qemu-system-arm"),
+        "{}",
+        run.stderr
+    );
+}
+
+/// Where the compiler is.
+fn rustc() -> PathBuf {
+    let folders = env::var_os("PATH").unwrap();
+    env::split_paths(&folders)
+        .map(|folder| {
+            folder
+                .join("rustc")
+                .with_extension(env::consts::EXE_EXTENSION)
+        })
+        .find(|path| path.is_file())
+        .unwrap()
 }
 
 /// Inputs differ from case to case, and fit into the firmware's buffers.

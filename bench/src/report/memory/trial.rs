@@ -4,6 +4,7 @@ mod gear;
 mod rivals;
 
 use epas_reference::rig::parameters::Parameters;
+use rayon::prelude::*;
 
 use super::PANEL;
 use crate::calibrate::screw::choice::Wanted;
@@ -116,20 +117,32 @@ fn tried(gear: &Gear, size: &Size) -> Result<Vec<Tried>, Failure> {
         residual: gear.residual(&friction),
         friction,
     };
-    let mut tried = vec![entry("none", vec![0.0; gear.in_loop.0.len()])];
-    for rival in [Rival::BySpeed, Rival::LuGre, Rival::LuGreOnContacts] {
-        tried.push(entry(rival.name(), rival.tried(gear, &fit)?));
-    }
-    for (name, elements) in size.elements {
-        let wanted = Wanted {
-            elements: Some(*elements),
-            estimate: (!size.estimated.is_empty())
-                .then(|| size.estimated.iter().map(ToString::to_string).collect()),
-            ..Wanted::default()
-        };
-        tried.push(entry(name, calibrated(gear, wanted, fit)?));
-    }
-    Ok(tried)
+    // Fits share nothing: side by side on the cores that there are.
+    let rivals = [Rival::BySpeed, Rival::LuGre, Rival::LuGreOnContacts];
+    let (rivals, screws): (Vec<_>, Vec<_>) = rayon::join(
+        || {
+            rivals
+                .par_iter()
+                .map(|rival| Ok(entry(rival.name(), rival.tried(gear, &fit)?)))
+                .collect()
+        },
+        || {
+            size.elements
+                .par_iter()
+                .map(|&(name, elements)| {
+                    let wanted = Wanted {
+                        elements: Some(elements),
+                        estimate: (!size.estimated.is_empty())
+                            .then(|| size.estimated.iter().map(ToString::to_string).collect()),
+                        ..Wanted::default()
+                    };
+                    Ok(entry(name, calibrated(gear, wanted, fit)?))
+                })
+                .collect()
+        },
+    );
+    let none = entry("none", vec![0.0; gear.in_loop.0.len()]);
+    [Ok(none)].into_iter().chain(rivals).chain(screws).collect()
 }
 
 /// Friction of the calibrated screw over the trace that was not fitted, N m.
