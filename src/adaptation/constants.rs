@@ -55,50 +55,20 @@ impl AdaptationConstants {
             forgetting_time,
             filter_time,
             noise,
-            level_deviation,
             least_level,
             largest_level,
-            drag_deviation,
             largest_drag,
-            offset_deviation,
             largest_offset,
-            load_deviation,
             largest_load_error,
             largest_torque,
             largest_speed,
             least_speed,
             least_friction,
             health,
+            ..
         } = *configuration;
-        attempt!(in_range("tick", tick, 1e-5, 1.0));
-        let times = Range::new(200.0 * tick, 1e5 * tick);
-        attempt!(times.checked("forgetting_time", forgetting_time));
-        attempt!(in_range("filter_time", filter_time, 0.0, 1.0));
-        attempt!(in_range("level_deviation", level_deviation, 0.0, 10.0));
-        attempt!(in_range("least_level", least_level, LEVEL.minimum, 1.0));
-        attempt!(in_range("largest_level", largest_level, 1.0, LEVEL.maximum));
-        attempt!(in_range("drag_deviation", drag_deviation, 0.0, 1e3));
-        attempt!(in_range("largest_drag", largest_drag, 0.0, 1e4));
-        attempt!(in_range("offset_deviation", offset_deviation, 0.0, 1e3));
-        attempt!(in_range("largest_offset", largest_offset, 0.0, 1e4));
-        attempt!(in_range("load_deviation", load_deviation, 0.0, 1.0));
-        attempt!(in_range("largest_load_error", largest_load_error, 0.0, 1.0));
-        attempt!(in_range("largest_torque", largest_torque, 1e-6, 1e6));
-        attempt!(in_range("largest_speed", largest_speed, 1e-3, 1e6));
-        attempt!(in_range("least_speed", least_speed, 0.0, largest_speed));
-        attempt!(in_range(
-            "least_friction",
-            least_friction,
-            0.0,
-            largest_torque
-        ));
-        let deviations = [
-            level_deviation,
-            level_deviation,
-            drag_deviation,
-            offset_deviation,
-            load_deviation,
-        ];
+        attempt!(checked(configuration));
+        let deviations = deviations(configuration);
         // A level divides the model's torque: by 0.1 at the least.
         let regressors = [
             largest_torque / LEVEL.minimum,
@@ -172,6 +142,63 @@ impl AdaptationConstants {
                 AdaptationFlags::TOO_WEAK,
             )
     }
+}
+
+/// Checks every field but the noise and the health, which depend on others.
+const fn checked(configuration: &AdaptationConfiguration) -> Result<(), Error> {
+    let AdaptationConfiguration {
+        tick,
+        forgetting_time,
+        filter_time,
+        level_deviation,
+        least_level,
+        largest_level,
+        drag_deviation,
+        largest_drag,
+        offset_deviation,
+        largest_offset,
+        load_deviation,
+        largest_load_error,
+        largest_torque,
+        largest_speed,
+        least_speed,
+        least_friction,
+        ..
+    } = *configuration;
+    attempt!(in_range("tick", tick, 1e-5, 1.0));
+    let times = Range::new(200.0 * tick, 1e5 * tick);
+    attempt!(times.checked("forgetting_time", forgetting_time));
+    attempt!(in_range("filter_time", filter_time, 0.0, 1.0));
+    attempt!(in_range("level_deviation", level_deviation, 0.0, 10.0));
+    attempt!(in_range("least_level", least_level, LEVEL.minimum, 1.0));
+    attempt!(in_range("largest_level", largest_level, 1.0, LEVEL.maximum));
+    attempt!(in_range("drag_deviation", drag_deviation, 0.0, 1e3));
+    attempt!(in_range("largest_drag", largest_drag, 0.0, 1e4));
+    attempt!(in_range("offset_deviation", offset_deviation, 0.0, 1e3));
+    attempt!(in_range("largest_offset", largest_offset, 0.0, 1e4));
+    attempt!(in_range("load_deviation", load_deviation, 0.0, 1.0));
+    attempt!(in_range("largest_load_error", largest_load_error, 0.0, 1.0));
+    attempt!(in_range("largest_torque", largest_torque, 1e-6, 1e6));
+    attempt!(in_range("largest_speed", largest_speed, 1e-3, 1e6));
+    attempt!(in_range("least_speed", least_speed, 0.0, largest_speed));
+    attempt!(in_range(
+        "least_friction",
+        least_friction,
+        0.0,
+        largest_torque
+    ));
+    Ok(())
+}
+
+/// Deviations at set-up of the five numbers.
+const fn deviations(configuration: &AdaptationConfiguration) -> [f32; ESTIMATES] {
+    [
+        configuration.level_deviation,
+        configuration.level_deviation,
+        configuration.drag_deviation,
+        configuration.offset_deviation,
+        configuration.load_deviation,
+    ]
 }
 
 /// The noise, where no regressor is too large beside it.

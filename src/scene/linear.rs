@@ -275,11 +275,7 @@ impl<const N: usize> LinearConstants<N> {
         // A radian by which the angles at TR and BR grow and those at TL and BL shrink: (3.43) is linear in it.
         let diagonals = [up_squared, down_squared];
         let mean = self.ball.closed_form(diagonals, [1.0, -1.0]);
-        let turn = if speed < 0.0 {
-            -mean.speed_deviation
-        } else {
-            mean.speed_deviation
-        };
+        let turn = as_the_carriage(speed, mean.speed_deviation);
         let impedance = self.ball.impedance(diagonals);
         let spins = [up * up_root, down * down_root];
         let loss = self.grooves.at([up, down], spins, normal - side.abs());
@@ -359,4 +355,10 @@ impl<const N: usize> LinearConstants<N> {
 #[inline]
 fn at_least(value: f32, bound: f32) -> f32 {
     if value > bound { value } else { bound }
+}
+
+/// A value that changes its sign with the way of the carriage.
+#[inline(always)]
+const fn as_the_carriage(speed: f32, value: f32) -> f32 {
+    if speed < 0.0 { -value } else { value }
 }

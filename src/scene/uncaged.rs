@@ -230,9 +230,7 @@ impl<const N: usize> UncagedConstants<N> {
                 contacts: pressing.contacts,
                 largest_contact_force: pressing.largest,
             },
-            faults: Faults::NONE
-                .with(state.ring.settles(), Faults::SETTLING)
-                .with(state.ring.beyond_model(), Faults::BEYOND_MODEL),
+            faults: faults(&state.ring),
         }
     }
 
@@ -345,4 +343,12 @@ impl<const N: usize> UncagedConstants<N> {
     pub(crate) fn set_nut_angle(&self, state: &mut UncagedState<N>, angle: f32) {
         state.circuit.set_turns(&self.circuit, angle / TAU);
     }
+}
+
+/// What the balls are at, beside what they answer.
+#[inline(always)]
+const fn faults<const N: usize>(ring: &Ring<N>) -> Faults {
+    Faults::NONE
+        .with(ring.settles(), Faults::SETTLING)
+        .with(ring.beyond_model(), Faults::BEYOND_MODEL)
 }

@@ -98,26 +98,8 @@ impl Block {
         };
         let (header, state) = bytes.split_first_chunk::<HEADER>().ok_or(wrong)?;
         let (state, checksum) = state.split_last_chunk::<CHECKSUM>().ok_or(wrong)?;
-        let [
-            m0,
-            m1,
-            m2,
-            m3,
-            v0,
-            v1,
-            k0,
-            k1,
-            b0,
-            b1,
-            l0,
-            l1,
-            f0,
-            f1,
-            f2,
-            f3,
-        ] = *header;
-        let [found, balls, length] = [[v0, v1], [b0, b1], [l0, l1]].map(u16::from_le_bytes);
-        if [m0, m1, m2, m3] != MAGIC {
+        let ([magic, fingerprint], [found, kind, balls, length]) = numbers(header);
+        if magic != MAGIC {
             return Err(Refusal::NotAState);
         }
         if found != VERSION {
@@ -136,7 +118,7 @@ impl Block {
         if crc32(body) != u32::from_le_bytes(*checksum) {
             return Err(Refusal::Damaged);
         }
-        if u16::from_le_bytes([k0, k1]) != self.label.kind {
+        if kind != self.label.kind {
             return Err(Refusal::OtherScene);
         }
         if balls != self.label.balls {
@@ -145,7 +127,7 @@ impl Block {
                 expected: self.label.balls,
             });
         }
-        if u32::from_le_bytes([f0, f1, f2, f3]) != self.label.fingerprint.value() {
+        if u32::from_le_bytes(fingerprint) != self.label.fingerprint.value() {
             return Err(Refusal::OtherConstants);
         }
         // Elements of another number have other constants.
@@ -155,4 +137,28 @@ impl Block {
             Err(wrong)
         }
     }
+}
+
+/// Magic and fingerprint; version, kind, balls and length.
+fn numbers(header: &[u8; HEADER]) -> ([[u8; 4]; 2], [u16; 4]) {
+    let [
+        m0,
+        m1,
+        m2,
+        m3,
+        v0,
+        v1,
+        k0,
+        k1,
+        b0,
+        b1,
+        l0,
+        l1,
+        f0,
+        f1,
+        f2,
+        f3,
+    ] = *header;
+    let words = [[v0, v1], [k0, k1], [b0, b1], [l0, l1]].map(u16::from_le_bytes);
+    ([[m0, m1, m2, m3], [f0, f1, f2, f3]], words)
 }

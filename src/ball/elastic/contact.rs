@@ -2,7 +2,7 @@
 
 use super::equations::{Axial, Motion, Shared};
 use super::grooves::ElasticGroove;
-use crate::contact::slip_map::looped::Slips;
+use crate::contact::slip_map::looped::{LoopSlip, Slips};
 use crate::math;
 
 /// Spin below which a contact sticks, over the nut's speed.
@@ -121,6 +121,17 @@ impl Pressed {
     }
 }
 
+/// How a contact slides.
+struct Slid {
+    slip: LoopSlip,
+    /// Friction of a contact that slides without spin, N.
+    limit: f32,
+    /// Second derivatives times the slips, and these times the slips.
+    h1: f32,
+    h2: f32,
+    turned: f32,
+}
+
 /// Where a contact lies and what it carries.
 #[derive(Clone, Copy)]
 pub(super) struct Touch {
@@ -221,23 +232,47 @@ impl Touch {
             grown * (slip.moment + (1.0 / 3.0) * (slip.moment + turned)),
         );
         self.place(f1, u1, own, shared);
-        let force = Motion {
-            speed: f2,
-            x: fm * nx - f2 * nz,
-            y: f1,
-            z: fm * nz + f2 * nx,
-        };
-        shared.forces = shared.forces.plus(&force, 1.0);
-        let growth = Motion {
-            speed: u2,
-            x: um * nx - u2 * nz,
-            y: u1,
-            z: um * nz + u2 * nx,
-        };
+        shared.forces = shared.forces.plus(&self.on_motion(f1, f2, fm), 1.0);
+        let growth = self.on_motion(u1, u2, um);
         shared.forces_by_place = shared.forces_by_place.plus(&growth, nx);
         own.forces = own.forces.plus(&growth, nz);
 
-        // Second derivatives by slips and spin.
+        self.bend(
+            &Slid {
+                slip,
+                limit,
+                h1,
+                h2,
+                turned,
+            },
+            own,
+            shared,
+        );
+        reach
+    }
+
+    /// What forces across and along the track and a moment about the normal are for the motion.
+    #[inline(always)]
+    fn on_motion(&self, across: f32, along: f32, moment: f32) -> Motion {
+        Motion {
+            speed: along,
+            x: moment * self.nx - along * self.nz,
+            y: across,
+            z: moment * self.nz + along * self.nx,
+        }
+    }
+
+    /// Adds the second derivatives of the power by the motion, and those of the friction across the track on the places.
+    #[inline(always)]
+    fn bend(&self, slid: &Slid, own: &mut Axial, shared: &mut Shared) {
+        let Self { nx, nz, .. } = *self;
+        let Slid {
+            slip,
+            limit,
+            h1,
+            h2,
+            turned,
+        } = *slid;
         let (s11, s12, s22) = (
             limit * slip.across_across,
             limit * slip.mixed,
@@ -268,7 +303,6 @@ impl Touch {
         // Friction across the track acts on the ball along (nz, -nx), against the slip.
         shared.by_motion = shared.by_motion.plus(&by_across, -nz);
         own.by_motion = own.by_motion.plus(&by_across, nx);
-        reach
     }
 
     /// Adds forces in the cross section and their derivatives by the place, where the friction force across the track is

@@ -188,24 +188,23 @@ impl Line {
     }
 }
 
-/// Solves the equations, where the axial forces on the ball are unbalanced by those given.
-///
-/// Elimination without exchange of rows: axial places, radial place, motion.
-#[inline]
-pub(super) fn solved(
-    shared: &Shared,
-    screw: &Axial,
-    nut: &Axial,
-    unbalanced: [f32; 2],
-    push: f32,
-) -> Step {
+/// Places in terms of what is eliminated after them.
+struct Places {
+    radial: Follows,
+    screw: Follows,
+    nut: Follows,
+}
+
+/// Eliminates the axial places, then the radial one.
+#[inline(always)]
+fn places(shared: &Shared, screw: &Axial, nut: &Axial, unbalanced: [f32; 2]) -> Places {
     // One division for both reciprocals.
     let both = 1.0 / (screw.by_itself * nut.by_itself);
     let s = Follows::of(screw, unbalanced[0], both * nut.by_itself);
     let n = Follows::of(nut, unbalanced[1], both * screw.by_itself);
     let by_place = shared.by_place - screw.radial * s.place - nut.radial * n.place;
     let inverse = 1.0 / by_place;
-    let x = Follows {
+    let radial = Follows {
         right: inverse * (shared.radial - screw.radial * s.right - nut.radial * n.right),
         place: 0.0,
         motion: shared
@@ -214,6 +213,22 @@ pub(super) fn solved(
             .plus(&n.motion, -nut.radial)
             .times(inverse),
     };
+    Places {
+        radial,
+        screw: s,
+        nut: n,
+    }
+}
+
+/// Eliminates the motion, row after row: its step, and the change of the speed with a force along the track.
+#[inline(always)]
+fn motion(
+    shared: &Shared,
+    screw: &Axial,
+    nut: &Axial,
+    places: &Places,
+    push: f32,
+) -> (Motion, f32) {
     let h = &shared.hessian;
     let (p, u, v, f) = (
         &shared.forces_by_place,
@@ -221,7 +236,7 @@ pub(super) fn solved(
         &nut.forces,
         &shared.forces,
     );
-    let all = (&x, &s, &n);
+    let all = (&places.radial, &places.screw, &places.nut);
     let row = |x, y, z, speed| Motion { speed, x, y, z };
     let a = Line::of(f.x, row(h.xx, h.xy, h.xz, h.xs), (p.x, u.x, v.x), all);
     let inverse = 1.0 / a.by.x;
@@ -260,17 +275,29 @@ pub(super) fn solved(
     let speed = compliance * (d.right - first * a4 - second * b4 - third * c4);
     let z = c4 - c3 * speed;
     let y = b4 - b2 * z - b3 * speed;
-    let motion = Motion {
-        speed,
-        x: a4 - a1 * y - a2 * z - a3 * speed,
-        y,
-        z,
-    };
+    let x = a4 - a1 * y - a2 * z - a3 * speed;
+    (row(x, y, z, speed), compliance)
+}
+
+/// Solves the equations, where the axial forces on the ball are unbalanced by those given.
+///
+/// Elimination without exchange of rows: axial places, radial place, motion.
+#[inline]
+pub(super) fn solved(
+    shared: &Shared,
+    screw: &Axial,
+    nut: &Axial,
+    unbalanced: [f32; 2],
+    push: f32,
+) -> Step {
+    let places = places(shared, screw, nut, unbalanced);
+    let (motion, compliance) = motion(shared, screw, nut, &places, push);
+    let x = &places.radial;
     let radial = x.right - x.motion.dot(&motion);
     Step {
         radial,
-        screw: s.step(radial, &motion),
-        nut: n.step(radial, &motion),
+        screw: places.screw.step(radial, &motion),
+        nut: places.nut.step(radial, &motion),
         motion,
         compliance,
     }

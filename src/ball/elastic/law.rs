@@ -72,6 +72,13 @@ impl Neighbours {
     pub(super) fn force(&self) -> f32 {
         self.behind.force - self.ahead.force
     }
+
+    /// Largest friction forces of both across the track, N: their sum, and that of the ball in front less that of the ball behind.
+    #[inline(always)]
+    pub(super) fn rubbing(&self) -> [f32; 2] {
+        let (ahead, behind) = (self.ahead.friction, self.behind.friction);
+        [ahead + behind, ahead - behind]
+    }
 }
 
 impl RingConstants {

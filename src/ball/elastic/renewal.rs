@@ -110,6 +110,27 @@ impl Renewal {
     }
 }
 
+/// What the contacts of a ball put on it.
+struct Contacts {
+    shared: Shared,
+    /// Derivative of the power by the motion in the screw's groove alone, N.
+    on_screw: Motion,
+    screw: Axial,
+    nut: Axial,
+    /// Those of SL, SR, NL, NR.
+    reaches: [Reach; 4],
+}
+
+impl Contacts {
+    const NONE: Self = Self {
+        shared: Shared::NONE,
+        on_screw: Shared::NONE.forces,
+        screw: Axial::NONE,
+        nut: Axial::NONE,
+        reaches: [Reach::NONE; 4],
+    };
+}
+
 impl Settled {
     #[inline(always)]
     const fn motion(&self) -> Motion {
@@ -151,64 +172,17 @@ impl ElasticGrooves {
     #[inline(never)]
     pub fn renew(&self, state: &mut Settled, inputs: &BallInputs) -> Renewal {
         let clearance = inputs.clearance * self.per_radius;
-        let friction = inputs.friction;
         let [x, screw_z, nut_z] = state.place;
         let motion = state.motion();
-        let mut shared = Shared::NONE;
-        let mut screw = Axial::NONE;
-        let [mut a, mut b, mut c, mut d] = [Reach::NONE; 4];
-        let groove = &self.screw;
-        let [left, right] = self.arcs(groove, 1.0, inputs.screw_deviation);
-        if let Some(pressed) = Pressed::at(groove, (x, screw_z), left, clearance) {
-            add(
-                groove,
-                pressed,
-                &motion,
-                friction,
-                &mut screw,
-                &mut shared,
-                &mut a,
-            );
-        }
-        if let Some(pressed) = Pressed::at(groove, (x, screw_z), right, clearance) {
-            add(
-                groove,
-                pressed,
-                &motion,
-                friction,
-                &mut screw,
-                &mut shared,
-                &mut b,
-            );
-        }
-        let on_screw = shared.forces;
-        let groove = &self.nut;
-        let base = &groove.base;
-        let relative = motion.plus(base, -1.0);
-        let mut nut = Axial::NONE;
-        let [left, right] = self.arcs(groove, -1.0, inputs.nut_deviation);
-        if let Some(pressed) = Pressed::at(groove, (x, nut_z), left, clearance) {
-            add(
-                groove,
-                pressed,
-                &relative,
-                friction,
-                &mut nut,
-                &mut shared,
-                &mut c,
-            );
-        }
-        if let Some(pressed) = Pressed::at(groove, (x, nut_z), right, clearance) {
-            add(
-                groove,
-                pressed,
-                &relative,
-                friction,
-                &mut nut,
-                &mut shared,
-                &mut d,
-            );
-        }
+        let mut all = Contacts::NONE;
+        self.press(&mut all, state.place, &motion, inputs);
+        let Contacts {
+            mut shared,
+            on_screw,
+            mut screw,
+            mut nut,
+            reaches: [a, b, c, d],
+        } = all;
         let loads = [a.load, b.load, c.load, d.load];
         // Friction along the track carries a part of the axial load.
         let along = -on_screw.speed;
@@ -228,7 +202,7 @@ impl ElasticGrooves {
         }
         let moved = motion.plus(&step.motion, -taken);
         // Power lost is the ball's forces times its motion, less those in the nut times the nut's.
-        let power = moved.dot(&total) - base.dot(&total.plus(&on_screw, -1.0));
+        let power = moved.dot(&total) - self.nut.base.dot(&total.plus(&on_screw, -1.0));
         let lost = !(taken * step.compliance < f32::MAX && power.abs() < f32::MAX);
         if lost {
             return Renewal::lost(state.speed * self.ball_radius, loads);
@@ -248,6 +222,44 @@ impl ElasticGrooves {
             loads,
             taken,
             lost,
+        }
+    }
+
+    /// Adds the contacts that carry to the equations of a ball.
+    #[inline(always)]
+    fn press(
+        &self,
+        all: &mut Contacts,
+        [x, screw_z, nut_z]: [f32; 3],
+        motion: &Motion,
+        inputs: &BallInputs,
+    ) {
+        let clearance = inputs.clearance * self.per_radius;
+        let friction = inputs.friction;
+        let Contacts {
+            shared,
+            on_screw,
+            screw,
+            nut,
+            reaches: [a, b, c, d],
+        } = all;
+        let groove = &self.screw;
+        let [left, right] = self.arcs(groove, 1.0, inputs.screw_deviation);
+        if let Some(pressed) = Pressed::at(groove, (x, screw_z), left, clearance) {
+            add(groove, pressed, motion, friction, screw, shared, a);
+        }
+        if let Some(pressed) = Pressed::at(groove, (x, screw_z), right, clearance) {
+            add(groove, pressed, motion, friction, screw, shared, b);
+        }
+        *on_screw = shared.forces;
+        let groove = &self.nut;
+        let relative = motion.plus(&groove.base, -1.0);
+        let [left, right] = self.arcs(groove, -1.0, inputs.nut_deviation);
+        if let Some(pressed) = Pressed::at(groove, (x, nut_z), left, clearance) {
+            add(groove, pressed, &relative, friction, nut, shared, c);
+        }
+        if let Some(pressed) = Pressed::at(groove, (x, nut_z), right, clearance) {
+            add(groove, pressed, &relative, friction, nut, shared, d);
         }
     }
 

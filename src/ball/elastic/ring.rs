@@ -250,12 +250,7 @@ impl<const N: usize> Ring<N> {
     ) {
         let force = neighbours.force();
         let is_nominal = index >= N;
-        // Play turns the contacts of all balls; how far a ball deviates is known for a screw without.
-        let fastest = between(
-            constants.fastest + self.nominal.free.abs(),
-            0.0,
-            LARGEST_FREE_SPEED,
-        );
+        let fastest = self.fastest(constants, is_nominal);
         let ball = self.balls.get_mut(index).unwrap_or(&mut self.nominal);
         self.settling = self.settling.saturating_sub(1);
         let (place, turning) = if self.stale > 0 {
@@ -276,10 +271,7 @@ impl<const N: usize> Ring<N> {
         let inputs = BallInputs {
             axial_load: load.axial * share,
             force,
-            rubbing: [
-                neighbours.ahead.friction + neighbours.behind.friction,
-                neighbours.ahead.friction - neighbours.behind.friction,
-            ],
+            rubbing: neighbours.rubbing(),
             screw_deviation,
             nut_deviation,
             friction: self.friction,
@@ -295,11 +287,6 @@ impl<const N: usize> Ring<N> {
             (ball.place, ball.turning) = (place, turning);
             return;
         }
-        let fastest = if is_nominal {
-            LARGEST_FREE_SPEED
-        } else {
-            fastest
-        };
         // The power of a step that is cut short is many times too large: where balls were settled the last one counts, and
         // they settle once more.
         let torque = ball.torque;
@@ -308,19 +295,43 @@ impl<const N: usize> Ring<N> {
             if self.settling == 0 {
                 ball.torque = torque;
             }
-            let round = N as u16;
-            self.settling = if self.settling < round {
-                round
-            } else {
-                self.settling
-            };
+            self.settle_a_round();
         }
-        // A ball is stiffer than a nominal one by a factor at most.
+        self.limit_impedance(index);
+    }
+
+    /// Largest speed of a ball without load less the nominal one, over the nominal one against the nut: play turns the contacts of all
+    /// balls; how far a ball deviates is known for a screw without.
+    #[inline(always)]
+    fn fastest(&self, constants: &RingConstants, is_nominal: bool) -> f32 {
+        if is_nominal {
+            return LARGEST_FREE_SPEED;
+        }
+        between(
+            constants.fastest + self.nominal.free.abs(),
+            0.0,
+            LARGEST_FREE_SPEED,
+        )
+    }
+
+    /// A ball is stiffer than a nominal one by a factor at most.
+    #[inline(always)]
+    fn limit_impedance(&mut self, index: usize) {
         let nominal = self.nominal.impedance;
-        let ball = self.balls.get_mut(index).unwrap_or(&mut self.nominal);
-        if !is_nominal {
+        if let Some(ball) = self.balls.get_mut(index) {
             ball.impedance = between(ball.impedance, nominal * (1.0 / STIFFER), nominal * STIFFER);
         }
+    }
+
+    /// Balls settle for a round at the least.
+    #[inline(always)]
+    const fn settle_a_round(&mut self) {
+        let round = N as u16;
+        self.settling = if self.settling < round {
+            round
+        } else {
+            self.settling
+        };
     }
 
     /// The load for which balls are renewed, once a round is over.

@@ -193,21 +193,7 @@ impl FourPointBall {
         let yaw = free.yaw + axial_force * column.yaw;
         let speed = free.speed + axial_force * column.speed;
 
-        let length = roll.abs() + yaw.abs() + speed.abs();
-        // The least of 1 and of all ratios allowed/wanted; compared by cross-multiplication, divided once at the end.
-        let (mut allowed, mut wanted) = if length > STEP_LIMIT {
-            (STEP_LIMIT, length)
-        } else {
-            (1.0, 1.0)
-        };
-        for (contact, &reach) in contacts.contact.iter().zip(reach) {
-            let (arm_roll, arm_yaw) = contact.arm;
-            let change = (speed + arm_roll * roll + arm_yaw * yaw).abs();
-            if allowed * change > wanted * reach {
-                (allowed, wanted) = (reach, change);
-            }
-        }
-        let scale = allowed / wanted;
+        let scale = scale(contacts, reach, &BallMotion { speed, roll, yaw });
         let motion = BallMotion {
             speed: motion.speed + scale * speed,
             roll: motion.roll + scale * roll,
@@ -224,10 +210,10 @@ impl FourPointBall {
         // With the whole step dy and all outer forces Q: H dy = Q - g, so that the loss changes by
         // scale g dy + scale²/2 (Q - g) dy.
         let pull = decrement + axial_force * (2.0 * free.speed + axial_force * column.speed);
-        let mut work = axial_force * speed;
-        if let Some((moment_roll, moment_yaw)) = moments {
-            work += moment_roll * roll + moment_yaw * yaw;
-        }
+        let work = axial_force * speed;
+        let work = moments.map_or(work, |(along_roll, along_yaw)| {
+            work + (along_roll * roll + along_yaw * yaw)
+        });
         let friction_force = power + scale * (work - (1.0 - 0.5 * scale) * pull);
         BallState {
             motion,
@@ -236,6 +222,31 @@ impl FourPointBall {
             friction_force: larger(friction_force, 0.0),
         }
     }
+}
+
+/// Part of a step that is taken: the least of 1 and of all ratios allowed/wanted; compared by cross-multiplication, divided once at
+/// the end.
+#[inline(always)]
+fn scale<'a>(
+    contacts: &FourPointContacts,
+    reaches: impl IntoIterator<Item = &'a f32>,
+    step: &BallMotion,
+) -> f32 {
+    let &BallMotion { speed, roll, yaw } = step;
+    let length = roll.abs() + yaw.abs() + speed.abs();
+    let (mut allowed, mut wanted) = if length > STEP_LIMIT {
+        (STEP_LIMIT, length)
+    } else {
+        (1.0, 1.0)
+    };
+    for (contact, &reach) in contacts.contact.iter().zip(reaches) {
+        let (arm_roll, arm_yaw) = contact.arm;
+        let change = (speed + arm_roll * roll + arm_yaw * yaw).abs();
+        if allowed * change > wanted * reach {
+            (allowed, wanted) = (reach, change);
+        }
+    }
+    allowed / wanted
 }
 
 #[inline]
