@@ -177,32 +177,32 @@ impl ElasticGrooves {
         let mut all = Contacts::NONE;
         self.press(&mut all, state.place, &motion, inputs);
         let Contacts {
-            mut shared,
+            shared,
             on_screw,
-            mut screw,
-            mut nut,
+            screw,
+            nut,
             reaches: [a, b, c, d],
-        } = all;
+        } = &mut all;
         let loads = [a.load, b.load, c.load, d.load];
         // Friction along the track carries a part of the axial load.
         let along = -on_screw.speed;
         let needed = (inputs.axial_load - self.sin_lead * along) * self.per_cos_lead;
         let total = shared.forces;
-        let on_ball = self.rub(&motion, inputs.rubbing, &mut shared);
+        let on_ball = self.rub(&motion, inputs.rubbing, shared);
         let [radial, across] = on_ball;
         shared.radial += radial;
         let unbalanced = [screw.force - needed, nut.force + needed + across];
-        let mut step = solved(&shared, &screw, &nut, unbalanced, inputs.force);
-        let reaches = [&a, &b, &c, &d];
+        let mut step = solved(shared, screw, nut, unbalanced, inputs.force);
+        let reaches = [&*a, b, c, d];
         let mut taken = self.limited(&step, reaches, inputs.axial_load, clearance);
         if taken < LEAST_TAKEN || step.compliance <= 0.0 {
-            shared.uncouple(&mut screw, &mut nut);
-            step = solved(&shared, &screw, &nut, unbalanced, inputs.force);
+            shared.uncouple(screw, nut);
+            step = solved(shared, screw, nut, unbalanced, inputs.force);
             taken = self.limited(&step, reaches, inputs.axial_load, clearance);
         }
         let moved = motion.plus(&step.motion, -taken);
         // Power lost is the ball's forces times its motion, less those in the nut times the nut's.
-        let power = moved.dot(&total) - self.nut.base.dot(&total.plus(&on_screw, -1.0));
+        let power = moved.dot(&total) - self.nut.base.dot(&total.plus(on_screw, -1.0));
         let lost = !(taken * step.compliance < f32::MAX && power.abs() < f32::MAX);
         if lost {
             return Renewal::lost(state.speed * self.ball_radius, loads);
