@@ -130,7 +130,8 @@ impl Fit {
     pub fn refusal(&self) -> Option<String> {
         match &self.verdict {
             Verdict::DependsOnStart { names } => Some(format!(
-                "the answer depends on the start: {} came out differently with the same residual",
+                "the answer depends on the start: {} came out differently with the same residual; set one of them to what is \
+                 known of it, or measure what tells it",
                 names.join(", ")
             )),
             Verdict::FoundOnce { given: false } => Some(format!(
