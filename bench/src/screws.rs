@@ -164,6 +164,10 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
                 .iter()
                 .map(|(number, found)| (*number, of(found).relative())),
         );
+        if over.screws == 0 {
+            println!("{name:20} {:6} none of these screws has it", 0);
+            continue;
+        }
         let [largest, rms, mean, median, worst] =
             [over.largest, over.rms, over.mean, over.median, over.worst.0].map(|part| 100.0 * part);
         println!(

@@ -11,6 +11,7 @@
 //! | [`evidence`] | what the trace excites |
 //! | [`rivals`] | other models of friction |
 //! | [`blocks`] | rows that are fitted and rows that score |
+//! | [`waves`] | waves of the torque over the turn |
 //! | [`scores`] | scores of all models |
 //! | [`choice`] | what is estimated, from where, within which bounds |
 
@@ -29,6 +30,7 @@ pub mod scores;
 pub mod systematic;
 #[cfg(test)]
 mod tests;
+pub mod waves;
 
 use self::choice::{Start, Wanted};
 use self::evidence::Evidence;

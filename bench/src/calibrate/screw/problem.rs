@@ -13,6 +13,7 @@ use std::f64::consts::TAU;
 use super::friction::{Course, Screw};
 use super::quantities::{Factor, Linear, Nonlinear, Values};
 use super::refined::correction;
+use super::waves::{WavyRows, flank_sum, wave};
 use crate::calibrate::filter::ZeroPhase;
 use crate::calibrate::problem::{Evaluation, LinearParameter, Parameter, Separable};
 use crate::calibrate::signals::{Motion, Rows};
@@ -35,6 +36,9 @@ pub struct ScrewProblem<'a> {
     /// Linear quantities that are not estimated and not zero.
     set: Vec<(&'static Linear, Column)>,
     target: Vec<f64>,
+    /// Cosines and sines of what is estimated, at every sample: they change in no evaluation.
+    waves: Vec<(Factor, Vec<f64>)>,
+    wavy_rows: WavyRows,
     /// Factor of the friction at every sample; none where it is as the scene gives it.
     correction: Option<Vec<f64>>,
 }
@@ -95,8 +99,15 @@ impl<'a> ScrewProblem<'a> {
             linear_parameters: choice.linear.iter().map(|of| of.parameter()).collect(),
             set: Vec::new(),
             target: rows.of(&trace.effort),
+            waves: Vec::new(),
+            wavy_rows: WavyRows::default(),
             correction: None,
         };
+        problem.waves = choice
+            .linear
+            .iter()
+            .filter_map(|of| Some((of.factor, wave(of.factor, &motion.position)?)))
+            .collect();
         let free = |name: &str| problem.nonlinear.iter().any(|(p, _)| p.name == name);
         let moves = |factor: Factor| match factor {
             Factor::Viscosity => free("viscosity_pole"),
@@ -196,7 +207,14 @@ impl<'a> ScrewProblem<'a> {
     fn rows_of(&self, (of, column): &(&'static Linear, Column), values: &Values) -> Vec<f64> {
         match column {
             Column::Still(rows) => rows.clone(),
-            Column::Moving => self.column(of.factor, values),
+            Column::Moving => match of.factor {
+                Factor::Cosine(_) | Factor::Sine(_) => {
+                    let preload = self.screw.axial_preload(values);
+                    self.wavy_rows
+                        .of(of.factor, preload, || self.column(of.factor, values))
+                }
+                _ => self.column(of.factor, values),
+            },
         }
     }
 
@@ -223,10 +241,19 @@ impl<'a> ScrewProblem<'a> {
             acceleration,
             ..
         } = self.motion;
-        let waves = |wave: fn(f64) -> f64, order: u8| {
-            let sum = self.flank_sums(values);
-            let angles = position.iter().map(|angle| wave(f64::from(order) * angle));
-            angles.zip(sum).map(|(wave, sum)| wave * sum).collect()
+        let wavy = || {
+            let mut sum = self.flank_sums(values);
+            let known = self.waves.iter().find(|(known, _)| *known == factor);
+            let own = if known.is_none() {
+                wave(factor, position)
+            } else {
+                None
+            };
+            let waves = known.map(|(_, wave)| wave).or(own.as_ref());
+            for (sum, wave) in sum.iter_mut().zip(waves.into_iter().flatten()) {
+                *sum *= wave;
+            }
+            sum
         };
         match factor {
             Factor::Acceleration => acceleration.clone(),
@@ -240,8 +267,7 @@ impl<'a> ScrewProblem<'a> {
                     None => vec![0.0; position.len()],
                 }
             }
-            Factor::Cosine(order) => waves(f64::cos, order),
-            Factor::Sine(order) => waves(f64::sin, order),
+            Factor::Cosine(_) | Factor::Sine(_) => wavy(),
         }
     }
 
@@ -282,6 +308,8 @@ impl<'a> ScrewProblem<'a> {
             linear_parameters: Vec::new(),
             set: Vec::new(),
             target: Vec::new(),
+            waves: Vec::new(),
+            wavy_rows: WavyRows::default(),
             correction: self.correction.clone(),
         };
         other.whole(other.friction(values), values)
@@ -328,20 +356,6 @@ impl<'a> ScrewProblem<'a> {
                 .collect(),
             None => vec![1.0; self.trace.len()],
         }
-    }
-}
-
-/// Sum of the axial forces of two flanks that share one Hertzian deflection, N, under a load: the series
-/// `P (2 + y^2/12 + ...)` with `y = F/P`, whose last coefficient makes it meet the load where one flank is lost, at
-/// `y = 2 sqrt(2)`. Largest error 0.84 %, of a wave of a few per cent of the friction.
-pub fn flank_sum(preload: f64, load: f64) -> f64 {
-    let load = load.abs();
-    if load < 8.0_f64.sqrt() * preload {
-        let square = (load / preload).powi(2);
-        let quartic = ((12.0 * (8.0_f64.sqrt() - 2.0)) / 8.0 - 1.0) / 8.0;
-        preload * (2.0 + square / 12.0 * (1.0 + quartic * square))
-    } else {
-        load
     }
 }
 

@@ -6,8 +6,9 @@
 use epas_friction::{CagedBallScrew, FrictionModel};
 
 use super::friction::{Course, Screw};
-use super::problem::{Beside, flank_sum};
+use super::problem::Beside;
 use super::quantities::Values;
+use super::waves::flank_sum;
 use crate::calibrate::laws::{Law, Scales};
 use crate::calibrate::problem::{Evaluation, LinearParameter, Parameter, Scale, Separable};
 use crate::calibrate::signals::{Motion, Rows};
