@@ -187,10 +187,10 @@ fn bound(found: &ScrewCalibration, effort: &[f64]) -> Vec<f64> {
 /// `RUNS` and `COURSES` (`vehicle,rig,whole`) in the environment choose less. Were 95 % true, fewer than 88 of 100 would be held in 1
 /// of 700 tests of one parameter.
 ///
-/// Measured, 100 runs: vehicle 93 to 100 (before turning points between samples); whole 95 to 100; rig 96 to 100 but inertia, 89, whose mean
-/// error is 0.6 half widths. Widths are 1.4 to 2.7 times the bound, of the breakaway angle 6 times: the bound knows neither the load's
-/// noise nor the encoder's counts, nor what the model leaves out. On the rig's course alone full-film ratio, half-share speed and pole
-/// depend on the start: a calibration of several starts refuses it, this one begins near the truth.
+/// Measured, 100 runs: vehicle 93 to 100; whole 95 to 100; rig 96 to 100 but inertia, 89, whose mean error is 0.6 half widths. Widths
+/// are 1.4 to 2.7 times the bound, of the breakaway angle 6 to 10 times: the bound knows neither the load's noise nor the encoder's
+/// counts, nor what the model leaves out. On the rig's course alone full-film ratio, half-share speed and pole depend on the start: a
+/// calibration of several starts refuses it, this one begins near the truth.
 #[test]
 #[ignore = "a hundred traces of a minute take ten minutes on two cores, for each of three courses"]
 fn intervals_hold_nine_times_of_ten() {
