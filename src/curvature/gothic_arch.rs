@@ -1,7 +1,6 @@
 //! The exact principal curvatures of a gothic-arch groove.
 
 use crate::error::{Error, attempt, in_range};
-
 use crate::geometry::{BallScrew, ContactAngle, Groove, GrooveProfile, HelixPath, SMALLEST_AREA};
 use crate::math::{self, constant};
 

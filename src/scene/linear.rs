@@ -8,7 +8,7 @@ use super::circuit::{Circuit, CircuitState, UNLOADED, per_loaded_ball};
 use super::contract::{Admitted, Regime, Scene};
 use super::faults::Faults;
 use super::outputs::LinearOutputs;
-use super::passage::{Passage, Reversal};
+use super::passage::{Passage, Reversal, way};
 use super::row::RowFull;
 use super::sliding::Sliding;
 use crate::ball::{
@@ -275,7 +275,7 @@ impl<const N: usize> LinearConstants<N> {
         // A radian by which the angles at TR and BR grow and those at TL and BL shrink: (3.43) is linear in it.
         let diagonals = [up_squared, down_squared];
         let mean = self.ball.closed_form(diagonals, [1.0, -1.0]);
-        let turn = as_the_carriage(speed, mean.speed_deviation);
+        let turn = way(speed) * mean.speed_deviation;
         let impedance = self.ball.impedance(diagonals);
         let spins = [up * up_root, down * down_root];
         let loss = self.grooves.at([up, down], spins, normal - side.abs());
@@ -355,10 +355,4 @@ impl<const N: usize> LinearConstants<N> {
 #[inline]
 fn at_least(value: f32, bound: f32) -> f32 {
     if value > bound { value } else { bound }
-}
-
-/// A value that changes its sign with the way of the carriage.
-#[inline(always)]
-const fn as_the_carriage(speed: f32, value: f32) -> f32 {
-    if speed < 0.0 { -value } else { value }
 }
