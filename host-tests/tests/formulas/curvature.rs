@@ -7,6 +7,7 @@ use epas_friction::curvature::{
 };
 use epas_friction::geometry::{ContactAngle, Groove, GrooveProfile, HelixPath};
 use epas_friction::{CATALOGUE, Error};
+use epas_reference::curvature::{self, Surface};
 use serde::Deserialize;
 
 #[derive(Deserialize)]
@@ -299,18 +300,19 @@ fn a_folded_surface_is_refused_with_the_range_that_is_left() {
 }
 
 /// A groove as large as it may be beside its path, more often than not close to one of the edges of what is accepted:
-/// the fold, the axis, the largest radius; in any unit of length.
-fn edge(random: &mut Random, groove: Groove) -> (HelixPath, GrooveProfile, f32) {
+/// the fold, the axis, the largest radius; in any unit of length. Its section has the digits of the crate.
+fn edge(random: &mut Random, groove: Groove) -> (Surface, ContactAngle) {
     let size = |random: &mut Random, low: f64, high: f64| -> f64 {
         low * (high / low).powf(random.between(0.0, 1.0))
     };
     let curvature = size(random, 1e-9, 1e9);
-    let torsion = match random.below(4) {
+    let ratio = match random.below(4) {
         0 | 1 => 0.0,
-        2 => curvature * size(random, 1e-6, 1e6),
-        _ => size(random, 1e-30, 1e9),
+        2 => size(random, 1e-6, 1e6),
+        _ => size(random, 1e-30, 1e9) / curvature,
     };
-    let largest = (10.0 / curvature.max(torsion)).min(1e9);
+    let lead_angle = ratio.atan();
+    let largest = (10.0 / (curvature * ratio.max(1.0))).min(1e9);
     let radius = largest
         * if random.one_in(3) {
             1.0
@@ -328,43 +330,19 @@ fn edge(random: &mut Random, groove: Groove) -> (HelixPath, GrooveProfile, f32) 
         Groove::Nut => (1.0 - edge) / curvature,
         Groove::Screw => radius * angle.cos() - (1.0 - edge) / curvature,
     };
-    let profile = GrooveProfile {
-        groove_radius: radius as f32,
-        offset_h: offset_h.clamp(0.0, radius) as f32,
-        offset_l: (radius * size(random, 1e-6, 1.0)) as f32,
+    let single = |value: f64| f64::from(value as f32);
+    let surface = Surface {
+        groove: match groove {
+            Groove::Screw => curvature::Groove::Screw,
+            Groove::Nut => curvature::Groove::Nut,
+        },
+        pitch_radius: lead_angle.cos().powi(2) / curvature,
+        lead_angle,
+        groove_radius: single(radius),
+        offset_h: single(offset_h.clamp(0.0, radius)),
+        offset_l: single(radius * size(random, 1e-6, 1.0)),
     };
-    let path = HelixPath {
-        curvature: curvature as f32,
-        torsion: torsion as f32,
-    };
-    (path, profile, angle as f32)
-}
-
-/// Both eigenvalues of the shape operator, in double precision, from the numbers that the crate got.
-fn eigenvalues(
-    groove: Groove,
-    path: &HelixPath,
-    profile: &GrooveProfile,
-    angle: ContactAngle,
-) -> [f64; 2] {
-    let zeta = match groove {
-        Groove::Screw => 1.0,
-        Groove::Nut => -1.0,
-    };
-    let (kappa, tau) = (zeta * f64::from(path.curvature), f64::from(path.torsion));
-    let (cos, sin) = (f64::from(angle.cos), f64::from(angle.sin));
-    let radius = f64::from(profile.groove_radius);
-    let (h, l) = (f64::from(profile.offset_h), f64::from(profile.offset_l));
-    let (w, p) = (h * cos + l * sin, h * sin - l * cos);
-    let area = 1.0 + kappa * (h - radius * cos);
-    let scale = area.hypot(tau * p);
-    let along = -area / (radius * scale);
-    let mixed = tau * (area * w / radius - kappa * p * sin) / (scale * scale);
-    let across = (kappa * (area * area * cos + tau * tau * p * (p * cos - (radius - w) * sin))
-        + tau * tau * area * (radius - w) * w / radius)
-        / scale.powi(3);
-    let (half, middle) = (0.5 * (across - along), 0.5 * (across + along));
-    [middle + half.hypot(mixed), middle - half.hypot(mixed)]
+    (surface, ContactAngle::new(angle as f32))
 }
 
 /// Whatever groove is accepted has finite curvatures that are right to the digits that its `A` leaves: eight roundings
@@ -375,8 +353,21 @@ fn an_accepted_groove_has_curvatures_up_to_the_edges() {
     let (mut accepted, mut folded, mut worst) = (0, 0, 0.0_f64);
     for _ in 0..400_000 {
         let groove = random.of(&GROOVES);
-        let (path, profile, angle) = edge(&mut random, groove);
-        let angle = ContactAngle::new(angle);
+        let (surface, angle) = edge(&mut random, groove);
+        let (sin, cos) = surface.lead_angle.sin_cos();
+        let (curvature, torsion) = (
+            cos * cos / surface.pitch_radius,
+            sin * cos / surface.pitch_radius,
+        );
+        let path = HelixPath {
+            curvature: curvature as f32,
+            torsion: torsion as f32,
+        };
+        let profile = GrooveProfile {
+            groove_radius: surface.groove_radius as f32,
+            offset_h: surface.offset_h as f32,
+            offset_l: surface.offset_l as f32,
+        };
         let arch = match GothicArch::checked(groove, &path, &profile, angle) {
             Ok(arch) => arch,
             Err(error) => {
@@ -390,25 +381,21 @@ fn an_accepted_groove_has_curvatures_up_to_the_edges() {
         };
         accepted += 1;
         let found = arch.principal(angle);
-        let truth = eigenvalues(groove, &path, &profile, angle);
+        let truth = surface.principal(f64::from(angle.sin).atan2(f64::from(angle.cos)));
+        let truth = [truth.kappa1, truth.kappa2];
         let scale = truth[0].abs().max(truth[1].abs());
-        let sign = if groove == Groove::Screw { 1.0 } else { -1.0 };
-        let curvature = f64::from(path.curvature);
-        let (offset, radius) = (
-            f64::from(profile.offset_h),
-            f64::from(profile.groove_radius),
-        );
+        let radius = surface.groove_radius;
+        let offset = curvature * surface.offset_h;
         let bent = curvature * radius * f64::from(angle.cos);
-        let area = 1.0 + sign * (curvature * offset - bent);
-        let twisted = f64::from(path.torsion) * radius;
-        let magnified = (1.0 + curvature * offset + bent + twisted) / area;
+        let area = 1.0 + surface.groove.sign() * (offset - bent);
+        let magnified = (1.0 + offset + bent + torsion * radius) / area;
         let allowed = 8.0 * 2f64.powi(-24) * magnified;
         for (found, truth) in [found.kappa1, found.kappa2].into_iter().zip(truth) {
             let error = (f64::from(found) - truth).abs() / scale;
             worst = worst.max(error / allowed);
             assert!(
                 error <= allowed,
-                "{groove:?} {path:?} {profile:?} {angle:?}: {found} for {truth}, {error:e} of {allowed:e}"
+                "{surface:?} {angle:?}: {found} for {truth}, {error:e} of {allowed:e}"
             );
         }
     }
