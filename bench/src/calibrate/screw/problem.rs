@@ -13,7 +13,7 @@ use std::f64::consts::TAU;
 use super::friction::{Course, Screw};
 use super::quantities::{Factor, Linear, Nonlinear, Values};
 use super::refined::correction;
-use super::waves::{WavyRows, flank_sum, wave};
+use super::waves::{WavyRows, flank_sum};
 use crate::calibrate::filter::ZeroPhase;
 use crate::calibrate::problem::{Evaluation, LinearParameter, Parameter, Separable};
 use crate::calibrate::signals::{Motion, Rows};
@@ -36,8 +36,6 @@ pub struct ScrewProblem<'a> {
     /// Linear quantities that are not estimated and not zero.
     set: Vec<(&'static Linear, Column)>,
     target: Vec<f64>,
-    /// Cosines and sines of what is estimated, at every sample: they change in no evaluation.
-    waves: Vec<(Factor, Vec<f64>)>,
     wavy_rows: WavyRows,
     /// Factor of the friction at every sample; none where it is as the scene gives it.
     correction: Option<Vec<f64>>,
@@ -99,15 +97,9 @@ impl<'a> ScrewProblem<'a> {
             linear_parameters: choice.linear.iter().map(|of| of.parameter()).collect(),
             set: Vec::new(),
             target: rows.of(&trace.effort),
-            waves: Vec::new(),
             wavy_rows: WavyRows::default(),
             correction: None,
         };
-        problem.waves = choice
-            .linear
-            .iter()
-            .filter_map(|of| Some((of.factor, wave(of.factor, &motion.position)?)))
-            .collect();
         let free = |name: &str| problem.nonlinear.iter().any(|(p, _)| p.name == name);
         let moves = |factor: Factor| match factor {
             Factor::Viscosity => free("viscosity_pole"),
@@ -241,19 +233,10 @@ impl<'a> ScrewProblem<'a> {
             acceleration,
             ..
         } = self.motion;
-        let wavy = || {
-            let mut sum = self.flank_sums(values);
-            let known = self.waves.iter().find(|(known, _)| *known == factor);
-            let own = if known.is_none() {
-                wave(factor, position)
-            } else {
-                None
-            };
-            let waves = known.map(|(_, wave)| wave).or(own.as_ref());
-            for (sum, wave) in sum.iter_mut().zip(waves.into_iter().flatten()) {
-                *sum *= wave;
-            }
-            sum
+        let waves = |wave: fn(f64) -> f64, order: u8| {
+            let sum = self.flank_sums(values);
+            let angles = position.iter().map(|angle| wave(f64::from(order) * angle));
+            angles.zip(sum).map(|(wave, sum)| wave * sum).collect()
         };
         match factor {
             Factor::Acceleration => acceleration.clone(),
@@ -267,7 +250,8 @@ impl<'a> ScrewProblem<'a> {
                     None => vec![0.0; position.len()],
                 }
             }
-            Factor::Cosine(_) | Factor::Sine(_) => wavy(),
+            Factor::Cosine(order) => waves(f64::cos, order),
+            Factor::Sine(order) => waves(f64::sin, order),
         }
     }
 
@@ -308,7 +292,6 @@ impl<'a> ScrewProblem<'a> {
             linear_parameters: Vec::new(),
             set: Vec::new(),
             target: Vec::new(),
-            waves: Vec::new(),
             wavy_rows: WavyRows::default(),
             correction: self.correction.clone(),
         };

@@ -30,17 +30,6 @@ impl WavyRows {
     }
 }
 
-/// Cosine or sine of so many angles at every sample; none of another factor.
-pub fn wave(factor: Factor, position: &[f64]) -> Option<Vec<f64>> {
-    let (wave, order): (fn(f64) -> f64, u8) = match factor {
-        Factor::Cosine(order) => (f64::cos, order),
-        Factor::Sine(order) => (f64::sin, order),
-        _ => return None,
-    };
-    let waves = position.iter().map(|angle| wave(f64::from(order) * angle));
-    Some(waves.collect())
-}
-
 /// Sum of the axial forces of two flanks that share one Hertzian deflection, N, under a load: the series
 /// `P (2 + y^2/12 + ...)` with `y = F/P`, whose last coefficient makes it meet the load where one flank is lost, at
 /// `y = 2 sqrt(2)`. Largest error 0.84 %, of a wave of a few per cent of the friction.
