@@ -1,10 +1,13 @@
 //! Synthetic traces from the exact reference.
 
+use std::collections::BTreeMap;
+
 use epas_friction::Clearance;
 use epas_reference::rig::course::Course;
 use epas_reference::rig::parameters::Parameters;
 use epas_reference::rig::{Rig, Sensors};
 use rayon::prelude::*;
+use statrs::statistics::Statistics;
 
 use super::choice::Wanted;
 use super::{Request, ScrewCalibration, calibrate};
@@ -151,7 +154,6 @@ fn wrong_requests_are_named() {
 /// How the intervals of one parameter do in several runs.
 #[derive(Default)]
 struct Coverage {
-    name: String,
     /// Runs that estimate it.
     runs: u64,
     /// Runs whose interval holds the truth.
@@ -165,9 +167,7 @@ struct Coverage {
 /// Half widths of 95 % of the Cramer-Rao bound, in inner coordinates: white noise on the torque alone, everything else known. The
 /// rows' slopes stand for those of all samples: a model's torque has next to nothing above the rows' cut-off.
 fn bound(found: &ScrewCalibration, effort: &[f64]) -> Vec<f64> {
-    let mean = effort.iter().sum::<f64>() / effort.len() as f64;
-    let spread = effort.iter().map(|e| (e - mean).powi(2)).sum::<f64>() / effort.len() as f64;
-    let noise = Sensors::default().torque_noise.powi(2) * spread;
+    let noise = Sensors::default().torque_noise.powi(2) * effort.population_variance();
     let mut slopes = found.fit.jacobian.clone();
     let intervals = &found.uncertainty.intervals;
     for (mut column, interval) in slopes.column_iter_mut().zip(intervals) {
@@ -183,11 +183,31 @@ fn bound(found: &ScrewCalibration, effort: &[f64]) -> Vec<f64> {
         .to_vec()
 }
 
-/// How often each parameter is within its own interval, and how wide intervals are over the Cramer-Rao bound of the torque's noise.
-/// `RUNS` and `COURSES` (`vehicle,rig,whole`) in the environment choose less. Were 95 % true, fewer than 88 of 100 would be held in 1
-/// of 700 tests of one parameter.
+/// What one run says of each parameter that it estimates.
+fn coverage(trace: &Trace) -> Vec<(&'static str, Coverage)> {
+    let found = calibrate(trace, &design(), &request(&[])).unwrap();
+    let intervals = found.uncertainty.intervals.iter();
+    intervals
+        .zip(bound(&found, &trace.effort))
+        .map(|(interval, bound)| {
+            let truth = truth(interval.name, &found);
+            let error = inner(interval.scale, interval.value) - inner(interval.scale, truth);
+            let one = Coverage {
+                runs: 1,
+                held: u64::from((interval.low..=interval.high).contains(&truth)),
+                width: interval.half_width / bound,
+                error: error / interval.half_width,
+            };
+            (interval.name, one)
+        })
+        .collect()
+}
+
+/// How often each parameter is within its own interval: at least 90 of 100; and how wide intervals are over the Cramer-Rao bound of
+/// the torque's noise. `RUNS` and `COURSES` (`vehicle,rig,whole`) in the environment choose less.
 ///
-/// Measured, 100 runs: vehicle 93 to 100; whole 95 to 100; rig 96 to 100 but inertia, 89, whose mean error is 0.6 half widths. Widths
+/// Measured, 100 runs: vehicle 93 to 100; whole 95 to 100; rig 96 to 100 but inertia, 89, whose mean error is 0.6 half widths: it misses
+/// the 90, and its cause is not found. Widths
 /// are 1.4 to 2.7 times the bound, of the breakaway angle 6 to 10 times: the bound knows neither the load's noise nor the encoder's
 /// counts, nor what the model leaves out. On the rig's course alone full-film ratio, half-share speed and pole depend on the start: a
 /// calibration of several starts refuses it, this one begins near the truth.
@@ -206,50 +226,26 @@ fn intervals_hold_nine_times_of_ten() {
         if !wanted.split(',').any(|wanted| wanted == name) {
             continue;
         }
-        let found: Vec<(ScrewCalibration, Vec<f64>)> = (0..runs)
+        let found: Vec<Vec<(&str, Coverage)>> = (0..runs)
             .into_par_iter()
-            .map(|seed| {
-                let trace = trace(&rig, &course, seed);
-                let found = calibrate(&trace, &design(), &request(&[])).unwrap();
-                let bound = bound(&found, &trace.effort);
-                (found, bound)
-            })
+            .map(|seed| coverage(&trace(&rig, &course, seed)))
             .collect();
-        let mut list: Vec<Coverage> = Vec::new();
-        for (found, bound) in &found {
-            for (place, interval) in found.uncertainty.intervals.iter().enumerate() {
-                let truth = truth(interval.name, found);
-                if !list.iter().any(|held| held.name == interval.name) {
-                    list.push(Coverage {
-                        name: interval.name.into(),
-                        ..Coverage::default()
-                    });
-                }
-                let held = list
-                    .iter_mut()
-                    .find(|held| held.name == interval.name)
-                    .unwrap();
-                held.runs += 1;
-                held.held += u64::from((interval.low..=interval.high).contains(&truth));
-                held.width += interval.half_width / bound[place];
-                let error = inner(interval.scale, interval.value) - inner(interval.scale, truth);
-                held.error += error / interval.half_width;
-            }
+        let mut all: BTreeMap<&str, Coverage> = BTreeMap::new();
+        for (parameter, one) in found.into_iter().flatten() {
+            let sum = all.entry(parameter).or_default();
+            sum.runs += one.runs;
+            sum.held += one.held;
+            sum.width += one.width;
+            sum.error += one.error;
         }
-        for entry in list {
-            let Coverage {
-                name: parameter,
-                runs,
-                held,
-                ..
-            } = entry;
-            let mean = |sum: f64| sum / runs as f64;
+        for (parameter, sum) in all {
+            let Coverage { runs, held, .. } = sum;
             println!(
                 "{name}, {parameter}: held in {held} of {runs}, {:.2} times the bound, mean error {:.2} half widths",
-                mean(entry.width),
-                mean(entry.error)
+                sum.width / runs as f64,
+                sum.error / runs as f64
             );
-            if 100 * held < 88 * runs {
+            if 10 * held < 9 * runs {
                 missed.push(format!("{name}, {parameter}: {held} of {runs}"));
             }
         }
