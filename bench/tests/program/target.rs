@@ -1,4 +1,4 @@
-//! `target` where QEMU and the target are there; both are skipped by default and run by `.ci/run`.
+//! `target`; what needs QEMU and the target is skipped by default and run by `.ci/run`.
 
 use std::env;
 use std::path::{Path, PathBuf};
