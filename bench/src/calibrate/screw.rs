@@ -38,15 +38,15 @@ use self::friction::Screw;
 use self::hints::ScrewHints;
 use self::problem::ScrewProblem;
 use self::quantities::Values;
-use self::systematic::{ELEMENTS, Systematic, systematic};
+use self::systematic::widened;
 use super::answer::{Calibration, Estimate};
 use super::checks::{examine, load_gain};
 use super::finding::{Finding, FindingKind};
 use super::picture;
-use super::problem::{Scale, Separable};
+use super::problem::Separable;
 use super::profile::profile;
 use super::separable::checks::FitError;
-use super::separable::{self, Fit, FitSettings, Fixed, inner, inner_slope, outer};
+use super::separable::{self, Fit, FitSettings, Fixed};
 use super::signals::{Motion, RowSettings, Rows, SmoothingSettings};
 use super::telling::tell;
 use super::trace::{Coordinate, Trace};
@@ -103,7 +103,7 @@ pub struct ScrewCalibration {
     pub evidence: Evidence,
     /// The last fit.
     pub fit: Fit,
-    /// How sure it is by its residual alone.
+    /// How sure it is.
     pub uncertainty: Uncertainty,
     /// Evaluations of the model in all fits.
     pub evaluations: usize,
@@ -149,12 +149,10 @@ pub fn calibrate(
     let part = Fixed::new(&problem, &told.fixed)?;
     let fit = separable::fit(&part, &once(&request.fit))?;
     let evaluations = told.evaluations + fit.evaluations;
-    let mut uncertainty = uncertainty(&part, &fit);
-    let values = values_of(&problem, &told.fixed, &uncertainty.intervals);
-    let systematic = systematic(&problem, &fit, &values, &request.smoothing)?;
-    for (place, interval) in uncertainty.intervals.iter_mut().enumerate() {
-        widen(interval, &systematic, place, uncertainty.quantile);
-    }
+    let by_residual = uncertainty(&part, &fit);
+    let values = values_of(&problem, &told.fixed, &by_residual.intervals);
+    let smoothing = &request.smoothing;
+    let uncertainty = widened(&problem, &fit, &values, smoothing, by_residual.clone())?;
     let values = values_of(&problem, &told.fixed, &uncertainty.intervals);
     let mut answer = answer(&problem, &fit, &uncertainty, &values);
     let fixed: Vec<&str> = answer
@@ -171,7 +169,7 @@ pub fn calibrate(
         .profiles
         .iter()
         .map(|name| {
-            let profile = profile(&part, &fit, &uncertainty, name, &once(&request.fit))?;
+            let profile = profile(&part, &fit, &by_residual, name, &once(&request.fit))?;
             let best = answer.value(name).unwrap_or(f64::NAN);
             Ok(picture::Profile::of(&profile, best))
         })
@@ -245,31 +243,6 @@ fn once(settings: &FitSettings) -> FitSettings {
         finished: 1,
         ..*settings
     }
-}
-
-/// Takes what the sensors shift off a value, and widens its interval by what its residual does not show.
-fn widen(interval: &mut Interval, systematic: &Systematic, place: usize, quantile: f64) {
-    let entry = |list: &nalgebra::DVector<f64>| list.get(place).copied().unwrap_or(0.0);
-    let [low, high] = interval.bounds;
-    let shifted = (interval.value - entry(&systematic.shift))
-        .max(low)
-        .min(high);
-    if interval.scale == Scale::Linear || shifted > 0.0 {
-        interval.value = shifted;
-    }
-    let slope = inner_slope(interval.scale, interval.value);
-    let mut more = entry(&systematic.variance) * slope * slope;
-    if interval.name == "breakaway_angle" {
-        // Its inner coordinate is the logarithm.
-        more += ELEMENTS * ELEMENTS;
-    }
-    interval.standard_error = (interval.standard_error.powi(2) + more).sqrt();
-    interval.half_width = quantile * interval.standard_error;
-    let end = |way: f64| {
-        let coordinate = inner(interval.scale, interval.value) + way * interval.half_width;
-        outer(interval.scale, coordinate).max(low).min(high)
-    };
-    (interval.low, interval.high) = (end(-1.0), end(1.0));
 }
 
 /// Values of a problem with what was set and what was found.

@@ -9,52 +9,30 @@
 //!   whose first step is DerSimonian and Laird's. As this needs the variances one by one, traces are summed by half octaves of their
 //!   variance, and a trace counts with the mean variance of its class.
 //!
+//! Errors of the model itself are the same in every trace of a screw. No mean takes them out: they widen the interval of the mean, by as
+//! much as the traces say each of itself, and have no part in the weights or the spread.
+//!
 //! Every sum is kept in two numbers (value and rounding), so that the order and the grouping move the result by parts of 1e-30, and
 //! the answer from any partition is the same to the last rounding. Classes and counts are whole numbers.
+
+mod population;
+mod sum;
+#[cfg(test)]
+mod tests;
 
 use std::collections::BTreeMap;
 use std::fmt;
 
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
-use statrs::distribution::{ContinuousCDF, StudentsT};
 
+pub use self::population::Population;
+use self::population::{Class, population};
+use self::sum::Sum;
 use super::cramer_rao::inverse;
 use super::problem::Scale;
 use super::separable::{Fit, inner, outer};
 use super::uncertainty::Uncertainty;
-
-/// A sum and what its roundings have lost (Knuth's two-sum).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Sum {
-    value: f64,
-    lost: f64,
-}
-
-impl Sum {
-    /// Adds a number.
-    pub fn add(&mut self, term: f64) {
-        self.merge(Self {
-            value: term,
-            lost: 0.0,
-        });
-    }
-
-    /// Adds another sum.
-    pub fn merge(&mut self, other: Self) {
-        let total = self.value + other.value;
-        let part = total - self.value;
-        let error = (self.value - (total - part)) + (other.value - part);
-        let lost = error + (self.lost + other.lost);
-        self.value = total + lost;
-        self.lost = (total - self.value) + lost;
-    }
-
-    /// The sum as one number.
-    pub fn total(&self) -> f64 {
-        self.value
-    }
-}
 
 /// A parameter that traces may tell, with the point about which the sums are made. Same in all sums that merge.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -107,15 +85,6 @@ impl fmt::Display for SumsError {
 
 impl std::error::Error for SumsError {}
 
-/// Traces whose variance lies in one half octave.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-struct Class {
-    traces: u64,
-    variance: Sum,
-    deviation: Sum,
-    squares: Sum,
-}
-
 /// Sums over traces.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Sums {
@@ -131,23 +100,6 @@ pub struct Sums {
     square: Sum,
     /// Traces by half octaves of their variance, for each parameter.
     classes: Vec<BTreeMap<i32, Class>>,
-}
-
-/// A parameter of the traces together.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Population {
-    /// Name.
-    pub name: String,
-    /// Traces that tell it.
-    pub traces: u64,
-    /// Mean of the traces (geometric where the scale is logarithmic).
-    pub mean: f64,
-    /// 95 % interval of the mean.
-    pub mean_interval: [f64; 2],
-    /// Standard deviation between the traces beyond their own errors: of the value, or of its logarithm. `None` with one trace.
-    pub spread: Option<f64>,
-    /// Interval that holds the next unit with 95 %. `None` with fewer than three traces.
-    pub next: Option<[f64; 2]>,
 }
 
 impl Sums {
@@ -209,7 +161,8 @@ impl Sums {
             let deviation =
                 inner(interval.scale, interval.value) - inner(interval.scale, reference.value);
             let variance = sure.covariance[(k, k)];
-            if !(deviation.is_finite() && variance.is_finite() && variance > 0.0) {
+            let told = deviation.is_finite() && variance.is_finite() && variance > 0.0;
+            if !(told && interval.model_error.is_finite()) {
                 return Err(SumsError::NotFinite(interval.name.into()));
             }
             places.push(place);
@@ -231,6 +184,7 @@ impl Sums {
                 .or_default();
             class.traces += 1;
             class.variance.add(variance);
+            class.model_error.add(sure.intervals[i].model_error);
             class.deviation.add(deviation[i]);
             class.squares.add(deviation[i] * deviation[i]);
         }
@@ -265,6 +219,7 @@ impl Sums {
                 let into = into.entry(*key).or_default();
                 into.traces += class.traces;
                 into.variance.merge(class.variance);
+                into.model_error.merge(class.model_error);
                 into.deviation.merge(class.deviation);
                 into.squares.merge(class.squares);
             }
@@ -295,10 +250,13 @@ impl Sums {
         let parameter = |(i, k): (usize, &usize)| {
             let reference = &self.references[*k];
             let place = inner(reference.scale(), reference.value) + deviation[i];
+            let classes = self.classes[*k].values();
+            let shared: f64 = classes.map(|class| class.model_error.total()).sum();
+            let traces: u64 = self.classes[*k].values().map(|class| class.traces).sum();
             (
                 reference.name.clone(),
                 outer(reference.scale(), place),
-                covariance[(i, i)].sqrt(),
+                covariance[(i, i)].sqrt().hypot(shared / traces as f64),
             )
         };
         Some(Common {
@@ -327,71 +285,3 @@ pub struct Common {
     /// Chi-squared per degree of freedom; `None` without any.
     pub chi_squared: Option<f64>,
 }
-
-/// Mean, sum of the weights, and `sum w (q - mean)^2`, at a spread's square.
-fn weighted(classes: &BTreeMap<i32, Class>, spread: f64) -> (f64, f64, f64) {
-    let each = || {
-        classes.values().map(|class| {
-            let traces = class.traces as f64;
-            (
-                1.0 / (class.variance.total() / traces + spread),
-                traces,
-                class,
-            )
-        })
-    };
-    let weight: f64 = each().map(|(weight, traces, _)| weight * traces).sum();
-    let mean = each()
-        .map(|(weight, _, class)| weight * class.deviation.total())
-        .sum::<f64>()
-        / weight;
-    let square = |(weight, traces, class): (f64, f64, &Class)| {
-        weight * (class.squares.total() - mean * (2.0 * class.deviation.total() - traces * mean))
-    };
-    (mean, weight, each().map(square).sum())
-}
-
-fn population(reference: &Reference, classes: &BTreeMap<i32, Class>) -> Population {
-    let traces: u64 = classes.values().map(|class| class.traces).sum();
-    let freedom = traces as f64 - 1.0;
-    let mut spread = 0.0;
-    if traces > 1 && weighted(classes, 0.0).2 > freedom {
-        // `sum w (q - mean)^2` falls as the spread grows; without their own errors the traces spread at most by their squares.
-        let (mut low, mut high) = (
-            0.0,
-            classes
-                .values()
-                .map(|class| class.squares.total())
-                .sum::<f64>(),
-        );
-        for _ in 0..100 {
-            spread = 0.5 * (low + high);
-            *(if weighted(classes, spread).2 > freedom {
-                &mut low
-            } else {
-                &mut high
-            }) = spread;
-        }
-    }
-    let (mean, weight, _) = weighted(classes, spread);
-    let scale = reference.scale();
-    let at = |away: f64| outer(scale, inner(scale, reference.value) + mean + away);
-    let student = |freedom: f64| {
-        StudentsT::new(0.0, 1.0, freedom).map_or(f64::INFINITY, |law| law.inverse_cdf(0.975))
-    };
-    // One trace alone has its own error only.
-    let quantile = if traces > 1 { student(freedom) } else { 1.96 };
-    let half = quantile / weight.sqrt();
-    let ahead = (traces > 2).then(|| student(freedom - 1.0) * (spread + 1.0 / weight).sqrt());
-    Population {
-        name: reference.name.clone(),
-        traces,
-        mean: at(0.0),
-        mean_interval: [at(-half), at(half)],
-        spread: (traces > 1).then(|| spread.sqrt()),
-        next: ahead.map(|half| [at(-half), at(half)]),
-    }
-}
-
-#[cfg(test)]
-mod tests;

@@ -39,6 +39,8 @@ pub struct Interval {
     pub high: f64,
     /// Standard error of the inner coordinate.
     pub standard_error: f64,
+    /// What the model's own errors make of it: part of the standard error, not of the covariance, and the same in every trace.
+    pub model_error: f64,
     /// Half width of the interval in the inner coordinate, whatever the bounds.
     pub half_width: f64,
     /// Bounds.
@@ -104,23 +106,13 @@ pub fn uncertainty(problem: &dyn Separable, fit: &Fit) -> Uncertainty {
         covariance.column_mut(k).scale_mut(1.0 / scale);
     }
     let quantile = quantile(freedom, (lags + 1) as f64 / rows as f64);
-    let deviations: Vec<f64> = (0..count)
-        .map(|k| covariance[(k, k)].max(0.0).sqrt())
-        .collect();
-    let correlation = DMatrix::from_fn(count, count, |i, j| {
-        let size = deviations[i] * deviations[j];
-        if i == j || !(size > 0.0) {
-            f64::from(u8::from(i == j))
-        } else {
-            (covariance[(i, j)] / size).clamp(-1.0, 1.0)
-        }
-    });
+    let deviations = deviations(&covariance);
     let smallest = singular_values.last().copied().unwrap_or(1.0);
     let largest = singular_values.first().copied().unwrap_or(1.0);
     Uncertainty {
         intervals: intervals(problem, fit, &deviations, quantile),
+        correlation: correlation(&covariance),
         covariance,
-        correlation,
         condition: largest / smallest.max(largest * f64::EPSILON),
         singular_values,
         null_direction,
@@ -131,6 +123,28 @@ pub fn uncertainty(problem: &dyn Separable, fit: &Fit) -> Uncertainty {
             .sqrt(),
         quantile,
     }
+}
+
+/// Standard deviations of a covariance.
+fn deviations(covariance: &DMatrix<f64>) -> Vec<f64> {
+    let variances = covariance.diagonal();
+    variances
+        .iter()
+        .map(|variance| variance.max(0.0).sqrt())
+        .collect()
+}
+
+/// Correlations of a covariance.
+pub fn correlation(covariance: &DMatrix<f64>) -> DMatrix<f64> {
+    let deviations = deviations(covariance);
+    DMatrix::from_fn(covariance.nrows(), covariance.ncols(), |i, j| {
+        let size = deviations[i] * deviations[j];
+        if i == j || !(size > 0.0) {
+            f64::from(u8::from(i == j))
+        } else {
+            (covariance[(i, j)] / size).clamp(-1.0, 1.0)
+        }
+    })
 }
 
 struct Bread {
@@ -249,6 +263,7 @@ fn intervals(
                 low: end(-1.0),
                 high: end(1.0),
                 standard_error: *error,
+                model_error: 0.0,
                 half_width,
                 bounds,
                 at_bound: fit.at_bound.contains(&name),

@@ -49,6 +49,15 @@ pub fn summed(
         ..request.clone()
     };
     let found = calibrate(trace, design, &request)?;
+    let sums = sums(&found).map_err(|error| Failure::Data(error.to_string()))?;
+    Ok((found.answer, sums))
+}
+
+/// What a calibration adds to those of other traces.
+///
+/// # Errors
+/// Numbers that are not finite.
+pub fn sums(found: &ScrewCalibration) -> Result<Sums, SumsError> {
     let nonlinear = NONLINEAR
         .iter()
         .map(|quantity| (quantity.name, quantity.scale));
@@ -61,10 +70,9 @@ pub fn summed(
             value: if logarithmic { 1.0 } else { 0.0 },
         }
     });
-    let refused = |error: SumsError| Failure::Data(error.to_string());
-    let mut sums = Sums::new(references.collect()).map_err(refused)?;
-    sums.add(&found.fit, &found.uncertainty).map_err(refused)?;
-    Ok((found.answer, sums))
+    let mut sums = Sums::new(references.collect())?;
+    sums.add(&found.fit, &found.uncertainty)?;
+    Ok(sums)
 }
 
 /// What the page draws.

@@ -48,6 +48,7 @@ fn fit(trace: &Path) -> Result<(Calibration, Sums), Failure> {
         low: value,
         high: value,
         standard_error: error,
+        model_error: 0.0,
         half_width: 2.0 * error,
         bounds: [f64::MIN_POSITIVE, f64::MAX],
         at_bound: false,

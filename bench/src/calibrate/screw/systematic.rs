@@ -6,7 +6,8 @@
 //! slopes. Its mean is taken off the parameters, its spread widens their intervals.
 //!
 //! The scene's friction is that of the exact ball within some parts in a thousand, differently at every speed and load. Blocks of
-//! speed and load, each off by itself, widen the intervals too.
+//! speed and load, each off by itself, widen the intervals too. These errors are the same in every trace of a screw: a mean over many
+//! traces does not take them out, and so they stand apart from the covariance (`Interval::model_error`).
 
 use nalgebra::{DMatrix, DVector};
 use rand::{RngExt, SeedableRng};
@@ -16,9 +17,11 @@ use rand_pcg::Pcg64Mcg;
 use super::problem::ScrewProblem;
 use super::quantities::Values;
 use crate::calibrate::filter::ZeroPhase;
-use crate::calibrate::separable::Fit;
+use crate::calibrate::problem::Scale;
+use crate::calibrate::separable::{Fit, inner, inner_slope, outer};
 use crate::calibrate::signals::{Motion, SmoothingSettings};
 use crate::calibrate::trace::Trace;
+use crate::calibrate::uncertainty::{Uncertainty, correlation};
 use crate::failure::Failure;
 
 /// Times that sensors are imitated.
@@ -30,19 +33,21 @@ const MODEL: f64 = 2e-3;
 
 /// Error of the breakaway angle over itself for eight elements in the place of a curve: the reference's sixty elements on two courses were
 /// found 1.0 % too small and 0.9 % too large.
-pub const ELEMENTS: f64 = 7e-3;
+const ELEMENTS: f64 = 7e-3;
 
 /// Parts of the speeds, and of the loads, in which that error is one.
 const SPEEDS: usize = 5;
 const LOADS: usize = 4;
 
-/// Shift and further covariance of a fit's parameters, nonlinear before linear, each in its own unit.
+/// Errors of a fit's parameters that its residual does not show; nonlinear before linear, each in its own unit.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Systematic {
+struct Systematic {
     /// What the sensors make of the parameters on average.
-    pub shift: DVector<f64>,
-    /// Variance of each parameter.
-    pub variance: DVector<f64>,
+    shift: DVector<f64>,
+    /// Covariance of what they make of them in one trace.
+    sensors: DMatrix<f64>,
+    /// Standard deviation by the model's errors, the same in every trace.
+    model: DVector<f64>,
 }
 
 /// What a change of the model's rows makes of the parameters.
@@ -87,45 +92,88 @@ impl Slopes {
     }
 }
 
-/// Shift and variance for a fit of a problem at its values.
+/// How sure a fit is with what its residual does not show: the sensors' mean shift is off its values, their spread is in its covariance,
+/// and the model's own errors are in its intervals.
 ///
 /// # Errors
 /// Smoothing that the trace does not allow.
-pub fn systematic(
+pub fn widened(
     problem: &ScrewProblem<'_>,
     fit: &Fit,
     values: &Values,
     settings: &SmoothingSettings,
-) -> Result<Systematic, Failure> {
-    let count = fit.jacobian.ncols();
-    let none = Systematic {
-        shift: DVector::zeros(count),
-        variance: DVector::zeros(count),
+    mut sure: Uncertainty,
+) -> Result<Uncertainty, Failure> {
+    let Some(systematic) = systematic(problem, fit, values, settings)? else {
+        return Ok(sure);
     };
+    for (place, interval) in sure.intervals.iter_mut().enumerate() {
+        let shifted = interval.value - systematic.shift[place];
+        let shifted = shifted.clamp(interval.bounds[0], interval.bounds[1]);
+        if interval.scale == Scale::Linear || shifted > 0.0 {
+            interval.value = shifted;
+        }
+    }
+    let each = sure.intervals.iter();
+    let slopes: Vec<f64> = each
+        .map(|interval| inner_slope(interval.scale, interval.value))
+        .collect();
+    let scale = DMatrix::from_diagonal(&DVector::from_vec(slopes));
+    sure.covariance += &scale * systematic.sensors * &scale;
+    sure.correlation = correlation(&sure.covariance);
+    for (place, interval) in sure.intervals.iter_mut().enumerate() {
+        interval.model_error = systematic.model[place] * scale[(place, place)];
+        if interval.name == "breakaway_angle" {
+            // Its inner coordinate is the logarithm.
+            interval.model_error = interval.model_error.hypot(ELEMENTS);
+        }
+        let own = sure.covariance[(place, place)].sqrt();
+        interval.standard_error = own.hypot(interval.model_error);
+        interval.half_width = sure.quantile * interval.standard_error;
+        let middle = inner(interval.scale, interval.value);
+        let end = |way: f64| {
+            let end = outer(interval.scale, middle + way * interval.half_width);
+            end.clamp(interval.bounds[0], interval.bounds[1])
+        };
+        (interval.low, interval.high) = (end(-1.0), end(1.0));
+    }
+    Ok(sure)
+}
+
+/// Errors of a fit of a problem at its values. `None` where its slopes or an imitation of the sensors give no finite answer.
+fn systematic(
+    problem: &ScrewProblem<'_>,
+    fit: &Fit,
+    values: &Values,
+    settings: &SmoothingSettings,
+) -> Result<Option<Systematic>, Failure> {
     let Some(slopes) = Slopes::of(fit) else {
-        return Ok(none);
+        return Ok(None);
     };
-    let Systematic {
-        shift,
-        mut variance,
-    } = sensors(problem, &slopes, values, settings)?.unwrap_or(none);
+    let (shift, sensors) = sensors(problem, &slopes, values, settings)?;
+    let mut variance = DVector::zeros(fit.jacobian.ncols());
     for rows in friction_by_blocks(problem, values, SPEEDS, LOADS) {
         let off: Vec<f64> = rows.iter().map(|row| MODEL * row).collect();
         variance += slopes.fitted(&off).map(|value| value * value);
     }
-    Ok(Systematic { shift, variance })
+    Ok(Some(Systematic {
+        shift,
+        sensors,
+        model: variance.map(f64::sqrt),
+    }))
 }
 
-/// What the sensors do, from imitations.
+/// Shift by the sensors and its covariance, from imitations; none where an imitation is not finite.
 fn sensors(
     problem: &ScrewProblem<'_>,
     slopes: &Slopes,
     values: &Values,
     settings: &SmoothingSettings,
-) -> Result<Option<Systematic>, Failure> {
+) -> Result<(DVector<f64>, DMatrix<f64>), Failure> {
     let (trace, motion) = problem.measured();
     let smoothing = settings.filter(trace.step)?;
     let still = problem.model(values);
+    let count = slopes.scales.len();
     let mut random = Pcg64Mcg::seed_from_u64(1);
     let noise = load_noise(trace, &smoothing);
     let mut all = Vec::new();
@@ -135,18 +183,19 @@ fn sensors(
         let told = problem.model_of(&seen, &seen_motion, &smoothing, values);
         let change: Vec<f64> = still.iter().zip(&told).map(|(a, b)| a - b).collect();
         if change.iter().any(|row| !row.is_finite()) {
-            return Ok(None);
+            return Ok((DVector::zeros(count), DMatrix::zeros(count, count)));
         }
         all.push(slopes.fitted(&change));
     }
     let times = TIMES as f64;
     let shift = all.iter().sum::<DVector<f64>>() / times;
-    let spread = all
-        .iter()
-        .map(|one| (one - &shift).map(|value| value * value));
+    let squares = all.iter().map(|one| {
+        let off = one - &shift;
+        &off * off.transpose()
+    });
     // The mean is known to a part of the spread itself.
-    let variance = spread.sum::<DVector<f64>>() * ((1.0 + 1.0 / times) / (times - 1.0));
-    Ok(Some(Systematic { shift, variance }))
+    let covariance = squares.sum::<DMatrix<f64>>() * ((1.0 + 1.0 / times) / (times - 1.0));
+    Ok((shift, covariance))
 }
 
 /// Standard deviation of what the filter takes from the load, N.

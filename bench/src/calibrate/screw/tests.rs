@@ -10,10 +10,13 @@ use rayon::prelude::*;
 use statrs::statistics::Statistics;
 
 use super::choice::Wanted;
+use super::friction::Screw;
 use super::{Request, ScrewCalibration, calibrate};
 use crate::calibrate::cramer_rao::inverse;
 use crate::calibrate::separable::{FitSettings, inner, inner_slope};
+use crate::calibrate::sums::{Population, Sums};
 use crate::calibrate::trace::{Coordinate, Repairs, Trace};
+use crate::calibrate::with_design::sums;
 use crate::designs::{Design, DesignSource};
 
 /// The rig's screw with another preload and friction coefficient: what an engineer has before a calibration.
@@ -68,8 +71,8 @@ fn request(fix: &[(&str, f64)]) -> Request {
     }
 }
 
-/// What the rig was made with.
-fn truth(name: &str, found: &ScrewCalibration) -> f64 {
+/// What the rig was made with; the preload is the force of a contact.
+fn truth(name: &str, screw: &Screw) -> f64 {
     let parameters = Parameters::default();
     match name {
         "friction" => parameters.boundary,
@@ -77,7 +80,7 @@ fn truth(name: &str, found: &ScrewCalibration) -> f64 {
         "half_share_speed" => 6.0,
         "viscosity_pole" => 273.15 - 64.0,
         "direction_asymmetry" => 0.0,
-        "preload" => parameters.screw.axial_preload / found.screw.axial_per_contact(),
+        "preload" => parameters.screw.axial_preload / screw.axial_per_contact(),
         "breakaway_angle" => parameters.breakaway,
         "inertia" => parameters.inertia,
         "drag" => parameters.viscous,
@@ -117,7 +120,7 @@ fn a_short_trace_tells_what_the_rig_was_made_with() {
     ]);
     let found = calibrate(&trace, &design(), &request).unwrap();
     for parameter in found.answer.parameters.iter().filter(|p| !p.fixed) {
-        let off = (parameter.value - truth(&parameter.name, &found)).abs();
+        let off = (parameter.value - truth(&parameter.name, &found.screw)).abs();
         assert!(off < 2.0 * parameter.half_width(), "{parameter:?}");
     }
     assert_eq!(
@@ -183,14 +186,23 @@ fn bound(found: &ScrewCalibration, effort: &[f64]) -> Vec<f64> {
         .to_vec()
 }
 
-/// What one run says of each parameter that it estimates.
-fn coverage(trace: &Trace) -> Vec<(&'static str, Coverage)> {
-    let found = calibrate(trace, &design(), &request(&[])).unwrap();
+/// One run.
+struct Run {
+    /// What it says of each parameter that it estimates.
+    each: Vec<(&'static str, Coverage)>,
+    /// What it adds to the other runs.
+    sums: Sums,
+    screw: Screw,
+}
+
+/// What one run says of each parameter that it estimates, and what it adds to those of the other runs.
+fn coverage(trace: &Trace, fix: &[(&str, f64)]) -> Run {
+    let found = calibrate(trace, &design(), &request(fix)).unwrap();
     let intervals = found.uncertainty.intervals.iter();
-    intervals
+    let each = intervals
         .zip(bound(&found, &trace.effort))
         .map(|(interval, bound)| {
-            let truth = truth(interval.name, &found);
+            let truth = truth(interval.name, &found.screw);
             let error = inner(interval.scale, interval.value) - inner(interval.scale, truth);
             let one = Coverage {
                 runs: 1,
@@ -199,12 +211,39 @@ fn coverage(trace: &Trace) -> Vec<(&'static str, Coverage)> {
                 error: error / interval.half_width,
             };
             (interval.name, one)
-        })
-        .collect()
+        });
+    Run {
+        each: each.collect(),
+        sums: sums(&found).unwrap(),
+        screw: found.screw,
+    }
+}
+
+/// Parameters whose truth is not in the 95 % interval of the mean of all runs.
+fn missed_by_the_mean(course: &str, runs: &[Run]) -> Vec<String> {
+    let mut whole = runs[0].sums.clone();
+    for run in &runs[1..] {
+        whole.merge(&run.sums).unwrap();
+    }
+    let mut missed = Vec::new();
+    for Population {
+        name,
+        mean,
+        mean_interval: [low, high],
+        ..
+    } in whole.population()
+    {
+        let truth = truth(&name, &runs[0].screw);
+        println!("{course}, mean of {name}: {mean:.6e} of {truth:.6e}, {low:.6e} to {high:.6e}");
+        if !(low..=high).contains(&truth) {
+            missed.push(format!("{course}, mean of {name}"));
+        }
+    }
+    missed
 }
 
 /// How often each parameter is within its own interval: at least 90 of 100; and how wide intervals are over the Cramer-Rao bound of
-/// the torque's noise. `RUNS` and `COURSES` (`vehicle,rig,whole`) in the environment choose less.
+/// the torque's noise. The interval of the mean of all runs is to hold every one too. `RUNS` and `COURSES` (`vehicle,rig,whole`) in the environment choose less.
 ///
 /// Measured, 100 runs: vehicle 93 to 100; whole 95 to 100; rig 96 to 100 but inertia, 89, whose mean error is 0.6 half widths: it misses
 /// the 90, and its cause is not found. Widths
@@ -218,20 +257,26 @@ fn intervals_hold_nine_times_of_ten() {
     let wanted = std::env::var("COURSES").unwrap_or_else(|_| "vehicle,rig,whole".into());
     let rig = rig(Sensors::default());
     let mut missed = Vec::new();
-    for (name, course) in [
-        ("vehicle", Course::vehicle()),
-        ("rig", Course::rig()),
-        ("whole", Course::whole()),
+    let law = [
+        ("full_film_ratio", 0.06 / 0.115),
+        ("half_share_speed", 6.0),
+        ("viscosity_pole", 273.15 - 64.0),
+    ];
+    for (name, course, fix) in [
+        ("vehicle", Course::vehicle(), &[][..]),
+        ("rig", Course::rig(), &law),
+        ("whole", Course::whole(), &[]),
     ] {
         if !wanted.split(',').any(|wanted| wanted == name) {
             continue;
         }
-        let found: Vec<Vec<(&str, Coverage)>> = (0..runs)
+        let found: Vec<Run> = (0..runs)
             .into_par_iter()
-            .map(|seed| coverage(&trace(&rig, &course, seed)))
+            .map(|seed| coverage(&trace(&rig, &course, seed), fix))
             .collect();
+        missed.extend(missed_by_the_mean(name, &found));
         let mut all: BTreeMap<&str, Coverage> = BTreeMap::new();
-        for (parameter, one) in found.into_iter().flatten() {
+        for (parameter, one) in found.into_iter().flat_map(|run| run.each) {
             let sum = all.entry(parameter).or_default();
             sum.runs += one.runs;
             sum.held += one.held;
