@@ -29,7 +29,7 @@ mod uncaged;
 
 pub use caged::{
     CagedBallScrew, CagedBallScrewConfiguration, CagedCoefficients, CagedConstants, CagedFull,
-    CagedRecent, CagedState, FrictionBranch,
+    CagedState, FrictionBranch,
 };
 pub use circuit::{CircuitState, DeviationMap, HIGHEST_ORDER, Harmonic, LARGEST_DEVIATION};
 pub use contract::{Admitted, Inputs, Limits, Regime, Scene, SceneOutputs};

@@ -2,6 +2,7 @@
 
 mod budgets;
 mod cycles;
+mod debugger;
 mod figures;
 mod image;
 mod log;

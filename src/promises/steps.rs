@@ -35,7 +35,7 @@ pub const STEP_CAGED_MEMORY: Promise = Promise {
     outside: "beyond a limit: the limit, flagged; balls in two contacts flagged; old loads fade, flagged",
     not_finite: "the last sound inputs, friction within their limits, flagged",
     tiny: "no turn: friction stays; without load that of the preload",
-    cycles: 900,
+    cycles: 870,
     counted: &["step_caged_memory"],
     ..STEP_CAGED
 };
@@ -47,7 +47,7 @@ pub const STEP_CAGED_LAW: Promise = Promise {
     largest: 3.2e-2,
     rms: 6e-3,
     mean: 1e-3,
-    cycles: 1500,
+    cycles: 1250,
     counted: &["step_caged_law"],
     ..STEP_CAGED_MEMORY
 };

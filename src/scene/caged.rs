@@ -4,7 +4,6 @@ mod closed_form;
 mod coefficients;
 mod contacts;
 mod full;
-mod recent;
 mod stored;
 
 use super::contract::{Admitted, Inputs, Limits, Scene, SceneOutputs};
@@ -23,7 +22,6 @@ use closed_form::ClosedForm;
 use coefficients::CoefficientLaws;
 use contacts::{Contacts, ContactsState};
 pub use full::CagedFull;
-pub use recent::CagedRecent;
 
 /// Friction of contacts, and closed forms, as numbers that an error can name.
 const CONTACTS: f32 = 0.0;
@@ -191,7 +189,6 @@ impl Sliding for CagedBallScrew {
     const FRICTION: Range = ranges::FRICTION_OF_A_ROW;
 
     type Coefficients = CagedCoefficients;
-    type Recent = CagedRecent;
     type Full = CagedFull;
 
     fn coefficients(constants: &CagedConstants, least: f32, largest: f32) -> CagedCoefficients {
@@ -203,18 +200,10 @@ impl Sliding for CagedBallScrew {
         }
     }
 
-    fn recent(constants: &CagedConstants, state: &CagedState) -> CagedRecent {
-        match (&constants.law, &state.contacts) {
-            (Law::Contacts(contacts), Some(state)) => contacts.recent(state),
-            _ => CagedRecent::NONE,
-        }
-    }
-
     #[inline(always)]
     fn full(
         constants: &CagedConstants,
         state: &mut CagedState,
-        recent: &mut CagedRecent,
         coefficients: Option<&CagedCoefficients>,
         inputs: Inputs,
         friction: DirectionalCoefficient,
@@ -222,7 +211,7 @@ impl Sliding for CagedBallScrew {
         match (&constants.law, &mut state.contacts) {
             (Law::Contacts(contacts), Some(state)) => {
                 let laws = coefficients.and_then(|known| known.laws.as_ref());
-                contacts.both_ways(state, recent, laws, inputs, friction)
+                contacts.both_ways(state, laws, inputs, friction)
             }
             (Law::Closed(closed), _) => closed.both_ways(inputs.axial_load),
             (Law::Contacts(_), None) => CagedFull {

@@ -149,18 +149,14 @@ impl<const N: usize> Sliding for LinearBearingTrain<N> {
 
     /// Friction and all forces between balls are in proportion to the friction coefficient.
     type Coefficients = ();
-    type Recent = ();
     type Full = LinearFull;
 
     fn coefficients(_: &LinearConstants<N>, _: f32, _: f32) {}
-
-    fn recent(_: &LinearConstants<N>, _: &LinearState<N>) {}
 
     #[inline(always)]
     fn full(
         constants: &LinearConstants<N>,
         state: &mut LinearState<N>,
-        (): &mut (),
         _: Option<&()>,
         inputs: LinearInputs,
         friction: DirectionalCoefficient,

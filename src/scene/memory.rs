@@ -65,7 +65,6 @@ pub struct WithMemoryState<
     /// State of the scene without memory.
     pub scene: S::State,
     coefficients: L::Kept<S::Coefficients>,
-    recent: S::Recent,
     /// What the elements remember.
     pub elements: E::State,
     reading: A::State,
@@ -114,7 +113,6 @@ where
         } = constants;
         let state = S::initial_state(scene);
         WithMemoryState {
-            recent: S::recent(scene, &state),
             scene: state,
             coefficients: coefficient.keep(|least, largest| S::coefficients(scene, least, largest)),
             elements: E::VIRGIN,
@@ -134,7 +132,6 @@ where
 
     fn reset(constants: &Self::Constants, state: &mut Self::State) {
         S::reset(&constants.scene, &mut state.scene);
-        state.recent = S::recent(&constants.scene, &state.scene);
         state.elements = E::VIRGIN;
         state.reading = A::FRESH;
         state.play = PlayState::FRESH;
@@ -206,7 +203,6 @@ where
         let full = S::full(
             &constants.scene,
             &mut state.scene,
-            &mut state.recent,
             L::kept(&state.coefficients),
             inputs.with(speed, factor),
             L::both(&state.at_temperature, measured).within(S::FRICTION.maximum),

@@ -16,23 +16,17 @@ pub trait Sliding: Scene<Known = <Self as Scene>::Inputs, Inputs: Motion> {
 
     /// What friction coefficients beside the configuration's need: folded before the first tick.
     type Coefficients: Copy + core::fmt::Debug + PartialEq;
-    /// What was found in the last ticks, in a scene with memory alone.
-    type Recent: Copy + core::fmt::Debug + PartialEq;
     /// Full friction in a tick, in both directions, with what else the tick found.
     type Full: Copy;
 
     /// What a friction coefficient between these two needs.
     fn coefficients(constants: &Self::Constants, least: f32, largest: f32) -> Self::Coefficients;
 
-    /// What was found before the first tick.
-    fn recent(constants: &Self::Constants, state: &Self::State) -> Self::Recent;
-
     /// Full friction with friction coefficients of ball and groove in both directions, in proportion to that of the
     /// configuration where nothing was folded for others; balls move on by a tick. A speed of 0 counts as forward.
     fn full(
         constants: &Self::Constants,
         state: &mut Self::State,
-        recent: &mut Self::Recent,
         coefficients: Option<&Self::Coefficients>,
         inputs: Self::Inputs,
         friction: DirectionalCoefficient,

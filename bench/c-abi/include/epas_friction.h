@@ -769,17 +769,17 @@ extern "C" {
 /**
  * Size of `epas_caged_t` in words of eight bytes.
  */
-#define EPAS_CAGED_WORDS 271
+#define EPAS_CAGED_WORDS 270
 
 /**
  * Bytes of a state of a screw whose friction remembers, as `epas_memory_export` writes it.
  */
-#define EPAS_MEMORY_STATE_BYTES 225u
+#define EPAS_MEMORY_STATE_BYTES 214u
 
 /**
  * Size of `epas_memory_t` in words of eight bytes.
  */
-#define EPAS_MEMORY_WORDS 726
+#define EPAS_MEMORY_WORDS 686
 
 /**
  * Balls in the circuit of `epas_screw_t`, return included. A screw with another number needs the library

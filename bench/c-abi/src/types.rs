@@ -161,7 +161,7 @@ pub struct CagedConfiguration {
 pub const EPAS_CAGED_STATE_BYTES: u32 = 114u32;
 
 /// Size of `epas_caged_t` in words of eight bytes.
-pub const EPAS_CAGED_WORDS: usize = 271;
+pub const EPAS_CAGED_WORDS: usize = 270;
 
 /// Place for the constants and the state of a caged ball screw. The caller provides it, in memory of
 /// static duration or any other; nothing in it is for the caller to read or write. Zero it, or leave it
@@ -174,10 +174,10 @@ pub struct CagedPlace {
 }
 
 /// Bytes of a state of a screw whose friction remembers, as `epas_memory_export` writes it.
-pub const EPAS_MEMORY_STATE_BYTES: u32 = 225u32;
+pub const EPAS_MEMORY_STATE_BYTES: u32 = 214u32;
 
 /// Size of `epas_memory_t` in words of eight bytes.
-pub const EPAS_MEMORY_WORDS: usize = 726;
+pub const EPAS_MEMORY_WORDS: usize = 686;
 
 /// Balls in the circuit of `epas_screw_t`, return included. A screw with another number needs the library
 /// built with that number.

@@ -162,7 +162,10 @@ fn count(core: Core, path: &Path) -> Result<Vec<(&'static str, Calls)>, Failure>
             .count();
         places.push((subject.name, place, before));
     }
-    let calls = core.count(path, &addresses)?;
+    let from = image
+        .address("counting")
+        .ok_or_else(|| Failure::Data("no function counting".into()))?;
+    let calls = core.count(path, from, &addresses)?;
     let inputs = COUNTED as usize;
     places
         .into_iter()

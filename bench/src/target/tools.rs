@@ -1,12 +1,13 @@
 //! Cargo for the target, and QEMU.
 
-use std::io::{BufReader, Read};
+use std::io::{BufReader, Error, Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::thread;
 use std::time::Duration;
 
+use super::debugger::Debugger;
 use super::trace::{Calls, Counter};
 use crate::failure::Failure;
 
@@ -183,8 +184,8 @@ impl Core {
         Ok(Run { output, passed })
     }
 
-    /// Runs an image with every instruction logged, and counts calls of the functions at some addresses.
-    pub fn count(self, image: &Path, addresses: &[u32]) -> Result<Vec<Calls>, Failure> {
+    /// Runs an image with every instruction logged from the address `from` on, and counts calls of the functions at some addresses.
+    pub fn count(self, image: &Path, from: u32, addresses: &[u32]) -> Result<Vec<Calls>, Failure> {
         let mut command = self.emulator(image);
         if version()? < (8, 1) {
             command.arg("-singlestep");
@@ -192,13 +193,25 @@ impl Core {
             command.args(["-accel", "tcg,one-insn-per-tb=on"]);
         }
         command
-            .args(["-d", "exec,nochain,in_asm"])
-            .stdout(Stdio::null())
+            .args(["-d", "nochain,in_asm", "-gdb", "stdio", "-S"])
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
             .stderr(Stdio::piped());
         let counter = Counter::new(addresses);
-        let (passed, calls) = watched(command, |child| match child.stderr.take() {
-            Some(log) => counter.read(BufReader::with_capacity(1 << 20, log)),
-            None => Ok(Vec::new()),
+        let (passed, calls) = watched(command, |child| {
+            let (Some(to), Some(answers), Some(log)) =
+                (child.stdin.take(), child.stdout.take(), child.stderr.take())
+            else {
+                return Ok(Vec::new());
+            };
+            thread::scope(|scope| {
+                let debugging = scope.spawn(|| log_from(Debugger::new(to, answers), from));
+                let calls = counter.read(BufReader::with_capacity(1 << 20, log));
+                debugging
+                    .join()
+                    .map_err(|_| Error::other("a debugger ended"))??;
+                calls
+            })
         })?;
         if passed {
             Ok(calls)
@@ -209,6 +222,14 @@ impl Core {
             )))
         }
     }
+}
+
+/// Lets an emulator run to an address, and from there on log what it executes: start-up takes twenty times as many instructions as
+/// what is counted.
+fn log_from(mut debugger: Debugger<impl Write, impl Read>, from: u32) -> std::io::Result<()> {
+    debugger.run_to(from)?;
+    debugger.monitor("log exec,nochain,in_asm")?;
+    debugger.detach()
 }
 
 /// QEMU's version.

@@ -5,7 +5,7 @@ use std::f32::consts::TAU;
 
 use epas_friction::defaults::COEFFICIENT;
 use epas_friction::law::coefficient::{
-    CoefficientLaw, CoefficientParameters, OneCoefficient, TemperatureFade,
+    CoefficientLaw, CoefficientParameters, DirectionalCoefficient, OneCoefficient, TemperatureFade,
 };
 use epas_friction::law::memory::{MemoryState, Part, ProportionalElements, SLIP_8};
 use epas_friction::law::motion::{
@@ -14,7 +14,8 @@ use epas_friction::law::motion::{
 };
 use epas_friction::law::{Elements, SlidingLimits};
 use epas_friction::scene::{
-    Freshness, Motion, Sliding, WithMemory, WithMemoryConfiguration, WithMemoryInputs,
+    CagedConstants, Freshness, Motion, Scene, Sliding, WithMemory, WithMemoryConfiguration,
+    WithMemoryInputs,
 };
 use epas_friction::{
     CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, Clearance, Faults, FrictionModel,
@@ -648,4 +649,37 @@ fn coefficients_beyond_the_scene_are_refused() {
         .set_coefficient(CoefficientLaw::new(&COEFFICIENT).unwrap())
         .unwrap();
     assert_ne!(*model.state(), before);
+}
+
+/// Limits of both directions are those of the tick's own load, speed and coefficients, whatever there was before: a limit that is off
+/// for one tick cuts what elements hold, and they do not get it back. Equal to the bit, under a preload, with loads that change sign.
+#[test]
+fn limits_have_no_past() {
+    let mut configuration = caged();
+    configuration.clearance = Clearance::of_preload(&configuration.design, 20.0).unwrap();
+    let constants = CagedConstants::new(&configuration).unwrap();
+    let fresh = CagedBallScrew::initial_state(&constants);
+    let (least, largest) = (0.06, 0.12);
+    let coefficient = |random: &mut Random| random.between(least, largest) as f32;
+    let coefficients = CagedBallScrew::coefficients(&constants, least as f32, largest as f32);
+    let mut random = Random(31);
+    for coefficients in [None, Some(&coefficients)] {
+        let mut old = fresh;
+        for _ in 0..2000 {
+            let inputs = Inputs {
+                nut_speed: random.between(-10.0, 10.0) as f32,
+                axial_load: (5000.0 * random.between(-1.0, 1.0).powi(3)) as f32,
+            };
+            let friction = DirectionalCoefficient {
+                forward: coefficient(&mut random),
+                backward: coefficient(&mut random),
+            };
+            let [found, alone] = [&mut old, &mut { fresh }].map(|state| {
+                let full = CagedBallScrew::full(&constants, state, coefficients, inputs, friction);
+                CagedBallScrew::limits(&full)
+            });
+            assert_eq!(found, alone, "{inputs:?} {friction:?}");
+            assert!(found.forward > 0.0 && found.backward > 0.0);
+        }
+    }
 }

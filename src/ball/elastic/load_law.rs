@@ -1,11 +1,11 @@
-//! Friction torque of a nominal ball over the load: folded before the first tick, read in every one.
+//! Friction torque of nominal balls over the load: folded before the first tick, read in every one.
 
 use super::constants::BallConstants;
 use super::nominal::{Grooving, NominalBall};
 use crate::math;
 
-/// Parts of a law; the power of two from which on half of those left are looked at.
-const PARTS: usize = 48;
+/// Parts of laws; the power of two from which on half of those left are looked at.
+const PARTS: usize = 56;
 const HALVES: usize = 32;
 
 /// Octaves of loads for which a law holds.
@@ -30,26 +30,55 @@ const MANTISSA: u32 = 23;
 /// Least and largest exponent of the largest load, N.
 const EXPONENTS: (u32, u32) = (BIAS + 10, BIAS + 20);
 
-/// Friction torque over the whole contact force, for one sign of the load: parabolas over [`octaves`].
+/// Laws that are folded together at most.
+const MOST_LAWS: usize = 4;
+
+/// Friction torque over the whole contact force of `N` balls, at most [`MOST_LAWS`]: parabolas over [`octaves`].
+///
+/// The parts are the same for all, so that a load is looked up once for all of them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub(crate) struct LoadLaw {
-    /// From the largest load to the smallest.
-    parts: [Part; PARTS],
-    /// Whether the ball stands in two contacts, or did not settle, somewhere in a part.
-    beyond: [bool; PARTS],
+pub(crate) struct LoadLaws<const N: usize> {
+    /// Where parts end, [`octaves`], from the largest load to the smallest.
+    low: [f32; PARTS],
+    curves: [[Curve; N]; PARTS],
+    /// One bit for each law: whether its ball stands in two contacts, or did not settle, somewhere in a part.
+    beyond: [u8; PARTS],
 }
 
-/// A part of a law.
+/// A ball whose law is folded.
+#[derive(Clone, Copy)]
+pub(crate) struct Grooved {
+    pub(crate) grooving: Grooving,
+    /// Sign of the load in the frame in which the nut turns forward.
+    pub(crate) side: f32,
+}
+
+impl Grooved {
+    /// Stands for a ball that is not folded.
+    const NONE: Self = Self {
+        grooving: Grooving::NONE,
+        side: 1.0,
+    };
+}
+
+/// A law in a part.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-struct Part {
-    /// Where it ends, [`octaves`].
-    low: f32,
-    /// Ratio there, m; its slope and half its second derivative there.
+struct Curve {
+    /// Ratio where the part ends, m; its slope and half its second derivative there.
     ratio: f32,
     slope: f32,
     bend: f32,
+}
+
+/// A load in laws.
+#[derive(Clone, Copy)]
+pub(crate) struct Place<'a, const N: usize> {
+    curves: &'a [Curve; N],
+    beyond: u8,
+    /// Octaves from the part's end.
+    along: f32,
 }
 
 /// Loads for which laws hold: so many octaves up to the first one that is not below a largest load.
@@ -99,87 +128,137 @@ impl LoadRange {
     }
 }
 
-/// A ball that settles under one load after the other.
+/// Balls that settle under one load after the other.
 struct Folding<'a> {
     ball: &'a BallConstants,
-    grooving: &'a Grooving,
-    /// Sign of the load.
-    side: f32,
+    grooved: &'a [Grooved],
 }
 
-/// A ball under a load.
+/// Balls under a load: as many as settle.
 #[derive(Clone, Copy)]
 struct Known {
     octaves: f32,
-    nominal: NominalBall,
+    balls: [NominalBall; MOST_LAWS],
 }
 
 impl Known {
-    /// Whether its friction is known as well as elsewhere.
-    fn is_sound(&self) -> bool {
-        !(self.nominal.in_two_points() || self.nominal.changed())
+    /// One of the balls.
+    fn ball(&self, number: usize) -> &NominalBall {
+        let [first, ..] = &self.balls;
+        self.balls.get(number).unwrap_or(first)
     }
 }
 
+/// Where a part ends, and which balls are not known well in it.
+struct Part {
+    low: Known,
+    beyond: u8,
+}
+
+/// Whether the friction of a ball is known as well as elsewhere.
+fn is_sound(ball: &NominalBall) -> bool {
+    !(ball.in_two_points() || ball.changed())
+}
+
 impl Folding<'_> {
-    /// The ball of a known one under another load.
+    /// Balls that have settled under the largest load.
+    fn first(&self, octaves: f32) -> Known {
+        let axial = load(octaves);
+        let new = |Grooved { grooving, side }: &Grooved| {
+            NominalBall::new(self.ball, grooving, side * axial, 0.0)
+        };
+        let mut known = Known {
+            octaves,
+            balls: [new(&Grooved::NONE); MOST_LAWS],
+        };
+        for (ball, grooved) in known.balls.iter_mut().zip(self.grooved) {
+            *ball = new(grooved);
+        }
+        self.settle(&mut known, FIRST_RENEWALS);
+        known
+    }
+
+    /// Balls of known ones under another load.
+    #[inline(never)]
     fn at(&self, known: &Known, octaves: f32) -> Known {
-        self.settled(known.nominal, octaves, RENEWALS)
+        let mut known = Known { octaves, ..*known };
+        self.settle(&mut known, RENEWALS);
+        known
     }
 
-    fn settled(&self, mut nominal: NominalBall, octaves: f32, most: u32) -> Known {
-        let axial = self.side * load(octaves);
-        nominal.settle(self.ball, self.grooving, axial, most);
-        Known { octaves, nominal }
+    /// One copy of it in flash is enough.
+    #[inline(never)]
+    fn settle(&self, known: &mut Known, most: u32) {
+        let axial = load(known.octaves);
+        for (ball, Grooved { grooving, side }) in known.balls.iter_mut().zip(self.grooved) {
+            ball.settle(self.ball, grooving, side * axial, most);
+        }
     }
 
-    /// Folds a law within a tolerance; says whether its parts suffice.
-    fn fold(&self, law: &mut LoadLaw, range: LoadRange, tolerance: f32) -> bool {
+    /// Folds laws within a tolerance, with the curves of one part after those of the other; says whether there are parts enough.
+    fn fold(
+        &self,
+        low: &mut [f32; PARTS],
+        curves: &mut [Curve],
+        beyond: &mut [u8; PARTS],
+        (range, tolerance): (LoadRange, f32),
+    ) -> bool {
         let (top, bottom) = range.ends();
-        let axial = self.side * load(top);
-        let nominal = NominalBall::new(self.ball, self.grooving, axial, 0.0);
-        let mut high = self.settled(nominal, top, FIRST_RENEWALS);
+        let mut high = self.first(top);
         let mut width = WIDEST;
-        for (number, (part, beyond)) in law.parts.iter_mut().zip(&mut law.beyond).enumerate() {
+        let mut rest = curves;
+        for (number, (low, beyond)) in low.iter_mut().zip(beyond).enumerate() {
+            let Some((curves, others)) = rest.split_at_mut_checked(self.grooved.len()) else {
+                return false;
+            };
+            rest = others;
             let left = high.octaves - bottom;
             let last = number + 1 == PARTS;
             if left > 0.0 && !last {
-                let (found, low, sound) = self.part(&high, least(width, left), tolerance);
-                width = least(2.0 * (high.octaves - low.octaves), WIDEST);
-                *beyond = !sound;
-                high = low;
-                *part = found;
+                let part = self.part(&high, curves, least(width, left), tolerance);
+                width = least(2.0 * (high.octaves - part.low.octaves), WIDEST);
+                *beyond = part.beyond;
+                *low = part.low.octaves;
+                high = part.low;
             } else {
-                *part = Part::level(high.nominal.ratio());
-                *beyond = left > 0.0;
+                for (curve, ball) in curves.iter_mut().zip(&high.balls) {
+                    *curve = Curve::level(ball.ratio());
+                }
+                *low = 0.0;
+                *beyond = if left > 0.0 { u8::MAX } else { 0 };
             }
         }
         high.octaves <= bottom
     }
 
-    /// The widest part from a load downwards, its lower end, and whether the ball is known well all over it.
-    fn part(&self, high: &Known, width: f32, tolerance: f32) -> (Part, Known, bool) {
+    /// The widest part from a load downwards, with its curves.
+    #[inline(never)]
+    fn part(&self, high: &Known, curves: &mut [Curve], width: f32, tolerance: f32) -> Part {
         let mut width = width;
         let mut middle = self.at(high, high.octaves - 0.5 * width);
         let mut low = self.at(&middle, high.octaves - width);
         loop {
             let above = self.at(high, high.octaves - 0.25 * width);
             let below = self.at(&middle, high.octaves - 0.75 * width);
-            let all = [high, &above, &middle, &below, &low];
-            let sound = all.iter().all(|known| known.is_sound());
-            let part = Part::through(high, &middle, &low);
-            let close = |known: &Known| {
-                let ratio = known.nominal.ratio();
-                let error = (part.ratio(known.octaves) - ratio).abs();
-                error <= tolerance * ratio
-            };
-            let known = if sound {
-                close(&above) && close(&below)
-            } else {
-                width <= WIDEST_BEYOND
-            };
-            if known || width <= NARROWEST {
-                return (part, low, sound);
+            let narrow = width <= NARROWEST;
+            let (mut known, mut beyond) = (true, 0);
+            for (number, curve) in curves.iter_mut().enumerate() {
+                let all = [high, &above, &middle, &below, &low].map(|known| known.ball(number));
+                let [first, above, middle, below, last] = all;
+                *curve = Curve::through([first, middle, last], width);
+                let close = |ball: &NominalBall, part: f32| {
+                    let error = (curve.ratio(part * width) - ball.ratio()).abs();
+                    error <= tolerance * ball.ratio()
+                };
+                if all.into_iter().all(is_sound) {
+                    known &= close(above, 0.75) && close(below, 0.25);
+                } else {
+                    known &= width <= WIDEST_BEYOND;
+                    beyond |= 1 << number;
+                }
+            }
+            if known || narrow {
+                return Part { low, beyond };
             }
             width *= 0.5;
             low = middle;
@@ -188,75 +267,69 @@ impl Folding<'_> {
     }
 }
 
-impl Part {
+impl Curve {
     /// The same ratio down to no load.
     const fn level(ratio: f32) -> Self {
         Self {
-            low: 0.0,
             ratio,
             slope: 0.0,
             bend: 0.0,
         }
     }
 
-    /// The parabola through three loads, the second one in the middle.
-    fn through(high: &Known, middle: &Known, low: &Known) -> Self {
-        let ratio = low.nominal.ratio();
-        let inverse = 1.0 / (high.octaves - low.octaves);
-        let (half, rise) = (middle.nominal.ratio() - ratio, high.nominal.ratio() - ratio);
+    /// The parabola through a ball under three loads, the second one in the middle of a part so many octaves wide.
+    fn through(balls: [&NominalBall; 3], width: f32) -> Self {
+        let [high, middle, low] = balls.map(NominalBall::ratio);
+        let inverse = 1.0 / width;
+        let (half, rise) = (middle - low, high - low);
         Self {
-            low: low.octaves,
-            ratio,
+            ratio: low,
             slope: (4.0 * half - rise) * inverse,
             bend: (2.0 * rise - 4.0 * half) * inverse * inverse,
         }
     }
 
+    /// Friction never drives, though a parabola may pass below what it goes through.
     #[inline(always)]
-    fn ratio(&self, octaves: f32) -> f32 {
-        let along = octaves - self.low;
-        self.ratio + along * (self.slope + along * self.bend)
+    fn ratio(&self, along: f32) -> f32 {
+        let ratio = self.ratio + along * (self.slope + along * self.bend);
+        if ratio > 0.0 { ratio } else { 0.0 }
     }
 }
 
-impl LoadLaw {
+impl<const N: usize> LoadLaws<N> {
+    const NO_CURVES: [Curve; N] = [Curve::level(0.0); N];
+
     /// No friction.
     pub(crate) const NONE: Self = Self {
-        parts: [Part::level(0.0); PARTS],
-        beyond: [false; PARTS],
+        low: [0.0; PARTS],
+        curves: [Self::NO_CURVES; PARTS],
+        beyond: [0; PARTS],
     };
 
-    /// Settles a ball under every load, from the largest to the smallest, of the sign of `side`.
-    pub(crate) fn fold(
-        &mut self,
-        ball: &BallConstants,
-        grooving: &Grooving,
-        range: LoadRange,
-        side: f32,
-    ) {
-        let folding = Folding {
-            ball,
-            grooving,
-            side,
-        };
+    /// Settles balls under every load, from the largest to the smallest.
+    pub(crate) fn fold(&mut self, ball: &BallConstants, grooved: &[Grooved; N], range: LoadRange) {
+        const { assert!(N <= MOST_LAWS) };
+        let folding = Folding { ball, grooved };
         for tolerance in TOLERANCES {
-            if folding.fold(self, range, tolerance) {
+            let curves = self.curves.as_flattened_mut();
+            if folding.fold(&mut self.low, curves, &mut self.beyond, (range, tolerance)) {
                 break;
             }
         }
     }
 
-    /// [`LoadLaw::at`] as a call: for steps that look several laws up.
-    #[inline(never)]
-    pub(crate) fn found(&self, range: LoadRange, load: f32) -> (f32, bool) {
-        self.at(range, load)
+    /// Friction torque over the whole contact force by one law, m, and whether its ball is not known well there.
+    #[inline(always)]
+    pub(crate) fn found(&self, range: LoadRange, load: f32, law: usize) -> (f32, bool) {
+        let place = self.at(range, load);
+        (place.ratio(law), place.beyond(law))
     }
 
-    /// Friction torque over the whole contact force, m, under a load of a size, N; and whether the ball stands in two
-    /// contacts, or did not settle. Below the smallest load the ratio is that of the smallest, as without friction of the
-    /// third contact; above the largest that of the largest.
+    /// Where a load of a size, N, lies. Below the smallest load ratios are those of the smallest, as without friction of the
+    /// third contact; above the largest those of the largest.
     #[inline(always)]
-    pub(crate) fn at(&self, range: LoadRange, load: f32) -> (f32, bool) {
+    pub(crate) fn at(&self, range: LoadRange, load: f32) -> Place<'_, N> {
         let (top, bottom) = range.ends();
         let octaves = octaves(load);
         let octaves = if octaves < top { octaves } else { top };
@@ -264,21 +337,50 @@ impl LoadLaw {
         let mut number = 0;
         let mut step = HALVES;
         while step > 0 {
-            if let Some(part) = self.parts.get(number + step - 1)
-                && part.low > octaves
+            if let Some(low) = self.low.get(number + step - 1)
+                && *low > octaves
             {
                 number += step;
             }
             step /= 2;
         }
-        let ratio = self
-            .parts
-            .get(number)
-            .map_or(0.0, |part| part.ratio(octaves));
-        // A parabola may pass below what it goes through; friction never drives.
-        let ratio = if ratio > 0.0 { ratio } else { 0.0 };
-        let beyond = self.beyond.get(number).copied().unwrap_or(true);
-        (ratio, beyond)
+        match (
+            self.low.get(number),
+            self.curves.get(number),
+            self.beyond.get(number),
+        ) {
+            (Some(low), Some(curves), Some(beyond)) => Place {
+                curves,
+                beyond: *beyond,
+                along: octaves - low,
+            },
+            _ => Place {
+                curves: &Self::NO_CURVES,
+                beyond: u8::MAX,
+                along: 0.0,
+            },
+        }
+    }
+}
+
+impl<const N: usize> Place<'_, N> {
+    /// Friction torque over the whole contact force by each law, m.
+    #[inline(always)]
+    pub(crate) fn ratios(&self) -> [f32; N] {
+        self.curves.each_ref().map(|curve| curve.ratio(self.along))
+    }
+
+    /// That of one law.
+    #[inline(always)]
+    pub(crate) fn ratio(&self, law: usize) -> f32 {
+        let curve = self.curves.get(law);
+        curve.map_or(0.0, |curve| curve.ratio(self.along))
+    }
+
+    /// Whether the ball of a law stands in two contacts there, or did not settle.
+    #[inline(always)]
+    pub(crate) const fn beyond(&self, law: usize) -> bool {
+        self.beyond >> law & 1 != 0
     }
 }
 

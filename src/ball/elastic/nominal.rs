@@ -32,6 +32,13 @@ pub(crate) struct Grooving {
 }
 
 impl Grooving {
+    /// Neither friction nor gap.
+    pub(crate) const NONE: Self = Self {
+        friction: 0.0,
+        clearance: 0.0,
+        lift_off: 0.0,
+    };
+
     pub(crate) fn new(ball: &BallConstants, friction: f32, clearance: f32) -> Self {
         Self {
             friction,

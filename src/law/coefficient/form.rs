@@ -76,8 +76,8 @@ pub struct CoefficientLaw {
     scale: f32,
     /// `T_s`, K.
     pole: f32,
-    /// Coldest and warmest temperature, K.
-    temperatures: [f32; 2],
+    /// Scaled distance from the pole at the coldest and at the warmest temperature.
+    ends: [f32; 2],
     /// Churning torque over the speed, times the half-share speed, N m.
     churning: f32,
 }
@@ -179,24 +179,23 @@ impl CoefficientLaw {
         let pole = viscosity.pole();
         let scale = fifth_root(speed) / (reference - pole);
         let coldest = pole + fifth_root(HALF_SHARE_SPEED.minimum) / scale;
+        let coldest = if coldest > viscosity.floor() {
+            coldest
+        } else {
+            viscosity.floor()
+        };
         let warmest = pole + fifth_root(HALF_SHARE_SPEED.maximum) / scale;
+        let warmest = if warmest < TEMPERATURE.maximum {
+            warmest
+        } else {
+            TEMPERATURE.maximum
+        };
         Ok(Self {
             forward: attempt!(Sides::new(parameters, forward)),
             backward: attempt!(Sides::new(parameters, backward)),
             scale,
             pole,
-            temperatures: [
-                if coldest > viscosity.floor() {
-                    coldest
-                } else {
-                    viscosity.floor()
-                },
-                if warmest < TEMPERATURE.maximum {
-                    warmest
-                } else {
-                    TEMPERATURE.maximum
-                },
-            ],
+            ends: [scale * (coldest - pole), scale * (warmest - pole)],
             churning: churning * viscosity.at(reference) * speed,
         })
     }
@@ -233,19 +232,11 @@ impl CoefficientLaw {
     #[inline]
     #[must_use]
     pub const fn at_temperature(&self, temperature: f32) -> CoefficientAtTemperature {
-        let [coldest, warmest] = self.temperatures;
-        let temperature = if temperature < warmest {
-            temperature
-        } else {
-            warmest
-        };
-        // False for what is colder; what is no number has become the warmest.
-        let temperature = if temperature > coldest {
-            temperature
-        } else {
-            coldest
-        };
+        let [coldest, warmest] = self.ends;
         let ratio = self.scale * (temperature - self.pole);
+        let ratio = if ratio < warmest { ratio } else { warmest };
+        // False for what is colder; what is no number has become the warmest.
+        let ratio = if ratio > coldest { ratio } else { coldest };
         let square = ratio * ratio;
         let half_share_speed = square * square * ratio;
         CoefficientAtTemperature {
@@ -344,8 +335,8 @@ impl CoefficientAtTemperature {
     /// What is left of the difference at a speed: 1 at standstill, one half at the half-share speed.
     #[inline(always)]
     const fn share(&self, speed: f32) -> f32 {
-        let share = self.half_share_speed / (self.half_share_speed + speed.abs());
-        // False for NaN.
-        if share <= 1.0 { share } else { 1.0 }
+        let half = self.half_share_speed;
+        let sum = half + speed.abs();
+        half / if speed.is_nan() { half } else { sum }
     }
 }

@@ -1,7 +1,7 @@
 //! Friction under a coefficient that changes in every tick: between laws for three coefficients.
 
 use crate::ball::elastic::constants::BallConstants;
-use crate::ball::elastic::load_law::{LoadLaw, LoadRange};
+use crate::ball::elastic::load_law::{Grooved, LoadLaws, LoadRange};
 use crate::ball::elastic::nominal::Grooving;
 
 /// Part of the range of coefficients that lies between two laws at least.
@@ -14,8 +14,8 @@ const APART: f32 = 0.2;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct CoefficientLaws {
-    /// Of each: that of a load that opposes the motion, and of one that assists it.
-    laws: [[LoadLaw; 2]; 2],
+    /// Of one: that of a load that opposes the motion, and of one that assists it; then of the other.
+    laws: LoadLaws<4>,
     /// The three coefficients, that of the configuration first.
     nodes: [f32; 3],
     /// Of each: 1 / its distances from the other two and from 0, `1/((m - m') (m - m'') m)`.
@@ -50,13 +50,11 @@ impl CoefficientLaws {
         };
         let nodes = [own, others[0], others[1]];
         let [a, b, c] = nodes;
-        let mut laws = [[LoadLaw::NONE; 2]; 2];
-        for (pair, friction) in laws.iter_mut().zip(others) {
-            let grooving = Grooving::new(ball, friction, gap);
-            for (law, side) in pair.iter_mut().zip([1.0, -1.0]) {
-                law.fold(ball, &grooving, range, side);
-            }
-        }
+        let [second, third] = others.map(|friction| Grooving::new(ball, friction, gap));
+        let grooved = [(second, 1.0), (second, -1.0), (third, 1.0), (third, -1.0)];
+        let grooved = grooved.map(|(grooving, side)| Grooved { grooving, side });
+        let mut laws = LoadLaws::NONE;
+        laws.fold(ball, &grooved, range);
         Some(Self {
             laws,
             nodes,
@@ -70,23 +68,34 @@ impl CoefficientLaws {
         })
     }
 
-    /// Friction torque over contact force, m, under a load of a size, N, that assists the motion where `assists`, and a friction
-    /// coefficient; `first` is that of the configuration's. And whether balls are not known well there.
+    /// Friction torque over contact force, m, under a load of a size, N, that opposes the motion, and under one that assists it,
+    /// each with its friction coefficient; `first` are those of the configuration's. And whether balls are not known well there.
     #[inline(always)]
     pub(super) fn at(
         &self,
         range: LoadRange,
         load: f32,
-        assists: bool,
-        friction: f32,
-        first: f32,
-    ) -> (f32, bool) {
-        let [second, third] = &self.laws;
-        let [(second, second_beyond), (third, third_beyond)] =
-            [second, third].map(|[drive, backdrive]| {
-                let law = if assists { backdrive } else { drive };
-                law.found(range, load)
-            });
+        [opposed, assisted]: [f32; 2],
+        first: [f32; 2],
+    ) -> ([f32; 2], [bool; 2]) {
+        let place = self.laws.at(range, load);
+        let [second, second_back, third, third_back] = place.ratios();
+        let [drive, backdrive] = first;
+        (
+            [
+                self.over(opposed, [drive, second, third]),
+                self.over(assisted, [backdrive, second_back, third_back]),
+            ],
+            [
+                place.beyond(0) || place.beyond(2),
+                place.beyond(1) || place.beyond(3),
+            ],
+        )
+    }
+
+    /// Friction torque over contact force with a friction coefficient, from that with each of the three.
+    #[inline(always)]
+    fn over(&self, friction: f32, [first, second, third]: [f32; 3]) -> f32 {
         let at = if friction > self.largest {
             self.largest
         } else if friction > self.least {
@@ -99,6 +108,6 @@ impl CoefficientLaws {
         let over = b * c * (first_weight * first)
             + a * c * (second_weight * second)
             + a * b * (third_weight * third);
-        (friction * over, second_beyond || third_beyond)
+        friction * over
     }
 }

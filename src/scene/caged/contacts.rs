@@ -7,10 +7,9 @@ use core::f32::consts::TAU;
 use super::CagedBallScrewConfiguration;
 use super::coefficients::CoefficientLaws;
 use super::full::CagedFull;
-use super::recent::{CagedRecent, Found};
 use crate::ball::Clearance;
 use crate::ball::elastic::constants::BallConstants;
-use crate::ball::elastic::load_law::{LoadLaw, LoadRange};
+use crate::ball::elastic::load_law::{Grooved, LoadLaws, LoadRange};
 use crate::ball::elastic::nominal::{Grooving, NominalBall, SMALLEST_LOAD};
 use crate::error::{Error, attempt};
 use crate::law::coefficient::DirectionalCoefficient;
@@ -47,7 +46,7 @@ pub(super) struct Contacts {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct ContactsState {
     /// Law of a load that opposes the motion, and of one that assists it; for the configuration's friction and clearance.
-    laws: [LoadLaw; 2],
+    laws: LoadLaws<2>,
     /// A ball of each, for those that are set while running.
     balls: [NominalBall; 2],
     grooving: Grooving,
@@ -95,15 +94,14 @@ impl Contacts {
         let grooving = Grooving::new(&self.ball, self.friction, self.clearance.gap());
         let nominal = |side| NominalBall::new(&self.ball, &grooving, side * FIRST_LOAD, 0.0);
         let mut state = ContactsState {
-            laws: [LoadLaw::NONE; 2],
+            laws: LoadLaws::NONE,
             balls: [nominal(1.0), nominal(-1.0)],
             grooving,
             changes: false,
             turn: 0,
         };
-        for (law, side) in state.laws.iter_mut().zip([1.0, -1.0]) {
-            law.fold(&self.ball, &grooving, self.range, side);
-        }
+        let grooved = [1.0, -1.0].map(|side| Grooved { grooving, side });
+        state.laws.fold(&self.ball, &grooved, self.range);
         state
     }
 
@@ -111,15 +109,6 @@ impl Contacts {
     pub(super) fn reset(&self, state: &mut ContactsState) {
         state.grooving = Grooving::new(&self.ball, self.friction, self.clearance.gap());
         state.changes = false;
-    }
-
-    /// Friction of both directions before the first tick of a scene with memory.
-    pub(super) fn recent(&self, state: &ContactsState) -> CagedRecent {
-        let [drive, backdrive] = &state.laws;
-        CagedRecent::of([drive, backdrive].map(|law| {
-            let (ratio, beyond) = law.found(self.range, FIRST_LOAD);
-            Found { ratio, beyond }
-        }))
     }
 
     /// Balls go on with the friction coefficient and the clearance of these constants, renewed in every tick: the laws are those
@@ -157,14 +146,10 @@ impl Contacts {
     fn change(&self, state: &mut ContactsState) {
         if !state.changes {
             state.changes = true;
-            for ((ball, law), side) in state.balls.iter_mut().zip(&state.laws).zip([1.0, -1.0]) {
+            let ratios = state.laws.at(self.range, FIRST_LOAD).ratios();
+            for ((ball, ratio), side) in state.balls.iter_mut().zip(ratios).zip([1.0, -1.0]) {
                 let load = side * FIRST_LOAD;
-                *ball = NominalBall::new(
-                    &self.ball,
-                    &state.grooving,
-                    load,
-                    law.at(self.range, FIRST_LOAD).0,
-                );
+                *ball = NominalBall::new(&self.ball, &state.grooving, load, ratio);
             }
         }
     }
@@ -201,7 +186,6 @@ impl Contacts {
     pub(super) fn both_ways(
         &self,
         state: &mut ContactsState,
-        recent: &mut CagedRecent,
         laws: Option<&CoefficientLaws>,
         inputs: Inputs,
         friction: DirectionalCoefficient,
@@ -216,27 +200,23 @@ impl Contacts {
             let opposite = if other { drive } else { backdrive };
             (own, opposite.ratio(), accuracy)
         } else {
-            let turned = recent.turned();
-            let looked_up = other != turned;
-            let friction = if turned {
-                opposite_friction
+            let friction = if other {
+                [opposite_friction, own_friction]
             } else {
-                own_friction
+                [own_friction, opposite_friction]
             };
-            let found = self.between(state, laws, load, looked_up, friction);
-            let [drive, backdrive] = &mut recent.found;
-            *(if looked_up {
-                &mut *backdrive
+            let ([drive, backdrive], beyond) = self.between(state, laws, load, friction);
+            let [drive_beyond, backdrive_beyond] = beyond;
+            let (own, opposite, beyond) = if other {
+                (backdrive, drive, backdrive_beyond)
             } else {
-                &mut *drive
-            }) = found;
-            let (own, opposite) = if other {
-                (*backdrive, *drive)
-            } else {
-                (*drive, *backdrive)
+                (drive, backdrive, drive_beyond)
             };
-            let beyond = Faults::NONE.with(own.beyond, Faults::BEYOND_MODEL);
-            (own.ratio, opposite.ratio, beyond)
+            (
+                own,
+                opposite,
+                Faults::NONE.with(beyond, Faults::BEYOND_MODEL),
+            )
         };
         let (forward, backward) = if way < 0.0 {
             (opposite, own)
@@ -251,32 +231,36 @@ impl Contacts {
         }
     }
 
-    /// Friction torque over contact force by the laws, for a friction coefficient.
+    /// Friction torque over contact force by the laws under a load that opposes the motion and under one that assists it, each
+    /// for its friction coefficient; and whether balls are not known well there.
     #[inline(always)]
     fn between(
         &self,
         state: &ContactsState,
         laws: Option<&CoefficientLaws>,
         load: f32,
-        other: bool,
-        friction: f32,
-    ) -> Found {
-        let [drive, backdrive] = &state.laws;
-        let law = if other { backdrive } else { drive };
-        let (first, beyond) = law.at(self.range, load);
-        match laws {
-            Some(laws) => {
-                let (ratio, more) = laws.at(self.range, load, other, friction, first);
-                Found {
-                    ratio,
-                    beyond: beyond || more,
-                }
-            }
-            None => Found {
-                ratio: first * (friction / self.friction),
-                beyond,
-            },
+        friction: [f32; 2],
+    ) -> ([f32; 2], [bool; 2]) {
+        let place = state.laws.at(self.range, load);
+        let first = place.ratios();
+        let beyond = [place.beyond(0), place.beyond(1)];
+        if let Some(laws) = laws {
+            let (ratios, more) = laws.at(self.range, load, friction, first);
+            let [drive, backdrive] = beyond;
+            let [more_drive, more_backdrive] = more;
+            return (ratios, [drive || more_drive, backdrive || more_backdrive]);
         }
+        // Friction of another coefficient is about in proportion.
+        let [drive, backdrive] = first;
+        let [opposed, assisted] = friction;
+        let inverse = 1.0 / self.friction;
+        (
+            [
+                drive * (opposed * inverse),
+                backdrive * (assisted * inverse),
+            ],
+            beyond,
+        )
     }
 
     /// Full friction times its passage: zero at standstill, odd under reversal of speed and load together, and never of the
@@ -321,15 +305,14 @@ impl Contacts {
         };
         let far = own.is_far(whole);
         if far || turned && opposite.is_far(whole) {
-            let [drive, backdrive] = &state.laws;
-            let (ball, law, axial) = match (far, other) {
-                (true, true) => (&mut *own, backdrive, axial),
-                (true, false) => (&mut *own, drive, axial),
-                (false, true) => (opposite, drive, -axial),
-                (false, false) => (opposite, backdrive, -axial),
+            let (ball, assists, axial) = if far {
+                (&mut *own, other, axial)
+            } else {
+                (opposite, !other, -axial)
             };
             // The law is that of another friction coefficient; it is about in proportion.
-            let ratio = law.at(self.range, size).0 * (state.grooving.friction / self.friction);
+            let (ratio, _) = state.laws.found(self.range, size, assists.into());
+            let ratio = ratio * (state.grooving.friction / self.friction);
             *ball = NominalBall::new(&self.ball, &state.grooving, axial, ratio);
         } else if turned {
             opposite.renew(&self.ball, &state.grooving, -axial);
@@ -347,9 +330,7 @@ impl ContactsState {
     /// Friction torque over contact force by the law of this direction, and what it is worth.
     #[inline(always)]
     fn folded(&self, range: LoadRange, load: f32, other: bool) -> (f32, Faults) {
-        let [drive, backdrive] = &self.laws;
-        let law = if other { backdrive } else { drive };
-        let (ratio, beyond) = law.at(range, load);
+        let (ratio, beyond) = self.laws.found(range, load, other.into());
         (ratio, Faults::NONE.with(beyond, Faults::BEYOND_MODEL))
     }
 }

@@ -14,9 +14,7 @@ const MEMORY: u16 = 0x100;
 
 impl<S, E, A, L> StoredScene for WithMemory<S, E, A, L>
 where
-    S: StoredScene
-        + Sliding<Constants: Copy, Inputs: Stored, Recent: Stored, Full: Stored + Default>
-        + Copy,
+    S: StoredScene + Sliding<Constants: Copy, Inputs: Stored, Full: Stored + Default> + Copy,
     E: Elements<State: Stored> + Fingerprinted + Copy,
     A: NutAngle<State: Stored> + Fingerprinted + Copy,
     L: CoefficientModel,
@@ -61,13 +59,12 @@ where
 
 impl<S, E, A, L> Stored for WithMemoryState<S, E, A, L>
 where
-    S: Sliding<State: Stored, Inputs: Stored, Recent: Stored, Full: Stored + Default>,
+    S: Sliding<State: Stored, Inputs: Stored, Full: Stored + Default>,
     E: Elements<State: Stored>,
     A: NutAngle<State: Stored>,
     L: CoefficientModel,
 {
     const BYTES: usize = <S::State as Stored>::BYTES
-        + <S::Recent as Stored>::BYTES
         + <E::State as Stored>::BYTES
         + <A::State as Stored>::BYTES
         + PlayState::BYTES
@@ -78,7 +75,6 @@ where
 
     fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
         self.scene.exchange(port)?;
-        self.recent.exchange(port)?;
         self.elements.exchange(port)?;
         self.reading.exchange(port)?;
         self.play.exchange(port)?;

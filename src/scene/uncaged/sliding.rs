@@ -16,18 +16,14 @@ impl<const N: usize> Sliding for UncagedBallScrew<N> {
 
     /// Balls take a friction coefficient over as their turn comes.
     type Coefficients = ();
-    type Recent = ();
     type Full = UncagedFull;
 
     fn coefficients(_: &UncagedConstants<N>, _: f32, _: f32) {}
-
-    fn recent(_: &UncagedConstants<N>, _: &UncagedState<N>) {}
 
     #[inline(always)]
     fn full(
         constants: &UncagedConstants<N>,
         state: &mut UncagedState<N>,
-        (): &mut (),
         _: Option<&()>,
         inputs: Inputs,
         friction: DirectionalCoefficient,

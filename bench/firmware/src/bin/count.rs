@@ -6,6 +6,7 @@
 use cortex_m_rt::entry;
 use epas_firmware::board::{clock, finish};
 use epas_firmware::contexts::Contexts;
+use epas_firmware::counted::counting;
 use epas_firmware::inputs::COUNTED;
 use epas_firmware::spread::Spread;
 use epas_firmware::subjects::{PEERS, SUBJECTS, WIDEST};
@@ -15,6 +16,7 @@ fn main() -> ! {
     let Ok(mut contexts) = Contexts::new(clock) else {
         finish(false)
     };
+    counting();
     let mut inputs = [0.0; WIDEST];
     let mut outputs = [0.0; WIDEST];
     for subject in SUBJECTS.iter().chain(PEERS) {

@@ -45,9 +45,6 @@ const VISCOSITY: f32 = 0.1;
 /// Coldest temperature of a lubricant, K.
 const COLDEST: f32 = 150.0;
 
-/// Ticks after which both directions of a caged screw have been looked up.
-const LOOKED_UP: usize = 8;
-
 /// How elements follow the load.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ElementsKind {
@@ -150,7 +147,6 @@ impl Screw {
     pub fn reference(&self, values: &Values) -> Result<Reference, Error> {
         let constants = CagedConstants::new(&self.scene(values)?)?;
         let mut state = CagedBallScrew::initial_state(&constants);
-        let mut recent = CagedBallScrew::recent(&constants, &state);
         let mut limits = |axial_load: f64| {
             let both = DirectionalCoefficient {
                 forward: values.friction as f32,
@@ -160,17 +156,8 @@ impl Screw {
                 nut_speed: 1.0,
                 axial_load: axial_load as f32,
             };
-            let mut limits = SlidingLimits {
-                forward: 0.0,
-                backward: 0.0,
-                load: 0.0,
-            };
-            for _ in 0..LOOKED_UP {
-                let full =
-                    CagedBallScrew::full(&constants, &mut state, &mut recent, None, inputs, both);
-                limits = CagedBallScrew::limits(&full);
-            }
-            limits
+            let full = CagedBallScrew::full(&constants, &mut state, None, inputs, both);
+            CagedBallScrew::limits(&full)
         };
         let largest = limits(self.largest_load);
         let SlidingLimits {

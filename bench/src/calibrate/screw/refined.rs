@@ -5,9 +5,7 @@
 //! the half-share speed). So the fit's friction is corrected by more laws of the same kind, each exact at its own coefficient.
 
 use epas_friction::law::coefficient::{CoefficientLaw, DirectionalCoefficient};
-use epas_friction::scene::{
-    CagedCoefficients, CagedConstants, CagedRecent, CagedState, Inputs, Scene, Sliding,
-};
+use epas_friction::scene::{CagedCoefficients, CagedConstants, CagedState, Inputs, Scene, Sliding};
 use epas_friction::{CagedBallScrew, CagedBallScrewConfiguration, Error};
 
 use super::friction::{Course, Screw};
@@ -18,9 +16,6 @@ const LAWS: usize = 9;
 
 /// Loads between none and the largest.
 const LOADS: usize = 96;
-
-/// Steps after which a scene has looked up both directions.
-const LOOKED_UP: usize = 8;
 
 /// Full friction over load and coefficient, by many laws over by three.
 struct Table {
@@ -35,7 +30,6 @@ struct Table {
 struct Sounding {
     constants: CagedConstants,
     state: CagedState,
-    recent: CagedRecent,
     coefficients: Option<CagedCoefficients>,
 }
 
@@ -47,7 +41,6 @@ impl Sounding {
         let constants = CagedConstants::new(configuration)?;
         let state = CagedBallScrew::initial_state(&constants);
         Ok(Self {
-            recent: CagedBallScrew::recent(&constants, &state),
             coefficients: range
                 .map(|(least, largest)| CagedBallScrew::coefficients(&constants, least, largest)),
             constants,
@@ -65,20 +58,15 @@ impl Sounding {
             nut_speed: 1.0,
             axial_load: load as f32,
         };
-        let mut found = [0.0; 2];
-        for _ in 0..LOOKED_UP {
-            let full = CagedBallScrew::full(
-                &self.constants,
-                &mut self.state,
-                &mut self.recent,
-                self.coefficients.as_ref(),
-                inputs,
-                both,
-            );
-            let limits = CagedBallScrew::limits(&full);
-            found = [limits.forward.into(), limits.backward.into()];
-        }
-        found
+        let full = CagedBallScrew::full(
+            &self.constants,
+            &mut self.state,
+            self.coefficients.as_ref(),
+            inputs,
+            both,
+        );
+        let limits = CagedBallScrew::limits(&full);
+        [limits.forward.into(), limits.backward.into()]
     }
 }
 
