@@ -265,7 +265,8 @@ impl<const N: usize> Pair<N> {
             load_shares: vec![],
             chord: false,
             places: vec![],
-            integration: Integration::Coarse,
+            // With fewer nodes power and forces disagree on narrow ellipses, and a search for the least power ends off balance.
+            integration: Integration::Full,
         }
     }
 
