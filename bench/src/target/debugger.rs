@@ -33,8 +33,10 @@ impl<W: Write, R: Read> Debugger<W, R> {
     /// # Errors
     /// An emulator that refuses.
     pub fn monitor(&mut self, command: &str) -> Result<()> {
-        let bytes: String = command.bytes().map(|byte| format!("{byte:02x}")).collect();
-        let mut answer = self.ask(&format!("qRcmd,{bytes}"))?;
+        let words = command.bytes().fold("qRcmd,".to_string(), |words, byte| {
+            words + &format!("{byte:02x}")
+        });
+        let mut answer = self.ask(&words)?;
         // What the monitor writes comes before its result.
         while answer.starts_with('O') && answer != "OK" {
             answer = self.answer()?;
@@ -71,7 +73,8 @@ impl<W: Write, R: Read> Debugger<W, R> {
                 byte => answer.push(byte.into()),
             }
         }
-        (self.byte()?, self.byte()?);
+        self.byte()?;
+        self.byte()?;
         self.to.write_all(b"+")?;
         self.to.flush()?;
         Ok(answer)
