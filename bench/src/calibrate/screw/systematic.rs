@@ -127,7 +127,7 @@ pub fn widened(
             // Its inner coordinate is the logarithm.
             interval.model_error = interval.model_error.hypot(ELEMENTS);
         }
-        let own = sure.covariance[(place, place)].sqrt();
+        let own = sure.covariance[(place, place)].max(0.0).sqrt();
         interval.standard_error = own.hypot(interval.model_error);
         interval.half_width = sure.quantile * interval.standard_error;
         let middle = inner(interval.scale, interval.value);
@@ -140,7 +140,7 @@ pub fn widened(
     Ok(sure)
 }
 
-/// Errors of a fit of a problem at its values. `None` where its slopes or an imitation of the sensors give no finite answer.
+/// Errors of a fit of a problem at its values. `None` where its slopes cannot be inverted.
 fn systematic(
     problem: &ScrewProblem<'_>,
     fit: &Fit,
