@@ -16,6 +16,7 @@
 //! the answer from any partition is the same to the last rounding. Classes and counts are whole numbers.
 
 mod population;
+mod reference;
 mod sum;
 #[cfg(test)]
 mod tests;
@@ -28,32 +29,11 @@ use serde::{Deserialize, Serialize};
 
 pub use self::population::Population;
 use self::population::{Class, population};
+pub use self::reference::Reference;
 use self::sum::Sum;
 use super::cramer_rao::inverse;
-use super::problem::Scale;
 use super::separable::{Fit, inner, outer};
 use super::uncertainty::Uncertainty;
-
-/// A parameter that traces may tell, with the point about which the sums are made. Same in all sums that merge.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Reference {
-    /// Name.
-    pub name: String,
-    /// Whether it is summed by its logarithm.
-    pub logarithmic: bool,
-    /// Reference value.
-    pub value: f64,
-}
-
-impl Reference {
-    fn scale(&self) -> Scale {
-        if self.logarithmic {
-            Scale::Logarithmic
-        } else {
-            Scale::Linear
-        }
-    }
-}
 
 /// Why sums cannot be made or merged.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
-use super::Reference;
+use super::reference::Reference;
 use super::sum::Sum;
 use crate::calibrate::separable::{inner, outer};
 

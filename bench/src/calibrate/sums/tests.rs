@@ -4,6 +4,7 @@ use rand_distr::StandardNormal;
 use rand_pcg::Pcg64;
 
 use super::*;
+use crate::calibrate::problem::Scale;
 use crate::calibrate::separable::Verdict;
 use crate::calibrate::uncertainty::Interval;
 
