@@ -30,7 +30,7 @@ pub const FOOTPRINTS: [Footprint; 8] = [
     },
     Footprint {
         scene: "caged_with_memory",
-        flash: 21_400,
+        flash: 21_500,
         flash_small: 20_400,
         ram: 1960,
         stack: 184,

@@ -110,7 +110,7 @@ mod tests {
         let said = String::from_utf8(said).unwrap();
         assert_eq!(
             said,
-            "$Z0,1234,2#75+$c#63+$z0,1234,2#95+$qRcmd,6c6f67#ff++$D#44+"
+            "$Z0,1234,2#de+$c#63+$z0,1234,2#fe+$qRcmd,6c6f67#c5++$D#44+"
         );
     }
 

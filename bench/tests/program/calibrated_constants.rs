@@ -77,9 +77,9 @@ pub const COEFFICIENT: CoefficientLaw = sound(CoefficientLaw::new(&CoefficientPa
     churning: 0.0,
 }));
 
-/// Friction after a reversal: 0.13402057 N m of sliding after 0.002 rad.
+/// Friction after a reversal: 0.13402054 N m of sliding after 0.002 rad.
 pub const ELEMENTS: ProportionalElements<8> = sound(ProportionalElements::new(
-    0.13402057,
+    0.13402054,
     &[Part {
         backbone: &SLIP_8.elements,
         share: 1.0,
