@@ -49,6 +49,19 @@ pub struct Interval {
     pub at_bound: bool,
 }
 
+impl Interval {
+    /// Takes a standard error of the inner coordinate, and `quantile` of them as half of the interval.
+    pub fn spread(&mut self, standard_error: f64, quantile: f64) {
+        self.standard_error = standard_error;
+        self.half_width = quantile * standard_error;
+        let end = |side: f64| {
+            let place = inner(self.scale, self.value) + side * self.half_width;
+            outer(self.scale, place).clamp(self.bounds[0], self.bounds[1])
+        };
+        (self.low, self.high) = (end(-1.0), end(1.0));
+    }
+}
+
 /// How sure a fit is. All lists and matrices have the nonlinear parameters before the linear ones.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Uncertainty {
@@ -126,7 +139,7 @@ pub fn uncertainty(problem: &dyn Separable, fit: &Fit) -> Uncertainty {
 }
 
 /// Standard deviations of a covariance.
-fn deviations(covariance: &DMatrix<f64>) -> Vec<f64> {
+pub fn deviations(covariance: &DMatrix<f64>) -> Vec<f64> {
     let variances = covariance.diagonal();
     variances
         .iter()
@@ -251,23 +264,21 @@ fn intervals(
     let values = fit.nonlinear.iter().chain(&fit.linear);
     let interval =
         |(((name, unit, scale, bounds), value), error): (((_, _, Scale, [f64; 2]), &f64), &f64)| {
-            let half_width = quantile * error;
-            let end = |side: f64| {
-                outer(scale, inner(scale, *value) + side * half_width).clamp(bounds[0], bounds[1])
-            };
-            Interval {
+            let mut interval = Interval {
                 name,
                 unit,
                 scale,
                 value: *value,
-                low: end(-1.0),
-                high: end(1.0),
-                standard_error: *error,
+                low: *value,
+                high: *value,
+                standard_error: 0.0,
                 model_error: 0.0,
-                half_width,
+                half_width: 0.0,
                 bounds,
                 at_bound: fit.at_bound.contains(&name),
-            }
+            };
+            interval.spread(*error, quantile);
+            interval
         };
     nonlinear
         .chain(linear)

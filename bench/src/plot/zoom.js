@@ -64,6 +64,8 @@
   };
   const draw = () => {
     const width = host.clientWidth;
+    // A page that is not laid out yet, or is hidden, has no room: the observer below draws it when it has.
+    if (width <= LEFT + RIGHT) return;
     const x = (at) => LEFT + (at - view[0]) / (view[1] - view[0]) * (width - LEFT - RIGHT);
     host.replaceChildren();
     PANELS.forEach((panel, index) => {
@@ -187,6 +189,11 @@
   const everything = () => { view = [...all]; draw(); };
   host.addEventListener("dblclick", everything);
   document.querySelector("button").addEventListener("click", everything);
-  addEventListener("resize", draw);
+  let drawn = 0;
+  new ResizeObserver(() => {
+    if (host.clientWidth === drawn) return;
+    drawn = host.clientWidth;
+    draw();
+  }).observe(host);
   draw();
 })();

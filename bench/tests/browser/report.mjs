@@ -78,6 +78,22 @@ const open = async (browser, file, width, scheme, where) => {
   return page;
 };
 
+/** A page that is shown only later, as in a folded frame, draws when it gets its room. */
+const later = async (browser) => {
+  const where = "simulation in a frame without width";
+  const page = await open(browser, simulation, 390, "light", where);
+  await page.evaluate(() => {
+    const host = document.getElementById("panels");
+    host.style.width = "0px";
+  });
+  await page.waitForTimeout(200);
+  await page.evaluate(() => { document.getElementById("panels").style.width = "300px"; });
+  await page.waitForTimeout(200);
+  const wide = await page.locator("#panels svg").first().evaluate((svg) => svg.viewBox.baseVal.width);
+  require(wide === 300, `${where}: drawn ${wide} px wide for 300`);
+  await page.close();
+};
+
 const contents = async (page, width, where) => {
   const narrow = width < 960;
   const links = await page.locator("nav a").all();
@@ -161,6 +177,7 @@ for (const width of [1400, 390]) {
     await looking(browser, width, scheme);
   }
 }
+await later(browser);
 await browser.close();
 for (const [where, count] of Object.entries(counts)) console.log(`${where}: ${count}${where.endsWith("screens") ? "" : " labels"}`);
 for (const problem of problems) console.error(problem);

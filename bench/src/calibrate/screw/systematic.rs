@@ -18,10 +18,10 @@ use super::problem::ScrewProblem;
 use super::quantities::Values;
 use crate::calibrate::filter::ZeroPhase;
 use crate::calibrate::problem::Scale;
-use crate::calibrate::separable::{Fit, inner, inner_slope, outer};
+use crate::calibrate::separable::{Fit, inner_slope};
 use crate::calibrate::signals::{Motion, SmoothingSettings};
 use crate::calibrate::trace::Trace;
-use crate::calibrate::uncertainty::{Uncertainty, correlation};
+use crate::calibrate::uncertainty::{Uncertainty, correlation, deviations};
 use crate::failure::Failure;
 
 /// Times that sensors are imitated.
@@ -121,21 +121,14 @@ pub fn widened(
     let scale = DMatrix::from_diagonal(&DVector::from_vec(slopes));
     sure.covariance += &scale * systematic.sensors * &scale;
     sure.correlation = correlation(&sure.covariance);
+    let own = deviations(&sure.covariance);
     for (place, interval) in sure.intervals.iter_mut().enumerate() {
         interval.model_error = systematic.model[place] * scale[(place, place)];
         if interval.name == "breakaway_angle" {
             // Its inner coordinate is the logarithm.
             interval.model_error = interval.model_error.hypot(ELEMENTS);
         }
-        let own = sure.covariance[(place, place)].max(0.0).sqrt();
-        interval.standard_error = own.hypot(interval.model_error);
-        interval.half_width = sure.quantile * interval.standard_error;
-        let middle = inner(interval.scale, interval.value);
-        let end = |way: f64| {
-            let end = outer(interval.scale, middle + way * interval.half_width);
-            end.clamp(interval.bounds[0], interval.bounds[1])
-        };
-        (interval.low, interval.high) = (end(-1.0), end(1.0));
+        interval.spread(own[place].hypot(interval.model_error), sure.quantile);
     }
     Ok(sure)
 }
