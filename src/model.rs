@@ -8,7 +8,7 @@ use core::borrow::Borrow;
 use crate::ball::Clearance;
 use crate::error::Error;
 use crate::scene::{
-    CagedBallScrew, CagedConstants, LinearBearingTrain, LinearConstants, Scene, SceneOutputs,
+    ChangingClearance, ChangingFriction, LinearBearingTrain, LinearConstants, Scene, SceneOutputs,
     UncagedBallScrew, UncagedConstants,
 };
 
@@ -192,57 +192,38 @@ impl<S: Scene, C: Borrow<S::Constants>> FrictionModel<S, C> {
     }
 }
 
-impl<C: Borrow<CagedConstants>> FrictionModel<CagedBallScrew, C> {
-    /// Sets the friction coefficient of ball and groove, 1e-6 to 0.5: where temperature or wear change it while the model
-    /// runs. [`FrictionModel::reset`] brings the configuration's back.
+impl<S: ChangingFriction, C: Borrow<S::Constants>> FrictionModel<S, C> {
+    /// Sets the friction coefficient of ball and groove, 1e-6 to 0.5 (to 1 of a linear bearing): where temperature or wear change it
+    /// while the model runs. [`FrictionModel::reset`] brings the configuration's back.
     ///
-    /// From the first call on a ball is renewed in every tick, in the place of the law over the load: a tick then takes the
-    /// cycles of [`STEP_CAGED_CHANGING`](crate::promises::STEP_CAGED_CHANGING). After a change friction is exact within
-    /// some ticks; until then it is flagged [`Faults::SETTLING`](crate::Faults::SETTLING). The closed forms of
+    /// In a caged ball screw a ball is renewed in every tick from the first call on, in the place of the law over the load: a tick
+    /// then takes the cycles of [`STEP_CAGED_CHANGING`](crate::promises::STEP_CAGED_CHANGING). After a change friction is exact
+    /// within some ticks; until then it is flagged [`Faults::SETTLING`](crate::Faults::SETTLING). The closed forms of
     /// [`FrictionBranch`](crate::FrictionBranch) keep their friction.
+    ///
+    /// In a ball screw without cage balls take it over as their turn comes; where it jumps they settle, flagged the same.
+    ///
+    /// In a linear bearing friction and all forces between balls follow it in proportion, from the next tick on.
     ///
     /// # Errors
     /// [`Error`] naming `friction`; the model goes on as it was.
     pub fn set_friction(&mut self, friction: f32) -> Result<(), Error> {
-        self.constants
-            .borrow()
-            .set_friction(&mut self.state, friction)
+        S::set_friction(self.constants.borrow(), &mut self.state, friction)
     }
+}
 
-    /// Sets how balls fit between the grooves, -0.02 to 0.05 ball radii, as [`FrictionModel::set_friction`] sets friction.
+impl<S: ChangingClearance, C: Borrow<S::Constants>> FrictionModel<S, C> {
+    /// Sets how balls fit between the grooves, -0.02 to 0.05 ball radii, with the cost and the flag of
+    /// [`FrictionModel::set_friction`]; a memory stays.
     ///
     /// # Errors
     /// [`Error`] naming `clearance`; the model goes on as it was.
     pub fn set_clearance(&mut self, clearance: Clearance) -> Result<(), Error> {
-        self.constants
-            .borrow()
-            .set_clearance(&mut self.state, clearance)
+        S::set_clearance(self.constants.borrow(), &mut self.state, clearance)
     }
 }
 
 impl<const N: usize, C: Borrow<UncagedConstants<N>>> FrictionModel<UncagedBallScrew<N>, C> {
-    /// Sets the friction coefficient of ball and groove, 1e-6 to 0.5: where temperature or wear change it while the model
-    /// runs. Balls take it over as their turn comes; where it jumps they settle, flagged
-    /// [`Faults::SETTLING`](crate::Faults::SETTLING). [`FrictionModel::reset`] brings the configuration's back.
-    ///
-    /// # Errors
-    /// [`Error`] naming `friction`; the model goes on as it was.
-    pub fn set_friction(&mut self, friction: f32) -> Result<(), Error> {
-        self.constants
-            .borrow()
-            .set_friction(&mut self.state, friction)
-    }
-
-    /// Sets how balls fit between the grooves, -0.02 to 0.05 ball radii, as [`FrictionModel::set_friction`] sets friction.
-    ///
-    /// # Errors
-    /// [`Error`] naming `clearance`; the model goes on as it was.
-    pub fn set_clearance(&mut self, clearance: Clearance) -> Result<(), Error> {
-        self.constants
-            .borrow()
-            .set_clearance(&mut self.state, clearance)
-    }
-
     /// Sets the angle of the nut against the screw, rad, from which the screw's deviations are counted:
     /// once after start-up, and again whenever an absolute sensor has it; between, the model integrates
     /// the speed. Ticks without a valid speed are missing in that sum, one beyond its limit counts with the
@@ -255,17 +236,6 @@ impl<const N: usize, C: Borrow<UncagedConstants<N>>> FrictionModel<UncagedBallSc
 }
 
 impl<const N: usize, C: Borrow<LinearConstants<N>>> FrictionModel<LinearBearingTrain<N>, C> {
-    /// Sets the friction coefficient of ball and groove, 1e-6 to 1: friction and all forces between balls follow it in
-    /// proportion, from the next tick on. [`FrictionModel::reset`] brings the configuration's back.
-    ///
-    /// # Errors
-    /// [`Error`] naming `friction`; the model goes on as it was.
-    pub fn set_friction(&mut self, friction: f32) -> Result<(), Error> {
-        self.constants
-            .borrow()
-            .set_friction(&mut self.state, friction)
-    }
-
     /// Sets the carriage's place along the rail, m, from which the rail's deviations are counted: once after start-up,
     /// and again whenever an absolute sensor has it; between, the model integrates the speed. Ticks without a valid
     /// speed are missing in that sum, one beyond its limit counts with the limit. A place that is NaN, or beyond

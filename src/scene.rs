@@ -15,6 +15,7 @@
 //! deviation maps, load shares.
 
 mod caged;
+mod changing;
 pub(crate) mod circuit;
 mod contract;
 mod faults;
@@ -31,6 +32,7 @@ pub use caged::{
     CagedBallScrew, CagedBallScrewConfiguration, CagedCoefficients, CagedConstants, CagedFull,
     CagedState, FrictionBranch,
 };
+pub use changing::{ChangingClearance, ChangingFriction};
 pub use circuit::{CircuitState, DeviationMap, HIGHEST_ORDER, Harmonic, LARGEST_DEVIATION};
 pub use contract::{Admitted, Inputs, Limits, Regime, Scene, SceneOutputs};
 pub use faults::Faults;
@@ -39,8 +41,8 @@ pub use linear::{
     LinearLimits, LinearState,
 };
 pub use memory::{
-    Freshness, WithMemory, WithMemoryConfiguration, WithMemoryConstants, WithMemoryInputs,
-    WithMemoryKnown, WithMemoryState,
+    Freshness, Remembered, WithMemory, WithMemoryConfiguration, WithMemoryConstants,
+    WithMemoryInputs, WithMemoryKnown, WithMemoryState,
 };
 pub use outputs::{LinearOutputs, Outputs, UncagedOutputs};
 pub use passage::{Motion, Passage};

@@ -3,14 +3,13 @@
 use core::borrow::Borrow;
 
 use super::FrictionModel;
-use crate::ball::Clearance;
 use crate::error::Error;
 use crate::law::coefficient::CoefficientModel;
 use crate::law::motion::NutAngle;
 use crate::law::{Elements, FrictionLevel};
 use crate::scene::{
-    CagedBallScrew, CagedConstants, Faults, Scene, SceneOutputs, Sliding, UncagedBallScrew,
-    UncagedConstants, WithMemory, WithMemoryConstants,
+    Faults, Scene, SceneOutputs, Sliding, UncagedBallScrew, UncagedConstants, WithMemory,
+    WithMemoryConstants,
 };
 
 impl<S, E, A, L, C> FrictionModel<WithMemory<S, E, A, L>, C>
@@ -30,7 +29,7 @@ where
     #[inline]
     pub fn between(&mut self, reading: A::Reading) -> S::Outputs {
         let constants = self.constants.borrow();
-        let outputs = constants.between::<S>(&mut self.state, reading);
+        let outputs = constants.between::<S>(&mut self.state.remembered, reading);
         outputs.limited(
             WithMemory::<S, E, A, L>::largest_friction(constants),
             Faults::NONE,
@@ -44,7 +43,7 @@ where
     /// [`Error`] naming `coefficient`, where the scene does not take the least or the largest of the law; the model goes on as it
     /// was.
     pub fn set_coefficient(&mut self, law: L) -> Result<(), Error> {
-        self.state.set_coefficient(law)
+        self.state.remembered.set_coefficient(law)
     }
 
     /// Sets how large friction is beside that of the constants, in each direction: from the next step or reading on. What an
@@ -57,25 +56,7 @@ where
     /// # Errors
     /// [`Error`] naming `forward` or `backward`, outside 0.1 to 10; the model goes on as it was.
     pub fn set_level(&mut self, level: FrictionLevel) -> Result<(), Error> {
-        self.state.set_level(level)
-    }
-}
-
-impl<E, A, L, C> FrictionModel<WithMemory<CagedBallScrew, E, A, L>, C>
-where
-    E: Elements + Copy,
-    A: NutAngle + Copy,
-    L: CoefficientModel,
-    C: Borrow<WithMemoryConstants<CagedConstants, E, A, L>>,
-{
-    /// Sets how balls fit between the grooves, as
-    /// [`FrictionModel::set_clearance`](FrictionModel#method.set_clearance) of the screw without memory does; the memory stays.
-    ///
-    /// # Errors
-    /// [`Error`] naming `clearance`; the model goes on as it was.
-    pub fn set_clearance(&mut self, clearance: Clearance) -> Result<(), Error> {
-        let scene = self.constants.borrow().scene();
-        scene.set_clearance(&mut self.state.scene, clearance)
+        self.state.remembered.set_level(level)
     }
 }
 
@@ -86,16 +67,6 @@ where
     L: CoefficientModel,
     C: Borrow<WithMemoryConstants<UncagedConstants<N>, E, A, L>>,
 {
-    /// Sets how balls fit between the grooves, as
-    /// [`FrictionModel::set_clearance`](FrictionModel#method.set_clearance) of the screw without memory does; the memory stays.
-    ///
-    /// # Errors
-    /// [`Error`] naming `clearance`; the model goes on as it was.
-    pub fn set_clearance(&mut self, clearance: Clearance) -> Result<(), Error> {
-        let scene = self.constants.borrow().scene();
-        scene.set_clearance(&mut self.state.scene, clearance)
-    }
-
     /// Sets the angle of the nut against the screw, rad, from which the screw's deviations are counted, as without memory.
     pub fn set_nut_angle(&mut self, angle: f32) {
         let scene = self.constants.borrow().scene();

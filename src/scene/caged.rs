@@ -6,6 +6,7 @@ mod contacts;
 mod full;
 mod stored;
 
+use super::changing::{ChangingClearance, ChangingFriction};
 use super::contract::{Admitted, Inputs, Limits, Scene, SceneOutputs};
 use super::faults::Faults;
 use super::outputs::Outputs;
@@ -282,22 +283,28 @@ impl CagedConstants {
             limits,
         })
     }
+}
 
-    /// See [`FrictionModel::set_friction`](crate::FrictionModel::set_friction).
-    pub(crate) fn set_friction(&self, state: &mut CagedState, friction: f32) -> Result<(), Error> {
-        match (&self.law, &mut state.contacts) {
+impl ChangingFriction for CagedBallScrew {
+    fn set_friction(
+        constants: &CagedConstants,
+        state: &mut CagedState,
+        friction: f32,
+    ) -> Result<(), Error> {
+        match (&constants.law, &mut state.contacts) {
             (Law::Contacts(contacts), Some(state)) => contacts.set_friction(state, friction),
             _ => Ok(()),
         }
     }
+}
 
-    /// See [`FrictionModel::set_clearance`](crate::FrictionModel::set_clearance).
-    pub(crate) fn set_clearance(
-        &self,
+impl ChangingClearance for CagedBallScrew {
+    fn set_clearance(
+        constants: &CagedConstants,
         state: &mut CagedState,
         clearance: Clearance,
     ) -> Result<(), Error> {
-        match (&self.law, &mut state.contacts) {
+        match (&constants.law, &mut state.contacts) {
             (Law::Contacts(contacts), Some(state)) => contacts.set_clearance(state, clearance),
             _ => Ok(()),
         }

@@ -4,6 +4,7 @@ mod configuration;
 mod inputs;
 mod stored;
 
+use super::changing::ChangingFriction;
 use super::circuit::{Circuit, CircuitState, UNLOADED, per_loaded_ball};
 use super::contract::{Admitted, Regime, Scene};
 use super::faults::Faults;
@@ -329,22 +330,23 @@ impl<const N: usize> LinearConstants<N> {
         }
     }
 
-    /// See [`FrictionModel::set_friction`](crate::FrictionModel::set_friction).
-    pub(crate) const fn set_friction(
-        &self,
-        state: &mut LinearState<N>,
-        friction: f32,
-    ) -> Result<(), Error> {
-        let friction = attempt!(ranges::FRICTION.checked("friction", friction));
-        state.friction = friction / self.friction;
-        Ok(())
-    }
-
     /// See [`FrictionModel::set_carriage_position`](crate::FrictionModel::set_carriage_position).
     pub(crate) fn set_carriage_position(&self, state: &mut LinearState<N>, position: f32) {
         state
             .circuit
             .set_turns(&self.circuit, position / self.wavelength);
+    }
+}
+
+impl<const N: usize> ChangingFriction for LinearBearingTrain<N> {
+    fn set_friction(
+        constants: &LinearConstants<N>,
+        state: &mut LinearState<N>,
+        friction: f32,
+    ) -> Result<(), Error> {
+        let friction = ranges::FRICTION.checked("friction", friction)?;
+        state.friction = friction / constants.friction;
+        Ok(())
     }
 }
 

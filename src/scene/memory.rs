@@ -7,12 +7,15 @@ mod stored;
 
 use core::marker::PhantomData;
 
+use super::changing::ChangingClearance;
 use super::contract::{Admitted, Scene, SceneOutputs};
 use super::faults::Faults;
 use super::passage::{Motion, Passage, way};
 use super::sliding::Sliding;
+use crate::ball::Clearance;
 use crate::error::{Error, attempt, in_range};
 use crate::law::coefficient::{CoefficientLaw, CoefficientModel, TemperatureFade};
+use crate::law::fade::Fade;
 use crate::law::motion::{NutAngle, Play, PlayState};
 use crate::law::{Elements, FrictionLevel, SlidingLimits};
 
@@ -51,7 +54,7 @@ pub struct WithMemoryConstants<C, E, A, L = CoefficientLaw> {
     play: Play,
     coefficient: L,
     temperature: TemperatureFade,
-    freshness: Freshness,
+    load: Fade,
 }
 
 /// What a tick changes in a scene with memory.
@@ -65,6 +68,13 @@ pub struct WithMemoryState<
     /// State of the scene without memory.
     pub scene: S::State,
     coefficients: L::Kept<S::Coefficients>,
+    /// What came since the first tick.
+    pub remembered: Remembered<S, E, A, L>,
+}
+
+/// What a scene with memory keeps from tick to tick beside the state of the scene without.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Remembered<S: Sliding, E: Elements, A: NutAngle, L: CoefficientModel> {
     /// What the elements remember.
     pub elements: E::State,
     reading: A::State,
@@ -106,50 +116,24 @@ where
 
     fn initial_state(constants: &Self::Constants) -> Self::State {
         let WithMemoryConstants {
-            scene,
-            coefficient,
-            temperature,
-            ..
+            scene, coefficient, ..
         } = constants;
-        let state = S::initial_state(scene);
         WithMemoryState {
-            scene: state,
+            scene: S::initial_state(scene),
             coefficients: coefficient.keep(|least, largest| S::coefficients(scene, least, largest)),
-            elements: E::VIRGIN,
-            reading: A::FRESH,
-            play: PlayState::FRESH,
-            moved: 0.0,
-            coefficient: *coefficient,
-            temperature: temperature.fallback(),
-            at_temperature: coefficient.at_temperature(temperature.fallback()),
-            inputs: S::Inputs::STILL,
-            full: None,
-            limits: NONE,
-            churning: 0.0,
-            level: FrictionLevel::ONE,
+            remembered: Remembered::nothing(constants),
         }
     }
 
     fn reset(constants: &Self::Constants, state: &mut Self::State) {
         S::reset(&constants.scene, &mut state.scene);
-        state.elements = E::VIRGIN;
-        state.reading = A::FRESH;
-        state.play = PlayState::FRESH;
-        state.moved = 0.0;
-        state.coefficient = constants.coefficient;
-        state.temperature = constants.temperature.fallback();
-        state.at_temperature = constants.coefficient.at_temperature(state.temperature);
-        state.inputs = S::Inputs::STILL;
-        state.full = None;
-        state.limits = NONE;
-        state.churning = 0.0;
-        state.level = FrictionLevel::ONE;
+        state.remembered = Remembered::nothing(constants);
     }
 
     fn take_over(constants: &Self::Constants, state: &mut Self::State) -> Result<(), Error> {
         checked::<S, L>(constants.coefficient)?;
         S::take_over(&constants.scene, &mut state.scene)?;
-        state.set_coefficient(constants.coefficient)
+        state.remembered.set_coefficient(constants.coefficient)
     }
 
     /// Inputs of the scene that are no numbers leave the others as they are.
@@ -184,17 +168,18 @@ where
         state: &mut Self::State,
         known: Self::Known,
     ) -> S::Outputs {
-        let mut faults = constants.take_temperature(state, &known);
-        let inputs = known.scene.unwrap_or(state.inputs);
-        state.inputs = inputs;
-        let factor = constants.freshness.load_factor(known.load_age);
+        let remembered = &mut state.remembered;
+        let mut faults = constants.take_temperature(remembered, &known);
+        let inputs = known.scene.unwrap_or(remembered.inputs);
+        remembered.inputs = inputs;
+        let factor = constants.load.left(known.load_age);
         faults = faults.with(factor < 1.0, Faults::LOAD_STALE);
-        let (turn, angle_faults) = constants.turn(state, known.reading);
+        let (turn, angle_faults) = constants.turn(remembered, known.reading);
 
-        let way = state.way();
+        let way = remembered.way();
         let measured = inputs.speed();
-        let speed = S::speed_of(&constants.scene, state.moved, measured);
-        state.moved = 0.0;
+        let speed = S::speed_of(&constants.scene, remembered.moved, measured);
+        remembered.moved = 0.0;
         let speed = if speed * way > CREEP {
             speed
         } else {
@@ -205,21 +190,37 @@ where
             &mut state.scene,
             L::kept(&state.coefficients),
             inputs.with(speed, factor),
-            L::both(&state.at_temperature, measured).within(S::FRICTION.maximum),
+            L::both(&remembered.at_temperature, measured).within(S::FRICTION.maximum),
         );
         let limits = S::limits(&full);
-        state.limits = SlidingLimits {
+        remembered.limits = SlidingLimits {
             load: limits.load * constants.per_reference_load,
             ..limits
         };
-        state.full = Some(full);
-        state.churning = L::churning_torque(&state.at_temperature, measured);
-        constants.follow(state, turn, inputs, faults | angle_faults)
+        remembered.full = Some(full);
+        remembered.churning = L::churning_torque(&remembered.at_temperature, measured);
+        constants.follow(remembered, turn, inputs, faults | angle_faults)
     }
 
     #[inline(always)]
     fn largest_friction(constants: &Self::Constants) -> f32 {
         S::largest_friction(&constants.scene)
+    }
+}
+
+impl<S, E, A, L> ChangingClearance for WithMemory<S, E, A, L>
+where
+    S: Sliding<Constants: Copy> + ChangingClearance,
+    E: Elements + Copy,
+    A: NutAngle + Copy,
+    L: CoefficientModel,
+{
+    fn set_clearance(
+        constants: &WithMemoryConstants<S::Constants, E, A, L>,
+        state: &mut WithMemoryState<S, E, A, L>,
+        clearance: Clearance,
+    ) -> Result<(), Error> {
+        S::set_clearance(&constants.scene, &mut state.scene, clearance)
     }
 }
 
@@ -239,7 +240,26 @@ const NONE: SlidingLimits = SlidingLimits {
     load: 0.0,
 };
 
-impl<S: Sliding, E: Elements, A: NutAngle, L: CoefficientModel> WithMemoryState<S, E, A, L> {
+impl<S: Sliding, E: Elements, A: NutAngle, L: CoefficientModel> Remembered<S, E, A, L> {
+    /// Before the first tick.
+    fn nothing(constants: &WithMemoryConstants<S::Constants, E, A, L>) -> Self {
+        let temperature = constants.temperature.fallback();
+        Self {
+            elements: E::VIRGIN,
+            reading: A::FRESH,
+            play: PlayState::FRESH,
+            moved: 0.0,
+            coefficient: constants.coefficient,
+            temperature,
+            at_temperature: constants.coefficient.at_temperature(temperature),
+            inputs: S::Inputs::STILL,
+            full: None,
+            limits: NONE,
+            churning: 0.0,
+            level: FrictionLevel::ONE,
+        }
+    }
+
     /// See [`FrictionModel::set_coefficient`](crate::FrictionModel::set_coefficient).
     pub(crate) fn set_coefficient(&mut self, law: L) -> Result<(), Error> {
         self.coefficient = checked::<S, L>(law)?;
@@ -283,7 +303,7 @@ impl<C: Copy, E: Copy, A: Copy, L: Copy> WithMemoryConstants<C, E, A, L> {
             play: attempt!(Play::new(configuration.play)),
             coefficient: configuration.coefficient,
             temperature: configuration.temperature,
-            freshness: attempt!(configuration.freshness.checked()),
+            load: attempt!(configuration.freshness.fade()),
         })
     }
 }
@@ -299,14 +319,14 @@ impl<C, E: Elements, A: NutAngle, L: CoefficientModel> WithMemoryConstants<C, E,
     #[inline(always)]
     fn take_temperature<S: Sliding>(
         &self,
-        state: &mut WithMemoryState<S, E, A, L>,
+        remembered: &mut Remembered<S, E, A, L>,
         known: &WithMemoryKnown<S::Inputs, A::Reading>,
     ) -> Faults {
         let fade = &self.temperature;
         let temperature = fade.at(known.temperature, known.temperature_age);
-        if temperature != state.temperature {
-            state.temperature = temperature;
-            state.at_temperature = state.coefficient.at_temperature(temperature);
+        if temperature != remembered.temperature {
+            remembered.temperature = temperature;
+            remembered.at_temperature = remembered.coefficient.at_temperature(temperature);
         }
         Faults::NONE
             .with(
@@ -323,13 +343,13 @@ impl<C, E: Elements, A: NutAngle, L: CoefficientModel> WithMemoryConstants<C, E,
     #[inline(always)]
     fn turn<S: Sliding>(
         &self,
-        state: &mut WithMemoryState<S, E, A, L>,
+        remembered: &mut Remembered<S, E, A, L>,
         reading: A::Reading,
     ) -> (f32, Faults) {
-        let turn = self.angle.turn(&mut state.reading, reading);
+        let turn = self.angle.turn(&mut remembered.reading, reading);
         let faults = Faults::NONE.with(!turn.is_measured(), Faults::ANGLE_NOT_VALID);
         let turn = turn.angle();
-        state.moved += self.play.follow(&mut state.play, turn).turn;
+        remembered.moved += self.play.follow(&mut remembered.play, turn).turn;
         (turn, faults)
     }
 
@@ -337,27 +357,27 @@ impl<C, E: Elements, A: NutAngle, L: CoefficientModel> WithMemoryConstants<C, E,
     #[inline(always)]
     pub(crate) fn between<S: Sliding<Constants = C>>(
         &self,
-        state: &mut WithMemoryState<S, E, A, L>,
+        remembered: &mut Remembered<S, E, A, L>,
         reading: A::Reading,
     ) -> S::Outputs {
-        let (turn, faults) = self.turn(state, reading);
-        self.follow(state, turn, state.inputs, faults)
+        let (turn, faults) = self.turn(remembered, reading);
+        self.follow(remembered, turn, remembered.inputs, faults)
     }
 
     /// Friction after a turn, between the limits of the last full friction.
     #[inline(always)]
     fn follow<S: Sliding<Constants = C>>(
         &self,
-        state: &mut WithMemoryState<S, E, A, L>,
+        remembered: &mut Remembered<S, E, A, L>,
         turn: f32,
         inputs: S::Inputs,
         faults: Faults,
     ) -> S::Outputs {
-        let Some(full) = &state.full else {
+        let Some(full) = &remembered.full else {
             return S::Outputs::SAFE.limited(f32::MAX, faults);
         };
-        let limits = &state.limits.times(&state.level);
-        let friction = self.elements.follow(&mut state.elements, turn, limits);
+        let limits = &remembered.limits.times(&remembered.level);
+        let friction = self.elements.follow(&mut remembered.elements, turn, limits);
         let limit = if friction < 0.0 {
             limits.backward
         } else {
@@ -365,17 +385,17 @@ impl<C, E: Elements, A: NutAngle, L: CoefficientModel> WithMemoryConstants<C, E,
         };
         let share = if limit > 0.0 { friction / limit } else { 0.0 };
         let passage = Passage {
-            share: share * state.level.of(friction),
-            way: if state.play.way() == 0.0 {
+            share: share * remembered.level.of(friction),
+            way: if remembered.play.way() == 0.0 {
                 way(friction)
             } else {
-                state.play.way()
+                remembered.play.way()
             },
             standing: share.abs() < SLIDES,
         };
         let mut outputs = S::passed(&self.scene, inputs, full, passage);
         let (torque, flags) = outputs.friction_and_faults();
-        *torque += state.churning;
+        *torque += remembered.churning;
         *flags |= faults;
         outputs
     }

@@ -17,7 +17,7 @@ pub trait Sliding: Scene<Known = <Self as Scene>::Inputs, Inputs: Motion> {
     /// What friction coefficients beside the configuration's need: folded before the first tick.
     type Coefficients: Copy + core::fmt::Debug + PartialEq;
     /// Full friction in a tick, in both directions, with what else the tick found.
-    type Full: Copy;
+    type Full: Copy + core::fmt::Debug + PartialEq;
 
     /// What a friction coefficient between these two needs.
     fn coefficients(constants: &Self::Constants, least: f32, largest: f32) -> Self::Coefficients;

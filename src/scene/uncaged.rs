@@ -7,6 +7,7 @@ mod stored;
 
 use core::f32::consts::TAU;
 
+use super::changing::{ChangingClearance, ChangingFriction};
 use super::circuit::{Circuit, CircuitState, UNLOADED, per_loaded_ball};
 use super::contract::{Admitted, Inputs, Limits, Scene};
 use super::faults::Faults;
@@ -32,6 +33,10 @@ const RENEWALS: u8 = 1;
 /// it is; the next sound tick is unflagged. Balls, and the phase of the screw's deviations, then stand behind by
 /// the travel of the missed ticks, and friction is that of this position: sound, but that of an earlier angle.
 /// [`FrictionModel::set_nut_angle`](crate::FrictionModel::set_nut_angle) brings the phase back; the balls, whose places no sensor knows, stay behind.
+///
+/// [`Faults::BEYOND_MODEL`] stands while balls are in two contacts, or the nut turns by more than 0.12 rad in a round of `N + 1`
+/// ticks. Where that lasts for more than three rounds, gaps between balls are no longer known: the flag then stands until every
+/// ball has passed the return in one direction; in a circuit without a return (`return_length` 0) until the model is reset.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct UncagedBallScrew<const N: usize>;
@@ -317,31 +322,35 @@ impl<const N: usize> UncagedConstants<N> {
         sum
     }
 
-    /// See [`FrictionModel::set_friction`](crate::FrictionModel::set_friction).
-    pub(crate) fn set_friction(
-        &self,
+    /// See [`FrictionModel::set_nut_angle`](crate::FrictionModel::set_nut_angle).
+    pub(crate) fn set_nut_angle(&self, state: &mut UncagedState<N>, angle: f32) {
+        state.circuit.set_turns(&self.circuit, angle / TAU);
+    }
+}
+
+impl<const N: usize> ChangingFriction for UncagedBallScrew<N> {
+    fn set_friction(
+        constants: &UncagedConstants<N>,
         state: &mut UncagedState<N>,
         friction: f32,
     ) -> Result<(), Error> {
         let friction = ranges::FRICTION_OF_A_ROW.checked("friction", friction)?;
-        state.ring.set(&self.ring, friction, state.ring.clearance);
+        let ring = &mut state.ring;
+        ring.set(&constants.ring, friction, ring.clearance);
         Ok(())
     }
+}
 
-    /// See [`FrictionModel::set_clearance`](crate::FrictionModel::set_clearance).
-    pub(crate) fn set_clearance(
-        &self,
+impl<const N: usize> ChangingClearance for UncagedBallScrew<N> {
+    fn set_clearance(
+        constants: &UncagedConstants<N>,
         state: &mut UncagedState<N>,
         clearance: Clearance,
     ) -> Result<(), Error> {
-        let clearance = self.ring.ball().checked(clearance)?.gap();
-        state.ring.set(&self.ring, state.ring.friction, clearance);
+        let clearance = constants.ring.ball().checked(clearance)?.gap();
+        let ring = &mut state.ring;
+        ring.set(&constants.ring, ring.friction, clearance);
         Ok(())
-    }
-
-    /// See [`FrictionModel::set_nut_angle`](crate::FrictionModel::set_nut_angle).
-    pub(crate) fn set_nut_angle(&self, state: &mut UncagedState<N>, angle: f32) {
-        state.circuit.set_turns(&self.circuit, angle / TAU);
     }
 }
 

@@ -529,7 +529,7 @@ fn changes_while_it_runs_keep_the_memory() {
         model.swap_constants(&second).unwrap(),
         &raw const first
     ));
-    assert_eq!(model.state().elements, kept.elements);
+    assert_eq!(model.state().remembered.elements, kept.remembered.elements);
     // Elements hold what they had: a larger limit lets them carry as much, and no more.
     let after = step(&mut model, 0.0);
     assert!(

@@ -2,6 +2,7 @@
 
 use super::viscosity::TEMPERATURE;
 use crate::error::{Error, Range, attempt};
+use crate::law::fade::Fade;
 
 /// Longest time, s: a day.
 const TIME: Range = Range::new(0.0, 86_400.0);
@@ -30,17 +31,14 @@ const TIME: Range = Range::new(0.0, 86_400.0);
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct TemperatureFade {
     fallback: f32,
-    hold: f32,
-    /// 1 over the time of the fade, 1/s.
-    rate: f32,
+    fade: Fade,
 }
 
 impl TemperatureFade {
     /// Readings of the last minute as they are, which fade in another one to 40 degrees Celsius.
-    pub const DEFAULT: Self = Self {
-        fallback: 313.15,
-        hold: 60.0,
-        rate: 1.0 / 60.0,
+    pub const DEFAULT: Self = match Self::new(313.15, 60.0, 60.0) {
+        Ok(fade) => fade,
+        Err(_) => panic!("the default is out of range"),
     };
 
     /// Fallback, K, 150 to 500; time for which a reading holds, s, 0 to 86400; time in which it fades after that, s, 1e-3 to
@@ -56,8 +54,10 @@ impl TemperatureFade {
         const FADE: Range = Range::new(1e-3, TIME.maximum);
         Ok(Self {
             fallback: attempt!(TEMPERATURE.checked("fallback_temperature", fallback_temperature)),
-            hold: attempt!(TIME.checked("hold_time", hold_time)),
-            rate: 1.0 / attempt!(FADE.checked("fade_time", fade_time)),
+            fade: attempt!(Fade::new(
+                ("hold_time", hold_time, TIME),
+                ("fade_time", fade_time, FADE)
+            )),
         })
     }
 
@@ -70,7 +70,7 @@ impl TemperatureFade {
     /// Whether a reading of an age, s, counts as it is.
     #[must_use]
     pub const fn holds(&self, age: f32) -> bool {
-        age <= self.hold
+        self.fade.holds(age)
     }
 
     /// The fallback, K.
@@ -83,14 +83,13 @@ impl TemperatureFade {
     /// to 500 K), or an age that is no number, gives the fallback; an age below 0 is a fresh reading.
     #[must_use]
     pub const fn at(&self, temperature: f32, age: f32) -> f32 {
-        let left = 1.0 - (age - self.hold) * self.rate;
-        // False for NaN.
-        if !TEMPERATURE.contains(temperature) || !(left > 0.0) {
+        let left = self.fade.left(age);
+        if !self.is_temperature(temperature) || left == 0.0 {
             self.fallback
-        } else if left >= 1.0 {
-            temperature
-        } else {
+        } else if left < 1.0 {
             self.fallback + left * (temperature - self.fallback)
+        } else {
+            temperature
         }
     }
 }

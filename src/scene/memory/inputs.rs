@@ -1,6 +1,7 @@
 //! What the control interrupt knows of a scene with memory, and how old it may be.
 
-use crate::error::{Error, attempt, in_range};
+use crate::error::{Error, Range};
+use crate::law::fade::Fade;
 
 /// What the control interrupt knows of a scene with memory at a tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,25 +48,14 @@ impl Freshness {
         load_fade: 0.09,
     };
 
-    /// These times, checked.
+    /// These times, checked: what is left of a load by its age.
     ///
     /// # Errors
     /// [`Error`] naming `load_hold` or `load_fade`.
-    pub const fn checked(self) -> Result<Self, Error> {
-        attempt!(in_range("load_hold", self.load_hold, 0.0, 1e3));
-        attempt!(in_range("load_fade", self.load_fade, 1e-6, 1e3));
-        Ok(self)
-    }
-
-    /// Part of a load of an age that counts: 1 while it is held, 0 once it has faded.
-    #[inline(always)]
-    pub(super) fn load_factor(&self, age: f32) -> f32 {
-        if age <= self.load_hold {
-            1.0
-        } else if age < self.load_hold + self.load_fade {
-            (self.load_hold + self.load_fade - age) / self.load_fade
-        } else {
-            0.0
-        }
+    pub(super) const fn fade(self) -> Result<Fade, Error> {
+        Fade::new(
+            ("load_hold", self.load_hold, Range::new(0.0, 1e3)),
+            ("load_fade", self.load_fade, Range::new(1e-6, 1e3)),
+        )
     }
 }

@@ -1,6 +1,6 @@
 //! A scene with memory as bytes. The law of the friction coefficient is that of the constants, or what was set last.
 
-use super::{Sliding, WithMemory, WithMemoryConstants, WithMemoryState};
+use super::{Remembered, Sliding, WithMemory, WithMemoryConstants, WithMemoryState};
 use crate::error::Range;
 use crate::law::coefficient::{CoefficientModel, TEMPERATURE};
 use crate::law::motion::{NutAngle, PlayState};
@@ -38,22 +38,25 @@ where
         state: &mut WithMemoryState<S, E, A, L>,
     ) -> Result<(), Refusal> {
         S::complete(&constants.scene, &mut state.scene)?;
-        if !constants.angle.gave(&state.reading) {
+        let remembered = &mut state.remembered;
+        if !constants.angle.gave(&remembered.reading) {
             return Err(Refusal::OutOfRange { field: "reading" });
         }
-        if !constants.play.holds(&state.play) {
+        if !constants.play.holds(&remembered.play) {
             return Err(Refusal::OutOfRange { field: "play" });
         }
-        if S::admit(&constants.scene, state.inputs).faults.any() {
+        if S::admit(&constants.scene, remembered.inputs).faults.any() {
             return Err(Refusal::OutOfRange { field: "inputs" });
         }
-        state.at_temperature = state.coefficient.at_temperature(state.temperature);
+        remembered.at_temperature = remembered
+            .coefficient
+            .at_temperature(remembered.temperature);
         Ok(())
     }
 
     fn forget_readings(state: &mut WithMemoryState<S, E, A, L>) {
         S::forget_readings(&mut state.scene);
-        state.reading = A::FRESH;
+        state.remembered.reading = A::FRESH;
     }
 }
 
@@ -64,8 +67,22 @@ where
     A: NutAngle<State: Stored>,
     L: CoefficientModel,
 {
-    const BYTES: usize = <S::State as Stored>::BYTES
-        + <E::State as Stored>::BYTES
+    const BYTES: usize = <S::State as Stored>::BYTES + Remembered::<S, E, A, L>::BYTES;
+
+    fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
+        self.scene.exchange(port)?;
+        self.remembered.exchange(port)
+    }
+}
+
+impl<S, E, A, L> Stored for Remembered<S, E, A, L>
+where
+    S: Sliding<Inputs: Stored, Full: Stored + Default>,
+    E: Elements<State: Stored>,
+    A: NutAngle<State: Stored>,
+    L: CoefficientModel,
+{
+    const BYTES: usize = <E::State as Stored>::BYTES
         + <A::State as Stored>::BYTES
         + PlayState::BYTES
         + <<S as Scene>::Inputs as Stored>::BYTES
@@ -74,7 +91,6 @@ where
         + 3 * 4;
 
     fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
-        self.scene.exchange(port)?;
         self.elements.exchange(port)?;
         self.reading.exchange(port)?;
         self.play.exchange(port)?;
