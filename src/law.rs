@@ -15,6 +15,7 @@
 pub mod breakaway;
 pub mod coefficient;
 pub mod compensation;
+pub(crate) mod fade;
 mod level;
 pub mod memory;
 pub mod motion;

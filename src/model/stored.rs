@@ -22,7 +22,7 @@ impl<S: StoredScene, C: Borrow<S::Constants>> FrictionModel<S, C> {
     /// | counted on a Cortex-M4F | block, bytes | export, instructions | import | stack, bytes | flash of both |
     /// |---|---|---|---|---|---|
     /// | caged | 114 | 2,200 | 5,200 | 1,900 | 4 KiB |
-    /// | 37 balls | 1,797 | 28,000 | 32,000 | 2,700 | 8 KiB |
+    /// | 37 balls | 1,794 | 28,000 | 32,000 | 2,700 | 8 KiB |
     ///
     /// ```
     /// # use epas_friction::{

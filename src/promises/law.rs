@@ -14,7 +14,7 @@ pub const MEMORY: Promise = Promise {
     outside: "any turn: within the limits, which are not negative",
     not_finite: "a turn that is none, or of 2^20 rad or more, is no turn; limits are numbers, and if not, nothing stays for the next tick",
     tiny: "no limit: no friction; no turn: what is remembered, within the limits",
-    cycles: 195,
+    cycles: 190,
     counted: &["memory_8"],
 };
 

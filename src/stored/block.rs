@@ -5,7 +5,7 @@ use super::port::{Port, Reader, Stored, Writer};
 use super::refusal::Refusal;
 
 /// Version of the layout: counts up with every change of what a state's bytes mean.
-pub const VERSION: u16 = 2;
+pub const VERSION: u16 = 3;
 
 /// First bytes of a block.
 const MAGIC: [u8; 4] = *b"EPAF";

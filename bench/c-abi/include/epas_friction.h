@@ -790,12 +790,12 @@ extern "C" {
 /**
  * Bytes of a state of this scene, as `epas_screw_export` writes it.
  */
-#define EPAS_SCREW_STATE_BYTES 1797u
+#define EPAS_SCREW_STATE_BYTES 1794u
 
 /**
  * Size of `epas_screw_t` in words of eight bytes.
  */
-#define EPAS_SCREW_WORDS 380
+#define EPAS_SCREW_WORDS 379
 
 /**
  * Balls in the circuit of `epas_linear_t`, return included. A bearing with another number needs the

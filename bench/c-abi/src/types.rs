@@ -225,10 +225,10 @@ pub struct ScrewConfiguration {
 }
 
 /// Bytes of a state of this scene, as `epas_screw_export` writes it.
-pub const EPAS_SCREW_STATE_BYTES: u32 = 1797u32;
+pub const EPAS_SCREW_STATE_BYTES: u32 = 1794u32;
 
 /// Size of `epas_screw_t` in words of eight bytes.
-pub const EPAS_SCREW_WORDS: usize = 380;
+pub const EPAS_SCREW_WORDS: usize = 379;
 
 /// Place for the constants and the state of a ball screw whose balls press on each other; as
 /// `epas_caged_t`.

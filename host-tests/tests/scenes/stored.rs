@@ -849,7 +849,7 @@ fn blocks_are_as_small_as_said() {
         FrictionModel::<S>::STATE_BYTES
     }
     assert_eq!(bytes::<CagedBallScrew>(), 114);
-    assert_eq!(bytes::<Uncaged>(), 1797);
+    assert_eq!(bytes::<Uncaged>(), 1794);
     assert_eq!(bytes::<Linear>(), 181);
     fn with<S: StoredScene + Sliding>() -> usize {
         bytes::<S>()

@@ -57,18 +57,21 @@ pub(crate) struct Ring<const N: usize> {
     lift_off: f32,
     /// Load, preload counted, that the balls are settled for, N.
     settled_load: f32,
-    /// Angle of the nut in this round and in the last one, rad.
+    /// Angle of the nut in this round, rad.
     round: f32,
-    last_round: f32,
     /// Balls still to begin anew; renewals until all are settled.
     stale: u16,
     settling: u16,
     next: u8,
     /// Balls that came under load and wait for their first renewal, as a ball's index and one; 0 is none.
     entered: u8,
-    /// Balls in two contacts, in this round and in the last one.
+    /// Balls in two contacts, in this round.
     two_point: u8,
-    last_two_point: u8,
+    /// Balls that have not come under load anew since they were beyond the model for longer than settling takes: they may stand
+    /// elsewhere than their laws say.
+    astray: u8,
+    /// Rounds up to the last one, without a break, in which balls went beyond the model.
+    rounds_beyond: u8,
     backward: bool,
     negative: bool,
     /// Whether a tick has said how the nut turns and what the load is.
@@ -107,13 +110,13 @@ impl<const N: usize> Ring<N> {
             lift_off,
             settled_load: FIRST_LOAD,
             round: 0.0,
-            last_round: 0.0,
             stale: N as u16,
             settling: SETTLING_ROUNDS * N as u16,
             next: 0,
             entered: 0,
             two_point: 0,
-            last_two_point: 0,
+            astray: 0,
+            rounds_beyond: 0,
             backward: false,
             negative: false,
             begun: false,
@@ -132,12 +135,15 @@ impl<const N: usize> Ring<N> {
     }
 
     /// Whether friction is not known as well as elsewhere: balls stand in two contacts, of which one sticks, or the nut turns
-    /// so far in a round that balls drift away from their laws.
+    /// so far in a round that balls drift away from their laws; or that was so for longer than settling takes, and some ball has
+    /// not passed the return since. Gaps between balls are what their speeds have added up to from the return on.
     pub(crate) const fn beyond_model(&self) -> bool {
-        self.two_point > 0
-            || self.last_two_point > 0
-            || self.round.abs() > LONGEST_ROUND
-            || self.last_round.abs() > LONGEST_ROUND
+        self.leaves_model() || self.rounds_beyond > 0 || self.astray > 0
+    }
+
+    /// Whether balls go beyond the model in this round.
+    const fn leaves_model(&self) -> bool {
+        self.two_point > 0 || self.round.abs() > LONGEST_ROUND
     }
 
     /// -1 where the nut turns backward, else 1.
@@ -209,6 +215,10 @@ impl<const N: usize> Ring<N> {
         }
         self.stale = N as u16;
         self.settling = SETTLING_ROUNDS * N as u16;
+        // Balls that come under load after a reversal went out of it before.
+        if self.astray > 0 {
+            self.astray = N as u8;
+        }
     }
 
     /// The ball whose turn it is.
@@ -217,6 +227,7 @@ impl<const N: usize> Ring<N> {
         let entered = usize::from(self.entered);
         if entered > 0 {
             self.entered = 0;
+            self.astray = self.astray.saturating_sub(1);
             return entered - 1;
         }
         let next = usize::from(self.next);
@@ -228,12 +239,18 @@ impl<const N: usize> Ring<N> {
         next
     }
 
-    #[inline(always)]
+    #[inline(never)]
     fn end_round(&mut self) {
         self.next = 0;
-        self.last_round = self.round;
+        self.rounds_beyond = if self.leaves_model() {
+            self.rounds_beyond.saturating_add(1)
+        } else {
+            0
+        };
+        if self.rounds_beyond > SETTLING_ROUNDS as u8 {
+            self.astray = N as u8;
+        }
         self.round = 0.0;
-        self.last_two_point = self.two_point;
         self.two_point = 0;
     }
 

@@ -15,7 +15,7 @@ const ROUND: Range = Range::new(-1e9, 1e9);
 const LOAD: Range = Range::new(1e-9, 1e12);
 
 impl<const N: usize> Stored for Ring<N> {
-    const BYTES: usize = (N + 1) * RingBall::BYTES + Settled::BYTES + 6 * 4 + 2 * 2 + 4 + 3;
+    const BYTES: usize = (N + 1) * RingBall::BYTES + Settled::BYTES + 5 * 4 + 2 * 2 + 5 + 3;
 
     fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
         self.balls
@@ -29,13 +29,13 @@ impl<const N: usize> Stored for Ring<N> {
         port.number("clearance", &mut self.clearance, CLEARANCE)?;
         port.number("settled_load", &mut self.settled_load, LOAD)?;
         port.number("round", &mut self.round, ROUND)?;
-        port.number("last_round", &mut self.last_round, ROUND)?;
         port.long_count("stale", &mut self.stale, N as u16)?;
         port.long_count("settling", &mut self.settling, SETTLING_ROUNDS * N as u16)?;
         port.count("next", &mut self.next, N as u8)?;
         port.count("entered", &mut self.entered, N as u8)?;
         port.count("two_point", &mut self.two_point, u8::MAX)?;
-        port.count("two_point", &mut self.last_two_point, u8::MAX)?;
+        port.count("rounds_beyond", &mut self.rounds_beyond, u8::MAX)?;
+        port.count("astray", &mut self.astray, N as u8)?;
         port.flag("backward", &mut self.backward)?;
         port.flag("negative", &mut self.negative)?;
         port.flag("begun", &mut self.begun)
