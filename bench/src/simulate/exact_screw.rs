@@ -119,7 +119,7 @@ fn ring(design: &UncagedDesign, samples: &[ScrewSample]) -> Result<ElasticRing, 
             .collect(),
         chord: false,
         places: Vec::new(),
-        integration: Integration::Coarse,
+        integration: Integration::Full,
     })
 }
 
