@@ -101,7 +101,7 @@ pub mod untrusted {
     /// # Errors
     /// What is wrong.
     pub fn measurement(bytes: &[u8]) -> Result<usize, String> {
-        let trace = crate::calibrate::columns::measured(bytes, "trace", None, None);
+        let trace = crate::calibrate::trace::columns::measured(bytes, "trace", None, None);
         let simulated = crate::simulate::accepts_measurement(bytes)?;
         trace
             .map(|trace| trace.len().max(simulated))

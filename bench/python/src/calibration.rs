@@ -5,8 +5,8 @@ use std::io::Cursor;
 
 use epas_bench::bindings::{Controller, Failure};
 use epas_bench::calibrate::answer::{Calibration, Estimate, ModelScore};
-use epas_bench::calibrate::columns::{self, Frame};
-use epas_bench::calibrate::picture::Picture;
+use epas_bench::calibrate::trace::columns::{self, Frame};
+use epas_bench::calibrate::page::picture::Picture;
 use epas_bench::calibrate::screw::Request;
 use epas_bench::calibrate::screw::choice::Wanted;
 use epas_bench::calibrate::signals::{RowSettings, SmoothingSettings};

@@ -1,15 +1,28 @@
 //! Whether a trace may be believed, and what it cannot tell.
 //!
 //! What would make every number wrong is refused with a word. What only limits what can be told is a finding.
+//!
+//! | module | what |
+//! |---|---|
+//! | [`excitation`] | what a trace excites |
+//! | [`relation`] | how effort and motion go together, roughly |
+//! | [`finding`] | what a trace does not tell |
+
+pub mod excitation;
+pub mod finding;
+pub mod relation;
+#[cfg(test)]
+mod tests;
 
 use crate::failure::Failure;
 
-use super::channels::range;
-use super::excitation;
-use super::finding::{Finding, FindingKind};
-use super::relation::{Against, Relation, relation, root_mean_square, shift, speeds};
-use super::signals::Motion;
-use super::trace::{Coordinate, Trace};
+use crate::calibrate::checks::finding::{Finding, FindingKind};
+use crate::calibrate::checks::relation::{
+    Against, Relation, relation, root_mean_square, shift, speeds,
+};
+use crate::calibrate::signals::Motion;
+use crate::calibrate::trace::channels::range;
+use crate::calibrate::trace::{Coordinate, Trace};
 
 /// Fastest that a nut turns, rad/s (95,000 turns a minute), and that a carriage travels, m/s.
 const FASTEST: [f64; 2] = [1e4, 50.0];

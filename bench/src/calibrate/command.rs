@@ -2,18 +2,18 @@
 
 use std::path::{Path, PathBuf};
 
-use super::answer::Calibration;
-use super::columns::{self, Frame};
-use super::controller::SeenController;
-use super::folder::{self, Folder, FolderArguments};
-use super::outputs::{Outcome, OutputArguments, folder_name};
-use super::screw::Request;
-use super::screw::choice::Wanted;
-use super::signals::{RowSettings, SmoothingSettings};
-use super::sums::Sums;
-use super::wanted;
-use super::with_design;
-use super::without_design::{self, Filters};
+use crate::calibrate::answer::Calibration;
+use crate::calibrate::experiment::wanted;
+use crate::calibrate::folder::{self, Folder, FolderArguments};
+use crate::calibrate::outputs::{Outcome, OutputArguments, folder_name};
+use crate::calibrate::screw::Request;
+use crate::calibrate::screw::choice::Wanted;
+use crate::calibrate::signals::{RowSettings, SmoothingSettings};
+use crate::calibrate::sums::Sums;
+use crate::calibrate::trace::columns::{self, Frame};
+use crate::calibrate::with_design;
+use crate::calibrate::without_design::controller::SeenController;
+use crate::calibrate::without_design::{self, Filters};
 use crate::controller::Controller;
 use crate::designs::{Design, DesignSource};
 use crate::failure::Failure;

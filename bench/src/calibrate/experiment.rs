@@ -3,14 +3,22 @@
 //! For each manoeuvre the caller makes the problem that its trace would give, with the expected trace as target. The Fisher
 //! information at the start values and the noise then give the interval that a fit would find. Bounds count as a little information,
 //! that of an even distribution between them, so that what a manoeuvre does not tell keeps the width of its bounds.
+//!
+//! | module | what |
+//! |---|---|
+//! | [`manoeuvre`] | manoeuvres to choose from |
+//! | [`wanted`] | which of them tells a parameter of a screw |
+
+pub mod manoeuvre;
+pub mod wanted;
 
 use nalgebra::DMatrix;
 
-use super::cramer_rao::{information, inverse};
-use super::manoeuvre::Manoeuvre;
-use super::problem::{Scale, Separable};
-use super::separable::checks::FitError;
-use super::separable::{inner, outer, slopes_at_start};
+use crate::calibrate::experiment::manoeuvre::Manoeuvre;
+use crate::calibrate::fit::cramer_rao::{information, inverse};
+use crate::calibrate::fit::problem::{Scale, Separable};
+use crate::calibrate::fit::separable::checks::FitError;
+use crate::calibrate::fit::separable::{inner, outer, slopes_at_start};
 
 /// Half width of a normal 95 % interval in standard deviations.
 const NORMAL: f64 = 1.959964;

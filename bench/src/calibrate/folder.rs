@@ -18,8 +18,8 @@ use std::str::FromStr;
 
 use rayon::prelude::*;
 
-use super::answer::Calibration;
-use super::sums::Sums;
+use crate::calibrate::answer::Calibration;
+use crate::calibrate::sums::Sums;
 use crate::failure::Failure;
 use crate::progress::Progress;
 use population::Together;

@@ -1,5 +1,7 @@
 //! Laws of friction over a motion, each with unit friction at its highest level: what one linear parameter multiplies.
 
+pub mod cost;
+
 use epas_friction::Error;
 use epas_friction::law::coefficient::{
     CoefficientAtTemperature, CoefficientLaw, CoefficientParameters,
@@ -7,7 +9,7 @@ use epas_friction::law::coefficient::{
 use epas_friction::law::memory::{MemoryState, Part, ProportionalElements, SLIP_8};
 use epas_friction::law::{Elements, SlidingLimits};
 
-use super::problem::{Parameter, Scale};
+use crate::calibrate::fit::problem::{Parameter, Scale};
 use crate::mechanism::Step;
 
 /// How friction of sliding follows the speed.

@@ -1,15 +1,25 @@
 //! What a calibration writes, and where.
+//!
+//! | module | what |
+//! |---|---|
+//! | [`design_file`] | the user's design file with the calibrated numbers |
+//! | [`firmware`] | what firmware takes of a calibrated design, as plain numbers |
+//! | [`constants`] | the same as Rust constants |
+
+pub mod constants;
+pub mod design_file;
+pub mod firmware;
 
 use std::fs;
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
-use super::answer::Calibration;
-use super::design_file::{self, Written};
-use super::page;
-use super::picture::Picture;
-use super::screw::friction::Screw;
-use super::{constants, shown};
+use crate::calibrate::answer::Calibration;
+use crate::calibrate::outputs::design_file::Written;
+use crate::calibrate::page;
+use crate::calibrate::page::picture::Picture;
+use crate::calibrate::page::shown;
+use crate::calibrate::screw::friction::Screw;
 use crate::designs::{DesignSource, text};
 use crate::failure::Failure;
 use crate::files::{self, Existing, refuse_same};

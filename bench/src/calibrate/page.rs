@@ -1,13 +1,21 @@
 //! The page of a calibration: what the trace tells, how well the model explains it, and what is left over against everything
 //! that was measured.
+//!
+//! | module | what |
+//! |---|---|
+//! | [`picture`] | what the page draws, as plain data |
+//! | [`shown`] | numbers as they are shown |
+
+pub mod picture;
+pub mod shown;
 
 use std::f64::consts::TAU;
 
-use super::answer::{Calibration, Estimate, ModelScore};
-use super::picture::{Picture, Profile};
-use super::shown::digits;
-use super::spectrum::welch;
-use super::trace::Coordinate;
+use crate::calibrate::answer::{Calibration, Estimate, ModelScore};
+use crate::calibrate::page::picture::{Picture, Profile};
+use crate::calibrate::page::shown::digits;
+use crate::calibrate::signals::spectrum::welch;
+use crate::calibrate::trace::Coordinate;
 use crate::document::{Block, Cell, Document, Figure, Section, Table};
 use crate::plot::{Axis, Chart, Mark, Panel, Series, thin};
 

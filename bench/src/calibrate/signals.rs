@@ -2,17 +2,31 @@
 //!
 //! The position is smoothed without a shift in time and differentiated once and twice. A speed that was measured beside
 //! the position is not mixed in: a drive's speed is most often a difference of the same encoder, filtered and so late,
-//! and says nothing more; it serves to find wrong units and shifted clocks ([`super::checks`]). Where only the speed was
+//! and says nothing more; it serves to find wrong units and shifted clocks ([`crate::calibrate::checks`]). Where only the speed was
 //! measured, it is what is smoothed and differentiated.
 //!
 //! A regression's rows are the signals of every sample, filtered all alike (a parallel filter, which leaves the relation
 //! between them as it is) and thinned out.
+//!
+//! | module | what |
+//! |---|---|
+//! | [`filter`] | a low-pass filter without a shift in time |
+//! | [`noise`] | noise of smoothed motion |
+//! | [`autocorrelation`] | how far the rows of a residual repeat each other |
+//! | [`spectrum`] | power spectral density |
+
+pub mod autocorrelation;
+pub mod filter;
+pub mod noise;
+pub mod spectrum;
+#[cfg(test)]
+mod tests;
 
 use crate::failure::Failure;
 
-use super::filter::ZeroPhase;
-use super::noise::{derivative, of_derivatives};
-use super::trace::Trace;
+use crate::calibrate::signals::filter::ZeroPhase;
+use crate::calibrate::signals::noise::{derivative, of_derivatives};
+use crate::calibrate::trace::Trace;
 
 /// Cut-off of the position's filter where the sampling is fast enough, Hz.
 const CUTOFF: f64 = 40.0;

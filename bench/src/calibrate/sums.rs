@@ -31,9 +31,9 @@ pub use self::population::Population;
 use self::population::{Class, population};
 pub use self::reference::Reference;
 use self::sum::Sum;
-use super::cramer_rao::inverse;
-use super::separable::{Fit, inner, outer};
-use super::uncertainty::Uncertainty;
+use crate::calibrate::fit::cramer_rao::inverse;
+use crate::calibrate::fit::separable::{Fit, inner, outer};
+use crate::calibrate::fit::uncertainty::Uncertainty;
 
 /// Why sums cannot be made or merged.
 #[derive(Clone, Debug, PartialEq, Eq)]

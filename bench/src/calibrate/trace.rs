@@ -1,4 +1,16 @@
 //! A measured trace.
+//!
+//! | module | what |
+//! |---|---|
+//! | [`columns`] | reads a trace from a CSV file |
+//! | [`table`] | the file's numbers in SI units |
+//! | [`clock`] | one sample clock: tick, gaps, jitter |
+//! | [`channels`] | angles without jumps, the step of a sensor |
+
+pub mod channels;
+pub mod clock;
+pub mod columns;
+pub mod table;
 
 /// What position, speed and effort are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,14 +1,14 @@
 //! Calibration of a trace of a screw whose design is known: the answer, what its page draws, its sums.
 
-use super::answer::Calibration;
-use super::picture::{Correlations, Picture};
-use super::problem::Scale;
-use super::screw::friction::Screw;
-use super::screw::quantities::{LINEAR, NONLINEAR};
-use super::screw::{Request, ScrewCalibration, calibrate};
-use super::signals::{Motion, Rows};
-use super::sums::{Reference, Sums, SumsError};
-use super::trace::Trace;
+use crate::calibrate::answer::Calibration;
+use crate::calibrate::fit::problem::Scale;
+use crate::calibrate::page::picture::{Correlations, Picture};
+use crate::calibrate::screw::friction::Screw;
+use crate::calibrate::screw::quantities::{LINEAR, NONLINEAR};
+use crate::calibrate::screw::{Request, ScrewCalibration, calibrate};
+use crate::calibrate::signals::{Motion, Rows};
+use crate::calibrate::sums::{Reference, Sums, SumsError};
+use crate::calibrate::trace::Trace;
 use crate::designs::Design;
 use crate::failure::Failure;
 

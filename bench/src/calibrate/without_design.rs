@@ -1,19 +1,33 @@
 //! Calibration of a trace without a design.
+//!
+//! | module | what |
+//! |---|---|
+//! | [`choice`] | models of friction on a trace without a design |
+//! | [`slide`] | such a trace as a separable problem |
+//! | [`period`] | the period of a wave over the travel |
+//! | [`closed_loop`] | the motion that a controller makes of a model |
+//! | [`controller`] | the controller that is seen in a trace |
 
-use super::answer::{Calibration, ModelScore};
-use super::checks::examine;
-use super::choice::{LAWS, PLAIN, Prepared, estimates, model, terms};
-use super::closed_loop::size;
-use super::controller::SeenController;
-use super::finding::{Finding, FindingKind};
-use super::picture::{Correlations, Picture};
-use super::problem::Separable;
-use super::separable::{Fit, FitSettings, fit};
-use super::signals::{Motion, RowSettings, Rows, SmoothingSettings};
-use super::slide::{Slide, Terms};
-use super::sums::{Reference, Sums, SumsError};
-use super::trace::Trace;
-use super::uncertainty::{Uncertainty, uncertainty};
+pub mod choice;
+pub mod closed_loop;
+pub mod controller;
+pub mod period;
+pub mod slide;
+
+use crate::calibrate::answer::{Calibration, ModelScore};
+use crate::calibrate::checks::examine;
+use crate::calibrate::checks::finding::{Finding, FindingKind};
+use crate::calibrate::fit::problem::Separable;
+use crate::calibrate::fit::separable::{Fit, FitSettings, fit};
+use crate::calibrate::fit::uncertainty::{Uncertainty, uncertainty};
+use crate::calibrate::page::picture::{Correlations, Picture};
+use crate::calibrate::signals::{Motion, RowSettings, Rows, SmoothingSettings};
+use crate::calibrate::sums::{Reference, Sums, SumsError};
+use crate::calibrate::trace::Trace;
+use crate::calibrate::without_design::choice::{LAWS, PLAIN, Prepared, estimates, model, terms};
+use crate::calibrate::without_design::closed_loop::size;
+use crate::calibrate::without_design::controller::SeenController;
+use crate::calibrate::without_design::slide::{Slide, Terms};
 use crate::controller::Controller;
 use crate::failure::Failure;
 

@@ -13,7 +13,7 @@ use epas_friction::{
 
 use super::memory::{self, Remembered};
 use super::summary::Lines;
-use crate::calibrate::firmware::{ELEMENTS, ElementsNumbers, Numbers};
+use crate::calibrate::outputs::firmware::{ELEMENTS, ElementsNumbers, Numbers};
 use crate::designs::Design;
 use crate::designs::calibration::ElementsName;
 use crate::failure::Failure;

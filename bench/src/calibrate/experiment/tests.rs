@@ -1,7 +1,7 @@
 use super::*;
-use crate::calibrate::manoeuvre::Reach;
-use crate::calibrate::problem::{Evaluation, Parameter, Separable};
-use crate::calibrate::toys::{Toy, free, positive, total};
+use crate::calibrate::experiment::manoeuvre::Reach;
+use crate::calibrate::fit::problem::{Evaluation, Parameter, Separable};
+use crate::calibrate::fit::toys::{Toy, free, positive, total};
 
 const REACH: Reach = Reach {
     angle: 30.0,

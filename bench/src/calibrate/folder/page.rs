@@ -2,7 +2,7 @@
 
 use super::population::Together;
 use super::store::{Parameter, Told};
-use crate::calibrate::shown::digits;
+use crate::calibrate::page::shown::digits;
 use crate::calibrate::sums::Population;
 use crate::document::{Block, Cell, Document, Figure, Section, Table};
 use crate::plot::{Axis, Chart, Mark, Panel, Series};

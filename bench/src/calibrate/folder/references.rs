@@ -1,10 +1,10 @@
 //! The point about which sums of a screw's traces are made: the same for all traces, and not far from any screw.
 
-use crate::calibrate::problem::Scale;
+use crate::calibrate::fit::problem::Scale;
+use crate::calibrate::fit::separable::Fit;
+use crate::calibrate::fit::uncertainty::Uncertainty;
 use crate::calibrate::screw::quantities::{LINEAR, NONLINEAR};
-use crate::calibrate::separable::Fit;
 use crate::calibrate::sums::{Reference, Sums, SumsError};
-use crate::calibrate::uncertainty::Uncertainty;
 use crate::failure::Failure;
 
 /// What a screw usually has. Sums about it keep their digits: any other point would do.

@@ -9,10 +9,10 @@ use tempfile::{TempDir, tempdir};
 
 use super::*;
 use crate::calibrate::answer::Estimate;
-use crate::calibrate::problem::Scale;
-use crate::calibrate::separable::{Fit, Verdict};
+use crate::calibrate::fit::problem::Scale;
+use crate::calibrate::fit::separable::{Fit, Verdict};
+use crate::calibrate::fit::uncertainty::{Interval, Uncertainty};
 use crate::calibrate::sums::Reference;
-use crate::calibrate::uncertainty::{Interval, Uncertainty};
 
 /// Standard error of the offset.
 const OFFSET_ERROR: f64 = 1e-3;

@@ -2,8 +2,8 @@ use std::fs;
 
 use tempfile::tempdir;
 
-use super::super::picture::Correlations;
 use super::*;
+use crate::calibrate::page::picture::Correlations;
 
 /// A trace of so many rows that the model explains but for a wave over the turn.
 fn picture(rows: usize, coordinate: Coordinate) -> Picture {

@@ -1,6 +1,6 @@
 //! Which rows of a trace are fitted and which score the models: blocks by turns, so that every manoeuvre is in both.
 
-use crate::calibrate::problem::{Evaluation, LinearParameter, Parameter, Separable};
+use crate::calibrate::fit::problem::{Evaluation, LinearParameter, Parameter, Separable};
 
 /// Blocks of a trace. Every third one is not fitted.
 const BLOCKS: usize = 12;

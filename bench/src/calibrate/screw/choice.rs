@@ -11,7 +11,7 @@ use super::evidence::Evidence;
 use super::friction::{ElementsKind, Screw};
 use super::problem::Choice;
 use super::quantities::{Factor, HARMONICS, LINEAR, Linear, NONLINEAR, Nonlinear, Values, names};
-use crate::calibrate::problem::Parameter;
+use crate::calibrate::fit::problem::Parameter;
 use crate::designs::Design;
 use crate::failure::Failure;
 

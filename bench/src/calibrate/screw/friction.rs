@@ -19,8 +19,8 @@ use epas_friction::scene::{
 use epas_friction::{Clearance, Error, FrictionModel, RollingResistance};
 
 use super::quantities::Values;
-use crate::calibrate::filter::ZeroPhase;
 use crate::calibrate::signals::Motion;
+use crate::calibrate::signals::filter::ZeroPhase;
 use crate::calibrate::trace::Trace;
 
 /// Elements of every calibrated memory.

@@ -3,7 +3,7 @@
 use super::choice::needs;
 use super::evidence::Evidence;
 use super::quantities::{Linear, Nonlinear, Values};
-use crate::calibrate::telling::Hints;
+use crate::calibrate::fit::telling::Hints;
 
 /// What the trace excites, and the values that stay where it tells nothing.
 pub struct ScrewHints {

@@ -9,8 +9,8 @@ use epas_reference::rig::{self, Rig, Sensors};
 
 use super::{Request, calibrate};
 use crate::calibrate::answer::Calibration;
-use crate::calibrate::columns::{Frame, from_reader};
-use crate::calibrate::separable::FitSettings;
+use crate::calibrate::fit::separable::FitSettings;
+use crate::calibrate::trace::columns::{Frame, from_reader};
 use crate::designs::DesignSource;
 
 /// What a calibration says to a trace: an answer, or the word with which it refuses.

@@ -1,6 +1,6 @@
 //! Everything of a screw that a trace may tell: names, units, bounds.
 
-use crate::calibrate::problem::Scale;
+use crate::calibrate::fit::problem::Scale;
 
 /// Values of everything that the model of a screw on a rig has, estimated or not.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -9,8 +9,8 @@ use super::friction::{Course, Screw};
 use super::problem::Beside;
 use super::quantities::Values;
 use super::waves::flank_sum;
+use crate::calibrate::fit::problem::{Evaluation, LinearParameter, Parameter, Scale, Separable};
 use crate::calibrate::laws::{Law, Scales};
-use crate::calibrate::problem::{Evaluation, LinearParameter, Parameter, Scale, Separable};
 use crate::calibrate::signals::{Motion, Rows};
 use crate::calibrate::trace::Trace;
 

@@ -6,16 +6,16 @@ use super::problem::ScrewProblem;
 use super::quantities::Values;
 use super::rivals::{Rival, WithoutMemory};
 use crate::calibrate::answer::ModelScore;
-use crate::calibrate::autocorrelation::effective_rows;
-use crate::calibrate::choice::{LAWS, estimates};
-use crate::calibrate::cost::cycles;
+use crate::calibrate::fit::part::residual;
+use crate::calibrate::fit::problem::Separable;
+use crate::calibrate::fit::separable::{FitSettings, fit};
+use crate::calibrate::fit::uncertainty::uncertainty;
+use crate::calibrate::laws::cost::cycles;
 use crate::calibrate::laws::{Cost, Passage};
-use crate::calibrate::part::residual;
-use crate::calibrate::problem::Separable;
-use crate::calibrate::separable::{FitSettings, fit};
+use crate::calibrate::signals::autocorrelation::effective_rows;
 use crate::calibrate::signals::{Motion, Rows};
 use crate::calibrate::trace::Trace;
-use crate::calibrate::uncertainty::uncertainty;
+use crate::calibrate::without_design::choice::{LAWS, estimates};
 use crate::failure::Failure;
 
 /// Starts of the laws of the literature and of the scene without memory, of which so many are finished.

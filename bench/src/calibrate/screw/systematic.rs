@@ -16,12 +16,12 @@ use rand_pcg::Pcg64Mcg;
 
 use super::problem::ScrewProblem;
 use super::quantities::Values;
-use crate::calibrate::filter::ZeroPhase;
-use crate::calibrate::problem::Scale;
-use crate::calibrate::separable::{Fit, inner_slope};
+use crate::calibrate::fit::problem::Scale;
+use crate::calibrate::fit::separable::{Fit, inner_slope};
+use crate::calibrate::fit::uncertainty::{Uncertainty, correlation, deviations};
+use crate::calibrate::signals::filter::ZeroPhase;
 use crate::calibrate::signals::{Motion, SmoothingSettings};
 use crate::calibrate::trace::Trace;
-use crate::calibrate::uncertainty::{Uncertainty, correlation, deviations};
 use crate::failure::Failure;
 
 /// Times that sensors are imitated.

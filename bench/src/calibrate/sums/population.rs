@@ -7,7 +7,7 @@ use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use super::reference::Reference;
 use super::sum::Sum;
-use crate::calibrate::separable::{inner, outer};
+use crate::calibrate::fit::separable::{inner, outer};
 
 /// A parameter of the traces together.
 #[derive(Clone, Debug, PartialEq, Serialize)]

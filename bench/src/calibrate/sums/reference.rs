@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::calibrate::problem::Scale;
+use crate::calibrate::fit::problem::Scale;
 
 /// A parameter that traces may tell, with the point about which the sums are made. Same in all sums that merge.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

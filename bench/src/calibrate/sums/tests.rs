@@ -4,9 +4,9 @@ use rand_distr::StandardNormal;
 use rand_pcg::Pcg64;
 
 use super::*;
-use crate::calibrate::problem::Scale;
-use crate::calibrate::separable::Verdict;
-use crate::calibrate::uncertainty::Interval;
+use crate::calibrate::fit::problem::Scale;
+use crate::calibrate::fit::separable::Verdict;
+use crate::calibrate::fit::uncertainty::Interval;
 
 /// What a trace of one positive and one free parameter gave: values, standard errors, correlation.
 fn told(values: [f64; 2], errors: [f64; 2], correlation: f64) -> (Fit, Uncertainty) {

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::{Filters, plain};
-use crate::calibrate::toys::noise;
+use crate::calibrate::fit::toys::noise;
 use crate::calibrate::trace::{Coordinate, Repairs, Trace};
 
 const TICK: f64 = 2e-3;

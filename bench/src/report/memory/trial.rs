@@ -7,10 +7,10 @@ use epas_reference::rig::parameters::Parameters;
 use rayon::prelude::*;
 
 use super::PANEL;
+use crate::calibrate::fit::separable::FitSettings;
 use crate::calibrate::screw::choice::Wanted;
 use crate::calibrate::screw::friction::{Course, ElementsKind};
 use crate::calibrate::screw::{Request, calibrate};
-use crate::calibrate::separable::FitSettings;
 use crate::document::{Block, Cell, Figure, Table};
 use crate::failure::Failure;
 use crate::plot::{Axis, Chart, Mark, Panel, Series};

@@ -7,8 +7,8 @@ use epas_friction::{
 };
 
 use super::gear::Gear;
-use crate::calibrate::problem::{Evaluation, LinearParameter, Parameter, Scale, Separable};
-use crate::calibrate::separable::{FitSettings, fit};
+use crate::calibrate::fit::problem::{Evaluation, LinearParameter, Parameter, Scale, Separable};
+use crate::calibrate::fit::separable::{FitSettings, fit};
 use crate::calibrate::signals::Motion;
 use crate::calibrate::trace::Trace;
 use crate::failure::Failure;

@@ -1,0 +1,114 @@
+use super::*;
+use crate::calibrate::fit::problem::{Evaluation, LinearParameter};
+use crate::calibrate::fit::toys::{Toy, free, noise, positive};
+
+/// Friction of a loaded slide, `sign(v) (coefficient load + preload)`, whose load varies by this part of its mean.
+fn slide(variation: f64) -> Toy<impl Fn(&[f64]) -> Evaluation + Sync + use<>> {
+    let rows = 2000;
+    let sign: Vec<f64> = (0..rows)
+        .map(|row| (10.0 * (0.05 * row as f64).sin()).tanh())
+        .collect();
+    let load: Vec<f64> = (0..rows)
+        .map(|row| 1000.0 * (1.0 + variation * (0.013 * row as f64).sin()))
+        .collect();
+    let noise = noise(5, rows, 0.5);
+    let target = (0..rows)
+        .map(|k| sign[k] * (0.1 * load[k] + 40.0) + 1.0 + 2.0 * noise[k])
+        .collect();
+    Toy {
+        nonlinear: vec![
+            positive("friction_coefficient", 0.08, 0.01, 1.0),
+            positive("preload_friction", 50.0, 1.0, 1000.0),
+        ],
+        linear: vec![free("offset")],
+        target,
+        model: move |q: &[f64]| Evaluation {
+            fixed: sign
+                .iter()
+                .zip(&load)
+                .map(|(sign, load)| sign * (q[0] * load + q[1]))
+                .collect(),
+            columns: vec![vec![1.0; 2000]],
+        },
+    }
+}
+
+struct Loads;
+
+impl Hints for Loads {
+    fn lacking(&self, names: &[&str]) -> Option<String> {
+        (names == ["friction_coefficient", "preload_friction"])
+            .then(|| "the load varies by 0.1 % only; measure at two loads".into())
+    }
+}
+
+/// A load that varies widely tells both parameters, and nothing is said.
+#[test]
+fn told_by_two_loads() {
+    let told = tell(&slide(0.5), &FitSettings::default(), &Loads).unwrap();
+    assert!(
+        told.untold.is_empty() && told.fixed.is_empty(),
+        "{:?}",
+        told.untold
+    );
+    let found = &told.uncertainty.intervals;
+    assert!(found[0].low < 0.1 && 0.1 < found[0].high && found[0].half_width < 0.05);
+    assert!(found[1].low < 40.0 && 40.0 < found[1].high);
+}
+
+/// A load that hardly varies: one is set to its start, the other takes up the sum `coefficient x 1000 N + preload = 140 N`, and the
+/// sentence names both with the physical reason.
+#[test]
+fn not_told_by_one_load() {
+    let told = tell(&slide(0.001), &FitSettings::default(), &Loads).unwrap();
+    assert_eq!(told.untold.len(), 1, "{:?}", told.untold);
+    let untold = &told.untold[0];
+    assert_eq!(
+        untold.sentence,
+        "friction coefficient and preload friction: the load varies by 0.1 % only; measure at two loads; \
+         preload friction is set to 50"
+    );
+    assert_eq!(told.fixed, [("preload_friction", 50.0)]);
+    assert!(matches!(untold.reason, Reason::NullDirection(condition) if condition > 100.0));
+    // 140 N less the 50 N that were set, over 1000 N; the mean of the noise moves it by 0.1 N.
+    assert!((told.fit.nonlinear[0] - 0.09).abs() < 3e-4);
+}
+
+/// A parameter without any effect is set; one at its bound is told.
+#[test]
+fn no_effect_and_at_the_bound() {
+    let target: Vec<f64> = (0..500)
+        .map(|row| (-0.02 * f64::from(row)).exp())
+        .zip(noise(2, 500, 0.0))
+        .map(|(x, n)| x + 0.01 * n)
+        .collect();
+    let toy = Toy {
+        nonlinear: vec![
+            positive("rate", 0.005, 0.001, 0.01),
+            positive("ghost", 2.0, 0.5, 8.0),
+        ],
+        linear: vec![LinearParameter {
+            low: 0.0,
+            ..free("size")
+        }],
+        target,
+        model: |q: &[f64]| Evaluation {
+            fixed: vec![0.0; 500],
+            columns: vec![(0..500).map(|row| (-q[0] * f64::from(row)).exp()).collect()],
+        },
+    };
+    let told = tell(&toy, &FitSettings::default(), &NoHints).unwrap();
+    assert_eq!(told.fixed, [("ghost", 2.0)]);
+    let sentences: Vec<&str> = told
+        .untold
+        .iter()
+        .map(|untold| untold.sentence.as_str())
+        .collect();
+    assert_eq!(
+        sentences,
+        [
+            "ghost: the trace does not show it; ghost is set to 2",
+            "rate: ended at its bound of 0.0100, so the trace asks for a value beyond it"
+        ]
+    );
+}

@@ -1,0 +1,347 @@
+//! Reads a trace from the columns of a CSV file.
+//!
+//! Needed are `time`; a position or a speed, plain or of the motor, nut or carriage; `motor_force` or `motor_torque`.
+//! Taken where there are any: a reference position, `axial_load` (or `rack_force`) and `temperature`. A name may end in
+//! its unit (`nut_position_deg`); without, it is SI. Other columns are named and left aside.
+//!
+//! Without a design the trace stays in its own coordinate: with a torque what turns, with a force what travels, and a
+//! plain position or speed is that of what the effort acts on. With a design everything is referred to the nut: there, a
+//! plain position or speed is the nut's beside a torque, and the carriage's beside a force.
+
+#[cfg(test)]
+mod tests;
+
+use std::f64::consts::TAU;
+use std::io::{Read, Seek};
+
+use crate::failure::Failure;
+use crate::mdf4::{self, Mapping};
+use crate::source::Source;
+
+use crate::calibrate::trace::channels::{range, resolution, unwrap};
+use crate::calibrate::trace::clock::Clock;
+use crate::calibrate::trace::table::{self, Column, Table};
+use crate::calibrate::trace::{Coordinate, Trace};
+use crate::units::{self, Dimension, Part, Quantity};
+
+/// Largest trace file, bytes: what twelve million samples of many columns need; a quoted field may span lines, and is
+/// held whole.
+const LARGEST_FILE: u64 = 1 << 31;
+
+/// Temperatures that a screw can have, K.
+const TEMPERATURES: (f64, f64) = (150.0, 620.0);
+
+/// What refers a motor and a carriage to the nut.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frame {
+    /// Travel of the carriage in a turn of the nut, m.
+    pub lead: f64,
+    /// Turns of the motor in a turn of the nut.
+    pub ratio: f64,
+}
+
+/// Reads a trace from a file: a table, or a measurement file with the channels of a mapping or those that have a column's name.
+///
+/// # Errors
+/// A file that cannot be read, or what is wrong with it.
+pub fn read(
+    source: &Source<'_>,
+    frame: Option<&Frame>,
+    channels: Option<&Mapping>,
+) -> Result<Trace, Failure> {
+    let input = source.open(LARGEST_FILE)?;
+    let name = source.name();
+    let trace = if input.measurement {
+        measured(input, &name, frame, channels)
+    } else {
+        source.without_channels(channels)?;
+        from_reader(input, &name, frame)
+    };
+    trace.map_err(|failure| failure.of(&source.shown()))
+}
+
+/// Reads a trace from a measurement file.
+///
+/// # Errors
+/// What is wrong with it.
+pub fn measured(
+    input: impl Read,
+    name: &str,
+    frame: Option<&Frame>,
+    channels: Option<&Mapping>,
+) -> Result<Trace, Failure> {
+    let wanted: Vec<mdf4::Wanted> = units::names()
+        .filter_map(|name| Some((name, units::quantity(name)?)))
+        // Of two names of a quantity the first, which messages use.
+        .filter(|(name, quantity)| {
+            *quantity != Quantity::Time
+                && units::names().find(|own| units::quantity(own) == Some(*quantity)) == Some(*name)
+        })
+        .map(|(name, quantity)| mdf4::Wanted {
+            name,
+            quantity,
+            refuses: None,
+        })
+        .collect();
+    let parts = [Part::Nut, Part::Motor, Part::Carriage, Part::Plain];
+    let master: Vec<Quantity> = parts
+        .map(Quantity::Position)
+        .into_iter()
+        .chain(parts.map(Quantity::Speed))
+        .collect();
+    let request = mdf4::Request {
+        wanted: &wanted,
+        master: &master,
+        mapping: channels,
+    };
+    let found = mdf4::read(input, &request).map_err(Failure::Data)?;
+    for note in &found.notes {
+        eprintln!("note: {name}: {note}");
+    }
+    let table = table::of_measurement(found).map_err(Failure::Data)?;
+    assemble(table, name, frame).map_err(Failure::Data)
+}
+
+/// Reads a trace.
+///
+/// # Errors
+/// What is wrong with it, with the line where there is one.
+pub fn from_reader(
+    input: impl Read + Seek,
+    name: &str,
+    frame: Option<&Frame>,
+) -> Result<Trace, Failure> {
+    let table = table::read(input).map_err(Failure::Data)?;
+    assemble(table, name, frame).map_err(Failure::Data)
+}
+
+/// How a column's values refer to the trace's coordinate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Reference {
+    /// Factor.
+    factor: f64,
+    /// Whether the column is an angle, which may wrap.
+    angle: bool,
+}
+
+fn assemble(mut table: Table, name: &str, frame: Option<&Frame>) -> Result<Trace, String> {
+    let clock = Clock::of(std::mem::take(&mut table.times), table.repeated)?;
+    let (effort, torque) = effort(&mut table)?;
+    let position = motion(&mut table, Quantity::Position);
+    let speed = motion(&mut table, Quantity::Speed);
+    let Some((_, part)) = position.as_ref().or(speed.as_ref()) else {
+        return Err(absent(
+            "a column position or speed is missing (of nut_, motor_, carriage_ or plain)",
+            &table,
+        ));
+    };
+    let reference = take(&mut table, Quantity::ReferencePosition).map(|column| (column, *part));
+    let [load, temperature] =
+        [Quantity::Load, Quantity::Temperature].map(|quantity| take(&mut table, quantity));
+    if let Some(column) = &temperature {
+        check_temperature(column)?;
+    }
+    let refer = |column: &Column, part| refer(column, part, torque, frame);
+
+    let speed = speed
+        .map(|(column, part)| {
+            let factor = refer(&column, part)?.factor;
+            Ok::<_, String>(clock.resample(scaled(column.values, factor)))
+        })
+        .transpose()?;
+    let position = position
+        .map(|(column, part)| {
+            let reference = refer(&column, part)?;
+            angle(column, reference)
+        })
+        .transpose()?;
+    // Found before samples are interpolated, which lie between the sensor's steps.
+    let step_of_sensor = position.as_deref().map_or(0.0, resolution);
+    let position_summed = position.is_none();
+    let position = match position {
+        Some(values) => clock.resample(values),
+        None => sum_up(speed.as_deref().unwrap_or_default(), clock.step),
+    };
+    let reference_position = reference
+        .map(|(column, part)| {
+            let reference = refer(&column, part)?;
+            let mut values = angle(column, reference)?;
+            if reference.angle {
+                same_turn(&mut values, &position, reference.factor);
+            }
+            Ok::<_, String>(clock.resample(values))
+        })
+        .transpose()?;
+    let effort = scaled(effort.values, effort_gain(torque, frame));
+    table
+        .ignored
+        .extend(table.columns.drain(..).map(|column| column.name));
+    let rotates = torque || frame.is_some();
+    Ok(Trace {
+        name: name.into(),
+        coordinate: if rotates {
+            Coordinate::Rotation
+        } else {
+            Coordinate::Translation
+        },
+        start: clock.start,
+        step: clock.step,
+        position,
+        resolution: step_of_sensor,
+        position_summed,
+        speed,
+        effort: clock.resample(effort),
+        reference_position,
+        load: load.map(|column| clock.resample(column.values)),
+        temperature: temperature.map(|column| clock.resample(column.values)),
+        repairs: clock.repairs,
+        ignored: table.ignored,
+    })
+}
+
+/// Values times a factor.
+fn scaled(mut values: Vec<f64>, factor: f64) -> Vec<f64> {
+    for value in &mut values {
+        *value *= factor;
+    }
+    values
+}
+
+/// A position in the trace's coordinate, without jumps of a turn.
+fn angle(column: Column, reference: Reference) -> Result<Vec<f64>, String> {
+    let mut values = column.values;
+    if reference.angle {
+        unwrap(&mut values).map_err(|message| format!("column {}: {message}", column.name))?;
+    }
+    Ok(scaled(values, reference.factor))
+}
+
+/// Takes the column of a quantity out of the table.
+fn take(table: &mut Table, quantity: Quantity) -> Option<Column> {
+    let place = table
+        .columns
+        .iter()
+        .position(|column| column.quantity == quantity)?;
+    Some(table.columns.remove(place))
+}
+
+/// The effort, and whether it is a torque.
+fn effort(table: &mut Table) -> Result<(Column, bool), String> {
+    match (
+        take(table, Quantity::MotorTorque),
+        take(table, Quantity::MotorForce),
+    ) {
+        (Some(torque), None) => Ok((torque, true)),
+        (None, Some(force)) => Ok((force, false)),
+        (Some(torque), Some(force)) => Err(format!(
+            "columns {} and {}: give the effort once",
+            torque.name, force.name
+        )),
+        (None, None) => Err(absent(
+            "column motor_torque or motor_force is missing",
+            table,
+        )),
+    }
+}
+
+/// What is missing, beside what is there.
+fn absent(missing: &str, table: &Table) -> String {
+    let known = table.columns.iter().map(|column| &column.name);
+    let all = known.chain(&table.ignored).map(String::as_str);
+    let names: Vec<&str> = all.take(12).collect();
+    if names.is_empty() {
+        return format!("{missing}; there are no other columns");
+    }
+    format!("{missing}; left are {}", names.join(", "))
+}
+
+/// The column that tells the motion best: the nut's, before the motor's, the carriage's and a plain one.
+fn motion(table: &mut Table, of: fn(Part) -> Quantity) -> Option<(Column, Part)> {
+    [Part::Nut, Part::Motor, Part::Carriage, Part::Plain]
+        .into_iter()
+        .find_map(|part| Some((take(table, of(part))?, part)))
+}
+
+/// How a position or speed of this part refers to the trace's coordinate.
+fn refer(
+    column: &Column,
+    part: Part,
+    torque: bool,
+    frame: Option<&Frame>,
+) -> Result<Reference, String> {
+    let angle = match (part, column.unit.dimension) {
+        (Part::Motor | Part::Nut, Dimension::Length) | (Part::Carriage, Dimension::Angle) => {
+            return Err(format!(
+                "column {} has a unit that its part does not move in",
+                column.name
+            ));
+        }
+        (Part::Motor | Part::Nut, _) | (_, Dimension::Angle) => true,
+        (Part::Carriage, _) | (_, Dimension::Length) => false,
+        (Part::Plain, _) => torque,
+    };
+    let factor = match (frame, angle) {
+        (Some(Frame { ratio, .. }), true) if part == Part::Motor => 1.0 / ratio,
+        (Some(_), true) => 1.0,
+        (Some(Frame { lead, .. }), false) => TAU / lead,
+        (None, _) if angle == torque => 1.0,
+        (None, _) => {
+            return Err(format!(
+                "column {} and a {} need a design, which says the lead",
+                column.name,
+                if torque {
+                    "motor_torque"
+                } else {
+                    "motor_force"
+                }
+            ));
+        }
+    };
+    Ok(Reference { factor, angle })
+}
+
+/// What the motor's effort is multiplied by to act on the trace's coordinate.
+fn effort_gain(torque: bool, frame: Option<&Frame>) -> f64 {
+    match frame {
+        Some(Frame { ratio, .. }) if torque => *ratio,
+        Some(Frame { lead, .. }) => lead / TAU,
+        None => 1.0,
+    }
+}
+
+fn check_temperature(column: &Column) -> Result<(), String> {
+    let (low, high) = range(&column.values);
+    if low >= TEMPERATURES.0 && high <= TEMPERATURES.1 {
+        return Ok(());
+    }
+    let odd = if low < TEMPERATURES.0 { low } else { high };
+    Err(format!(
+        "column {}: {odd} K is no temperature of a screw; a column in degrees Celsius is named temperature_C",
+        column.name
+    ))
+}
+
+/// Position from speed: the sum of trapezoids.
+fn sum_up(speed: &[f64], step: f64) -> Vec<f64> {
+    let mut position = 0.0;
+    let mut last = None;
+    speed
+        .iter()
+        .map(|speed| {
+            position += 0.5 * (last.unwrap_or(-speed) + speed) * step;
+            last = Some(*speed);
+            position
+        })
+        .collect()
+}
+
+/// Shifts an angle by whole turns of its sensor to where another one starts.
+fn same_turn(angle: &mut [f64], other: &[f64], factor: f64) {
+    let turn = TAU * factor;
+    if let (Some(first), Some(start)) = (angle.first().copied(), other.first()) {
+        let shift = ((start - first) / turn).round() * turn;
+        for value in angle {
+            *value += shift;
+        }
+    }
+}

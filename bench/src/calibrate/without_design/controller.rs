@@ -1,0 +1,137 @@
+//! A controller as a trace shows it: where it has its speed from, and what of the effort is not its own.
+
+use crate::calibrate::signals::Motion;
+use crate::calibrate::trace::Trace;
+use crate::controller::Controller;
+
+/// Where a controller has its speed from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SpeedSource {
+    /// A sensor of the speed.
+    Sensor,
+    /// Difference of the last two positions.
+    OneTick,
+    /// Difference over the last two ticks.
+    TwoTicks,
+    /// Difference over the last four ticks.
+    FourTicks,
+}
+
+impl SpeedSource {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Sensor, Self::OneTick, Self::TwoTicks, Self::FourTicks];
+
+    /// Ticks of the difference; none of a sensor.
+    pub const fn ticks(self) -> usize {
+        match self {
+            Self::Sensor => 0,
+            Self::OneTick => 1,
+            Self::TwoTicks => 2,
+            Self::FourTicks => 4,
+        }
+    }
+
+    /// What it is, in words.
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::Sensor => "a sensor of the speed",
+            Self::OneTick => "the difference of the last two positions",
+            Self::TwoTicks => "the difference of positions two ticks apart",
+            Self::FourTicks => "the difference of positions four ticks apart",
+        }
+    }
+}
+
+/// A controller as the trace shows it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SeenController {
+    /// Its gains.
+    pub controller: Controller,
+    /// Where it has its speed from: what explains the measured effort best.
+    pub source: SpeedSource,
+    /// Effort that is not the controller's, at every sample, N or N m: nothing where it is below the noise of the position's steps.
+    pub added: Vec<f64>,
+    /// Residual of the measured effort, rms, N or N m.
+    pub residual: f64,
+}
+
+impl SeenController {
+    /// Effort at every sample from the measured positions.
+    fn efforts(
+        controller: &Controller,
+        trace: &Trace,
+        motion: &Motion,
+        reference: &[f64],
+        source: SpeedSource,
+    ) -> Vec<f64> {
+        let ticks = source.ticks();
+        let speeds = trace.speed.as_ref().unwrap_or(&motion.speed);
+        (0..trace.len())
+            .map(|sample| {
+                let position = trace.position[sample];
+                let speed = if ticks == 0 {
+                    speeds[sample]
+                } else if sample < ticks {
+                    motion.speed[sample]
+                } else {
+                    (position - trace.position[sample - ticks]) / (ticks as f64 * trace.step)
+                };
+                controller.effort(reference[sample], position, speed)
+            })
+            .collect()
+    }
+
+    /// The controller as this trace shows it; `None` without a reference position.
+    pub fn of(controller: Controller, trace: &Trace, motion: &Motion) -> Option<Self> {
+        let reference = trace.reference_position.as_ref()?;
+        SpeedSource::ALL
+            .into_iter()
+            .map(|source| {
+                let efforts = Self::efforts(&controller, trace, motion, reference, source);
+                let rest: Vec<f64> = trace
+                    .effort
+                    .iter()
+                    .zip(&efforts)
+                    .map(|(measured, wanted)| measured - wanted)
+                    .collect();
+                (source, robust_spread(&rest), rest)
+            })
+            .min_by(|one, other| one.1.total_cmp(&other.1))
+            .map(|(source, spread, rest)| Self::told(controller, trace, source, spread, &rest))
+    }
+
+    fn told(
+        controller: Controller,
+        trace: &Trace,
+        source: SpeedSource,
+        spread: f64,
+        rest: &[f64],
+    ) -> Self {
+        let steps =
+            controller.gain_speed * trace.resolution / (source.ticks().max(1) as f64 * trace.step);
+        // Six standard deviations, or two steps of the sensor: what is beyond is no noise.
+        let noise = (6.0 * spread).max(2.0 * steps);
+        let added = rest
+            .iter()
+            .map(|rest| if rest.abs() > noise { *rest } else { 0.0 })
+            .collect();
+        let squares: f64 = rest.iter().map(|rest| rest.powi(2)).sum();
+        Self {
+            controller,
+            source,
+            added,
+            residual: (squares / rest.len() as f64).sqrt(),
+        }
+    }
+}
+
+/// Standard deviation of most of the values, by the median of their sizes.
+fn robust_spread(values: &[f64]) -> f64 {
+    let mut sizes: Vec<f64> = values.iter().map(|value| value.abs()).collect();
+    let middle = sizes.len() / 2;
+    if sizes.is_empty() {
+        return 0.0;
+    }
+    let (_, median, _) = sizes.select_nth_unstable_by(middle, f64::total_cmp);
+    1.4826 * *median
+}
