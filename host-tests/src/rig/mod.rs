@@ -120,6 +120,7 @@ impl Rig {
         within("count", sensors.count, 0.0, 1.0)?;
         let sliding = Sliding::new(&parameters)?;
         Memory::new(&parameters, &sliding)?;
+        within("backlash", parameters.backlash, 0.0, 1.0)?;
         Ok(Self {
             parameters,
             sensors,
@@ -199,6 +200,7 @@ impl Rig {
             offset,
             load_gain,
             waves,
+            backlash,
             ..
         } = &self.parameters;
         let Driven {
@@ -211,18 +213,20 @@ impl Rig {
         let acceleration = slopes(&speed, tick);
         let reference_sum = screw.flank_sum(self.parameters.reference_axial_load);
         let mut memory = Memory::new(&self.parameters, &self.sliding)?;
-        let mut last = position.first().copied().unwrap_or(0.0);
+        // In the middle of the play at the start.
+        let mut nut = position.first().copied().unwrap_or(0.0);
         let (mut friction, mut torque) = (Vec::new(), Vec::new());
         for index in 0..position.len() {
             let (angle, load) = (position[index], load[index]);
             within("load", load, -screw.largest_load, screw.largest_load)?;
+            let taken = nut.clamp(angle - 0.5 * backlash, angle + 0.5 * backlash);
             let state = State {
-                turn: angle - last,
+                turn: taken - nut,
                 speed: speed[index],
                 load,
                 temperature: temperature[index],
             };
-            last = angle;
+            nut = taken;
             let resisting = memory.follow(&self.sliding, &state);
             let wavy: f64 = waves
                 .iter()

@@ -179,6 +179,8 @@ pub struct Parameters {
     pub breakaway: f64,
     /// Axial load at which the breakaway angle holds, N; zero only with a preload.
     pub reference_axial_load: f64,
+    /// Free play between the sensor's angle, which the drive turns, and the balls', rad, 0 to 1.
+    pub backlash: f64,
     /// Part that spins.
     pub spinning: Option<Spinning>,
     /// Seal.
@@ -218,6 +220,7 @@ impl Default for Parameters {
             directions: [1.0, 1.0],
             breakaway: 2e-3,
             reference_axial_load: 0.0,
+            backlash: 0.0,
             spinning: None,
             seal: None,
             inertia: 4e-4,

@@ -134,6 +134,39 @@ fn a_short_trace_tells_what_the_rig_was_made_with() {
     );
 }
 
+/// What is estimated on request only: rolling resistance and backlash, each of a screw that has more of it than the design says, beside
+/// what stands in for it most easily. Twelve seconds tell the backlash within 3 %, the rolling resistance within half of it.
+#[test]
+fn a_trace_tells_rolling_resistance_and_backlash_on_request() {
+    let mut rolls = Parameters::default();
+    rolls.screw.rolling.hysteresis_loss = 0.1;
+    let plays = Parameters {
+        backlash: 3e-3,
+        ..Parameters::default()
+    };
+    let law = [
+        ("full_film_ratio", 0.06 / 0.115),
+        ("half_share_speed", 6.0),
+        ("viscosity_pole", 273.15 - 64.0),
+        ("preload", 13.984),
+    ];
+    for (parameters, name, wanted) in [(rolls, "hysteresis_loss", 0.1), (plays, "backlash", 3e-3)] {
+        let rig = Rig::new(parameters, Sensors::default()).unwrap();
+        let trace = trace(&rig, &Course::vehicle().times(0.2), 3);
+        let mut request = request(&law);
+        let estimated = ["friction", "breakaway_angle", "inertia", "offset", name];
+        request.wanted.estimate = Some(estimated.map(String::from).into());
+        for (other, value) in [("drag", 3e-4), ("gain", 1.012)] {
+            request.wanted.fix.push((other.into(), value));
+        }
+        let found = calibrate(&trace, &design(), &request).unwrap();
+        let parameter = found.answer.parameter(name).unwrap();
+        let off = (parameter.value - wanted).abs();
+        assert!(off < 2.0 * parameter.half_width(), "{parameter:?}");
+        assert!(parameter.half_width() < 0.6 * wanted, "{parameter:?}");
+    }
+}
+
 /// What a name is wrong in is said, and what a trace cannot tell is no number.
 #[test]
 fn wrong_requests_are_named() {
