@@ -5,12 +5,12 @@ use std::io::Cursor;
 
 use epas_bench::bindings::{Controller, Failure};
 use epas_bench::calibrate::answer::{Calibration, Estimate, ModelScore};
-use epas_bench::calibrate::trace::columns::{self, Frame};
 use epas_bench::calibrate::page::picture::Picture;
 use epas_bench::calibrate::screw::Request;
 use epas_bench::calibrate::screw::choice::Wanted;
 use epas_bench::calibrate::signals::{RowSettings, SmoothingSettings};
 use epas_bench::calibrate::trace::Trace;
+use epas_bench::calibrate::trace::columns::{self, Frame};
 use epas_bench::calibrate::with_design;
 use epas_bench::calibrate::without_design::{self, Filters};
 use pyo3::prelude::*;

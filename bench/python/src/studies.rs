@@ -1,8 +1,8 @@
 //! Studies of many designs and of many traces, in parts that any engine may run anywhere.
 
-use epas_bench::calibrate::trace::columns::Frame;
 use epas_bench::calibrate::screw::Request;
 use epas_bench::calibrate::sums::Sums;
+use epas_bench::calibrate::trace::columns::Frame;
 use epas_bench::calibrate::with_design;
 use epas_bench::calibrate::without_design::{self, Filters};
 use epas_bench::design_study::{Design as StudiedDesign, Duty, figures};
