@@ -3,6 +3,7 @@
 
 mod configuration;
 mod inputs;
+mod remembered;
 mod stored;
 
 use core::marker::PhantomData;
@@ -16,11 +17,13 @@ use crate::ball::Clearance;
 use crate::error::{Error, attempt, in_range};
 use crate::law::coefficient::{CoefficientLaw, CoefficientModel, TemperatureFade};
 use crate::law::fade::Fade;
-use crate::law::motion::{NutAngle, Play, PlayState};
-use crate::law::{Elements, FrictionLevel, SlidingLimits};
+use crate::law::motion::{NutAngle, Play};
+use crate::law::{Elements, SlidingLimits};
 
 pub use configuration::WithMemoryConfiguration;
 pub use inputs::{Freshness, WithMemoryInputs, WithMemoryKnown};
+pub use remembered::Remembered;
+use remembered::checked;
 
 /// Part of full friction below which the mechanism counts as standing.
 const SLIDES: f32 = 0.99;
@@ -72,27 +75,6 @@ pub struct WithMemoryState<
     pub remembered: Remembered<S, E, A, L>,
 }
 
-/// What a scene with memory keeps from tick to tick beside the state of the scene without.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Remembered<S: Sliding, E: Elements, A: NutAngle, L: CoefficientModel> {
-    /// What the elements remember.
-    pub elements: E::State,
-    reading: A::State,
-    play: PlayState,
-    /// Turn that the balls have still to go, rad (m).
-    moved: f32,
-    coefficient: L,
-    temperature: f32,
-    at_temperature: L::At,
-    /// The last sound inputs, and the last full friction with its limits and the churning drag beside it.
-    inputs: S::Inputs,
-    full: Option<S::Full>,
-    limits: SlidingLimits,
-    churning: f32,
-    /// What scales the limits.
-    level: FrictionLevel,
-}
-
 impl<S, E, A, L> Scene for WithMemory<S, E, A, L>
 where
     S: Sliding,
@@ -121,13 +103,17 @@ where
         WithMemoryState {
             scene: S::initial_state(scene),
             coefficients: coefficient.keep(|least, largest| S::coefficients(scene, least, largest)),
-            remembered: Remembered::nothing(constants),
+            remembered: Remembered::nothing(
+                constants.coefficient,
+                constants.temperature.fallback(),
+            ),
         }
     }
 
     fn reset(constants: &Self::Constants, state: &mut Self::State) {
         S::reset(&constants.scene, &mut state.scene);
-        state.remembered = Remembered::nothing(constants);
+        state.remembered =
+            Remembered::nothing(constants.coefficient, constants.temperature.fallback());
     }
 
     fn take_over(constants: &Self::Constants, state: &mut Self::State) -> Result<(), Error> {
@@ -221,62 +207,6 @@ where
         clearance: Clearance,
     ) -> Result<(), Error> {
         S::set_clearance(&constants.scene, &mut state.scene, clearance)
-    }
-}
-
-/// A friction coefficient that the scene takes at every speed and temperature. Constants that the compiler folds cannot ask for
-/// that: in the loop the largest that the scene takes stands in for a larger one.
-fn checked<S: Sliding, L: CoefficientModel>(law: L) -> Result<L, Error> {
-    let (least, largest) = law.extremes();
-    S::FRICTION.checked("coefficient", least)?;
-    S::FRICTION.checked("coefficient", largest)?;
-    Ok(law)
-}
-
-/// No friction.
-const NONE: SlidingLimits = SlidingLimits {
-    forward: 0.0,
-    backward: 0.0,
-    load: 0.0,
-};
-
-impl<S: Sliding, E: Elements, A: NutAngle, L: CoefficientModel> Remembered<S, E, A, L> {
-    /// Before the first tick.
-    fn nothing(constants: &WithMemoryConstants<S::Constants, E, A, L>) -> Self {
-        let temperature = constants.temperature.fallback();
-        Self {
-            elements: E::VIRGIN,
-            reading: A::FRESH,
-            play: PlayState::FRESH,
-            moved: 0.0,
-            coefficient: constants.coefficient,
-            temperature,
-            at_temperature: constants.coefficient.at_temperature(temperature),
-            inputs: S::Inputs::STILL,
-            full: None,
-            limits: NONE,
-            churning: 0.0,
-            level: FrictionLevel::ONE,
-        }
-    }
-
-    /// See [`FrictionModel::set_coefficient`](crate::FrictionModel::set_coefficient).
-    pub(crate) fn set_coefficient(&mut self, law: L) -> Result<(), Error> {
-        self.coefficient = checked::<S, L>(law)?;
-        self.at_temperature = law.at_temperature(self.temperature);
-        Ok(())
-    }
-
-    /// See [`FrictionModel::set_level`](crate::FrictionModel::set_level).
-    pub(crate) const fn set_level(&mut self, level: FrictionLevel) -> Result<(), Error> {
-        self.level = attempt!(level.checked());
-        Ok(())
-    }
-
-    /// -1 where the balls went backward last, else 1.
-    #[inline(always)]
-    const fn way(&self) -> f32 {
-        way(self.play.way())
     }
 }
 

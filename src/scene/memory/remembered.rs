@@ -1,0 +1,84 @@
+//! What a scene with memory keeps from tick to tick.
+
+use crate::error::{Error, attempt};
+use crate::law::coefficient::CoefficientModel;
+use crate::law::motion::{NutAngle, PlayState};
+use crate::law::{Elements, FrictionLevel, SlidingLimits};
+use crate::scene::passage::{Motion, way};
+use crate::scene::sliding::Sliding;
+
+/// What a scene with memory keeps from tick to tick beside the state of the scene without.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Remembered<S: Sliding, E: Elements, A: NutAngle, L: CoefficientModel> {
+    /// What the elements remember.
+    pub elements: E::State,
+    pub(super) reading: A::State,
+    pub(super) play: PlayState,
+    /// Turn that the balls have still to go, rad (m).
+    pub(super) moved: f32,
+    pub(super) coefficient: L,
+    pub(super) temperature: f32,
+    pub(super) at_temperature: L::At,
+    /// The last sound inputs, and the last full friction with its limits and the churning drag beside it.
+    pub(super) inputs: S::Inputs,
+    pub(super) full: Option<S::Full>,
+    pub(super) limits: SlidingLimits,
+    pub(super) churning: f32,
+    /// What scales the limits.
+    pub(super) level: FrictionLevel,
+}
+
+/// A friction coefficient that the scene takes at every speed and temperature. Constants that the compiler folds cannot ask for
+/// that: in the loop the largest that the scene takes stands in for a larger one.
+pub(super) fn checked<S: Sliding, L: CoefficientModel>(law: L) -> Result<L, Error> {
+    let (least, largest) = law.extremes();
+    S::FRICTION.checked("coefficient", least)?;
+    S::FRICTION.checked("coefficient", largest)?;
+    Ok(law)
+}
+
+/// No friction.
+const NONE: SlidingLimits = SlidingLimits {
+    forward: 0.0,
+    backward: 0.0,
+    load: 0.0,
+};
+
+impl<S: Sliding, E: Elements, A: NutAngle, L: CoefficientModel> Remembered<S, E, A, L> {
+    /// Before the first tick.
+    pub(super) fn nothing(coefficient: L, temperature: f32) -> Self {
+        Self {
+            elements: E::VIRGIN,
+            reading: A::FRESH,
+            play: PlayState::FRESH,
+            moved: 0.0,
+            coefficient,
+            temperature,
+            at_temperature: coefficient.at_temperature(temperature),
+            inputs: S::Inputs::STILL,
+            full: None,
+            limits: NONE,
+            churning: 0.0,
+            level: FrictionLevel::ONE,
+        }
+    }
+
+    /// See [`FrictionModel::set_coefficient`](crate::FrictionModel::set_coefficient).
+    pub(crate) fn set_coefficient(&mut self, law: L) -> Result<(), Error> {
+        self.coefficient = checked::<S, L>(law)?;
+        self.at_temperature = law.at_temperature(self.temperature);
+        Ok(())
+    }
+
+    /// See [`FrictionModel::set_level`](crate::FrictionModel::set_level).
+    pub(crate) const fn set_level(&mut self, level: FrictionLevel) -> Result<(), Error> {
+        self.level = attempt!(level.checked());
+        Ok(())
+    }
+
+    /// -1 where the balls went backward last, else 1.
+    #[inline(always)]
+    pub(super) const fn way(&self) -> f32 {
+        way(self.play.way())
+    }
+}
