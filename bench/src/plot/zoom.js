@@ -62,10 +62,13 @@
     }
     return count;
   };
+  // Width for which the panels were drawn last.
+  let drawn = 0;
   const draw = () => {
     const width = host.clientWidth;
     // A page that is not laid out yet, or is hidden, has no room: the observer below draws it when it has.
     if (width <= LEFT + RIGHT) return;
+    drawn = width;
     const x = (at) => LEFT + (at - view[0]) / (view[1] - view[0]) * (width - LEFT - RIGHT);
     host.replaceChildren();
     PANELS.forEach((panel, index) => {
@@ -189,11 +192,6 @@
   const everything = () => { view = [...all]; draw(); };
   host.addEventListener("dblclick", everything);
   document.querySelector("button").addEventListener("click", everything);
-  let drawn = 0;
-  new ResizeObserver(() => {
-    if (host.clientWidth === drawn) return;
-    drawn = host.clientWidth;
-    draw();
-  }).observe(host);
+  new ResizeObserver(() => { if (host.clientWidth !== drawn) draw(); }).observe(host);
   draw();
 })();
