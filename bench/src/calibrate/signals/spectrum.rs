@@ -1,11 +1,13 @@
 //! Power spectral density of a residual by Welch's method.
 //!
-//! The transform is `realfft`'s. Welch's average of windowed segments stands here: crate `welch-sde` has had one version, with
+//! The transform is `rustfft`'s. Welch's average of windowed segments stands here: crate `welch-sde` has had one version, with
 //! no change since, and its windows and means cannot be chosen.
 
 use std::f64::consts::TAU;
 
-use realfft::RealFftPlanner;
+use rustfft::algorithm::Radix4;
+use rustfft::num_complex::Complex;
+use rustfft::{Fft, FftDirection};
 
 /// Largest number of samples of a segment.
 const LARGEST: usize = 4096;
@@ -30,21 +32,20 @@ pub fn welch(samples: &[f64], step: f64) -> Vec<(f64, f64)> {
         .collect();
     let power: f64 = window.iter().map(|weight| weight * weight).sum();
 
-    let transform = RealFftPlanner::<f64>::new().plan_fft_forward(length);
-    let mut input = transform.make_input_vec();
-    let mut output = transform.make_output_vec();
-    let mut sums = vec![0.0; output.len()];
+    let transform = Radix4::new(length, FftDirection::Forward);
+    let mut places = vec![Complex::default(); length];
+    let mut scratch = vec![Complex::default(); transform.get_inplace_scratch_len()];
+    // Lines above the highest repeat those below it.
+    let mut sums = vec![0.0; length / 2 + 1];
     let mut count = 0.0;
     for start in (0..=samples.len() - length).step_by(length / 2) {
         let segment = &samples[start..start + length];
         let mean = segment.iter().sum::<f64>() / length as f64;
-        for ((place, sample), weight) in input.iter_mut().zip(segment).zip(&window) {
-            *place = (sample - mean) * weight;
+        for ((place, sample), weight) in places.iter_mut().zip(segment).zip(&window) {
+            *place = ((sample - mean) * weight).into();
         }
-        if transform.process(&mut input, &mut output).is_err() {
-            return Vec::new();
-        }
-        for (sum, line) in sums.iter_mut().zip(&output) {
+        transform.process_with_scratch(&mut places, &mut scratch);
+        for (sum, line) in sums.iter_mut().zip(&places) {
             *sum += line.norm_sqr();
         }
         count += 1.0;
