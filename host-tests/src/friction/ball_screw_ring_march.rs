@@ -346,17 +346,20 @@ impl<'a> March<'a> {
         let found = instant.settle(&states, &forces);
         match found {
             Ok(settled) => {
-                self.rates = self.last.as_ref().map_or_else(
-                    || Rates::none(n),
-                    |last| last.rates(&settled, way, axial_load, &self.rates),
-                );
                 self.speeds.clone_from(&settled.speeds);
-                self.last = Some(Last {
+                let load = |seat: &Option<Seat>| seat.as_ref().map_or(0.0, |seat| seat.axial_load);
+                let now = Last {
                     settled,
                     way,
                     axial_load,
+                    loads: seats.iter().map(load).collect(),
                     travel: 0.0,
-                });
+                };
+                self.rates = self
+                    .last
+                    .as_ref()
+                    .map_or_else(|| Rates::none(n), |last| last.rates(&now, &self.rates));
+                self.last = Some(now);
                 Ok(())
             }
             Err(error) => {

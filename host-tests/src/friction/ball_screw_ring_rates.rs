@@ -13,6 +13,8 @@ pub(crate) struct Last {
     pub settled: Settled,
     pub way: f64,
     pub axial_load: f64,
+    /// Axial load of every ball, N; 0 where it carries none.
+    pub loads: Vec<f64>,
     /// Travel of the nut since then, rad.
     pub travel: f64,
 }
@@ -53,17 +55,30 @@ impl Last {
         (states, forces)
     }
 
-    /// How speeds and forces have changed since the last solution, of balls that still press as they did. Balls that have met go on with the
-    /// mean change of those that they join.
-    pub fn rates(&self, now: &Settled, way: f64, axial_load: f64, before: &Rates) -> Rates {
-        let n = now.forces.len();
+    /// How speeds and forces have changed since the last solution, of balls that still press as they did and carry about the load that
+    /// they did. Balls that have met go on with the mean change of those that they join. A ball that has come under load, or out of it, has
+    /// another speed at once: how it changes is not known before the next solution.
+    pub fn rates(&self, now: &Self, before: &Rates) -> Rates {
+        let n = now.loads.len();
         let mut rates = Rates::none(n);
-        let sudden = (axial_load - self.axial_load).abs() > SUDDEN * self.axial_load.abs();
-        if self.way != way || sudden || !(self.travel > 0.0) {
+        let sudden = |now: f64, before: f64| (now - before).abs() > SUDDEN * before.abs();
+        if self.way != now.way || sudden(now.axial_load, self.axial_load) || !(self.travel > 0.0) {
             return rates;
         }
+        let jumps = |ball: &usize| sudden(now.loads[*ball], self.loads[*ball]);
+        let (now, kept) = (&now.settled, |ball: &usize| {
+            if jumps(ball) {
+                0.0
+            } else {
+                before.speeds[*ball]
+            }
+        });
         if self.travel < TELLING {
-            return before.clone();
+            rates.clone_from(before);
+            for ball in 0..n {
+                rates.speeds[ball] = kept(&ball);
+            }
+            return rates;
         }
         for cluster in clusters(&now.forces) {
             let pairs = |inside: usize| cluster[..inside].iter();
@@ -71,6 +86,7 @@ impl Last {
             let pressed = |pair: &usize| self.settled.forces[*pair] > 0.0;
             let same = cluster.len() == n
                 || pairs(cluster.len() - 1).all(pressed) && !ends.iter().any(pressed);
+            let same = same && !cluster.iter().any(jumps);
             if same {
                 for ball in &cluster {
                     rates.speeds[*ball] =
@@ -81,7 +97,7 @@ impl Last {
                         difference(now.states[*ball], self.settled.states[*ball], self.travel);
                 }
             } else {
-                let sum: f64 = cluster.iter().map(|ball| before.speeds[*ball]).sum();
+                let sum: f64 = cluster.iter().map(kept).sum();
                 for ball in &cluster {
                     rates.speeds[*ball] = sum / cluster.len() as f64;
                 }
