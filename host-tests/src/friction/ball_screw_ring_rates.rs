@@ -66,35 +66,34 @@ impl Last {
             return rates;
         }
         let jumps = |ball: &usize| sudden(now.loads[*ball], self.loads[*ball]);
-        let (now, kept) = (&now.settled, |ball: &usize| {
+        let kept = |ball: &usize| {
             if jumps(ball) {
                 0.0
             } else {
                 before.speeds[*ball]
             }
-        });
+        };
         if self.travel < TELLING {
             rates.clone_from(before);
-            for ball in 0..n {
-                rates.speeds[ball] = kept(&ball);
+            for (ball, rate) in rates.speeds.iter_mut().enumerate() {
+                *rate = kept(&ball);
             }
             return rates;
         }
+        let (now, then) = (&now.settled, &self.settled);
         for cluster in clusters(&now.forces) {
             let pairs = |inside: usize| cluster[..inside].iter();
             let ends = [(cluster[0] + n - 1) % n, cluster[cluster.len() - 1]];
-            let pressed = |pair: &usize| self.settled.forces[*pair] > 0.0;
+            let pressed = |pair: &usize| then.forces[*pair] > 0.0;
             let same = cluster.len() == n
                 || pairs(cluster.len() - 1).all(pressed) && !ends.iter().any(pressed);
             let same = same && !cluster.iter().any(jumps);
             if same {
                 for ball in &cluster {
-                    rates.speeds[*ball] =
-                        (now.speeds[*ball] - self.settled.speeds[*ball]) / self.travel;
-                    rates.forces[*ball] =
-                        (now.forces[*ball] - self.settled.forces[*ball]) / self.travel;
+                    rates.speeds[*ball] = (now.speeds[*ball] - then.speeds[*ball]) / self.travel;
+                    rates.forces[*ball] = (now.forces[*ball] - then.forces[*ball]) / self.travel;
                     rates.states[*ball] =
-                        difference(now.states[*ball], self.settled.states[*ball], self.travel);
+                        difference(now.states[*ball], then.states[*ball], self.travel);
                 }
             } else {
                 let sum: f64 = cluster.iter().map(kept).sum();
