@@ -85,10 +85,9 @@ impl Last {
             let pairs = |inside: usize| cluster[..inside].iter();
             let ends = [(cluster[0] + n - 1) % n, cluster[cluster.len() - 1]];
             let pressed = |pair: &usize| then.forces[*pair] > 0.0;
-            let same = cluster.len() == n
+            let alike = cluster.len() == n
                 || pairs(cluster.len() - 1).all(pressed) && !ends.iter().any(pressed);
-            let same = same && !cluster.iter().any(jumps);
-            if same {
+            if alike && !cluster.iter().any(jumps) {
                 for ball in &cluster {
                     rates.speeds[*ball] = (now.speeds[*ball] - then.speeds[*ball]) / self.travel;
                     rates.forces[*ball] = (now.forces[*ball] - then.forces[*ball]) / self.travel;
