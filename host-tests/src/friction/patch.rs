@@ -149,15 +149,14 @@ impl Patch {
             let (u1, u2) = (a * along.0, b * along.1);
             // Axes of a contact are far from where squares overflow or vanish.
             let g = (u1 * u1 + u2 * u2).sqrt();
-            let per_g = 1.0 / g;
             power += turn * h2 * (k * k + 0.25 * h2) * g;
-            gradient[0] -= turn * h2 * k * u2 * per_g;
-            gradient[1] += turn * h2 * k * u1 * per_g;
+            gradient[0] -= turn * h2 * k * u2 / g;
+            gradient[1] += turn * h2 * k * u1 / g;
             // Moment about the contact centre: of the resultant at the middle of the chord, and of its spread.
             gradient[2] +=
-                turn * h2 * (0.25 * h2 * g - k * s * (a - b) * (a + b) * along.0 * along.1 * per_g);
+                turn * h2 * (0.25 * h2 * g - k * s * (a - b) * (a + b) * along.0 * along.1 / g);
             let normal = [u1, u2, -s * a * b];
-            let scale = turn * h2 * (per_g * per_g * per_g);
+            let scale = turn * h2 / (g * g * g);
             for (row, n_i) in hessian.iter_mut().zip(normal) {
                 for (entry, n_j) in row.iter_mut().zip(normal) {
                     *entry += scale * n_i * n_j;

@@ -528,7 +528,7 @@ const SCREW_REFERENCE: &[Measured] = &[
     largest("closed forms of a screw, contact force", 0.02, 7.1e-3),
     largest("closed forms of a screw, groove loss", 0.05, 0.043),
     largest("closed forms of a screw, orbital speed", 8e-3, 3.7e-3),
-    largest("hostile balls of a screw, power balance", 6e-9, 3.9e-9),
+    largest("hostile balls of a screw, power balance", 2.5e-9, 1.5e-9),
     largest("single balls of a screw, balance over the load", 6e-13, 2e-13),
     largest("given contacts, moment in N m", 2.5e-16, 7.1e-17),
 ];
