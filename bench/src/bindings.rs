@@ -6,8 +6,8 @@ pub use crate::designs::{Design, DesignSource, built_in, read as read_design, te
 pub use crate::eval::fit_range;
 pub use crate::failure::Failure;
 pub use crate::simulate::bindings::{
-    Balls, Built, Caged, CagedRow, Friction, Linear, LinearRow, LinearSample, Lines, Manoeuvre,
-    ReferenceModel, Remembered, Remembers, Scene, ScrewSample, Trace, TrainRow, Uncaged,
+    Balls, Built, Caged, CagedRow, Friction, Linear, LinearRow, LinearSample, Lines, MOST_BALLS,
+    Manoeuvre, ReferenceModel, Remembered, Remembers, Scene, ScrewSample, Trace, TrainRow, Uncaged,
     UncagedRow, Use, angle, regime_name, remembering, wrapped,
 };
 

@@ -1,5 +1,7 @@
 //! What bindings to other languages take of a simulation: traces, scenes with their models and rows.
 
+pub use epas_trains::{Balls, Built, MOST_BALLS};
+
 pub use super::caged::{Caged, CagedRow, wrapped};
 pub use super::linear::{Linear, LinearRow};
 pub use super::manoeuvre::Manoeuvre;
@@ -10,5 +12,5 @@ pub use super::samples::{LinearSample, ScrewSample};
 pub use super::scene::Scene;
 pub use super::summary::{Lines, regime_name};
 pub use super::trace::Trace;
-pub use super::train::{Balls, Built, TrainRow};
+pub use super::train::TrainRow;
 pub use super::uncaged::{Uncaged, UncagedRow};

@@ -1,18 +1,18 @@
 //! A linear bearing whose balls press on each other.
 
-use epas_friction::law::coefficient::OneCoefficient;
 use epas_friction::promises::STEP_LINEAR;
-use epas_friction::{Error, FrictionModel, LinearBearingTrain, LinearInputs, LinearOutputs};
+use epas_friction::{Error, LinearInputs, LinearOutputs};
+use epas_trains::{Built, bearing};
 
 use super::manoeuvre::Manoeuvre;
-use super::memory::{self, Remembered, Remembering};
+use super::memory::{self, Remembered};
 use super::picture::{self, Form, Labels};
 use super::reference::ReferenceModel;
 use super::samples::LinearSample;
 use super::scene::Scene;
 use super::summary::{Course, Lines, Moment, Pressing, Words, regime_name};
 use super::trace::{Sample, Trace};
-use super::train::{Balls, Built, Train, TrainRow, pressing, with_balls};
+use super::train::{Train, TrainRow};
 use super::train_picture::{TrainPoint, draw};
 use crate::designs::train::LinearDesign;
 use crate::failure::Failure;
@@ -41,79 +41,6 @@ const WORDS: Words = Words {
     unit: "N",
 };
 
-/// Inputs of a moment.
-const fn inputs(sample: &LinearSample) -> LinearInputs {
-    LinearInputs {
-        speed: sample.speed as f32,
-        normal_load: sample.normal_load as f32,
-        side_load: sample.side_load as f32,
-    }
-}
-
-impl<const N: usize> Balls<LinearSample, LinearOutputs> for FrictionModel<LinearBearingTrain<N>> {
-    fn step(&mut self, sample: &LinearSample) -> LinearOutputs {
-        FrictionModel::step(self, inputs(sample))
-    }
-
-    fn pressing(&self) -> u64 {
-        pressing(&self.state().circuit.train)
-    }
-
-    fn reset(&mut self) {
-        FrictionModel::reset(self);
-    }
-
-    fn faulted_ticks(&self) -> u32 {
-        FrictionModel::faulted_ticks(self)
-    }
-
-    fn set_friction(&mut self, friction: f32) -> Result<(), Error> {
-        FrictionModel::<LinearBearingTrain<N>>::set_friction(self, friction)
-    }
-
-    fn set_place(&mut self, position: f32) -> bool {
-        self.set_carriage_position(position);
-        true
-    }
-
-    fn copied(&self) -> Box<dyn Balls<LinearSample, LinearOutputs>> {
-        Box::new(*self)
-    }
-}
-
-impl<const N: usize> Balls<LinearSample, LinearOutputs>
-    for FrictionModel<Remembering<LinearBearingTrain<N>>>
-{
-    fn step(&mut self, sample: &LinearSample) -> LinearOutputs {
-        let inputs = memory::fresh(inputs(sample), sample.speed as f32);
-        FrictionModel::step(self, inputs)
-    }
-
-    fn pressing(&self) -> u64 {
-        pressing(&self.state().scene.circuit.train)
-    }
-
-    fn reset(&mut self) {
-        FrictionModel::reset(self);
-    }
-
-    fn faulted_ticks(&self) -> u32 {
-        FrictionModel::faulted_ticks(self)
-    }
-
-    fn set_friction(&mut self, friction: f32) -> Result<(), Error> {
-        self.set_coefficient(OneCoefficient::new(friction)?)
-    }
-
-    fn set_place(&mut self, _: f32) -> bool {
-        false
-    }
-
-    fn copied(&self) -> Box<dyn Balls<LinearSample, LinearOutputs>> {
-        Box::new(*self)
-    }
-}
-
 impl Linear {
     fn train(
         &self,
@@ -132,16 +59,12 @@ impl Linear {
         &self,
         tick: f32,
         remembered: Option<&Remembered>,
-    ) -> Built<LinearSample, LinearOutputs> {
+    ) -> Built<LinearInputs, LinearOutputs> {
         let mut configuration = self.design.configuration;
         configuration.tick = tick;
-        let Some(remembered) = remembered else {
-            return with_balls!(plain LinearBearingTrain, self.design.balls, &configuration);
-        };
         let friction = configuration.friction;
-        let angle = memory::speed(tick)?;
-        let whole = memory::configuration(configuration, remembered, angle, friction)?;
-        with_balls!(remembering LinearBearingTrain, self.design.balls, &whole)
+        let whole = memory::whole(configuration, remembered, tick, friction)?;
+        bearing(self.design.balls, &whole)
     }
 }
 

@@ -5,25 +5,15 @@ use epas_friction::law::breakaway::{
     Tables,
 };
 use epas_friction::law::coefficient::{CoefficientModel, OneCoefficient, TemperatureFade};
-use epas_friction::law::memory::{Hysteresis, ProportionalElements, SLIP_4, SPIN_4, SPIN_8};
+use epas_friction::law::memory::{Hysteresis, SLIP_4, SPIN_4, SPIN_8};
 use epas_friction::law::motion::{SpeedOverTick, WrappedAngle, WrappedAngleParameters};
-use epas_friction::scene::{Freshness, WithMemory, WithMemoryConfiguration, WithMemoryInputs};
+use epas_friction::scene::{Freshness, WithMemoryConfiguration};
 use epas_friction::{BallScrew, Clearance, Error, LinearBearingConfiguration, RollingResistance};
+use epas_trains::Configuration;
+pub use epas_trains::{ELEMENTS, Elements, Remembering, TEMPERATURE, fresh};
 
 use super::summary::Lines;
 use super::trace::{Sample, Trace};
-
-/// Elements of every simulation.
-pub const ELEMENTS: usize = 8;
-
-/// What they are.
-pub type Elements = ProportionalElements<ELEMENTS>;
-
-/// A row of balls with them, which follows the speed of every tick.
-pub type Remembering<S> = WithMemory<S, Elements, SpeedOverTick, OneCoefficient>;
-
-/// Temperature of every simulation, K. The friction coefficient does not follow it.
-pub const TEMPERATURE: f32 = 293.15;
 
 /// What stands in for a temperature that is too old: the same one.
 const FADE: TemperatureFade = match TemperatureFade::new(TEMPERATURE, 1.0, 1.0) {
@@ -212,6 +202,24 @@ pub fn with_coefficient<C, E: Hysteresis, A, L: CoefficientModel>(
     }
 }
 
+/// A scene with the elements that are given, or without memory.
+///
+/// # Errors
+/// [`Error`] naming `tick` or the friction coefficient.
+pub fn whole<C: Copy>(
+    scene: C,
+    remembered: Option<&Remembered>,
+    tick: f32,
+    friction: f32,
+) -> Result<Configuration<C>, Error> {
+    Ok(match remembered {
+        None => Configuration::Plain(scene),
+        Some(remembered) => {
+            Configuration::Remembering(configuration(scene, remembered, speed(tick)?, friction)?)
+        }
+    })
+}
+
 /// A sensor of a speed that has a tick, s.
 ///
 /// # Errors
@@ -230,15 +238,4 @@ pub fn angle() -> Result<WrappedAngle, Error> {
         period: std::f32::consts::TAU,
         largest_turn: std::f32::consts::PI,
     })
-}
-
-/// Inputs of this moment, at one temperature.
-pub const fn fresh<I, R>(scene: I, reading: R) -> WithMemoryInputs<I, R> {
-    WithMemoryInputs {
-        scene,
-        reading,
-        load_age: 0.0,
-        temperature: TEMPERATURE,
-        temperature_age: 0.0,
-    }
 }

@@ -1,6 +1,8 @@
 //! Moments of traces: one type for screws, one for bearings.
 
-use super::trace::Sample;
+use epas_friction::{Inputs, LinearInputs};
+
+use super::trace::{Sample, SceneSample};
 
 /// One moment of a ball screw's trace.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -84,5 +86,28 @@ impl Sample for LinearSample {
 
     fn load(&self) -> f64 {
         self.normal_load
+    }
+}
+
+impl SceneSample for ScrewSample {
+    type Inputs = Inputs;
+
+    fn inputs(&self) -> Inputs {
+        Inputs {
+            nut_speed: self.nut_speed as f32,
+            axial_load: self.axial_load as f32,
+        }
+    }
+}
+
+impl SceneSample for LinearSample {
+    type Inputs = LinearInputs;
+
+    fn inputs(&self) -> LinearInputs {
+        LinearInputs {
+            speed: self.speed as f32,
+            normal_load: self.normal_load as f32,
+            side_load: self.side_load as f32,
+        }
     }
 }

@@ -32,6 +32,15 @@ pub trait Sample: Copy {
     fn load(&self) -> f64;
 }
 
+/// One moment of a trace that a scene follows.
+pub trait SceneSample: Sample {
+    /// Inputs of the scene.
+    type Inputs: Copy;
+
+    /// Its inputs at this moment.
+    fn inputs(&self) -> Self::Inputs;
+}
+
 /// A trace, never empty, its times never going back.
 #[derive(Clone, Debug)]
 pub struct Trace<S> {

@@ -2,16 +2,13 @@
 
 use std::f64::consts::TAU;
 
-use epas_friction::law::coefficient::OneCoefficient;
 use epas_friction::promises::STEP_UNCAGED;
-use epas_friction::{
-    Error, FrictionModel, Inputs, Outputs, UncagedBallScrew, UncagedBallScrewConfiguration,
-    UncagedOutputs,
-};
+use epas_friction::{Error, Inputs, Outputs, UncagedBallScrewConfiguration, UncagedOutputs};
+use epas_trains::Built;
 
 use super::exact_screw::exact_screw;
 use super::manoeuvre::Manoeuvre;
-use super::memory::{self, Remembered, Remembering};
+use super::memory::{self, Remembered};
 use super::picture::{Form, Labels, Moment};
 use super::reference::{Friction, ReferenceModel, whole_screw};
 use super::samples::ScrewSample;
@@ -19,7 +16,7 @@ use super::scene::Scene;
 use super::screw::{self, ScrewSummary};
 use super::summary::{Lines, Pressing};
 use super::trace::Trace;
-use super::train::{Balls, Built, Train, TrainRow, pressing, with_balls};
+use super::train::{Train, TrainRow};
 use super::train_picture::{TrainPoint, draw};
 use crate::designs::Design;
 use crate::designs::train::UncagedDesign;
@@ -44,79 +41,6 @@ pub struct UncagedRow {
     pub reference: Option<Friction>,
 }
 
-/// Inputs of a moment.
-const fn inputs(sample: &ScrewSample) -> Inputs {
-    Inputs {
-        nut_speed: sample.nut_speed as f32,
-        axial_load: sample.axial_load as f32,
-    }
-}
-
-impl<const N: usize> Balls<ScrewSample, UncagedOutputs> for FrictionModel<UncagedBallScrew<N>> {
-    fn step(&mut self, sample: &ScrewSample) -> UncagedOutputs {
-        FrictionModel::step(self, inputs(sample))
-    }
-
-    fn pressing(&self) -> u64 {
-        pressing(&self.state().circuit.train)
-    }
-
-    fn reset(&mut self) {
-        FrictionModel::reset(self);
-    }
-
-    fn faulted_ticks(&self) -> u32 {
-        FrictionModel::faulted_ticks(self)
-    }
-
-    fn set_friction(&mut self, friction: f32) -> Result<(), Error> {
-        FrictionModel::<UncagedBallScrew<N>>::set_friction(self, friction)
-    }
-
-    fn set_place(&mut self, angle: f32) -> bool {
-        self.set_nut_angle(angle);
-        true
-    }
-
-    fn copied(&self) -> Box<dyn Balls<ScrewSample, UncagedOutputs>> {
-        Box::new(*self)
-    }
-}
-
-impl<const N: usize> Balls<ScrewSample, UncagedOutputs>
-    for FrictionModel<Remembering<UncagedBallScrew<N>>>
-{
-    fn step(&mut self, sample: &ScrewSample) -> UncagedOutputs {
-        let inputs = memory::fresh(inputs(sample), sample.nut_speed as f32);
-        FrictionModel::step(self, inputs)
-    }
-
-    fn pressing(&self) -> u64 {
-        pressing(&self.state().scene.circuit.train)
-    }
-
-    fn reset(&mut self) {
-        FrictionModel::reset(self);
-    }
-
-    fn faulted_ticks(&self) -> u32 {
-        FrictionModel::faulted_ticks(self)
-    }
-
-    fn set_friction(&mut self, friction: f32) -> Result<(), Error> {
-        self.set_coefficient(OneCoefficient::new(friction)?)
-    }
-
-    fn set_place(&mut self, angle: f32) -> bool {
-        self.set_nut_angle(angle);
-        true
-    }
-
-    fn copied(&self) -> Box<dyn Balls<ScrewSample, UncagedOutputs>> {
-        Box::new(*self)
-    }
-}
-
 impl Uncaged {
     fn train(
         &self,
@@ -135,16 +59,12 @@ impl Uncaged {
         &self,
         tick: f32,
         remembered: Option<&Remembered>,
-    ) -> Built<ScrewSample, UncagedOutputs> {
+    ) -> Built<Inputs, UncagedOutputs> {
         let mut configuration = self.balls.configuration;
         configuration.tick = tick;
-        let Some(remembered) = remembered else {
-            return with_balls!(plain UncagedBallScrew, self.balls.balls, &configuration);
-        };
         let friction = configuration.friction;
-        let angle = memory::speed(tick)?;
-        let whole = memory::configuration(configuration, remembered, angle, friction)?;
-        with_balls!(remembering UncagedBallScrew, self.balls.balls, &whole)
+        let whole = memory::whole(configuration, remembered, tick, friction)?;
+        epas_trains::screw(self.balls.balls, &whole)
     }
 }
 

@@ -1,7 +1,7 @@
 //! Rows of balls that press on each other: a ball screw without cage, a linear bearing.
 
-use epas_bench::bindings::{Balls, Built, Linear, LinearSample, ScrewSample, Uncaged};
-use epas_friction::{LinearOutputs, UncagedOutputs};
+use epas_bench::bindings::{Balls, Built, Linear, MOST_BALLS, Uncaged};
+use epas_friction::{Inputs, LinearInputs, LinearOutputs, UncagedOutputs};
 use pyo3::prelude::*;
 
 use super::columns::{Columns, LinearColumns, UncagedColumns};
@@ -10,11 +10,11 @@ use crate::errors::{Refused, refused};
 use crate::numbers::arguments;
 
 /// A model as it was built.
-fn model<S, O>(py: Python<'_>, built: Built<S, O>) -> PyResult<Box<dyn Balls<S, O>>> {
+fn model<I, O>(py: Python<'_>, built: Built<I, O>) -> PyResult<Box<dyn Balls<I, O>>> {
     match built {
         Ok(Some(model)) => Ok(model),
         Ok(None) => {
-            let message = "balls is out of range; allowed: 1 to 64";
+            let message = format!("balls is out of range; allowed: 1 to {MOST_BALLS}");
             Err(refused(py, Refused::value("balls", message)))
         }
         Err(error) => Err(refused(py, error)),
@@ -35,17 +35,16 @@ fn model<S, O>(py: Python<'_>, built: Built<S, O>) -> PyResult<Box<dyn Balls<S, 
 ///     Error: a value out of its range, or a design that says nothing of its circuit.
 #[pyclass(module = "epas_friction")]
 pub struct UncagedBallScrew {
-    model: Box<dyn Balls<ScrewSample, UncagedOutputs>>,
+    model: Box<dyn Balls<Inputs, UncagedOutputs>>,
     balls: u8,
     tick: f32,
 }
 
-/// A moment, whose time a model does not ask for.
-const fn screw_sample([nut_speed, axial_load]: [f64; 2]) -> ScrewSample {
-    ScrewSample {
-        time: 0.0,
-        nut_speed,
-        axial_load,
+/// Inputs of a tick.
+const fn screw_inputs([nut_speed, axial_load]: [f64; 2]) -> Inputs {
+    Inputs {
+        nut_speed: nut_speed as f32,
+        axial_load: axial_load as f32,
     }
 }
 
@@ -98,8 +97,8 @@ impl UncagedBallScrew {
         nut_speed: f64,
         axial_load: f64,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let sample = screw_sample([nut_speed, axial_load]);
-        UncagedColumns::tick(py, &self.model.step(&sample))
+        let inputs = screw_inputs([nut_speed, axial_load]);
+        UncagedColumns::tick(py, &self.model.step(inputs))
     }
 
     /// A whole trace, tick after tick, from the present state on. Other threads run meanwhile.
@@ -129,7 +128,7 @@ impl UncagedBallScrew {
         let mut columns = UncagedColumns::with_capacity(trace.len());
         let model = &mut self.model;
         trace.each(py, |values| {
-            columns.push(&model.step(&screw_sample(values)));
+            columns.push(&model.step(screw_inputs(values)));
             Ok(())
         })?;
         columns.run(py)
@@ -214,18 +213,17 @@ fn bits(set: u64) -> Vec<u8> {
 ///     Error: a value out of its range.
 #[pyclass(module = "epas_friction")]
 pub struct LinearBearingTrain {
-    model: Box<dyn Balls<LinearSample, LinearOutputs>>,
+    model: Box<dyn Balls<LinearInputs, LinearOutputs>>,
     balls: u8,
     tick: f32,
 }
 
-/// A moment, whose time a model does not ask for.
-const fn linear_sample([speed, normal_load, side_load]: [f64; 3]) -> LinearSample {
-    LinearSample {
-        time: 0.0,
-        speed,
-        normal_load,
-        side_load,
+/// Inputs of a tick.
+const fn linear_inputs([speed, normal_load, side_load]: [f64; 3]) -> LinearInputs {
+    LinearInputs {
+        speed: speed as f32,
+        normal_load: normal_load as f32,
+        side_load: side_load as f32,
     }
 }
 
@@ -278,8 +276,8 @@ impl LinearBearingTrain {
         normal_load: f64,
         side_load: f64,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let sample = linear_sample([speed, normal_load, side_load]);
-        LinearColumns::tick(py, &self.model.step(&sample))
+        let inputs = linear_inputs([speed, normal_load, side_load]);
+        LinearColumns::tick(py, &self.model.step(inputs))
     }
 
     /// A whole trace, tick after tick, from the present state on. Other threads run meanwhile.
@@ -313,7 +311,7 @@ impl LinearBearingTrain {
         let mut columns = LinearColumns::with_capacity(trace.len());
         let model = &mut self.model;
         trace.each(py, |values| {
-            columns.push(&model.step(&linear_sample(values)));
+            columns.push(&model.step(linear_inputs(values)));
             Ok(())
         })?;
         columns.run(py)
