@@ -4,6 +4,8 @@
 //! |---|---|
 //! | [`quantities`] | everything that has a value: names, units, bounds |
 //! | [`friction`] | friction along the trace by the crate's caged scene with memory |
+//! | [`folded`] | that scene with its laws over the load folded before, and kept |
+//! | [`recent`] | what was made last |
 //! | [`problem`] | the whole torque as a separable problem |
 //! | [`refined`] | what the scene's laws leave out between their coefficients |
 //! | [`systematic`] | errors of the sensors and of the model in the intervals |
@@ -18,12 +20,14 @@
 pub mod blocks;
 pub mod choice;
 pub mod evidence;
+pub mod folded;
 pub mod friction;
 pub mod hints;
 #[cfg(test)]
 mod hostile_tests;
 pub mod problem;
 pub mod quantities;
+pub mod recent;
 pub mod refined;
 pub mod rivals;
 pub mod scores;

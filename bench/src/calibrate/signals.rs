@@ -109,27 +109,44 @@ impl Motion {
                 filter.cutoff()
             )));
         }
-        let position = filter.apply(&trace.position);
-        let (speed, noise) = match &trace.speed {
-            Some(measured) if trace.position_summed => {
-                let speed = filter.apply(measured);
-                let noise = of_derivatives(measured, &speed, trace.step, &filter, [0, 1]);
-                (speed, noise)
-            }
-            _ => (
-                derivative(&position, trace.step),
-                of_derivatives(&trace.position, &position, trace.step, &filter, [1, 2]),
-            ),
+        let mut motion = Self {
+            position: Vec::new(),
+            speed: Vec::new(),
+            acceleration: Vec::new(),
+            noise: [0.0; 2],
+            edge,
+        }
+        .again(trace, &filter);
+        let (measured, smooth, orders) = match measured_speed(trace) {
+            Some(speed) => (speed, &motion.speed, [0, 1]),
+            None => (trace.position.as_slice(), &motion.position, [1, 2]),
         };
-        let acceleration = derivative(&speed, trace.step);
-        Ok(Self {
+        motion.noise = of_derivatives(measured, smooth, trace.step, &filter, orders);
+        Ok(motion)
+    }
+
+    /// The motion of a trace that is as long and as noisy, by the same filter.
+    #[must_use]
+    pub fn again(&self, trace: &Trace, filter: &ZeroPhase) -> Self {
+        let position = filter.apply(&trace.position);
+        let speed = match measured_speed(trace) {
+            Some(measured) => filter.apply(measured),
+            None => derivative(&position, trace.step),
+        };
+        Self {
+            acceleration: derivative(&speed, trace.step),
             position,
             speed,
-            acceleration,
-            noise,
-            edge,
-        })
+            noise: self.noise,
+            edge: self.edge,
+        }
     }
+}
+
+/// The speed, where it was measured and the position was not.
+fn measured_speed(trace: &Trace) -> Option<&[f64]> {
+    let speed = trace.speed.as_deref();
+    speed.filter(|_| trace.position_summed)
 }
 
 /// How signals become rows.

@@ -37,10 +37,10 @@ pub(in crate::calibrate) use self::coordinates::{inner, inner_slope, outer};
 pub use self::fixed::Fixed;
 pub use self::starts::{Outcome, Start, Verdict};
 
-/// A few steps after the weights have changed.
+/// One step after the weights have changed: they change again until both stand.
 const REWEIGHTED: Effort = Effort {
     tolerance: 1e-7,
-    slopes: 3,
+    slopes: 1,
     points: 6,
     both: true,
 };

@@ -5,7 +5,7 @@
 use std::f32::consts::{PI, TAU};
 
 use epas_friction::law::coefficient::{
-    CoefficientLaw, CoefficientParameters, DirectionalCoefficient, TemperatureFade, Viscosity,
+    CoefficientLaw, CoefficientParameters, TemperatureFade, Viscosity,
 };
 use epas_friction::law::memory::{
     Hysteresis, LoadExactElements, Part, PreloadedElements, ProportionalElements, SLIP_8,
@@ -13,11 +13,12 @@ use epas_friction::law::memory::{
 use epas_friction::law::motion::{Steady, WrappedAngle, WrappedAngleParameters};
 use epas_friction::law::{Elements, SlidingLimits};
 use epas_friction::scene::{
-    CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, Freshness, FrictionBranch, Inputs,
-    Scene, Sliding, WithMemory, WithMemoryConfiguration, WithMemoryInputs,
+    CagedBallScrew, CagedBallScrewConfiguration, Freshness, FrictionBranch, Inputs, WithMemory,
+    WithMemoryConfiguration, WithMemoryInputs,
 };
 use epas_friction::{Clearance, Error, FrictionModel, RollingResistance};
 
+use super::folded::{Folded, FoldedBallScrew, FoldedBetween, Folds};
 use super::quantities::Values;
 use crate::calibrate::signals::Motion;
 use crate::calibrate::signals::filter::ZeroPhase;
@@ -30,11 +31,10 @@ pub const ELEMENTS: usize = 8;
 pub type Sensor = Steady<WrappedAngle>;
 
 /// A scene with such a memory.
-pub type Remembering<E> = WithMemory<CagedBallScrew, E, Sensor, CoefficientLaw>;
+pub type Remembering<E> = WithMemory<FoldedBallScrew, E, Sensor, CoefficientLaw>;
 
 /// What is set for it.
-pub type Configuration<E> =
-    WithMemoryConfiguration<CagedBallScrewConfiguration, E, Sensor, CoefficientLaw>;
+pub type Configuration<E> = WithMemoryConfiguration<FoldedBetween, E, Sensor, CoefficientLaw>;
 
 /// Distance of the second point of a viscosity from the reference temperature, K.
 const SECOND: f32 = 60.0;
@@ -145,31 +145,24 @@ impl Screw {
     /// # Errors
     /// As [`Self::scene`].
     pub fn reference(&self, values: &Values) -> Result<Reference, Error> {
-        let constants = CagedConstants::new(&self.scene(values)?)?;
-        let mut state = CagedBallScrew::initial_state(&constants);
-        let mut limits = |axial_load: f64| {
-            let both = DirectionalCoefficient {
-                forward: values.friction as f32,
-                backward: values.friction as f32,
-            };
-            let inputs = Inputs {
-                nut_speed: 1.0,
-                axial_load: axial_load as f32,
-            };
-            let full = CagedBallScrew::full(&constants, &mut state, None, inputs, both);
-            CagedBallScrew::limits(&full)
-        };
+        let folded = Folded::new(&self.scene(values)?)?;
+        Ok(self.reference_of(&folded, values))
+    }
+
+    /// The same by laws that are folded.
+    fn reference_of(&self, folded: &Folded, values: &Values) -> Reference {
+        let limits = |load: f64| folded.limits(load as f32, values.friction as f32);
         let largest = limits(self.largest_load);
         let SlidingLimits {
             forward,
             backward,
             load,
         } = limits(self.reference_load);
-        Ok(Reference {
+        Reference {
             torque: 0.5 * (forward + backward),
             load,
             largest_load: largest.load / load,
-        })
+        }
     }
 
     /// Elements in constant shares of the friction.
@@ -238,42 +231,49 @@ impl Screw {
         values: &Values,
         reference: &Reference,
         elements: E,
+        folds: &Folds,
     ) -> Result<Configuration<E>, Error> {
+        let coefficient = CoefficientLaw::new(&self.coefficient(values))?;
         let angle = WrappedAngle::new(WrappedAngleParameters {
             lowest: -PI,
             period: TAU,
             largest_turn: PI,
         })?;
         Ok(WithMemoryConfiguration {
-            scene: self.scene(values)?,
+            scene: folds.between(&self.scene(values)?, coefficient.extremes())?,
             elements,
             angle: Steady::new(angle, 0.5 * values.backlash as f32)?,
             reference_load: reference.load,
             play: elements.breakaway(),
-            coefficient: CoefficientLaw::new(&self.coefficient(values))?,
+            coefficient,
             temperature: TemperatureFade::new(self.reference_temperature as f32, 1.0, 1.0)?,
             freshness: Freshness::DEFAULT,
         })
     }
 
-    /// Friction torque at every sample, N m.
+    /// Friction torque at every sample, N m, by laws that are folded where they are not kept.
     ///
     /// # Errors
     /// [`Error`] naming a value out of range.
-    pub fn friction(&self, values: &Values, course: &Course) -> Result<Vec<f64>, Error> {
-        let reference = self.reference(values)?;
+    pub fn friction(
+        &self,
+        values: &Values,
+        course: &Course,
+        folds: &Folds,
+    ) -> Result<Vec<f64>, Error> {
+        let reference = self.reference_of(&folds.own(&self.scene(values)?)?, values);
         match self.elements {
             ElementsKind::Proportional => {
                 let elements = self.proportional(values, &reference)?;
-                course.friction(&self.configuration(values, &reference, elements)?)
+                course.friction(&self.configuration(values, &reference, elements, folds)?)
             }
             ElementsKind::Preloaded => {
                 let elements = self.preloaded(values, &reference)?;
-                course.friction(&self.configuration(values, &reference, elements)?)
+                course.friction(&self.configuration(values, &reference, elements, folds)?)
             }
             ElementsKind::LoadExact => {
                 let elements = self.load_exact(values, &reference)?;
-                course.friction(&self.configuration(values, &reference, elements)?)
+                course.friction(&self.configuration(values, &reference, elements, folds)?)
             }
         }
     }

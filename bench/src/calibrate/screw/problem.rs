@@ -9,11 +9,13 @@
 //! trace. `S` is the sum of both flanks' loads.
 
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
+use super::folded::Folds;
 use super::friction::{Course, Screw};
 use super::quantities::{Factor, Linear, Nonlinear, Values};
 use super::refined::correction;
-use super::waves::{WavyRows, flank_sum};
+use super::waves::{Waves, flank_sum};
 use crate::calibrate::fit::problem::{Evaluation, LinearParameter, Parameter, Separable};
 use crate::calibrate::signals::filter::ZeroPhase;
 use crate::calibrate::signals::{Motion, Rows};
@@ -36,7 +38,8 @@ pub struct ScrewProblem<'a> {
     /// Linear quantities that are not estimated and not zero.
     set: Vec<(&'static Linear, Column)>,
     target: Vec<f64>,
-    wavy_rows: WavyRows,
+    waves: Waves,
+    folds: Arc<Folds>,
     /// Factor of the friction at every sample; none where it is as the scene gives it.
     correction: Option<Vec<f64>>,
 }
@@ -97,7 +100,8 @@ impl<'a> ScrewProblem<'a> {
             linear_parameters: choice.linear.iter().map(|of| of.parameter()).collect(),
             set: Vec::new(),
             target: rows.of(&trace.effort),
-            wavy_rows: WavyRows::default(),
+            waves: Waves::default(),
+            folds: Arc::default(),
             correction: None,
         };
         let free = |name: &str| problem.nonlinear.iter().any(|(p, _)| p.name == name);
@@ -122,7 +126,9 @@ impl<'a> ScrewProblem<'a> {
             .map(column)
             .collect();
         (problem.linear, problem.set) = (linear, set);
-        let friction = problem.screw.friction(&values, &problem.course);
+        let friction = problem
+            .screw
+            .friction(&values, &problem.course, &problem.folds);
         friction.map_err(|error| Failure::Data(error.to_string()))?;
         Ok(problem)
     }
@@ -147,7 +153,7 @@ impl<'a> ScrewProblem<'a> {
 
     /// Friction at every sample, N m; no numbers where the scene refuses the values.
     pub fn friction(&self, values: &Values) -> Vec<f64> {
-        let Ok(mut friction) = self.screw.friction(values, &self.course) else {
+        let Ok(mut friction) = self.screw.friction(values, &self.course, &self.folds) else {
             return vec![f64::NAN; self.trace.len()];
         };
         if let Some(factors) = &self.correction {
@@ -202,8 +208,8 @@ impl<'a> ScrewProblem<'a> {
             Column::Moving => match of.factor {
                 Factor::Cosine(_) | Factor::Sine(_) => {
                     let preload = self.screw.axial_preload(values);
-                    self.wavy_rows
-                        .of(of.factor, preload, || self.column(of.factor, values))
+                    self.waves
+                        .rows(of.factor, preload, || self.column(of.factor, values))
                 }
                 _ => self.column(of.factor, values),
             },
@@ -234,9 +240,10 @@ impl<'a> ScrewProblem<'a> {
             ..
         } = self.motion;
         let waves = |wave: fn(f64) -> f64, order: u8| {
-            let sum = self.flank_sums(values);
-            let angles = position.iter().map(|angle| wave(f64::from(order) * angle));
-            angles.zip(sum).map(|(wave, sum)| wave * sum).collect()
+            let angles = position.iter().map(|angle| f64::from(order) * angle);
+            let waves = self.waves.wave(factor, || angles.map(wave).collect());
+            let sums = waves.iter().zip(self.flank_sums(values));
+            sums.map(|(wave, sum)| wave * sum).collect()
         };
         match factor {
             Factor::Acceleration => acceleration.clone(),
@@ -292,7 +299,8 @@ impl<'a> ScrewProblem<'a> {
             linear_parameters: Vec::new(),
             set: Vec::new(),
             target: Vec::new(),
-            wavy_rows: WavyRows::default(),
+            waves: Waves::default(),
+            folds: Arc::clone(&self.folds),
             correction: self.correction.clone(),
         };
         other.whole(other.friction(values), values)

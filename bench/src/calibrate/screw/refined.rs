@@ -4,10 +4,11 @@
 //! friction has a bend there, and the parabola is off by up to 0.4 % of it. A fit would take that for a speed at which films form (3 % of
 //! the half-share speed). So the fit's friction is corrected by more laws of the same kind, each exact at its own coefficient.
 
-use epas_friction::law::coefficient::{CoefficientLaw, DirectionalCoefficient};
-use epas_friction::scene::{CagedCoefficients, CagedConstants, CagedState, Inputs, Scene, Sliding};
-use epas_friction::{CagedBallScrew, CagedBallScrewConfiguration, Error};
+use epas_friction::law::SlidingLimits;
+use epas_friction::law::coefficient::CoefficientLaw;
+use epas_friction::{CagedBallScrewConfiguration, Error};
 
+use super::folded::Folded;
 use super::friction::{Course, Screw};
 use super::quantities::Values;
 
@@ -26,50 +27,6 @@ struct Table {
     load_step: f64,
 }
 
-/// A scene that gives full friction.
-struct Sounding {
-    constants: CagedConstants,
-    state: CagedState,
-    coefficients: Option<CagedCoefficients>,
-}
-
-impl Sounding {
-    fn new(
-        configuration: &CagedBallScrewConfiguration,
-        range: Option<(f32, f32)>,
-    ) -> Result<Self, Error> {
-        let constants = CagedConstants::new(configuration)?;
-        let state = CagedBallScrew::initial_state(&constants);
-        Ok(Self {
-            coefficients: range
-                .map(|(least, largest)| CagedBallScrew::coefficients(&constants, least, largest)),
-            constants,
-            state,
-        })
-    }
-
-    /// Friction against a forward motion and against a backward one.
-    fn full(&mut self, load: f64, friction: f32) -> [f64; 2] {
-        let both = DirectionalCoefficient {
-            forward: friction,
-            backward: friction,
-        };
-        let inputs = Inputs {
-            nut_speed: 1.0,
-            axial_load: load as f32,
-        };
-        let full = CagedBallScrew::full(
-            &self.constants,
-            &mut self.state,
-            self.coefficients.as_ref(),
-            inputs,
-            both,
-        );
-        let limits = CagedBallScrew::limits(&full);
-        [limits.forward.into(), limits.backward.into()]
-    }
-}
-
 impl Table {
     fn new(screw: &Screw, values: &Values) -> Result<Option<Self>, Error> {
         let law = CoefficientLaw::new(&screw.coefficient(values))?;
@@ -78,22 +35,20 @@ impl Table {
             return Ok(None);
         }
         let configuration = screw.scene(values)?;
-        let mut three = Sounding::new(&configuration, Some((least, largest)))?;
+        let three = Folded::new(&configuration)?.between(least, largest);
         let coefficient_step = (largest - least) / (LAWS - 1) as f32;
         let load_step = screw.largest_load / (LOADS - 1) as f64;
         let mut ratios = vec![[[1.0; 2]; LAWS]; LOADS];
         for place in 0..LAWS {
             let friction = least + coefficient_step * place as f32;
-            let mut exact = Sounding::new(
-                &CagedBallScrewConfiguration {
-                    friction,
-                    ..configuration
-                },
-                None,
-            )?;
+            let exact = Folded::new(&CagedBallScrewConfiguration {
+                friction,
+                ..configuration
+            })?;
             for (index, row) in ratios.iter_mut().enumerate() {
-                let load = load_step * index as f64;
-                let (exact, three) = (exact.full(load, friction), three.full(load, friction));
+                let load = (load_step * index as f64) as f32;
+                let exact = sides(exact.limits(load, friction));
+                let three = sides(three.limits(load, friction));
                 if let Some(ratio) = row.get_mut(place) {
                     *ratio = [0, 1].map(|side: usize| {
                         let ratio = exact[side] / three[side];
@@ -121,6 +76,11 @@ impl Table {
         let (one, other) = (along(&self.ratios[load]), along(&self.ratios[load + 1]));
         one + part * (other - one)
     }
+}
+
+/// Friction under a load that opposes the motion, and under one that assists it.
+fn sides(limits: SlidingLimits) -> [f64; 2] {
+    [limits.forward.into(), limits.backward.into()]
 }
 
 /// Place below a number on a grid of so many, and the part beyond it.

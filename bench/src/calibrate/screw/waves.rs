@@ -1,33 +1,51 @@
 //! Waves of the torque over the turn, which grow with both flanks' loads.
 
-use std::sync::{Mutex, PoisonError};
+use std::convert::Infallible;
+use std::sync::Arc;
 
 use super::quantities::Factor;
+use super::recent::Recent;
 
 /// Rows that are kept: two preloads of four waves.
 const KEPT: usize = 8;
 
-/// Rows of waves under the last preloads: slopes change one quantity at a time, and most leave the preload.
-#[derive(Default)]
-pub struct WavyRows(Mutex<Vec<(u64, Factor, Vec<f64>)>>);
+/// Waves that are kept: cosine and sine of two orders.
+const WAVES: usize = 4;
 
-impl WavyRows {
-    /// Rows of a wave under a preload, made where they are not kept.
-    pub fn of(&self, factor: Factor, preload: f64, make: impl FnOnce() -> Vec<f64>) -> Vec<f64> {
-        let preload = preload.to_bits();
-        let kept = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let same = |(own, wave, _): &&(u64, Factor, Vec<f64>)| (*own, *wave) == (preload, factor);
-        if let Some((_, _, rows)) = kept().iter().find(same) {
-            return rows.clone();
+/// Waves over the angle, and their rows under the last preloads: slopes change one quantity at a time, and most leave the preload.
+pub struct Waves {
+    waves: Recent<Factor, Arc<[f64]>>,
+    rows: Recent<(u64, Factor), Vec<f64>>,
+}
+
+impl Default for Waves {
+    fn default() -> Self {
+        Self {
+            waves: Recent::new(WAVES),
+            rows: Recent::new(KEPT),
         }
-        let rows = make();
-        let mut kept = kept();
-        if kept.len() == KEPT {
-            kept.remove(0);
-        }
-        kept.push((preload, factor, rows.clone()));
-        rows
     }
+}
+
+impl Waves {
+    /// A wave over the angles of the trace, made where it is not kept.
+    pub fn wave(&self, factor: Factor, make: impl FnOnce() -> Arc<[f64]>) -> Arc<[f64]> {
+        kept(&self.waves, factor, make)
+    }
+
+    /// Rows of a wave under a preload, made where they are not kept.
+    pub fn rows(&self, factor: Factor, preload: f64, make: impl FnOnce() -> Vec<f64>) -> Vec<f64> {
+        kept(&self.rows, (preload.to_bits(), factor), make)
+    }
+}
+
+fn kept<K: Copy + PartialEq, V: Clone>(
+    recent: &Recent<K, V>,
+    key: K,
+    make: impl FnOnce() -> V,
+) -> V {
+    let Ok(value) = recent.of(key, || Ok::<_, Infallible>(make()));
+    value
 }
 
 /// Sum of the axial forces of two flanks that share one Hertzian deflection, N, under a load: the series
@@ -41,34 +59,5 @@ pub fn flank_sum(preload: f64, load: f64) -> f64 {
         preload * (2.0 + square / 12.0 * (1.0 + quartic * square))
     } else {
         load
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// The last rows of every preload and wave, whatever came between.
-    #[test]
-    fn rows_are_those_of_their_preload_and_wave() {
-        let kept = WavyRows::default();
-        let mut made = 0;
-        for round in 0..3 {
-            for preload in 0..5 {
-                for order in 1..=2 {
-                    let value = f64::from(10 * preload + order);
-                    let factor = Factor::Cosine(order as u8);
-                    let rows = kept.of(factor, f64::from(preload), || {
-                        made += 1;
-                        vec![value]
-                    });
-                    assert_eq!(rows, [value]);
-                    let again = kept.of(factor, f64::from(preload), || unreachable!());
-                    assert_eq!(again, [value], "{round}");
-                }
-            }
-        }
-        // Ten do not fit into eight: all are made in every round.
-        assert_eq!(made, 30);
     }
 }
