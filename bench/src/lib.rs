@@ -17,12 +17,10 @@ pub mod calibrate;
 #[cfg(feature = "program")]
 mod cli;
 mod controller;
-#[cfg(feature = "program")]
 #[doc(hidden)]
 pub mod design_study;
 mod designs;
 mod document;
-#[cfg(feature = "program")]
 mod eval;
 #[cfg(feature = "program")]
 #[doc(hidden)]
@@ -42,7 +40,6 @@ mod plot;
 mod progress;
 #[cfg(feature = "program")]
 mod report;
-#[cfg(feature = "program")]
 #[doc(hidden)]
 pub mod row;
 #[cfg(feature = "program")]
@@ -71,7 +68,6 @@ pub fn run() -> ExitCode {
 }
 
 /// What reads untrusted text, without files: for the fuzz targets.
-#[cfg(feature = "program")]
 #[doc(hidden)]
 pub mod untrusted {
     /// Answers one line as `eval` does; whether it was a good request.

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use epas_firmware::inputs::COUNTED;
 use epas_firmware::subjects::{PEERS, SUBJECTS};
+use rayon::prelude::*;
 
 use super::figures::{Figures, FunctionFigures, SceneFigures};
 use super::image::{Image, code};
@@ -40,21 +41,25 @@ pub fn measure() -> Result<Figures, Failure> {
     let (folder, panic_free) = built(&images, "release")?;
     let panic_free = panic_free && small_panic_free;
 
-    let checked = Core::M4.run(&folder.join("check"))?;
-    let looped = Core::M4.run(&folder.join("control_loop"))?;
-    for run in [&checked, &looped] {
-        if !run.passed {
-            eprint!("{}", run.text());
-        }
-    }
+    // An emulator has one thread: as many run at once as there are cores.
+    let folders = [folder.as_path(), small.as_path()];
+    let empty = scene(folders, "empty", 0)?.0;
+    let ((functions, runs), scenes) = rayon::join(
+        || rayon::join(|| functions(folders), || whole_programs(&folder)),
+        || {
+            let scenes = SCENES.par_iter();
+            let scenes = scenes.map(|(name, _, _)| scene(folders, name, empty.flash));
+            scenes.collect::<Result<Vec<_>, Failure>>()
+        },
+    );
 
     let mut figures = Figures {
-        functions: functions(&folder, &small)?,
+        functions: functions?,
         scenes: Vec::new(),
-        empty: scene([&folder, &small], "empty", 0)?.0,
+        empty,
         panic_free,
         soft_double: false,
-        equal_to_host: checked.passed && looped.passed,
+        equal_to_host: runs?,
         scenes_equal: true,
         unwanted: Vec::new(),
         recursive: Vec::new(),
@@ -62,14 +67,13 @@ pub fn measure() -> Result<Figures, Failure> {
     };
     let mut alone = Vec::new();
     let mut together = Vec::new();
-    for (name, has, left_out) in SCENES {
-        let (scene, lines) = scene([&folder, &small], name, figures.empty.flash)?;
+    for ((name, has, left_out), (scene, lines)) in SCENES.iter().zip(scenes?) {
         figures
             .out_of_place
             .extend(out_of_place(&folder, name, has, left_out)?);
         figures.scenes.push(scene);
         let digests = lines.into_iter().map(|line| (line.name, line.digest));
-        if name == "everything" {
+        if *name == "everything" {
             together.extend(digests);
         } else {
             alone.extend(digests);
@@ -109,18 +113,35 @@ fn built(images: &[&str], profile: &str) -> Result<(PathBuf, bool), Failure> {
     }
 }
 
+/// Whether the check and the control loop have the host's results; what they say where they have not.
+fn whole_programs(folder: &Path) -> Result<bool, Failure> {
+    let programs = ["check", "control_loop"].par_iter();
+    let runs = programs.map(|name| Core::M4.run(&folder.join(name)));
+    let runs = runs.collect::<Result<Vec<_>, Failure>>()?;
+    for run in runs.iter().filter(|run| !run.passed) {
+        eprint!("{}", run.text());
+    }
+    Ok(runs.iter().all(|run| run.passed))
+}
+
 /// Counts every function on both cores, on the first one built for size as well.
-fn functions(folder: &Path, small: &Path) -> Result<Vec<FunctionFigures>, Failure> {
-    let on_m4 = count(Core::M4, &folder.join("count"))?;
-    let small = count(Core::M4, &small.join("count"))?;
-    let on_m7 = match build(&["count"], Core::M7, "release", "halt")? {
-        Built::In(folder) => count(Core::M7, &folder.join("count"))?,
-        Built::Panics(said) => return Err(Failure::Data(said)),
-    };
-    on_m4
+fn functions([folder, small]: [&Path; 2]) -> Result<Vec<FunctionFigures>, Failure> {
+    let (on_m7, (on_m4, small)) = rayon::join(
+        || match build(&["count"], Core::M7, "release", "halt")? {
+            Built::In(folder) => count(Core::M7, &folder.join("count")),
+            Built::Panics(said) => Err(Failure::Data(said)),
+        },
+        || {
+            rayon::join(
+                || count(Core::M4, &folder.join("count")),
+                || count(Core::M4, &small.join("count")),
+            )
+        },
+    );
+    on_m4?
         .iter()
-        .zip(&small)
-        .zip(&on_m7)
+        .zip(&small?)
+        .zip(&on_m7?)
         .map(|(((name, calls), (_, small)), (_, other))| {
             let missing = || Failure::Data(format!("{name} was never called"));
             let [instructions, cycles] = calls.ranges().ok_or_else(missing)?;
