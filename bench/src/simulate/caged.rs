@@ -18,7 +18,7 @@ use super::samples::ScrewSample;
 use super::scene::Scene;
 use super::screw::{self, ScrewSummary};
 use super::summary::Lines;
-use super::trace::Trace;
+use super::trace::{SceneSample, Trace};
 use crate::designs::Design;
 use crate::failure::Failure;
 
@@ -138,11 +138,7 @@ impl Scene for Caged {
                 if let Some(last) = last.replace(sample) {
                     angle += 0.5 * (last.nut_speed + sample.nut_speed) * (sample.time - last.time);
                 }
-                let inputs = Inputs {
-                    nut_speed: sample.nut_speed as f32,
-                    axial_load: sample.axial_load as f32,
-                };
-                let outputs = model(inputs, wrapped(angle));
+                let outputs = model(sample.inputs(), wrapped(angle));
                 done();
                 CagedRow {
                     sample,

@@ -285,8 +285,9 @@ fn print_means(course: &str, runs: &[Run]) {
 /// friction; imitations from a sharper angle take off the rest (1.8 % before).
 ///
 /// Widths are 1.4 to 2.7 times the bound, of the friction coefficient up to 3.4 and of the breakaway angle 4 to 10 times: the bound knows
-/// neither the load's noise nor the encoder's counts, nor what the model leaves out. The mean of 100 runs does not hold half-share speed
-/// (3 % off) and inertia (0.2 %) of the vehicle's course, nor inertia (1.0 %) and two waves (4 and 6 %) of the rig's, nor a wave (7 %) and inertia (0.2 %) of both in a row.
+/// neither the load's noise nor the encoder's counts, nor what the model leaves out. What the mean of 100 runs does not hold: half-share speed
+/// (3 % off) and inertia (0.2 %) of the vehicle's course; inertia (1.0 %) and two waves (4 and 6 %) of the rig's; inertia (0.2 %) and a wave
+/// (7 %) of the whole.
 #[test]
 #[ignore = "a hundred traces of a minute on each of three courses take seven minutes on two cores"]
 fn intervals_hold_nine_times_of_ten() {

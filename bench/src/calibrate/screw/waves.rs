@@ -61,3 +61,32 @@ pub fn flank_sum(preload: f64, load: f64) -> f64 {
         load
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The last rows of every preload and wave, whatever came between.
+    #[test]
+    fn rows_are_those_of_their_preload_and_wave() {
+        let kept = Waves::default();
+        let mut made = 0;
+        for round in 0..3 {
+            for preload in 0..5 {
+                for order in 1..=2 {
+                    let value = f64::from(10 * preload + order);
+                    let factor = Factor::Cosine(order as u8);
+                    let rows = kept.rows(factor, f64::from(preload), || {
+                        made += 1;
+                        vec![value]
+                    });
+                    assert_eq!(rows, [value]);
+                    let again = kept.rows(factor, f64::from(preload), || unreachable!());
+                    assert_eq!(again, [value], "{round}");
+                }
+            }
+        }
+        // Ten do not fit into eight: all are made in every round.
+        assert_eq!(made, 30);
+    }
+}
