@@ -1,19 +1,18 @@
 //! A linear bearing whose balls press on each other.
 
-use epas_friction::law::coefficient::OneCoefficient;
 use epas_friction::{
-    Error, FrictionModel, LinearBearingConfiguration, LinearBearingTrain, LinearInputs,
-    LinearOutputs,
+    FrictionModel, LinearBearingConfiguration, LinearBearingTrain, LinearInputs, LinearOutputs,
 };
 
-use crate::memory::{Remembering, fresh};
+use crate::memory::Remembering;
 use crate::number::with_balls;
-use crate::{Balls, Built, Configuration, pressing};
+use crate::row::{Row, pressing};
+use crate::{Built, Configuration};
 
 /// A linear bearing with so many balls, 1 to 64.
 ///
 /// # Errors
-/// [`Error`] naming a field out of range.
+/// [`epas_friction::Error`] naming a field out of range.
 pub fn bearing(
     balls: u8,
     configuration: &Configuration<LinearBearingConfiguration>,
@@ -26,65 +25,17 @@ pub fn bearing(
     }
 }
 
-impl<const N: usize> Balls<LinearInputs, LinearOutputs> for FrictionModel<LinearBearingTrain<N>> {
-    fn step(&mut self, inputs: LinearInputs) -> LinearOutputs {
-        Self::step(self, inputs)
+impl<const N: usize> Row for LinearBearingTrain<N> {
+    fn pressing(state: &Self::State) -> u64 {
+        pressing(&state.circuit.train)
     }
 
-    fn pressing(&self) -> u64 {
-        pressing(&self.state().circuit.train)
-    }
-
-    fn reset(&mut self) {
-        Self::reset(self);
-    }
-
-    fn faulted_ticks(&self) -> u32 {
-        Self::faulted_ticks(self)
-    }
-
-    fn set_friction(&mut self, friction: f32) -> Result<(), Error> {
-        Self::set_friction(self, friction)
-    }
-
-    fn set_place(&mut self, position: f32) -> bool {
-        self.set_carriage_position(position);
+    fn set_place(model: &mut FrictionModel<Self>, position: f32) -> bool {
+        model.set_carriage_position(position);
         true
     }
 
-    fn copied(&self) -> Box<dyn Balls<LinearInputs, LinearOutputs>> {
-        Box::new(*self)
-    }
-}
-
-impl<const N: usize> Balls<LinearInputs, LinearOutputs>
-    for FrictionModel<Remembering<LinearBearingTrain<N>>>
-{
-    fn step(&mut self, inputs: LinearInputs) -> LinearOutputs {
-        Self::step(self, fresh(inputs, inputs.speed))
-    }
-
-    fn pressing(&self) -> u64 {
-        pressing(&self.state().scene.circuit.train)
-    }
-
-    fn reset(&mut self) {
-        Self::reset(self);
-    }
-
-    fn faulted_ticks(&self) -> u32 {
-        Self::faulted_ticks(self)
-    }
-
-    fn set_friction(&mut self, friction: f32) -> Result<(), Error> {
-        self.set_coefficient(OneCoefficient::new(friction)?)
-    }
-
-    fn set_place(&mut self, _: f32) -> bool {
+    fn set_remembered_place(_: &mut FrictionModel<Remembering<Self>>, _: f32) -> bool {
         false
-    }
-
-    fn copied(&self) -> Box<dyn Balls<LinearInputs, LinearOutputs>> {
-        Box::new(*self)
     }
 }

@@ -3,10 +3,10 @@
 mod bearing;
 mod memory;
 mod number;
+mod row;
 mod screw;
 
 use epas_friction::Error;
-use epas_friction::train::Train;
 
 pub use bearing::bearing;
 pub use memory::{ELEMENTS, Elements, Remembering, RememberingConfiguration, TEMPERATURE, fresh};
@@ -45,12 +45,4 @@ pub enum Configuration<C> {
     Plain(C),
     /// It has a memory.
     Remembering(RememberingConfiguration<C>),
-}
-
-/// Balls that press on the one in front, one bit each.
-pub fn pressing<const N: usize>(train: &Train<N>) -> u64 {
-    train
-        .contacts()
-        .iter()
-        .fold(0, |bits, contact| bits | 1 << contact.ball)
 }
