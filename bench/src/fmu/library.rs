@@ -57,7 +57,14 @@ pub fn build(balls: u8) -> Result<Vec<u8>, Failure> {
     let target = std::env::var_os("CARGO_TARGET_DIR")
         .map_or_else(|| sources.join("../../target"), PathBuf::from);
     let output = Command::new(cargo)
-        .args(["build", "--locked", "--quiet", "--release", "--lib"])
+        .args([
+            "build",
+            "--locked",
+            "--quiet",
+            "--release",
+            "--package",
+            "epas-fmu",
+        ])
         .arg("--target-dir")
         .arg(&target)
         .current_dir(&sources)
