@@ -1,13 +1,13 @@
-//! One ball between its grooves, as a step computes it.
+//! One ball between its grooves: as a step computes it, and in closed form for comparison.
 //!
 //! | | what it is | runs in |
 //! |---|---|---|
 //! | [`AnalyticLinearBall`] | ball of a linear bearing, the published closed form (Lin 2019, eqs. (3.43), (3.51)) | `LinearBearingTrain` |
 //! | [`elastic`] | ball of a ball screw in elastic grooves, renewed by Newton steps of place and motion (Lin 2019, eqs. (2.11)-(2.14), (3.65)-(3.69)) | `CagedBallScrew`, `UncagedBallScrew` |
-//! | [`ScrewRow`], [`ScrewTick`] | balls of a ball screw under one load in closed form, for comparison | set-up of `UncagedBallScrew`: the range of speeds |
-//! | [`LoadShare`], [`LoadShares`] | a ball's share of the load; along the track, for both signs of it | both |
+//! | [`ScrewRow`], [`ScrewTick`] | balls of a ball screw under one load in closed form, for comparison | set-up of `UncagedBallScrew`: the range of speeds; direct |
+//! | [`LoadShare`], [`LoadShares`] | a ball's share of the load; along the track, for both signs of it | `UncagedBallScrew`, `LinearBearingTrain` |
 //! | [`Clearance`] | how balls fit between the grooves | set-up of both ball screws |
-//! | `preload` | two springs pressed against each other, and what a load leaves of it | closed forms of both ball screws |
+//! | `preload` | two springs pressed against each other, and what a load leaves of it | closed forms of `CagedBallScrew` and [`ScrewRow`]; [`PreloadedElements`](crate::law::memory::PreloadedElements) |
 //!
 //! Refined forms, which a step does not run, stand in [`refined`](crate::refined).
 

@@ -1,12 +1,12 @@
 //! What to take for a ball screw of which nothing has been measured: friction coefficient, clearance, rolling
-//! resistance.
+//! resistance, lubricant.
 //!
 //! Set-up: numbers for a configuration. No drawing prints them, and they decide a screw's friction: at 14.5 kN the
 //! screw of 37 balls (33x20) has 0.8 to 5 N m between the friction coefficients 0.05 and 0.15, and 3.2 to 1.2 N m
 //! between 5 um of oversize and 20 um of play (friction 0.1). Whoever has a measured torque should fit the friction
 //! coefficient to it.
 //!
-//! With these three, all of the exact model (slip, spin, every contact that carries, rolling resistance):
+//! With the first three, all of the exact model (slip, spin, every contact that carries, rolling resistance):
 //!
 //! | | computed | makers print |
 //! |---|---|---|

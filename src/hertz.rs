@@ -1,6 +1,6 @@
 //! The contact ellipse: axis ratio, semi-axes, deflection and pressure of one Hertzian contact.
 //!
-//! Set-up of both scenes whose balls press; [`HertzContact::at`] is called directly.
+//! Set-up of all three scenes; [`HertzContact::at`] is called directly.
 //!
 //! Everything that follows from the curvatures is folded at set-up; per tick only the cube root of
 //! the load is left.

@@ -20,8 +20,8 @@
 //! # Where things are, and where they run
 //!
 //! In the order of use: a module imports only from those above it. "Step" means that the control interrupt runs it;
-//! "set-up" that it runs once, or in the compiler; "around ignition" that firmware calls it outside the interrupt; "direct" that no scene links it: firmware or a tool that wants it
-//! calls it by its own name.
+//! "set-up" that it runs once, or in the compiler; "around ignition" that firmware calls it outside the interrupt;
+//! "direct" that no scene links it: firmware or a tool that wants it calls it by its own name.
 //!
 //! | module | what | runs in |
 //! |---|---|---|
@@ -33,19 +33,20 @@
 //! | [`geometry`] | validated designs, built-in sizes | set-up |
 //! | [`curvature`] | groove curvature: literature, circular groove, fitted, exact | set-up (the exact one); direct |
 //! | [`hertz`] | contact ellipse, deflection, pressure | set-up; direct |
-//! | [`contact`] | friction of one contact: along the track, across it, in any direction; rolling resistance | set-up and step (across); direct |
+//! | [`contact`] | friction of one contact: along the track, across it, in any direction; rolling resistance | set-up; step of both ball screws (any direction, rolling resistance); direct |
 //! | [`train`] | a row of balls that push each other: free speeds and impedances in, forces and moves out | step of both trains |
-//! | [`ball`] | one ball between its grooves, closed forms | step of both trains |
-//! | [`defaults`] | friction coefficient, clearance and rolling resistance where nothing is measured | set-up |
+//! | [`ball`] | one ball between its grooves: elastic (by Newton steps) in a screw, in closed form in a linear bearing | step of all three scenes |
 //! | [`refined`] | one ball and chains of balls, refined by Newton steps | direct |
 //! | [`efficiency`] | closed-form efficiency, self-locking; optimum and design procedure | set-up of the caged scene; direct |
 //! | [`kinematics`] | rolling, side and spin slip of a contact, their ratios and friction power | direct |
 //! | [`law`] | friction that remembers; friction coefficient by speed and temperature | step of scenes with memory; direct |
+//! | [`defaults`] | friction coefficient, clearance, rolling resistance and lubricant where nothing is measured | set-up |
 //! | [`scene`] | what a mechanism needs and what it leaves out | step |
 //! | [`model`] | [`FrictionModel`]: admit, compute, limit, count | step |
 //! | [`adaptation`] | level of the friction, drag and sensor errors, found while the vehicle runs; health | beside the step |
 //! | `hal` | adapters for `embedded-hal`: nut speed from an encoder, friction torque to a duty cycle | beside the step |
 //! | [`promises`] | domain, errors, behaviour outside and cost of every function, in one table | nowhere: a table |
+//! | `fits` | stored coefficients of fits, for the tests that make them again; not documented | nowhere: constants |
 //!
 //! Everything is set up once, with errors that name the field, its value and the allowed range; from
 //! then on nothing returns a `Result`, nothing panics, and every output is finite and flagged.

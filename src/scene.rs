@@ -6,9 +6,10 @@
 //!
 //! | | what it is | links |
 //! |---|---|---|
-//! | [`CagedBallScrew`] | balls that do not touch | [`ball`](crate::ball), [`contact`](crate::contact); [`efficiency`](crate::efficiency) at set-up |
-//! | [`UncagedBallScrew`] | balls that press on each other | [`ball`](crate::ball), [`contact`](crate::contact), [`train`](crate::train) |
-//! | [`LinearBearingTrain`] | four-point linear bearing, balls that press on each other | [`ball`](crate::ball), [`train`](crate::train) |
+//! | [`CagedBallScrew`] | balls that do not touch | [`ball`](crate::ball), [`contact`](crate::contact); [`hertz`](crate::hertz) and [`efficiency`](crate::efficiency) at set-up |
+//! | [`UncagedBallScrew`] | balls that press on each other | [`ball`](crate::ball), [`contact`](crate::contact), [`train`](crate::train); [`hertz`](crate::hertz) at set-up |
+//! | [`LinearBearingTrain`] | four-point linear bearing, balls that press on each other | [`ball`](crate::ball), [`train`](crate::train); [`contact`](crate::contact) and [`hertz`](crate::hertz) at set-up |
+//! | [`WithMemory`] | any of them, with friction that remembers | [`law`](crate::law) beside it |
 //!
 //! Below them stand the [`Scene`] contract with inputs, limits and regimes, the faults, the outputs (torques of a
 //! screw, forces of a bearing), and the circuit that both trains share: loaded zone, phase of the passing groove,

@@ -72,7 +72,7 @@ impl LinearBallParameters {
 /// keeps the speed from before, too large by up to 9.5e-3 per degree, never of the wrong sense, and never
 /// beyond `tan(beta_0)/2` times the larger of the two differences of angles.
 ///
-/// Cost of two balls and the force between them: 244 modelled cycles.
+/// Cost of two balls and the force between them: 243 modelled cycles.
 ///
 /// ```
 /// use epas_friction::ball::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE};

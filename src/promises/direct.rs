@@ -241,7 +241,7 @@ pub const BALL_CHAIN: Promise = Promise {
     ..ANALYTIC_PAIR
 };
 
-/// [`ScrewRow::at`](crate::ball::ScrewRow::at): what all balls have in common at a tick.
+/// [`ScrewRow::at`](crate::ball::ScrewRow::at): what all balls of a row have in common under one load.
 pub const SCREW_ROW: Promise = Promise {
     function: "ScrewRow::at",
     domain: "screw of Lin 2019, Table 2.1, 0.1 to 1000 N a ball, friction 0.05 to 0.12",

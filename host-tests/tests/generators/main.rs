@@ -10,7 +10,7 @@
 //! | `sine` | `math::own` |
 //! | `nodes` | nodes of interpolation and quadrature, tables of sines, numbers with a name |
 //! | `lines` | `kinematics::friction_power` |
-//! | `sagitta` | `kinematics::parameters` |
+//! | `sagitta` | `kinematics::path` |
 //! | `preload` | `ball::preload` |
 //! | `refined_balls` | chosen constants of `refined` |
 

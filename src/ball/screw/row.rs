@@ -1,4 +1,4 @@
-//! Closed form for a row of balls in a ball screw, at the price of a control loop.
+//! Closed form for a row of balls in a ball screw, for comparison and for the range of speeds at set-up.
 
 use super::contacts::{Contacts, Loads};
 use super::fit::GrooveFit;
@@ -16,7 +16,7 @@ const SMALLEST_LOAD: f32 = 1e-3;
 /// Balls of one ball screw: constants of the closed form.
 ///
 /// The closed form of [`ScrewBall`](crate::refined::ScrewBall) where all balls carry shares of one axial load and contact angles
-/// deviate with the grooves: what depends on the load is found once a tick ([`ScrewRow::at`]), and a ball costs two
+/// deviate with the grooves: what depends on the load is found once ([`ScrewRow::at`]), and a ball then costs two
 /// polynomials ([`ScrewTick::ball`]). Spin moments are left out:
 ///
 /// ```text
@@ -124,7 +124,9 @@ impl ScrewRow {
         })
     }
 
-    /// The row under a load: once a tick.
+    /// The row under an axial load of the screw on each ball, N, in size 1e-3 to 1e7: one below, one beyond, and NaN count
+    /// as 1e-3 N. Of the nut's speed, rad/s, the sign alone counts, with that of the load: it says which groove has the
+    /// third contact. Cost: 892 modelled cycles on a Cortex-M4F.
     #[inline]
     #[must_use]
     pub fn at(&self, nut_speed: f32, axial_load_per_ball: f32) -> ScrewTick {

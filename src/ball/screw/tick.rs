@@ -1,9 +1,10 @@
-//! A row of balls at one tick, and one ball of it: the formula that a step runs for every ball.
+//! A row of balls under one load, and one ball of it, in closed form: called directly, and at the set-up of
+//! [`UncagedBallScrew`](crate::UncagedBallScrew) for the range of speeds. No step runs it.
 
 use super::speeds::{Branch, Speeds, Weights};
 use crate::ball::loads::LoadShare;
 
-/// A row of balls at one tick; all values per unit of nut speed.
+/// A row of balls under one load; all values per unit of nut speed.
 ///
 /// The true speeds along the track are `nut_speed * (nominal_speed + speed_deviation)`, compliances
 /// `|nut_speed| * compliance`, and a touching pair loses the torque
@@ -28,7 +29,7 @@ pub struct ScrewTick {
     third_load: f32,
 }
 
-/// One ball at one tick, per unit of nut speed.
+/// One ball of the row, per unit of nut speed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ScrewTickBall {
@@ -42,7 +43,7 @@ pub struct ScrewTickBall {
     pub rubbing: f32,
 }
 
-/// A ball under the mean load: what a tick takes from its loads.
+/// A ball under the mean load: what the row takes from its loads.
 #[derive(Clone, Copy)]
 pub(super) struct Mean {
     /// Part of a diagonal's speed that remains where the other diagonal carries load as well.
@@ -59,7 +60,7 @@ pub(super) struct Mean {
     pub(super) third_load: f32,
 }
 
-/// The row at one tick, folded for a loop over balls whose deviations are within their limits: speeds over a speed of
+/// The row under one load, folded for a loop over balls whose deviations are within their limits: speeds over a speed of
 /// reference, deviations in units of their maps. Made by [`ScrewTick::per_speed`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ScrewLoop {
@@ -192,8 +193,8 @@ impl ScrewTick {
         }
     }
 
-    /// For speeds over a speed of reference, m per unit of nut speed, given with its inverse, and
-    /// deviations at screw and nut in these `units`, rad: once a tick.
+    /// The same for speeds over a speed of reference, m per unit of nut speed, given with its inverse, and
+    /// deviations at screw and nut in these `units`, rad: once for all balls of the row.
     #[inline(always)]
     #[must_use]
     pub const fn per_speed(&self, speed: f32, per_speed: f32, units: (f32, f32)) -> ScrewLoop {
@@ -229,8 +230,8 @@ impl ScrewLoop {
     /// impedance = q / (y_sliding + q^(1/3) y_rolling (1 + s speed))
     /// ```
     ///
-    /// with the share `q` of the load and the change `s` of the contacts' spin with the speed. What a step runs for every
-    /// ball; [`ScrewTick::ball`] is the same in SI units.
+    /// with the share `q` of the load and the change `s` of the contacts' spin with the speed. [`ScrewTick::ball`] is the
+    /// same in SI units. Cost: 116 modelled cycles on a Cortex-M4F.
     ///
     /// Independent operations stand side by side: a core without reordering waits a cycle where an operation needs the
     /// result of the one before.

@@ -251,8 +251,8 @@ impl CoefficientLaw {
 impl CoefficientAtTemperature {
     /// Friction coefficient at a speed of the nut, rad/s, in its direction; standstill counts as forward.
     ///
-    /// NaN counts as standstill, infinity as a full film. Monotone in the speed's size, also in f32. Cost: one division, at most 52 modelled
-    /// cycles; 76 with [`CoefficientLaw::at_temperature`] in the same tick.
+    /// NaN counts as standstill, infinity as a full film. Monotone in the speed's size, also in f32. Cost: one division, 43 modelled
+    /// cycles; 70 with [`CoefficientLaw::at_temperature`] in the same tick.
     #[inline(always)]
     #[must_use]
     pub const fn at(&self, speed: f32) -> f32 {

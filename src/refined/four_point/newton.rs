@@ -16,7 +16,7 @@ pub const DEFAULT_NEWTON_STEPS: u8 = 5;
 /// A bound for motions that no step led to: from [`FourPointBall::start`] no step is as long, and limits of 0.1 to 1e6 give
 /// the same digits. Scans here and below: 300 random balls each of Lin 2019, Table 3.3, with side-force ratios up to 0.8,
 /// from there to 1, and with a fiftieth of the load, against the least exact dissipation
-/// (`host-tests/tests/linear_ball.rs`), one constant at a time. That the chosen ones settle is shown by
+/// (`host-tests/tests/balls/linear_ball.rs`), one constant at a time. That the chosen ones settle is shown by
 /// `host-tests/tests/generators/refined_balls.rs` for 100 000 balls.
 const STEP_LIMIT: f32 = 0.5;
 

@@ -15,7 +15,7 @@ use crate::ranges;
 /// The orbital speed of a ball in two contacts, of which one does stick, is off in proportion: by 5e-5, 1.8e-4 and 5e-4 of
 /// the nut's speed after five steps at 0.003, 0.01 and 0.03. A third contact that slides converges the better the larger
 /// it is. Scans here and below: 150 to 300 random balls of each kind against equilibrium of Coulomb friction (the designs
-/// and loads of `host-tests/tests/screw_ball.rs`), one constant at a time. That the chosen ones settle is shown by
+/// and loads of `host-tests/tests/balls/screw_ball.rs`), one constant at a time. That the chosen ones settle is shown by
 /// `host-tests/tests/generators/refined_balls.rs` for 100 000 balls.
 pub(super) const STICK_SPIN: f32 = 0.01;
 
