@@ -9,13 +9,14 @@ use crate::error::{Error, Range, attempt, in_range};
 use crate::law::LEVEL;
 use crate::scene::Regime;
 
-/// Ticks from one upkeep to the next.
+/// Ticks from one upkeep to the next: four looks with their corrections, two ticks each, and the upkeep.
 pub(super) const UPKEEP: u8 = 9;
 
-/// Ticks in which every variance is kept up once.
+/// Ticks in which every variance is kept up once: an upkeep for each of the five.
 const ROUND: f32 = 45.0;
 
-/// Most that a regressor may be, over its share of the noise: its square is far from an f32's end.
+/// Most that a regressor may be, times its deviation over the noise: such a reading leaves 1e-10 of a variance, ten times the
+/// [least](super::factor::LEAST) that is kept, and its square is far from an f32's end.
 const LARGEST_REGRESSOR: f32 = 1e5;
 
 /// Constants of an adaptation; made by [`AdaptationConstants::new`] at set-up, or in a constant.
@@ -26,19 +27,22 @@ pub struct AdaptationConstants {
     pub(super) filter: f32,
     /// 1 over the noise, 1/(N m).
     pub(super) per_noise: f32,
-    /// Deviations at set-up.
+    /// Deviations at set-up, in the estimates' own units.
     pub(super) deviations: [f32; ESTIMATES],
-    /// Deviations over the noise.
+    /// Deviations over the noise, in the estimates' units over N m.
     pub(super) weights: [f32; ESTIMATES],
-    /// Bounds.
+    /// Bounds of the estimates, in their own units.
     pub(super) least: [f32; ESTIMATES],
     pub(super) largest: [f32; ESTIMATES],
     /// Variances grow by this factor from one upkeep to the next.
     pub(super) growth: f32,
-    /// A reading of one of the numbers, in units of its deviation, which gives back what a round of upkeeps takes.
+    /// Weight of the pretended reading of one number that takes back in one upkeep by how much a round of upkeeps lets its variance
+    /// grow.
     pub(super) prior: f32,
+    /// Largest torque and speed that are believed, N m and rad/s.
     pub(super) largest_torque: f32,
     pub(super) largest_speed: f32,
+    /// Speed and friction torque below which a tick does not count, rad/s and N m.
     pub(super) least_speed: f32,
     pub(super) least_friction: f32,
     pub(super) health: HealthConstants,

@@ -6,15 +6,16 @@ use crate::law::FrictionLevel;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Estimates {
-    /// Friction over that of the model, in the positive direction.
+    /// Friction over that of the model, in the positive direction, within the levels of the configuration (0.1 to 10 at most).
     pub forward: f32,
     /// The same in the negative direction.
     pub backward: f32,
-    /// Drag beyond the model's, N m s/rad.
+    /// Drag beyond the model's, N m s/rad, of either sign, up to `largest_drag`.
     pub drag: f32,
-    /// Offset of the observed torque, N m.
+    /// Offset of the observed torque, N m, of either sign, up to `largest_offset`.
     pub offset: f32,
-    /// Part of the load torque that was taken off too little.
+    /// Relative error of the load torque, of either sign, up to `largest_load_error` (1 at most): of the true one, too little was
+    /// taken off by this part of what was.
     pub load_error: f32,
 }
 

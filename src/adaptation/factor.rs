@@ -10,7 +10,8 @@ pub(super) struct Factor<const N: usize> {
     pub(super) diagonal: [f32; N],
 }
 
-/// Least of `D`: three millionths of a deviation of the set-up, squared.
+/// Least of `D`: three millionths of a deviation of the set-up, squared. It keeps `D` above zero however many readings come in; one
+/// reading leaves at least ten times as much.
 pub(super) const LEAST: f32 = 1e-11;
 
 /// A reading `h' x` as the covariance sees it.
@@ -40,7 +41,7 @@ impl<const N: usize> Factor<N> {
         }
     }
 
-    /// How a reading `h' x` stands to the covariance.
+    /// A reading `h' x` as the covariance sees it.
     #[inline(always)]
     pub(super) fn project(&self, h: &[f32; N]) -> Projection<N> {
         let mut along = [[0.0; 2]; N];
@@ -58,7 +59,7 @@ impl<const N: usize> Factor<N> {
         Projection { along, variance }
     }
 
-    /// The same of a reading of one number alone, times `h`.
+    /// The same for a reading of one number alone, times `h`.
     #[inline(always)]
     pub(super) fn project_one(&self, place: usize, h: f32) -> Projection<N> {
         let mut along = [[0.0; 2]; N];

@@ -17,7 +17,7 @@ use crate::error::{Error, Range, attempt, in_range};
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Health {
-    /// Relative change of the slow average since commissioning: -0.2 is a friction that has fallen by a fifth.
+    /// Relative change of the slow average since commissioning, -0.99 to 99: -0.2 is a friction that has fallen by a fifth.
     pub drift: f32,
     /// The level has fallen beyond its threshold.
     pub fallen: bool,
@@ -36,7 +36,7 @@ pub(super) struct HealthConstants {
     pub(super) hysteresis: f32,
 }
 
-/// What is averaged.
+/// The slow average of the level.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct HealthState {

@@ -8,7 +8,7 @@ use super::health::{Health, HealthState};
 use super::inputs::AdaptationInputs;
 use crate::math;
 
-/// An error counts with at most so many of its deviations, squared: four.
+/// An error counts with at most so many of its deviations, squared: four, which normal noise passes once in 16,000 readings.
 const FURTHEST: f32 = 16.0;
 
 /// What a tick of the adaptation changes.
@@ -34,7 +34,7 @@ pub struct AdaptationState {
 impl AdaptationState {
     /// Before the first tick: the model as it is.
     pub(super) const fn new(constants: &AdaptationConstants) -> Self {
-        // The first upkeep of the last number comes a round later.
+        // So small that no variance passes 1 before its own first upkeep, which for the last number comes after five growths.
         let squared = constants.growth * constants.growth;
         Self {
             estimates: [1.0, 1.0, 0.0, 0.0, 0.0],
@@ -59,7 +59,7 @@ impl AdaptationState {
     ) -> AdaptationFlags {
         self.tick = self.tick.wrapping_add(1);
         if self.tick >= UPKEEP {
-            // A tick that both sides of the equation leave out.
+            // Both sides of the equation leave this tick out of their filters, so that it stays exact.
             self.tick = 0;
             self.keep_up(constants);
             return AdaptationFlags::NONE;
@@ -117,7 +117,7 @@ impl AdaptationState {
     #[inline(always)]
     fn correct(&mut self) -> AdaptationFlags {
         let (error, projection) = (self.error, &self.seen);
-        // What is further off is noise, as large as puts it there.
+        // An error beyond four deviations counts as one of four: the noise is taken as large as that needs.
         let most = error * error * (1.0 / FURTHEST) - projection.variance;
         let cut = most > 1.0;
         let noise = if cut { most } else { 1.0 };

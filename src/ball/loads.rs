@@ -98,9 +98,9 @@ impl LoadShare {
 /// carries. Both tables are constants in equal parts of the loaded track, from its start; where only one is known,
 /// [`LoadShares::same`] takes it for both signs. `simulate --loads` of the bench program writes them.
 ///
-/// At a load of zero the step from one table to the other is no step of friction, which is zero there too; between
-/// grooves that press on the balls without any load, friction steps by as much as both tables' sums of
-/// `share^(4/3)` differ.
+/// Where the load changes its sign, the shares jump from one table to the other. Friction does not jump where it vanishes
+/// with the load. Between grooves that are preloaded it does not vanish, and jumps by as much as the sums of
+/// `share^(4/3)` over both tables differ.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LoadShares {

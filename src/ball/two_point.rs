@@ -4,7 +4,8 @@
 use super::loads::LoadShare;
 
 /// Loss on two points over that on four, below which a ball counts as near two-point rolling. The border's formula takes
-/// the stronger diagonal as the loads alone have it: deviations of 3 degrees in both grooves make its loss 5 % larger.
+/// the stronger diagonal as the loads alone have it: deviations of 3 degrees in both grooves make its loss 5 % larger, and the
+/// margin is twice that.
 const BORDER_MARGIN: f32 = 1.1;
 
 /// Force between two balls over that of the closed form, at most, shortly before the border (measured: 1.25, where
@@ -33,12 +34,12 @@ pub(crate) struct GrooveFriction {
     slide: f32,
     /// Loss of spin at the border over `F^(4/3)` of the stronger diagonal, for the heaviest ball, N^(-1/3).
     border: f32,
-    /// What deviations take at most off the loss of sliding, over the force of the stronger diagonal: where the
-    /// diagonal U is the weaker one, and where D is.
+    /// Most by which deviations lessen the loss of sliding, over the force of the stronger diagonal: first where the diagonal
+    /// U is the weaker one, then where D is.
     turned: [f32; 2],
-    /// Loss by neighbours that a ball saves in two-point rolling: over the force between balls, for the lightest ball.
+    /// Loss of rubbing on neighbours that the lightest ball saves by rolling on two points, over the force between balls.
     rubbing: f32,
-    /// The same over that force's square and the compliance.
+    /// Loss of being pressed that it saves, over the square of that force and the compliance.
     pressing: f32,
 }
 
@@ -107,8 +108,8 @@ impl GrooveFriction {
         }
     }
 
-    /// The loss under the forces of both diagonals, each the sum of its two contacts, N, and their powers of 4/3. `lean` is
-    /// the weaker force as the loads have it: below zero where they lift that diagonal off.
+    /// The loss under the forces of both diagonals, each the sum of its two contacts, N, above zero, and their powers of 4/3.
+    /// `lean` is the force of the weaker diagonal by the balance of the loads, N: below zero where they lift it off.
     #[inline(always)]
     pub(crate) fn at(
         &self,
@@ -134,8 +135,8 @@ impl GrooveFriction {
         }
     }
 
-    /// Whether some ball may roll on two points, where so much force acts between two balls whose compliance is this,
-    /// 1/N.
+    /// Whether some ball may roll on two points, where the largest force between two balls is `force`, N, and a ball under the
+    /// mean load has this `compliance`, 1/N.
     #[inline(always)]
     pub(crate) fn leaves_four_points(
         &self,

@@ -25,16 +25,18 @@
 use crate::error::{Error, Range, attempt, in_range};
 use crate::law::memory::BREAKAWAY;
 
-/// Largest part of the true friction that is compensated.
+/// Largest part of the true friction that is compensated. At 1 the simulated loop never comes to rest; at 0.95 it does, at every rate,
+/// delay and breakaway that was tried. Nothing between was.
 pub const LARGEST_PART: f32 = 0.95;
 
-/// Largest initial stiffness of the compensation over that of the true friction.
+/// Largest initial stiffness of the compensation over that of the true friction. At 1 nothing of the true spring would be left; 3 %
+/// less is quiet in the simulated loop, at every rate, delay and breakaway that was tried.
 pub const LARGEST_STIFFNESS: f32 = 0.97;
 
 /// Least play beyond the noise over the largest breakaway angle: elements differ from a smooth curve by so much.
 pub const LEAST_PLAY: f32 = 0.04;
 
-/// Largest friction of the model over the true one: 0.1 to 10.
+/// Largest friction of the model over the true one: 0.1 to 10, the range of a [level](crate::law::LEVEL).
 pub const FRICTION_RATIO: Range = Range::new(0.1, 10.0);
 
 /// How far the model's friction may be from the true one where it is compensated; unchecked.
@@ -79,6 +81,7 @@ impl CompensationMargin {
             largest = LARGEST_STIFFNESS * model;
         }
         let given = 4.0 - 8.0 * play - 3.2 * model;
+        // The true friction loses 4 - 3.2 in a swing of one breakaway angle.
         if 0.8 < largest * given {
             largest = 0.8 / given;
         }

@@ -2,7 +2,8 @@
 
 use crate::error::{Error, Range, attempt};
 
-/// Least and largest level.
+/// Least and largest level: beyond any change of a sound mechanism. Between -20 and 80 degrees Celsius a friction coefficient changes
+/// by a factor of two; where a level of 0.1 or 10 was right, the model was of another screw.
 pub const LEVEL: Range = Range::new(0.1, 10.0);
 
 /// Friction of gross sliding over that of the model, in both directions; 0.1 to 10.
@@ -12,9 +13,9 @@ pub const LEVEL: Range = Range::new(0.1, 10.0);
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct FrictionLevel {
-    /// In the positive direction.
+    /// In the positive direction, 0.1 to 10.
     pub forward: f32,
-    /// In the negative direction.
+    /// In the negative direction, 0.1 to 10.
     pub backward: f32,
 }
 

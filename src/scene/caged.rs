@@ -24,7 +24,7 @@ use coefficients::CoefficientLaws;
 use contacts::{Contacts, ContactsState};
 pub use full::CagedFull;
 
-/// Friction of contacts, and closed forms, as numbers that an error can name.
+/// Numbers for the two kinds of law, because [`Error`] reports a number.
 const CONTACTS: f32 = 0.0;
 const CLOSED: f32 = 1.0;
 
@@ -178,8 +178,8 @@ impl Scene for CagedBallScrew {
     }
 }
 
-/// What friction coefficients beside the configuration's need: laws for two more; nothing where there is one alone, or
-/// friction is that of a closed form.
+/// Laws for two friction coefficients beside the configuration's; none where the coefficient does not change, or friction is
+/// that of a closed form.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct CagedCoefficients {

@@ -26,7 +26,8 @@ use crate::ranges;
 pub use configuration::LinearBearingConfiguration;
 pub use inputs::{LinearInputs, LinearLimits};
 
-/// Force of a diagonal below which it does not count, N.
+/// Force of a diagonal below which it does not count, N: the sum of two contacts of 1e-6 N. A numerical floor, which keeps cube roots
+/// and impedances above zero: the latter stay above the least that a train takes, 1e-9 N, also with a friction coefficient of 1e-6.
 const SMALLEST_FORCE: f32 = 2e-6;
 
 /// `2^(-4/3)`: a diagonal's force to the power of 4/3 is that of its sum of two equal contact forces, times this.
@@ -140,8 +141,9 @@ impl<const N: usize> Scene for LinearBearingTrain<N> {
 /// Full friction of a linear bearing, which is the same in both directions.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LinearFull {
-    /// Its parts; the load is the normal load that presses the diagonals as hard as they are pressed.
+    /// Its parts. `load`: the normal load that would put the same sum of forces on both diagonals, N.
     row: RowFull,
+    /// Whether some ball may roll on two points.
     beyond_model: bool,
 }
 
@@ -269,7 +271,7 @@ impl<const N: usize> LinearConstants<N> {
         let (up_root, up_squared) = math::cbrt_and_squared(up);
         let (down_root, down_squared) = math::cbrt_and_squared(down);
 
-        // A radian by which the angles at TR and BR grow and those at TL and BL shrink: (3.43) is linear in it.
+        // Speed deviation for one radian by which the angles at TR and BR grow and those at TL and BL shrink: (3.43) is linear.
         let diagonals = [up_squared, down_squared];
         let mean = self.ball.closed_form(diagonals, [1.0, -1.0]);
         let turn = way(speed) * mean.speed_deviation;
@@ -297,7 +299,7 @@ impl<const N: usize> LinearConstants<N> {
         let pressing = balls.press();
         state.advance(&self.circuit, speed);
 
-        // Lifted off, no ball rolls.
+        // Where the carriage is lifted off no ball rolls, and there is nothing to flag.
         let beyond_model = normal + side.abs() > SMALLEST_FORCE
             && self
                 .grooves

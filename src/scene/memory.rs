@@ -25,10 +25,16 @@ pub use inputs::{Freshness, WithMemoryInputs, WithMemoryKnown};
 pub use remembered::Remembered;
 use remembered::checked;
 
-/// Part of full friction below which the mechanism counts as standing.
+/// Part of full friction below which the mechanism counts as standing. Only [`Regime`](super::Regime) and what is read from it
+/// depend on it, not friction. A hundredth below 1, because the last elements of spin slide late: one of
+/// [`SPIN_8`](crate::law::memory::SPIN_8) carries 3.5 % and slides after seven breakaway angles.
 const SLIDES: f32 = 0.99;
 
-/// Speed that stands for a way without motion: forces between balls are then those with which motion sets in.
+/// Speed given to the scene when the nut has not moved, rad/s (m/s), with the sign of its last motion: at zero speed Coulomb
+/// friction has no direction. Forces between balls are then those with which motion sets in.
+///
+/// Below what any sensor tells, and large enough that the train's travel stays a normal number. Balls creep by less than a
+/// hundredth of a radian of the nut in a hundred days of it.
 const CREEP: f32 = 1e-9;
 
 /// A scene `S` with memory elements `E`, which follow the readings of an angle sensor `A`, and a friction coefficient by `L`.
@@ -41,8 +47,8 @@ const CREEP: f32 = 1e-9;
 /// reading of the angle friction stays where it is, flagged, and the next reading spans the gap. A load that is too old fades
 /// away, a temperature that is too old gives way to the configuration's.
 ///
-/// Balls of a train go only where the angle leaves a play ([`WithMemoryConfiguration::play`]): noise of the encoder does not turn
-/// them round.
+/// Balls of a train move only by what the angle turns beyond a play ([`WithMemoryConfiguration::play`]): noise of the encoder
+/// does not turn them round.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct WithMemory<S, E, A, L = CoefficientLaw>(PhantomData<(S, E, A, L)>);
@@ -53,10 +59,12 @@ pub struct WithMemoryConstants<C, E, A, L = CoefficientLaw> {
     scene: C,
     elements: E,
     angle: A,
+    /// 1 / reference load, 1/N.
     per_reference_load: f32,
     play: Play,
     coefficient: L,
     temperature: TemperatureFade,
+    /// What is left of a load by its age.
     load: Fade,
 }
 
@@ -70,6 +78,7 @@ pub struct WithMemoryState<
 > {
     /// State of the scene without memory.
     pub scene: S::State,
+    /// What the scene folded for coefficients other than the configuration's.
     coefficients: L::Kept<S::Coefficients>,
     /// What came since the first tick.
     pub remembered: Remembered<S, E, A, L>,
@@ -269,7 +278,7 @@ impl<C, E: Elements, A: NutAngle, L: CoefficientModel> WithMemoryConstants<C, E,
             )
     }
 
-    /// The turn since the last sound reading, of which the balls take what is beyond the play.
+    /// The turn since the last sound reading; what of it is beyond the play is kept for the balls.
     #[inline(always)]
     fn turn<S: Sliding>(
         &self,

@@ -4,7 +4,7 @@
 use super::contract::{Regime, SceneOutputs};
 use super::faults::Faults;
 
-/// A preload's friction beside a vanishing load would make the efficiency of back-driving infinite.
+/// Least efficiency that is put out: friction of a preload over a load near zero would make that of back-driving minus infinity.
 const LEAST_EFFICIENCY: f32 = -1e6;
 
 /// What every ball screw returns.
@@ -40,7 +40,7 @@ pub struct UncagedOutputs {
     pub ball_torque: f32,
     /// Torque about the nut's axis that holds the load without friction, N m: `axial_load lead / 2 pi`.
     pub load_torque: f32,
-    /// Pairs of balls that press on each other.
+    /// Pairs of balls that press on each other, 0 to `N`.
     pub contacts: u8,
     /// Largest force between two balls, N.
     pub largest_contact_force: f32,
@@ -61,7 +61,7 @@ pub struct LinearOutputs {
     pub groove_force: f32,
     /// Its part from balls that rub against each other, N.
     pub ball_force: f32,
-    /// Pairs of balls that press on each other.
+    /// Pairs of balls that press on each other, 0 to `N`.
     pub contacts: u8,
     /// Largest force between two balls, N.
     pub largest_contact_force: f32,

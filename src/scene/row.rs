@@ -9,19 +9,21 @@ use crate::stored::{Port, Refusal, Stored};
 /// Full friction of a row of balls, in the direction in which they go: torques of a screw, N m, or forces of a bearing, N.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct RowFull {
-    /// Parts from the grooves and from balls that rub against each other.
+    /// Friction of the grooves, and of balls that rub against each other, not negative.
     pub(super) groove: f32,
     pub(super) ball: f32,
-    /// The grooves' part forward and backward over it.
+    /// Groove friction forward and backward, each over `groove`.
     pub(super) ways: [f32; 2],
     /// Load, preload counted, N.
     pub(super) load: f32,
+    /// Pairs of balls that press on each other.
     pub(super) contacts: u8,
+    /// Largest force between two balls, N.
     pub(super) largest_contact_force: f32,
 }
 
 impl RowFull {
-    /// Both directions have the friction of that in which the balls go, times their friction coefficients.
+    /// Limits of both directions: groove friction times each direction's ratio, plus ball friction.
     #[inline(always)]
     pub(super) fn limits(&self) -> SlidingLimits {
         let [forward, backward] = self.ways;
@@ -32,7 +34,7 @@ impl RowFull {
         }
     }
 
-    /// Parts from the grooves and from the balls at a passage.
+    /// Friction of the grooves and of the balls at a passage, with the sign of its share.
     #[inline(always)]
     pub(super) fn passed(&self, passage: Passage) -> (f32, f32) {
         let [forward, backward] = self.ways;

@@ -20,8 +20,8 @@ pub trait StoredScene: Scene<State: Stored + Copy> {
     /// the next.
     fn fingerprint(constants: &Self::Constants, fingerprint: &mut Fingerprint);
 
-    /// Puts in what follows from a state that has been read, and checks how its numbers fit to each other and to the
-    /// constants.
+    /// Completes a state that has been read with what follows from it, and checks that its numbers fit to each other and to
+    /// the constants.
     ///
     /// # Errors
     /// [`Refusal::OutOfRange`] naming what does not fit.
@@ -55,7 +55,7 @@ impl Stored for SlidingLimits {
     }
 }
 
-/// Within the limits of the constants they are checked where those are known.
+/// Any finite number; [`StoredScene::complete`] checks it against the constants' limits.
 const ANY: Range = Range::new(f32::MIN, f32::MAX);
 
 impl Stored for Inputs {

@@ -9,8 +9,7 @@ use super::press::{IMPEDANCE_RANGE, InputCheck};
 use super::settle::Pressing;
 use super::track::Rooms;
 
-/// Impedance of a ball of which nobody said what it would do: the least that counts, so that it goes along with its
-/// neighbours.
+/// Impedance of a ball for which the scene gave no values: the least allowed, so that it follows its neighbours.
 const UNSAID: f32 = IMPEDANCE_RANGE.0;
 
 /// A tick of a train that has begun: the balls that are still to come, from the last one (the front of the row)
@@ -102,9 +101,9 @@ impl<const N: usize> Train<N> {
         self.press.settle(motion)
     }
 
-    /// Puts in the two slacks that the way from the front backwards leaves open: that of the last ball, whose ball
-    /// in front comes at the end, and that of the ball that was foremost in the last tick. That tick moved it first,
-    /// and the ball in front of it last, so that these two alone may overlap by rounding.
+    /// Puts in the two slacks that a walk from the front backwards cannot know: that of the last ball, because the ball in
+    /// front of it, the first, comes at the end; and that of the ball that was foremost in the last tick. That tick moved
+    /// it first and the ball in front of it last: these two pairs alone may overlap by rounding.
     #[inline(always)]
     fn complete(&mut self, rooms: &Rooms) {
         let last = N - 1;

@@ -5,10 +5,11 @@ use super::motion::Motion;
 use super::pool::pool;
 use super::settle::{Pressing, settle};
 
-/// Largest free speed that counts, a relative deviation.
+/// Largest free speed that counts, a relative deviation: that of a ball that stands, or runs twice as fast as a nominal one.
 pub const LARGEST_FREE_SPEED: f32 = 1.0;
 
-/// Least and largest impedance that count.
+/// Least and largest impedance that count, N. A numerical range: products of the sums over 255 balls, by which clusters are compared,
+/// are finite, and those of two least ones are normal numbers. Loaded balls have 1 to 1e5 N.
 pub const IMPEDANCE_RANGE: (f32, f32) = (1e-9, 1e9);
 
 /// Whether all free speeds and impedances count, in integers and without a branch for each.
@@ -22,8 +23,8 @@ impl InputCheck {
     /// Takes in the numbers of one ball.
     ///
     /// Numbers without a sign are in the order of their bits, NaN beyond all, so that a difference of bits is
-    /// negative where the bound is passed. Impedances with a sign, which have the top bit, fail the first or the
-    /// second of theirs.
+    /// negative where the bound is passed. Negative impedances, whose top bit is set, fail one of their two bounds or the
+    /// other.
     #[inline(always)]
     pub(super) fn add(&mut self, speed: f32, impedance: f32) {
         const FASTEST: u32 = LARGEST_FREE_SPEED.to_bits();

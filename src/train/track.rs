@@ -6,10 +6,12 @@ use crate::error::{Error, attempt, in_range};
 /// Units of length on the track: positions wrap around where it closes.
 const UNITS: f32 = 4_294_967_296.0;
 
-/// Largest travel in a tick over the length of the track that counts.
+/// Largest travel in a tick over the length of the track that counts. A ball's own travel beyond it, in sixteenths of 2^-32 of the
+/// track, has to fit into 31 bits at the [largest free speed](super::LARGEST_FREE_SPEED): up to 1/32.
 pub const LARGEST_TRAVEL: f32 = 0.03;
 
-/// Nominal travel, in units, below which it counts as none.
+/// Nominal travel, in units, below which it counts as none: far below any motion (1e-30 m), and its inverse times a gap of the whole
+/// track, 2^32 units, is still finite.
 const NO_TRAVEL: f32 = 1e-20;
 
 /// Length of a closed track and of what a ball takes of it, checked for a number of balls.
@@ -48,7 +50,7 @@ impl Track {
         })
     }
 
-    /// Whether this is another track to the last bit: balls keep their places on the same one only.
+    /// Whether the other track is this one to the last bit: balls keep their places on the same track only.
     ///
     /// # Errors
     /// [`Error`] naming `length` or `pitch`, m.

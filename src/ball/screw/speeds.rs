@@ -3,19 +3,21 @@
 use crate::geometry::BallScrew;
 use crate::math::constant;
 
-/// Largest deviation of a contact angle from the nominal one, rad.
+/// Largest deviation of a contact angle from the nominal one, rad: four times the 2 to 3 degrees of Lin 2019. With it in both
+/// grooves the series of a ball's speed in `u` is off by 5e-4 at a contact angle of 45 degrees; with 3 degrees in both, by 1e-7.
 const LARGEST_DEVIATION: f32 = 0.2;
 
-/// How the speed of balls follows their contact angles, by which contacts carry them.
+/// How the speed of a ball follows its contact angles: one formula for each set of contacts that may carry it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Speeds {
     /// Speed along the track of a ball with nominal contact angles, m per unit of nut speed.
     pub(super) nominal: f32,
-    /// Coefficients of `2 cos beta/(cos beta + cos(beta - u)) - 1` from `u` on.
+    /// Coefficients of the series of `2 cos beta/(cos beta + cos(beta - u)) - 1`, from that of `u` to that of `u^5`.
     pub(super) turn: [f32; 5],
     /// Largest deviation of a contact angle that counts, rad.
     pub(super) largest_deviation: f32,
+    /// With the third contact on the screw, on the nut, and with two contacts.
     third_on_screw: Branch,
     third_on_nut: Branch,
     two_point: Branch,
@@ -33,7 +35,7 @@ pub(super) struct Branch {
     pub(super) versine: f32,
     /// Rubbing speed at the nominal speed, m per unit of nut speed.
     pub(super) rubbing: f32,
-    /// Its change with the ball's speed.
+    /// Its change with the ball's speed, 1.
     pub(super) rubbing_slope: f32,
     /// Relative change of the contacts' spin with the ball's speed, 1/m.
     pub(super) spin: f32,

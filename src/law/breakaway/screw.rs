@@ -13,7 +13,7 @@ use crate::ranges;
 /// Load of a contact, N, for which a breakaway angle is found.
 const CONTACT_LOAD: Range = Range::new(1e-3, 1e6);
 
-/// Halvings with which a spin is found.
+/// Halvings with which a spin is found: one for each digit of an f32. The ends of the interval are apart by a factor of some ten.
 const HALVINGS: u8 = 24;
 
 /// Balls that carry load.

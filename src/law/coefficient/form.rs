@@ -5,16 +5,17 @@ use super::viscosity::{TEMPERATURE, Viscosity, fifth_root};
 use crate::error::{Error, Range, attempt, in_range};
 use crate::ranges;
 
-/// Least and largest half-share speed, rad/s: at set-up and at every temperature.
+/// Least and largest half-share speed, rad/s: at set-up and at every temperature. A nut turns with 0.1 to 500 rad/s: beyond either end
+/// its friction is that of a full film, or of none, at every speed.
 const HALF_SHARE_SPEED: Range = Range::new(1e-3, 1e4);
 
-/// Factor of the coefficient in one direction.
+/// Factor of the coefficient in one direction: far beyond what directions differ by, as that of a friction level.
 const DIRECTION: Range = Range::new(0.1, 10.0);
 
-/// Churning torque over viscosity and speed, m³.
+/// Churning torque over viscosity and speed, m³: none, up to a cube of one metre, far beyond any screw.
 const CHURNING: Range = Range::new(0.0, 1.0);
 
-/// Largest speed that churns, rad/s.
+/// Largest speed that churns, rad/s: that of a scene's limits. It keeps the torque finite.
 const LARGEST_SPEED: f32 = 1e6;
 
 /// What a friction coefficient follows from; unchecked.
@@ -72,7 +73,7 @@ pub struct CoefficientParameters {
 pub struct CoefficientLaw {
     forward: Sides,
     backward: Sides,
-    /// `w_ref^(1/5)/(T_ref - T_s)`: its product with `T - T_s` to the power of 5 is the half-share speed.
+    /// Per K: `w_ref^(1/5)/(T_ref - T_s)`: its product with `T - T_s` to the power of 5 is the half-share speed.
     scale: f32,
     /// `T_s`, K.
     pole: f32,

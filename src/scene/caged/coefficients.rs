@@ -4,7 +4,11 @@ use crate::ball::elastic::constants::BallConstants;
 use crate::ball::elastic::load_law::{Grooved, LoadLaws, LoadRange};
 use crate::ball::elastic::nominal::Grooving;
 
-/// Part of the range of coefficients that lies between two laws at least.
+/// If the configuration's coefficient is within this share of the range from one end, the middle replaces that end as a
+/// node: closer nodes lose digits.
+///
+/// The parabola's three weights add up to at most 2.6 in size with a node at a fifth of the range, and to 3.7 at the end that
+/// the middle has replaced: by so much errors of the laws grow. At a fiftieth of the range it would be 25.
 const APART: f32 = 0.2;
 
 /// Laws for two friction coefficients beside that of the configuration.
@@ -14,12 +18,13 @@ const APART: f32 = 0.2;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct CoefficientLaws {
-    /// Of one: that of a load that opposes the motion, and of one that assists it; then of the other.
+    /// For the first of the two, under a load that opposes the motion and under one that assists it; then for the second.
     laws: LoadLaws<4>,
     /// The three coefficients, that of the configuration first.
     nodes: [f32; 3],
-    /// Of each: 1 / its distances from the other two and from 0, `1/((m - m') (m - m'') m)`.
+    /// For each of them, 1 over its distances from the other two and from 0: `1/((m - m') (m - m'') m)`.
     weights: [f32; 3],
+    /// Least and largest coefficient that the laws are made for.
     least: f32,
     largest: f32,
 }
@@ -69,7 +74,8 @@ impl CoefficientLaws {
     }
 
     /// Friction torque over contact force, m, under a load of a size, N, that opposes the motion, and under one that assists it,
-    /// each with its friction coefficient; `first` are those of the configuration's. And whether balls are not known well there.
+    /// each with its friction coefficient; `first` has both ratios under the configuration's coefficient. Beside them, whether
+    /// each is beyond the model's accuracy.
     #[inline(always)]
     pub(super) fn at(
         &self,
@@ -93,7 +99,7 @@ impl CoefficientLaws {
         )
     }
 
-    /// Friction torque over contact force with a friction coefficient, from that with each of the three.
+    /// Friction torque over contact force, m, with a friction coefficient, from that with each of the three.
     #[inline(always)]
     fn over(&self, friction: f32, [first, second, third]: [f32; 3]) -> f32 {
         let at = if friction > self.largest {

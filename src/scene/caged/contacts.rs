@@ -19,10 +19,14 @@ use crate::scene::faults::Faults;
 use crate::scene::outputs::{Outputs, efficiency};
 use crate::scene::passage::{Passage, way};
 
-/// Axial load of a ball, N, for which balls are settled before the first tick.
+/// Axial load of a ball, N, for which balls are settled before the first tick: that of the comparisons with Lin 2019, in the
+/// middle of 5 to 300 N. A ball begins anew where the load is another by a factor of three, so that little depends on it.
 const FIRST_LOAD: f32 = 50.0;
 
-/// Ticks of which one renews the ball of the other direction.
+/// Every fourth tick renews the ball of the opposite load direction, so that it is ready at a reversal.
+///
+/// A tick has one renewal either way: of four, three go to the ball whose friction is put out, which follows the load the
+/// faster the more it gets.
 const OTHER_TURN: u8 = 4;
 
 /// Constants of the contacts' friction.
@@ -32,7 +36,9 @@ pub(super) struct Contacts {
     ball: BallConstants,
     friction: f32,
     clearance: Clearance,
+    /// Loads of a ball over which the laws reach.
     range: LoadRange,
+    /// Number of loaded balls, and 1 over it.
     balls: f32,
     per_ball: f32,
     /// Axial load of all balls over the contact force of one.
@@ -47,11 +53,12 @@ pub(super) struct Contacts {
 pub(super) struct ContactsState {
     /// Law of a load that opposes the motion, and of one that assists it; for the configuration's friction and clearance.
     laws: LoadLaws<2>,
-    /// A ball of each, for those that are set while running.
+    /// A ball for each of these two loads: renewed in every tick once friction or clearance have been set while the model runs.
     balls: [NominalBall; 2],
     grooving: Grooving,
     /// Whether friction or clearance have been set.
     changes: bool,
+    /// Ticks since the opposite ball's turn, 0 to 3.
     turn: u8,
 }
 
@@ -142,7 +149,7 @@ impl Contacts {
         Ok(())
     }
 
-    /// Turns from the laws to balls.
+    /// From now on balls are renewed, in the place of the laws.
     fn change(&self, state: &mut ContactsState) {
         if !state.changes {
             state.changes = true;
@@ -154,7 +161,7 @@ impl Contacts {
         }
     }
 
-    /// Axial load of a ball and its contact force with that of a preload, N, and whether the load assists the motion.
+    /// Axial load of a ball, N; its contact force `whole`, preload counted, N; whether the load assists the motion.
     #[inline(always)]
     fn under(&self, state: &ContactsState, axial_load: f32, way: f32) -> (f32, f32, bool) {
         let opposing = way * axial_load;
@@ -232,7 +239,7 @@ impl Contacts {
     }
 
     /// Friction torque over contact force by the laws under a load that opposes the motion and under one that assists it, each
-    /// for its friction coefficient; and whether balls are not known well there.
+    /// for its friction coefficient. Beside them, whether each is beyond the model's accuracy.
     #[inline(always)]
     fn between(
         &self,
@@ -278,7 +285,8 @@ impl Contacts {
         }
     }
 
-    /// Friction torque over contact force of a ball that is renewed for this tick, and what it is worth.
+    /// Friction torque over contact force, m, of a ball that is renewed for this tick, with its flags of accuracy. `other`:
+    /// whether the load assists the motion.
     ///
     /// A function of its own, so that a step by the law needs none of its stack.
     #[inline(never)]
@@ -327,7 +335,7 @@ impl Contacts {
 }
 
 impl ContactsState {
-    /// Friction torque over contact force by the law of this direction, and what it is worth.
+    /// Friction torque over contact force, m, by the law of this direction, with its flags of accuracy.
     #[inline(always)]
     fn folded(&self, range: LoadRange, load: f32, other: bool) -> (f32, Faults) {
         let (ratio, beyond) = self.laws.found(range, load, other.into());

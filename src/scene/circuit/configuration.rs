@@ -7,7 +7,8 @@ use crate::ball::{LoadShare, LoadShares};
 use crate::error::{Error, attempt, in_range};
 use crate::train::{IMPEDANCE_RANGE, LARGEST_TRAVEL, Track, Train};
 
-/// Impedance of a ball that no load presses into its grooves, N: it goes along with its neighbours.
+/// Impedance of a ball that no load presses into its grooves, N: it goes along with its neighbours. Not zero, because a train divides
+/// by it; a ball under load has some 100 N, so that such a ball presses on none by more than 1e-8 of that.
 pub(crate) const UNLOADED: f32 = 1e-6;
 const _: () = assert!(UNLOADED >= IMPEDANCE_RANGE.0);
 
@@ -35,7 +36,7 @@ pub(crate) struct CircuitConfiguration {
     pub(crate) pitch: f32,
     /// Travel of a nominal ball along the track, m per unit of motion; above zero.
     pub(crate) travel_per_motion: f32,
-    /// Motion in which the passing groove advances by one turn of the maps.
+    /// Motion in which the passing groove advances by one turn of the maps, rad or m.
     pub(crate) motion_per_turn: f32,
     /// Deviation of the groove that passes by: screw, rail.
     pub(crate) passing_deviation: &'static DeviationMap,
@@ -45,7 +46,7 @@ pub(crate) struct CircuitConfiguration {
     pub(crate) load_shares: LoadShares,
     /// Time between two ticks, s.
     pub(crate) tick: f32,
-    /// Largest speed of the motion.
+    /// Largest speed of the motion, rad/s or m/s.
     pub(crate) largest_speed: f32,
 }
 
@@ -102,7 +103,7 @@ impl CircuitConfiguration {
     }
 }
 
-/// 1 / number of loaded balls, where so many fill the whole circuit.
+/// 1 / number of loaded balls, where so many balls are spread evenly over loaded track and return.
 pub(crate) const fn per_loaded_ball(loaded_length: f32, return_length: f32, balls: usize) -> f32 {
     (loaded_length + return_length) / (loaded_length * balls as f32)
 }
@@ -167,7 +168,7 @@ impl<const N: usize> CircuitState<N> {
         self.phase.units()
     }
 
-    /// The passing groove gets on by a tick.
+    /// Moves the passing groove on by a tick, at a speed of the motion.
     #[inline(always)]
     pub(crate) fn advance(&mut self, circuit: &Circuit, speed: f32) {
         self.phase.advance(speed * circuit.advance);

@@ -2,7 +2,8 @@
 
 use crate::error::{Error, attempt, in_range};
 
-/// Samples of a period.
+/// Samples of a period: 256 bytes of flash. Straight lines between them are within 1.2e-3 of a wave's amplitude, and eight stand for
+/// a wave of [`HIGHEST_ORDER`].
 const SAMPLES: usize = 64;
 
 /// Bits of a phase that count: 6 for the sample, 14 for the fraction of the distance to the next one.
@@ -12,7 +13,8 @@ const FRACTION_BITS: u32 = 14;
 /// Largest sample in units of the table: the difference of two stays within 16 bits.
 const LARGEST: f32 = 16383.0;
 
-/// Largest deviation of a contact angle, rad.
+/// Largest deviation of a contact angle, rad: that of the closed form of a row
+/// ([`ScrewRow::largest_deviation`](crate::ball::ScrewRow::largest_deviation)), four times the 2 to 3 degrees of Lin 2019.
 pub const LARGEST_DEVIATION: f32 = 0.2;
 
 /// Highest order of a harmonic: eight samples to a wave.
@@ -54,8 +56,9 @@ pub struct Harmonic {
 pub struct DeviationMap {
     /// In the upper 16 bits a sample, in the lower ones its difference to the next sample.
     samples: [i32; SAMPLES],
-    /// Angle of one unit of the table and one of the fraction, rad.
+    /// Deviation of one unit of a sample over one unit of the fraction, rad.
     unit: f32,
+    /// Turns of a ball screw in a period, 1 to 100.
     turns: u16,
 }
 
@@ -216,8 +219,8 @@ impl DeviationMap {
         let index = (phase >> FRACTION_BITS) as usize % SAMPLES;
         let fraction = (phase & ((1 << FRACTION_BITS) - 1)) as i32;
         self.samples.get(index).map_or(0, |&sample| {
-            // The shift leaves the sample times 2^14, and of the difference below it a quarter: a 65536th of what the
-            // difference adds over a whole sample.
+            // The packed word shifted right by 2 is sample x 2^14 plus a quarter of the packed difference: an error of 2^-16 of
+            // the step to the next sample.
             (sample >> (16 - FRACTION_BITS)) + i32::from(sample as i16) * fraction
         })
     }

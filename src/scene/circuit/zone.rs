@@ -17,6 +17,7 @@ const FRACTION_BITS: u32 = 16;
 pub(super) struct LoadedZone {
     /// Entries of the load table along the whole track: balls are loaded as long as the table lasts.
     entries: u32,
+    /// Phase of each map at the end of the track, in units of 2^-20 of its period.
     passing_ratio: u32,
     recirculating_ratio: u32,
     passing: &'static DeviationMap,
@@ -30,6 +31,7 @@ pub(crate) struct Place {
     pub(crate) passing: f32,
     /// Deviation of the groove of the body in which balls recirculate, as a multiple of the second.
     pub(crate) recirculating: f32,
+    /// Its load over the mean load.
     pub(crate) share: &'static LoadShare,
 }
 
@@ -43,8 +45,8 @@ impl LoadedZone {
         shares: LoadShares,
     ) -> Result<Self, Error> {
         let shares = attempt!(shares.checked());
-        // A whole number ends the table at most 2e-5 of the track too early; that of a track without return is exact
-        // when the quotient's rounding is taken off.
+        // Rounded up to a whole number, which ends the table at most 2e-5 of the track too early. What rounding may have added is
+        // taken off first, so that a track without return has exactly its entries.
         let entries =
             shares.positive.len() as f32 * length / loaded * (1_u32 << FRACTION_BITS) as f32;
         let entries = (entries * (1.0 - 4.0 * f32::EPSILON)) as u32 + 1;
@@ -109,7 +111,7 @@ impl LoadedZone {
     }
 }
 
-/// Phase of a map at the end of a track of `length` turns.
+/// Phase of a map at the end of a track of `length` turns, in units of 2^-20 of its period.
 const fn phase_ratio(map: &DeviationMap, length: f32) -> u32 {
     let ratio = length / map.turns() as f32;
     (ratio * (1_u32 << PHASE_BITS) as f32) as u32

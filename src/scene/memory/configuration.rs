@@ -18,8 +18,8 @@ pub struct WithMemoryConfiguration<C, E, A, L = CoefficientLaw> {
     /// Axial load of a screw, or normal load of a bearing, N, at which the elements are designed; 1e-3 to 1e7. Only
     /// load-exact elements read it.
     pub reference_load: f32,
-    /// Turn, rad (m), that the motion has to go back before balls go back too, over two; 0 to 1e3. The breakaway angle is
-    /// right: where friction has turned round.
+    /// Half the turn, rad (m), by which the motion has to go back before balls go back too; 0 to 1e3. Set it to the elements'
+    /// breakaway angle: after twice that angle friction has turned round.
     pub play: f32,
     /// Friction coefficient: by speed, temperature and direction, or one alone.
     pub coefficient: L,

@@ -11,17 +11,18 @@ pub struct WithMemoryInputs<I, R> {
     pub scene: I,
     /// Reading of the angle sensor.
     pub reading: R,
-    /// Time since the loads were found, s; 0 where they are of this tick.
+    /// Time since the loads were found, s, 0 or more; 0 where they are of this tick.
     pub load_age: f32,
     /// Temperature of the screw, K, 150 to 500.
     pub temperature: f32,
-    /// Time since the temperature was found, s.
+    /// Time since the temperature was found, s, 0 or more.
     pub temperature_age: f32,
 }
 
-/// Inputs of which the scene's own are within their limits; `None` where one of them is no number.
+/// Inputs with the scene's own within their limits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WithMemoryKnown<I, R> {
+    /// None where one of the scene's inputs is no number.
     pub(super) scene: Option<I>,
     pub(super) reading: R,
     pub(super) load_age: f32,
@@ -42,7 +43,8 @@ pub struct Freshness {
 }
 
 impl Freshness {
-    /// Loads of the last 10 ms as they are, which fade in 90 ms.
+    /// Loads of the last 10 ms as they are, which fade in 90 ms. Assumed, not measured: an estimator that runs every 10 ms is never
+    /// too late, and a tenth of a second after its last word no load is believed.
     pub const DEFAULT: Self = Self {
         load_hold: 0.01,
         load_fade: 0.09,

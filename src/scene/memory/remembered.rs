@@ -14,9 +14,10 @@ pub struct Remembered<S: Sliding, E: Elements, A: NutAngle, L: CoefficientModel>
     pub elements: E::State,
     pub(super) reading: A::State,
     pub(super) play: PlayState,
-    /// Turn that the balls have still to go, rad (m).
+    /// Turn beyond the play since the last step, rad (m): the next step moves the balls by it.
     pub(super) moved: f32,
     pub(super) coefficient: L,
+    /// Temperature of the last step, K, 150 to 500, and the law at it.
     pub(super) temperature: f32,
     pub(super) at_temperature: L::At,
     /// The last sound inputs, and the last full friction with its limits and the churning drag beside it.
@@ -28,8 +29,8 @@ pub struct Remembered<S: Sliding, E: Elements, A: NutAngle, L: CoefficientModel>
     pub(super) level: FrictionLevel,
 }
 
-/// A friction coefficient that the scene takes at every speed and temperature. Constants that the compiler folds cannot ask for
-/// that: in the loop the largest that the scene takes stands in for a larger one.
+/// Checks that the scene takes every coefficient that the law gives. Constants that the compiler folds are not checked so: in the
+/// loop a coefficient above the scene's largest counts as that.
 pub(super) fn checked<S: Sliding, L: CoefficientModel>(law: L) -> Result<L, Error> {
     let (least, largest) = law.extremes();
     S::FRICTION.checked("coefficient", least)?;

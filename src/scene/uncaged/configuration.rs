@@ -99,10 +99,10 @@ impl UncagedBallScrewConfiguration {
         self.turns * (TAU * path)
     }
 
-    /// Checks the deviations of both grooves: what the row's formula holds for, and what keeps every ball within
-    /// [`LARGEST_FREE_SPEED`] of the balls' `speed` against the nut, m per unit of nut speed.
+    /// Checks the deviations of both grooves: each within what the row's formula takes, and both so small that no ball's speed
+    /// deviates by more than [`LARGEST_FREE_SPEED`] of the balls' `speed` against the nut, m per unit of nut speed.
     ///
-    /// Gives the largest deviation of a ball's speed over that, with room for what elastic contacts add to the pitch circle's.
+    /// Gives the largest deviation of a ball's speed over that speed, with room for what elastic contacts add.
     pub(super) const fn check_deviations(&self, row: &ScrewRow, speed: f32) -> Result<f32, Error> {
         let largest = row.largest_deviation();
         let on_screw = attempt!(self.screw_deviation.checked("screw_deviation", largest));
