@@ -6,13 +6,13 @@
 //! [`Adaptation`] compares the friction torque that the motor has to add with the model's and finds five numbers
 //!
 //! ```text
-//! observed = level(direction) T + drag w + offset + load_error T_load
+//! observed = level(direction) T + drag omega_N + offset + load_error T_load
 //! ```
 //!
 //! | number | what it takes in | regressor |
 //! |---|---|---|
 //! | `forward`, `backward` | friction coefficient and preload, in each direction | full friction `T` of the model in that direction |
-//! | `drag` | viscous drag beyond the model's | nut speed `w` |
+//! | `drag` | viscous drag beyond the model's | nut speed `omega_N` |
 //! | `offset` | zero of the torque sensor or of the motor's current | 1 |
 //! | `load_error` | gain of the load channel: 1 % of 2 kN on a lead of 7 mm is 22 mN m, more than a third of the friction | load torque that was taken off |
 //!

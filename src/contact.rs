@@ -2,8 +2,8 @@
 //! friction, all three from one convex dissipation potential.
 //!
 //! A contact that slips in any direction runs in the steps of both ball screws (`slip_map::looped`). [`FrictionMap`]
-//! runs at the set-up of the linear scene. [`SlipMap`] is called directly; no scene links it. [`RollingContact`] adds what a contact
-//! loses that rolls without slip.
+//! runs at the set-up of the linear scene. [`SlipMap`] is called directly; no scene links it. [`RollingContact`] adds
+//! what a contact loses that rolls without slip.
 //!
 //! A contact of ball and groove slips along the ball path with the velocity `V` of its centre and spins
 //! about its normal with `w`. With the friction coefficient `mu`, the contact force `F` and the ellipse

@@ -10,12 +10,12 @@ pub struct AdaptationInputs {
     /// Torque that the motor had to add to overcome friction, N m: its torque about the nut's axis, less what the inertia took, less
     /// `load_torque`. With the sign of the speed where friction opposes it.
     pub observed: f32,
-    /// Friction torque that the model gave, N m: `friction_torque` of its outputs.
+    /// Friction torque that the model gave, N m: `friction_torque` of its outputs. This and the other torques up to `largest_torque`.
     pub modelled: f32,
     /// Levels that the model had when it gave it ([`FrictionModel::set_level`](crate::FrictionModel::set_level));
     /// [`FrictionLevel::ONE`] where none were set.
     pub level: FrictionLevel,
-    /// Nut speed, rad/s.
+    /// Nut speed, rad/s, up to the configuration's `largest_speed`.
     pub nut_speed: f32,
     /// Load torque that was taken off, N m: `load_torque` of the model's outputs.
     pub load_torque: f32,

@@ -22,8 +22,8 @@ const NO_PRELOAD: f32 = 0.99e-3;
 
 /// Radial gap of every contact at a centred ball in a screw without load, m: play above zero, oversize below.
 ///
-/// The one number that says how balls fit between the grooves, in every scene of a ball screw. With `R` the ball radius
-/// of the design, balls have the radius `R - gap`, and each of the four contacts of a centred ball has this gap along its
+/// The one number that says how balls fit between the grooves, in every scene of a ball screw. With `r_b` the ball radius
+/// of the design, balls have the radius `r_b - gap`, and each of the four contacts of a centred ball has this gap along its
 /// normal; a diagonal of two contacts has the play `2 gap`. An oversized ball presses on all four contacts:
 /// [`Clearance::preload`].
 ///
@@ -65,7 +65,7 @@ impl Clearance {
     }
 
     /// The oversize that presses each of the four contacts with this force without a load, N, 1e-3 to 1e6 and up to
-    /// that of -0.02 ball radii: `gap = -(C_S + C_N) P^(2/3) / 2`, with the deflections `C P^(2/3)` in screw and nut
+    /// that of -0.02 ball radii: `gap = -(c_S + c_N) F_0^(2/3) / 2`, with the deflections `c F_0^(2/3)` in screw and nut
     /// ([`HertzContact::deflection_coefficient`]).
     ///
     /// # Errors
@@ -98,15 +98,15 @@ impl Clearance {
     /// The gap that lets the nut travel so far along the axis, m, from one flank to the other without a load; 0, and up
     /// to that of 0.05 ball radii.
     ///
-    /// A diagonal closes when the arc centres of its two grooves, which stand `2 D` apart around a centred ball, have come
-    /// to a distance of `2 (D + gap)`. A travel `z` off the middle moves them apart by `z cos(alpha)` along the binormal:
+    /// A diagonal closes when the arc centres of its two grooves, which stand `2 D_s` apart around a centred ball, have
+    /// come to a distance of `2 (D_s + gap)`. A travel `z` off the middle moves them apart by `z cos(alpha)` along the binormal:
     ///
     /// ```text
-    /// (D + gap)^2 = (D cos(beta))^2 + (D sin(beta) + z cos(alpha) / 2)^2     play = 2 z
-    /// play ~ 4 gap / (sin(beta) cos(alpha))                                   gap << D
+    /// (D_s + gap)^2 = (D_s cos(beta))^2 + (D_s sin(beta) + z cos(alpha) / 2)^2     play = 2 z
+    /// play ~ 4 gap / (sin(beta) cos(alpha))                                         gap << D_s
     /// ```
     ///
-    /// with the mean `D` of both grooves' radii less the ball's; within 5e-5 of the travel between helical grooves. From the
+    /// with the mean `D_s` of both grooves' radii less the ball's; within 5e-5 of the travel between helical grooves. From the
     /// middle to either flank it is half the play.
     ///
     /// # Errors
@@ -120,7 +120,7 @@ impl Clearance {
         let offset = mean_offset(design);
         // Along the binormal, from the middle, for each of the two arc centres.
         let shift = 0.25 * play * design.cos_lead_angle();
-        // (D + gap)^2 - D^2
+        // (D_s + gap)^2 - D_s^2
         let growth = shift * (2.0 * offset * design.contact_angle().sin + shift);
         let gap = growth / (constant::sqrt(offset * offset + growth) + offset);
         // The longest play is that of the widest gap but for rounding.
@@ -158,7 +158,7 @@ impl Clearance {
         self.gap
     }
 
-    /// Preload: force of each of the four contacts without a load, N, `(-2 gap / (C_S + C_N))^(3/2)`; 0 with play, and
+    /// Preload: force of each of the four contacts without a load, N, `(-2 gap / (c_S + c_N))^(3/2)`; 0 with play, and
     /// where it is less than 1e-3 N. For set-up.
     ///
     /// Forces of a ball in elastic grooves, whose contact angles turn where it moves towards the softer one, are this within
@@ -174,8 +174,8 @@ impl Clearance {
         }
     }
 
-    /// Axial preload on each flank of the nut, N, of so many balls that carry load: `Z P sin(beta) cos(alpha)`, with the
-    /// preload `P` of a contact. For set-up.
+    /// Axial preload on each flank of the nut, N, of `N` balls that carry load: `N F_0 sin(beta) cos(alpha)`, with
+    /// the preload `F_0` of a contact. For set-up.
     #[must_use]
     pub const fn axial_preload(self, design: &BallScrew, loaded_balls: u16) -> f32 {
         loaded_balls as f32

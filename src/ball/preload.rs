@@ -1,10 +1,10 @@
 //! Two Hertzian springs pressed against each other by a preload, and what a load leaves of it.
 //!
-//! Forces `U` and `D` that push against each other with the deflections `U^(2/3)` and `D^(2/3)`, both `P` without a load,
-//! under a load `F = U - D`:
+//! Forces `F_U` and `F_D` that push against each other with the deflections `F_U^(2/3)` and `F_D^(2/3)`, both `F_0` without a
+//! load, under a load `F = F_U - F_D`:
 //!
 //! ```text
-//! U^(2/3) + D^(2/3) = 2 P^(2/3),   U - D = F;   from F = 2 sqrt(2) P on D is lost, and U = F
+//! F_U^(2/3) + F_D^(2/3) = 2 F_0^(2/3),   F_U - F_D = F;   from F = 2 sqrt(2) F_0 on F_D is lost, and F_U = F
 //! ```
 //!
 //! Each is a flank of the nut with its axial forces (caged ball screw), or a diagonal of a ball with its contact
@@ -25,9 +25,9 @@ pub(crate) const CLOSING: [f32; 3] = [0.055_61, -0.044_86, 0.065_821];
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(crate) struct Preload {
-    /// `P`, N; 0 without a preload.
+    /// `F_0`, N; 0 without a preload.
     force: f32,
-    /// `1 / (3 P)`, 1/N; 0 without a preload.
+    /// `1 / (3 F_0)`, 1/N; 0 without a preload.
     per_three: f32,
 }
 
@@ -35,13 +35,13 @@ pub(crate) struct Preload {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(crate) struct PreloadSum {
-    /// `2 sqrt(2) P`, N: the load at which the unloaded side is lost.
+    /// `2 sqrt(2) F_0`, N: the load at which the unloaded side is lost.
     lift_off: f32,
-    /// `2 P`, N.
+    /// `2 F_0`, N.
     constant: f32,
-    /// `1 / (12 P)`, 1/N; 0 without a preload.
+    /// `1 / (12 F_0)`, 1/N; 0 without a preload.
     square: f32,
-    /// `QUARTIC / P^2`, 1/N^2; 0 without a preload.
+    /// `QUARTIC / F_0^2`, 1/N^2; 0 without a preload.
     quartic: f32,
 }
 
@@ -61,7 +61,7 @@ impl PreloadSum {
         }
     }
 
-    /// Sum of both forces, N, under a load of either sign, N: `P (2 + y^2/12 + ...)` with `y = F / P`, and the load from
+    /// Sum of both forces, N, under a load of either sign, N: `F_0 (2 + y^2/12 + ...)` with `y = F / F_0`, and the load from
     /// `y = 2 sqrt(2)` on. The next coefficient is chosen so that both meet there; the largest error between is 0.84 %.
     #[inline(always)]
     pub(crate) fn under(&self, load: f32) -> f32 {
@@ -101,7 +101,8 @@ impl Preload {
 
     /// Both forces, N, the larger one first, under a load not below 0, N: within 4e-6 of the preload.
     ///
-    /// Both follow from one displacement `x` over the preload's deflection, `P (1 + x)^(3/2)` and `P (1 - x)^(3/2)`.
+    /// Both follow from one displacement `x` over the preload's deflection, `F_0 (1 + x)^(3/2)` and
+    /// `F_0 (1 - x)^(3/2)`.
     #[inline]
     pub(crate) fn both(&self, load: f32) -> (f32, f32) {
         if load < LOST * self.force {

@@ -46,11 +46,11 @@ pub(crate) struct AcrossTable {
 /// One contact that slips across the track only.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Across {
-    /// Power loss over `mu F`.
+    /// Power loss over `mu F`, m per unit of nut speed.
     pub(crate) drag: f32,
-    /// Slip along the track over the friction force that resists it, times `mu F`.
+    /// Slip along the track over the friction force that resists it, times `mu F`, in the same unit.
     pub(crate) compliance: f32,
-    /// Friction force across the track over `mu F`.
+    /// Friction force across the track over `mu F`, 0 to 1.
     pub(crate) share: f32,
     /// Change of the drag with the logarithm of the ellipse's size or of the spin.
     pub(crate) drag_growth: f32,
@@ -184,7 +184,8 @@ pub(crate) const fn slip_and_spin(axis_ratio: f32, slip: f32) -> (f32, f32) {
     }
 }
 
-/// Drag and compliance with their changes by the logarithm of the end's speed, over that speed, at a slip over it.
+/// Drag, its growth, compliance and its growth, all over the end's speed, at a slip over that speed. Growth is the change with the
+/// logarithm of the end's speed.
 const fn spinning(k: f32, slip: f32) -> [f32; 4] {
     let (square, place) = (k * k, slip * slip);
     let lambda = if place > square { place - square } else { 0.0 };

@@ -59,10 +59,10 @@ impl RollingResistance {
 /// Rolling resistance of one contact with its constants folded.
 ///
 /// ```text
-/// force = 3/16 loss N b/R_x + drag sqrt(N / 100 N)        b = b_1 N^(1/3)
+/// force = 3/16 loss F b/R1 + drag sqrt(F / 100 N)        b = b_1 F^(1/3)
 /// ```
 ///
-/// `b` is the contact's semi-axis along the track, `R_x` the relative radius of both bodies along it, `loss` and `drag`
+/// `F` is the contact's load, `b` its semi-axis along the track, `R1` the relative radius of both bodies along it, `loss` and `drag`
 /// the fields of [`RollingResistance`]. The force resists the travel of the contact along its track: times the speed at
 /// which the groove's surface runs past the contact it is the power lost.
 ///
@@ -87,7 +87,7 @@ impl RollingResistance {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct RollingContact {
-    /// `3/16 loss b_1/R_x`, N^(-1/3).
+    /// `3/16 loss b_1/R1`, N^(-1/3).
     hysteresis: f32,
     /// Drag under 1 N, N^(1/2).
     lubricant: f32,
@@ -141,7 +141,7 @@ impl RollingContact {
         Self::new(resistance, contact.semi_minor_coefficient(), relative.along)
     }
 
-    /// `3/16 loss b_1/R_x`, N^(-1/3), and the drag under 1 N, N^(1/2).
+    /// `3/16 loss b_1/R1`, N^(-1/3), and the drag under 1 N, N^(1/2).
     pub(crate) const fn coefficients(&self) -> (f32, f32) {
         (self.hysteresis, self.lubricant)
     }
@@ -159,9 +159,9 @@ impl RollingContact {
     /// Power lost, W, at the speed at which the groove's surface runs past the contact, m/s; a friction torque, N m,
     /// where that speed is given over the nut's speed, m.
     ///
-    /// For a ball that orbits with `w_B` this speed is `|w_B - w_k| (L_p + R_B cos(alpha) n_x)`, with the path's length
-    /// per radian `L_p`, the part `n_x` of the contact's normal away from the axis, and `w_k` zero on the screw and the
-    /// nut's speed on the nut: over the nut's speed it is about half the pitch radius.
+    /// For a ball that orbits with `omega_B` this speed is `|omega_B - omega_k| (q + r_b cos(alpha) n_x)`, with the path radius
+    /// `q`, the part `n_x` of the contact's normal away from the axis, and `omega_k` zero on the screw and the nut's speed
+    /// `omega_N` on the nut: over the nut's speed it is about half the pitch radius.
     ///
     /// Cost: that of [`Self::force`] and 1 multiplication.
     #[inline]

@@ -94,10 +94,10 @@ pub struct Admitted<I> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Inputs {
-    /// Angular speed of the nut relative to the screw, rad/s.
+    /// Angular speed of the nut relative to the screw, rad/s; within that of the [`Limits`], which stand in for more.
     pub nut_speed: f32,
     /// Axial force of the load, N; positive where it opposes the travel that a positive nut speed
-    /// makes. `nut_speed * axial_load > 0` is driving, `< 0` back-driving.
+    /// makes. `nut_speed * axial_load > 0` is driving, `< 0` back-driving. Within that of the [`Limits`], as the speed.
     pub axial_load: f32,
 }
 

@@ -24,12 +24,13 @@ pub trait Motion: Copy + core::fmt::Debug + PartialEq {
     /// Speed of the nut, rad/s, or of the carriage, m/s.
     fn speed(&self) -> f32;
 
-    /// The same under these loads times a factor, with another speed.
+    /// These inputs with another speed, and with their loads times a factor.
     #[must_use]
     fn with(self, speed: f32, load_factor: f32) -> Self;
 }
 
-/// How friction passes through zero with the speed: as `w / sqrt(w^2 + w_s^2)`, 71 % at the reversal speed `w_s`.
+/// How friction passes through zero with the speed: as `w / sqrt(w^2 + w_s^2)` with the speed `w`, rad/s
+/// (m/s), and the reversal speed `w_s`, at which it is 71 %.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Reversal {

@@ -7,23 +7,22 @@ use crate::error::Range;
 use crate::law::SlidingLimits;
 use crate::law::coefficient::DirectionalCoefficient;
 
-/// A scene whose full friction can be had apart from its passage through the reversal.
-///
-/// What [`WithMemory`](super::WithMemory) needs of a scene.
+/// A scene whose full friction can be computed apart from its passage through the reversal: what
+/// [`WithMemory`](super::WithMemory) needs of a scene.
 pub trait Sliding: Scene<Known = <Self as Scene>::Inputs, Inputs: Motion> {
-    /// Friction coefficients of ball and groove that the scene takes.
+    /// Range of the friction coefficients of ball and groove that the scene takes.
     const FRICTION: Range;
 
-    /// What friction coefficients beside the configuration's need: folded before the first tick.
+    /// What is folded before the first tick for friction coefficients other than the configuration's.
     type Coefficients: Copy + core::fmt::Debug + PartialEq;
     /// Full friction in a tick, in both directions, with what else the tick found.
     type Full: Copy + core::fmt::Debug + PartialEq;
 
-    /// What a friction coefficient between these two needs.
+    /// Folds it for coefficients from `least` to `largest`.
     fn coefficients(constants: &Self::Constants, least: f32, largest: f32) -> Self::Coefficients;
 
-    /// Full friction with friction coefficients of ball and groove in both directions, in proportion to that of the
-    /// configuration where nothing was folded for others; balls move on by a tick. A speed of 0 counts as forward.
+    /// Full friction under a friction coefficient of ball and groove in each direction; moves the balls on by a tick. Where nothing
+    /// was folded for other coefficients, friction is in proportion to the coefficient. A speed of 0 counts as forward.
     fn full(
         constants: &Self::Constants,
         state: &mut Self::State,
@@ -32,7 +31,7 @@ pub trait Sliding: Scene<Known = <Self as Scene>::Inputs, Inputs: Motion> {
         friction: DirectionalCoefficient,
     ) -> Self::Full;
 
-    /// Its sizes in both directions; the load is the axial load of a screw or the normal load of a bearing, N, preload
+    /// Sizes of a full friction in both directions, and the load: the axial one of a screw or the normal one of a bearing, N, preload
     /// counted.
     fn limits(full: &Self::Full) -> SlidingLimits;
 
@@ -44,6 +43,6 @@ pub trait Sliding: Scene<Known = <Self as Scene>::Inputs, Inputs: Motion> {
         passage: Passage,
     ) -> Self::Outputs;
 
-    /// Speed of a turn (rad; m of a bearing) in a tick; of a scene that has no tick the speed that was measured.
+    /// Speed at which a turn, rad (m of a bearing), is made in a tick; a scene that knows no tick gives the measured speed.
     fn speed_of(constants: &Self::Constants, turn: f32, measured: f32) -> f32;
 }

@@ -12,19 +12,29 @@ use crate::ball::loads::LoadShare;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ScrewTick {
+    /// Largest deviation of a contact angle that counts, rad.
     largest_deviation: f32,
+    /// Coefficients of `t(u)`, 1/rad to 1/rad^5, and of `o(v)`, 1/rad to 1/rad^3: see [`ScrewLoop::ball`].
     turn: [f32; 5],
     tilt: [f32; 3],
     weights: Weights,
+    /// Speed that the relative deviation multiplies, m.
     scale: f32,
+    /// Relative change of the contacts' spin with the ball's speed, 1/m.
     spin: f32,
+    /// Half the speed with which nominal balls rub, m, and its change with the ball's speed.
     rubbing: f32,
     rubbing_slope: f32,
+    /// Speed lost per newton of force along the track under the mean load, m/N: the part that follows the size of the ellipses, and
+    /// the rest.
     compliance_rolling: f32,
     compliance_sliding: f32,
+    /// Power loss in the grooves under the mean load, N m, in the same parts.
     torque_rolling: f32,
     torque_sliding: f32,
+    /// Speed along the track of a nominal ball, m.
     nominal_speed: f32,
+    /// Load of each main contact and of the third one under the mean load, N.
     main_load: f32,
     third_load: f32,
 }
@@ -56,6 +66,7 @@ pub(super) struct Mean {
     pub(super) torque: f32,
     /// Its part that follows the size of the ellipses.
     pub(super) torque_rolling: f32,
+    /// Load of each main contact and of the third one, N.
     pub(super) main_load: f32,
     pub(super) third_load: f32,
 }
@@ -64,17 +75,20 @@ pub(super) struct Mean {
 /// reference, deviations in units of their maps. Made by [`ScrewTick::per_speed`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ScrewLoop {
+    /// Coefficients of `t(u)`, times `scale`, and of `o(v)`, in powers of 1/rad.
     turn: [f32; 5],
     tilt: [f32; 3],
-    /// Weights of the deviations' units at screw and nut in what turns the ball.
+    /// Weights of the deviations' units at screw and nut in `u`, which turns the ball, rad.
     turn_weights: (f32, f32),
-    /// The same in what tilts its contact.
+    /// The same in `v`, which tilts its contact, rad.
     tilt_weights: (f32, f32),
+    /// Speed that the relative deviation multiplies, over the speed of reference.
     scale: f32,
+    /// Speed lost per newton, over the speed of reference, 1/N: the parts of [`ScrewTick`], and the rolling one's change with the speed.
     compliance_rolling: f32,
     compliance_sliding: f32,
-    /// Change of the rolling part with the speed.
     compliance_spin: f32,
+    /// Power loss in the grooves, N m, in the same three parts.
     torque_rolling: f32,
     torque_sliding: f32,
     torque_spin: f32,
@@ -92,6 +106,7 @@ pub struct LoopBall {
 /// Sums over the balls of that loop, from which the power loss in the grooves follows.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LoopSums {
+    /// Shares `q` of the load, their powers 4/3, and these times the balls' speeds.
     share: f32,
     four_thirds: f32,
     four_thirds_speed: f32,

@@ -1,4 +1,4 @@
-//! The same friction with fewer terms, for balls that are renewed in a loop.
+//! Friction as [`SlipMap`](super::SlipMap) has it with fewer terms, for the balls that a step renews.
 
 use crate::contact::integrals::{checked_axis_ratio, fifth_integral};
 use crate::error::{Error, attempt};
@@ -20,10 +20,10 @@ const CHEBYSHEV: [f32; TERMS] = [
     0.195_090_32,
 ];
 
-/// Largest `sqrt(lambda)` in the near field.
+/// Largest `sqrt(lambda)` in the near field: two semi-axes away `lambda` is below 4.
 const LARGEST_ROOT: f32 = 2.0;
 
-/// Square of the velocity centre's distance, in semi-major axes, from which the far field serves.
+/// Square of the velocity centre's distance, in semi-major axes, from which the far field serves: as in [`SlipMap`](super::SlipMap).
 const FAR: f32 = 4.0;
 
 /// Friction of one contact with slip along both axes and spin, as [`SlipMap`](super::SlipMap) has it, with two
@@ -46,14 +46,15 @@ const FAR: f32 = 4.0;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LoopSlipMap {
+    /// `k = b/a`, 0.02 to 0.95.
     axis_ratio: f32,
     /// `k²`, `(1 - k²)/3`.
     square: f32,
     third_eccentricity: f32,
-    /// `sqrt(k)`, and what brings the interpolation's variable to -1 to 1.
+    /// `sqrt(k)`, and the factor with which the interpolation's variable runs from -1 to 1.
     scale: f32,
     stretch: f32,
-    /// `C0` to `C5` inside the ellipse.
+    /// `C0` to `C5` inside the ellipse, without unit as all here.
     inside: [f32; 6],
     /// Polynomials of `C4` and `C5`, lowest power first, times `(sqrt(lambda) + sqrt(k)) sqrt(l s)` and
     /// `(sqrt(lambda) + sqrt(k)) s`.
@@ -63,13 +64,16 @@ pub struct LoopSlipMap {
     quartic: [f32; 3],
 }
 
-/// Integrals over the ellipse of a contact, by squares of speeds, that its friction and the second derivatives are made of.
+/// Integrals over the ellipse of a contact, by squares of speeds, that its friction and the second derivatives are made of. Speeds
+/// are in the unit of the slips that come in.
 struct Integrals {
-    /// 1 / the speed of the spin at the end of the ellipse.
+    /// 1 / the speed `E` of the spin at the end of the ellipse, 1/speed.
     inverse_end: f32,
+    /// `C0`, `C1`, `C2`.
     whole: f32,
     first: f32,
     second: f32,
+    /// `C3`, `C4`, `C5` over `E²`, 1/speed².
     third: f32,
     fourth: f32,
     fifth: f32,
@@ -78,29 +82,31 @@ struct Integrals {
 /// Friction of one contact over its limit `mu F`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct LoopSlip {
-    /// Derivatives of the potential by slip across and along the track and by spin.
+    /// Derivatives of the potential by slip across and along the track, -1 to 1, and by spin, in the unit of length of the slips.
     pub(crate) across: f32,
     pub(crate) along: f32,
     pub(crate) moment: f32,
-    /// Second derivatives by the slips.
+    /// Second derivatives by the slips, 1/speed.
     pub(crate) across_across: f32,
     pub(crate) mixed: f32,
     pub(crate) along_along: f32,
-    /// Spin over the square of `W`: slips times it keep the velocity centre where it is.
+    /// Spin over the square of `W`, 1/spin: slips times it keep the velocity centre where it is.
     pub(crate) tilt: f32,
-    /// What the stick treatment adds along the spin.
+    /// Second derivative along the spin that the stick treatment adds, length over spin.
     pub(crate) stick: f32,
 }
 
-/// Slips, spin and size of a contact.
+/// Slips, spin and size of a contact: in m/s, rad/s and m, or over a common length and the nut's speed, as elastic balls have them.
 #[derive(Clone, Copy)]
 pub(crate) struct Slips {
+    /// Slip across and along the track.
     pub(crate) across: f32,
     pub(crate) along: f32,
+    /// Spin about the normal.
     pub(crate) spin: f32,
-    /// Square of the spin below which the contact sticks.
+    /// Square of the spin below which the contact sticks, above 0.
     pub(crate) stick: f32,
-    /// Square of the semi-major axis.
+    /// Square of the semi-major axis, above 0.
     pub(crate) size: f32,
 }
 

@@ -31,12 +31,13 @@ const LARGEST_ROOT: f32 = 2.0;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct NearField {
-    /// `k²`.
+    /// `k²`, and `1/(1 - k²)`.
     square: f32,
     inverse_eccentricity: f32,
-    /// `sqrt(k)`, and what brings the interpolation's variable to -1 to 1.
+    /// `sqrt(k)`, and the factor with which the interpolation's variable runs from -1 to 1.
     scale: f32,
     stretch: f32,
+    /// Coefficients inside the ellipse, where `lambda` is 0.
     inside: Coefficients,
     /// Divided differences of `C1`, `C2` and `C5` at the nodes, times `sqrt(lambda) + sqrt(k)` (`C5` also times
     /// `k² + lambda`), which leaves smooth functions.
@@ -45,7 +46,7 @@ pub(super) struct NearField {
     fifth: [f32; POINTS],
 }
 
-/// `C0` to `C5`.
+/// `C0` to `C5`, in this order: numbers without unit, as all lengths here are over the semi-major axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 struct Coefficients {
@@ -112,7 +113,8 @@ impl NearField {
         self.square
     }
 
-    /// Friction force across the track where the velocity centre lies `place` from the contact's, along the track.
+    /// Friction force across the track over `mu F` where the velocity centre lies `place`, in semi-major axes, from the contact's
+    /// centre along the track; `square` is its square.
     #[inline]
     pub(super) fn share_across(&self, place: f32, square: f32) -> f32 {
         let coefficients = if square <= self.square {

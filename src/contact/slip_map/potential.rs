@@ -1,6 +1,6 @@
 //! The potential of a contact over spin and semi-major axis.
 
-/// `P` with its derivatives by `x` (along) and `z` (across), and `M = P - x P_x - z P_z`.
+/// Derivatives of `P` by `x` (along) and `z` (across), and `M = P - x P_x - z P_z` (moment): numbers without unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Potential {
     pub(super) moment: f32,

@@ -20,10 +20,10 @@ use crate::math::elliptic::{Complete, complete};
 /// C_b    = [(1 - nu) K + nu (E - k^2 K)/e^2] / (pi G a)          slip along the minor axis
 /// k_tor  = G a^3 (pi/3) (p + q - 4 nu j) / (p q - nu j (p + q))  spin
 ///          p = (E/k^2 - K)/e^2    q = (K - E)/e^2    j = ((1 + k^2) K - 2 E)/e^4
-/// M_0    = 3/8 E mu N a                                          moment of gross spin
+/// M_0    = 3/8 E mu F a                                          moment of gross spin
 /// ```
 ///
-/// `C_a ~ N^(-1/3)`, `k_tor ~ N`, `M_0 ~ N^(4/3)` with the load `N`. At the circle `C_a = (2 - nu)/(4 G a)` and
+/// `C_a ~ F^(-1/3)`, `k_tor ~ F`, `M_0 ~ F^(4/3)` with the load `F`. At the circle `C_a = (2 - nu)/(4 G a)` and
 /// `k_tor = 8/3 G a^3`. Differences of the integrals are taken in forms that stay exact there.
 ///
 /// Two materials: `2/G = 1/G_1 + 1/G_2`, and `nu` is the mean weighed by `1/G`. Exact for traction in the plane of the
@@ -42,7 +42,7 @@ use crate::math::elliptic::{Complete, complete};
 /// use epas_friction::CATALOGUE;
 /// let design = CATALOGUE[15].design()?; // 32 x 20 x 6.35
 /// let contact = ContactStiffness::of(&design, Groove::Screw);
-/// // Under 100 N friction of 10 N holds the contact for 0.4 um, Mindlin's u_b = 1.5 mu N C_a.
+/// // Under 100 N friction of 10 N holds the contact for 0.4 um, Mindlin's u_b = 1.5 mu F C_a.
 /// let held = 1.5 * 0.1 * 100.0 * contact.compliance_across(100.0);
 /// assert!(held > 0.3e-6 && held < 0.5e-6);
 /// # Ok::<(), epas_friction::Error>(())

@@ -2,7 +2,7 @@
 
 use super::resistance::{Resistance, SLOPE};
 
-/// Breakaway angle of a part that no friction has: any number above zero would do.
+/// Breakaway angle of a part without friction, rad: any number above zero would do, because its share is none.
 const NO_PART: f32 = 1e-3;
 
 /// How friction of a contact comes about.

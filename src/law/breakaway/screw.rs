@@ -38,13 +38,13 @@ pub struct BreakawayConfiguration {
 
 /// How a ball rolls in gross sliding.
 ///
-/// A side contact that carries `N_3 + N_4` holds the ball's roll, and with it makes the two loaded contacts spin with up to
+/// A side contact that carries `F_3 + F_4` holds the ball's roll, and with it makes the two loaded contacts spin with up to
 /// `s_3 = r_m tan(beta)/(2 r_b cos(alpha))`. Where it cannot, it slides, and the spin `s` is between those of two-point and of
 /// three-point rolling:
 ///
 /// ```text
-/// mu (N_3 + N_4) r_m/(2 cos(alpha)) = M(s) s_3        N_3, N_4 by the drift under the friction across the path that s leaves
-/// torque = slip(s) + M(s) s + mu (N_3 + N_4) r_m/(2 cos(alpha)) (1 - s/s_3)
+/// mu (F_3 + F_4) r_m/(2 cos(alpha)) = M(s) s_3        F_3, F_4 by the drift under the friction across the path that s leaves
+/// torque = slip(s) + M(s) s + mu (F_3 + F_4) r_m/(2 cos(alpha)) (1 - s/s_3)
 /// ```
 ///
 /// with the moment `M` of both contacts, which slip across takes off as the limit surface says.
@@ -132,7 +132,7 @@ impl Held {
 ///
 /// | part | share from | stiffness |
 /// |---|---|---|
-/// | slip across the path | balance of slip, spin and side contacts | `N l^2/(C_S + C_N)`; with the seat, that of its breakaway angle |
+/// | slip across the path | balance of slip, spin and side contacts | `N l_1^2/(C_S + C_N)` of `N` balls; with the seat, that of its breakaway angle |
 /// | spin | the same; with what side contacts lose that slide | `N (k_S + k_N) s^2` |
 /// | rolling resistance | [`RollingResistance`] | its torque over a path of two semi-axes |
 ///

@@ -10,16 +10,17 @@ const HALVINGS: u8 = 40;
 
 /// What holds a ball of a screw across the path while its contacts slip: derived, no published screw to check with.
 ///
-/// Friction across the path pushes the ball the same way at both of its contacts. It drifts by `l/2` for each radian of the
+/// Friction across the path pushes the ball the same way at both of its contacts. It drifts by `l_1/2` for each radian of the
 /// nut, until the grooves' slope and the third contact carry the friction of both:
 ///
 /// ```text
-/// Q x (1/D_S + 1/D_N) + ((x - g)+ / C_3)^(3/2) - ((-x - g)+ / C_3)^(3/2) = 2 mu Q tau
-/// angle(tau) = th_b [1 - (1 - tau)^(2/3)] + (2/l) x(tau)        th_b = 1.5 mu Q (C_S + C_N)/l
+/// F x (1/D_S + 1/D_N) + ((x - g)+ / c_3)^(3/2) - ((-x - g)+ / c_3)^(3/2) = 2 mu F tau
+/// angle(tau) = theta_b [1 - (1 - tau)^(2/3)] + (2/l_1) x(tau)      theta_b = 1.5 mu F (C_S + C_N)/l_1
 /// g = 2 gap + (delta_S + delta_N)/2
 /// ```
 ///
-/// with the share `tau` of the gross slip, the excess `D` of a groove's radius over the ball's, the deflection `C_3` of the
+/// with the share `tau` of the gross slip, the slip `l_1` of both contacts over the nut's angle ([`ScrewContacts`]), the load `F` of
+/// each of the two, the excess `D_S`, `D_N` of a groove's radius over the ball's, the deflection `c_3` of the
 /// third contact over its load to the power of 2/3 (that of the screw's groove), and the gap `g` that is left to it: twice the
 /// [`Clearance`], and what the loaded diagonal's deflection opens. An oversized ball has `g < 0` up to a load, and a fourth
 /// contact that lets go.
@@ -33,13 +34,13 @@ const HALVINGS: u8 = 40;
 pub struct Seat {
     /// Gap `g` of the third contact where no friction acts, m; below 0 it carries.
     gap: f32,
-    /// `C_3`, m/N^(2/3).
+    /// `c_3`, m/N^(2/3).
     deflection: f32,
-    /// `Q (1/D_S + 1/D_N)`, N/m.
+    /// `F (1/D_S + 1/D_N)`, N/m.
     slope: f32,
-    /// `2 mu Q`, N.
+    /// `2 mu F`, N.
     friction: f32,
-    /// `l/2`, m.
+    /// `l_1/2`, m.
     per_angle: f32,
     /// Breakaway angle of both contacts, rad.
     contact_angle: f32,

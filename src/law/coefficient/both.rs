@@ -1,17 +1,18 @@
 //! Friction coefficients of both directions.
 
-/// Friction coefficients of both directions at one speed: what the limits of a memory need.
+/// Friction coefficients of ball and groove in both directions at one speed: what the limits of a memory need.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct DirectionalCoefficient {
-    /// In the positive direction.
+    /// In the positive direction, 1e-6 to 1.
     pub forward: f32,
-    /// In the negative direction.
+    /// In the negative direction, 1e-6 to 1.
     pub backward: f32,
 }
 
 impl DirectionalCoefficient {
-    /// That of the direction of a sign, and that of the opposite one.
+    /// Coefficient of the direction that a sign stands for, and that of the opposite direction; 0 and NaN count as forward. No
+    /// arithmetic.
     #[inline(always)]
     #[must_use]
     pub const fn of(&self, way: f32) -> (f32, f32) {
@@ -22,7 +23,7 @@ impl DirectionalCoefficient {
         }
     }
 
-    /// Both, at most so large.
+    /// Both coefficients, cut to `largest`; NaN becomes that.
     #[inline(always)]
     #[must_use]
     pub const fn within(self, largest: f32) -> Self {
@@ -40,7 +41,8 @@ impl DirectionalCoefficient {
         }
     }
 
-    /// Both over that of the direction of a sign, forward first.
+    /// Both coefficients over that of the direction that a sign stands for, forward first: 1 and a ratio, 1e-6 to 1e6. Cost: one
+    /// division.
     #[inline(always)]
     #[must_use]
     pub const fn over_own(&self, way: f32) -> [f32; 2] {

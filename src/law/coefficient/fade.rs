@@ -1,4 +1,4 @@
-//! A temperature that is not heard of any more.
+//! What stands in for a temperature whose readings have stopped.
 
 use super::viscosity::TEMPERATURE;
 use crate::error::{Error, Range, attempt};

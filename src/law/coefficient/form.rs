@@ -46,10 +46,11 @@ pub struct CoefficientParameters {
 /// Friction coefficient by speed, temperature and direction: constants.
 ///
 /// ```text
-/// mu(w, T) = d [mu_f + (mu_b - mu_f)/(1 + |w|/w_m(T))]        w_m(T) = w_ref ((T - T_s)/(T_ref - T_s))^5
+/// mu(omega_N, Theta) = d [mu_f + (mu_b - mu_f)/(1 + |omega_N|/w_m(Theta))]
+/// w_m(Theta) = w_ref ((Theta - Theta_s)/(Theta_ref - Theta_s))^5
 /// ```
 ///
-/// `d` is the factor of the direction, `T_s` the pole of [`Viscosity`]: the speed at which a film has formed goes with the
+/// `d` is the factor of the direction, `Theta` the temperature, `Theta_s` the pole of [`Viscosity`]: the speed at which a film has formed goes with the
 /// inverse of the viscosity. `w_m` stays within 1e-3 to 1e4 rad/s, the temperature between [`Viscosity::floor`] and 500 K.
 ///
 /// Largest errors over the difference of both coefficients, 0.1 to 500 rad/s, against the film's thickness by Hamrock and Dowson
@@ -73,9 +74,9 @@ pub struct CoefficientParameters {
 pub struct CoefficientLaw {
     forward: Sides,
     backward: Sides,
-    /// Per K: `w_ref^(1/5)/(T_ref - T_s)`: its product with `T - T_s` to the power of 5 is the half-share speed.
+    /// `w_ref^(1/5)/(Theta_ref - Theta_s)`: its product with `Theta - Theta_s`, to the power of 5, is the half-share speed.
     scale: f32,
-    /// `T_s`, K.
+    /// `Theta_s`, K.
     pole: f32,
     /// Scaled distance from the pole at the coldest and at the warmest temperature.
     ends: [f32; 2],
@@ -318,7 +319,7 @@ impl CoefficientAtTemperature {
     /// torque (1 - mu_f/mu_b)/w_m
     /// ```
     ///
-    /// It is there at standstill, and `1/(1 + |w|/w_m)^2` of it at a speed; friction that rises has none. Churning adds damping
+    /// It is there at standstill, and `1/(1 + |omega_N|/w_m)^2` of it at a speed; friction that rises has none. Churning adds damping
     /// of its own.
     #[must_use]
     pub const fn largest_negative_damping(&self, torque: f32) -> f32 {

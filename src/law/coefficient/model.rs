@@ -12,10 +12,10 @@ use crate::ranges;
 pub trait CoefficientModel: Copy + Debug + PartialEq {
     /// The coefficient at one temperature.
     type At: Copy + Debug + PartialEq;
-    /// What a scene keeps for other coefficients than its own.
+    /// What a scene keeps for coefficients other than its own; nothing where the coefficient does not change.
     type Kept<T: Copy + Debug + PartialEq>: Copy + Debug + PartialEq;
 
-    /// Least and largest coefficient, in either direction.
+    /// Least and largest coefficient that it gives, in either direction.
     fn extremes(&self) -> (f32, f32);
 
     /// The coefficient at a temperature, K.
@@ -27,10 +27,10 @@ pub trait CoefficientModel: Copy + Debug + PartialEq {
     /// Torque of churned lubricant, N m, at a speed, rad/s.
     fn churning_torque(at: &Self::At, speed: f32) -> f32;
 
-    /// Keeps what `fold` makes for coefficients between two, where they change.
+    /// Keeps what `fold` makes for coefficients from the least to the largest, where the coefficient changes.
     fn keep<T: Copy + Debug + PartialEq>(&self, fold: impl FnOnce(f32, f32) -> T) -> Self::Kept<T>;
 
-    /// What was kept.
+    /// What was kept, where the coefficient changes.
     fn kept<T: Copy + Debug + PartialEq>(kept: &Self::Kept<T>) -> Option<&T>;
 }
 

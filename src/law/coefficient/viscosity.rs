@@ -42,11 +42,12 @@ pub struct OilData {
 /// Dynamic viscosity of a lubricant by temperature.
 ///
 /// ```text
-/// eta(T) = eta_1 ((T_1 - T_s)/(T - T_s))^5        T_s = T_1 - (T_2 - T_1)/(r - 1),   r = (eta_1/eta_2)^(1/5)
+/// visc(Theta) = visc_1 ((Theta_1 - Theta_s)/(Theta - Theta_s))^5
+/// Theta_s = Theta_1 - (Theta_2 - Theta_1)/(v - 1)        v = (visc_1/visc_2)^(1/5)
 /// ```
 ///
-/// through two viscosities `eta_1`, `eta_2` at `T_1 < T_2`. `T_s` is where it would have no bound; below the pour point, or
-/// 10 K above `T_s` if that is more, viscosity counts as there.
+/// through two viscosities `visc_1`, `visc_2` at the temperatures `Theta_1 < Theta_2`. `Theta_s` is where it would have no bound;
+/// below the pour point, or 10 K above `Theta_s` if that is more, viscosity counts as there.
 ///
 /// Four multiplications and a division where the laws of Vogel and of Walther (ASTM D341) take exponentials. Largest errors
 /// of the viscosity, from two printed at 40 and 100 degrees Celsius:
@@ -54,7 +55,7 @@ pub struct OilData {
 /// | oil | 0 to 100 C | -20 to 120 C | -40 to 120 C |
 /// |---|---|---|---|
 /// | Vogel, 0.088 and 0.0095 Pa s, its pole at -150 C | 12 % | 16 % | 16 % |
-/// | the same, `T_s` fitted over -20 to 120 C (-64 C) | 5 % | 6 % | 87 % |
+/// | the same, `Theta_s` fitted over -20 to 120 C (-64 C) | 5 % | 6 % | 87 % |
 /// | Walther, 100 and 11.2 mm²/s (mineral, viscosity index 98) | 43 % | 67 % | 81 % |
 /// | Walther, 100 and 14.5 mm²/s (synthetic, viscosity index 150) | 35 % | 59 % | 77 % |
 ///
@@ -78,9 +79,9 @@ pub struct OilData {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Viscosity {
-    /// `T_1`, K, and `eta_1`, Pa s.
+    /// `Theta_1`, K, and `visc_1`, Pa s.
     point: (f32, f32),
-    /// `T_s`, K.
+    /// `Theta_s`, K.
     pole: f32,
     /// Temperature below which nothing changes, K.
     floor: f32,
@@ -191,7 +192,7 @@ impl Viscosity {
         viscosity * (square * square * ratio)
     }
 
-    /// Temperature `T_s` at which the formula has its pole, K.
+    /// Temperature `Theta_s` at which the formula has its pole, K.
     #[must_use]
     pub const fn pole(&self) -> f32 {
         self.pole

@@ -17,12 +17,13 @@ const BOUNDLESS: f32 = 1e12;
 
 /// `N` elements, each in contact from a load of its own on: friction across the path under any load.
 ///
-/// `f_i <- clamp(f_i + k_i dtheta, -lambda_i T-, lambda_i T+)`, `lambda_i = l_i / sum l_j`, `l_i = k_i (D - c_i)` where
-/// positive, else 0, `D = (S/S_ref)^(2/3)`, `c_i = x_i²`, `k_i = 1.5 g_i T_ref/theta_b`; `x_i`, `g_i` are nodes and
-/// weights of Gauss and Legendre on 0 to `(S_max/S_ref)^(1/3)`.
+/// `f_i <- clamp(f_i + k_i dtheta, -lambda_i T-, lambda_i T+)`, `lambda_i = b_i / sum b_j`, `b_i = k_i (d - c_i)` where
+/// positive, else 0, with the approach `d = (F/F_ref)^(2/3)` under a load `F` over that under the reference load `F_ref`;
+/// `c_i = x_i²`, `k_i = 1.5 g_i T_ref/theta_b`; `x_i`, `g_i` are nodes and weights of Gauss and Legendre on 0 to
+/// `(F_max/F_ref)^(1/3)`.
 ///
 /// A Hertzian contact is a row of springs of constant stiffness that come into contact one after the other (Jaeger 1993,
-/// Ciavarella 1998, Popov and Hess 2015): `x` is the distance from its centre, `D` its approach. 3000 of them have Mindlin's
+/// Ciavarella 1998, Popov and Hess 2015): `x` is the distance from its centre, `d` its approach. 3000 of them have Mindlin's
 /// curve at loads of 0.2, 1 and 5 to 4e-7. Stiffness then grows with the power 1/3 of the load and breakaway with 2/3, though
 /// no spring's stiffness changes, so that the elements stay passive.
 ///
@@ -87,7 +88,7 @@ impl<const N: usize> LoadExactElements<N> {
         self.stiffnesses
     }
 
-    /// What each element bears at an approach, N m (N) for a breakaway angle of 1; and their sum.
+    /// `b_i` at an approach `d`, N m/rad (N/m): what each element bears, but for a factor that all have in common; and their sum.
     #[inline(always)]
     fn borne(&self, approach: f32) -> ([f32; N], f32) {
         let mut borne = [0.0; N];

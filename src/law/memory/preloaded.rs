@@ -7,11 +7,11 @@ use crate::law::{Elements, SlidingLimits};
 /// Preload over the load that a caged screw tells its elements without an axial load: `1/(2 sqrt(2))`.
 const PRELOAD: f32 = 0.353_553_4;
 
-/// Load-exact elements of a screw with a preload `P` of each flank, whose reference load is that without an axial load.
+/// Load-exact elements of a screw with a preload `F_0` of each flank, whose reference load is that without an axial load.
 ///
-/// A caged screw tells its elements the load `2 sqrt(2) P + |F|` under an axial load `F`: what its friction is about in proportion to.
-/// What its contacts carry, and so how stiff they are and how far they yield, is the sum of both flanks: `2 P` without a load, hardly more
-/// up to `F = P`, and `F` once one flank is lost, from `2 sqrt(2) P` on. The difference is 41 % of the load there, and 19 % of the breakaway
+/// A caged screw tells its elements the load `2 sqrt(2) F_0 + |F|` under an axial load `F`: what its friction is about in proportion to.
+/// What its contacts carry, and so how stiff they are and how far they yield, is the sum of both flanks: `2 F_0` without a load,
+/// hardly more up to `F = F_0`, and `F` once one flank is lost, from `2 sqrt(2) F_0` on. The difference is 41 % of the load there, and 19 % of the breakaway
 /// angle. 30 cycles beyond the elements'.
 ///
 /// ```

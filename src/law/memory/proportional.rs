@@ -116,8 +116,8 @@ impl<const N: usize> ProportionalElements<N> {
         Ok(elements.with_largest_first())
     }
 
-    /// The sum of differences stays within the limits where the first element has not a vanishing share: by the rounding
-    /// of what it does not carry.
+    /// Puts the element with the largest share first: `follow` adds up differences from the first element, and the sum leaves the
+    /// limits by no more than the rounding of what that one does not carry.
     const fn with_largest_first(mut self) -> Self {
         let (mut largest, mut most) = (0, 0.0);
         let mut index = 0;

@@ -17,7 +17,7 @@ pub const FREE_PLAY: Range = Range::new(0.0, 1e3);
 ///
 /// Across-slip forces of both contacts push a ball the same way, until a third contact holds it: `x` is the ball's way
 /// in its clearance in terms of the turn, `g` half the clearance, and `(x - g)^(3/2)` Hertz's law of the third contact
-/// (which bears `2 mu Q`, so that `K = N l/(2 C_3^(3/2))` does not depend on the load). With clearance this, not the
+/// (which bears `2 mu F`, so that `K = N l_1/(2 c_3^(3/2))` of `N` balls does not depend on the load). With clearance this, not the
 /// contacts' own deflection, decides how far a nut turns before it slides.
 ///
 /// Friction is a fixed function of `x` that grows with it, so that stored energy is a convex function of `x`

@@ -13,7 +13,7 @@ pub struct Play {
     pub(super) half_width: f32,
 }
 
-/// Where a play is.
+/// Where the turn stands in its play, and which way the output moved last.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct PlayState {

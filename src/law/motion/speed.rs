@@ -3,7 +3,7 @@
 use super::turn::{LARGEST_TURN, NutAngle, Turn};
 use crate::error::{Error, attempt, in_range};
 
-/// Turn from a speed: `dtheta = w dt`.
+/// Turn from a speed: `dtheta = omega_N dt`.
 ///
 /// For simulations, whose speed has no noise, and for sensors without an angle. Noise adds up: `sigma sqrt(t dt)` after a time
 /// `t`, 1.6 mrad after a second of 0.05 rad/s at 1 kHz. A speed that is no number is no reading, and its turn is lost.

@@ -71,7 +71,7 @@ pub trait NutAngle {
     /// No reading yet.
     const FRESH: Self::State;
 
-    /// Whether this sensor leaves such a state: one that has been read from bytes may be another.
+    /// Whether this sensor can have left such a state: one that was read from bytes may be that of another sensor.
     fn gave(&self, state: &Self::State) -> bool {
         let _ = state;
         true

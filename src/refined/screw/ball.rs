@@ -78,14 +78,19 @@ const QUADRANTS: [(f32, f32); 4] = [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ScrewBall {
     friction: f32,
+    /// m; lengths below are over it.
     ball_radius: f32,
+    /// Path radius `q`.
     pub(super) path: f32,
+    /// 1 / nominal speed.
     pub(super) inverse_speed: f32,
     pub(super) sin_lead: f32,
     pub(super) cos_lead: f32,
+    /// Speed along the track in nominal rolling, per radian of the nut.
     pub(super) nominal_speed: f32,
     /// `Omega_z` in nominal rolling with three or four contacts.
     roll: f32,
+    /// Cosine and sine of the angle between the track and the force between two balls.
     pub(super) cos_between: f32,
     pub(super) sin_between: f32,
     screw: HelixGroove,
@@ -115,7 +120,8 @@ impl HelixGroove {
 }
 
 impl ScrewBall {
-    /// Folds the constants of a design: set-up only.
+    /// Folds the constants of a validated design with the Coulomb friction coefficient of ball and groove, 1e-6 to 1: the path, the
+    /// contact ellipses at the nominal contact angle, and a [`SlipMap`] for each groove. Set-up only.
     ///
     /// # Errors
     /// [`Error`] naming `friction` (1e-6 to 1), `contact_angle` (0.05 to 1.5) or `axis_ratio`.
@@ -147,14 +153,14 @@ impl ScrewBall {
         })
     }
 
-    /// Orbital speed over the nut's speed in nominal rolling, `(1 + r cos beta)/2` with
+    /// Orbital speed over the nut's speed, 1, in nominal rolling: `(1 + r cos beta)/2` with
     /// `r = r_b r_m/q²`.
     #[must_use]
     pub fn nominal_orbital_speed(&self) -> f32 {
         self.nominal_speed * self.sin_between
     }
 
-    /// Orbital speed over the nut's speed.
+    /// Orbital speed over the nut's speed, 1, of a ball with this motion.
     #[must_use]
     pub fn orbital_speed(&self, motion: &ScrewBallMotion) -> f32 {
         (self.nominal_speed + motion.speed) * self.sin_between
@@ -221,7 +227,7 @@ impl ScrewBall {
         }
     }
 
-    /// Slip and spin of the four contacts at a motion.
+    /// Slip and spin of the four contacts at a motion, by the equations of [`ScrewBall`].
     #[must_use]
     pub fn contact_motion(
         &self,

@@ -74,7 +74,7 @@ impl ClosedForm {
     }
 
     /// `T = s [c_d (S + s F) + c_b (S - s F)] / 2` with the blended direction `s = w / sqrt(w² +
-    /// w_s²)`, the flanks' sum `S` and difference `F`: `c_d |F|` driving and `c_b |F|` back-driving
+    /// w_s²)` at the speed `w`, the flanks' sum `S` and difference `F`: `c_d |F|` driving and `c_b |F|` back-driving
     /// away from the reversal, zero at standstill, smooth between, odd under reversal of speed and
     /// load together, and never of the sign that would make friction a source of power.
     #[inline(always)]

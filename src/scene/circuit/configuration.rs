@@ -8,7 +8,7 @@ use crate::error::{Error, attempt, in_range};
 use crate::train::{IMPEDANCE_RANGE, LARGEST_TRAVEL, Track, Train};
 
 /// Impedance of a ball that no load presses into its grooves, N: it goes along with its neighbours. Not zero, because a train divides
-/// by it; a ball under load has some 100 N, so that such a ball presses on none by more than 1e-8 of that.
+/// by it; a loaded ball has some 500 N (100 N of load in the bearing of Lin 2019, Table 3.3), which such a ball does not feel.
 pub(crate) const UNLOADED: f32 = 1e-6;
 const _: () = assert!(UNLOADED >= IMPEDANCE_RANGE.0);
 

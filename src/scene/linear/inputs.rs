@@ -9,12 +9,12 @@ use crate::scene::passage::Motion;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LinearInputs {
-    /// Speed of the carriage on the rail, m/s.
+    /// Speed of the carriage on the rail, m/s; within that of the [`LinearLimits`], which stand in for more.
     pub speed: f32,
     /// Force that presses the carriage on the row of balls, N, preload included; zero or less lifts it
-    /// off.
+    /// off. Within the limits, as the speed.
     pub normal_load: f32,
-    /// Force across, N: positive loads the diagonal from bottom left to top right.
+    /// Force across, N: positive loads the diagonal from bottom left to top right. Within the limits, as the speed.
     pub side_load: f32,
 }
 

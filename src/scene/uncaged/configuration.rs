@@ -11,7 +11,10 @@ use crate::scene::circuit::{Circuit, CircuitConfiguration, DeviationMap, LONGEST
 use crate::scene::contract::Limits;
 use crate::train::LARGEST_FREE_SPEED;
 
-/// Largest deviation of a ball's speed over the pitch circle's: a factor, and what is added.
+/// Largest speed deviation = first x that of the closed form + second: room for what elastic contacts add.
+///
+/// A bound for balls that have not settled. In the tests of `host-tests/tests/scenes/uncaged.rs`, 320,000 renewals, no ball came to
+/// more than 52 % of it: 0.013 without deviations, 1.2 to 1.7 times the closed form's with them.
 const ELASTIC_ROOM: (f32, f32) = (1.5, 0.05);
 
 /// What the engineer sets for a ball screw without cage; unchecked.
