@@ -14,8 +14,8 @@ pub struct Estimates {
     pub drag: f32,
     /// Offset of the observed torque, N m, of either sign, up to `largest_offset`.
     pub offset: f32,
-    /// Relative error of the load torque, of either sign, up to `largest_load_error` (1 at most): of the true one, too little was
-    /// taken off by this part of what was.
+    /// Relative error of the load torque that was taken off, of either sign, up to `largest_load_error` (1 at most): the true one is
+    /// `1 + load_error` times as large.
     pub load_error: f32,
 }
 

@@ -25,8 +25,8 @@
 use crate::error::{Error, Range, attempt, in_range};
 use crate::law::memory::BREAKAWAY;
 
-/// Largest part of the true friction that is compensated. At 1 the simulated loop never comes to rest; at 0.95 it does, at every rate,
-/// delay and breakaway that was tried. Nothing between was.
+/// Largest part of the true friction that is compensated. At 1 the simulated loop never comes to rest; at 0.95 it does, at every
+/// rate, delay and breakaway that was tried; the tests try none between.
 pub const LARGEST_PART: f32 = 0.95;
 
 /// Largest initial stiffness of the compensation over that of the true friction. At 1 nothing of the true spring would be left; 3 %

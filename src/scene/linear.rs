@@ -27,14 +27,15 @@ pub use configuration::LinearBearingConfiguration;
 pub use inputs::{LinearInputs, LinearLimits};
 
 /// Force of a diagonal below which it does not count, N: the sum of two contacts of 1e-6 N. A numerical floor, which keeps cube roots
-/// and impedances above zero: the latter stay above the least that a train takes, 1e-9 N, also with a friction coefficient of 1e-6.
+/// and impedances above zero. In the bearing of Lin 2019, Table 3.3, the latter stay above the least that a train takes, 1e-9 N, also
+/// with a friction coefficient of 1e-6 and a hundredth of the mean load.
 const SMALLEST_FORCE: f32 = 2e-6;
 
 /// `2^(-4/3)`: a diagonal's force to the power of 4/3 is that of its sum of two equal contact forces, times this.
 pub(crate) const HALF_TO_FOUR_THIRDS: f32 = 0.396_850_26;
 
 /// A linear bearing without cage, with `N` balls in one circuit, in four-point contact: the published
-/// closed form for every ball ([`AnalyticLinearBall`](crate::ball::AnalyticLinearBall)), with its corrections.
+/// closed form for every ball ([`AnalyticLinearBall`]), with its corrections.
 ///
 /// Unflagged, with one groove that deviates by up to 3 degrees: the speed of a ball alone is within 7.5e-3 of `v/2` at
 /// 100 N a ball, 1e-2 at 10 N and 1.5e-2 at 1 N, and the friction of balls that press on each other within 12 % from 30 N

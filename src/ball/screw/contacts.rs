@@ -7,9 +7,8 @@ use crate::error::{Error, attempt};
 use crate::geometry::{BallScrew, Groove};
 use crate::math;
 
-/// Load of a light contact below which it does not count, over that of the main contacts. A numerical floor: what such a contact
-/// adds to friction is lost in an f32's rounding, and the cube root of its load, a hundredth of the main contact's, can still be
-/// divided by.
+/// Load of a light contact below which it does not count, over that of the main contacts. A numerical floor: such a contact adds
+/// about a millionth to friction, and its ellipse, a hundredth of the main contact's, has not vanished.
 const LEAST_LOAD: f32 = 1e-6;
 
 /// Both grooves with the preload between them.

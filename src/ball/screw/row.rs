@@ -11,7 +11,7 @@ use crate::geometry::BallScrew;
 use crate::ranges;
 
 /// Smallest load per ball, N: below it a ball keeps the motion and the compliance that it has there. A numerical floor: compliance
-/// goes with 1/load and has no bound at zero. Friction under it, some 1e-7 N m a ball, is nothing beside a screw's.
+/// goes with 1/load and has no bound at zero. Friction under it, below 1e-6 N m a ball, is nothing beside a screw's.
 const SMALLEST_LOAD: f32 = 1e-3;
 
 /// Balls of one ball screw: constants of the closed form.

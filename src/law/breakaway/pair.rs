@@ -175,8 +175,8 @@ impl ScrewContacts {
         }
     }
 
-    /// Spin of both contacts of a ball that does not slip, with `mu` and `F` as in [`Self::slip`]: of each limit `M_0 s`, N m, stiffness
-    /// `k_tor s^2`, N m/rad, with the spin `s` over the nut's angle ([`Self::spin_per_angle`]). Set-up.
+    /// Spin of both contacts of a ball that does not slip, with `mu` and `F` as in [`Self::slip`]: of each the limit `M_0 s`, N m,
+    /// and the stiffness `k_tor s^2`, N m/rad, with the spin `s` over the nut's angle ([`Self::spin_per_angle`]). Set-up.
     #[must_use]
     pub const fn spin(&self, friction: f32, load: f32, rolling: Rolling) -> Resistance {
         let per_angle = self.spin_per_angle(rolling);

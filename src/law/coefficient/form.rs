@@ -5,8 +5,8 @@ use super::viscosity::{TEMPERATURE, Viscosity, fifth_root};
 use crate::error::{Error, Range, attempt, in_range};
 use crate::ranges;
 
-/// Least and largest half-share speed, rad/s: at set-up and at every temperature. A nut turns with 0.1 to 500 rad/s: beyond either end
-/// its friction is that of a full film, or of none, at every speed.
+/// Least and largest half-share speed, rad/s: at set-up and at every temperature. A nut turns with 0.1 to 500 rad/s: beyond either
+/// end its friction is nearly that of a full film, or of none, at every speed.
 const HALF_SHARE_SPEED: Range = Range::new(1e-3, 1e4);
 
 /// Factor of the coefficient in one direction: far beyond what directions differ by, as that of a friction level.
@@ -50,8 +50,9 @@ pub struct CoefficientParameters {
 /// w_m(Theta) = w_ref ((Theta - Theta_s)/(Theta_ref - Theta_s))^5
 /// ```
 ///
-/// `d` is the factor of the direction, `Theta` the temperature, `Theta_s` the pole of [`Viscosity`]: the speed at which a film has formed goes with the
-/// inverse of the viscosity. `w_m` stays within 1e-3 to 1e4 rad/s, the temperature between [`Viscosity::floor`] and 500 K.
+/// `d` is the factor of the direction, `Theta` the temperature, `Theta_s` the pole of [`Viscosity`]: the speed at which a
+/// film has formed goes with the inverse of the viscosity. `w_m` stays within 1e-3 to 1e4 rad/s, the temperature between
+/// [`Viscosity::floor`] and 500 K.
 ///
 /// Largest errors over the difference of both coefficients, 0.1 to 500 rad/s, against the film's thickness by Hamrock and Dowson
 /// 1977 with the asperities' share `1/(1 + film/roughness)^2` of Olver and Spikes 1998: the form alone 0.068 (rms 0.039), with

@@ -8,12 +8,12 @@ pub const TEMPERATURE: Range = Range::new(150.0, 500.0);
 /// Dynamic viscosity, Pa s: thinner than water to as stiff as pitch.
 const VISCOSITY: Range = Range::new(1e-4, 1e4);
 
-/// Least distance from the temperature at which the formula has a pole, K. There viscosity changes by half a kelvin, and is 1e5 times
-/// that at 40 degrees Celsius for an oil with its pole at -67: no oil flows there.
+/// Least distance from the temperature at which the formula has a pole, K. There viscosity changes by half with each kelvin, and
+/// is 1e5 times that at 40 degrees Celsius for an oil with its pole at -67: no oil flows there.
 pub(super) const MARGIN: f32 = 10.0;
 
 /// Least and largest ratio of the two viscosities. Oils have 3 to 30 between 40 and 100 degrees Celsius; at 1.5 the pole lies 700 K
-/// below, and hardly anything depends on the temperature.
+/// below, and hardly anything depends on the temperature. 1e4 leaves room for temperatures further apart.
 const RATIO: Range = Range::new(1.5, 1e4);
 
 /// Temperatures at which data sheets print viscosities, K: 40 and 100 degrees Celsius.

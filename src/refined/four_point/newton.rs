@@ -254,7 +254,7 @@ fn larger(first: f32, second: f32) -> f32 {
     if first > second { first } else { second }
 }
 
-/// A force of at most [`LARGEST_AXIAL_FORCE`]; beyond it, or NaN, 0.
+/// A force up to that of [`ranges::LOAD`] in size; beyond it, or NaN, 0.
 #[inline]
 fn counted(force: f32) -> f32 {
     if force.abs() <= ranges::LOAD.maximum {
