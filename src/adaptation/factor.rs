@@ -20,7 +20,7 @@ pub(super) const LEAST: f32 = 1e-11;
 pub(super) struct Projection<const N: usize> {
     /// `f = U' h` and `g = D f`.
     along: [[f32; 2]; N],
-    /// Its variance before it is read: `h' P h = f' g`, a sum of squares.
+    /// Variance of the reading before it is taken in: `h' P h = f' g`, a sum of squares.
     pub(super) variance: f32,
 }
 
@@ -108,7 +108,7 @@ impl<const N: usize> Factor<N> {
         gain
     }
 
-    /// All readings so far count by `1/growth`.
+    /// Lets all readings so far count by `1/growth` of what they did: variances grow by that factor.
     #[inline(always)]
     pub(super) fn forget(&mut self, growth: f32) {
         for entry in &mut self.diagonal {

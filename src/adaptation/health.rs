@@ -42,7 +42,7 @@ pub(super) struct HealthConstants {
 pub(super) struct HealthState {
     /// Slow average of the level, less 1: of a small number a small change is not lost to rounding.
     pub(super) average: f32,
-    /// The same at commissioning.
+    /// The average at commissioning, less 1.
     pub(super) commissioned: f32,
     pub(super) health: Health,
 }

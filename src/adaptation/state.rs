@@ -113,7 +113,7 @@ impl AdaptationState {
         self.seen = self.covariance.project(&weighted);
     }
 
-    /// What the tick before has seen: the covariance takes it in, and the estimates are to move.
+    /// Takes what the tick before has seen into the covariance, and finds by how much the estimates move.
     #[inline(always)]
     fn correct(&mut self) -> AdaptationFlags {
         let (error, projection) = (self.error, &self.seen);

@@ -48,7 +48,7 @@ impl LoadShare {
         Ok(Self { share, root })
     }
 
-    /// Its power of 1/3.
+    /// The share's power of 1/3.
     pub(crate) const fn root(&self) -> f32 {
         self.root
     }
@@ -73,13 +73,13 @@ impl LoadShare {
         (lightest, heaviest)
     }
 
-    /// Its power of 2/3.
+    /// The share's power of 2/3.
     #[inline]
     pub(crate) const fn two_thirds(&self) -> f32 {
         self.root * self.root
     }
 
-    /// Its power of 4/3.
+    /// The share's power of 4/3.
     #[inline]
     pub(crate) const fn four_thirds(&self) -> f32 {
         self.share * self.root
@@ -104,9 +104,9 @@ impl LoadShare {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LoadShares {
-    /// Of loads of zero and above; 1 to 256 entries.
+    /// Table for loads of zero and above; 1 to 256 entries.
     pub positive: &'static [LoadShare],
-    /// Of loads below zero; as many entries.
+    /// Table for loads below zero; as many entries.
     pub negative: &'static [LoadShare],
 }
 

@@ -1,4 +1,4 @@
-//! What the friction of a contact that slips across the track is made from, at set-up.
+//! Integrals from which the friction of a contact follows, found at set-up.
 
 use crate::error::{Error, in_range};
 use crate::math::constant;

@@ -10,7 +10,7 @@ use crate::hertz::HertzContact;
 use crate::math;
 use crate::ranges;
 
-/// What a contact loses that rolls without slip.
+/// Losses of a contact that rolls without slip.
 ///
 /// Hysteresis: of the elastic energy that a contact takes up in front of its centre, it gives back a little less
 /// behind. Drag: a lubricant is pumped into the contact's inlet against its own viscosity.

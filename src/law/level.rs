@@ -20,7 +20,7 @@ pub struct FrictionLevel {
 }
 
 impl FrictionLevel {
-    /// That of the model.
+    /// Friction as the model has it.
     pub const ONE: Self = Self {
         forward: 1.0,
         backward: 1.0,
@@ -36,7 +36,7 @@ impl FrictionLevel {
         Ok(self)
     }
 
-    /// That of the direction of a sign; 0 counts as forward.
+    /// Level of the direction that a sign stands for; 0 counts as forward.
     #[inline(always)]
     #[must_use]
     pub const fn of(&self, way: f32) -> f32 {

@@ -80,7 +80,7 @@ pub struct WithMemoryState<
     pub scene: S::State,
     /// What the scene folded for coefficients other than the configuration's.
     coefficients: L::Kept<S::Coefficients>,
-    /// What came since the first tick.
+    /// What the scene keeps from tick to tick beside that.
     pub remembered: Remembered<S, E, A, L>,
 }
 

@@ -120,7 +120,7 @@ impl<const N: usize> Train<N> {
         }
     }
 
-    /// What this tick makes of the balls' speeds, with a nominal travel in units.
+    /// How far a speed moves a ball in this tick, with a nominal travel in units.
     #[inline(always)]
     fn motion(&mut self, travel: f32) -> Motion {
         let distance = travel.abs();

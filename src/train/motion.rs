@@ -10,7 +10,7 @@ const SIXTEENTH_BITS: u32 = 4;
 /// a tenth of a micrometre on half a metre.
 pub(super) const OVERLAP: u32 = 1 << 10;
 
-/// What a tick makes of a ball's speed.
+/// How far a ball's speed moves it in a tick.
 #[derive(Clone, Copy)]
 pub(super) struct Motion {
     /// Whole units that the nominal speed moves every ball, signed along the track.

@@ -15,6 +15,7 @@ const LEAST_LOAD: f32 = 1e-6;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Contacts {
+    /// Friction coefficient of ball and groove.
     pub(super) friction: f32,
     pub(super) screw: Raceway,
     pub(super) nut: Raceway,
@@ -40,8 +41,8 @@ pub(super) struct Loads {
 }
 
 impl Contacts {
-    /// Of a design's grooves in which a ball spins by `spins` (screw, nut) and slips by `slip`, m, per unit of nut speed,
-    /// with a preload, N.
+    /// The contacts of a design's ball that spins by `spins` (screw, nut) and slips by `slip`, m, per unit of nut speed, with a
+    /// preload, N.
     ///
     /// # Errors
     /// [`Error`] naming `axis_ratio`.

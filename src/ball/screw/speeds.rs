@@ -41,20 +41,20 @@ pub(super) struct Branch {
     pub(super) spin: f32,
 }
 
-/// Signs and weights with which the deviations of both grooves count.
+/// Signs and weights with which the deviations of both grooves count in `u` and `v` of [`ScrewLoop::ball`](super::ScrewLoop::ball).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Weights {
-    /// Of their sum, in what turns the ball.
+    /// Of the sum of both, in `u`, which turns the ball.
     pub(super) both: f32,
-    /// Of the screw's, in what tilts its contact with the other groove.
+    /// Of the screw's, in `v`, which tilts the ball's contact with the groove that has no third contact.
     pub(super) screw: f32,
-    /// Of the nut's.
+    /// Of the nut's, in `v`.
     pub(super) nut: f32,
 }
 
 impl Speeds {
-    /// Of a design, and of a ball in two contacts that sticks to the screw, or else to the nut.
+    /// Speeds of a design's balls; one in two contacts sticks to the screw, or else to the nut.
     pub(super) const fn new(design: &BallScrew, sticks_to_screw: bool) -> Self {
         let angle = design.contact_angle();
         let (sin, cos) = (angle.sin, angle.cos);

@@ -208,7 +208,7 @@ impl ScrewTick {
         }
     }
 
-    /// The same for speeds over a speed of reference, m per unit of nut speed, given with its inverse, and
+    /// The row for speeds over a speed of reference, m per unit of nut speed, given with its inverse, and
     /// deviations at screw and nut in these `units`, rad: once for all balls of the row.
     #[inline(always)]
     #[must_use]

@@ -295,7 +295,7 @@ impl LoopSlipMap {
         }
     }
 
-    /// Both polynomials, term by term.
+    /// The polynomials of `C4` and `C5` at a place from -1 to 1, side by side.
     #[inline(always)]
     fn polynomials(&self, place: f32) -> (f32, f32) {
         let [a0, a1, a2, a3, a4, a5, a6, a7] = self.fourth;

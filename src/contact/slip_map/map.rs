@@ -184,7 +184,7 @@ impl SlipMap {
         }
     }
 
-    /// Where the velocity centre lies, over the semi-major axis, along and across the track.
+    /// The potential where the velocity centre lies at this place, over the semi-major axis, along and across the track.
     #[inline]
     fn potential(&self, along: f32, across: f32) -> Potential {
         let squares = (along * along, across * across);

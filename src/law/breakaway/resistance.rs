@@ -12,7 +12,8 @@ pub(super) const SLOPE: f32 = 1.5;
 pub struct Resistance {
     /// Friction of gross sliding, N m or N.
     pub limit: f32,
-    /// Friction over motion, right after a reversal and doubled: of the backbone's beginning, N m/rad or N/m.
+    /// Initial stiffness, N m/rad or N/m: friction over motion at the beginning of the backbone, and by Masing's rule right after each
+    /// reversal.
     pub stiffness: f32,
 }
 
@@ -23,7 +24,7 @@ impl Resistance {
         stiffness: 0.0,
     };
 
-    /// So many of it side by side: the balls of a screw.
+    /// `number` of it side by side: the balls of a screw.
     #[must_use]
     pub const fn times(self, number: f32) -> Self {
         Self {
@@ -32,7 +33,7 @@ impl Resistance {
         }
     }
 
-    /// Both side by side.
+    /// This one and another side by side.
     #[must_use]
     pub const fn beside(self, other: Self) -> Self {
         Self {

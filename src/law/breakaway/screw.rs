@@ -248,7 +248,7 @@ impl Breakaway {
         [self.slip, self.spin, self.resistance]
     }
 
-    /// The same with the contacts alone, for a memory that has an element for the seat: slip by Mindlin.
+    /// The parts with slip in the contacts alone, by Mindlin: for a memory that has an element for the seat.
     #[must_use]
     pub const fn contact_parts(&self) -> [BreakawayPart; 3] {
         self.slipping_within(self.contact_angle).parts()
@@ -270,7 +270,7 @@ impl Breakaway {
         self.slip.stiffness + self.spin.stiffness + self.resistance.stiffness
     }
 
-    /// The same with an identified breakaway angle of slip, rad, 1e-6 to 10.
+    /// This breakaway with an identified angle of slip, rad, 1e-6 to 10.
     ///
     /// # Errors
     /// [`Error`] naming `breakaway_angle`.

@@ -1,4 +1,4 @@
-//! What a number of elements remembers.
+//! What a set of elements remembers.
 
 use crate::error::{Error, attempt, in_range};
 

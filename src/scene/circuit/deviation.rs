@@ -174,7 +174,7 @@ impl DeviationMap {
         self.turns
     }
 
-    /// Its largest sample, rad, where that is not beyond `largest`.
+    /// Size of its largest sample, rad, or the error that names `field` where that is beyond `largest`.
     pub(crate) const fn checked(&self, field: &'static str, largest: f32) -> Result<f32, Error> {
         // A map keeps its largest sample within a rounding.
         let margin = 1.0 + 4.0 * f32::EPSILON;
@@ -212,7 +212,7 @@ impl DeviationMap {
         self.units(phase >> (32 - PHASE_BITS)) as f32 * self.unit
     }
 
-    /// The same at a phase in units of 2^-20 of the period, as a multiple of [`DeviationMap::unit`]; full
+    /// Deviation at a phase in units of 2^-20 of the period, as a multiple of [`DeviationMap::unit`]; full
     /// periods do not count.
     #[inline(always)]
     pub(super) fn units(&self, phase: u32) -> i32 {
@@ -225,7 +225,7 @@ impl DeviationMap {
         })
     }
 
-    /// What multiples of a unit stand for, rad.
+    /// Deviation of one unit of [`DeviationMap::units`], rad.
     #[inline(always)]
     pub(super) const fn unit(&self) -> f32 {
         self.unit

@@ -25,7 +25,7 @@ pub struct Remembered<S: Sliding, E: Elements, A: NutAngle, L: CoefficientModel>
     pub(super) full: Option<S::Full>,
     pub(super) limits: SlidingLimits,
     pub(super) churning: f32,
-    /// What scales the limits.
+    /// Levels that scale the limits.
     pub(super) level: FrictionLevel,
 }
 

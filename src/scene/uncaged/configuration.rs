@@ -110,8 +110,8 @@ impl UncagedBallScrewConfiguration {
         let largest = row.largest_deviation();
         let on_screw = attempt!(self.screw_deviation.checked("screw_deviation", largest));
         let in_nut = attempt!(self.nut_deviation.checked("nut_deviation", largest));
-        // Where balls hardly move against the nut, deviations that are small against the pitch radius
-        // are large against that.
+        // Where balls hardly move against the nut, a small deviation of their speed is large beside their speed
+        // against it.
         let relative = row.fastest_deviation(on_screw, in_nut) / speed;
         if relative > LARGEST_FREE_SPEED {
             let part = LARGEST_FREE_SPEED / relative;
