@@ -34,8 +34,6 @@ fn friction_is_that_of_the_formula() {
         let true_friction = (exact.abs() - 0.5).max(0.0).powf(1.5) * exact.signum();
         errors.add_case(friction - true_friction, || tick.to_string());
         assert!(friction <= forward.into() && friction >= f64::from(-backward));
-        // Play and place are wiped out by no element: they follow the turn, to rounding, as long as they do.
-        exact = f64::from(state.place());
     }
     errors.assert_promised(&promises::MEMORY_SEAT);
 }
