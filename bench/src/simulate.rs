@@ -138,7 +138,8 @@ pub struct Arguments {
     /// Where the plot goes: a picture, or a page in which to look closer
     #[arg(long, value_name = "OUT.svg|OUT.html")]
     plot: Option<PathBuf>,
-    /// Compute the float64 reference beside the model; uncaged, exactly without a name
+    /// Compute the float64 reference beside the model. Caged: one ball in elastic balance, exactly, or the closed form that the
+    /// design asks for. Uncaged: all balls, exactly without a name
     #[arg(
         long,
         value_enum,
