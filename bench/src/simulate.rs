@@ -13,6 +13,7 @@ mod measurement;
 mod mechanism;
 pub(crate) mod memory;
 pub(crate) mod nut;
+mod output;
 mod picture;
 mod progress;
 mod reference;
@@ -28,17 +29,18 @@ mod train;
 mod train_picture;
 pub(crate) mod uncaged;
 
-use std::io::{self, Cursor, Seek, Write};
-use std::path::{Path, PathBuf};
+use std::io::{self, Cursor, Write};
+use std::path::PathBuf;
 
 use crate::designs::train::LinearDesign;
 use crate::designs::{self, DesignSource};
 use crate::failure::Failure;
 use crate::files::{self, Existing, Pending, refuse_same, refuse_shared};
-use crate::mdf4::{self, Mapping};
+use crate::mdf4::Mapping;
 use crate::source::Source;
 use choice::{Chosen, SceneName, choose};
 pub use manoeuvre::Manoeuvre;
+use output::write_table;
 use picture::Form;
 pub use picture::Moment;
 use progress::Progress;
@@ -136,7 +138,8 @@ pub struct Arguments {
     /// Where the plot goes: a picture, or a page in which to look closer
     #[arg(long, value_name = "OUT.svg|OUT.html")]
     plot: Option<PathBuf>,
-    /// Compute the float64 reference beside the model; uncaged, exactly without a name
+    /// Compute the float64 reference beside the model. Caged: one ball in elastic balance, exactly, or the closed form that the
+    /// design asks for. Uncaged: all balls, exactly without a name
     #[arg(
         long,
         value_enum,
@@ -274,29 +277,6 @@ fn simulate<S: Scene>(scene: &S, arguments: &Arguments, existing: Existing) -> R
         writeln!(stdout, "wrote {}", path.display())?;
     }
     Ok(())
-}
-
-/// Writes the rows of a table: as a measurement file where the path ends in .mf4, else as CSV.
-fn write_table(
-    writer: &mut (impl Write + Seek),
-    path: &Path,
-    (group, columns): (&str, &[&'static str]),
-    rows: impl Iterator<Item = Vec<String>>,
-) -> Result<(), Failure> {
-    if mdf4::named(path) {
-        let described = measurement::described(columns).map_err(Failure::Data)?;
-        return mdf4::write::write(writer, group, &described, rows)
-            .map_err(|message| Failure::file("write", path, &message));
-    }
-    let failure = |error: csv::Error| Failure::file("write", path, &error);
-    let mut table = csv::Writer::from_writer(writer);
-    table.write_record(columns).map_err(failure)?;
-    for row in rows {
-        table.write_record(row).map_err(failure)?;
-    }
-    table
-        .flush()
-        .map_err(|error| Failure::file("write", path, &error))
 }
 
 /// Reads a trace; its number of samples.

@@ -4,6 +4,7 @@ mod far;
 pub(crate) mod looped;
 mod map;
 pub(crate) mod near;
+mod nodes;
 mod potential;
 
 pub use map::{SlipFriction, SlipMap};

@@ -29,6 +29,7 @@ mod load_exact;
 mod preloaded;
 mod proportional;
 mod quadrature;
+mod ranges;
 mod seat;
 mod slider;
 mod state;
@@ -42,15 +43,8 @@ pub use hysteresis::Hysteresis;
 pub use load_exact::LoadExactElements;
 pub use preloaded::PreloadedElements;
 pub use proportional::{Part, ProportionalElements};
+pub use ranges::{BREAKAWAY, REFERENCE_LIMIT};
 pub use seat::{SeatElement, SeatState};
 pub use slider::sticking_share;
 pub use state::MemoryState;
 pub use together::{Together, TogetherState};
-
-use crate::error::Range;
-
-/// Friction of gross sliding at the reference load: 1e-9 to 1e9 N m (N).
-pub const REFERENCE_LIMIT: Range = Range::new(1e-9, 1e9);
-
-/// Turn from no friction to full sliding: 1e-9 to 1e3 rad (m).
-pub const BREAKAWAY: Range = Range::new(1e-9, 1e3);

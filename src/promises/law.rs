@@ -34,7 +34,7 @@ pub const MEMORY_LOAD_EXACT: Promise = Promise {
 pub const MEMORY_SEAT: Promise = Promise {
     function: "SeatElement: follow",
     domain: "turns to 2.5 breakaway angles, limits to 3 times the reference",
-    error: "friction over the reference limit, from the same place in f64",
+    error: "friction over the reference limit, by the same turns in f64",
     largest: 2e-6,
     rms: 2e-7,
     mean: 2e-8,

@@ -7,6 +7,7 @@
 mod boundary;
 mod instance;
 mod kinds;
+mod outcome;
 mod registry;
 mod state;
 

@@ -8,6 +8,7 @@ use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 
 use crate::boundary::Logger;
 use crate::instance::{Instance, Said};
+use crate::outcome::Outcome;
 
 /// An instance with where its texts go.
 struct Entry {
@@ -25,17 +26,6 @@ static NEXT: AtomicUsize = AtomicUsize::new(0x1000);
 /// A handle that nothing has had.
 pub fn fresh() -> usize {
     NEXT.fetch_add(16, Ordering::Relaxed)
-}
-
-/// What a call comes to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Outcome {
-    /// Success.
-    Fine,
-    /// Success, with a text.
-    Warning,
-    /// Refused, with a text.
-    Refused,
 }
 
 /// What a panic said.

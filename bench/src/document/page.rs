@@ -3,8 +3,11 @@
 
 use std::fmt::Write as _;
 
+use super::cell::Cell;
+use super::figure::Figure;
 use super::inline::{escaped, html, with_code};
-use super::{Block, Cell, Document, Figure, Part, Section, Table};
+use super::parts::{Block, Document, Part, Section};
+use super::table::Table;
 use crate::failure::Failure;
 use crate::plot::{Panel, narrow, render_one, themed};
 

@@ -10,32 +10,13 @@
 
 mod closed_form;
 mod elastic;
+mod request;
 
-use epas_friction::BallScrew;
-use epas_reference::design::BallScrewDesign;
-use epas_reference::friction::ball_screw_row::{ElasticRow, RowBall, RowMotion};
-use epas_reference::friction::patch::Integration;
-use epas_reference::material::Elastic;
 use serde::Serialize;
 
 use super::answer::Answer;
-use super::fields::{BadField, Fields, in_range};
-use super::train::{LARGEST_TRAIN, ScrewNumbers, solved};
-
-/// Largest deviation of the arc centres, rad.
-const LARGEST_DEVIATION: f64 = 0.2;
-
-/// A quantity that was not found is none.
-#[derive(Default, Serialize)]
-struct Row {
-    /// Orbital over nut speed, no neighbour pressing.
-    free_speed: Option<Vec<f64>>,
-    contact_force: Option<Vec<f64>>,
-    groove_torque: Option<f64>,
-    groove_torque_free: Option<f64>,
-    /// SL, SR, NL, NR, no neighbour pressing.
-    loads: Option<Vec<[f64; 4]>>,
-}
+use super::fields::{BadField, Fields};
+use request::{Request, Row};
 
 /// What the crate computes: what its scene does, and a closed form.
 #[derive(Default, Serialize)]
@@ -45,42 +26,9 @@ struct InLoop {
     closed_form: Row,
 }
 
-struct Request {
-    pitch_radius: f64,
-    lead: f64,
-    ball_radius: f64,
-    groove_radius: f64,
-    contact_angle: f64,
-    youngs_modulus: f64,
-    poisson_ratio: f64,
-    friction: f64,
-    ball_friction: f64,
-    clearance: f64,
-    nut_speed: f64,
-    balls: Vec<RowBall>,
-}
-
 /// Answers one request.
 pub fn evaluate(mut fields: Fields) -> Result<Answer, BadField> {
-    let request = Request {
-        pitch_radius: fields.number("pitch_radius")?,
-        lead: fields.number("lead")?,
-        ball_radius: fields.number("ball_radius")?,
-        groove_radius: fields.number("groove_radius")?,
-        contact_angle: fields.number("contact_angle")?,
-        youngs_modulus: fields.number("youngs_modulus")?,
-        poisson_ratio: fields.number("poisson_ratio")?,
-        friction: fields.number("friction")?,
-        ball_friction: fields.optional_number("ball_friction")?.unwrap_or(0.0),
-        clearance: fields.number("clearance")?,
-        nut_speed: fields.number("nut_speed")?,
-        balls: fields
-            .objects("balls", LARGEST_TRAIN)?
-            .into_iter()
-            .enumerate()
-            .map(|(index, given)| ball(given).map_err(|error| error.of_ball(index)))
-            .collect::<Result<_, _>>()?,
-    };
+    let request = Request::read(&mut fields)?;
     fields.finish()?;
     request.check()?;
     if request.nut_speed == 0.0 {
@@ -93,116 +41,4 @@ pub fn evaluate(mut fields: Fields) -> Result<Answer, BadField> {
         closed_form: closed_form::row(&request, &design)?,
     };
     Answer::both(&in_loop, &request.reference()?)
-}
-
-fn ball(mut given: Fields) -> Result<RowBall, BadField> {
-    let ball = RowBall {
-        screw_deviation: given.number("screw_deviation")?,
-        nut_deviation: given.number("nut_deviation")?,
-        axial_load: given.number("axial_load")?,
-    };
-    given.finish()?;
-    Ok(ball)
-}
-
-impl Request {
-    fn check(&self) -> Result<(), BadField> {
-        in_range("pitch_radius", self.pitch_radius, 1e-4, 10.0)?;
-        in_range("lead", self.lead, 0.0, 20.0 * self.pitch_radius)?;
-        in_range(
-            "ball_radius",
-            self.ball_radius,
-            1e-5,
-            0.8 * self.pitch_radius,
-        )?;
-        // A ball that fills its groove has no place of its own.
-        in_range(
-            "groove_radius",
-            self.groove_radius,
-            1.002 * self.ball_radius,
-            1.999 * self.ball_radius,
-        )?;
-        in_range("contact_angle", self.contact_angle, 0.25, 1.3)?;
-        in_range("youngs_modulus", self.youngs_modulus, 1e6, 1e13)?;
-        in_range("poisson_ratio", self.poisson_ratio, 0.0, 0.49)?;
-        in_range("friction", self.friction, 1e-3, 0.5)?;
-        in_range("ball_friction", self.ball_friction, 0.0, 0.5)?;
-        let radius = self.ball_radius;
-        in_range("clearance", self.clearance, -0.05 * radius, 0.2 * radius)?;
-        in_range("nut_speed", self.nut_speed, -1e6, 1e6)?;
-        if self.balls.len() < 2 {
-            return Err(BadField::new("balls", "a row has two balls or more"));
-        }
-        for (index, ball) in self.balls.iter().enumerate() {
-            let (least, most) = (-LARGEST_DEVIATION, LARGEST_DEVIATION);
-            in_range("screw_deviation", ball.screw_deviation, least, most)
-                .and_then(|_| in_range("nut_deviation", ball.nut_deviation, least, most))
-                .and_then(|_| in_range("axial_load", ball.axial_load, -1e6, 1e6))
-                .map_err(|error| error.of_ball(index))?;
-        }
-        Ok(())
-    }
-
-    fn reference(&self) -> Result<Row, BadField> {
-        let material = Elastic {
-            youngs_modulus: self.youngs_modulus,
-            poisson_ratio: self.poisson_ratio,
-        };
-        let row = ElasticRow {
-            design: BallScrewDesign {
-                pitch_radius: self.pitch_radius,
-                lead: self.lead,
-                ball_radius: self.ball_radius,
-                screw_groove_radius: self.groove_radius,
-                nut_groove_radius: self.groove_radius,
-                contact_angle: self.contact_angle,
-                ball: material,
-                groove: material,
-            },
-            clearance: self.clearance,
-            friction: self.friction,
-            ball_friction: self.ball_friction,
-            nut_speed: self.nut_speed,
-            balls: self.balls.clone(),
-            integration: Integration::Coarse,
-        };
-        let found = solved(row.solve()).map_err(|error| {
-            error
-                .renamed("offset_h", "groove_radius")
-                .renamed("relative_radius_1", "pitch_radius")
-                .renamed("relative_radius_2", "groove_radius")
-                .renamed("contact_modulus", "youngs_modulus")
-        })?;
-        Ok(found.map_or_else(Row::default, |row| self.answer(&row)))
-    }
-
-    fn answer(&self, row: &RowMotion) -> Row {
-        let speed = self.nut_speed.abs();
-        let balls = &row.free;
-        Row {
-            free_speed: Some(
-                balls
-                    .iter()
-                    .map(|ball| ball.motion.orbital_speed / self.nut_speed)
-                    .collect(),
-            ),
-            contact_force: Some(row.contact_forces.clone()),
-            groove_torque: Some(row.groove_loss() / speed),
-            groove_torque_free: Some(row.free_groove_loss() / speed),
-            loads: Some(balls.iter().map(|ball| ball.loads).collect()),
-        }
-    }
-
-    fn design(&self) -> Result<BallScrew, BadField> {
-        ScrewNumbers {
-            pitch_radius: self.pitch_radius,
-            lead: self.lead,
-            ball_radius: self.ball_radius,
-            groove_radius: self.groove_radius,
-            youngs_modulus: self.youngs_modulus,
-            poisson_ratio: self.poisson_ratio,
-        }
-        .design(self.contact_angle as f32)
-        .map_err(|error| BadField::from(error).renamed("axis_ratio", "groove_radius"))
-    }
 }

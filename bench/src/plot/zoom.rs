@@ -3,8 +3,10 @@
 use serde_json::{Value, json};
 
 use super::chart::Chart;
+use super::panel::{Panel, render_one};
 use super::series::Mark;
-use super::{Panel, Strip, render_one, themed};
+use super::strip::Strip;
+use super::theme::themed;
 use crate::failure::Failure;
 
 const STYLE: &str = include_str!("zoom.css");

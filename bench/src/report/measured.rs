@@ -2,10 +2,11 @@
 
 mod deciding;
 mod efficiency;
+mod known;
 
 use epas_friction::defaults;
 use epas_reference::friction::rolling_resistance::RollingResistance;
-use epas_reference::measured::{COUNT, Measured, Usual, Verdict, records, studies};
+use epas_reference::measured::{COUNT, Measured, Standing, Usual, records, studies};
 
 use super::context::Context;
 use crate::document::{Block, Cell, Section, Table};
@@ -41,10 +42,10 @@ pub fn section(_: &Context) -> Result<Section, Failure> {
     let rows = studies::efficiency_over_lead(&usual, &step);
     let deciding = studies::what_decides(&step);
     let choices = studies::choices(&usual, &step);
-    let count = |verdict: Verdict| {
+    let count = |standing: Standing| {
         records
             .iter()
-            .filter(|record| record.verdict == verdict)
+            .filter(|record| record.standing == standing)
             .count()
     };
     let mut blocks = vec![
@@ -58,10 +59,10 @@ pub fn section(_: &Context) -> Result<Section, Failure> {
             usual.friction,
             -1e6 * usual.clearance,
             100.0 * usual.rolling.hysteresis_loss,
-            count(Verdict::Within),
-            count(Verdict::Apart),
-            count(Verdict::InKind),
-            count(Verdict::NotComputed),
+            count(Standing::Within),
+            count(Standing::Apart),
+            count(Standing::InKind),
+            count(Standing::NotComputed),
         )),
         Block::Table(verdicts(&records)),
         Block::Annex(table(&records)),
@@ -83,7 +84,7 @@ fn verdicts(records: &[Measured]) -> Table {
         columns: ["what", "verdict"].map(String::from).to_vec(),
         rows: records
             .iter()
-            .map(|record| vec![Cell::from(record.what), record.verdict.name().into()])
+            .map(|record| vec![Cell::from(record.what), record.standing.name().into()])
             .collect(),
     }
 }
@@ -110,19 +111,10 @@ fn table(records: &[Measured]) -> Table {
                     record.figure.into(),
                     record.source.name().into(),
                     record.computed.clone().into(),
-                    record.verdict.name().into(),
+                    record.standing.name().into(),
                     record.needed.clone().into(),
                 ]
             })
             .collect(),
-    }
-}
-
-/// A number, or nothing where there is none.
-fn known(value: f64, decimals: usize) -> Cell {
-    if value.is_finite() {
-        Cell::fixed(value, decimals)
-    } else {
-        "".into()
     }
 }

@@ -6,15 +6,13 @@ mod laws;
 mod loads;
 mod loops;
 mod noise;
+mod panel;
 mod trial;
 
 use super::context::Context;
 use crate::document::{Block, Section};
 use crate::failure::Failure;
 use crate::peers::candidates::{best, ours, published};
-
-/// Width and height of a panel, pixels.
-const PANEL: (u32, u32) = (540, 440);
 
 /// The section.
 pub fn section(context: &Context) -> Result<Section, Failure> {

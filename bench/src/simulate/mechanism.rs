@@ -12,6 +12,7 @@ use epas_friction::Outputs;
 
 use super::memory;
 use super::nut::{Nut, STEPS};
+use super::output::write_table;
 use super::picture::Form;
 use super::remembering::{Remembers, Use, remembering};
 use super::summary::Lines;
@@ -162,7 +163,7 @@ pub fn run(
     if let [Some(table), _] = &outputs {
         let mut pending = Pending::new(table, existing)?;
         let group = format!("{name} on {}", design.name);
-        super::write_table(
+        write_table(
             pending.writer(),
             table,
             (&group, &COLUMNS),

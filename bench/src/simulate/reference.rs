@@ -1,5 +1,12 @@
-//! The same scene in float64: a caged ball screw from the efficiencies of the reference, an uncaged one
-//! by its whole screw, exactly ([`super::whole_screw`]) or in closed form.
+//! The same scene in float64: what stands beside the in-loop model, by scene.
+//!
+//! | scene | `--reference` | which model of the reference |
+//! |---|---|---|
+//! | caged, friction of the contacts | [`super::caged_exact`] | `LoadedScrew`: one ball in elastic balance, exact, solved at 160 loads of each sign |
+//! | caged, a paper's closed form | [`CagedReference`] | `Screw`: the same closed form in float64; it proves the arithmetic, not the form |
+//! | uncaged, and `--reference=exact` | [`super::exact_screw`] | `ElasticRing`: every ball in elastic balance by contact integrals, and the forces between them |
+//! | uncaged, `--reference=closed-form` | [`whole_screw`] | `WholeScrew` with the `ThreePointModel` of each ball: not exact, for comparison with the dissertation |
+//! | linear | refused | `eval` compares rows of balls |
 
 use std::f64::consts::{SQRT_2, TAU};
 
@@ -26,8 +33,8 @@ use crate::failure::Failure;
 pub enum ReferenceModel {
     /// Every ball in elastic grooves with exact contact integrals; at 10,000 states of the trace at most, within two minutes
     Exact,
-    /// Closed form of each ball (Lin 2019), at every sample: one speed, one load, one sine on the screw, no play,
-    /// preload or return
+    /// Closed form of each ball (Lin 2019), which is not exact, at every sample: one speed, one load, one sine on the
+    /// screw, no play, preload or return
     ClosedForm,
 }
 

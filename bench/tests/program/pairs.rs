@@ -32,16 +32,17 @@ fn request(all: &Value, case: &Value) -> Value {
     })
 }
 
-/// Largest and mean errors of what the scene finds of the stored pairs.
+/// Largest and mean errors of what the scene finds of the stored pairs, each with its case as the file names it. The kit of the host
+/// tests is part of their programs, not of a library, and cannot be had here.
 #[derive(Default)]
-struct Errors {
+struct Differences {
     largest: f64,
     sum: f64,
     count: f64,
     worst: String,
 }
 
-impl Errors {
+impl Differences {
     fn add(&mut self, error: f64, case: &Value) {
         self.sum += error;
         self.count += 1.0;
@@ -103,7 +104,7 @@ fn stored_pairs() {
         mut free_torque,
         mut speed,
         mut load,
-    ] = [(); 6].map(|()| Errors::default());
+    ] = [(); 6].map(|()| Differences::default());
     for (index, (case, answer)) in cases.iter().chain(cases).zip(&answers).enumerate() {
         let (reference, in_loop) = (&answer["reference"], &answer["in_loop"]);
         let stored = number(&case["ball_force_N"]);

@@ -4,10 +4,10 @@ use epas_friction::{
     FrictionModel, LinearBearingConfiguration, LinearBearingTrain, LinearInputs, LinearOutputs,
 };
 
+use crate::balls::{Built, Configuration};
 use crate::memory::Remembering;
 use crate::number::with_balls;
 use crate::row::{Row, pressing};
-use crate::{Built, Configuration};
 
 /// A linear bearing with so many balls, 1 to 64.
 ///

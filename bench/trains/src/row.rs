@@ -5,7 +5,7 @@ use epas_friction::scene::{ChangingFriction, Motion, Sliding};
 use epas_friction::train::Train;
 use epas_friction::{Error, FrictionModel};
 
-use crate::Balls;
+use crate::balls::Balls;
 use crate::memory::{Remembering, fresh};
 
 /// A scene with a row of balls.

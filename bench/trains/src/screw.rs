@@ -4,10 +4,10 @@ use epas_friction::{
     FrictionModel, Inputs, UncagedBallScrew, UncagedBallScrewConfiguration, UncagedOutputs,
 };
 
+use crate::balls::{Built, Configuration};
 use crate::memory::Remembering;
 use crate::number::with_balls;
 use crate::row::{Row, pressing};
-use crate::{Built, Configuration};
 
 /// A ball screw with so many balls, 1 to 64.
 ///

@@ -1,8 +1,13 @@
-//! A whole ball screw without cage: balls that recirculate and press on each other (Lin 2019, section 3.4.4).
+//! A whole ball screw without cage in closed form: balls that recirculate and press on each other (Lin 2019, section 3.4.4).
 //!
-//! Each ball moves by the closed form of [`super::ball_screw_closed`], which the tests hold against the exact balls of
-//! [`super::ball_screw_elastic`]. The library's scene rests on the same closed form: what is compared with this module proves
-//! the scene's implementation and its contacts between balls, not the closed form.
+//! Not exact: each ball moves by the closed form of [`super::ball_screw_closed`] ([`ThreePointModel`]), which the tests hold against
+//! the exact balls of [`super::ball_screw_elastic`]. The exact whole screw is [`super::ball_screw_ring`]: every ball in elastic balance,
+//! friction by contact integrals.
+//!
+//! | what is compared | with |
+//! |---|---|
+//! | the library's scene, whose balls are elastic: its promise, the table `whole_screws` of the report, `simulate --reference` | the exact ring |
+//! | figures 3.24 and 3.25 of the dissertation; `simulate --reference=closed-form` | this module, beside the exact ring |
 
 use nalgebra::{DMatrix, DVector};
 

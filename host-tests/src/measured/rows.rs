@@ -2,8 +2,9 @@
 
 use std::f64::consts::TAU;
 
+use super::catalogue;
+use super::figure::{Measured, Size, Source, Standing, Usual};
 use super::studies::{FIT_LOAD, SCREWS};
-use super::{Measured, Size, Source, Usual, Verdict, catalogue};
 use crate::curvature::Groove;
 use crate::design::LinearBearingDesign;
 use crate::error::ReferenceError;
@@ -116,7 +117,7 @@ fn drag_new(usual: &Usual) -> Result<Measured, ReferenceError> {
             -1e6 * oversize.clearance,
             PRELOADED.name
         ),
-        verdict: Verdict::of(range([two_nuts, one_nut]), widened(NEW)),
+        standing: Standing::of(range([two_nuts, one_nut]), widened(NEW)),
         needed: format!(
             "friction {} with two nuts (with a diameter of 25 mm {}, of 40 mm {}), {} with oversize balls",
             NEW.map(|target| found(braced.friction_for(target, double_nut)))
@@ -150,7 +151,7 @@ fn drag_worn(usual: &Usual) -> Result<Measured, ReferenceError> {
         figure: "0.2482 and 0.3785: 62 and 73 % of new",
         source: DATA_SET,
         computed: "wear is not computed".into(),
-        verdict: Verdict::NotComputed,
+        standing: Standing::NotComputed,
         needed: format!(
             "with the friction coefficient as new, a preload of {:.0} to {:.0} and of {:.0} to {:.0} % of new",
             shares[0][0], shares[0][1], shares[1][0], shares[1][1]
@@ -167,7 +168,7 @@ fn drag_over_preload(usual: &Usual) -> Result<Measured, ReferenceError> {
         computed: format!(
             "preload to the power {two:.2} with two nuts, {one:.2} with oversize balls; no change with speed"
         ),
-        verdict: Verdict::InKind,
+        standing: Standing::InKind,
         needed: "a friction coefficient that falls with speed, and lubricant drag that rises with its power 0.66"
             .into(),
     })
@@ -187,7 +188,7 @@ fn after_reversal(usual: &Usual) -> Result<Measured, ReferenceError> {
             "{:.2} of steady while a ball that changes its third contact has none, 50 N a ball",
             torque(&open)? / torque(&steady)?
         ),
-        verdict: Verdict::InKind,
+        standing: Standing::InKind,
         needed: "a bound, not a course: the march of the whole screw through a reversal gives that"
             .into(),
     })
@@ -217,7 +218,7 @@ fn efficiency_over_load(usual: &Usual) -> Result<Measured, ReferenceError> {
             PRELOADED.name,
             at(0.0)?.join(", ")
         ),
-        verdict: Verdict::InKind,
+        standing: Standing::InKind,
         needed:
             "oversize, or a drag that does not depend on load (lubricant, seals); slip and spin alone let efficiency fall with load"
                 .into(),
@@ -243,7 +244,7 @@ fn friction_over_speed(usual: &Usual) -> Result<Measured, ReferenceError> {
             share(1.0),
             share(20.0)
         ),
-        verdict: Verdict::NotComputed,
+        standing: Standing::NotComputed,
         needed: "a friction coefficient that falls with speed from mixed to full lubrication"
             .into(),
     })
@@ -267,7 +268,7 @@ fn steering_friction(usual: &Usual) -> Result<Measured, ReferenceError> {
             100.0 * (back / full - 1.0),
             STEERING.name
         ),
-        verdict: Verdict::InKind,
+        standing: Standing::InKind,
         needed: "nothing".into(),
     })
 }
@@ -291,7 +292,7 @@ fn drag_fluctuation(usual: &Usual) -> Result<Measured, ReferenceError> {
             "torque goes with the oversize to the power {power:.1}: {swing:.1} um of {:.1} um are 50 %",
             -1e6 * screw.clearance
         ),
-        verdict: Verdict::InKind,
+        standing: Standing::InKind,
         needed: format!("grooves that vary by {swing:.1} um along the screw, as ground ones do"),
     })
 }
@@ -313,7 +314,7 @@ fn pre_rolling(_: &Usual) -> Result<Measured, ReferenceError> {
             "contact {length:.0} um long under 100 N (assumed: ball of 6.35 mm, conformity 0.52): rolling is normal once a ball has left \
              its old contact"
         ),
-        verdict: Verdict::InKind,
+        standing: Standing::InKind,
         needed: "a law of pre-rolling for the spring below 100 nm".into(),
     })
 }
@@ -337,7 +338,7 @@ fn pure_rolling(usual: &Usual) -> Result<Measured, ReferenceError> {
             "{light:.1e} under 1 N to {heavy:.1e} under 100 N (assumed: ball of 10 mm, hysteresis loss {})",
             loss as f32
         ),
-        verdict: Verdict::InKind,
+        standing: Standing::InKind,
         needed: format!(
             "load and ball are missing; for 1e-5 a hysteresis loss of {:.4} under 1 N, {:.4} under 100 N",
             loss * 1e-5 / light,
@@ -376,7 +377,7 @@ fn chart(usual: &Usual) -> Result<Measured, ReferenceError> {
             "that of a plain screw with friction {:.4} to {:.4}, 100 N a ball",
             frictions[0], frictions[1]
         ),
-        verdict: Verdict::of(frictions, widened(catalogue::CHART_FRICTION)),
+        standing: Standing::of(frictions, widened(catalogue::CHART_FRICTION)),
         needed: "nothing".into(),
     })
 }
@@ -400,7 +401,7 @@ fn rule(usual: &Usual) -> Result<Measured, ReferenceError> {
             "{:.3} to {:.3} of the theory, ten screws, 100 N a ball",
             shares[0], shares[1]
         ),
-        verdict: Verdict::of(shares, [catalogue::PRACTICE, 1.0]),
+        standing: Standing::of(shares, [catalogue::PRACTICE, 1.0]),
         needed: format!(
             "for the theory itself friction {:.3} to {:.3} (125x10, 29x7, 33x20); what practice lacks more is wipers, seals, return",
             needed[0], needed[1]
@@ -448,7 +449,7 @@ fn drag_rule(usual: &Usual) -> Result<Measured, ReferenceError> {
             "{:.2} to {:.2} of the rule, two nuts, 25 N a ball (25x8, 32x10, 40x8, 40x10)",
             shares[0], shares[1]
         ),
-        verdict: Verdict::of(shares, widened([1.0, 1.0])),
+        standing: Standing::of(shares, widened([1.0, 1.0])),
         needed: format!(
             "friction of about {:.2} to {:.2}; the default of the friction coefficient was fitted to this row, and to no other",
             frictions[0], frictions[1]
@@ -467,7 +468,7 @@ fn drag_range(usual: &Usual) -> Result<Measured, ReferenceError> {
         figure: "0.1 to 0.3",
         source: Source::Seen("two makers' manuals"),
         computed: format!("{:.3} to {:.3}, the same screws", computed[0], computed[1]),
-        verdict: Verdict::of(computed, catalogue::DRAG_RANGE),
+        standing: Standing::of(computed, catalogue::DRAG_RANGE),
         needed: "nothing".into(),
     })
 }
@@ -479,7 +480,7 @@ fn assumed_friction(usual: &Usual) -> Result<Measured, ReferenceError> {
         figure: "0.02 to 0.2 (Olaru), 0.03 (Xu)",
         source: Source::Seen("introduction of Zhou et al. 2018"),
         computed: format!("{} taken here", usual.friction as f32),
-        verdict: Verdict::of([usual.friction; 2], [0.02, 0.2]),
+        standing: Standing::of([usual.friction; 2], [0.02, 0.2]),
         needed: "0.06 to 0.14, as the rows above say; 0.02 and 0.03 would need drag of lubricant and seals in place of spin".into(),
     })
 }
@@ -508,7 +509,7 @@ fn geometry_without_torque(usual: &Usual) -> Result<Measured, ReferenceError> {
         computed: format!(
             "{computed:.2} N m of drag, preload {preload:.0} N (assumed: half the balls on either flank)"
         ),
-        verdict: Verdict::NotComputed,
+        standing: Standing::NotComputed,
         needed: "no figure to compare with".into(),
     })
 }
@@ -527,7 +528,7 @@ fn rack(usual: &Usual) -> Result<Measured, ReferenceError> {
             "{idle:.0} without load, {driving:.0} under 1500 N, of the grooves alone (assumed: {})",
             STEERING.name
         ),
-        verdict: Verdict::of([idle; 2], [0.0, 400.0]),
+        standing: Standing::of([idle; 2], [0.0, 400.0]),
         needed: "the screw's share of the whole; with clearance 0 it is next to none without load"
             .into(),
     })
@@ -540,7 +541,7 @@ fn slide(_: &Usual) -> Result<Measured, ReferenceError> {
         figure: "20.4 N + 203 N s/m, concave over speed, differs by direction (-36 N s/m), breakaway 1 to 7 um",
         source: Source::Seen("measured trace"),
         computed: String::new(),
-        verdict: Verdict::NotComputed,
+        standing: Standing::NotComputed,
         needed: "missing: geometry and preload of the screw, friction of guide and seals; laws of speed and of pre-rolling".into(),
     })
 }

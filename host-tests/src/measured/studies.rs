@@ -1,10 +1,12 @@
 //! Studies behind the figures: efficiency over lead and load, what decides a screw's friction, and the choice of usual
 //! parameters.
 
-use super::{Size, Usual, catalogue};
+use super::catalogue;
+use super::figure::{Size, Usual};
 use crate::efficiency::Screw;
 use crate::error::ReferenceError;
 use crate::friction::ball_screw_efficiency::{LoadedScrew, ScrewFriction};
+use crate::friction::rolling_resistance::RollingResistance;
 use rayon::prelude::*;
 
 const fn size(name: &'static str, [diameter, lead, ball]: [f64; 3], conformity: f64) -> Size {
@@ -151,7 +153,7 @@ pub fn what_decides(step: &(dyn Fn() + Sync)) -> Vec<DecidingRow> {
                 let usual = Usual {
                     friction,
                     clearance: 1e-6 * clearance,
-                    rolling: super::RollingResistance::NONE,
+                    rolling: RollingResistance::NONE,
                 };
                 TABLE_3_6.under(load, &usual)
             })

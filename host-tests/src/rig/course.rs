@@ -6,9 +6,11 @@ use std::ops::Range;
 use rand::RngExt;
 use rand_pcg::Pcg64;
 
-use super::STREAM;
 use super::parameters::ZERO_CELSIUS;
 use crate::error::{ReferenceError, within};
+
+/// Stream of the generator of random numbers for the motion; sensors have the one beside it.
+pub(super) const STREAM: u128 = 0xa02_bdbf_7bb3_c0a7;
 
 /// A kind of motion with its load.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -32,12 +32,9 @@ use rand_pcg::Pcg64;
 
 use crate::closed_loop::ClosedLoop;
 use crate::error::{ReferenceError, within};
-use course::{Course, Driven, Manoeuvre};
+use course::{Course, Driven, Manoeuvre, STREAM};
 use friction::{Memory, Sliding, State};
 use parameters::Parameters;
-
-/// Stream of the generator of random numbers.
-const STREAM: u128 = 0xa02_bdbf_7bb3_c0a7;
 
 /// What sensors do to a trace.
 #[derive(Clone, Copy, Debug, PartialEq)]

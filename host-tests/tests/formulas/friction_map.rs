@@ -3,6 +3,7 @@
 use crate::kit::errors::Errors;
 use crate::kit::exact_friction::quadrature;
 use crate::kit::golden;
+use crate::kit::measured;
 use epas_friction::contact::FrictionMap;
 use epas_friction::promises::FRICTION_MAP;
 
@@ -55,13 +56,14 @@ fn maps_equal_the_contact_integral() {
             if offset.abs() <= 1.0 {
                 inside = error.iter().fold(inside, |max, e| max.max(e.abs()));
             }
+            // Documented, see below.
             assert!(
                 error[0].abs() <= 1e-3 && error[1].abs() <= 2e-3 && error[2].abs() <= 1e-3,
                 "axis_ratio {axis_ratio} offset {offset}: {fast:?}, exact {exact:?}"
             );
         }
         // The quartic is exact: what is left are roundings (6e-8 each) of terms up to 1.5.
-        assert!(inside <= 3e-7, "axis_ratio {axis_ratio}: {inside:e}");
+        measured::assert_at("friction map inside the contact", inside, axis_ratio);
         println!(
             "{axis_ratio:.3} | {} | inside {inside:.1e}",
             errors
@@ -87,12 +89,15 @@ fn maps_equal_the_tabulated_cases() {
         let axis_ratio = golden::number(&case, "k");
         let map = FrictionMap::new(axis_ratio as f32).unwrap();
         let full_moment = golden::number(&case, "p0");
-        assert!((f64::from(map.spin_moment()) - full_moment).abs() <= 2e-7);
-        assert!((f64::from(map.slope()) - 2.0 * golden::number(&case, "p2")).abs() <= 4e-7);
+        let moment = f64::from(map.spin_moment()) - full_moment;
+        measured::assert("friction map, tabulated spin moment", moment);
+        let slope = f64::from(map.slope()) - 2.0 * golden::number(&case, "p2");
+        measured::assert("friction map, tabulated slope", slope);
         let [offset, force, moment, power] =
             ["kappa", "f", "M", "P"].map(|name| golden::numbers(&case, name));
         for index in 0..offset.len() {
             let fast = map.evaluate(offset[index] as f32);
+            // Over the documented errors of the maps.
             let error = [
                 (f64::from(fast.force) - force[index]).abs() / 1e-3,
                 (f64::from(fast.moment) - moment[index]).abs() / (2e-3 * full_moment),
@@ -116,6 +121,7 @@ fn power_is_force_times_offset_and_moment() {
         assert_eq!(friction.moment, map.moment(offset));
         assert_eq!(friction.power, map.power(offset));
         let sum = offset * friction.force + friction.moment;
+        // Derived: a product, a sum and the power itself are rounded, 6e-8 each of at most the power.
         assert!(
             (friction.power - sum).abs() <= 2e-7 * friction.power,
             "{offset}"
@@ -211,6 +217,8 @@ fn every_offset_gives_finite_friction_within_its_bounds() {
             f32::NAN,
         ] {
             let friction = map.evaluate(offset);
+            // The force is 1 where all slides, to its roundings (1e-6 are sixteen of 6e-8). The moment is largest at the circle without
+            // slip, 3 pi/16 = 0.589. Offsets are cut at 2^30, 1.07e9, and the power is as large there.
             assert!(friction.force.abs() <= 1.0 + 1e-6, "{axis_ratio} {offset}");
             assert!(friction.moment >= 0.0 && friction.moment < 0.6);
             assert!(friction.power >= map.spin_moment() && friction.power <= 1.1e9);
@@ -229,5 +237,6 @@ fn a_contact_at_rest_has_no_friction_and_no_nan() {
     assert!(rest.stiffness.is_finite() && rest.tilt.is_finite() && rest.stick.is_finite());
     let sliding = map.dissipation(1e-3, 0.0, 1e-3, 0.0);
     assert_eq!(sliding.force, 1.0);
+    // Derived: the power of a speed of 1e-3, to a millionth.
     assert!((sliding.power - 1e-3).abs() < 1e-9);
 }

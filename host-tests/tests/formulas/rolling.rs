@@ -17,9 +17,9 @@ const RESISTANCE: RollingResistance = RollingResistance {
 /// root to the fourth within 2e-7; the sum of both parts errs less than the worse of them.
 #[test]
 fn the_crate_follows_the_reference() {
-    let mut hysteresis = Errors::of("hysteresis");
-    let mut lubricant = Errors::of("lubricant");
-    let mut both = Errors::of("both");
+    let mut hysteresis = Errors::of("rolling resistance, hysteresis");
+    let mut lubricant = Errors::of("rolling resistance, lubricant");
+    let mut both = Errors::of("rolling resistance, both");
     let sizes = CATALOGUE.iter().map(|size| (size.name, size.parameters()));
     let printed = DISSERTATION_DESIGNS
         .iter()
@@ -61,11 +61,11 @@ fn the_crate_follows_the_reference() {
             }
         }
     }
-    // Measured 3.8e-6; the ellipse's semi-axes are promised to 1e-5.
-    hysteresis.assert(1e-5, 5e-6, 5e-6);
-    // A constant of two roundings, which is a bias, a root and two more roundings of 2^-24.
-    lubricant.assert(3e-7, 1.5e-7, 1.2e-7);
-    both.assert(1e-5, 5e-6, 5e-6);
+    // Hysteresis has the error of the ellipse's semi-axes. The lubricant's part is a constant of two roundings, which is a bias, a
+    // root and two more roundings of 2^-24.
+    for errors in [hysteresis, lubricant, both] {
+        errors.assert_measured();
+    }
 }
 
 /// Power is force times speed, and one whole ball's power is that of the reference with the reference's own loads and

@@ -103,6 +103,17 @@ const TABLES: &[&[Measured]] = &[
     WHOLE_SCREW_REFERENCE,
     SINES,
     LONG_ROWS,
+    STIFFNESS,
+    ROLLING,
+    FRICTION_TORQUE,
+    LOOPS,
+    ELASTIC_BALL,
+    RING_REFERENCE,
+    ROW_REFERENCE,
+    LINEAR_MIRRORED,
+    MAP_ROUNDINGS,
+    ELEMENTS,
+    UNCAGED_SCENE,
 ];
 
 /// `scenes/caged_contacts.rs`: torques relative, efficiencies, ticks.
@@ -747,4 +758,170 @@ const LONG_ROWS: &[Measured] = &[
     largest("rows of balls, force", 0.1, 0.016),
     largest("rows of balls, power", 1e-4, 1.6e-5),
     largest("rows of balls, loss", 5e-4, 2.8e-4),
+];
+
+/// `stiffness`, relative; coefficients of friction over the difference of the boundary's and the film's.
+#[rustfmt::skip]
+const STIFFNESS: &[Measured] = &[
+    row("stiffness of a contact, across", [6.6e-6, 3.5e-6, 5e-7], [4.4e-6, 2.3e-6, 1.5e-7]),
+    row("stiffness of a contact, along", [7.2e-6, 3.9e-6, 5e-7], [4.8e-6, 2.6e-6, 1.4e-7]),
+    row("stiffness of a contact, torsion", [2.6e-5, 1.5e-5, 1.2e-6], [1.7e-5, 1.0e-5, 3.8e-7]),
+    row("every catalogue size, slip", [5.5e-7, 2.4e-7, 9e-8], [1.8e-7, 7.9e-8, 3.0e-8]),
+    row("every catalogue size, slip stiffness", [4.5e-6, 3.7e-6, 3.7e-6], [2.9e-6, 2.4e-6, 2.4e-6]),
+    row("every catalogue size, spin", [7.5e-6, 7e-6, 7e-6], [4.9e-6, 4.5e-6, 4.5e-6]),
+    row("every catalogue size, spin stiffness", [1.5e-5, 1.3e-5, 1.3e-5], [1.2e-5, 1.2e-5, 1.2e-5]),
+    row("every catalogue size, drift", [3.5e-6, 1.5e-6, 1.1e-6], [2.3e-6, 1.0e-6, 7.3e-7]),
+    row("torque of slip and of spin over their sum", [2e-4, 4.2e-5, 5e-6], [1.3e-4, 2.8e-5, 1.4e-6]),
+    row("torque by mechanisms over that of the scene", [0.34, 0.09, 0.03], [0.32, 0.076, 0.028]),
+    row("rational form of the coefficient, 20 C", [0.069, 0.04, 0.014], [0.068, 0.039, 0.013]),
+    row("rational form and viscosity, -20 to 120 C", [0.081, 0.038, 0.015], [0.080, 0.037, 0.014]),
+    row("rational form and viscosity, -40 to -20 C", [0.058, 0.015, 0.007], [0.057, 0.014, 6.4e-3]),
+];
+
+/// `formulas/rolling.rs`, relative.
+#[rustfmt::skip]
+const ROLLING: &[Measured] = &[
+    row("rolling resistance, hysteresis", [5.7e-6, 4.1e-6, 3.5e-6], [3.8e-6, 2.7e-6, 2.3e-6]),
+    row("rolling resistance, lubricant", [3e-7, 1.5e-7, 1.2e-7], [1.2e-7, 7.8e-8, 7.3e-8]),
+    row("rolling resistance, both", [3.3e-6, 7.5e-7, 4e-7], [2.2e-6, 5.0e-7, 2.1e-7]),
+];
+
+/// `scenes/memory.rs` and the closed forms of `scenes/step_promises.rs`: friction torque, relative.
+#[rustfmt::skip]
+const FRICTION_TORQUE: &[Measured] = &[
+    row("friction between two coefficients", [3.2e-2, 6e-3, 3e-4], [2.9e-2, 5.3e-3, 1.6e-4]),
+    // A dozen roundings of 2^-24, which add up at random.
+    row("caged step, closed forms", [4e-7, 1.4e-7, 3e-8], [3.0e-7, 1.1e-7, 1.5e-8]),
+];
+
+/// `law/golden.rs`: friction over the limit, by the number of elements.
+#[rustfmt::skip]
+const LOOPS: &[Measured] = &[
+    row("random loops, slip4", [3.4e-2, 8e-3, 1e-3], [3.3e-2, 7.7e-3, 2.4e-4]),
+    row("random loops, slip6", [1.7e-2, 3.8e-3, 1e-3], [1.6e-2, 3.7e-3, 2.3e-4]),
+    row("random loops, slip8", [9.8e-3, 2.3e-3, 3e-4], [9.6e-3, 2.2e-3, 5.6e-5]),
+    row("random loops, slip10", [6.3e-3, 1.5e-3, 3e-4], [6.1e-3, 1.4e-3, 6.3e-5]),
+    row("random loops, spin4", [0.11, 2.6e-2, 1e-3], [0.10, 2.5e-2, 3.4e-4]),
+    row("random loops, spin6", [5.2e-2, 1.2e-2, 2e-3], [5.1e-2, 1.1e-2, 1.1e-3]),
+    row("random loops, spin8", [3.1e-2, 6.8e-3, 1e-3], [3.0e-2, 6.6e-3, 3.5e-4]),
+    row("random loops, spin10", [2.3e-2, 4.8e-3, 3e-4], [2.2e-2, 4.6e-3, 6.7e-5]),
+];
+
+/// `balls/elastic_ball.rs`: speeds over the span of free speeds or relative, torques and compliances relative, loads over the axial
+/// load.
+#[rustfmt::skip]
+const ELASTIC_BALL: &[Measured] = &[
+    row("stored elastic balls, speed", [2.7e-5, 4e-6, 1e-6], [1.8e-5, 2.7e-6, 4.3e-7]),
+    row("stored elastic balls, torque", [5e-4, 1e-4, 2e-5], [3.3e-4, 6.7e-5, 9.0e-6]),
+    row("stored elastic balls, loads over axial load", [6.5e-5, 1.2e-5, 3e-6], [4.3e-5, 7.6e-6, 1.5e-6]),
+    row("stored elastic balls, compliance", [3.6e-2, 5.4e-3, 5e-4], [2.4e-2, 3.6e-3, 1.8e-4]),
+    row("stored pressing pairs, force between them", [2.8e-2, 5e-3, 1e-3], [1.9e-2, 3.3e-3, 5.2e-4]),
+    row("stored pressing pairs, torque", [1.7e-3, 2.1e-4, 4e-5], [1.1e-3, 1.4e-4, 2.3e-5]),
+    row("elastic balls, in three points: torque", [3.6e-2, 4e-3, 1.1e-3], [2.4e-2, 2.7e-3, 7.0e-4]),
+    row("elastic balls, in three points: loads", [8e-3, 4.7e-4, 9e-5], [5.4e-3, 3.1e-4, 5.4e-5]),
+    row("elastic balls, in two points: speed", [0.24, 0.13, 5e-2], [0.16, 8.6e-2, 2.0e-2]),
+    row("elastic balls, in two points: torque", [2.8e-4, 1.4e-4, 1e-4], [1.8e-4, 9.1e-5, 6.4e-5]),
+    row("elastic balls, in two points: loads", [4e-6, 1e-6, 6e-7], [1.2e-6, 4.9e-7, 2.6e-7]),
+    row("elastic balls, in three points with play: speed", [4.7e-2, 1.1e-2, 1e-3], [3.1e-2, 6.8e-3, 7.5e-5]),
+    row("elastic balls, in three points with play: torque", [1.1e-2, 2.7e-3, 1.1e-3], [6.9e-3, 1.8e-3, 7.0e-4]),
+    row("elastic balls, in three points with play: loads", [1.3e-3, 1.7e-4, 6e-5], [8.5e-4, 1.1e-4, 3.3e-5]),
+    row("elastic balls, in two points with play: speed", [0.94, 0.2, 6e-2], [0.63, 0.12, 2.6e-2]),
+    row("elastic balls, in two points with play: torque", [5.4e-3, 1e-3, 2e-4], [3.6e-3, 4.5e-4, 2.3e-5]),
+    row("elastic balls, in two points with play: loads", [4e-5, 6e-6, 2e-6], [2.1e-5, 2.3e-6, 6.1e-7]),
+];
+
+/// `reference/ball_screw_ring_reference.rs`, relative where no unit is given.
+#[rustfmt::skip]
+const RING_REFERENCE: &[Measured] = &[
+    largest("ring, residual", 3e-12, 9.9e-13),
+    largest("ring, balance of power", 6.3e-9, 2.1e-9),
+    largest("ring, complementarity", 1e-12, 0.0),
+    largest("ring, places in rad", 6.4e-14, 2.1e-14),
+    largest("ring, speeds of touching balls", 1e-12, 0.0),
+    largest("ring, distances all around", 2e-15, 6.7e-16),
+    largest("ring of balls alike, force in N", 1e-11, 0.0),
+    largest("ring of balls alike, ball torque in N m", 1e-14, 0.0),
+    largest("ring of balls alike, speed", 1e-14, 0.0),
+    largest("ring of balls alike, groove torque", 1.3e-13, 4.1e-14),
+    largest("ring as a row, force in N", 5.1e-10, 1.7e-10),
+    largest("ring as a row, speed", 1.6e-12, 5.2e-13),
+    largest("ring as a row, loads in N", 5.1e-11, 1.7e-11),
+    largest("ring as a row, groove torque", 1.1e-12, 3.5e-13),
+    largest("ring as a row, ball torque", 3.3e-11, 1.1e-11),
+    largest("mirrored ring, torque", 4.5e-14, 1.5e-14),
+    largest("mirrored ring, force in N", 2e-13, 6.6e-14),
+    largest("ring at other speeds, angle in rad", 2.1e-15, 6.7e-16),
+    largest("ring at other speeds, torque", 3.9e-14, 1.3e-14),
+    largest("ring with a return, carried load", 0.2, 0.13),
+    largest("ring, force that points outward", 2e-2, 1.3e-2),
+    largest("ring in 20 steps, places in rad", 1e-3, 9.5e-4),
+    largest("ring without lead, torque", 1.4e-15, 4.4e-16),
+];
+
+/// `reference/ball_screw_row_reference.rs`, relative where no unit is given.
+#[rustfmt::skip]
+const ROW_REFERENCE: &[Measured] = &[
+    largest("stored rows, 32 nodes: force in N", 1.7e-8, 5.6e-9),
+    largest("stored rows, 32 nodes: force", 1.8e-8, 6.0e-9),
+    largest("stored rows, 32 nodes: speed over the nut's", 1.5e-9, 5.0e-10),
+    largest("stored rows, 32 nodes: loads in N", 1.5e-6, 4.9e-7),
+    largest("stored rows, 32 nodes: torque", 1.4e-8, 4.4e-9),
+    largest("stored rows, exact: force in N", 4e-4, 2.8e-4),
+    largest("stored rows, exact: force", 5e-3, 4.1e-3),
+    largest("stored rows, exact: speed over the nut's", 4.7e-6, 3.1e-6),
+    largest("stored rows, exact: loads in N", 6e-4, 4.2e-4),
+    largest("stored rows, exact: torque", 7.5e-6, 5.0e-6),
+    largest("row of balls alike, force in N", 1e-11, 0.0),
+    largest("mirrored row, force in N", 1e-10, 0.0),
+    largest("mirrored row, loads in N", 1e-10, 0.0),
+    largest("row of one and elastic balls, speed", 2.1e-12, 6.7e-13),
+    largest("row of one and elastic balls, power loss", 1.3e-9, 4.3e-10),
+    largest("row of one and elastic balls, place in m", 6.3e-16, 2.1e-16),
+    largest("row with friction of balls, balance of power", 1e-9, 3.4e-10),
+    largest("row with friction of balls, change of force", 6.3e-3, 4.2e-3),
+    largest("row, loss over a friction that vanishes", 4.4e-2, 2.9e-2),
+    largest("random rows, residual", 9e-8, 2.9e-8),
+    largest("random rows, balance of power", 1e-8, 3.8e-9),
+    largest("random rows, balance of forces in N", 1.5e-8, 4.9e-9),
+    largest("random rows, speeds of touching balls", 1e-11, 0.0),
+];
+
+/// `reference/linear_ball_reference.rs`: speeds over the track's, power in W.
+#[rustfmt::skip]
+const LINEAR_MIRRORED: &[Measured] = &[
+    largest("symmetrical linear balls, sum of deviations", 1e-15, 0.0),
+    largest("mated groove, speed deviation", 3.3e-16, 1.1e-16),
+    largest("mirrored linear ball, speed", 1e-15, 0.0),
+    largest("mirrored linear ball, deviation", 1e-15, 0.0),
+    largest("mirrored linear ball, power", 1e-14, 0.0),
+    largest("mirrored linear ball, force in N", 1e-13, 0.0),
+    largest("mirrored linear ball, slip", 1e-15, 0.0),
+    largest("linear ball, power over friction", 6.6e-16, 2.2e-16),
+];
+
+/// `formulas/friction_map.rs`: roundings.
+#[rustfmt::skip]
+const MAP_ROUNDINGS: &[Measured] = &[
+    largest("friction map inside the contact", 3e-7, 2.8e-7),
+    largest("friction map, tabulated spin moment", 1.9e-7, 6.3e-8),
+    largest("friction map, tabulated slope", 4e-7, 2.2e-7),
+];
+
+/// `law/elements.rs` and `law/seat.rs`, relative: roundings of f32.
+#[rustfmt::skip]
+const ELEMENTS: &[Measured] = &[
+    largest("elements, initial stiffness", 3.6e-7, 1.2e-7),
+    largest("seat, place of sliding", 1.2e-7, 0.0),
+    largest("spin in the seat's play", 1.2e-7, 0.0),
+    largest("spin beside the seat, limit", 1e-7, 6.0e-8),
+    largest("two halves of elements", 1.2e-7, 0.0),
+];
+
+/// `scenes/uncaged.rs` and `scenes/stiff.rs`: shares and efficiencies, absolute.
+#[rustfmt::skip]
+const UNCAGED_SCENE: &[Measured] = &[
+    largest("screw without cage, share at a low speed", 1.2e-3, 7.8e-4),
+    largest("quarter of a turn, ball torque in N m", 1e-6, 0.0),
+    largest("low speeds, friction over its share of the full", 1.001, 1.0),
+    largest("screw without cage, efficiency", 1.1e-7, 3.5e-8),
 ];

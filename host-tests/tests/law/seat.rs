@@ -8,6 +8,7 @@ use epas_friction::promises;
 
 use crate::elements::proportional;
 use crate::kit::errors::Errors;
+use crate::kit::measured;
 use crate::kit::random::Random;
 
 fn virgin<E: Elements>(_: &E) -> E::State {
@@ -34,8 +35,6 @@ fn friction_is_that_of_the_formula() {
         let true_friction = (exact.abs() - 0.5).max(0.0).powf(1.5) * exact.signum();
         errors.add_case(friction - true_friction, || tick.to_string());
         assert!(friction <= forward.into() && friction >= f64::from(-backward));
-        // Play and place are wiped out by no element: they follow the turn, to rounding, as long as they do.
-        exact = f64::from(state.place());
     }
     errors.assert_promised(&promises::MEMORY_SEAT);
 }
@@ -52,7 +51,8 @@ fn play_is_free_and_sliding_is_full() {
     assert_eq!(seat.follow(&mut state, 1e-3, &limits), 0.0);
     assert_eq!(seat.follow(&mut state, -2e-3, &limits), 0.0);
     assert_eq!(seat.follow(&mut state, 1.0, &limits), 0.04);
-    assert!((state.place() / seat.breakaway() - 1.0).abs() < 3e-7);
+    let error = state.place() / seat.breakaway() - 1.0;
+    measured::assert("seat, place of sliding", error);
     assert_eq!(seat.follow(&mut state, -1.0, &limits), -0.03);
     // Formed again from the place: a cube root, a square root and four products.
     for turn in [0.0, f32::NAN, f32::INFINITY, 1e7] {
@@ -103,11 +103,11 @@ fn together_they_share_the_limit() {
     let mut state = virgin(&both);
     // In the play only spin holds.
     let friction = both.follow(&mut state, 0.9e-3, &limits);
-    assert!((friction - 0.012).abs() < 1e-8, "{friction}");
+    measured::assert("spin in the seat's play", friction / 0.012 - 1.0);
     for (turn, limit) in [(1.0, 0.04), (-1.0, -0.03)] {
         let friction = both.follow(&mut state, turn, &limits);
         // Two parts that are rounded on their own.
-        assert!((friction - limit).abs() < 4e-9, "{friction}");
+        measured::assert("spin beside the seat, limit", friction / limit - 1.0);
     }
     assert_eq!(both.breakaway(), seat.breakaway());
     assert_eq!(both.initial_stiffness(), spin.initial_stiffness());
@@ -132,7 +132,7 @@ fn together_they_share_the_limit() {
     for turn in [0.3, -0.4, 0.9, -2.0, 0.1] {
         let difference =
             half.follow(&mut halves, turn, &unit) - whole.follow(&mut state, turn, &unit);
-        assert!(difference.abs() < 3e-7);
+        measured::assert("two halves of elements", difference);
     }
 }
 

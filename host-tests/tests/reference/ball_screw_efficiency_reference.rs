@@ -8,7 +8,7 @@ use epas_reference::friction::rolling_resistance::{
     DRAG_LOAD, LubricatedContact, RollingResistance,
 };
 use epas_reference::measured::studies::{self, SCREWS};
-use epas_reference::measured::{self, Usual, Verdict, catalogue};
+use epas_reference::measured::{self, Standing, Usual, catalogue};
 use gauss_quad::GaussLegendre;
 
 use crate::kit::errors::Errors;
@@ -291,21 +291,21 @@ fn oversize_braces_both_flanks() {
 }
 
 #[test]
-fn every_figure_has_a_verdict() {
+fn every_figure_stands_somewhere() {
     let records = measured::records(&usual(), &|| ()).unwrap();
     assert_eq!(records.len(), measured::COUNT);
-    let count = |verdict| {
+    let count = |standing| {
         records
             .iter()
-            .filter(|record| record.verdict == verdict)
+            .filter(|record| record.standing == standing)
             .count()
     };
     println!(
         "{} within, {} in kind, {} apart, {} not computed",
-        count(Verdict::Within),
-        count(Verdict::InKind),
-        count(Verdict::Apart),
-        count(Verdict::NotComputed)
+        count(Standing::Within),
+        count(Standing::InKind),
+        count(Standing::Apart),
+        count(Standing::NotComputed)
     );
     for record in &records {
         assert!(!record.needed.is_empty(), "{}", record.what);
@@ -316,8 +316,8 @@ fn every_figure_has_a_verdict() {
         // Nothing that was sought was missed.
         assert!(!record.needed.contains("none t") && !record.computed.contains("NaN"));
     }
-    assert_eq!(count(Verdict::Apart), 0);
-    assert_eq!(count(Verdict::NotComputed), 4);
+    assert_eq!(count(Standing::Apart), 0);
+    assert_eq!(count(Standing::NotComputed), 4);
 }
 
 /// What decides a screw's friction: it rises with the friction coefficient and falls with clearance, and the closed

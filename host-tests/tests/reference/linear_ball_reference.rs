@@ -206,18 +206,24 @@ fn table_3_4_speed_deviations() {
     };
     let eps = [-0.6, 0.6].map(|rho| symmetric(rho).solve(0.01).unwrap().speed_deviation);
     assert!(
-        (eps[0] - 0.008092).abs() < 5e-7 && (eps[0] + eps[1]).abs() < 1e-12,
+        // Half a unit of the last digit of 0.8092 %.
+        (eps[0] - 0.008092).abs() < 5e-7,
         "{eps:?}"
+    );
+    measured::assert(
+        "symmetrical linear balls, sum of deviations",
+        eps[0] + eps[1],
     );
     let analytic = symmetric(-0.6).analytic_speed_deviation(FRAC_PI_4);
     println!("analytical {:.6} %", 100.0 * analytic);
+    // Half a unit of the last digit of 0.7536 %.
     assert!((analytic - 0.007536).abs() < 5e-7, "{analytic}");
     // Case (b): the mated top groove, exactly zero for any load.
     let theta = 2.0_f64.to_radians();
     for rho in [-0.6, 0.0, 0.6] {
         let mated = ball([-theta, theta, -theta, theta], rho);
         let eps = mated.solve(0.01).unwrap().speed_deviation;
-        assert!(eps.abs() < 1e-14, "rho = {rho}: {eps:e}");
+        measured::assert_at("mated groove, speed deviation", eps, rho);
         assert!(mated.analytic_speed_deviation(FRAC_PI_4).abs() < 1e-15);
     }
 }
@@ -395,20 +401,26 @@ fn speed_friction_and_load_scale_as_coulomb_says() {
     let forward = ball.solve(0.3).unwrap();
     let backward = ball.solve(-0.3).unwrap();
     check_laws(&ball, &backward, -0.3);
-    // Mirrored: at most some roundings of 1.1e-16.
-    assert!((forward.ball_speed + backward.ball_speed).abs() < 1e-14);
-    assert!((forward.speed_deviation - backward.speed_deviation).abs() < 1e-13);
-    assert!((forward.power_loss - backward.power_loss).abs() < 1e-12);
+    for (quantity, error) in [
+        ("speed", forward.ball_speed + backward.ball_speed),
+        (
+            "deviation",
+            forward.speed_deviation - backward.speed_deviation,
+        ),
+        ("power", forward.power_loss - backward.power_loss),
+    ] {
+        measured::assert(&format!("mirrored linear ball, {quantity}"), error);
+    }
     for (f, b) in forward.contacts.iter().zip(&backward.contacts) {
-        assert!((f.force + b.force).abs() < 1e-11 && (f.slip + b.slip).abs() < 1e-13);
+        measured::assert("mirrored linear ball, force in N", f.force + b.force);
+        measured::assert("mirrored linear ball, slip", f.slip + b.slip);
     }
     for friction in [0.0, 1e-6, 0.3, 1.0] {
         let other = LinearBall { friction, ..ball }.solve(0.3).unwrap();
         assert_eq!(other.ball_speed, forward.ball_speed);
-        assert!(
-            (other.power_loss - forward.power_loss * friction / 0.1).abs()
-                < 1e-12 * forward.power_loss.max(1.0)
-        );
+        let proportional = forward.power_loss * friction / 0.1;
+        let error = (other.power_loss - proportional) / forward.power_loss.max(1.0);
+        measured::assert("linear ball, power over friction", error);
     }
     assert_eq!(ball.solve(0.0), Err(ReferenceError::Standstill));
 }

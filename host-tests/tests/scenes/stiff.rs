@@ -211,6 +211,7 @@ fn the_row_goes_as_far_as_the_nut_turns() {
         let error = (f64::from(now) - expected + 2_147_483_648.0).rem_euclid(4_294_967_296.0)
             - 2_147_483_648.0;
         let relative = error / units;
+        // Derived: each travel has one rounding of 2^-24, and the same one in every tick.
         assert!(relative.abs() < 6e-8, "{relative:e} of the way");
     }
 }
@@ -243,9 +244,12 @@ fn standstill_is_smooth_at_the_least_reversal_speed() {
             );
             let share = f64::from(speed) / f64::from(speed).hypot(f64::from(width));
             // The flanks' sum and difference blend with the speed as well: between the two torques.
-            assert!(
-                f64::from(ahead) <= share * f64::from(full) * 1.2 + 1e-12,
-                "width {width} speed {speed}: {ahead}"
+            // Beyond what f32 rounds to nothing.
+            let over = (f64::from(ahead) - 1e-12).max(0.0) / (share * f64::from(full));
+            measured::assert_at(
+                "low speeds, friction over its share of the full",
+                over,
+                format_args!("width {width} speed {speed}: {ahead}"),
             );
             last = ahead;
             speed *= 1.3;

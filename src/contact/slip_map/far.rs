@@ -1,5 +1,6 @@
 //! A contact whose velocity centre lies far from it: the multipole series.
 
+use super::nodes::quartic;
 use super::potential::Potential;
 use crate::math;
 
@@ -13,17 +14,9 @@ pub(super) struct FarField {
 
 impl FarField {
     /// From the square of the axis ratio.
-    ///
-    /// Mean of `p² (4 l² - p²)/8` with `l` along and `p` across the direction of the velocity centre: the
-    /// coefficients of `x⁴`, `x² z²`, `z⁴`. Fourth moments of a Hertzian pressure are 3/35, k²/35 and 3 k⁴/35.
     pub(super) const fn new(square: f32) -> Self {
-        let (long, mixed, short) = (3.0 / 35.0, square / 35.0, 3.0 * square * square / 35.0);
         Self {
-            quartic: [
-                0.125 * (4.0 * mixed - short),
-                0.125 * (4.0 * long + 4.0 * short - 22.0 * mixed),
-                0.125 * (4.0 * mixed - long),
-            ],
+            quartic: quartic(square),
         }
     }
 

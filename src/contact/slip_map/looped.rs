@@ -1,6 +1,7 @@
 //! Friction as [`SlipMap`](super::SlipMap) has it with fewer terms, for the balls that a step renews.
 
-use crate::contact::integrals::{checked_axis_ratio, fifth_integral};
+use super::nodes::{FAR, Variable, divided_differences, quartic};
+use crate::contact::integrals::checked_axis_ratio;
 use crate::error::{Error, attempt};
 use crate::math::elliptic::incomplete;
 use crate::math::{self, constant};
@@ -19,12 +20,6 @@ const CHEBYSHEV: [f32; TERMS] = [
     -0.831_469_6,
     0.195_090_32,
 ];
-
-/// Largest `sqrt(lambda)` in the near field: two semi-axes away `lambda` is below 4.
-const LARGEST_ROOT: f32 = 2.0;
-
-/// Square of the velocity centre's distance, in semi-major axes, from which the far field serves: as in [`SlipMap`](super::SlipMap).
-const FAR: f32 = 4.0;
 
 /// Friction of one contact with slip along both axes and spin, as [`SlipMap`](super::SlipMap) has it, with two
 /// polynomials of eight terms and one division.
@@ -119,20 +114,16 @@ impl LoopSlipMap {
         let k = attempt!(checked_axis_ratio(axis_ratio));
         let square = k * k;
         let eccentricity = (1.0 - k) * (1.0 + k);
-        let scale = constant::sqrt(k);
-        let largest = LARGEST_ROOT / (LARGEST_ROOT + scale);
+        let variable = Variable::new(k);
         let mut fourth = [0.0; TERMS];
         let mut fifth = [0.0; TERMS];
         let mut point = 0;
         while point < TERMS {
-            let part = 0.5 * (1.0 + CHEBYSHEV[point]) * largest;
-            let root = scale * part / (1.0 - part);
-            let lambda = root * root;
-            let (along, across) = incomplete(square, lambda);
-            let narrow = fifth_integral(k, lambda, root, along, across);
-            let (long, short, sum) = (1.0 + lambda, square + lambda, root + scale);
-            fourth[point] = (across - along) / eccentricity * sum * constant::sqrt(long * short);
-            fifth[point] = narrow * sum * short;
+            let node = variable.at(CHEBYSHEV[point]);
+            let (long, short) = (1.0 + node.lambda, square + node.lambda);
+            fourth[point] =
+                (node.second - node.first) / eccentricity * node.sum * constant::sqrt(long * short);
+            fifth[point] = node.fifth * node.sum * short;
             point += 1;
         }
         let (along, across) = incomplete(square, 0.0);
@@ -145,22 +136,16 @@ impl LoopSlipMap {
             both,
             (across - both) / (3.0 * square),
         ];
-        // Fourth moments of a Hertzian pressure are 3/35, k²/35 and 3 k⁴/35.
-        let (wide, mixed, narrow) = (3.0 / 35.0, square / 35.0, 3.0 * square * square / 35.0);
         Ok(Self {
             axis_ratio: k,
             square,
             third_eccentricity: eccentricity / 3.0,
-            scale,
-            stretch: 2.0 / largest,
+            scale: variable.scale,
+            stretch: variable.stretch(),
             inside,
             fourth: polynomial(fourth),
             fifth: polynomial(fifth),
-            quartic: [
-                0.125 * (4.0 * mixed - narrow),
-                0.125 * (4.0 * wide + 4.0 * narrow - 22.0 * mixed),
-                0.125 * (4.0 * mixed - wide),
-            ],
+            quartic: quartic(square),
         })
     }
 
@@ -356,18 +341,8 @@ impl LoopSlipMap {
 }
 
 /// Powers, lowest first, of the polynomial with these values at the nodes: Newton's divided differences, multiplied out.
-const fn polynomial(mut values: [f32; TERMS]) -> [f32; TERMS] {
-    let mut order = 1;
-    while order < TERMS {
-        // Backwards, so that what stands before a value is still of the order below.
-        let mut place = TERMS - 1;
-        while place >= order {
-            values[place] =
-                (values[place] - values[place - 1]) / (CHEBYSHEV[place] - CHEBYSHEV[place - order]);
-            place -= 1;
-        }
-        order += 1;
-    }
+const fn polynomial(values: [f32; TERMS]) -> [f32; TERMS] {
+    let values = divided_differences(values, &CHEBYSHEV);
     let mut powers = [0.0; TERMS];
     let mut node = TERMS;
     while node > 0 {

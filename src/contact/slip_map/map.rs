@@ -2,15 +2,11 @@
 
 use super::far::FarField;
 use super::near::NearField;
+use super::nodes::FAR;
 use super::potential::Potential;
 use crate::contact::integrals::checked_axis_ratio;
 use crate::error::{Error, attempt};
 use crate::math;
-
-/// Square of the velocity centre's distance from the contact, in semi-major axes, from which the far
-/// field serves. Its first term left out falls with the sixth power of the distance: from 1.5 semi-axes on the largest
-/// errors would be six times as large.
-const FAR: f32 = 4.0;
 
 /// Dissipation of one contact with slip along both axes and spin: exact.
 ///

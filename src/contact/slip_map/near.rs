@@ -2,10 +2,10 @@
 
 use core::f32::consts::FRAC_1_SQRT_2;
 
+use super::nodes::{Variable, divided_differences};
 use super::potential::Potential;
-use crate::contact::integrals::fifth_integral;
+use crate::math;
 use crate::math::elliptic::incomplete;
-use crate::math::{self, constant};
 
 /// Points of interpolation of the two elliptic integrals.
 const POINTS: usize = 10;
@@ -23,9 +23,6 @@ pub(crate) const CHEBYSHEV: [f32; POINTS] = [
     -0.891_006_5,
     0.156_434_46,
 ];
-
-/// Largest `sqrt(lambda)` in the near field: two semi-axes away `lambda` is below 4.
-const LARGEST_ROOT: f32 = 2.0;
 
 /// The near field: six coefficients by `lambda`, of which three are interpolated.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -73,34 +70,28 @@ impl NearField {
     /// From the axis ratio `k`: elliptic integrals at ten places, and at the centre.
     pub(super) const fn new(k: f32) -> Self {
         let square = k * k;
-        let scale = constant::sqrt(k);
-        let largest = LARGEST_ROOT / (LARGEST_ROOT + scale);
+        let variable = Variable::new(k);
         let mut first = [0.0; POINTS];
         let mut second = [0.0; POINTS];
         let mut fifth = [0.0; POINTS];
         let mut point = 0;
         while point < POINTS {
-            let part = 0.5 * (1.0 + CHEBYSHEV[point]) * largest;
-            let root = scale * part / (1.0 - part);
-            let lambda = root * root;
-            let (along, across) = incomplete(square, lambda);
-            let narrow = fifth_integral(k, lambda, root, along, across);
-            let stretch = root + scale;
-            first[point] = along * stretch;
-            second[point] = across * stretch;
-            fifth[point] = narrow * (square + lambda) * stretch;
+            let node = variable.at(CHEBYSHEV[point]);
+            first[point] = node.first * node.sum;
+            second[point] = node.second * node.sum;
+            fifth[point] = node.fifth * (square + node.lambda) * node.sum;
             point += 1;
         }
         let (along, across) = incomplete(square, 0.0);
         let mut near = Self {
             square,
             inverse_eccentricity: 1.0 / ((1.0 - k) * (1.0 + k)),
-            scale,
-            stretch: 2.0 / largest,
+            scale: variable.scale,
+            stretch: variable.stretch(),
             inside: Coefficients::NONE,
-            first: divided_differences(first),
-            second: divided_differences(second),
-            fifth: divided_differences(fifth),
+            first: divided_differences(first, &CHEBYSHEV),
+            second: divided_differences(second, &CHEBYSHEV),
+            fifth: divided_differences(fifth, &CHEBYSHEV),
         };
         let narrow = (across - (across - along) * near.inverse_eccentricity) / (3.0 * square);
         near.inside = near.complete(along, across, narrow, 0.0, 1.0);
@@ -226,19 +217,4 @@ impl NearField {
             across_across,
         }
     }
-}
-
-const fn divided_differences(mut values: [f32; POINTS]) -> [f32; POINTS] {
-    let mut order = 1;
-    while order < POINTS {
-        // Backwards, so that what stands before a value is still of the order below.
-        let mut place = POINTS - 1;
-        while place >= order {
-            values[place] =
-                (values[place] - values[place - 1]) / (CHEBYSHEV[place] - CHEBYSHEV[place - order]);
-            place -= 1;
-        }
-        order += 1;
-    }
-    values
 }

@@ -2,9 +2,9 @@
 
 use super::hysteresis::Hysteresis;
 use super::quadrature::Rule;
+use super::ranges::{BREAKAWAY, REFERENCE_LIMIT};
 use super::slider::{held, held_pair, not_negative, turned};
 use super::state::MemoryState;
-use super::{BREAKAWAY, REFERENCE_LIMIT};
 use crate::error::{Error, Range, attempt};
 use crate::law::{Elements, SlidingLimits};
 use crate::math::{constant, inverse_cube_roots};

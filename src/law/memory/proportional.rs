@@ -2,9 +2,9 @@
 
 use super::backbone::BackboneElement;
 use super::hysteresis::Hysteresis;
+use super::ranges::{BREAKAWAY, REFERENCE_LIMIT};
 use super::slider::{held, held_pair, turned};
 use super::state::MemoryState;
-use super::{BREAKAWAY, REFERENCE_LIMIT};
 use crate::error::{Error, attempt, in_range};
 use crate::law::{Elements, SlidingLimits};
 

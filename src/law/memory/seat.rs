@@ -1,8 +1,8 @@
 //! The seat of a ball: free play, then a contact that stiffens, until all slides.
 
 use super::hysteresis::Hysteresis;
+use super::ranges::{BREAKAWAY, REFERENCE_LIMIT};
 use super::slider::{not_negative, turned};
-use super::{BREAKAWAY, REFERENCE_LIMIT};
 use crate::error::{Error, Range, attempt};
 use crate::law::{Elements, SlidingLimits};
 use crate::math::{cbrt_squared, constant, sqrt};

@@ -2,8 +2,8 @@
 
 use core::f32::consts::TAU;
 
+use super::configuration::{CagedBallScrewConfiguration, FrictionBranch};
 use super::full::CagedFull;
-use super::{CagedBallScrewConfiguration, FrictionBranch};
 use crate::ball::PreloadSum;
 use crate::efficiency::{Drive, EfficiencyGeometry};
 use crate::error::{Error, attempt};

@@ -4,8 +4,8 @@ mod stored;
 
 use core::f32::consts::TAU;
 
-use super::CagedBallScrewConfiguration;
 use super::coefficients::CoefficientLaws;
+use super::configuration::CagedBallScrewConfiguration;
 use super::full::CagedFull;
 use crate::ball::Clearance;
 use crate::ball::elastic::constants::BallConstants;

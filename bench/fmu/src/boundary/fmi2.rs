@@ -6,7 +6,8 @@ use std::ptr;
 use super::logger::{Logger, Logger2};
 use super::pointers::{array, array_mut, folder, place, pointer, text};
 use crate::instance::{Instance, Said, Wanted};
-use crate::registry::{self, Outcome, call};
+use crate::outcome::Outcome;
+use crate::registry::{self, call};
 
 /// `fmi2Component`, a handle.
 pub type Component = *mut c_void;

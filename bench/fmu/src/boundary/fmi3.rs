@@ -6,7 +6,8 @@ use std::ptr;
 use super::logger::{Logger, Logger3};
 use super::pointers::{array, array_mut, folder, place, pointer, text};
 use crate::instance::{Instance, Said, Wanted};
-use crate::registry::{self, Outcome, call};
+use crate::outcome::Outcome;
+use crate::registry::{self, call};
 
 /// `fmi3Instance`, a handle.
 pub type Handle = *mut c_void;

@@ -3,7 +3,7 @@
 use std::ffi::{CString, c_char, c_void};
 use std::sync::Arc;
 
-use crate::registry::Outcome;
+use crate::outcome::Outcome;
 
 /// `fmi2CallbackLogger`
 pub type Logger2 = unsafe extern "C" fn(

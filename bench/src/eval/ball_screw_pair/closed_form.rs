@@ -17,7 +17,7 @@ use epas_friction::{BallScrew, LoadShare};
 
 use super::super::fields::BadField;
 use super::super::train::{LARGEST_TRAIN, contact_forces, pressed, room_of_a_row};
-use super::{Request, Row};
+use super::request::{Request, Row};
 
 /// What the closed form finds.
 pub fn row(request: &Request, design: &BallScrew) -> Result<Row, BadField> {

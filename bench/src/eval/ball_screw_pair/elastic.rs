@@ -4,7 +4,7 @@ use epas_friction::ball::elastic::{BallInputs, ElasticGrooves, Renewal};
 use epas_friction::{BallScrew, Clearance};
 
 use super::super::fields::BadField;
-use super::{Request, Row};
+use super::request::{Request, Row};
 use crate::row::LARGEST_TRAIN;
 use crate::row::settled::{SettledRow, settled};
 

@@ -2,7 +2,7 @@
 
 use epas_friction::{LinearBearing, LinearBearingParameters};
 
-use super::{BALL, BOTH, GROOVE, Values, list, named};
+use super::named::{BALL, BOTH, GROOVE, Values, list, named};
 use crate::designs::train::LinearDesign;
 use crate::fmu::variables::Variable;
 

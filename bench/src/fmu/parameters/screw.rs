@@ -5,7 +5,7 @@ use epas_friction::{
     UncagedBallScrewConfiguration,
 };
 
-use super::{BALL, GROOVE, NUT, SCREW, Values, list, named, single};
+use super::named::{BALL, GROOVE, NUT, SCREW, Values, list, named, single};
 use crate::designs::Design;
 use crate::fmu::scene::SceneName;
 use crate::fmu::variables::{Choice, Kind, Variable, parameter};

@@ -2,7 +2,7 @@
 
 use epas_reference::measured::studies::{CLEARANCES, Choice, DecidingRow, LOADS, TABLE_3_6};
 
-use super::known;
+use super::known::known;
 use crate::document::{Block, Cell, Figure, Table};
 use crate::plot::{Axis, Chart, Mark, Panel, Series};
 

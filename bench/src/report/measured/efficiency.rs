@@ -4,7 +4,7 @@ use epas_reference::friction::ball_screw_efficiency::ScrewFriction;
 use epas_reference::measured::catalogue;
 use epas_reference::measured::studies::{EfficiencyRow, FIT_LOAD};
 
-use super::known;
+use super::known::known;
 use crate::document::{Block, Cell, Figure, Table};
 use crate::plot::{Axis, Chart, Mark, Panel, Series};
 

@@ -1,6 +1,6 @@
 //! Error and cost of every law under constant limits.
 
-use super::PANEL;
+use super::panel::PANEL;
 use crate::document::{Block, Cell, Figure, Table};
 use crate::failure::Failure;
 use crate::peers::candidates::{Candidate, Cycles};

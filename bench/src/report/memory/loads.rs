@@ -2,8 +2,8 @@
 
 use rayon::prelude::*;
 
-use super::PANEL;
 use super::laws::shown;
+use super::panel::PANEL;
 use crate::document::{Block, Cell, Figure, Table};
 use crate::failure::Failure;
 use crate::peers::candidates::{LOAD_EXACT, MULTIPLIED, PROPORTIONAL, under_load};

@@ -3,7 +3,7 @@
 use epas_reference::presliding::Limits;
 use epas_reference::presliding::answers::Tick;
 
-use super::PANEL;
+use super::panel::PANEL;
 use crate::document::Figure;
 use crate::failure::Failure;
 use crate::peers::candidates::{Candidate, ours, published};

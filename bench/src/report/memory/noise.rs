@@ -1,6 +1,6 @@
 //! What encoder noise does to friction by angle and by speed.
 
-use super::PANEL;
+use super::panel::PANEL;
 use crate::document::{Block, Cell, Figure, Table};
 use crate::failure::Failure;
 use crate::peers::candidates::{Candidate, ours};

@@ -6,7 +6,7 @@ mod rivals;
 use epas_reference::rig::parameters::Parameters;
 use rayon::prelude::*;
 
-use super::PANEL;
+use super::panel::PANEL;
 use crate::calibrate::fit::separable::FitSettings;
 use crate::calibrate::screw::choice::Wanted;
 use crate::calibrate::screw::folded::Folds;

@@ -1,0 +1,12 @@
+//! What a call comes to: what an instance says, as its logger and both versions of FMI tell it.
+
+/// What a call comes to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Outcome {
+    /// Success.
+    Fine,
+    /// Success, with a text.
+    Warning,
+    /// Refused, with a text.
+    Refused,
+}

@@ -1,0 +1,39 @@
+//! A row of balls as a program holds it, whatever its number.
+
+use epas_friction::Error;
+
+use crate::memory::RememberingConfiguration;
+
+/// The in-loop model of a scene, whatever its number of balls.
+pub trait Balls<Inputs, Outputs>: Send + Sync {
+    /// One tick.
+    fn step(&mut self, inputs: Inputs) -> Outputs;
+    /// Balls that press on the one in front, one bit each.
+    fn pressing(&self) -> u64;
+    /// Back to the state before the first tick.
+    fn reset(&mut self);
+    /// Consecutive ticks with a fault.
+    fn faulted_ticks(&self) -> u32;
+    /// Sets the friction coefficient of ball and groove.
+    ///
+    /// # Errors
+    /// [`Error`] naming it; the model goes on as it was.
+    fn set_friction(&mut self, friction: f32) -> Result<(), Error>;
+    /// Sets where the grooves' deviations are counted from: angle of the nut, rad, or place of the carriage, m. False where
+    /// the scene does not take it.
+    fn set_place(&mut self, place: f32) -> bool;
+    /// The same model in the same state.
+    fn copied(&self) -> Box<dyn Balls<Inputs, Outputs>>;
+}
+
+/// A model as it is built, none for a number of balls that is out of range.
+pub type Built<Inputs, Outputs> = Result<Option<Box<dyn Balls<Inputs, Outputs>>>, Error>;
+
+/// A scene's configuration, without memory or with it.
+#[derive(Clone, Copy, Debug)]
+pub enum Configuration<C> {
+    /// Friction passes through a reversal with the speed.
+    Plain(C),
+    /// It has a memory.
+    Remembering(RememberingConfiguration<C>),
+}
