@@ -1,6 +1,7 @@
 //! A ring of balls as bytes.
 
-use super::{Ring, SETTLING_ROUNDS};
+use super::Ring;
+use super::chosen::SETTLING_ROUNDS;
 use crate::ball::elastic::law::{RingBall, RingConstants};
 use crate::ball::elastic::renewal::Settled;
 use crate::ball::elastic::stored::CLEARANCE;
