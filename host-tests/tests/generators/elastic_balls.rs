@@ -341,7 +341,7 @@ fn against(found: &[[f64; 3]], exact: &[[f64; 3]], off: &mut [Off; 2]) {
     }
 }
 
-/// Courses of the load in a ring whose balls are alike and do not press.
+/// Courses of the load.
 #[derive(Clone, Copy, Debug)]
 enum Course {
     /// Factor up and down, and that factor in one round of renewals at the steepest.
@@ -356,6 +356,77 @@ enum Course {
     Reversal,
 }
 
+/// How time is measured in courses of the load, ticks.
+struct Clock {
+    /// A round of renewals.
+    round: f32,
+    /// From zero through both signs to zero.
+    period: f32,
+    /// From jump to jump.
+    jump: u16,
+}
+
+impl Course {
+    /// The load over that of the screw, and the speed of the nut, rad/s.
+    fn at(self, tick: u16, clock: &Clock) -> (f32, f32) {
+        let time = f32::from(tick);
+        let second = tick / clock.jump % 2 == 1;
+        let either = |factor| if second { factor } else { 1.0 };
+        match self {
+            Self::Swing(most, round_most) => {
+                let rate = round_most.ln() / most.ln() / clock.round;
+                ((most.ln() * (rate * time).sin()).exp(), SPEED)
+            }
+            Self::Zero(amplitude) => {
+                let turn = time * TAU as f32 / clock.period;
+                (amplitude * turn.sin(), SPEED)
+            }
+            Self::Jump(most) => (either(most), SPEED),
+            Self::Flip(most) => (either(-most), SPEED),
+            Self::Reversal => (1.0, either(-1.0) * SPEED),
+        }
+    }
+}
+
+/// Of the nut, rad/s.
+const SPEED: f32 = 10.0;
+
+/// Errors of a model's friction torque over that of the law, from a tick on; where the load passes through zero, over that of the
+/// screw's whole load.
+fn follow(
+    screw: &Screw,
+    (course, clock): (Course, &Clock),
+    ticks: std::ops::Range<u16>,
+    step: &mut dyn FnMut(Inputs) -> (f32, bool),
+    off: &mut Off,
+) {
+    let mut exact = screw.caged();
+    let mut right = |inputs| exact.step(inputs);
+    let whole = right(Inputs {
+        nut_speed: SPEED,
+        axial_load: screw.load * BALLS as f32,
+    });
+    for tick in 0..ticks.end {
+        let (factor, nut_speed) = course.at(tick, clock);
+        let inputs = Inputs {
+            nut_speed,
+            axial_load: screw.load * factor * BALLS as f32,
+        };
+        let (torque, flagged) = step(inputs);
+        let right = right(inputs);
+        if tick >= ticks.start && !right.faults.any() {
+            let scale = if let Course::Zero(_) = course {
+                whole.friction_torque
+            } else {
+                right.friction_torque
+            };
+            let error = f64::from(torque) - f64::from(right.friction_torque);
+            off.add(error / f64::from(scale), flagged);
+        }
+    }
+}
+
+/// A ring whose balls are alike and do not press, on a course of its load.
 fn loads(screw: &Screw, course: Course, off: &mut Off) {
     let even = Screw {
         waves: [&DeviationMap::NONE; 2],
@@ -364,58 +435,32 @@ fn loads(screw: &Screw, course: Course, off: &mut Off) {
         ..*screw
     };
     let mut ring = even.ring(1e-4);
-    let mut exact = even.caged();
-    let round = BALLS as f32 + 1.0;
-    let whole = f64::from(
-        exact
-            .step(Inputs {
-                nut_speed: 10.0,
-                axial_load: screw.load * BALLS as f32,
-            })
-            .friction_torque,
-    );
-    for tick in 0..2000 {
-        let time = tick as f32;
-        let (mut load, mut speed) = (screw.load, 10.0);
-        match course {
-            Course::Swing(most, round_most) => {
-                let rate = round_most.ln() / most.ln() / round;
-                load *= (most.ln() * (rate * time).sin()).exp();
-            }
-            Course::Zero(amplitude) => load *= amplitude * (time * TAU as f32 / 1000.0).sin(),
-            Course::Jump(most) => {
-                if tick / 250 % 2 == 1 {
-                    load *= most;
-                }
-            }
-            Course::Flip(most) => {
-                if tick / 250 % 2 == 1 {
-                    load *= -most;
-                }
-            }
-            Course::Reversal => {
-                if tick / 250 % 2 == 1 {
-                    speed = -speed;
-                }
-            }
-        }
-        let inputs = Inputs {
-            nut_speed: speed,
-            axial_load: load * BALLS as f32,
-        };
+    let clock = Clock {
+        round: BALLS as f32 + 1.0,
+        period: 1000.0,
+        jump: 250,
+    };
+    let mut step = |inputs| {
         let found = ring.step(inputs);
-        let right = exact.step(inputs);
-        if tick >= 8 * 17 && !right.faults.any() {
-            let right_torque = f64::from(right.friction_torque);
-            let scale = if let Course::Zero(_) = course {
-                whole
-            } else {
-                right_torque
-            };
-            let error = (f64::from(found.friction_torque) - right_torque) / scale;
-            off.add(error, found.faults.any());
-        }
-    }
+        (found.friction_torque, found.faults.any())
+    };
+    follow(screw, (course, &clock), 136..2000, &mut step, off);
+}
+
+/// A caged screw whose balls are renewed, on a course of its load.
+fn caged(screw: &Screw, course: Course, off: &mut Off) {
+    let mut ball = screw.caged();
+    ball.set_friction(screw.friction).unwrap();
+    let clock = Clock {
+        round: 1.0,
+        period: 300.0,
+        jump: 60,
+    };
+    let mut step = |inputs| {
+        let found = ball.step(inputs);
+        (found.friction_torque, found.faults.any())
+    };
+    follow(screw, (course, &clock), 30..600, &mut step, off);
 }
 
 /// Designs of all leads, friction coefficients, gaps.
@@ -448,7 +493,7 @@ fn settings() -> impl Iterator<Item = CagedBallScrewConfiguration> {
 /// The law over the load against a ball that is renewed until it rests, at loads of both signs.
 fn law(configuration: &CagedBallScrewConfiguration, off: &mut Off) {
     let mut law = FrictionModel::<CagedBallScrew>::new(configuration).unwrap();
-    let mut renewed = law.clone();
+    let mut renewed = law;
     renewed.set_friction(configuration.friction).unwrap();
     for sign in [1.0_f32, -1.0] {
         for place in 0..=100 {
@@ -464,62 +509,6 @@ fn law(configuration: &CagedBallScrewConfiguration, off: &mut Off) {
                 let ratio = f64::from(found.friction_torque / exact.friction_torque);
                 off.add(ratio - 1.0, found.faults.any());
             }
-        }
-    }
-}
-
-/// A caged screw whose balls are renewed, on a course of the load, against its law.
-fn caged(screw: &Screw, course: Course, off: &mut Off) {
-    let mut exact = screw.caged();
-    let mut ball = screw.caged();
-    ball.set_friction(screw.friction).unwrap();
-    let whole = f64::from(
-        exact
-            .step(Inputs {
-                nut_speed: 10.0,
-                axial_load: screw.load * BALLS as f32,
-            })
-            .friction_torque,
-    );
-    for tick in 0..600 {
-        let time = tick as f32;
-        let (mut load, mut speed) = (screw.load, 10.0);
-        match course {
-            Course::Swing(most, tick_most) => {
-                let rate = tick_most.ln() / most.ln();
-                load *= (most.ln() * (rate * time).sin()).exp();
-            }
-            Course::Zero(amplitude) => load *= amplitude * (time * TAU as f32 / 300.0).sin(),
-            Course::Jump(most) => {
-                if tick / 60 % 2 == 1 {
-                    load *= most;
-                }
-            }
-            Course::Flip(most) => {
-                if tick / 60 % 2 == 1 {
-                    load *= -most;
-                }
-            }
-            _ => {
-                if tick / 60 % 2 == 1 {
-                    speed = -speed;
-                }
-            }
-        }
-        let inputs = Inputs {
-            nut_speed: speed,
-            axial_load: load * BALLS as f32,
-        };
-        let found = ball.step(inputs);
-        let right = exact.step(inputs);
-        if tick >= 30 && !right.faults.any() {
-            let scale = if let Course::Zero(_) = course {
-                whole
-            } else {
-                right.friction_torque.into()
-            };
-            let error = f64::from(found.friction_torque - right.friction_torque) / scale;
-            off.add(error, found.faults.any());
         }
     }
 }
@@ -667,7 +656,7 @@ fn balls_settle() {
     assert!(most[0] <= 15 && most[1] <= 22);
 }
 
-/// Measured, 100 balls: speed over the track's and torque, largest and root-mean-square errors, three or four contacts and two.
+/// A hundred balls of three kinds: speed over the track's and torque, largest and root-mean-square errors, three or four contacts and two.
 #[test]
 #[ignore = "half a minute: cargo test -p epas-reference --test generators elastic_balls -- --include-ignored --nocapture"]
 fn settled_balls_are_the_exact_ones() {
@@ -676,7 +665,11 @@ fn settled_balls_are_the_exact_ones() {
         let all = against_exact(&balls);
         for (contacts, ceilings) in all.iter().flatten().zip(ceilings) {
             let found = [contacts.largest, contacts.rms()];
-            println!("{}: {} {found:.2e?}", kind.name, contacts.count);
+            let [largest, rms] = found;
+            println!(
+                "{}: {} balls [{largest:.2e}, {rms:.2e}]",
+                kind.name, contacts.count
+            );
             let within = found
                 .iter()
                 .zip(ceilings)
@@ -686,7 +679,27 @@ fn settled_balls_are_the_exact_ones() {
     }
 }
 
-const EXACT: [[[f64; 2]; 4]; 3] = [[[1.0; 2]; 4]; 3];
+/// Measured: by kind, and speed and torque in three or four contacts and in two.
+const EXACT: [[[f64; 2]; 4]; 3] = [
+    [
+        [2.06e-4, 3.13e-5],
+        [9.55e-3, 2e-3],
+        [1.59e-3, 9.1e-4],
+        [1.62e-4, 9.65e-5],
+    ],
+    [
+        [1.16e-4, 1.19e-5],
+        [3.91e-3, 4.98e-4],
+        [0.0, 0.0],
+        [0.0, 0.0],
+    ],
+    [
+        [7.76e-4, 1.66e-4],
+        [6.77e-3, 2.24e-3],
+        [0.0538, 9.29e-3],
+        [0.0166, 2.05e-3],
+    ],
+];
 
 /// Gaps, m: preload, next to none, play.
 const GAPS: [(f64, f64); 3] = [(-5e-6, -1e-6), (-5e-7, 5e-7), (1e-6, 5e-6)];
@@ -699,7 +712,8 @@ type Followed = [f64; 3];
 
 fn assert_followed(name: &str, off: &Off, ceilings: Followed) {
     let found = [off.largest, off.rms(), off.share()];
-    println!("{name}: {found:.3e?}");
+    let [largest, rms, share] = found;
+    println!("{name}: [{largest:.2e}, {rms:.2e}, {share:.2e}]");
     let within = found
         .iter()
         .zip(ceilings)
@@ -730,8 +744,19 @@ fn rings_follow_their_grooves() {
     }
 }
 
-/// By gap, speed, and grooves and balls.
-const GROOVES: [[[Followed; 2]; 3]; 2] = [[[[1.0; 3]; 2]; 3]; 2];
+/// Measured: by gap, speed, and grooves and balls. The largest errors are balls that come under load or leave it a round apart.
+const GROOVES: [[[Followed; 2]; 3]; 2] = [
+    [
+        [[0.0849, 2.62e-3, 9.09e-3], [0.0759, 1.04e-3, 9.09e-3]],
+        [[0.0842, 6.55e-3, 0.0335], [0.12, 3.47e-3, 0.0335]],
+        [[0.0882, 8.32e-3, 0.24], [0.149, 4.45e-3, 0.24]],
+    ],
+    [
+        [[0.0868, 2.63e-3, 0.0183], [0.164, 2.73e-3, 0.0183]],
+        [[0.0879, 6.46e-3, 0.0858], [0.166, 6.17e-3, 0.0858]],
+        [[0.0914, 8.45e-3, 0.342], [0.147, 7.27e-3, 0.342]],
+    ],
+];
 
 const COURSES: [Course; 9] = [
     Course::Swing(3.0, 1.1),
@@ -759,8 +784,42 @@ fn rings_follow_their_load() {
     }
 }
 
-/// By gap and course.
-const LOADS: [[Followed; 9]; 3] = [[[9.0; 3]; 9]; 3];
+/// Measured: by gap and course.
+const LOADS: [[Followed; 9]; 3] = [
+    [
+        [0.31, 0.034, 0.0933],
+        [0.406, 0.0585, 0.141],
+        [0.662, 0.0817, 0.274],
+        [0.458, 0.072, 0.77],
+        [0.192, 0.019, 0.0675],
+        [0.221, 0.0189, 0.173],
+        [0.452, 0.0412, 0.44],
+        [0.392, 0.0134, 0.172],
+        [0.59, 0.0227, 0.275],
+    ],
+    [
+        [0.141, 0.0777, 0.174],
+        [0.407, 0.149, 0.192],
+        [0.469, 0.151, 0.781],
+        [0.0, 0.0, 1.0],
+        [0.323, 0.0608, 0.474],
+        [0.459, 0.0193, 0.299],
+        [0.808, 0.0563, 0.541],
+        [0.152, 0.0114, 0.54],
+        [0.162, 0.0113, 0.58],
+    ],
+    [
+        [0.133, 0.078, 0.156],
+        [0.455, 0.149, 0.225],
+        [0.66, 0.142, 0.787],
+        [0.0, 0.0, 1.0],
+        [0.239, 0.0589, 0.473],
+        [0.437, 0.0229, 0.287],
+        [0.234, 6.07e-3, 0.467],
+        [0.237, 0.0113, 0.471],
+        [0.257, 0.0121, 0.46],
+    ],
+];
 
 const CAGED: [Course; 5] = [
     Course::Swing(3.0, 1.01),
@@ -784,8 +843,30 @@ fn caged_balls_follow_their_load() {
     }
 }
 
-/// By gap and course.
-const RENEWED: [[Followed; 5]; 3] = [[[9.0; 3]; 5]; 3];
+/// Measured: by gap and course.
+const RENEWED: [[Followed; 5]; 3] = [
+    [
+        [1.42e-3, 1.59e-4, 0.762],
+        [1.1e-3, 2.44e-4, 0.921],
+        [0.672, 0.0238, 0.149],
+        [1.5, 0.0425, 0.214],
+        [1.64e-4, 6.04e-5, 0.0],
+    ],
+    [
+        [7.98e-4, 1.86e-4, 0.908],
+        [1.13e-3, 3.94e-4, 0.985],
+        [0.366, 8.07e-3, 0.18],
+        [6.55e-4, 1.68e-4, 0.252],
+        [4.68e-4, 1.47e-4, 7.64e-4],
+    ],
+    [
+        [1.16e-3, 1.62e-4, 0.871],
+        [1.02e-3, 3.91e-4, 0.979],
+        [2.41e-4, 8.06e-5, 0.181],
+        [2.41e-4, 9.12e-5, 0.252],
+        [2.47e-4, 9.62e-5, 2.18e-3],
+    ],
+];
 
 #[test]
 fn laws_are_those_of_balls() {
@@ -793,7 +874,7 @@ fn laws_are_those_of_balls() {
     for configuration in settings() {
         law(&configuration, &mut off);
     }
-    assert_followed("laws", &off, [5.9e-4, 6.9e-5, 6.9e-3]);
+    assert_followed("laws", &off, [6e-4, 6.9e-5, 6.9e-3]);
 }
 
 /// Of a coefficient that is larger by some per cent, torque beyond what is in proportion to it; of a larger gap, all of it.
