@@ -16,8 +16,8 @@
 //! Source: Lin 2019, contact directions and loads (2.11)-(2.14), slip and spin (3.65)-(3.68), balance of a ball (3.69), with
 //! neighbours (3.75). Errors and cost: [`SCREW_RENEWAL`](crate::promises::SCREW_RENEWAL).
 //!
-//! The constants that were chosen and not derived say what they were chosen from. Scans stand in
-//! `host-tests/tests/generators/elastic_balls.rs`.
+//! Constants that were chosen and not derived say what they were chosen from; those of a ring and of laws over the load stand
+//! in `ring::chosen` and `load_law::chosen`. `host-tests/tests/generators/elastic_balls.rs` shows what they do.
 //!
 //! | file | what | runs in |
 //! |---|---|---|

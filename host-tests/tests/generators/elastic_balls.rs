@@ -10,7 +10,7 @@
 //! ```
 //!
 //! which prints every figure; those in the comments of the constants are such. The ceilings are what the chosen ones give, in a run
-//! that repeats bit by bit: a changed constant, or a changed result, shows in them.
+//! that repeats bit by bit, so that a constant that does worse somewhere, or a changed result, shows in them.
 
 use crate::kit::random::Random;
 use epas_friction::ball::elastic::{BallInputs, ElasticGrooves, Settled};
@@ -650,7 +650,7 @@ fn balls_settle() {
             );
         }
     }
-    // After so many renewals a ring puts out its first torque: within 1 % of the slowest one.
+    // A ring renews its nominal ball 16 times before the first tick.
     let most = nominal(50.0);
     println!("nominal balls under 50 N: {most:?}");
     assert!(most[0] <= 15 && most[1] <= 22);

@@ -164,8 +164,8 @@ pub(super) struct Step {
     pub(super) compliance: f32,
 }
 
-/// The step of a place in terms of what is eliminated after it: `step = right - place dx - motion dy`, with the step `dx` of the
-/// radial place and `dy` of the motion.
+/// The step of a place in terms of what is eliminated after it: `step = right - place dx - motion dy`, with the step `dx` of
+/// the radial place and `dy` of the motion.
 struct Follows {
     /// The step where nothing else moves.
     right: f32,

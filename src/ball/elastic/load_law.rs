@@ -179,7 +179,8 @@ impl Folding<'_> {
         }
     }
 
-    /// Folds laws within a tolerance, with the curves of one part after those of the other; says whether there are parts enough.
+    /// Folds laws within a tolerance, with the curves of one part after those of the other; says whether there are parts
+    /// enough.
     fn fold(
         &self,
         low: &mut [f32; PARTS],

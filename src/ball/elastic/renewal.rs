@@ -7,13 +7,13 @@ use crate::math::{self, inverse_cube_roots};
 
 /// Largest change of the motion in a step: sum of the sizes of its four parts, over the nut's speed.
 ///
-/// A bound for motions far from all balance. From 0.7 on balls settle alike, in 5.2 to 5.8 renewals in the mean; at 0.35 they take
-/// 7.4. Of 3000 balls with play 100, 148 and 199 never rest at 0.7, 1.4 and 2.8. Without the bound, or at 0.35, one of 24
-/// rings with preload stays in a limit cycle.
+/// A bound for motions far from all balance. From 0.7 on balls settle alike, in 5.2 to 5.8 renewals in the mean; at 0.35
+/// they take 7.4. Of 3000 balls with play 100, 148 and 199 never rest at 0.7, 1.4 and 2.8. Without the bound, or at 0.35,
+/// one of 24 rings with preload stays in a limit cycle.
 const LARGEST_TURN: f32 = 1.4;
 
-/// Largest change of a place in a step, over the deflection of a contact under all of the ball's load and what an oversized ball
-/// gives way without.
+/// Largest change of a place in a step, over the deflection of a contact under all of the ball's load and what an oversized
+/// ball gives way without.
 ///
 /// A longer step may leave the groove: without a bound 208 of 3000 light balls (up to 5 N) lose their contacts when the
 /// grooves turn, 180 to 184 with bounds from 0.5 to 4. Shorter ones keep balls with play from their place within fifty
@@ -25,15 +25,15 @@ const LARGEST_SHIFT: f32 = 1.0;
 /// Part of a step below which the place is left out of the motion's equations: far from balance the coupled step may lead
 /// away from it, that of the motion alone never does, because its power is convex.
 ///
-/// Always coupled, 26 of 3000 balls as promised, 189 heavy ones (to 3 kN) and 304 with play never rest. At 0.05 these are 2, 6, 237;
-/// at 0.1 0, 6, 148; at 0.2 1, 8, 106; at 0.4 5, 22, 145.
+/// Always coupled, 26 of 3000 balls as promised, 189 heavy ones (to 3 kN) and 304 with play never rest. At 0.05 these are 2,
+/// 6, 237; at 0.1 0, 6, 148; at 0.2 1, 8, 106; at 0.4 5, 22, 145.
 const LEAST_TAKEN: f32 = 0.1;
 
 /// Load of a contact over the axial load of the ball below which it does not limit steps.
 ///
-/// Hardly felt by the ball, such a contact would cut steps short: balls settle in 5.5, 5.3, 5.1 and 4.9 renewals in the mean at 0,
-/// 0.02, 0.04 and 0.1. Up to 0.04 none of 3000 as promised is without rest, and 47 or 48 light ones; at 0.1 these are 2 and 89,
-/// and one of 24 rings with preload stays in a limit cycle.
+/// Hardly felt by the ball, such a contact would cut steps short: balls settle in 5.5, 5.3, 5.1 and 4.9 renewals in the mean
+/// at 0, 0.02, 0.04 and 0.1. Up to 0.04 none of 3000 as promised is without rest, and 47 or 48 light ones; at 0.1 these are
+/// 2 and 89, and one of 24 rings with preload stays in a limit cycle.
 const LIGHT: f32 = 0.02;
 
 /// Place and motion of a ball; lengths over the ball radius, speeds over the nut's.
@@ -48,8 +48,8 @@ pub struct Settled {
     pub(super) speed: f32,
 }
 
-/// What a ball is under. Nothing is checked; numbers beyond the ranges give a [lost](Renewal::lost) ball or one that does not
-/// settle.
+/// What a ball is under. Nothing is checked; numbers beyond the ranges give a [lost](field@Renewal::lost) ball or one that
+/// does not settle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct BallInputs {
@@ -198,11 +198,11 @@ impl ElasticGrooves {
     /// every contact near the slip and the load it has. Where `t` falls below a tenth, motion and place step apart.
     ///
     /// A ball that has lost both contacts of a groove, or whose numbers are not finite, stays as it is: see
-    /// [`Renewal::lost`].
+    /// [`lost`](field@Renewal::lost).
     ///
-    /// Errors once settled, and cost: [`SCREW_RENEWAL`](crate::promises::SCREW_RENEWAL); compliance within 2.4 %, 0.4 % rms. From
-    /// [`ElasticGrooves::start`] on the torque of such balls stays within 1e-3 after 5 renewals in the mean, 24 for 99 %; with play
-    /// after 19, and one in twenty stays in a limit cycle of balls in two contacts.
+    /// Errors once settled, and cost: [`SCREW_RENEWAL`](crate::promises::SCREW_RENEWAL); compliance within 2.4 %, 0.4 % rms.
+    /// From [`ElasticGrooves::start`] on the torque of such balls stays within 1e-3 after 5 renewals in the mean, 24 for 99
+    /// %; with play after 19, and one in twenty stays in a limit cycle of balls in two contacts.
     ///
     /// Source: Lin 2019, (2.11)-(2.14), (3.65)-(3.69), (3.75); step lengths are this crate's own.
     #[inline(never)]

@@ -293,8 +293,8 @@ impl<const N: usize> Ring<N> {
         self.limit_impedance(index);
     }
 
-    /// Largest speed of a ball without load less the nominal one, over the nominal one against the nut: play turns the contacts of all
-    /// balls; how far a ball deviates is known for a screw without.
+    /// Largest speed of a ball without load less the nominal one, over the nominal one against the nut: play turns the
+    /// contacts of all balls; how far a ball deviates is known for a screw without.
     #[inline(always)]
     fn fastest(&self, constants: &RingConstants, is_nominal: bool) -> f32 {
         if is_nominal {

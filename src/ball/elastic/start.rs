@@ -94,7 +94,8 @@ impl ElasticGrooves {
     /// Takes what `renew` takes, loads of both signs; always gives a finite place, which is not in balance yet: deviations turn
     /// the arcs, but not the motion. Cost: [`SCREW_START`](crate::promises::SCREW_START).
     ///
-    /// Source: not in Lin 2019, which leaves the start open; motion as a nominal ball's, loads by its equations (2.14) and (3.69).
+    /// Source: not in Lin 2019, which leaves the start open; motion as a nominal ball's, loads by its equations (2.14) and
+    /// (3.69).
     #[must_use]
     #[inline(never)]
     pub fn start(&self, inputs: &BallInputs) -> Settled {

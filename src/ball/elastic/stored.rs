@@ -19,8 +19,8 @@ const FREE: Range = Range::new(-LARGEST_FREE_SPEED, LARGEST_FREE_SPEED);
 /// ball's. That is 5000 in the most extreme design, of which this is a factor of 20 away.
 pub(super) const MOTION: Range = Range::new(-1e5, 1e5);
 
-/// Friction torques and impedances over powers of the load, which are far smaller in every design: a bound that keeps off infinity
-/// and what its products would become.
+/// Friction torques and impedances over powers of the load, which are far smaller in every design: a bound that keeps off
+/// infinity and what its products would become.
 pub(super) const NOT_NEGATIVE: Range = Range::new(0.0, 1e12);
 
 /// Gaps, m: beyond those of every design, -1e-3 to 2.5e-3, which the scene checks against its own ball.
