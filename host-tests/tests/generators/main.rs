@@ -13,6 +13,7 @@
 //! | `sagitta` | `kinematics::path` |
 //! | `preload` | `ball::preload` |
 //! | `refined_balls` | chosen constants of `refined` |
+//! | `elastic_balls` | chosen constants of `ball::elastic` |
 
 #[path = "../kit/mod.rs"]
 mod kit;
@@ -20,6 +21,7 @@ mod kit;
 mod axis_ratio;
 mod backbones;
 mod cube_roots;
+mod elastic_balls;
 mod lines;
 mod nodes;
 mod preload;

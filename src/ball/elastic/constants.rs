@@ -47,7 +47,7 @@ impl BallConstants {
         clearance.checked_for(self.grooves.ball_radius)
     }
 
-    /// Contact force of a preload's oversize, N, times the load over it at which a diagonal is lost.
+    /// Contact force at which a preloaded ball loses its unloaded diagonal, N: `2 sqrt(2)` times the preload; 0 without.
     pub(super) fn lift_off(&self, clearance: f32) -> f32 {
         let gap = clearance / self.grooves.ball_radius;
         if gap < 0.0 {

@@ -5,9 +5,13 @@
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Motion {
+    /// Of the speed along the track.
     pub(super) speed: f32,
+    /// Of the angular velocity about the radial axis.
     pub(super) x: f32,
+    /// Of that about the track.
     pub(super) y: f32,
+    /// Of that about the axis across both.
     pub(super) z: f32,
 }
 
@@ -47,30 +51,45 @@ impl Motion {
     }
 }
 
-/// Second derivatives of the power by the motion, N; `s` is the speed.
+/// Second derivatives of the power loss by the motion, N: by the parts that the two letters name as [`Motion`] does, `s` the
+/// speed along the track. Symmetric, so each pair stands once.
 #[derive(Clone, Copy)]
 pub(super) struct Hessian {
+    /// By the angular velocity about the radial axis, twice.
     pub(super) xx: f32,
+    /// By those about the radial axis and the track.
     pub(super) xy: f32,
+    /// By those about the radial axis and the axis across.
     pub(super) xz: f32,
+    /// By that about the radial axis and the speed.
     pub(super) xs: f32,
+    /// By that about the track, twice.
     pub(super) yy: f32,
+    /// By those about the track and the axis across.
     pub(super) yz: f32,
+    /// By that about the track and the speed.
     pub(super) ys: f32,
+    /// By that about the axis across, twice.
     pub(super) zz: f32,
+    /// By that about the axis across and the speed.
     pub(super) zs: f32,
+    /// By the speed, twice.
     pub(super) ss: f32,
 }
 
 /// Equations that both grooves share: the radial place and the motion.
 pub(super) struct Shared {
-    /// Unbalanced radial force, N; its change with the radial place and with the motion.
+    /// Unbalanced radial force on the ball, N.
     pub(super) radial: f32,
+    /// Its change with the radial place, N per ball radius.
     pub(super) by_place: f32,
+    /// Its change with the motion, N.
     pub(super) by_motion: Motion,
-    /// Derivative of the power by the motion, N; its change with the radial place and with the motion.
+    /// Derivatives of the power loss by the motion, N: moments over the ball radius, and the force along the track.
     pub(super) forces: Motion,
+    /// Their change with the radial place, N per ball radius.
     pub(super) forces_by_place: Motion,
+    /// Their change with the motion.
     pub(super) hessian: Hessian,
 }
 
@@ -106,13 +125,17 @@ impl Shared {
 /// Axial balance in one groove.
 #[derive(Clone, Copy)]
 pub(super) struct Axial {
-    /// Axial force on the ball, N; its change with the axial place, the radial place and the motion.
+    /// Axial force of the groove on the ball, N.
     pub(super) force: f32,
+    /// Its change with the axial place in this groove, N per ball radius.
     pub(super) by_itself: f32,
+    /// Its change with the radial place, N per ball radius.
     pub(super) by_place: f32,
+    /// Its change with the motion, N.
     pub(super) by_motion: Motion,
-    /// Change of the radial force and of the power's derivatives with the axial place.
+    /// Change of the radial force with the axial place, N per ball radius.
     pub(super) radial: f32,
+    /// Change of the power's derivatives by the motion with the axial place, N per ball radius.
     pub(super) forces: Motion,
 }
 
@@ -127,20 +150,28 @@ impl Axial {
     };
 }
 
-/// Steps that bring all unbalanced forces to zero, to first order.
+/// Steps that bring all unbalanced forces to zero, to first order; they are taken off place and motion.
 pub(super) struct Step {
+    /// Of the radial place, over the ball radius.
     pub(super) radial: f32,
+    /// Of the axial place in the screw's groove, over the ball radius.
     pub(super) screw: f32,
+    /// Of that in the nut's groove.
     pub(super) nut: f32,
+    /// Of the motion, over the nut's speed.
     pub(super) motion: Motion,
     /// Change of the speed with a force along the track, 1/N.
     pub(super) compliance: f32,
 }
 
-/// A place in terms of what is eliminated after it: `step = right - place dx - motion dy`.
+/// The step of a place in terms of what is eliminated after it: `step = right - place dx - motion dy`, with the step `dx` of
+/// the radial place and `dy` of the motion.
 struct Follows {
+    /// The step where nothing else moves.
     right: f32,
+    /// What the radial place takes off it.
     place: f32,
+    /// What the motion takes off it.
     motion: Motion,
 }
 
@@ -163,7 +194,9 @@ impl Follows {
 /// One row of the equations of the motion, places eliminated.
 #[derive(Clone, Copy)]
 struct Line {
+    /// Unbalanced force, N.
     right: f32,
+    /// Its change with each part of the motion, N.
     by: Motion,
 }
 
@@ -190,8 +223,11 @@ impl Line {
 
 /// Places in terms of what is eliminated after them.
 struct Places {
+    /// The radial place, after which only the motion is left: its `place` is 0.
     radial: Follows,
+    /// The axial place in the screw's groove.
     screw: Follows,
+    /// That in the nut's groove.
     nut: Follows,
 }
 

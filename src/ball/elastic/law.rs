@@ -4,7 +4,9 @@ use super::constants::BallConstants;
 use super::renewal::{Renewal, Settled};
 use crate::math::{self, inverse_cube_roots};
 
-/// Least and largest impedance of a loaded ball, N: what a train takes.
+/// Least and largest impedance of a loaded ball, N, at its renewal: within what a train takes
+/// ([`IMPEDANCE_RANGE`](crate::train::IMPEDANCE_RANGE)) by a factor of ten or more. Until the next renewal it follows the
+/// load's power 2/3, and a load that has changed by more than a factor of three has all balls begin anew.
 const IMPEDANCES: (f32, f32) = (1e-6, 1e8);
 
 /// A screw's balls: constants.
@@ -73,7 +75,8 @@ impl Neighbours {
         self.behind.force - self.ahead.force
     }
 
-    /// Largest friction forces of both across the track, N: their sum, and that of the ball in front less that of the ball behind.
+    /// Largest friction forces of both across the track, N: their sum, and that of the ball in front less that of the ball
+    /// behind.
     #[inline(always)]
     pub(super) fn rubbing(&self) -> [f32; 2] {
         let (ahead, behind) = (self.ahead.friction, self.behind.friction);

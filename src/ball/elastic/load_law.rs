@@ -1,34 +1,18 @@
 //! Friction torque of nominal balls over the load: folded before the first tick, read in every one.
 
+mod chosen;
+
+use self::chosen::{
+    EXPONENTS, FIRST_RENEWALS, HALVES, NARROWEST, OCTAVES, PARTS, RENEWALS, TOLERANCES, WIDEST,
+    WIDEST_BEYOND,
+};
 use super::constants::BallConstants;
 use super::nominal::{Grooving, NominalBall};
 use crate::math;
 
-/// Parts of laws; the power of two from which on half of those left are looked at.
-const PARTS: usize = 56;
-const HALVES: usize = 32;
-
-/// Octaves of loads for which a law holds.
-const OCTAVES: u32 = 17;
-
-/// Widest and narrowest part, octaves; a part in which the ball is not known well is at most so wide.
-const WIDEST: f32 = 1.0;
-const NARROWEST: f32 = 1.0 / 128.0;
-const WIDEST_BEYOND: f32 = 0.5;
-
-/// Error of a part over its friction, in the middle of its halves; the next where parts do not suffice.
-const TOLERANCES: [f32; 3] = [2.5e-4, 7e-4, 4e-3];
-
-/// Renewals of the first ball and of each other at most.
-const FIRST_RENEWALS: u32 = 60;
-const RENEWALS: u32 = 40;
-
 /// Exponent's bias and mantissa's bits of an `f32`.
 const BIAS: u32 = 127;
 const MANTISSA: u32 = 23;
-
-/// Least and largest exponent of the largest load, N.
-const EXPONENTS: (u32, u32) = (BIAS + 10, BIAS + 20);
 
 /// Laws that are folded together at most.
 const MOST_LAWS: usize = 4;
@@ -195,7 +179,8 @@ impl Folding<'_> {
         }
     }
 
-    /// Folds laws within a tolerance, with the curves of one part after those of the other; says whether there are parts enough.
+    /// Folds laws within a tolerance, with the curves of one part after those of the other; says whether there are parts
+    /// enough.
     fn fold(
         &self,
         low: &mut [f32; PARTS],

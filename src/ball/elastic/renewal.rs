@@ -5,17 +5,35 @@ use super::equations::{Axial, Motion, Shared, Step, solved};
 use super::grooves::{ElasticGroove, ElasticGrooves};
 use crate::math::{self, inverse_cube_roots};
 
-/// Largest change of the motion in a step: sum over its parts, over the nut's speed.
+/// Largest change of the motion in a step: sum of the sizes of its four parts, over the nut's speed.
+///
+/// A bound for motions far from all balance. From 0.7 on balls settle alike, in 5.2 to 5.8 renewals in the mean; at 0.35
+/// they take 7.4. Of 3000 balls with play 100, 148 and 199 never rest at 0.7, 1.4 and 2.8. Without the bound, or at 0.35,
+/// one of 24 rings with preload stays in a limit cycle.
 const LARGEST_TURN: f32 = 1.4;
 
-/// Largest change of a place in a step over the deflection of a contact under the ball's load.
+/// Largest change of a place in a step, over the deflection of a contact under all of the ball's load and what an oversized
+/// ball gives way without.
+///
+/// A longer step may leave the groove: without a bound 208 of 3000 light balls (up to 5 N) lose their contacts when the
+/// grooves turn, 180 to 184 with bounds from 0.5 to 4. Shorter ones keep balls with play from their place within fifty
+/// renewals: 360 of 3000 at 0.25, 159 at 0.5, 148 at 1, 122 at 2, 113 at 4. Other balls settle alike from 0.25 to 4.
+/// More than 1 gains little, and in a ring without play whose load swings by a factor 2.8 a round torques that are not flagged
+/// are off by up to 0.76 of the true one at 2 and five times it at 4; at 1 all of them are flagged.
 const LARGEST_SHIFT: f32 = 1.0;
 
 /// Part of a step below which the place is left out of the motion's equations: far from balance the coupled step may lead
 /// away from it, that of the motion alone never does, because its power is convex.
+///
+/// Always coupled, 26 of 3000 balls as promised, 189 heavy ones (to 3 kN) and 304 with play never rest. At 0.05 these are 2,
+/// 6, 237; at 0.1 0, 6, 148; at 0.2 1, 8, 106; at 0.4 5, 22, 145.
 const LEAST_TAKEN: f32 = 0.1;
 
-/// Load over the axial load below which a contact does not limit steps.
+/// Load of a contact over the axial load of the ball below which it does not limit steps.
+///
+/// Hardly felt by the ball, such a contact would cut steps short: balls settle in 5.5, 5.3, 5.1 and 4.9 renewals in the mean
+/// at 0, 0.02, 0.04 and 0.1. Up to 0.04 none of 3000 as promised is without rest, and 47 or 48 light ones; at 0.1 these are
+/// 2 and 89, and one of 24 rings with preload stays in a limit cycle.
 const LIGHT: f32 = 0.02;
 
 /// Place and motion of a ball; lengths over the ball radius, speeds over the nut's.
@@ -30,24 +48,27 @@ pub struct Settled {
     pub(super) speed: f32,
 }
 
-/// What a ball is under.
+/// What a ball is under. Nothing is checked; numbers beyond the ranges give a [lost](field@Renewal::lost) ball or one that
+/// does not settle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct BallInputs {
-    /// Axial force of the screw on the ball, N; not 0. Positive carried by SL and NR, negative by SR and NL.
+    /// Axial force of the screw on the ball, N: size 1e-3 to 1e7. Positive carried by SL and NR, negative by SR and NL.
     pub axial_load: f32,
-    /// Force of the neighbours along the track, N.
+    /// Force of the neighbours along the track, N: positive pushes the ball in the direction in which the nut turns. A ball has
+    /// a balance up to about `2 mu F`, with the friction coefficient `mu` and the force `F` of a main contact.
     pub force: f32,
-    /// Largest friction forces that both neighbours put on the ball across the track, N: their sum, and that of the ball in
-    /// front less that of the ball behind.
+    /// Largest friction forces that both neighbours put on the ball across the track, N: their sum, 0 or more, and that of the
+    /// ball in front less that of the ball behind, no larger than the sum.
     pub rubbing: [f32; 2],
-    /// How far the arcs of the screw's and the nut's groove are turned, rad.
+    /// How far the screw's contact angles deviate from the nominal one, rad: SR by this much, SL by its opposite; up to 0.2.
     pub screw_deviation: f32,
-    /// The nut's.
+    /// How far the nut's do, rad: NR by this much, NL by its opposite; up to 0.2.
     pub nut_deviation: f32,
-    /// Friction coefficient.
+    /// Friction coefficient of ball and grooves: 1e-6 to 0.5.
     pub friction: f32,
-    /// Radial gap of every contact at the centred ball, m.
+    /// Radial gap of every contact at the centred ball, m: play above 0, oversize below; -0.02 to 0.05 of the ball radius
+    /// ([`Clearance`](crate::Clearance)).
     pub clearance: f32,
 }
 
@@ -81,7 +102,7 @@ pub struct Renewal {
     pub carried: f32,
     /// Loads of SL, SR, NL, NR before the step, N.
     pub loads: [f32; 4],
-    /// Part of the step that was taken.
+    /// Part of the Newton step that was taken, 0 to 1; below 1 the ball is far from its balance.
     pub taken: f32,
     /// Both contacts of a groove are open, or a number is not finite: the ball stays as it was, and compliance, torque and
     /// carried force are zero. It needs [`ElasticGrooves::start`].
@@ -165,10 +186,25 @@ impl ElasticGrooves {
         [(side * (cc + ss), sc - cs), (side * (cc - ss), -(sc + cs))]
     }
 
-    /// One Newton step of the seven equations of a ball.
+    /// One Newton step of the seven equations of a ball (head of [`elastic`](crate::ball::elastic)), in the frame in which the
+    /// nut turns forward.
+    ///
+    /// ```text
+    /// x := x - t J^-1 r(x)        0 < t <= 1
+    /// ```
+    ///
+    /// with the unknowns `x`, lengths over the ball radius and velocities over the nut's; what is unbalanced `r`, N; its
+    /// derivatives `J`, without how friction changes when a contact's normal turns; and the part `t` of the step that keeps
+    /// every contact near the slip and the load it has. Where `t` falls below a tenth, motion and place step apart.
     ///
     /// A ball that has lost both contacts of a groove, or whose numbers are not finite, stays as it is: see
-    /// `lost`.
+    /// [`lost`](field@Renewal::lost).
+    ///
+    /// Errors once settled, and cost: [`SCREW_RENEWAL`](crate::promises::SCREW_RENEWAL); compliance within 2.4 %, 0.4 % rms.
+    /// From [`ElasticGrooves::start`] on the torque of such balls stays within 1e-3 after 5 renewals in the mean, 24 for 99
+    /// %; with play after 19, and one in twenty stays in a limit cycle of balls in two contacts.
+    ///
+    /// Source: Lin 2019, (2.11)-(2.14), (3.65)-(3.69), (3.75); step lengths are this crate's own.
     #[inline(never)]
     pub fn renew(&self, state: &mut Settled, inputs: &BallInputs) -> Renewal {
         let clearance = inputs.clearance * self.per_radius;

@@ -22,10 +22,11 @@ impl BallResistance {
     /// The grooves run past the contacts of a ball that rolls with half the speed of pure rolling on both sides:
     ///
     /// ```text
-    /// v/w = w_B/w (L_p - c) = (1 - w_B/w) (L_p + c) = (L_p^2 - c^2)/(2 L_p)        c = R_B cos(alpha) cos(beta)
+    /// v/omega_N = omega_B/omega_N (q - c) = (1 - omega_B/omega_N) (q + c) = (q² - c²)/(2 q)
+    /// c = r_b cos(alpha) cos(beta)
     /// ```
     ///
-    /// with the path's length `L_p` per radian.
+    /// with the speed `v` at which a contact runs along a groove and the path radius `q`, the track's length per radian.
     ///
     /// # Errors
     /// As [`RollingContact::of`].

@@ -1,43 +1,16 @@
 //! Balls of a ball screw that are renewed in turn, and what each of them would do on its own until its turn comes.
 
 mod changes;
+mod chosen;
 mod stored;
 
+use self::chosen::{
+    FAR, FIRST_LOAD, FIRST_RENEWALS, HELD, LOAD_JUMP, LOAD_STEP, LONGEST_ROUND, SETTLING_ROUNDS,
+    SMALLEST_LOAD, STIFFER,
+};
 use super::law::{Neighbours, RingBall, RingConstants, RingLoad, between};
 use super::renewal::{BallInputs, Settled};
 use crate::train::LARGEST_FREE_SPEED;
-
-/// Axial load of a ball below which it counts as this, N.
-const SMALLEST_LOAD: f32 = 1e-3;
-
-/// Change of the load in one round of renewals from which balls begin anew, as a factor.
-const LOAD_JUMP: f32 = 3.0;
-
-/// Change of the load in one round of renewals from which friction is that of balls that still settle, as a factor: its law
-/// from renewal to renewal is that of a power of the load.
-const LOAD_STEP: f32 = 1.25;
-
-/// Angle of the nut in a round of renewals up to which balls follow their laws, rad: 20 turns a second with rounds of 0.93 ms.
-const LONGEST_ROUND: f32 = 0.12;
-
-/// Part of the load that crosses zero below which a preload holds the balls where they are.
-const HELD: f32 = 0.3;
-
-/// Rounds of renewals after a start in which forces between balls are those of balls that still settle.
-pub(crate) const SETTLING_ROUNDS: u16 = 3;
-
-/// Renewals of a nominal ball before the first tick.
-const FIRST_RENEWALS: usize = 16;
-
-/// Load of a ball before the first tick, N.
-const FIRST_LOAD: f32 = 50.0;
-
-/// Impedance of a ball over that of a nominal one, from the least to the largest that counts: a ball that has not settled
-/// must not push harder than friction can.
-const STIFFER: f32 = 16.0;
-
-/// Load that a ball's contacts carry over what it should be, and the inverse, from which on it begins anew.
-const FAR: f32 = 4.0;
 
 /// Balls that are renewed in turn.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,22 +26,24 @@ pub(crate) struct Ring<const N: usize> {
     renewed_friction: f32,
     /// Radial gap of every contact at the centred ball, m.
     pub(crate) clearance: f32,
-    /// Contact force of the lost diagonal's last touch, N: 0 without preload.
+    /// Contact force at which a preloaded ball loses its unloaded diagonal, N: `2 sqrt(2)` times the preload; 0 without.
     lift_off: f32,
     /// Load, preload counted, that the balls are settled for, N.
     settled_load: f32,
     /// Angle of the nut in this round, rad.
     round: f32,
-    /// Balls still to begin anew; renewals until all are settled.
+    /// Balls still to begin anew.
     stale: u16,
+    /// Renewals until all balls count as settled.
     settling: u16,
+    /// Ball whose turn is next; the nominal one comes last, with the number of balls.
     next: u8,
     /// Balls that came under load and wait for their first renewal, as a ball's index and one; 0 is none.
     entered: u8,
     /// Balls in two contacts, in this round.
     two_point: u8,
-    /// Balls that have not come under load anew since they were beyond the model for longer than settling takes: they may stand
-    /// elsewhere than their laws say.
+    /// Balls whose place is uncertain because the model was out of range for more than `SETTLING_ROUNDS`; each leaves the
+    /// count when it next comes under load.
     astray: u8,
     /// Rounds up to the last one, without a break, in which balls went beyond the model.
     rounds_beyond: u8,
@@ -134,9 +109,10 @@ impl<const N: usize> Ring<N> {
         self.settling > 0
     }
 
-    /// Whether friction is not known as well as elsewhere: balls stand in two contacts, of which one sticks, or the nut turns
-    /// so far in a round that balls drift away from their laws; or that was so for longer than settling takes, and some ball has
-    /// not passed the return since. Gaps between balls are what their speeds have added up to from the return on.
+    /// Whether friction is known less well than promised. Balls stand in two contacts, of which one sticks; or the nut turns so
+    /// far in a round that balls leave their laws before they are renewed; or one of these held for more than
+    /// `SETTLING_ROUNDS`, and some ball has not passed the return since. Speeds that were wrong add up to wrong gaps between
+    /// balls, and a ball's gap begins anew where it comes under load.
     pub(crate) const fn beyond_model(&self) -> bool {
         self.leaves_model() || self.rounds_beyond > 0 || self.astray > 0
     }
@@ -317,8 +293,8 @@ impl<const N: usize> Ring<N> {
         self.limit_impedance(index);
     }
 
-    /// Largest speed of a ball without load less the nominal one, over the nominal one against the nut: play turns the contacts of all
-    /// balls; how far a ball deviates is known for a screw without.
+    /// Largest speed of a ball without load less the nominal one, over the nominal one against the nut: play turns the
+    /// contacts of all balls; how far a ball deviates is known for a screw without.
     #[inline(always)]
     fn fastest(&self, constants: &RingConstants, is_nominal: bool) -> f32 {
         if is_nominal {

@@ -1,4 +1,4 @@
-//! Place and motion of a ball from nothing.
+//! Place and motion of a ball that has none yet: where Newton's method begins.
 
 use super::contact::{Pressed, Touch};
 use super::grooves::{ElasticGroove, ElasticGrooves};
@@ -6,18 +6,31 @@ use super::renewal::{BallInputs, Settled};
 use crate::math;
 
 /// Part of sliding friction that contacts have across the track, to begin with.
+///
+/// Renewals find the true one: from 0.5 to 1 balls settle alike, in 5.2 to 5.5 renewals in the mean, 99 % within 24. Of 3000
+/// balls as promised 14 never rest from 0, 3 from 0.3, at most one from 0.5 on; of heavy ones 21, 7 and 6.
 const SHARE: f32 = 0.65;
 
-/// Steps in which the ball finds its place.
+/// Newton steps in which the ball finds its place.
+///
+/// From 0, 1, 2, 3, 4 steps on preloaded balls settle in 2.7, 1.7, 1.6, 1.6, 1.6 renewals in the mean, balls with play in 20.3,
+/// 20.0, 19.5, 19.2, 18.8, and of 3000 heavy balls 18, 6, 7, 6, 6 never rest. More steps help balls with play alone: eight of
+/// them save two renewals of 19, and 89 balls instead of 148 never rest; but a start counts in the tick of a reversal.
 const STEPS: usize = 4;
 
 /// Balance of a ball in one groove under given friction across the track.
 struct Side {
+    /// Radial force on the ball, N.
     radial: f32,
+    /// Axial force on the ball, N.
     axial: f32,
+    /// Change of the radial force with the radial place, N per ball radius.
     xx: f32,
+    /// Change of the radial force with the axial place.
     xz: f32,
+    /// Change of the axial force with the radial place.
     zx: f32,
+    /// Change of the axial force with the axial place.
     zz: f32,
 }
 
@@ -64,7 +77,25 @@ impl Side {
 }
 
 impl ElasticGrooves {
-    /// A ball that rolls as a nominal one does, its third contact closed, under the load.
+    /// Place and motion from which [`ElasticGrooves::renew`] begins: a ball that rolls as a nominal one does, with its main
+    /// contacts and the third one under the load.
+    ///
+    /// ```text
+    /// v/(omega_N r_b) = (q/r_b + cos(alpha) cos(beta))/2       omega_2/omega_N = sin(alpha)/2
+    /// omega_3 = v/(r_b cos(beta))                              omega_1 = 0
+    /// F = F_a/(sin(beta) cos(alpha))                           F_3 = 2 s_mu mu F
+    /// ```
+    ///
+    /// with the speed `v` along the track, the angular velocities about the radius (1), the track (2) and the axis across both
+    /// (3), the path radius `q`, the load `F` of a main contact, and `F_3` of the third one, on which friction across the
+    /// track presses with the share `s_mu` of sliding friction. The place follows from these loads, then from Newton steps of
+    /// the place alone. An oversized ball starts from the middle of its four contacts.
+    ///
+    /// Takes what `renew` takes, loads of both signs; always gives a finite place, which is not in balance yet: deviations turn
+    /// the arcs, but not the motion. Cost: [`SCREW_START`](crate::promises::SCREW_START).
+    ///
+    /// Source: not in Lin 2019, which leaves the start open; motion as a nominal ball's, loads by its equations (2.14) and
+    /// (3.69).
     #[must_use]
     #[inline(never)]
     pub fn start(&self, inputs: &BallInputs) -> Settled {

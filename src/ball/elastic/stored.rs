@@ -8,20 +8,22 @@ use crate::error::Range;
 use crate::stored::{Fingerprint, Port, Refusal, Stored};
 use crate::train::LARGEST_FREE_SPEED;
 
-/// Places over the ball radius: hundredths, but thousands where a ball under the largest load has not settled between the
-/// softest grooves.
+/// Places over the ball radius. They are hundredths; thousands where a ball under the largest load has not settled between the
+/// softest grooves, of which this is far away.
 const PLACE: Range = Range::new(-1e6, 1e6);
 
 /// Speeds without forces, which a train takes as they are.
 const FREE: Range = Range::new(-LARGEST_FREE_SPEED, LARGEST_FREE_SPEED);
 
-/// Motions over the nut's: a ball 1/5000 as large as its path (the extreme design) turns so fast.
+/// Angular velocities of a ball, and its speed over the ball radius, all over the nut's speed: about the path's radius over the
+/// ball's. That is 5000 in the most extreme design, of which this is a factor of 20 away.
 pub(super) const MOTION: Range = Range::new(-1e5, 1e5);
 
-/// Friction torques over powers of the load; forces over such.
+/// Friction torques and impedances over powers of the load, which are far smaller in every design: a bound that keeps off
+/// infinity and what its products would become.
 pub(super) const NOT_NEGATIVE: Range = Range::new(0.0, 1e12);
 
-/// Gaps of any ball, m.
+/// Gaps, m: beyond those of every design, -1e-3 to 2.5e-3, which the scene checks against its own ball.
 pub(super) const CLEARANCE: Range = Range::new(-0.01, 0.01);
 
 impl Stored for Settled {

@@ -1,12 +1,21 @@
 //! Friction coefficient and clearance that change while balls run.
 
-use super::{Ring, SETTLING_ROUNDS};
+use super::Ring;
+use super::chosen::SETTLING_ROUNDS;
 use crate::ball::elastic::law::RingConstants;
 
-/// Change of the friction coefficient over it, and of the clearance, m, that balls follow without settling anew.
+/// Changes that balls follow without being flagged, as their turn comes: of the friction coefficient, over it, and of the
+/// clearance, m.
+///
+/// Of 72 screws a coefficient larger by 2 % changes the torque by 1.2 % rms more than in proportion, by 5.8 % at most; a gap
+/// larger by 1e-8, 1e-7 and 1e-6 m by 0.4, 4.3 and 28 % rms, 1.5, 15 and 81 % at most (light balls, whose third contact opens).
 const SMALL_CHANGE: (f32, f32) = (0.01, 1e-8);
 
-/// Difference of the friction coefficient from that of the last renewals, over it, from which on balls count as unsettled.
+/// Difference of the friction coefficient from that of the last renewals, over it, from which on balls count as unsettled:
+/// until they are renewed their friction is taken in proportion to it.
+///
+/// Of 72 screws the torque of settled balls is off from that by 1.2, 3.2, 6.6, 14 and 33 % rms where the coefficient is
+/// larger by 2, 5, 10, 20 and 50 %.
 const FRICTION_BEHIND: f32 = 0.1;
 
 impl<const N: usize> Ring<N> {

@@ -1,6 +1,7 @@
 //! A ring of balls as bytes.
 
-use super::{Ring, SETTLING_ROUNDS};
+use super::Ring;
+use super::chosen::SETTLING_ROUNDS;
 use crate::ball::elastic::law::{RingBall, RingConstants};
 use crate::ball::elastic::renewal::Settled;
 use crate::ball::elastic::stored::CLEARANCE;
@@ -8,10 +9,11 @@ use crate::error::Range;
 use crate::ranges;
 use crate::stored::{Port, Refusal, Stored};
 
-/// Angle of the nut in a round, rad.
+/// Angle of the nut in a round, rad: no round of a checked configuration comes near it. A bound against what is no number.
 const ROUND: Range = Range::new(-1e9, 1e9);
 
-/// Load that balls are settled for, N.
+/// Contact force that balls are settled for, N: above 0, which is divided by, and beyond the largest load and preload (1e7 N
+/// each) at the flattest contact angle.
 const LOAD: Range = Range::new(1e-9, 1e12);
 
 impl<const N: usize> Stored for Ring<N> {
