@@ -48,7 +48,7 @@ impl Track {
         })
     }
 
-    /// Whether this is another track to the last bit: balls keep their places on the same one only.
+    /// Checks that `other` is this track to the last bit: balls keep their places on the same track only.
     ///
     /// # Errors
     /// [`Error`] naming `length` or `pitch`, m.

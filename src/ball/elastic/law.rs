@@ -3,9 +3,11 @@
 use super::constants::BallConstants;
 use super::renewal::{Renewal, Settled};
 use crate::math::{self, inverse_cube_roots};
+use crate::train::IMPEDANCE_RANGE;
 
-/// Least and largest impedance of a loaded ball, N: what a train takes.
+/// Range an impedance is cut to, N, inside [`IMPEDANCE_RANGE`].
 const IMPEDANCES: (f32, f32) = (1e-6, 1e8);
+const _: () = assert!(IMPEDANCES.0 >= IMPEDANCE_RANGE.0 && IMPEDANCES.1 <= IMPEDANCE_RANGE.1);
 
 /// A screw's balls: constants.
 #[derive(Clone, Copy, Debug, PartialEq)]
