@@ -8,8 +8,7 @@ use crate::law::coefficient::CoefficientModel;
 use crate::law::motion::NutAngle;
 use crate::law::{Elements, FrictionLevel};
 use crate::scene::{
-    Faults, Scene, SceneOutputs, Sliding, UncagedBallScrew, UncagedConstants, WithMemory,
-    WithMemoryConstants,
+    Faults, Sliding, UncagedBallScrew, UncagedConstants, WithMemory, WithMemoryConstants,
 };
 
 impl<S, E, A, L, C> FrictionModel<WithMemory<S, E, A, L>, C>
@@ -25,15 +24,13 @@ where
     /// since the last one.
     ///
     /// For a current loop that runs faster than the balls need: a step every millisecond, this in every tick. It costs what
-    /// the elements do, and some tens of cycles. Before the first step there is no friction.
+    /// the elements do, and some tens of cycles. Before the first step there is no friction. Its faults stand in its outputs and are
+    /// not counted ([`FrictionModel::faulted_ticks`]).
     #[inline]
     pub fn between(&mut self, reading: A::Reading) -> S::Outputs {
         let constants = self.constants.borrow();
         let outputs = constants.between::<S>(&mut self.state.remembered, reading);
-        outputs.limited(
-            WithMemory::<S, E, A, L>::largest_friction(constants),
-            Faults::NONE,
-        )
+        Self::limited(constants, outputs, Faults::NONE)
     }
 
     /// Sets the law of the friction coefficient: from the next step on friction follows it. [`FrictionModel::reset`] brings

@@ -362,6 +362,21 @@ fn wrong_inputs_are_flagged_and_friction_holds() {
     assert!(outputs.friction_torque.is_finite());
 }
 
+/// Steps with a fault are counted; a reading between two steps with a fault is flagged, and leaves the count as it is.
+#[test]
+fn faults_between_steps_are_flagged_and_not_counted() {
+    let mut model = caged_by_angle();
+    model.step(fresh(screw(5.0, 2000.0), 0.0));
+    let wrong = model.between(f32::NAN);
+    assert_eq!(wrong.faults, Faults::ANGLE_NOT_VALID);
+    assert_eq!(model.faulted_ticks(), 0);
+    model.step(fresh(screw(f32::NAN, 2000.0), 0.0));
+    assert!(!model.between(0.0).faults.any());
+    assert_eq!(model.faulted_ticks(), 1);
+    model.step(fresh(screw(5.0, 2000.0), 0.0));
+    assert_eq!(model.faulted_ticks(), 0);
+}
+
 /// Loads hold, then fade, then are none: friction is then that of the preload.
 #[test]
 fn an_old_load_fades() {
