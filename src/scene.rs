@@ -41,8 +41,8 @@ pub use linear::{
     LinearLimits, LinearState,
 };
 pub use memory::{
-    Freshness, Remembered, WithMemory, WithMemoryConfiguration, WithMemoryConstants,
-    WithMemoryInputs, WithMemoryKnown, WithMemoryState,
+    CoefficientFor, Freshness, Remembered, WithMemory, WithMemoryConfiguration,
+    WithMemoryConstants, WithMemoryInputs, WithMemoryKnown, WithMemoryState,
 };
 pub use outputs::{LinearOutputs, Outputs, UncagedOutputs};
 pub use passage::{Motion, Passage};

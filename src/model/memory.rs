@@ -4,11 +4,11 @@ use core::borrow::Borrow;
 
 use super::FrictionModel;
 use crate::error::Error;
-use crate::law::coefficient::CoefficientModel;
 use crate::law::motion::NutAngle;
 use crate::law::{Elements, FrictionLevel};
 use crate::scene::{
-    Faults, Sliding, UncagedBallScrew, UncagedConstants, WithMemory, WithMemoryConstants,
+    CoefficientFor, Faults, Inputs, Sliding, UncagedBallScrew, UncagedConstants, WithMemory,
+    WithMemoryConstants,
 };
 
 impl<S, E, A, L, C> FrictionModel<WithMemory<S, E, A, L>, C>
@@ -16,7 +16,7 @@ where
     S: Sliding<Constants: Copy>,
     E: Elements + Copy,
     A: NutAngle + Copy,
-    L: CoefficientModel,
+    L: CoefficientFor<S::Inputs>,
     C: Borrow<WithMemoryConstants<S::Constants, E, A, L>>,
 {
     /// Friction between two steps, after a new reading of the angle: elements follow it under the limits that the last step
@@ -61,7 +61,7 @@ impl<const N: usize, E, A, L, C> FrictionModel<WithMemory<UncagedBallScrew<N>, E
 where
     E: Elements + Copy,
     A: NutAngle + Copy,
-    L: CoefficientModel,
+    L: CoefficientFor<Inputs>,
     C: Borrow<WithMemoryConstants<UncagedConstants<N>, E, A, L>>,
 {
     /// Sets the angle of the nut against the screw, rad, from which the screw's deviations are counted, as without memory.

@@ -1,6 +1,7 @@
 //! A scene whose friction remembers: a hysteresis in the nut's angle, with a friction coefficient that follows speed and
 //! temperature.
 
+mod coefficient;
 mod configuration;
 mod inputs;
 mod remembered;
@@ -20,6 +21,7 @@ use crate::law::fade::Fade;
 use crate::law::motion::{NutAngle, Play};
 use crate::law::{Elements, SlidingLimits};
 
+pub use coefficient::CoefficientFor;
 pub use configuration::WithMemoryConfiguration;
 pub use inputs::{Freshness, WithMemoryInputs, WithMemoryKnown};
 pub use remembered::Remembered;
@@ -80,7 +82,7 @@ where
     S: Sliding,
     E: Elements + Copy,
     A: NutAngle + Copy,
-    L: CoefficientModel,
+    L: CoefficientFor<S::Inputs>,
     S::Constants: Copy,
 {
     type Configuration = WithMemoryConfiguration<S::Configuration, E, A, L>;
@@ -199,7 +201,7 @@ where
     S: Sliding<Constants: Copy> + ChangingClearance,
     E: Elements + Copy,
     A: NutAngle + Copy,
-    L: CoefficientModel,
+    L: CoefficientFor<<S as Scene>::Inputs>,
 {
     fn set_clearance(
         constants: &WithMemoryConstants<S::Constants, E, A, L>,

@@ -120,17 +120,16 @@ fn slides_as_without<S>(
     S::Outputs: Into<Friction>,
 {
     let mut without = FrictionModel::<S>::new(&configuration).unwrap();
-    let mut with =
-        FrictionModel::<WithMemory<S, Slip, SpeedOverTick>>::new(&WithMemoryConfiguration {
+    let elements = slip(reference, breakaway);
+    let one =
+        WithMemoryConfiguration::new(configuration, friction, elements, speed_sensor(), 1000.0);
+    let mut with = FrictionModel::<WithMemory<S, Slip, SpeedOverTick, OneCoefficient>>::new(
+        &WithMemoryConfiguration {
             play: 0.0,
-            ..with_memory(
-                configuration,
-                slip(reference, breakaway),
-                speed_sensor(),
-                friction,
-            )
-        })
-        .unwrap();
+            ..one.unwrap()
+        },
+    )
+    .unwrap();
     for &load in loads {
         for way in [1.0, -1.0] {
             let inputs = load.with(way * speed, 1.0);
