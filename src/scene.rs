@@ -46,7 +46,7 @@ pub use memory::{
 };
 pub use outputs::{LinearOutputs, Outputs, UncagedOutputs};
 pub use passage::{Motion, Passage};
-pub use sliding::Sliding;
+pub use sliding::{Sliding, SlidingFriction};
 pub use stored::StoredScene;
 pub use uncaged::{
     UncagedBallScrew, UncagedBallScrewConfiguration, UncagedConstants, UncagedFull, UncagedState,

@@ -11,12 +11,11 @@ use super::contract::{Admitted, Inputs, Limits, Scene, SceneOutputs};
 use super::faults::Faults;
 use super::outputs::Outputs;
 use super::passage::{Passage, Reversal};
-use super::sliding::Sliding;
+use super::sliding::{Sliding, SlidingFriction};
 use crate::ball::Clearance;
 use crate::contact::RollingResistance;
 use crate::error::{Error, Range, attempt, in_range};
 use crate::geometry::BallScrew;
-use crate::law::SlidingLimits;
 use crate::law::coefficient::DirectionalCoefficient;
 use crate::ranges;
 use closed_form::ClosedForm;
@@ -189,6 +188,8 @@ pub struct CagedCoefficients {
 impl Sliding for CagedBallScrew {
     const FRICTION: Range = ranges::FRICTION_OF_A_ROW;
 
+    const COUNTS_PRELOAD: bool = true;
+
     type Coefficients = CagedCoefficients;
     type Full = CagedFull;
 
@@ -225,8 +226,8 @@ impl Sliding for CagedBallScrew {
     }
 
     #[inline(always)]
-    fn limits(full: &CagedFull) -> SlidingLimits {
-        SlidingLimits {
+    fn friction(full: &CagedFull) -> SlidingFriction {
+        SlidingFriction {
             forward: full.forward,
             backward: full.backward,
             load: full.load,

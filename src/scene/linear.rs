@@ -11,14 +11,13 @@ use super::faults::Faults;
 use super::outputs::LinearOutputs;
 use super::passage::{Passage, Reversal, way};
 use super::row::RowFull;
-use super::sliding::Sliding;
+use super::sliding::{Sliding, SlidingFriction};
 use crate::ball::{
     AnalyticLinearBall, BorderParameters, GrooveFriction, LoadShare, largest_deviation,
 };
 use crate::contact::FrictionMap;
 use crate::error::{Error, Range, attempt};
 use crate::hertz::HertzContact;
-use crate::law::SlidingLimits;
 use crate::law::coefficient::DirectionalCoefficient;
 use crate::math;
 use crate::ranges;
@@ -148,6 +147,8 @@ pub struct LinearFull {
 impl<const N: usize> Sliding for LinearBearingTrain<N> {
     const FRICTION: Range = ranges::FRICTION;
 
+    const COUNTS_PRELOAD: bool = false;
+
     /// Friction and all forces between balls are in proportion to the friction coefficient.
     type Coefficients = ();
     type Full = LinearFull;
@@ -169,8 +170,8 @@ impl<const N: usize> Sliding for LinearBearingTrain<N> {
     }
 
     #[inline(always)]
-    fn limits(full: &LinearFull) -> SlidingLimits {
-        full.row.limits()
+    fn friction(full: &LinearFull) -> SlidingFriction {
+        full.row.friction()
     }
 
     #[inline(always)]

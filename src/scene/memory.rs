@@ -16,10 +16,10 @@ use super::passage::{Motion, Passage, way};
 use super::sliding::Sliding;
 use crate::ball::Clearance;
 use crate::error::{Error, attempt, in_range};
+use crate::law::Elements;
 use crate::law::coefficient::{CoefficientLaw, CoefficientModel, TemperatureFade};
 use crate::law::fade::Fade;
 use crate::law::motion::{NutAngle, Play};
-use crate::law::{Elements, SlidingLimits};
 
 pub use coefficient::CoefficientFor;
 pub use configuration::WithMemoryConfiguration;
@@ -99,6 +99,12 @@ where
     }
 
     fn initial_state(constants: &Self::Constants) -> Self::State {
+        const {
+            assert!(
+                S::COUNTS_PRELOAD || !E::PRELOADED,
+                "elements of a preloaded screw in a scene whose load does not tell its preload"
+            );
+        }
         let WithMemoryConstants {
             scene, coefficient, ..
         } = constants;
@@ -180,11 +186,7 @@ where
             inputs.with(speed, factor),
             L::both(&remembered.at_temperature, measured).within(S::FRICTION.maximum),
         );
-        let limits = S::limits(&full);
-        remembered.limits = SlidingLimits {
-            load: limits.load * constants.per_reference_load,
-            ..limits
-        };
+        remembered.limits = S::friction(&full).limits(constants.per_reference_load);
         remembered.full = Some(full);
         remembered.churning = L::churning_torque(&remembered.at_temperature, measured);
         constants.follow(remembered, turn, inputs, faults | angle_faults)

@@ -231,7 +231,7 @@ impl<const N: usize> UncagedConstants<N> {
                 groove,
                 ball: self.ball_friction * rubbing,
                 ways: [1.0; 2],
-                load: load.axial_size(&self.ring) * self.balls,
+                load: state.ring.preload_counted(&self.ring, &load) * self.balls,
                 contacts: pressing.contacts,
                 largest_contact_force: pressing.largest,
             },

@@ -690,7 +690,7 @@ fn limits_have_no_past() {
             };
             let [found, alone] = [&mut old, &mut { fresh }].map(|state| {
                 let full = CagedBallScrew::full(&constants, state, coefficients, inputs, friction);
-                CagedBallScrew::limits(&full)
+                CagedBallScrew::friction(&full)
             });
             assert_eq!(found, alone, "{inputs:?} {friction:?}");
             assert!(found.forward > 0.0 && found.backward > 0.0);

@@ -44,7 +44,7 @@ pub(crate) struct RingBall {
 pub(crate) struct RingLoad {
     /// Mean axial load of a ball in the frame in which the nut turns forward, N.
     pub(crate) axial: f32,
-    /// Mean contact force, preload counted, N.
+    /// Mean contact force with that of the preload, smooth where the load crosses zero, N: `sqrt(F^2 + 8 P^2)`.
     pub(super) whole: f32,
     /// Powers 2/3 and 7/6 of the load, preload counted, and inverse ones. Friction of slip across the track goes with the
     /// load, that of spin with its power 4/3; a screw's torque has both.
@@ -136,12 +136,6 @@ impl RingLoad {
             per_two_thirds: both * seven_sixths,
             per_seven_sixths: both * two_thirds,
         }
-    }
-
-    /// Axial load of a ball that presses as much as load and preload do, N.
-    #[inline(always)]
-    pub(crate) fn axial_size(&self, constants: &RingConstants) -> f32 {
-        self.whole / constants.ball.normal
     }
 
     /// Impedance of a ball, N.

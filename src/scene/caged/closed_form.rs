@@ -111,7 +111,7 @@ impl ClosedForm {
         CagedFull {
             forward: of(load),
             backward: of(-load),
-            load: sum,
+            load: self.flanks.counted(load),
             faults: Faults::NONE,
         }
     }

@@ -9,7 +9,7 @@ use crate::scene::row::RowFull;
 /// Full friction of a ball screw without cage, in the direction in which its balls go.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct UncagedFull {
-    /// Its parts; the load is the axial load.
+    /// Its parts; the load is the axial load, preload counted.
     pub(super) row: RowFull,
     pub(super) faults: Faults,
 }
