@@ -178,8 +178,7 @@ impl Clearance {
     /// preload `P` of a contact. For set-up.
     #[must_use]
     pub const fn axial_preload(self, design: &BallScrew, loaded_balls: u16) -> f32 {
-        loaded_balls as f32
-            * (self.preload(design) * (design.contact_angle().sin * design.cos_lead_angle()))
+        loaded_balls as f32 * (self.preload(design) * design.axial_per_normal())
     }
 
     /// Travel of the nut along the axis from one flank to the other without a load, m: what

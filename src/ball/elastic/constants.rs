@@ -33,7 +33,7 @@ impl BallConstants {
         let grooves = attempt!(ElasticGrooves::new(design));
         Ok(Self {
             resistance: attempt!(BallResistance::new(design, rolling_resistance)),
-            normal: 1.0 / (grooves.sin * grooves.cos_lead),
+            normal: 1.0 / design.axial_per_normal(),
             deflection: 1.0 / grooves.screw.stiffness + 1.0 / grooves.nut.stiffness,
             grooves,
         })
