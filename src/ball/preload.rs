@@ -21,6 +21,17 @@ pub(crate) const QUARTIC: f32 = 0.030330086;
 /// Coefficients `c1`, `c2`, `c3` of [`closing`].
 pub(crate) const CLOSING: [f32; 3] = [0.055_61, -0.044_86, 0.065_821];
 
+/// Preload of a contact below which there is none, N: below the least that [`Clearance::of_preload`](super::Clearance::of_preload)
+/// takes by more than rounding.
+const NO_PRELOAD: f32 = 0.99e-3;
+
+/// Preload of a contact, N, `ratio^(3/2)`, from an oversize over that of one newton, `-2 gap / (C_S + C_N)`, above zero, and its root; 0
+/// below 0.99e-3 N.
+pub(crate) const fn preload_of(ratio: f32, root: f32) -> f32 {
+    let force = ratio * root;
+    if force < NO_PRELOAD { 0.0 } else { force }
+}
+
 /// Load with a preload counted, N: a load of either sign, and the load at which the unloaded side is lost, `|F| + 2 sqrt(2) P`.
 ///
 /// What friction under a preload is about in proportion to, and what every scene of a screw tells the elements of its memory:

@@ -6,7 +6,8 @@ use epas_friction::law::coefficient::DirectionalCoefficient;
 use epas_friction::law::memory::PreloadedElements;
 use epas_friction::scene::Sliding;
 use epas_friction::{
-    CagedBallScrew, CagedBallScrewConfiguration, FrictionBranch, Inputs, UncagedBallScrew,
+    CagedBallScrew, CagedBallScrewConfiguration, Clearance, FrictionBranch, Inputs,
+    UncagedBallScrew,
 };
 
 use crate::kit::gears::{SCREW_BALLS, caged, oversize, uncaged};
@@ -84,6 +85,27 @@ fn a_caged_screw_tells_what_its_flanks_share() {
             "{load}: {found} {exact}"
         );
     }
+}
+
+/// An oversize that presses a contact with less than a thousandth of a newton is no preload: in every scene.
+#[test]
+fn a_preload_that_is_none_is_none_for_all() {
+    let design = caged().design;
+    let least = Clearance::of_preload(&design, 1e-3).unwrap();
+    let clearance = Clearance::new(0.5 * least.gap()).unwrap();
+    assert_eq!(clearance.preload(&design), 0.0);
+    for branch in [FrictionBranch::Contacts, FrictionBranch::Rolling] {
+        let screw = CagedBallScrewConfiguration {
+            branch,
+            clearance,
+            ..caged()
+        };
+        assert_eq!(told::<CagedBallScrew>(&screw, 0.0), 0.0);
+    }
+    let mut screw = uncaged();
+    let none = told::<UncagedBallScrew<SCREW_BALLS>>(&screw, 0.0);
+    screw.clearance = clearance;
+    assert_eq!(told::<UncagedBallScrew<SCREW_BALLS>>(&screw, 0.0), none);
 }
 
 #[test]
