@@ -90,42 +90,6 @@ pub struct Admitted<I> {
     pub faults: Faults,
 }
 
-impl<I> Admitted<I> {
-    /// The same inputs in another form.
-    #[inline(always)]
-    pub(super) fn map<J>(self, form: impl FnOnce(I) -> J) -> Admitted<J> {
-        Admitted {
-            inputs: self.inputs.map(form),
-            faults: self.faults,
-        }
-    }
-}
-
-/// A speed with the largest that is believed, and loads, within that and their own: none where one of them is no number.
-#[inline(always)]
-pub(super) fn admitted<const LOADS: usize>(
-    (speed, largest_speed): (f32, f32),
-    loads: [f32; LOADS],
-    largest_load: f32,
-) -> Admitted<(f32, [f32; LOADS])> {
-    let loads_are_finite = loads.iter().all(|load| load.is_finite());
-    if speed.is_finite() && loads_are_finite {
-        let loads_beyond = loads.iter().any(|load| load.abs() > largest_load);
-        Admitted {
-            inputs: Some((
-                bounded(speed, largest_speed),
-                loads.map(|load| bounded(load, largest_load)),
-            )),
-            faults: Faults::beyond(speed.abs() > largest_speed, loads_beyond),
-        }
-    } else {
-        Admitted {
-            inputs: None,
-            faults: Faults::not_finite(!speed.is_finite(), !loads_are_finite),
-        }
-    }
-}
-
 /// What the control interrupt knows of a ball screw at a tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -188,11 +152,23 @@ impl Limits {
             nut_speed,
             axial_load,
         } = inputs;
-        let admitted = admitted((nut_speed, self.nut_speed), [axial_load], self.axial_load);
-        admitted.map(|(nut_speed, [axial_load])| Inputs {
-            nut_speed,
-            axial_load,
-        })
+        if nut_speed.is_finite() && axial_load.is_finite() {
+            Admitted {
+                inputs: Some(Inputs {
+                    nut_speed: bounded(nut_speed, self.nut_speed),
+                    axial_load: bounded(axial_load, self.axial_load),
+                }),
+                faults: Faults::beyond(
+                    nut_speed.abs() > self.nut_speed,
+                    axial_load.abs() > self.axial_load,
+                ),
+            }
+        } else {
+            Admitted {
+                inputs: None,
+                faults: Faults::not_finite(!nut_speed.is_finite(), !axial_load.is_finite()),
+            }
+        }
     }
 }
 

@@ -1,7 +1,8 @@
 //! What the control interrupt knows of a linear bearing, and its bounds.
 
 use crate::error::{Error, attempt, in_range};
-use crate::scene::contract::{Admitted, admitted};
+use crate::scene::contract::Admitted;
+use crate::scene::faults::{Faults, bounded};
 use crate::scene::passage::Motion;
 
 /// What the control interrupt knows of a linear bearing at a tick.
@@ -49,12 +50,25 @@ impl LinearLimits {
             normal_load,
             side_load,
         } = inputs;
-        let admitted = admitted((speed, self.speed), [normal_load, side_load], self.load);
-        admitted.map(|(speed, [normal_load, side_load])| LinearInputs {
-            speed,
-            normal_load,
-            side_load,
-        })
+        let loads_are_finite = normal_load.is_finite() && side_load.is_finite();
+        if speed.is_finite() && loads_are_finite {
+            Admitted {
+                inputs: Some(LinearInputs {
+                    speed: bounded(speed, self.speed),
+                    normal_load: bounded(normal_load, self.load),
+                    side_load: bounded(side_load, self.load),
+                }),
+                faults: Faults::beyond(
+                    speed.abs() > self.speed,
+                    normal_load.abs() > self.load || side_load.abs() > self.load,
+                ),
+            }
+        } else {
+            Admitted {
+                inputs: None,
+                faults: Faults::not_finite(!speed.is_finite(), !loads_are_finite),
+            }
+        }
     }
 }
 
