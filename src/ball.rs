@@ -17,7 +17,7 @@ mod linear;
 mod loads;
 pub(crate) mod preload;
 mod screw;
-mod two_point;
+pub(crate) mod two_point;
 
 pub use clearance::Clearance;
 pub use linear::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE, SpeedDeviation};
@@ -28,4 +28,4 @@ pub(crate) use screw::largest_deviation;
 pub use screw::{
     GrooveFit, LoopBall, LoopSums, RowContacts, ScrewLoop, ScrewRow, ScrewTick, ScrewTickBall,
 };
-pub(crate) use two_point::{BorderParameters, GrooveFriction};
+pub(crate) use two_point::{BorderParameters, GrooveFriction, spin_loss};

@@ -91,10 +91,10 @@ pub mod slip_map {
     pub const GAUSS: [(f32, f32); 5] = crate::math::elliptic::GAUSS;
 }
 
-/// Scenes: `scene::circuit`, `scene::linear`.
+/// Scenes: `scene::circuit`, and `ball::two_point` of the linear one.
 pub mod scene {
     /// Sines of a deviation map's samples.
     pub const SINES: [f32; 64] = crate::scene::circuit::deviation::SINES;
     /// `2^(-4/3)`.
-    pub const HALF_TO_FOUR_THIRDS: f32 = crate::scene::linear::HALF_TO_FOUR_THIRDS;
+    pub const HALF_TO_FOUR_THIRDS: f32 = crate::ball::two_point::HALF_TO_FOUR_THIRDS;
 }

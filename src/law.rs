@@ -55,6 +55,10 @@ pub trait Elements {
     /// Nothing remembered: no element carries anything.
     const VIRGIN: Self::State;
 
+    /// Whether the load over the reference load is taken for `1 + |F|/(2 sqrt(2) P)`: that of a screw with the preload `P` of
+    /// each flank under an axial load `F`.
+    const PRELOADED: bool = false;
+
     /// Friction after a turn of `turn` rad (m of a bearing) under these limits: between `-backward` and `forward`, with the sign
     /// of the motion that it opposes. `turn` and the limits are finite; bounded time, no panic.
     fn follow(&self, state: &mut Self::State, turn: f32, limits: &SlidingLimits) -> f32;

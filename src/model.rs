@@ -8,8 +8,8 @@ use core::borrow::Borrow;
 use crate::ball::Clearance;
 use crate::error::Error;
 use crate::scene::{
-    ChangingClearance, ChangingFriction, LinearBearingTrain, LinearConstants, Scene, SceneOutputs,
-    UncagedBallScrew, UncagedConstants,
+    ChangingClearance, ChangingFriction, Faults, LinearBearingTrain, LinearConstants, Scene,
+    SceneOutputs, UncagedBallScrew, UncagedConstants,
 };
 
 /// Friction of one scene: configured once, stepped in the interrupt.
@@ -134,8 +134,8 @@ impl<S: Scene, C: Borrow<S::Constants>> FrictionModel<S, C> {
     /// One tick: bounded time, no panic, finite outputs whatever the inputs are.
     ///
     /// The one place where faults are handled, for every scene: inputs are admitted within their limits
-    /// ([`Scene::admit`]), the mechanism is computed from them ([`Scene::outputs`]), its friction is limited, and ticks
-    /// with a fault are counted. Where an input is NaN or infinite, nothing is computed: the output is the safe one and
+    /// ([`Scene::admit`]), the mechanism is computed from them ([`Scene::outputs`]), its friction is limited, and steps
+    /// with a fault are counted ([`Self::faulted_ticks`]). Where an input is NaN or infinite, nothing is computed: the output is the safe one and
     /// the state stays as it is.
     #[inline]
     pub fn step(&mut self, inputs: S::Inputs) -> S::Outputs {
@@ -145,13 +145,19 @@ impl<S: Scene, C: Borrow<S::Constants>> FrictionModel<S, C> {
             Some(known) => S::outputs(constants, &mut self.state, known),
             None => S::Outputs::SAFE,
         };
-        let outputs = outputs.limited(S::largest_friction(constants), admitted.faults);
+        let outputs = Self::limited(constants, outputs, admitted.faults);
         self.faulted_ticks = if outputs.faults().faulty() {
             self.faulted_ticks.saturating_add(1)
         } else {
             0
         };
         outputs
+    }
+
+    /// What a step puts out, and a reading between two steps: friction within its limit, with what was wrong.
+    #[inline(always)]
+    fn limited(constants: &S::Constants, outputs: S::Outputs, faults: Faults) -> S::Outputs {
+        outputs.limited(S::largest_friction(constants), faults)
     }
 
     /// Back to the state before the first tick.
@@ -175,8 +181,9 @@ impl<S: Scene, C: Borrow<S::Constants>> FrictionModel<S, C> {
         Ok(core::mem::replace(&mut self.constants, constants))
     }
 
-    /// Consecutive ticks with a fault ([`Faults::faulty`](crate::Faults::faulty)), up to `u32::MAX`; 0 after a sound
-    /// tick. A tick that only has flags of [`Faults::ACCURACY`](crate::Faults::ACCURACY) is sound.
+    /// Consecutive calls of [`Self::step`] with a fault ([`Faults::faulty`](crate::Faults::faulty)), up to `u32::MAX`; 0 after
+    /// a sound one. A step that only has flags of [`Faults::ACCURACY`](crate::Faults::ACCURACY) is sound. What is put out
+    /// between two steps ([`FrictionModel::between`]) neither counts nor ends the count: its faults stand in its outputs.
     pub const fn faulted_ticks(&self) -> u32 {
         self.faulted_ticks
     }

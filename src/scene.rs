@@ -42,12 +42,12 @@ pub use linear::{
     LinearLimits, LinearState,
 };
 pub use memory::{
-    Freshness, Remembered, WithMemory, WithMemoryConfiguration, WithMemoryConstants,
-    WithMemoryInputs, WithMemoryKnown, WithMemoryState,
+    CoefficientFor, Freshness, Remembered, WithMemory, WithMemoryConfiguration,
+    WithMemoryConstants, WithMemoryInputs, WithMemoryKnown, WithMemoryState,
 };
 pub use outputs::{LinearOutputs, Outputs, UncagedOutputs};
 pub use passage::{Motion, Passage};
-pub use sliding::Sliding;
+pub use sliding::{Sliding, SlidingFriction};
 pub use stored::StoredScene;
 pub use uncaged::{
     UncagedBallScrew, UncagedBallScrewConfiguration, UncagedConstants, UncagedFull, UncagedState,

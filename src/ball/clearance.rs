@@ -1,5 +1,6 @@
 //! How balls fit between the grooves: one signed number for play, no play and preload.
 
+use super::preload::preload_of;
 use crate::error::{Error, Range, attempt, in_range};
 use crate::geometry::{BallScrew, Groove};
 use crate::hertz::HertzContact;
@@ -16,9 +17,6 @@ const IN_METRES: Range = Range::new(-1e-3, 2.5e-3);
 
 /// Preload of a contact, N: the smallest and the largest that [`Clearance::of_preload`] takes.
 const CONTACT_FORCE: Range = Range::new(1e-3, 1e6);
-
-/// Preload of a contact below which there is none, N: below [`CONTACT_FORCE`] by more than rounding.
-const NO_PRELOAD: f32 = 0.99e-3;
 
 /// Radial gap of every contact at a centred ball in a screw without load, m: play above zero, oversize below.
 ///
@@ -167,8 +165,7 @@ impl Clearance {
     pub const fn preload(self, design: &BallScrew) -> f32 {
         if self.gap < 0.0 {
             let ratio = -self.gap / mean_deflection(design);
-            let force = ratio * constant::sqrt(ratio);
-            if force < NO_PRELOAD { 0.0 } else { force }
+            preload_of(ratio, constant::sqrt(ratio))
         } else {
             0.0
         }
@@ -178,8 +175,7 @@ impl Clearance {
     /// the preload `F_0` of a contact. For set-up.
     #[must_use]
     pub const fn axial_preload(self, design: &BallScrew, loaded_balls: u16) -> f32 {
-        loaded_balls as f32
-            * (self.preload(design) * (design.contact_angle().sin * design.cos_lead_angle()))
+        loaded_balls as f32 * (self.preload(design) * design.axial_per_normal())
     }
 
     /// Travel of the nut along the axis from one flank to the other without a load, m: what

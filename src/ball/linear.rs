@@ -128,17 +128,20 @@ impl AnalyticLinearBall {
         let slope = attempt!(in_range("slope", slope, 0.1, 10.0));
         let (sin, cos) = constant::sin_cos(parameters.contact_angle);
         let half_tangent = 0.5 * sin / cos;
-        Ok(Self::folded(
-            half_tangent,
-            parameters.semi_major_coefficient
-                / (slope * parameters.friction * parameters.ball_radius),
-        ))
+        Ok(Self::folded(&parameters, half_tangent, slope))
     }
 
-    /// From `tan(beta_0)/2` and `Psi / (k_f mu r_b^(2/3))`, N^(-1/3).
-    pub(crate) const fn folded(half_tangent: f32, compliance: f32) -> Self {
+    /// The same from parameters that are checked, and `tan(beta_0)/2`.
+    pub(crate) const fn folded(
+        parameters: &LinearBallParameters,
+        half_tangent: f32,
+        slope: f32,
+    ) -> Self {
         // The loads of a diagonal enter by their sum, the formula by their mean.
         const TWO_TO_TWO_THIRDS: f32 = constant::cbrt_squared(2.0);
+        // Psi / (k_f mu r_b^(2/3)), N^(-1/3).
+        let compliance = parameters.semi_major_coefficient
+            / (slope * parameters.friction * parameters.ball_radius);
         let compliance = TWO_TO_TWO_THIRDS * half_tangent * compliance;
         Self {
             half_tangent,

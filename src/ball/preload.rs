@@ -21,6 +21,27 @@ pub(crate) const QUARTIC: f32 = 0.030330086;
 /// Coefficients `c1`, `c2`, `c3` of [`closing`].
 pub(crate) const CLOSING: [f32; 3] = [0.055_61, -0.044_86, 0.065_821];
 
+/// Preload of a contact below which there is none, N: below the least that [`Clearance::of_preload`](super::Clearance::of_preload)
+/// takes by more than rounding.
+const NO_PRELOAD: f32 = 0.99e-3;
+
+/// Preload of a contact, N, `ratio^(3/2)`, from an oversize over that of one newton, `-2 gap / (C_S + C_N)`, above zero, and its root; 0
+/// below 0.99e-3 N.
+pub(crate) const fn preload_of(ratio: f32, root: f32) -> f32 {
+    let force = ratio * root;
+    if force < NO_PRELOAD { 0.0 } else { force }
+}
+
+/// Load with a preload counted, N: a load of either sign, and the load at which the unloaded side is lost, `|F| + 2 sqrt(2) F_0`.
+///
+/// What friction under a preload is about in proportion to, and what every scene of a screw tells the elements of its memory:
+/// the sum of both forces follows from it without a second number
+/// ([`PreloadedElements`](crate::law::memory::PreloadedElements)).
+#[inline(always)]
+pub(crate) const fn preload_counted(load: f32, lift_off: f32) -> f32 {
+    load.abs() + lift_off
+}
+
 /// A preload, with what both forces follow from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -59,6 +80,12 @@ impl PreloadSum {
                 0.0
             },
         }
+    }
+
+    /// See [`preload_counted`].
+    #[inline(always)]
+    pub(crate) const fn counted(&self, load: f32) -> f32 {
+        preload_counted(load, self.lift_off)
     }
 
     /// Sum of both forces, N, under a load of either sign, N: `F_0 (2 + y^2/12 + ...)` with `y = F / F_0`, and the load from

@@ -1,6 +1,7 @@
 //! The two ways in which a ball of a linear bearing rolls: on four contacts that spin, or on two that do not while
 //! the other two slide.
 
+use super::linear::LinearBallParameters;
 use super::loads::LoadShare;
 
 /// Loss on two points over that on four, below which a ball counts as near two-point rolling. The border's formula takes
@@ -11,6 +12,9 @@ const BORDER_MARGIN: f32 = 1.1;
 /// Force between two balls over that of the closed form, at most, shortly before the border (measured: 1.25, where
 /// friction between the balls is as large as that in the grooves).
 const FORCE_MARGIN: f32 = 1.25;
+
+/// `2^(-4/3)`: a diagonal's force to the power of 4/3 is that of its sum of two equal contact forces, times this.
+pub(crate) const HALF_TO_FOUR_THIRDS: f32 = 0.396_850_26;
 
 /// Friction of a ball with the grooves of a linear bearing, and how near the ball is to two-point rolling.
 ///
@@ -77,6 +81,24 @@ pub(crate) struct GrooveLoss {
 /// `D - h (U + D cos(2 beta))/sin(2 beta)`.
 const fn taken(h: f32, (sin, cos): (f32, f32)) -> f32 {
     h / (sin - h * cos)
+}
+
+/// Loss of a ball whose four contacts spin with `v tan(beta)/(2 r_b)` each, over the speed `v` of the carriage and over
+/// `U^(4/3) + D^(4/3)`, N^(-1/3): a contact under half of `U` loses its `moment`, over `mu F a`, times that.
+pub(crate) const fn spin_loss(
+    parameters: &LinearBallParameters,
+    half_tangent: f32,
+    moment: f32,
+) -> f32 {
+    let LinearBallParameters {
+        ball_radius,
+        semi_major_coefficient,
+        friction,
+        ..
+    } = *parameters;
+    // Two contacts of a diagonal, each under half of its force.
+    let drag = 2.0 * moment * friction * semi_major_coefficient * half_tangent / ball_radius;
+    HALF_TO_FOUR_THIRDS * drag
 }
 
 impl GrooveFriction {

@@ -235,6 +235,30 @@ impl BallScrew {
         1.0 / constant::sqrt(1.0 + self.tan_lead_angle * self.tan_lead_angle)
     }
 
+    /// Path radius `r_m / cos(alpha)`, m: length of the path of the ball centres over the angle of a turn. For set-up.
+    #[must_use]
+    pub const fn path_radius(&self) -> f32 {
+        self.parameters.pitch_radius / self.cos_lead_angle()
+    }
+
+    /// The same in ball radii.
+    pub(crate) const fn path_in_ball_radii(&self) -> f32 {
+        self.parameters.pitch_radius / (self.cos_lead_angle() * self.parameters.ball_radius)
+    }
+
+    /// Axial travel over the angle of a turn, `lead / 2 pi`, m: torque over the axial load that it holds without friction.
+    #[inline]
+    #[must_use]
+    pub const fn reduced_lead(&self) -> f32 {
+        self.parameters.lead / TAU
+    }
+
+    /// Axial force over the contact force of a ball, `sin(beta) cos(alpha)`. For set-up.
+    #[must_use]
+    pub const fn axial_per_normal(&self) -> f32 {
+        self.contact_angle.sin * self.cos_lead_angle()
+    }
+
     /// Curvature and torsion of the path of the ball centres.
     #[inline]
     #[must_use]

@@ -4,11 +4,10 @@ use core::borrow::Borrow;
 
 use super::FrictionModel;
 use crate::error::Error;
-use crate::law::coefficient::CoefficientModel;
 use crate::law::motion::NutAngle;
 use crate::law::{Elements, FrictionLevel};
 use crate::scene::{
-    Faults, Scene, SceneOutputs, Sliding, UncagedBallScrew, UncagedConstants, WithMemory,
+    CoefficientFor, Faults, Inputs, Sliding, UncagedBallScrew, UncagedConstants, WithMemory,
     WithMemoryConstants,
 };
 
@@ -17,7 +16,7 @@ where
     S: Sliding<Constants: Copy>,
     E: Elements + Copy,
     A: NutAngle + Copy,
-    L: CoefficientModel,
+    L: CoefficientFor<S::Inputs>,
     C: Borrow<WithMemoryConstants<S::Constants, E, A, L>>,
 {
     /// Friction between two steps, after a new reading of the angle: elements follow it under the limits that the last step
@@ -25,15 +24,13 @@ where
     /// since the last one.
     ///
     /// For a current loop that runs faster than the balls need: a step every millisecond, this in every tick. It costs what
-    /// the elements do, and some tens of cycles. Before the first step there is no friction.
+    /// the elements do, and some tens of cycles. Before the first step there is no friction. Its faults stand in its outputs and are
+    /// not counted ([`FrictionModel::faulted_ticks`]).
     #[inline]
     pub fn between(&mut self, reading: A::Reading) -> S::Outputs {
         let constants = self.constants.borrow();
         let outputs = constants.between::<S>(&mut self.state.remembered, reading);
-        outputs.limited(
-            WithMemory::<S, E, A, L>::largest_friction(constants),
-            Faults::NONE,
-        )
+        Self::limited(constants, outputs, Faults::NONE)
     }
 
     /// Sets the law of the friction coefficient: from the next step on friction follows it. [`FrictionModel::reset`] brings
@@ -64,7 +61,7 @@ impl<const N: usize, E, A, L, C> FrictionModel<WithMemory<UncagedBallScrew<N>, E
 where
     E: Elements + Copy,
     A: NutAngle + Copy,
-    L: CoefficientModel,
+    L: CoefficientFor<Inputs>,
     C: Borrow<WithMemoryConstants<UncagedConstants<N>, E, A, L>>,
 {
     /// Sets the angle of the nut against the screw, rad, from which the screw's deviations are counted, as without memory.

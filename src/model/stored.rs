@@ -4,9 +4,8 @@ use core::borrow::Borrow;
 
 use super::FrictionModel;
 use crate::law::Elements;
-use crate::law::coefficient::CoefficientModel;
 use crate::law::motion::NutAngle;
-use crate::scene::{Sliding, StoredScene, WithMemory, WithMemoryConstants};
+use crate::scene::{CoefficientFor, Scene, Sliding, StoredScene, WithMemory, WithMemoryConstants};
 use crate::stored::{Block, Fingerprint, Fingerprinted, Label, OVERHEAD, Refusal, Stored};
 
 impl<S: StoredScene, C: Borrow<S::Constants>> FrictionModel<S, C> {
@@ -124,7 +123,7 @@ where
     S: StoredScene + Sliding<Constants: Copy, Inputs: Stored, Full: Stored + Default> + Copy,
     E: Elements<State: Stored> + Fingerprinted + Copy,
     A: NutAngle<State: Stored> + Fingerprinted + Copy,
-    L: CoefficientModel,
+    L: CoefficientFor<<S as Scene>::Inputs>,
     C: Borrow<WithMemoryConstants<S::Constants, E, A, L>>,
 {
     /// Takes over a state as [`FrictionModel::import`] does, with the last reading of the angle sensor: the turn of the next reading

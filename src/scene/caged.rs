@@ -12,10 +12,9 @@ use super::contract::{Admitted, Inputs, Limits, Scene, SceneOutputs};
 use super::faults::Faults;
 use super::outputs::Outputs;
 use super::passage::{Passage, Reversal};
-use super::sliding::Sliding;
+use super::sliding::{Sliding, SlidingFriction};
 use crate::ball::Clearance;
 use crate::error::{Error, Range, attempt, in_range};
-use crate::law::SlidingLimits;
 use crate::law::coefficient::DirectionalCoefficient;
 use crate::ranges;
 use closed_form::ClosedForm;
@@ -139,6 +138,8 @@ pub struct CagedCoefficients {
 impl Sliding for CagedBallScrew {
     const FRICTION: Range = ranges::FRICTION_OF_A_ROW;
 
+    const COUNTS_PRELOAD: bool = true;
+
     type Coefficients = CagedCoefficients;
     type Full = CagedFull;
 
@@ -175,8 +176,8 @@ impl Sliding for CagedBallScrew {
     }
 
     #[inline(always)]
-    fn limits(full: &CagedFull) -> SlidingLimits {
-        SlidingLimits {
+    fn friction(full: &CagedFull) -> SlidingFriction {
+        SlidingFriction {
             forward: full.forward,
             backward: full.backward,
             load: full.load,

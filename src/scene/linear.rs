@@ -11,14 +11,9 @@ use super::faults::Faults;
 use super::outputs::LinearOutputs;
 use super::passage::{Passage, Reversal, way};
 use super::row::RowFull;
-use super::sliding::Sliding;
-use crate::ball::{
-    AnalyticLinearBall, BorderParameters, GrooveFriction, LoadShare, largest_deviation,
-};
-use crate::contact::FrictionMap;
+use super::sliding::{Sliding, SlidingFriction};
+use crate::ball::{AnalyticLinearBall, GrooveFriction};
 use crate::error::{Error, Range, attempt};
-use crate::hertz::HertzContact;
-use crate::law::SlidingLimits;
 use crate::law::coefficient::DirectionalCoefficient;
 use crate::math;
 use crate::ranges;
@@ -30,9 +25,6 @@ pub use inputs::{LinearInputs, LinearLimits};
 /// and impedances above zero. In the bearing of Lin 2019, Table 3.3, the latter stay above the least that a train takes, 1e-9 N, also
 /// with a friction coefficient of 1e-6 and a hundredth of the mean load.
 const SMALLEST_FORCE: f32 = 2e-6;
-
-/// `2^(-4/3)`: a diagonal's force to the power of 4/3 is that of its sum of two equal contact forces, times this.
-pub(crate) const HALF_TO_FOUR_THIRDS: f32 = 0.396_850_26;
 
 /// A linear bearing without cage, with `N` balls in one circuit, in four-point contact: the published
 /// closed form for every ball ([`AnalyticLinearBall`]), with its corrections.
@@ -151,6 +143,8 @@ pub struct LinearFull {
 impl<const N: usize> Sliding for LinearBearingTrain<N> {
     const FRICTION: Range = ranges::FRICTION;
 
+    const COUNTS_PRELOAD: bool = false;
+
     /// Friction and all forces between balls are in proportion to the friction coefficient.
     type Coefficients = ();
     type Full = LinearFull;
@@ -172,8 +166,8 @@ impl<const N: usize> Sliding for LinearBearingTrain<N> {
     }
 
     #[inline(always)]
-    fn limits(full: &LinearFull) -> SlidingLimits {
-        full.row.limits()
+    fn friction(full: &LinearFull) -> SlidingFriction {
+        full.row.friction()
     }
 
     #[inline(always)]
@@ -203,8 +197,6 @@ impl<const N: usize> LinearConstants<N> {
             ref bearing,
             friction,
             ball_friction,
-            rail_deviation,
-            carriage_deviation,
             reversal_speed,
             limits,
             ..
@@ -214,34 +206,8 @@ impl<const N: usize> LinearConstants<N> {
         let reversal = attempt!(Reversal::new(reversal_speed, 1e-9, 10.0));
         let limits = attempt!(limits.checked());
         let circuit = attempt!(configuration.circuit(&limits, N));
-
-        // The deviations' sum times half the tangent is a ball's speed deviation: no more than a half.
-        let nominal = bearing.parameters().contact_angle;
+        let (ball, grooves) = attempt!(configuration.friction());
         let angle = bearing.contact_angle();
-        let largest = largest_deviation(nominal, angle.sin / angle.cos);
-        attempt!(rail_deviation.checked("rail_deviation", largest));
-        attempt!(carriage_deviation.checked("carriage_deviation", largest));
-
-        let contact = HertzContact::of_linear(bearing);
-        let map = attempt!(FrictionMap::new(contact.axis_ratio()));
-        let radius = bearing.ball_radius();
-        let semi_major = contact.semi_major_coefficient();
-        let half_tangent = 0.5 * angle.sin / angle.cos;
-        // Four contacts that spin with v tan(beta)/(2 r_b) each.
-        let drag = 2.0 * map.spin_moment() * friction * semi_major * half_tangent / radius;
-        let ball = AnalyticLinearBall::folded(
-            half_tangent,
-            semi_major / (map.slope() * friction * radius),
-        );
-        let grooves = GrooveFriction::new(&BorderParameters {
-            angle: (angle.sin, angle.cos),
-            friction,
-            ball_friction,
-            spin: HALF_TO_FOUR_THIRDS * drag,
-            bottom: rail_deviation.extremes(),
-            top: carriage_deviation.extremes(),
-            shares: LoadShare::extremes(configuration.load_shares),
-        });
         let per_ball = per_loaded_ball(configuration.loaded_length, configuration.return_length, N);
         Ok(Self {
             circuit,

@@ -1,6 +1,7 @@
 //! A scene whose friction remembers: a hysteresis in the nut's angle, with a friction coefficient that follows speed and
 //! temperature.
 
+mod coefficient;
 mod configuration;
 mod inputs;
 mod remembered;
@@ -15,11 +16,12 @@ use super::passage::{Motion, Passage, way};
 use super::sliding::Sliding;
 use crate::ball::Clearance;
 use crate::error::{Error, attempt, in_range};
+use crate::law::Elements;
 use crate::law::coefficient::{CoefficientLaw, CoefficientModel, TemperatureFade};
 use crate::law::fade::Fade;
 use crate::law::motion::{NutAngle, Play};
-use crate::law::{Elements, SlidingLimits};
 
+pub use coefficient::CoefficientFor;
 pub use configuration::WithMemoryConfiguration;
 pub use inputs::{Freshness, WithMemoryInputs, WithMemoryKnown};
 pub use remembered::Remembered;
@@ -89,7 +91,7 @@ where
     S: Sliding,
     E: Elements + Copy,
     A: NutAngle + Copy,
-    L: CoefficientModel,
+    L: CoefficientFor<S::Inputs>,
     S::Constants: Copy,
 {
     type Configuration = WithMemoryConfiguration<S::Configuration, E, A, L>;
@@ -106,6 +108,12 @@ where
     }
 
     fn initial_state(constants: &Self::Constants) -> Self::State {
+        const {
+            assert!(
+                S::COUNTS_PRELOAD || !E::PRELOADED,
+                "elements of a preloaded screw in a scene whose load does not tell its preload"
+            );
+        }
         let WithMemoryConstants {
             scene, coefficient, ..
         } = constants;
@@ -187,11 +195,7 @@ where
             inputs.with(speed, factor),
             L::both(&remembered.at_temperature, measured).within(S::FRICTION.maximum),
         );
-        let limits = S::limits(&full);
-        remembered.limits = SlidingLimits {
-            load: limits.load * constants.per_reference_load,
-            ..limits
-        };
+        remembered.limits = S::friction(&full).limits(constants.per_reference_load);
         remembered.full = Some(full);
         remembered.churning = L::churning_torque(&remembered.at_temperature, measured);
         constants.follow(remembered, turn, inputs, faults | angle_faults)
@@ -208,7 +212,7 @@ where
     S: Sliding<Constants: Copy> + ChangingClearance,
     E: Elements + Copy,
     A: NutAngle + Copy,
-    L: CoefficientModel,
+    L: CoefficientFor<<S as Scene>::Inputs>,
 {
     fn set_clearance(
         constants: &WithMemoryConstants<S::Constants, E, A, L>,

@@ -31,8 +31,10 @@ pub struct Outputs {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct UncagedOutputs {
-    /// Torque about the nut's axis that the motor has to add to overcome friction, N m: the sum of the next two,
-    /// within its limit. It has the sign of the nut speed; friction itself acts on the nut with the opposite sign.
+    /// Torque about the nut's axis that the motor has to add to overcome friction, N m, within its limit: the sum of the
+    /// next two, and of the torque of churned lubricant where a memory's law of the friction coefficient has one
+    /// ([`CoefficientAtTemperature::churning_torque`](crate::law::coefficient::CoefficientAtTemperature::churning_torque)),
+    /// which neither of them holds. It has the sign of the nut speed; friction itself acts on the nut with the opposite sign.
     pub friction_torque: f32,
     /// Its part from the grooves, N m.
     pub groove_torque: f32,

@@ -1,8 +1,8 @@
 //! Full friction of a row of balls, whatever they run in.
 
 use super::passage::Passage;
+use super::sliding::SlidingFriction;
 use crate::error::Range;
-use crate::law::SlidingLimits;
 use crate::ranges;
 use crate::stored::{Port, Refusal, Stored};
 
@@ -25,9 +25,9 @@ pub(super) struct RowFull {
 impl RowFull {
     /// Limits of both directions: groove friction times each direction's ratio, plus ball friction.
     #[inline(always)]
-    pub(super) fn limits(&self) -> SlidingLimits {
+    pub(super) fn friction(&self) -> SlidingFriction {
         let [forward, backward] = self.ways;
-        SlidingLimits {
+        SlidingFriction {
             forward: forward * self.groove + self.ball,
             backward: backward * self.groove + self.ball,
             load: self.load,

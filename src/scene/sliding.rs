@@ -7,8 +7,35 @@ use crate::error::Range;
 use crate::law::SlidingLimits;
 use crate::law::coefficient::DirectionalCoefficient;
 
-/// A scene whose full friction can be computed apart from its passage through the reversal: what
-/// [`WithMemory`](super::WithMemory) needs of a scene.
+/// Friction of gross sliding in both directions at a tick, and the load under which it slides.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct SlidingFriction {
+    /// Friction of sliding in the positive direction, N m or N, not negative.
+    pub forward: f32,
+    /// Friction of sliding in the negative direction, as a positive number, N m or N.
+    pub backward: f32,
+    /// Load, N, not negative: of a screw the axial load and `2 sqrt(2)` times the axial preload of a flank; of a bearing the normal
+    /// load that presses both diagonals as hard as they are pressed, in which its preload is held.
+    pub load: f32,
+}
+
+impl SlidingFriction {
+    /// What the elements are limited by, whose reference load has this inverse, 1/N.
+    #[inline(always)]
+    #[must_use]
+    pub const fn limits(&self, per_reference_load: f32) -> SlidingLimits {
+        SlidingLimits {
+            forward: self.forward,
+            backward: self.backward,
+            load: self.load * per_reference_load,
+        }
+    }
+}
+
+/// A scene whose full friction can be had apart from its passage through the reversal.
+///
+/// What [`WithMemory`](super::WithMemory) needs of a scene.
 pub trait Sliding: Scene<Known = <Self as Scene>::Inputs, Inputs: Motion> {
     /// Range of the friction coefficients of ball and groove that the scene takes.
     const FRICTION: Range;
@@ -31,9 +58,12 @@ pub trait Sliding: Scene<Known = <Self as Scene>::Inputs, Inputs: Motion> {
         friction: DirectionalCoefficient,
     ) -> Self::Full;
 
-    /// Sizes of a full friction in both directions, and the load: the axial one of a screw or the normal one of a bearing, N, preload
-    /// counted.
-    fn limits(full: &Self::Full) -> SlidingLimits;
+    /// Whether the load of [`Self::friction`] is `|F| + 2 sqrt(2) F_0` under an axial load `F` and with a preload `F_0` of each flank:
+    /// what [`PreloadedElements`](crate::law::memory::PreloadedElements) take.
+    const COUNTS_PRELOAD: bool;
+
+    /// Its sizes in both directions, and the load.
+    fn friction(full: &Self::Full) -> SlidingFriction;
 
     /// What the scene puts out at this passage.
     fn passed(

@@ -159,8 +159,9 @@ impl<const N: usize> UncagedConstants<N> {
         let limits = attempt!(limits.checked());
         let clearance = attempt!(clearance.checked(design)).gap();
         let row = attempt!(ScrewRow::new(design, friction, GrooveFit::Zero));
-        let speed = design.pitch_radius() / design.cos_lead_angle() - row.nominal_speed();
+        let speed = design.path_radius() - row.nominal_speed();
         let fastest = attempt!(configuration.check_deviations(&row, speed));
+        let per_ball = per_loaded_ball(configuration.loaded_length(), return_length, N);
         let ring = RingConstants::new(
             &attempt!(BallConstants::new(design, rolling_resistance)),
             fastest,
@@ -173,9 +174,9 @@ impl<const N: usize> UncagedConstants<N> {
             per_tick: 1.0 / configuration.tick,
             circuit: attempt!(configuration.circuit(speed, &limits, N)),
             ball_friction,
-            per_ball: per_loaded_ball(configuration.loaded_length(), return_length, N),
-            balls: 1.0 / per_loaded_ball(configuration.loaded_length(), return_length, N),
-            reduced_lead: design.lead() / TAU,
+            per_ball,
+            balls: 1.0 / per_ball,
+            reduced_lead: design.reduced_lead(),
             reversal,
             limits,
         })
@@ -234,7 +235,7 @@ impl<const N: usize> UncagedConstants<N> {
                 groove,
                 ball: self.ball_friction * rubbing,
                 ways: [1.0; 2],
-                load: load.axial_size(&self.ring) * self.balls,
+                load: state.ring.preload_counted(&self.ring, &load) * self.balls,
                 contacts: pressing.contacts,
                 largest_contact_force: pressing.largest,
             },

@@ -14,8 +14,6 @@ pub(crate) struct Pressing {
     pub(crate) largest: f32,
     /// Sum of the forces, in the same unit.
     pub(crate) force: f32,
-    /// Sum of the forces times the speeds of the balls behind.
-    pub(crate) power: f32,
 }
 
 /// Gives each ball its speed and its force, and moves it, from the foremost ball backwards.
@@ -45,7 +43,6 @@ pub(super) fn settle(balls: &mut [Ball], foremost: usize, motion: Motion) -> Pre
         contacts: sums.contacts as u8,
         largest,
         force: sums.force,
-        power: sums.power,
     }
 }
 
@@ -111,7 +108,7 @@ impl Settling {
         let speed = ball.free_speed() + self.change;
         ball.set_position(self.limit);
         self.limit = self.motion.touching(self.limit);
-        ball.settle(speed, self.sums.add(self.force, speed));
+        ball.settle(speed, self.sums.add(self.force));
         self.force += self.change * ball.impedance();
         self.behind -= 1;
         if self.behind == 0 {
@@ -129,7 +126,6 @@ struct Sums {
     /// Bits of the largest force.
     largest: i32,
     force: f32,
-    power: f32,
     /// Largest remainder of a cluster, without sign.
     remainder: f32,
 }
@@ -137,10 +133,9 @@ struct Sums {
 impl Sums {
     /// Adds a contact; gives its force, zero where rounding has made it a little less.
     #[inline(always)]
-    fn add(&mut self, force: f32, speed: f32) -> f32 {
+    fn add(&mut self, force: f32) -> f32 {
         let bits = not_negative_bits(force);
         self.force += force;
-        self.power += force * speed;
         self.largest = if bits > self.largest {
             bits
         } else {

@@ -50,7 +50,7 @@ impl Track {
         })
     }
 
-    /// Whether the other track is this one to the last bit: balls keep their places on the same track only.
+    /// Checks that `other` is this track to the last bit: balls keep their places on the same track only.
     ///
     /// # Errors
     /// [`Error`] naming `length` or `pitch`, m.

@@ -2,10 +2,10 @@
 //! speed and direction, and backlash.
 
 use epas_friction::law::Elements;
-use epas_friction::law::coefficient::{CoefficientLaw, CoefficientModel};
+use epas_friction::law::coefficient::CoefficientLaw;
 use epas_friction::law::memory::Hysteresis;
 use epas_friction::law::motion::{NutAngle, Steady};
-use epas_friction::scene::{WithMemory, WithMemoryConfiguration, WithMemoryInputs};
+use epas_friction::scene::{CoefficientFor, WithMemory, WithMemoryConfiguration, WithMemoryInputs};
 use epas_friction::stored::{Fingerprinted, Stored};
 use epas_friction::{
     CagedBallScrew, CagedBallScrewConfiguration, Error, FrictionModel, Inputs, Outputs, Refusal,
@@ -51,7 +51,7 @@ impl<E, A, L> Remembers for FrictionModel<WithMemory<CagedBallScrew, E, A, L>>
 where
     E: Elements<State: Stored> + Fingerprinted + Copy,
     A: Sensor,
-    L: CoefficientModel,
+    L: CoefficientFor<Inputs>,
     Self: Clone + Send + Sync,
 {
     fn step_at(&mut self, inputs: Inputs, reading: f32, temperature: f32) -> Outputs {

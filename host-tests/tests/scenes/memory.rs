@@ -120,17 +120,16 @@ fn slides_as_without<S>(
     S::Outputs: Into<Friction>,
 {
     let mut without = FrictionModel::<S>::new(&configuration).unwrap();
-    let mut with =
-        FrictionModel::<WithMemory<S, Slip, SpeedOverTick>>::new(&WithMemoryConfiguration {
+    let elements = slip(reference, breakaway);
+    let one =
+        WithMemoryConfiguration::new(configuration, friction, elements, speed_sensor(), 1000.0);
+    let mut with = FrictionModel::<WithMemory<S, Slip, SpeedOverTick, OneCoefficient>>::new(
+        &WithMemoryConfiguration {
             play: 0.0,
-            ..with_memory(
-                configuration,
-                slip(reference, breakaway),
-                speed_sensor(),
-                friction,
-            )
-        })
-        .unwrap();
+            ..one.unwrap()
+        },
+    )
+    .unwrap();
     for &load in loads {
         for way in [1.0, -1.0] {
             let inputs = load.with(way * speed, 1.0);
@@ -360,6 +359,21 @@ fn wrong_inputs_are_flagged_and_friction_holds() {
     let outputs = model.step(fresh(screw(0.0, 2000.0), angle + 1.5));
     assert_eq!(outputs.faults, Faults::ANGLE_NOT_VALID);
     assert!(outputs.friction_torque.is_finite());
+}
+
+/// Steps with a fault are counted; a reading between two steps with a fault is flagged, and leaves the count as it is.
+#[test]
+fn faults_between_steps_are_flagged_and_not_counted() {
+    let mut model = caged_by_angle();
+    model.step(fresh(screw(5.0, 2000.0), 0.0));
+    let wrong = model.between(f32::NAN);
+    assert_eq!(wrong.faults, Faults::ANGLE_NOT_VALID);
+    assert_eq!(model.faulted_ticks(), 0);
+    model.step(fresh(screw(f32::NAN, 2000.0), 0.0));
+    assert!(!model.between(0.0).faults.any());
+    assert_eq!(model.faulted_ticks(), 1);
+    model.step(fresh(screw(5.0, 2000.0), 0.0));
+    assert_eq!(model.faulted_ticks(), 0);
 }
 
 /// Loads hold, then fade, then are none: friction is then that of the preload.
@@ -676,7 +690,7 @@ fn limits_have_no_past() {
             };
             let [found, alone] = [&mut old, &mut { fresh }].map(|state| {
                 let full = CagedBallScrew::full(&constants, state, coefficients, inputs, friction);
-                CagedBallScrew::limits(&full)
+                CagedBallScrew::friction(&full)
             });
             assert_eq!(found, alone, "{inputs:?} {friction:?}");
             assert!(found.forward > 0.0 && found.backward > 0.0);

@@ -4,7 +4,7 @@ use std::f32::consts::TAU;
 use std::fmt::Debug;
 
 use epas_friction::defaults::COEFFICIENT;
-use epas_friction::law::coefficient::{CoefficientLaw, TemperatureFade};
+use epas_friction::law::coefficient::{CoefficientLaw, OneCoefficient, TemperatureFade};
 use epas_friction::law::memory::{
     LoadExactElements, Part, ProportionalElements, SLIP_8, SPIN_4, SeatElement, Together,
 };
@@ -30,7 +30,7 @@ type Slip = ProportionalElements<8>;
 type CagedByAngle = WithMemory<CagedBallScrew, Slip, WrappedAngle>;
 type UncagedByCounts =
     WithMemory<Uncaged, Together<ProportionalElements<4>, SeatElement>, Steady<CountSensor>>;
-type LinearBySpeed = WithMemory<Linear, LoadExactElements<8>, SpeedOverTick>;
+type LinearBySpeed = WithMemory<Linear, LoadExactElements<8>, SpeedOverTick, OneCoefficient>;
 
 const TICK: f32 = 1e-4;
 const COUNTS: u32 = 16_384;
@@ -273,7 +273,13 @@ impl Kept for LinearBySpeed {
     fn model() -> FrictionModel<Self> {
         let elements = LoadExactElements::new(20.0, 1e-4, 4.0).unwrap();
         let sensor = SpeedOverTick::new(TICK, 0.1).unwrap();
-        FrictionModel::new(&with_memory(linear(), elements, sensor)).unwrap()
+        let scene = linear();
+        let one = WithMemoryConfiguration::new(scene, scene.friction, elements, sensor, 1000.0);
+        FrictionModel::new(&WithMemoryConfiguration {
+            play: 2e-3,
+            ..one.unwrap()
+        })
+        .unwrap()
     }
 
     fn drive(model: &mut FrictionModel<Self>, manoeuvre: &Manoeuvre, tick: u32) -> Self::Outputs {

@@ -4,6 +4,7 @@ use super::grooves::ElasticGrooves;
 use super::renewal::Renewal;
 use super::resistance::BallResistance;
 use crate::ball::Clearance;
+use crate::ball::preload::{LOST, preload_of};
 use crate::contact::RollingResistance;
 use crate::error::{Error, attempt};
 use crate::geometry::BallScrew;
@@ -33,7 +34,7 @@ impl BallConstants {
         let grooves = attempt!(ElasticGrooves::new(design));
         Ok(Self {
             resistance: attempt!(BallResistance::new(design, rolling_resistance)),
-            normal: 1.0 / (grooves.sin * grooves.cos_lead),
+            normal: 1.0 / design.axial_per_normal(),
             deflection: 1.0 / grooves.screw.stiffness + 1.0 / grooves.nut.stiffness,
             grooves,
         })
@@ -47,12 +48,12 @@ impl BallConstants {
         clearance.checked_for(self.grooves.ball_radius)
     }
 
-    /// Contact force at which a preloaded ball loses its unloaded diagonal, N: `2 sqrt(2)` times the preload; 0 without.
+    /// Contact force at which a preload's lost diagonal opens, N: that of [`Clearance::preload`] times the load over it.
     pub(super) fn lift_off(&self, clearance: f32) -> f32 {
         let gap = clearance / self.grooves.ball_radius;
         if gap < 0.0 {
-            let power = -2.0 * gap / self.deflection;
-            power * math::sqrt(power) * crate::ball::preload::LOST
+            let ratio = -2.0 * gap / self.deflection;
+            preload_of(ratio, math::sqrt(ratio)) * LOST
         } else {
             0.0
         }

@@ -53,7 +53,6 @@ impl ElasticGroove {
         let radius = design.ball_radius();
         let cos_lead = design.cos_lead_angle();
         let sin_lead = cos_lead * design.tan_lead_angle();
-        let path = design.pitch_radius() / (cos_lead * radius);
         Ok(Self {
             map: attempt!(LoopSlipMap::new(contact.axis_ratio())),
             centre: design.clearance(groove) / radius,
@@ -62,7 +61,7 @@ impl ElasticGroove {
             semi_major: contact.semi_major_coefficient() / radius,
             turning,
             base: Motion {
-                speed: turning * path,
+                speed: turning * design.path_in_ball_radii(),
                 x: 0.0,
                 y: turning * sin_lead,
                 z: turning * cos_lead,
@@ -100,14 +99,14 @@ impl ElasticGrooves {
             nut: attempt!(ElasticGroove::new(design, Groove::Nut, 1.0)),
             cos: design.contact_angle().cos,
             sin: design.contact_angle().sin,
-            path: design.pitch_radius() / (cos_lead * design.ball_radius()),
+            path: design.path_in_ball_radii(),
             sin_lead: cos_lead * design.tan_lead_angle(),
             cos_lead,
             orbit: cos_lead * cos_lead * design.ball_radius() / design.pitch_radius(),
             ball_radius: design.ball_radius(),
             per_radius: 1.0 / design.ball_radius(),
             per_cos_lead: 1.0 / cos_lead,
-            per_axial_load: 1.0 / (cos_lead * design.contact_angle().sin),
+            per_axial_load: 1.0 / design.axial_per_normal(),
         })
     }
 }

@@ -3,11 +3,13 @@
 use super::constants::BallConstants;
 use super::renewal::{Renewal, Settled};
 use crate::math::{self, inverse_cube_roots};
+use crate::train::IMPEDANCE_RANGE;
 
 /// Least and largest impedance of a loaded ball, N, at its renewal: within what a train takes
 /// ([`IMPEDANCE_RANGE`](crate::train::IMPEDANCE_RANGE)) by a factor of ten or more. Until the next renewal it follows the
 /// load's power 2/3, and a load that has changed by more than a factor of three has all balls begin anew.
 const IMPEDANCES: (f32, f32) = (1e-6, 1e8);
+const _: () = assert!(IMPEDANCES.0 >= IMPEDANCE_RANGE.0 && IMPEDANCES.1 <= IMPEDANCE_RANGE.1);
 
 /// A screw's balls: constants.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,7 +46,7 @@ pub(crate) struct RingBall {
 pub(crate) struct RingLoad {
     /// Mean axial load of a ball in the frame in which the nut turns forward, N.
     pub(crate) axial: f32,
-    /// Mean contact force, preload counted, N.
+    /// Mean contact force with that of the preload, smooth where the load crosses zero, N: `sqrt(F^2 + 8 P^2)`.
     pub(super) whole: f32,
     /// Powers 2/3 and 7/6 of the load, preload counted, and inverse ones. Friction of slip across the track goes with the
     /// load, that of spin with its power 4/3; a screw's torque has both.
@@ -137,12 +139,6 @@ impl RingLoad {
             per_two_thirds: both * seven_sixths,
             per_seven_sixths: both * two_thirds,
         }
-    }
-
-    /// Axial load of a ball that presses as much as load and preload do, N.
-    #[inline(always)]
-    pub(crate) fn axial_size(&self, constants: &RingConstants) -> f32 {
-        self.whole / constants.ball.normal
     }
 
     /// Impedance of a ball, N.

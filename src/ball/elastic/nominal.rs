@@ -3,6 +3,7 @@
 use super::constants::BallConstants;
 use super::renewal::{BallInputs, Settled};
 use super::stored::{CLEARANCE, NOT_NEGATIVE};
+use crate::ball::preload::preload_counted;
 use crate::error::Range;
 use crate::ranges;
 use crate::stored::{Port, Refusal, Stored};
@@ -71,7 +72,7 @@ impl Grooving {
     /// Contact force of a ball under an axial load and of a preload, N: what its friction torque is about in proportion to.
     #[inline(always)]
     pub(crate) fn whole(&self, ball: &BallConstants, axial_load: f32) -> f32 {
-        ball.normal * axial_load.abs() + self.lift_off
+        preload_counted(ball.normal * axial_load, self.lift_off)
     }
 
     /// What the ball is under.

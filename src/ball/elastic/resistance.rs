@@ -37,7 +37,7 @@ impl BallResistance {
         let (screw, lubricant) =
             attempt!(RollingContact::of(design, Groove::Screw, resistance)).coefficients();
         let (nut, _) = attempt!(RollingContact::of(design, Groove::Nut, resistance)).coefficients();
-        let path = design.pitch_radius() / design.cos_lead_angle();
+        let path = design.path_radius();
         let arm = design.ball_radius() * design.cos_lead_angle() * design.contact_angle().cos;
         let travel = 0.5 * (path * path - arm * arm) / path;
         Ok(Self {

@@ -10,6 +10,7 @@ use self::chosen::{
 };
 use super::law::{Neighbours, RingBall, RingConstants, RingLoad, between};
 use super::renewal::{BallInputs, Settled};
+use crate::ball::preload::preload_counted;
 use crate::train::LARGEST_FREE_SPEED;
 
 /// Balls that are renewed in turn.
@@ -96,6 +97,12 @@ impl<const N: usize> Ring<N> {
             negative: false,
             begun: false,
         }
+    }
+
+    /// Mean axial load of a ball, N, with its preload counted: see [`preload_counted`].
+    #[inline(always)]
+    pub(crate) fn preload_counted(&self, constants: &RingConstants, load: &RingLoad) -> f32 {
+        preload_counted(load.axial, self.lift_off / constants.ball.normal)
     }
 
     /// Speed of a ball without load less the nominal one, over the nominal one against the nut.

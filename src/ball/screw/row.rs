@@ -119,7 +119,7 @@ impl ScrewRow {
             speeds: Speeds::new(design, sticks_to_screw),
             quarter_per_friction: 0.25 / friction,
             contact_angle,
-            normal: 1.0 / (design.contact_angle().sin * design.cos_lead_angle()),
+            normal: 1.0 / design.axial_per_normal(),
             play,
             sticks_to_screw,
         })
@@ -306,8 +306,7 @@ const fn spins(design: &BallScrew, play: bool) -> [f32; 2] {
     if play {
         [cos_lead * angle.sin; 2]
     } else {
-        let path = design.pitch_radius() / cos_lead;
-        let rolling = path / (design.ball_radius() * angle.cos);
+        let rolling = design.path_radius() / (design.ball_radius() * angle.cos);
         let half = 0.5 * angle.sin;
         [half * (rolling + cos_lead), half * (rolling - cos_lead)]
     }

@@ -58,7 +58,7 @@ impl Speeds {
     pub(super) const fn new(design: &BallScrew, sticks_to_screw: bool) -> Self {
         let angle = design.contact_angle();
         let (sin, cos) = (angle.sin, angle.cos);
-        let path = design.pitch_radius() / design.cos_lead_angle();
+        let path = design.path_radius();
         // r = r_b r_m/q².
         let ratio = design.ball_radius() * design.cos_lead_angle() / path;
         let (plus, minus) = (1.0 + ratio * cos, 1.0 - ratio * cos);
@@ -139,7 +139,7 @@ const fn tumbling(design: &BallScrew, ratio: f32, sticks_to_screw: bool) -> f32 
     let angle = design.contact_angle();
     let (sin, cos) = (angle.sin, angle.cos);
     let radius = design.ball_radius();
-    let path = design.pitch_radius() / design.cos_lead_angle();
+    let path = design.path_radius();
     let chord = 1.0 - (radius / path) * (radius / path);
     let cosine = if sticks_to_screw {
         cos - ratio

@@ -66,10 +66,10 @@ impl ScrewContacts {
     /// The same with contacts that are known otherwise: from other curvatures or materials.
     #[must_use]
     pub const fn with(design: &BallScrew, screw: ContactStiffness, nut: ContactStiffness) -> Self {
-        let (ball_radius, pitch_radius) = (design.ball_radius(), design.pitch_radius());
+        let ball_radius = design.ball_radius();
         let cos_lead = design.cos_lead_angle();
         let angle = design.contact_angle();
-        let path = 0.5 * pitch_radius / cos_lead;
+        let path = 0.5 * design.path_radius();
         Self {
             screw,
             nut,
@@ -79,7 +79,7 @@ impl ScrewContacts {
                 path / ball_radius * (angle.sin / angle.cos),
             ],
             path,
-            per_axial_load: 1.0 / (angle.sin * cos_lead),
+            per_axial_load: 1.0 / design.axial_per_normal(),
         }
     }
 

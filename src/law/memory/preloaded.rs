@@ -4,15 +4,27 @@ use super::hysteresis::Hysteresis;
 use crate::ball::PreloadSum;
 use crate::law::{Elements, SlidingLimits};
 
-/// Preload over the load that a caged screw tells its elements without an axial load: `1/(2 sqrt(2))`.
+/// Preload over the load that a screw tells its elements without an axial load: `1/(2 sqrt(2))`.
 const PRELOAD: f32 = 0.353_553_4;
 
 /// Load-exact elements of a screw with a preload `F_0` of each flank, whose reference load is that without an axial load.
 ///
-/// A caged screw tells its elements the load `2 sqrt(2) F_0 + |F|` under an axial load `F`: what its friction is about in proportion to.
-/// What its contacts carry, and so how stiff they are and how far they yield, is the sum of both flanks: `2 F_0` without a load,
-/// hardly more up to `F = F_0`, and `F` once one flank is lost, from `2 sqrt(2) F_0` on. The difference is 41 % of the load there, and 19 % of the breakaway
+/// Every scene of a screw tells its elements the load `2 sqrt(2) F_0 + |F|` under an axial load `F`: what its friction is about in proportion to.
+/// What its contacts carry, and so how stiff they are and how far they yield, is the sum of both flanks: `2 F_0` without a load, hardly more
+/// up to `F = F_0`, and `F` once one flank is lost, from `2 sqrt(2) F_0` on. The difference is 41 % of the load there, and 19 % of the breakaway
 /// angle. 30 cycles beyond the elements'.
+///
+/// A bearing's load holds its preload already; with these elements its memory does not compile:
+///
+/// ```compile_fail,E0080
+/// # use epas_friction::law::coefficient::OneCoefficient;
+/// # use epas_friction::law::memory::{LoadExactElements, PreloadedElements};
+/// # use epas_friction::law::motion::SpeedOverTick;
+/// # use epas_friction::{FrictionModel, LinearBearingTrain, scene::WithMemory};
+/// type Elements = PreloadedElements<LoadExactElements<8>>;
+/// type Bearing = WithMemory<LinearBearingTrain<12>, Elements, SpeedOverTick, OneCoefficient>;
+/// let set_up: fn(&_) -> _ = FrictionModel::<Bearing>::new;
+/// ```
 ///
 /// ```
 /// use epas_friction::law::memory::{LoadExactElements, MemoryState, PreloadedElements};
@@ -41,7 +53,7 @@ impl<E: Copy> PreloadedElements<E> {
 }
 
 impl<E> PreloadedElements<E> {
-    /// Sum of both flanks' loads over that without an axial load, from the load that a caged screw tells its elements over the same,
+    /// Sum of both flanks' loads over that without an axial load, from the load that a screw tells its elements over the same,
     /// 1 or more.
     #[inline]
     pub fn shared(&self, load: f32) -> f32 {
@@ -54,6 +66,8 @@ impl<E: Elements> Elements for PreloadedElements<E> {
     type State = E::State;
 
     const VIRGIN: Self::State = E::VIRGIN;
+
+    const PRELOADED: bool = true;
 
     #[inline]
     fn follow(&self, state: &mut Self::State, turn: f32, limits: &SlidingLimits) -> f32 {
@@ -82,7 +96,7 @@ mod tests {
     use super::*;
     use crate::law::memory::LoadExactElements;
 
-    /// Both flanks share one Hertzian deflection, `F1^(2/3) + F2^(2/3) = 2 P^(2/3)`: found by halving. The series is within 0.84 % of
+    /// Both flanks share one Hertzian deflection, `F1^(2/3) + F2^(2/3) = 2 F_0^(2/3)`: found by halving. The series is within 0.84 % of
     /// their sum.
     #[test]
     fn load_is_that_of_both_flanks() {

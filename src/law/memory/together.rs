@@ -48,6 +48,8 @@ impl<A: Elements, B: Elements> Elements for Together<A, B> {
         second: B::VIRGIN,
     };
 
+    const PRELOADED: bool = A::PRELOADED || B::PRELOADED;
+
     #[inline]
     fn follow(&self, state: &mut Self::State, turn: f32, limits: &SlidingLimits) -> f32 {
         let first = SlidingLimits {

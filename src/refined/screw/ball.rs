@@ -133,7 +133,7 @@ impl ScrewBall {
         );
         let radius = design.ball_radius();
         let cos_lead = design.cos_lead_angle();
-        let path = design.pitch_radius() / (cos_lead * radius);
+        let path = design.path_in_ball_radii();
         let cos = design.contact_angle().cos;
         let nominal_speed = 0.5 * (path + cos_lead * cos);
         let sin_between = 1.0 / path;

@@ -1,7 +1,5 @@
 //! Friction by the papers' closed forms, for comparison.
 
-use core::f32::consts::TAU;
-
 use super::configuration::{CagedBallScrewConfiguration, FrictionBranch};
 use super::full::CagedFull;
 use crate::ball::PreloadSum;
@@ -66,7 +64,7 @@ impl ClosedForm {
                 0.5 * drive
             },
             half_backdrive: 0.5 * backdrive,
-            reduced_lead: design.lead() / TAU,
+            reduced_lead: design.reduced_lead(),
             drive_locked,
             flanks: PreloadSum::new(clearance.axial_preload(design, loaded_balls)),
             largest_torque: limits.friction_torque,
@@ -111,7 +109,7 @@ impl ClosedForm {
         CagedFull {
             forward: of(load),
             backward: of(-load),
-            load: sum,
+            load: self.flanks.counted(load),
             faults: Faults::NONE,
         }
     }

@@ -2,8 +2,6 @@
 
 mod stored;
 
-use core::f32::consts::TAU;
-
 use super::coefficients::CoefficientLaws;
 use super::configuration::CagedBallScrewConfiguration;
 use super::full::CagedFull;
@@ -85,8 +83,8 @@ impl Contacts {
             range: LoadRange::to(limits.axial_load / balls),
             balls,
             per_ball: 1.0 / balls,
-            load_per_whole: balls * (design.contact_angle().sin * design.cos_lead_angle()),
-            reduced_lead: design.lead() / TAU,
+            load_per_whole: balls * design.axial_per_normal(),
+            reduced_lead: design.reduced_lead(),
         })
     }
 

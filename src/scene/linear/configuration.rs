@@ -1,9 +1,14 @@
 //! What the engineer sets for a linear bearing, and its checks.
 
 use super::inputs::LinearLimits;
-use crate::ball::{LoadShare, LoadShares};
+use crate::ball::{
+    AnalyticLinearBall, BorderParameters, GrooveFriction, LinearBallParameters, LoadShare,
+    LoadShares, largest_deviation, spin_loss,
+};
+use crate::contact::FrictionMap;
 use crate::error::{Error, attempt, in_range};
 use crate::geometry::LinearBearing;
+use crate::hertz::HertzContact;
 use crate::scene::circuit::{Circuit, CircuitConfiguration, DeviationMap, LONGEST_TRACK};
 
 /// What the engineer sets for a linear bearing; unchecked.
@@ -76,5 +81,45 @@ impl LinearBearingConfiguration {
             largest_speed: limits.speed,
         }
         .folded(balls)
+    }
+
+    /// The ball, and what it loses in the grooves, with the deviations of both checked.
+    pub(super) const fn friction(&self) -> Result<(AnalyticLinearBall, GrooveFriction), Error> {
+        let Self {
+            ref bearing,
+            friction,
+            ball_friction,
+            rail_deviation,
+            carriage_deviation,
+            ..
+        } = *self;
+        let nominal = bearing.parameters().contact_angle;
+        let angle = bearing.contact_angle();
+        // The deviations' sum times half the tangent is a ball's speed deviation: no more than a half.
+        let largest = largest_deviation(nominal, angle.sin / angle.cos);
+        attempt!(rail_deviation.checked("rail_deviation", largest));
+        attempt!(carriage_deviation.checked("carriage_deviation", largest));
+
+        let contact = HertzContact::of_linear(bearing);
+        let map = attempt!(FrictionMap::new(contact.axis_ratio()));
+        let half_tangent = 0.5 * angle.sin / angle.cos;
+        let parameters = LinearBallParameters {
+            ball_radius: bearing.ball_radius(),
+            contact_angle: nominal,
+            axis_ratio: contact.axis_ratio(),
+            semi_major_coefficient: contact.semi_major_coefficient(),
+            friction,
+        };
+        let ball = AnalyticLinearBall::folded(&parameters, half_tangent, map.slope());
+        let grooves = GrooveFriction::new(&BorderParameters {
+            angle: (angle.sin, angle.cos),
+            friction,
+            ball_friction,
+            spin: spin_loss(&parameters, half_tangent, map.spin_moment()),
+            bottom: rail_deviation.extremes(),
+            top: carriage_deviation.extremes(),
+            shares: LoadShare::extremes(self.load_shares),
+        });
+        Ok((ball, grooves))
     }
 }

@@ -1,6 +1,8 @@
 //! A scene with memory as bytes. The law of the friction coefficient is that of the constants, or what was set last.
 
-use super::{Remembered, Sliding, WithMemory, WithMemoryConstants, WithMemoryState};
+use super::{
+    CoefficientFor, Remembered, Sliding, WithMemory, WithMemoryConstants, WithMemoryState,
+};
 use crate::error::Range;
 use crate::law::coefficient::{CoefficientModel, TEMPERATURE};
 use crate::law::motion::{NutAngle, PlayState};
@@ -17,7 +19,7 @@ where
     S: StoredScene + Sliding<Constants: Copy, Inputs: Stored, Full: Stored + Default> + Copy,
     E: Elements<State: Stored> + Fingerprinted + Copy,
     A: NutAngle<State: Stored> + Fingerprinted + Copy,
-    L: CoefficientModel,
+    L: CoefficientFor<<S as Scene>::Inputs>,
 {
     const KIND: u16 = MEMORY + S::KIND;
     const BALLS: u16 = S::BALLS;

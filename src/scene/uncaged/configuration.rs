@@ -74,7 +74,7 @@ impl UncagedBallScrewConfiguration {
         attempt!(in_range("turns", turns, 0.1, 100.0));
         attempt!(in_range("return_length", return_length, 0.0, 10.0));
         attempt!(in_range("tick", tick, 1e-6, 1.0));
-        let path = design.pitch_radius() / design.cos_lead_angle();
+        let path = design.path_radius();
         let per_turn = TAU * path;
         let loaded_length = self.loaded_length();
         let longest = LONGEST_TRACK * per_turn - loaded_length;
@@ -98,8 +98,7 @@ impl UncagedBallScrewConfiguration {
 
     /// Length of the loaded track, m.
     pub(super) const fn loaded_length(&self) -> f32 {
-        let path = self.design.pitch_radius() / self.design.cos_lead_angle();
-        self.turns * (TAU * path)
+        self.turns * (TAU * self.design.path_radius())
     }
 
     /// Checks the deviations of both grooves: each within what the row's formula takes, and both so small that no ball's speed

@@ -3,16 +3,17 @@
 use super::full::UncagedFull;
 use super::{UncagedBallScrew, UncagedConstants, UncagedState};
 use crate::error::Range;
-use crate::law::SlidingLimits;
 use crate::law::coefficient::DirectionalCoefficient;
 use crate::ranges;
 use crate::scene::contract::Inputs;
 use crate::scene::outputs::UncagedOutputs;
 use crate::scene::passage::Passage;
-use crate::scene::sliding::Sliding;
+use crate::scene::sliding::{Sliding, SlidingFriction};
 
 impl<const N: usize> Sliding for UncagedBallScrew<N> {
     const FRICTION: Range = ranges::FRICTION_OF_A_ROW;
+
+    const COUNTS_PRELOAD: bool = true;
 
     /// Balls take a friction coefficient over as their turn comes.
     type Coefficients = ();
@@ -36,8 +37,8 @@ impl<const N: usize> Sliding for UncagedBallScrew<N> {
     }
 
     #[inline(always)]
-    fn limits(full: &UncagedFull) -> SlidingLimits {
-        full.row.limits()
+    fn friction(full: &UncagedFull) -> SlidingFriction {
+        full.row.friction()
     }
 
     #[inline(always)]

@@ -2,11 +2,10 @@
 //!
 //! Folding them takes some thousand balls, as long as some ten thousand steps of the scene.
 
-use epas_friction::law::SlidingLimits;
 use epas_friction::law::coefficient::DirectionalCoefficient;
 use epas_friction::scene::{
     Admitted, CagedBallScrewConfiguration, CagedCoefficients, CagedConstants, CagedFull,
-    CagedState, Inputs, Outputs, Passage, Scene, Sliding,
+    CagedState, Inputs, Outputs, Passage, Scene, Sliding, SlidingFriction,
 };
 use epas_friction::{CagedBallScrew, Error, Range};
 
@@ -57,7 +56,7 @@ impl Folded {
 
     /// Full friction in both directions under an axial load, N, that opposes a forward motion, by a
     /// friction coefficient that counts in proportion.
-    pub fn limits(&self, axial_load: f32, friction: f32) -> SlidingLimits {
+    pub fn limits(&self, axial_load: f32, friction: f32) -> SlidingFriction {
         self.limits_between(None, axial_load, friction)
     }
 
@@ -66,7 +65,7 @@ impl Folded {
         coefficients: Option<&CagedCoefficients>,
         axial_load: f32,
         friction: f32,
-    ) -> SlidingLimits {
+    ) -> SlidingFriction {
         let inputs = Inputs {
             nut_speed: 1.0,
             axial_load,
@@ -78,7 +77,7 @@ impl Folded {
         // By its laws nothing of the state changes.
         let mut state = self.state;
         let full = CagedBallScrew::full(&self.constants, &mut state, coefficients, inputs, both);
-        CagedBallScrew::limits(&full)
+        CagedBallScrew::friction(&full)
     }
 
     /// With laws for friction coefficients between two.
@@ -92,7 +91,7 @@ impl Folded {
 
 impl FoldedBetween {
     /// Full friction in both directions under an axial load, N, that opposes a forward motion, by a friction coefficient.
-    pub fn limits(&self, axial_load: f32, friction: f32) -> SlidingLimits {
+    pub fn limits(&self, axial_load: f32, friction: f32) -> SlidingFriction {
         let coefficients = Some(&self.coefficients);
         self.own.limits_between(coefficients, axial_load, friction)
     }
@@ -167,6 +166,8 @@ impl Scene for FoldedBallScrew {
 impl Sliding for FoldedBallScrew {
     const FRICTION: Range = CagedBallScrew::FRICTION;
 
+    const COUNTS_PRELOAD: bool = CagedBallScrew::COUNTS_PRELOAD;
+
     type Coefficients = CagedCoefficients;
     type Full = CagedFull;
 
@@ -184,8 +185,8 @@ impl Sliding for FoldedBallScrew {
         CagedBallScrew::full(&folded.own.constants, state, coefficients, inputs, friction)
     }
 
-    fn limits(full: &CagedFull) -> SlidingLimits {
-        CagedBallScrew::limits(full)
+    fn friction(full: &CagedFull) -> SlidingFriction {
+        CagedBallScrew::friction(full)
     }
 
     fn passed(

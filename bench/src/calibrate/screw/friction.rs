@@ -4,6 +4,7 @@
 
 use std::f32::consts::{PI, TAU};
 
+use epas_friction::law::Elements;
 use epas_friction::law::coefficient::{
     CoefficientLaw, CoefficientParameters, TemperatureFade, Viscosity,
 };
@@ -11,10 +12,9 @@ use epas_friction::law::memory::{
     Hysteresis, LoadExactElements, Part, PreloadedElements, ProportionalElements, SLIP_8,
 };
 use epas_friction::law::motion::{Steady, WrappedAngle, WrappedAngleParameters};
-use epas_friction::law::{Elements, SlidingLimits};
 use epas_friction::scene::{
-    CagedBallScrew, CagedBallScrewConfiguration, Freshness, FrictionBranch, Inputs, WithMemory,
-    WithMemoryConfiguration, WithMemoryInputs,
+    CagedBallScrew, CagedBallScrewConfiguration, Freshness, FrictionBranch, Inputs,
+    SlidingFriction, WithMemory, WithMemoryConfiguration, WithMemoryInputs,
 };
 use epas_friction::{Clearance, Error, FrictionModel, RollingResistance};
 
@@ -153,7 +153,7 @@ impl Screw {
     fn reference_of(&self, folded: &Folded, values: &Values) -> Reference {
         let limits = |load: f64| folded.limits(load as f32, values.friction as f32);
         let largest = limits(self.largest_load);
-        let SlidingLimits {
+        let SlidingFriction {
             forward,
             backward,
             load,

@@ -4,8 +4,8 @@
 //! friction has a bend there, and the parabola is off by up to 0.4 % of it. A fit would take that for a speed at which films form (3 % of
 //! the half-share speed). So the fit's friction is corrected by more laws of the same kind, each exact at its own coefficient.
 
-use epas_friction::law::SlidingLimits;
 use epas_friction::law::coefficient::CoefficientLaw;
+use epas_friction::scene::SlidingFriction;
 use epas_friction::{CagedBallScrewConfiguration, Error};
 
 use super::folded::Folded;
@@ -79,7 +79,7 @@ impl Table {
 }
 
 /// Friction under a load that opposes the motion, and under one that assists it.
-fn sides(limits: SlidingLimits) -> [f64; 2] {
+fn sides(limits: SlidingFriction) -> [f64; 2] {
     [limits.forward.into(), limits.backward.into()]
 }
 

@@ -1,0 +1,121 @@
+//! The load that every scene of a screw tells the elements of its memory, and what both flanks carry by it.
+
+use std::f32::consts::{SQRT_2, TAU};
+
+use epas_friction::law::coefficient::DirectionalCoefficient;
+use epas_friction::law::memory::PreloadedElements;
+use epas_friction::scene::Sliding;
+use epas_friction::{
+    CagedBallScrew, CagedBallScrewConfiguration, Clearance, FrictionBranch, Inputs,
+    UncagedBallScrew,
+};
+
+use crate::kit::gears::{SCREW_BALLS, caged, oversize, uncaged};
+
+/// Axial preload of each flank, N.
+const PRELOAD: f32 = 300.0;
+
+/// Sum of both flanks under an axial load, over that without: they share one Hertzian deflection,
+/// `F1^(2/3) + F2^(2/3) = 2 P^(2/3)` with `F1 - F2 = F`, until one of them is lost.
+fn exact_sum(load: f64) -> f64 {
+    let preload = f64::from(PRELOAD);
+    if load > 8.0_f64.sqrt() * preload {
+        return load / (2.0 * preload);
+    }
+    let deflection = |force: f64| (force / preload).powf(2.0 / 3.0);
+    let (mut low, mut high) = (load, load + 2.0 * preload);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if deflection(middle) + deflection(middle - load) < 2.0 {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    (2.0 * low - load) / (2.0 * preload)
+}
+
+/// What a scene tells under a load that opposes a forward motion, N.
+fn told<S: Sliding<Inputs = Inputs>>(configuration: &S::Configuration, axial_load: f32) -> f32 {
+    let constants = S::constants(configuration).unwrap();
+    let mut state = S::initial_state(&constants);
+    let friction = DirectionalCoefficient {
+        forward: 0.075,
+        backward: 0.075,
+    };
+    let inputs = Inputs {
+        nut_speed: 1.0,
+        axial_load,
+    };
+    S::friction(&S::full(&constants, &mut state, None, inputs, friction)).load
+}
+
+/// Elements of a preloaded screw know the sum of both flanks, whatever the scene is: within the 0.84 % of its series.
+fn flanks_share<S: Sliding<Inputs = Inputs>>(configuration: &S::Configuration) {
+    let alone = told::<S>(configuration, 0.0);
+    let counted = 2.0 * SQRT_2 * PRELOAD;
+    assert!((alone / counted - 1.0).abs() < 2e-3, "{alone} {counted}");
+    let elements = PreloadedElements::new(());
+    for step in 0..60_u8 {
+        let load = 0.1 * f32::from(step) * PRELOAD;
+        for load in [load, -load] {
+            let found = f64::from(elements.shared(told::<S>(configuration, load) / alone));
+            let exact = exact_sum(load.abs().into());
+            assert!(
+                (found / exact - 1.0).abs() < 0.0085,
+                "{load}: {found} {exact}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_caged_screw_tells_what_its_flanks_share() {
+    for branch in [FrictionBranch::Rolling, FrictionBranch::Sliding] {
+        flanks_share::<CagedBallScrew>(&CagedBallScrewConfiguration { branch, ..caged() });
+    }
+    // Its law over the load is folded by some thousand renewals each time: the loads are few.
+    let elements = PreloadedElements::new(());
+    let alone = told::<CagedBallScrew>(&caged(), 0.0);
+    for load in [150.0, -600.0, 848.5, 1500.0] {
+        let found = f64::from(elements.shared(told::<CagedBallScrew>(&caged(), load) / alone));
+        let exact = exact_sum(f64::from(load).abs());
+        assert!(
+            (found / exact - 1.0).abs() < 0.0085,
+            "{load}: {found} {exact}"
+        );
+    }
+}
+
+/// An oversize that presses a contact with less than a thousandth of a newton is no preload: in every scene.
+#[test]
+fn a_preload_that_is_none_is_none_for_all() {
+    let design = caged().design;
+    let least = Clearance::of_preload(&design, 1e-3).unwrap();
+    let clearance = Clearance::new(0.5 * least.gap()).unwrap();
+    assert_eq!(clearance.preload(&design), 0.0);
+    for branch in [FrictionBranch::Contacts, FrictionBranch::Rolling] {
+        let screw = CagedBallScrewConfiguration {
+            branch,
+            clearance,
+            ..caged()
+        };
+        assert_eq!(told::<CagedBallScrew>(&screw, 0.0), 0.0);
+    }
+    let mut screw = uncaged();
+    let none = told::<UncagedBallScrew<SCREW_BALLS>>(&screw, 0.0);
+    screw.clearance = clearance;
+    assert_eq!(told::<UncagedBallScrew<SCREW_BALLS>>(&screw, 0.0), none);
+}
+
+#[test]
+fn a_screw_without_cage_tells_what_its_flanks_share() {
+    let mut configuration = uncaged();
+    let design = configuration.design;
+    let loaded = configuration.turns * TAU * design.pitch_radius() / design.cos_lead_angle();
+    let share = loaded / (loaded + configuration.return_length);
+    // As many balls carry the preload as are in the loaded zone in the mean, which is no whole number.
+    let balls = share * SCREW_BALLS as f32;
+    configuration.clearance = oversize(&design, PRELOAD / balls, 1);
+    flanks_share::<UncagedBallScrew<SCREW_BALLS>>(&configuration);
+}
