@@ -316,13 +316,13 @@ subjects! {
         };
     set_friction_caged: |spread| -> [1] [spread.between(0.05, 0.15)],
         |c, [friction]| -> [1] {
-            let mut model = black_box(c.caged.clone());
+            let mut model = black_box(c.caged);
             let done = timed!(c, count_set_friction_caged(&mut model, friction));
             [f32::from(u8::from(done))]
         };
     set_clearance_caged: |spread| -> [1] [spread.between(-5e-6, 5e-6)],
         |c, [gap]| -> [1] {
-            let mut model = black_box(c.caged.clone());
+            let mut model = black_box(c.caged);
             let clearance = black_box(Clearance::new(gap).unwrap_or(Clearance::ZERO));
             let done = timed!(c, count_set_clearance_caged(&mut model, &clearance));
             [f32::from(u8::from(done))]
