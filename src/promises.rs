@@ -12,6 +12,7 @@ mod footprints;
 mod kernels;
 mod law;
 mod promise;
+mod setting;
 mod steps;
 
 pub use adaptation::*;
@@ -20,37 +21,47 @@ pub use footprints::{FOOTPRINTS, STEP_SPREAD};
 pub use kernels::*;
 pub use law::*;
 pub use promise::{Footprint, Promise};
+pub use setting::*;
 pub use steps::*;
 
-/// Promises of every `step()`, and of every function that a step calls.
-pub const STEPS: [Promise; 21] = [
+/// Promises of every `step()` and `between()`, and of every function that one of them calls.
+pub const STEPS: [Promise; 27] = [
     STEP_CAGED,
     STEP_CAGED_CHANGING,
+    STEP_CAGED_CLOSED,
     STEP_CAGED_MEMORY,
     STEP_CAGED_LAW,
     BETWEEN,
-    SET_FRICTION,
     STEP_UNCAGED,
+    STEP_UNCAGED_MEMORY,
+    BETWEEN_UNCAGED,
     STEP_LINEAR,
+    STEP_LINEAR_MEMORY,
+    BETWEEN_LINEAR,
     SQRT,
+    CBRT_SQUARED,
     CBRT_AND_SQUARED,
-    DEVIATION_MAP,
-    ANALYTIC_BALL,
     SCREW_RENEWAL,
-    TRAIN,
-    PRESS,
+    SCREW_START,
     MEMORY,
     MEMORY_LOAD_EXACT,
+    MEMORY_PRELOADED,
     MEMORY_SEAT,
+    MEMORY_TOGETHER,
     TURN_OF_COUNTS,
     TURN_OF_ANGLES,
+    TURN_OF_SPEED,
+    TURN_STEADY,
     PLAY,
 ];
 
-/// Promises of functions that firmware calls by their names.
-pub const DIRECT: [Promise; 27] = [
+/// Promises of functions that no step calls: firmware calls them by their names.
+pub const DIRECT: [Promise; 33] = [
+    SET_FRICTION,
+    SET_CLEARANCE,
+    SET_FRICTION_CAGED,
+    SET_CLEARANCE_CAGED,
     CBRT,
-    CBRT_SQUARED,
     SIN_COS,
     LITERATURE_CURVATURE,
     CIRCULAR_CURVATURE,
@@ -70,9 +81,12 @@ pub const DIRECT: [Promise; 27] = [
     FRICTION_COEFFICIENT_WARMING,
     ADAPTATION,
     STATE,
-    SCREW_START,
+    DEVIATION_MAP,
+    TRAIN,
+    PRESS,
     SCREW_ROW,
     SCREW_BALL,
+    ANALYTIC_BALL,
     ANALYTIC_PAIR,
     FOUR_POINT_BALL,
     BALL_CHAIN,

@@ -12,7 +12,6 @@ mod hertz;
 mod linear_train;
 mod lines;
 mod presliding;
-mod screw_scene;
 mod static_load;
 mod steady_state;
 mod train;
@@ -78,13 +77,17 @@ use lines::{Line, Lines};
 /// {"load", "contact_angle"}, ...}} with two to four of SL, SR, NL, NR (screw or nut, left or right); a load of
 /// 0 is a lost contact. Answers with the speeds of free balls, the forces between touching ones (none at
 /// standstill), and the power lost in grooves and between balls; nothing where a ball is not loaded on both
-/// screw and nut. `in_loop` has them for just these contacts, by the refined form that no scene runs, and in an
-/// object `scene` what the scene of a ball screw without cage runs: it knows a ball's axial load and how far
-/// the contact angles deviate in either groove, and finds the contacts itself. They are read off the given
-/// ones; load_mismatch (over the main load) and angle_mismatch say how far the given contacts are from those
-/// that the scene finds. `scene` is null at standstill, where a ball has four loaded contacts, where balls
-/// are loaded in different directions, and where a load is further than 0.1 of the main load, or an angle
-/// further than 0.01, from the scene's.
+/// screw and nut. `in_loop` has them for just these contacts, by the refined form that no scene runs, and in two
+/// objects for the axial load of each ball and the deviations of its contact angles in either groove, which are
+/// read off the given contacts: both find the contacts themselves. `elastic` is what the scene of a ball screw
+/// without cage computes once it has settled: balls in elastic grooves without play that are renewed by Newton
+/// steps; its power is groove_power_loss, without that between the balls. `scene` (its name is from when the
+/// scene ran it) is the closed form of a row, which no step runs. load_mismatch (over the largest load of a ball)
+/// and angle_mismatch say how far the given contacts are from those found. Both are null at standstill, where
+/// a ball has four loaded contacts, where balls are loaded in different directions, and where a load is further
+/// than 0.1 of the largest one, or an angle further than 0.01, from those found; `elastic` also for balls in two
+/// contacts, which do not tell the play, and where a ball loses its grooves: under the forces of the others alone,
+/// its forces and power are null.
 ///
 /// ball_screw_pair: pitch_radius, lead, ball_radius, groove_radius, contact_angle, youngs_modulus, poisson_ratio,
 /// friction, [ball_friction (0)], clearance (radial gap of every contact at the centred ball and the unloaded

@@ -1,7 +1,6 @@
 //! Functions that no step calls: firmware calls them by their names.
 
 use super::promise::Promise;
-use super::steps::ANALYTIC_BALL;
 
 /// [`LiteratureCurvature::first`](crate::curvature::LiteratureCurvature::first): the catalogue formula, as accurate as it is.
 pub const LITERATURE_CURVATURE: Promise = Promise {
@@ -272,11 +271,57 @@ pub const SCREW_BALL: Promise = Promise {
     ..SCREW_ROW
 };
 
-/// [`ElasticGrooves::start`](crate::ball::elastic::ElasticGrooves::start): a ball's place and motion from nothing, at a start, a
-/// reversal, or a jump of the load; errors as of [`SCREW_RENEWAL`](super::SCREW_RENEWAL), which has to follow.
-pub const SCREW_START: Promise = Promise {
-    function: "ElasticGrooves::start",
-    cycles: 3100,
-    counted: &["ball_screw_start"],
-    ..super::steps::SCREW_RENEWAL
+/// [`DeviationMap::at`](crate::DeviationMap::at): a step looks the same table up in integers, at places that it renews.
+pub const DEVIATION_MAP: Promise = Promise {
+    function: "DeviationMap::at",
+    domain: "one wave in a period",
+    error: "over its amplitude",
+    largest: 1.3e-3,
+    rms: 6.5e-4,
+    mean: 1e-5,
+    outside: "every phase is inside; 5e-3 for two waves, 0.08 for eight",
+    not_finite: "phases are integers",
+    tiny: "no deviation: 0",
+    cycles: 21,
+    counted: &["deviation_map"],
+};
+
+/// [`AnalyticLinearBall::speed_deviation`](crate::ball::AnalyticLinearBall::speed_deviation).
+pub const ANALYTIC_BALL: Promise = Promise {
+    function: "AnalyticLinearBall::speed_deviation",
+    domain: "side-force ratios to 0.8, contact angles within 3 deg of each other",
+    error: "speed deviation over v/2",
+    largest: 1.5e-2,
+    rms: 2e-3,
+    mean: 1e-3,
+    outside: "from a ratio of 0.88 on it misses two-point rolling, which its scene flags",
+    not_finite: "angles: deviation 0; forces: no load",
+    tiny: "no load: the compliance of 3e-14 N",
+    cycles: 122,
+    counted: &["linear_ball_speed"],
+};
+
+/// [`Train::step`](crate::train::Train::step): forces between balls and their positions from speeds and impedances in a list. A
+/// step of a scene hands them over ball by ball, by the same phases.
+pub const TRAIN: Promise = Promise {
+    function: "Train::step",
+    domain: "rows of touching balls; cycles for 37 balls",
+    cycles: 4500,
+    counted: &["train_37"],
+    ..PRESS
+};
+
+/// [`Press::solve`](crate::train::Press::solve).
+pub const PRESS: Promise = Promise {
+    function: "Press::solve",
+    domain: "2 to 64 balls, impedances that differ by up to 1e6; cycles for 37 balls",
+    error: "force over the largest force",
+    largest: 2e-6,
+    rms: 4e-7,
+    mean: 1e-7,
+    outside: "1e-5 for impedances up to 1e12; free speeds beyond 1 or impedances beyond 1e-9 to 1e9: no forces, and it says so",
+    not_finite: "free speeds and impedances as outside; rooms that are NaN: no contact",
+    tiny: "rooms up to 0: contact",
+    cycles: 7100,
+    counted: &["press_37"],
 };

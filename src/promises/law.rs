@@ -30,6 +30,21 @@ pub const MEMORY_LOAD_EXACT: Promise = Promise {
     ..MEMORY
 };
 
+/// [`PreloadedElements`](crate::law::memory::PreloadedElements) of these, under the load that both flanks share; errors against
+/// the same elements in f64 under the exact sum of both flanks.
+pub const MEMORY_PRELOADED: Promise = Promise {
+    function: "PreloadedElements<LoadExactElements>: follow",
+    domain: "turns of 1e-6 to 10 breakaway angles, limits to 4 times the reference, loads of 1 to 4 times that without an axial load, eight elements; cycles for ten",
+    error: "friction over the reference limit, against the same elements in f64 under the exact load of both flanks",
+    largest: 1e-2,
+    rms: 1e-3,
+    mean: 1e-4,
+    tiny: "no limit: no friction; no turn: what is remembered, within the limits",
+    cycles: 480,
+    counted: &["memory_preloaded_10"],
+    ..MEMORY_LOAD_EXACT
+};
+
 /// [`SeatElement`](crate::law::memory::SeatElement).
 pub const MEMORY_SEAT: Promise = Promise {
     function: "SeatElement: follow",
@@ -40,6 +55,16 @@ pub const MEMORY_SEAT: Promise = Promise {
     mean: 2e-8,
     cycles: 210,
     counted: &["memory_seat"],
+    ..MEMORY
+};
+
+/// [`Together`](crate::law::memory::Together): both kinds, side by side.
+pub const MEMORY_TOGETHER: Promise = Promise {
+    function: "Together: follow",
+    domain: "turns of 1e-6 to 10 breakaway angles, limits to 3 times the reference, elements of a table beside others or a seat; cycles for four beside six",
+    error: "friction over the reference limit, against the same elements in f64, from the same place of a seat",
+    cycles: 250,
+    counted: &["memory_together_10"],
     ..MEMORY
 };
 
@@ -71,6 +96,35 @@ pub const TURN_OF_ANGLES: Promise = Promise {
     tiny: "no difference: no turn",
     cycles: 70,
     counted: &["turn_of_angles"],
+};
+
+/// [`SpeedOverTick`](crate::law::motion::SpeedOverTick): the turn of a tick from a speed.
+pub const TURN_OF_SPEED: Promise = Promise {
+    function: "SpeedOverTick: turn",
+    domain: "every speed and tick, up to the largest turn",
+    error: "turn, relative",
+    largest: 6e-8,
+    rms: 3e-8,
+    mean: 1e-9,
+    outside: "beyond the largest turn: that, and it says so",
+    not_finite: "NaN: no reading, and it says so; infinity: the largest turn, and it says so",
+    tiny: "no speed: no turn",
+    cycles: 30,
+    counted: &["turn_of_speed"],
+};
+
+/// [`Steady`](crate::law::motion::Steady) around a [`CountSensor`](crate::law::motion::CountSensor): the turn between two counts
+/// behind a play.
+pub const TURN_STEADY: Promise = Promise {
+    function: "Steady<CountSensor>: turn",
+    domain: "turns to twice the play, from the same place in f64",
+    error: "turn over the play",
+    outside: "a count beyond the period: no reading, and it says so; beyond the largest turn: that less what the play takes, and it says so",
+    not_finite: "counts are integers",
+    tiny: "no count: no turn",
+    cycles: 100,
+    counted: &["turn_steady"],
+    ..PLAY
 };
 
 /// [`Play::follow`](crate::law::motion::Play::follow).

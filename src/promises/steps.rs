@@ -1,8 +1,12 @@
-//! Every `step()`, and every function that a step calls beside the scalar kernels.
+//! Every `step()` and `between()`, and the functions of a ball that a step calls.
+//!
+//! A step contains more than the functions that stand in the table: what is private and inlined has no cost of its own. The
+//! entry of the step names it, and its cycles count it.
 
 use super::promise::Promise;
 
-/// [`FrictionModel::step`](crate::FrictionModel::step) of a [`CagedBallScrew`](crate::CagedBallScrew).
+/// [`FrictionModel::step`](crate::FrictionModel::step) of a [`CagedBallScrew`](crate::CagedBallScrew): the law of a ball's
+/// friction over its load (`LoadLaws::at`), and the passage through standstill with its square root.
 pub const STEP_CAGED: Promise = Promise {
     function: "CagedBallScrew: step",
     domain: "diameters to 63 mm, friction 0.05 to 0.15, clearance -5 to 5 um, 5 to 300 N a ball, both signs",
@@ -18,7 +22,8 @@ pub const STEP_CAGED: Promise = Promise {
 };
 
 /// [`FrictionModel::step`](crate::FrictionModel::step) of a [`CagedBallScrew`](crate::CagedBallScrew) whose friction
-/// coefficient or clearance has been set while running.
+/// coefficient or clearance has been set while running: one [`ElasticGrooves::renew`](crate::ball::elastic::ElasticGrooves::renew)
+/// in the place of the law, or one [`ElasticGrooves::start`](crate::ball::elastic::ElasticGrooves::start) after a jump of the load.
 pub const STEP_CAGED_CHANGING: Promise = Promise {
     function: "CagedBallScrew: step, friction changing",
     outside: "beyond a limit: the limit, flagged; some ticks after a jump flagged",
@@ -28,8 +33,24 @@ pub const STEP_CAGED_CHANGING: Promise = Promise {
     ..STEP_CAGED
 };
 
+/// [`FrictionModel::step`](crate::FrictionModel::step) of a [`CagedBallScrew`](crate::CagedBallScrew) whose friction is that of a
+/// closed form ([`FrictionBranch`](crate::FrictionBranch)); errors are those of computing the form.
+pub const STEP_CAGED_CLOSED: Promise = Promise {
+    function: "CagedBallScrew: step, closed form",
+    domain: "31 catalogue sizes and 3 designs, both closed forms, friction 0.075, to 15 kN and 200 rad/s, both signs",
+    error: "friction torque of the form, relative",
+    largest: 4e-7,
+    rms: 1.4e-7,
+    mean: 3e-8,
+    outside: "beyond a limit: the limit, flagged; a load that no torque drives: the largest torque, flagged",
+    cycles: 330,
+    counted: &["step_caged_closed"],
+    ..STEP_CAGED
+};
+
 /// [`FrictionModel::step`](crate::FrictionModel::step) of a [`CagedBallScrew`](crate::CagedBallScrew)
-/// [`WithMemory`](crate::scene::WithMemory): eight elements, one friction coefficient.
+/// [`WithMemory`](crate::scene::WithMemory): eight elements that turn with a speed, one friction coefficient. It is the law over
+/// the load for both directions, and what the table has of elements, sensor and play.
 pub const STEP_CAGED_MEMORY: Promise = Promise {
     function: "WithMemory<CagedBallScrew>: step",
     outside: "beyond a limit: the limit, flagged; balls in two contacts flagged; old loads fade, flagged",
@@ -40,7 +61,9 @@ pub const STEP_CAGED_MEMORY: Promise = Promise {
     ..STEP_CAGED
 };
 
-/// The same with a friction coefficient by speed and temperature.
+/// The same with a friction coefficient by speed and temperature: that of both directions
+/// ([`both`](crate::law::coefficient::CoefficientAtTemperature::both)), at a new temperature in every tick, and laws over the load
+/// for two more coefficients.
 pub const STEP_CAGED_LAW: Promise = Promise {
     function: "WithMemory<CagedBallScrew>: step, coefficient by a law",
     domain: "as without memory; friction coefficient 0.05 to 0.12 by speed and temperature",
@@ -60,22 +83,11 @@ pub const BETWEEN: Promise = Promise {
     ..STEP_CAGED_MEMORY
 };
 
-/// [`FrictionModel::set_friction`](crate::FrictionModel::set_friction) of 37 balls.
-pub const SET_FRICTION: Promise = Promise {
-    function: "UncagedBallScrew: set_friction",
-    domain: "37 balls, friction 0.05 to 0.15",
-    error: "none: balls take it over as their turn comes",
-    largest: 0.0,
-    rms: 0.0,
-    mean: 0.0,
-    outside: "an error that names the field; the model goes on as it was",
-    not_finite: "an error",
-    tiny: "an error below 1e-6",
-    cycles: 200,
-    counted: &["set_friction_37"],
-};
-
-/// [`FrictionModel::step`](crate::FrictionModel::step) of an [`UncagedBallScrew`](crate::UncagedBallScrew).
+/// [`FrictionModel::step`](crate::FrictionModel::step) of an [`UncagedBallScrew`](crate::UncagedBallScrew): one
+/// [`ElasticGrooves::renew`](crate::ball::elastic::ElasticGrooves::renew), for which the deviations of both grooves at one place are
+/// looked up in integers; at a reversal or a jump of the load one
+/// [`ElasticGrooves::start`](crate::ball::elastic::ElasticGrooves::start) in its place; speed and impedance of every ball, and the
+/// forces between them (`Train::intake`, `Intake::press`).
 pub const STEP_UNCAGED: Promise = Promise {
     function: "UncagedBallScrew: step",
     domain: "screw of Lin 2019, Section 3.4.4, deviations of 2 to 3 deg; cycles for 37 balls",
@@ -90,7 +102,36 @@ pub const STEP_UNCAGED: Promise = Promise {
     counted: &["step_train_37", "step_train_37_pressing"],
 };
 
-/// [`FrictionModel::step`](crate::FrictionModel::step) of a [`LinearBearingTrain`](crate::LinearBearingTrain).
+/// [`FrictionModel::step`](crate::FrictionModel::step) of an [`UncagedBallScrew`](crate::UncagedBallScrew)
+/// [`WithMemory`](crate::scene::WithMemory): eight elements that turn with an encoder's counts; one friction coefficient, or one by
+/// speed and temperature.
+pub const STEP_UNCAGED_MEMORY: Promise = Promise {
+    function: "WithMemory<UncagedBallScrew>: step",
+    domain: "as without memory, in steady sliding; one friction coefficient, or by a law; cycles for 37 balls",
+    outside: "beyond a limit: the limit, flagged; balls in two contacts flagged, if for long until all have passed the return; old loads fade, flagged",
+    not_finite: "the last sound inputs, friction within their limits, flagged",
+    tiny: "no turn: friction stays; loads to 1e-3 N a ball as 1e-3 N",
+    cycles: 18_000,
+    counted: &[
+        "step_train_37_memory",
+        "step_train_37_memory_pressing",
+        "step_train_37_law",
+    ],
+    ..STEP_UNCAGED
+};
+
+/// [`FrictionModel::between`](crate::FrictionModel::between) of the same.
+pub const BETWEEN_UNCAGED: Promise = Promise {
+    function: "WithMemory<UncagedBallScrew>: between",
+    cycles: 430,
+    counted: &["between_train_37"],
+    ..STEP_UNCAGED_MEMORY
+};
+
+/// [`FrictionModel::step`](crate::FrictionModel::step) of a [`LinearBearingTrain`](crate::LinearBearingTrain): the closed form of a
+/// nominal ball once (`AnalyticLinearBall::closed_form`), groove friction with the border of two-point rolling
+/// (`GrooveFriction::at`), the deviations of both grooves at every loaded ball in integers, and the forces between balls
+/// (`Train::intake`, `Intake::press`).
 pub const STEP_LINEAR: Promise = Promise {
     function: "LinearBearingTrain: step",
     domain: "bearing of Lin 2019, Table 3.3, side loads to 0.5 of the normal load, straight grooves; cycles for 24 balls",
@@ -105,38 +146,29 @@ pub const STEP_LINEAR: Promise = Promise {
     counted: &["step_linear"],
 };
 
-/// [`DeviationMap::at`](crate::DeviationMap::at), which a step calls twice for each loaded ball, in integers.
-pub const DEVIATION_MAP: Promise = Promise {
-    function: "DeviationMap::at",
-    domain: "one wave in a period",
-    error: "over its amplitude",
-    largest: 1.3e-3,
-    rms: 6.5e-4,
-    mean: 1e-5,
-    outside: "every phase is inside; 5e-3 for two waves, 0.08 for eight",
-    not_finite: "phases are integers",
-    tiny: "no deviation: 0",
-    cycles: 21,
-    counted: &["deviation_map"],
+/// [`FrictionModel::step`](crate::FrictionModel::step) of a [`LinearBearingTrain`](crate::LinearBearingTrain)
+/// [`WithMemory`](crate::scene::WithMemory): eight elements that move with a speed, one friction coefficient.
+pub const STEP_LINEAR_MEMORY: Promise = Promise {
+    function: "WithMemory<LinearBearingTrain>: step",
+    outside: "beyond a limit: the limit, flagged; near two-point rolling the best estimate, flagged; old loads fade, flagged",
+    not_finite: "the last sound inputs, friction within their limits, flagged",
+    tiny: "no way: friction stays",
+    cycles: 3800,
+    counted: &["step_linear_memory"],
+    ..STEP_LINEAR
 };
 
-/// [`AnalyticLinearBall::speed_deviation`](crate::ball::AnalyticLinearBall::speed_deviation).
-pub const ANALYTIC_BALL: Promise = Promise {
-    function: "AnalyticLinearBall::speed_deviation",
-    domain: "side-force ratios to 0.8, contact angles within 3 deg of each other",
-    error: "speed deviation over v/2",
-    largest: 1.5e-2,
-    rms: 2e-3,
-    mean: 1e-3,
-    outside: "from a ratio of 0.88 on it misses two-point rolling, which its scene flags",
-    not_finite: "angles: deviation 0; forces: no load",
-    tiny: "no load: the compliance of 3e-14 N",
-    cycles: 122,
-    counted: &["linear_ball_speed"],
+/// [`FrictionModel::between`](crate::FrictionModel::between) of the same.
+pub const BETWEEN_LINEAR: Promise = Promise {
+    function: "WithMemory<LinearBearingTrain>: between",
+    cycles: 380,
+    counted: &["between_linear"],
+    ..STEP_LINEAR_MEMORY
 };
 
 /// [`ElasticGrooves::renew`](crate::ball::elastic::ElasticGrooves::renew): one Newton step of a ball's place and motion; errors are
-/// those of balls that have settled.
+/// those of balls that have settled. It contains friction of up to four contacts (`LoopSlipMap::at`, with pairs of square roots), the
+/// solution of seven equations, and inverse cube roots of the load.
 pub const SCREW_RENEWAL: Promise = Promise {
     function: "ElasticGrooves::renew",
     domain: "balls of catalogue screws in three or four contacts, 5 to 300 N, friction 0.05 to 0.15, clearance within 5 um, deviations to 3 deg",
@@ -151,26 +183,11 @@ pub const SCREW_RENEWAL: Promise = Promise {
     counted: &["ball_screw_renewal"],
 };
 
-/// [`Train::step`](crate::train::Train::step): forces between balls and their positions, as every step of a train finds them.
-pub const TRAIN: Promise = Promise {
-    function: "Train::step",
-    domain: "rows of touching balls; cycles for 37 balls",
-    cycles: 4500,
-    counted: &["train_37"],
-    ..PRESS
-};
-
-/// [`Press::solve`](crate::train::Press::solve).
-pub const PRESS: Promise = Promise {
-    function: "Press::solve",
-    domain: "2 to 64 balls, impedances that differ by up to 1e6; cycles for 37 balls",
-    error: "force over the largest force",
-    largest: 2e-6,
-    rms: 4e-7,
-    mean: 1e-7,
-    outside: "1e-5 for impedances up to 1e12; free speeds beyond 1 or impedances beyond 1e-9 to 1e9: no forces, and it says so",
-    not_finite: "free speeds and impedances as outside; rooms that are NaN: no contact",
-    tiny: "rooms up to 0: contact",
-    cycles: 7100,
-    counted: &["press_37"],
+/// [`ElasticGrooves::start`](crate::ball::elastic::ElasticGrooves::start): a ball's place and motion from nothing, at a start, a
+/// reversal, or a jump of the load; errors as of [`SCREW_RENEWAL`], which has to follow.
+pub const SCREW_START: Promise = Promise {
+    function: "ElasticGrooves::start",
+    cycles: 3100,
+    counted: &["ball_screw_start"],
+    ..SCREW_RENEWAL
 };

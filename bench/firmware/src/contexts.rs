@@ -18,11 +18,12 @@ use epas_friction::kinematics::{ContactKinematics, KinematicsParameters};
 use epas_friction::law::Elements;
 use epas_friction::law::coefficient::{CoefficientAtTemperature, CoefficientLaw};
 use epas_friction::law::memory::{
-    LoadExactElements, MemoryState, Part, ProportionalElements, SLIP_8, SeatElement, SeatState,
+    BackboneElement, LoadExactElements, MemoryState, Part, PreloadedElements, ProportionalElements,
+    SLIP_6, SLIP_8, SPIN_4, SeatElement, SeatState, Together, TogetherState,
 };
 use epas_friction::law::motion::{
     AngleReading, CountReading, CountSensor, CountSensorParameters, NutAngle, Play, PlayState,
-    WrappedAngle, WrappedAngleParameters,
+    SpeedOverTick, Steady, SteadyReading, WrappedAngle, WrappedAngleParameters,
 };
 use epas_friction::refined::{
     BallChain, BallState, FourPointBall, RotaryBall, RotaryBallParameters,
@@ -34,8 +35,9 @@ use epas_friction::{
 };
 
 use crate::peers::{LuGre, Stribeck};
+use crate::remembering::{self, Carriage, FEWER, Gear, GearByLaw};
 use crate::scenes::{
-    BALLS, CagedByLaw, CagedMemory, ROW, SCREW_DEVIATION, caged_configuration,
+    BALLS, CagedByLaw, CagedMemory, ROW, SCREW_DEVIATION, TICK, caged_configuration,
     caged_law_configuration, caged_memory_configuration, linear_configuration,
     uncaged_configuration,
 };
@@ -88,6 +90,8 @@ pub struct Contexts {
     pub caged_law: FrictionModel<CagedByLaw>,
     /// The same with a friction coefficient that changes.
     pub caged_changing: FrictionModel<CagedBallScrew>,
+    /// Caged ball screw with friction by a closed form.
+    pub caged_closed: FrictionModel<CagedBallScrew>,
     /// Deviation of contact angles along a groove.
     pub deviation: &'static DeviationMap,
     /// Balls of a ball screw in closed form.
@@ -106,6 +110,22 @@ pub struct Contexts {
     pub set: FrictionModel<UncagedBallScrew<BALLS>>,
     /// The same after turns under a falling load: most balls press on each other.
     pub pressing: FrictionModel<UncagedBallScrew<BALLS>>,
+    /// Ball screw without cage, with a memory and an encoder.
+    pub gear: FrictionModel<Gear>,
+    /// Its encoder's count.
+    pub gear_count: u32,
+    /// The same after turns under a falling load.
+    pub gear_pressing: FrictionModel<Gear>,
+    /// Its encoder's count.
+    pub gear_pressing_count: u32,
+    /// The same with a friction coefficient by speed and temperature.
+    pub gear_law: FrictionModel<GearByLaw>,
+    /// Its encoder's count.
+    pub gear_law_count: u32,
+    /// Ball screw with fewer balls, whose clearance is set.
+    pub fewer: FrictionModel<UncagedBallScrew<FEWER>>,
+    /// Linear bearing with a memory.
+    pub carriage_memory: FrictionModel<Carriage>,
     /// Linear bearing.
     pub carriage: FrictionModel<LinearBearingTrain<ROW>>,
     /// Elements in proportion.
@@ -116,6 +136,14 @@ pub struct Contexts {
     pub load_exact: LoadExactElements<8>,
     /// What they remember.
     pub load_exact_state: MemoryState<8>,
+    /// Elements that touch by the load of both flanks.
+    pub preloaded: PreloadedElements<LoadExactElements<10>>,
+    /// What they remember.
+    pub preloaded_state: MemoryState<10>,
+    /// Four elements beside six.
+    pub together: Together<ProportionalElements<4>, ProportionalElements<6>>,
+    /// What both remember.
+    pub together_state: TogetherState<MemoryState<4>, MemoryState<6>>,
     /// A seat with free play.
     pub seat: SeatElement,
     /// Where it is.
@@ -128,6 +156,12 @@ pub struct Contexts {
     pub angles: WrappedAngle,
     /// The last one.
     pub last_angle: AngleReading,
+    /// Speed over a tick.
+    pub speeds: SpeedOverTick,
+    /// Counts of an encoder behind a play.
+    pub steady: Steady<CountSensor>,
+    /// The last one.
+    pub last_steady: SteadyReading<CountReading>,
     /// A backlash.
     pub play: Play,
     /// Where it is.
@@ -190,6 +224,13 @@ impl Contexts {
         let rotary_nominal = [rotary_parameters.contact_angle; 4];
         let coefficient = CoefficientLaw::new(&black_box(defaults::COEFFICIENT))?;
         let screw_row = ScrewRow::new(&design, 0.1, GrooveFit::Zero)?;
+        let few = elements(&SPIN_4.elements)?;
+        let more = elements(&SLIP_6.elements)?;
+        let counts = CountSensor::new(CountSensorParameters {
+            period: black_box(16_384),
+            turn_per_count: core::f32::consts::TAU / 16_384.0,
+            largest_turn: 1.0,
+        })?;
         Ok(Self {
             clock,
             elapsed: 0,
@@ -216,6 +257,7 @@ impl Contexts {
             caged_memory: FrictionModel::new(&black_box(caged_memory_configuration()?))?,
             caged_law: FrictionModel::new(&black_box(caged_law_configuration()?))?,
             caged_changing: changing(FrictionModel::new(&black_box(caged_configuration()?))?)?,
+            caged_closed: FrictionModel::new(&black_box(remembering::closed_configuration()?))?,
             deviation: &SCREW_DEVIATION,
             screw_loop: screw_row.at(10.0, 100.0).per_speed(0.5, 2.0, (1.0, 1.0)),
             screw_row,
@@ -225,25 +267,33 @@ impl Contexts {
             uncaged: FrictionModel::new(&black_box(uncaged_configuration()?))?,
             set: FrictionModel::new(&black_box(uncaged_configuration()?))?,
             pressing: pressing(FrictionModel::new(&black_box(uncaged_configuration()?))?),
-            carriage: FrictionModel::new(&black_box(linear_configuration()?))?,
-            proportional: ProportionalElements::new(
-                black_box(0.04),
-                &[Part {
-                    backbone: &SLIP_8.elements,
-                    share: 1.0,
-                    breakaway_angle: 2e-3,
-                }],
+            gear: FrictionModel::new(&black_box(remembering::gear_configuration()?))?,
+            gear_count: 0,
+            gear_pressing: remembering::pressing(FrictionModel::new(&black_box(
+                remembering::gear_configuration()?,
+            ))?),
+            gear_pressing_count: remembering::PRESSING_COUNT,
+            gear_law: FrictionModel::new(&black_box(remembering::gear_law_configuration()?))?,
+            gear_law_count: 0,
+            fewer: FrictionModel::new(&black_box(uncaged_configuration()?))?,
+            carriage_memory: FrictionModel::new(
+                &black_box(remembering::carriage_configuration()?),
             )?,
+            carriage: FrictionModel::new(&black_box(linear_configuration()?))?,
+            proportional: elements(&SLIP_8.elements)?,
             proportional_state: ProportionalElements::VIRGIN,
             load_exact: LoadExactElements::new(black_box(0.04), 2e-3, 4.0)?,
             load_exact_state: LoadExactElements::VIRGIN,
+            preloaded: PreloadedElements::new(LoadExactElements::new(black_box(0.04), 2e-3, 4.0)?),
+            preloaded_state: LoadExactElements::VIRGIN,
+            together: Together::new(few, more, black_box(0.3))?,
+            together_state: TogetherState {
+                first: ProportionalElements::VIRGIN,
+                second: ProportionalElements::VIRGIN,
+            },
             seat: SeatElement::new(black_box(0.04), 1e-3, 2e-3)?,
             seat_state: SeatElement::VIRGIN,
-            counts: CountSensor::new(CountSensorParameters {
-                period: black_box(16_384),
-                turn_per_count: core::f32::consts::TAU / 16_384.0,
-                largest_turn: 1.0,
-            })?,
+            counts,
             last_count: CountSensor::FRESH,
             angles: WrappedAngle::new(WrappedAngleParameters {
                 lowest: black_box(0.0),
@@ -251,6 +301,9 @@ impl Contexts {
                 largest_turn: 1.0,
             })?,
             last_angle: WrappedAngle::FRESH,
+            speeds: SpeedOverTick::new(black_box(TICK), 1.0)?,
+            steady: Steady::new(counts, black_box(1e-3))?,
+            last_steady: Steady::<CountSensor>::FRESH,
             play: Play::new(black_box(1e-3))?,
             play_state: PlayState::FRESH,
             lugre: black_box(LuGre {
@@ -267,6 +320,20 @@ impl Contexts {
             }),
         })
     }
+}
+
+/// Elements in proportion, of a table.
+fn elements<const N: usize>(
+    backbone: &'static [BackboneElement],
+) -> Result<ProportionalElements<N>, Error> {
+    ProportionalElements::new(
+        black_box(0.04),
+        &[Part {
+            backbone,
+            share: 1.0,
+            breakaway_angle: 2e-3,
+        }],
+    )
 }
 
 /// Levels, drag, offset and the load's gain every 10 ms.

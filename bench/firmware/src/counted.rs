@@ -21,21 +21,24 @@ use epas_friction::hertz::{ContactEllipse, HertzContact};
 use epas_friction::kinematics::{BallKinematics, ContactKinematics, EllipticContact, SlipRatios};
 use epas_friction::law::coefficient::{CoefficientAtTemperature, CoefficientLaw};
 use epas_friction::law::memory::{
-    LoadExactElements, MemoryState, ProportionalElements, SeatElement, SeatState,
+    LoadExactElements, MemoryState, PreloadedElements, ProportionalElements, SeatElement,
+    SeatState, Together, TogetherState,
 };
 use epas_friction::law::motion::{
-    AngleReading, CountReading, CountSensor, NutAngle, Play, PlayState, WrappedAngle,
+    AngleReading, CountReading, CountSensor, NutAngle, Play, PlayState, SpeedOverTick, Steady,
+    SteadyReading, WrappedAngle,
 };
 use epas_friction::law::{Elements, SlidingLimits};
 use epas_friction::refined::{BallChain, BallState, FourPointBall, RotaryBall};
 use epas_friction::scene::WithMemoryInputs;
 use epas_friction::train::{Press, Train};
 use epas_friction::{
-    CagedBallScrew, DeviationMap, FrictionModel, Inputs, LinearBearingTrain, LinearInputs,
-    LinearOutputs, LoadShare, Outputs, UncagedBallScrew, UncagedOutputs, math,
+    CagedBallScrew, Clearance, DeviationMap, FrictionModel, Inputs, LinearBearingTrain,
+    LinearInputs, LinearOutputs, LoadShare, Outputs, UncagedBallScrew, UncagedOutputs, math,
 };
 
 use crate::peers::{LuGre, Stribeck};
+use crate::remembering::{Carriage, FEWER, Gear, GearByLaw};
 use crate::scenes::{BALLS, CagedByLaw, CagedMemory, EfficiencyStep, ROW, efficiency_step};
 
 /// Angles and forces of four contacts.
@@ -258,6 +261,32 @@ counted! {
         model.step(Inputs { nut_speed, axial_load })
     }
 
+    /// One tick of a caged ball screw with friction by a closed form.
+    fn count_step_caged_closed(
+        model: &mut FrictionModel<CagedBallScrew>, nut_speed: f32, axial_load: f32
+    ) -> Outputs {
+        model.step(Inputs { nut_speed, axial_load })
+    }
+
+    /// The first new friction coefficient of a caged ball screw, which turns from its law to balls.
+    fn count_set_friction_caged(model: &mut FrictionModel<CagedBallScrew>, friction: f32) -> bool {
+        model.set_friction(friction).is_ok()
+    }
+
+    /// The first new clearance of a caged ball screw.
+    fn count_set_clearance_caged(
+        model: &mut FrictionModel<CagedBallScrew>, clearance: &Clearance
+    ) -> bool {
+        model.set_clearance(*clearance).is_ok()
+    }
+
+    /// A new clearance of balls that run.
+    fn count_set_clearance_uncaged(
+        model: &mut FrictionModel<UncagedBallScrew<FEWER>>, clearance: &Clearance
+    ) -> bool {
+        model.set_clearance(*clearance).is_ok()
+    }
+
     /// One tick of elements in proportion.
     fn count_memory_8(
         elements: &ProportionalElements<8>, state: &mut MemoryState<8>, turn: f32, limits: &SlidingLimits
@@ -270,6 +299,21 @@ counted! {
         elements: &LoadExactElements<8>, state: &mut MemoryState<8>, turn: f32, limits: &SlidingLimits
     ) -> f32 {
         elements.follow(state, turn, limits)
+    }
+
+    /// One tick of elements that touch by the load of both flanks.
+    fn count_memory_preloaded_10(
+        elements: &PreloadedElements<LoadExactElements<10>>, state: &mut MemoryState<10>, turn: f32, limits: &SlidingLimits
+    ) -> f32 {
+        elements.follow(state, turn, limits)
+    }
+
+    /// One tick of four elements beside six.
+    fn count_memory_together_10(
+        both: &Together<ProportionalElements<4>, ProportionalElements<6>>,
+        state: &mut TogetherState<MemoryState<4>, MemoryState<6>>, turn: f32, limits: &SlidingLimits
+    ) -> f32 {
+        both.follow(state, turn, limits)
     }
 
     /// One tick of a seat.
@@ -286,6 +330,18 @@ counted! {
 
     /// Turn between two angles.
     fn count_turn_of_angles(sensor: &WrappedAngle, last: &mut AngleReading, reading: f32) -> f32 {
+        sensor.turn(last, reading).angle()
+    }
+
+    /// Turn from a speed.
+    fn count_turn_of_speed(sensor: &SpeedOverTick, reading: f32) -> f32 {
+        sensor.turn(&mut (), reading).angle()
+    }
+
+    /// Turn between two counts behind a play.
+    fn count_turn_steady(
+        sensor: &Steady<CountSensor>, last: &mut SteadyReading<CountReading>, reading: u32
+    ) -> f32 {
         sensor.turn(last, reading).angle()
     }
 
@@ -349,6 +405,44 @@ counted! {
         model: &mut FrictionModel<UncagedBallScrew<BALLS>>, nut_speed: f32, axial_load: f32
     ) -> UncagedOutputs {
         model.step(Inputs { nut_speed, axial_load })
+    }
+
+    /// One tick of 37 balls without cage with a memory.
+    fn count_step_train_37_memory(
+        model: &mut FrictionModel<Gear>, inputs: &WithMemoryInputs<Inputs, u32>
+    ) -> UncagedOutputs {
+        model.step(*inputs)
+    }
+
+    /// The same, where most balls press on each other.
+    fn count_step_train_37_memory_pressing(
+        model: &mut FrictionModel<Gear>, inputs: &WithMemoryInputs<Inputs, u32>
+    ) -> UncagedOutputs {
+        model.step(*inputs)
+    }
+
+    /// The same with a friction coefficient by speed and temperature.
+    fn count_step_train_37_law(
+        model: &mut FrictionModel<GearByLaw>, inputs: &WithMemoryInputs<Inputs, u32>
+    ) -> UncagedOutputs {
+        model.step(*inputs)
+    }
+
+    /// Friction between two of its steps.
+    fn count_between_train_37(model: &mut FrictionModel<Gear>, reading: u32) -> UncagedOutputs {
+        model.between(reading)
+    }
+
+    /// One tick of a linear bearing with a memory.
+    fn count_step_linear_memory(
+        model: &mut FrictionModel<Carriage>, inputs: &WithMemoryInputs<LinearInputs, f32>
+    ) -> LinearOutputs {
+        model.step(*inputs)
+    }
+
+    /// Friction between two of its steps.
+    fn count_between_linear(model: &mut FrictionModel<Carriage>, reading: f32) -> LinearOutputs {
+        model.between(reading)
     }
 
     /// One tick of a linear bearing.

@@ -14,6 +14,7 @@ pub mod friction_task;
 pub mod inputs;
 pub mod numbers;
 pub mod peers;
+pub mod remembering;
 pub mod scenes;
 pub mod spread;
 pub mod subjects;

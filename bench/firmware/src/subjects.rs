@@ -8,26 +8,31 @@ use epas_friction::ball::elastic::BallInputs;
 use epas_friction::kinematics::EllipticContact;
 use epas_friction::law::{FrictionLevel, SlidingLimits};
 use epas_friction::scene::WithMemoryInputs;
-use epas_friction::{Faults, LoadShare, Regime};
+use epas_friction::{Clearance, Faults, LoadShare, Regime};
 
 use crate::contexts::Contexts;
 use crate::counted::{
     FourContacts, count_adaptation_update, count_ball_screw_ball, count_ball_screw_renewal,
-    count_ball_screw_row, count_ball_screw_start, count_between_caged, count_cbrt,
-    count_cbrt_and_squared, count_cbrt_squared, count_curvature_circular_groove,
-    count_curvature_exact, count_curvature_fitted, count_curvature_literature, count_deviation_map,
-    count_efficiency_backdrive, count_efficiency_rolling, count_efficiency_sliding,
-    count_friction_coefficient, count_friction_coefficient_warming, count_friction_dissipation,
-    count_friction_map, count_hertz_ellipse, count_idsp_sin_cos, count_kinematics_ratios,
-    count_kinematics_tick, count_kinematics_update, count_libm_cbrtf, count_libm_cosf,
-    count_libm_powf, count_libm_sincosf, count_libm_sqrtf, count_linear_ball_analytic,
-    count_linear_ball_refined, count_linear_ball_speed, count_linear_chain_2, count_lugre_step,
-    count_memory_8, count_memory_load_exact_8, count_memory_seat, count_micromath_cos,
-    count_micromath_powf, count_micromath_sqrt, count_play, count_press_37,
-    count_rotary_ball_refined, count_set_friction_37, count_sin_cos, count_sqrt, count_step_caged,
-    count_step_caged_changing, count_step_caged_law, count_step_caged_memory,
-    count_step_efficiency, count_step_linear, count_step_train_37, count_step_train_37_pressing,
+    count_ball_screw_row, count_ball_screw_start, count_between_caged, count_between_linear,
+    count_between_train_37, count_cbrt, count_cbrt_and_squared, count_cbrt_squared,
+    count_curvature_circular_groove, count_curvature_exact, count_curvature_fitted,
+    count_curvature_literature, count_deviation_map, count_efficiency_backdrive,
+    count_efficiency_rolling, count_efficiency_sliding, count_friction_coefficient,
+    count_friction_coefficient_warming, count_friction_dissipation, count_friction_map,
+    count_hertz_ellipse, count_idsp_sin_cos, count_kinematics_ratios, count_kinematics_tick,
+    count_kinematics_update, count_libm_cbrtf, count_libm_cosf, count_libm_powf,
+    count_libm_sincosf, count_libm_sqrtf, count_linear_ball_analytic, count_linear_ball_refined,
+    count_linear_ball_speed, count_linear_chain_2, count_lugre_step, count_memory_8,
+    count_memory_load_exact_8, count_memory_preloaded_10, count_memory_seat,
+    count_memory_together_10, count_micromath_cos, count_micromath_powf, count_micromath_sqrt,
+    count_play, count_press_37, count_rotary_ball_refined, count_set_clearance_caged,
+    count_set_clearance_uncaged, count_set_friction_37, count_set_friction_caged, count_sin_cos,
+    count_sqrt, count_step_caged, count_step_caged_changing, count_step_caged_closed,
+    count_step_caged_law, count_step_caged_memory, count_step_efficiency, count_step_linear,
+    count_step_linear_memory, count_step_train_37, count_step_train_37_law,
+    count_step_train_37_memory, count_step_train_37_memory_pressing, count_step_train_37_pressing,
     count_stribeck_curve, count_train_37, count_turn_of_angles, count_turn_of_counts,
+    count_turn_of_speed, count_turn_steady,
 };
 use crate::inputs::{
     SPECIAL, adaptation, angle, contact_angle, four_contacts, impedances, memory, pair, positive,
@@ -36,7 +41,8 @@ use crate::inputs::{
 use crate::numbers::{
     adapted, all, linear_outputs, motion, outputs, screw_ball, two, uncaged_outputs,
 };
-use crate::scenes::{BALLS, EfficiencyStep, remembered};
+use crate::remembering::{carriage_inputs, counted_inputs, counted_on};
+use crate::scenes::{BALLS, EfficiencyStep, TICK, remembered};
 use crate::spread::Spread;
 
 /// Most inputs and most outputs that a function has.
@@ -303,6 +309,31 @@ subjects! {
             let done = timed!(c, count_set_friction_37(model, friction));
             [f32::from(u8::from(done))]
         };
+    step_caged_closed: |spread| -> [2] tick(spread),
+        |c, [nut_speed, axial_load]| -> [4] {
+            let model = black_box(&mut c.caged_closed);
+            outputs(&timed!(c, count_step_caged_closed(model, nut_speed, axial_load)))
+        };
+    set_friction_caged: |spread| -> [1] [spread.between(0.05, 0.15)],
+        |c, [friction]| -> [1] {
+            let mut model = black_box(c.caged);
+            let done = timed!(c, count_set_friction_caged(&mut model, friction));
+            [f32::from(u8::from(done))]
+        };
+    set_clearance_caged: |spread| -> [1] [spread.between(-5e-6, 5e-6)],
+        |c, [gap]| -> [1] {
+            let mut model = black_box(c.caged);
+            let clearance = black_box(Clearance::new(gap).unwrap_or(Clearance::ZERO));
+            let done = timed!(c, count_set_clearance_caged(&mut model, &clearance));
+            [f32::from(u8::from(done))]
+        };
+    set_clearance_uncaged: |spread| -> [1] [spread.between(-5e-6, 5e-6)],
+        |c, [gap]| -> [1] {
+            let clearance = black_box(Clearance::new(gap).unwrap_or(Clearance::ZERO));
+            let model = black_box(&mut c.fewer);
+            let done = timed!(c, count_set_clearance_uncaged(model, &clearance));
+            [f32::from(u8::from(done))]
+        };
     memory_8: |spread| -> [3] memory(spread),
         |c, [turn, forward, backward]| -> [1] {
             let limits = black_box(SlidingLimits { forward, backward, load: 1.0 });
@@ -318,6 +349,22 @@ subjects! {
             let limits = black_box(SlidingLimits { forward, backward, load });
             let state = black_box(&mut c.load_exact_state);
             [timed!(c, count_memory_load_exact_8(black_box(&c.load_exact), state, turn, &limits))]
+        };
+    memory_preloaded_10: |spread| -> [4] {
+            let load = spread.between(1.0, 4.0);
+            let [turn, forward, backward] = memory(spread);
+            [turn, forward, backward, load]
+        },
+        |c, [turn, forward, backward, load]| -> [1] {
+            let limits = black_box(SlidingLimits { forward, backward, load });
+            let state = black_box(&mut c.preloaded_state);
+            [timed!(c, count_memory_preloaded_10(black_box(&c.preloaded), state, turn, &limits))]
+        };
+    memory_together_10: |spread| -> [3] memory(spread),
+        |c, [turn, forward, backward]| -> [1] {
+            let limits = black_box(SlidingLimits { forward, backward, load: 1.0 });
+            let state = black_box(&mut c.together_state);
+            [timed!(c, count_memory_together_10(black_box(&c.together), state, turn, &limits))]
         };
     memory_seat: |spread| -> [3] memory(spread),
         |c, [turn, forward, backward]| -> [1] {
@@ -337,6 +384,16 @@ subjects! {
         |c, [reading]| -> [1] {
             let last = black_box(&mut c.last_angle);
             [timed!(c, count_turn_of_angles(black_box(&c.angles), last, reading))]
+        };
+    turn_of_speed: |spread| -> [1] {
+            let speed = spread.between(-2000.0, 2000.0);
+            [spread.special(&[0.0, f32::NAN, f32::INFINITY], SPECIAL).unwrap_or(speed)]
+        },
+        |c, [speed]| -> [1] [timed!(c, count_turn_of_speed(black_box(&c.speeds), speed))];
+    turn_steady: |spread| -> [1] [spread.between(0.0, 16_400.0)],
+        |c, [reading]| -> [1] {
+            let last = black_box(&mut c.last_steady);
+            [timed!(c, count_turn_steady(black_box(&c.steady), last, reading as u32))]
         };
     play: |spread| -> [1] {
             let turn = spread.between(-3e-3, 3e-3);
@@ -415,6 +472,53 @@ subjects! {
         |c, [nut_speed, axial_load]| -> [7] uncaged_outputs(
             &timed!(c, count_step_train_37_pressing(black_box(&mut c.pressing), nut_speed, axial_load))
         );
+    step_train_37_memory: |spread| -> [2] tick(spread),
+        |c, [nut_speed, axial_load]| -> [7] {
+            c.gear_count = counted_on(c.gear_count, nut_speed, TICK);
+            let inputs = black_box(counted_inputs(nut_speed, axial_load, c.gear_count));
+            let model = black_box(&mut c.gear);
+            uncaged_outputs(&timed!(c, count_step_train_37_memory(model, &inputs)))
+        };
+    step_train_37_memory_pressing: |spread| -> [2] [spread.between(10.0, 30.0), spread.between(4_000.0, 40.0)],
+        |c, [nut_speed, axial_load]| -> [7] {
+            c.gear_pressing_count = counted_on(c.gear_pressing_count, nut_speed, TICK);
+            let inputs = black_box(counted_inputs(nut_speed, axial_load, c.gear_pressing_count));
+            let model = black_box(&mut c.gear_pressing);
+            uncaged_outputs(&timed!(c, count_step_train_37_memory_pressing(model, &inputs)))
+        };
+    step_train_37_law: |spread| -> [3] {
+            let [nut_speed, axial_load] = tick(spread);
+            [nut_speed, axial_load, spread.between(250.0, 400.0)]
+        },
+        |c, [nut_speed, axial_load, temperature]| -> [7] {
+            c.gear_law_count = counted_on(c.gear_law_count, nut_speed, TICK);
+            let inputs = black_box(WithMemoryInputs {
+                temperature,
+                ..counted_inputs(nut_speed, axial_load, c.gear_law_count)
+            });
+            let model = black_box(&mut c.gear_law);
+            uncaged_outputs(&timed!(c, count_step_train_37_law(model, &inputs)))
+        };
+    between_train_37: |spread| -> [1] [spread.between(-60.0, 60.0)],
+        |c, [nut_speed]| -> [7] {
+            c.gear_count = counted_on(c.gear_count, nut_speed, 0.05 * TICK);
+            let model = black_box(&mut c.gear);
+            uncaged_outputs(&timed!(c, count_between_train_37(model, c.gear_count)))
+        };
+    step_linear_memory: |spread| -> [2] {
+            let [speed, load] = tick(spread);
+            [0.02 * speed, 0.1 * load]
+        },
+        |c, [speed, load]| -> [7] {
+            let inputs = black_box(carriage_inputs(speed, load));
+            let model = black_box(&mut c.carriage_memory);
+            linear_outputs(&timed!(c, count_step_linear_memory(model, &inputs)))
+        };
+    between_linear: |spread| -> [1] [spread.between(-1.2, 1.2)],
+        |c, [speed]| -> [7] {
+            let model = black_box(&mut c.carriage_memory);
+            linear_outputs(&timed!(c, count_between_linear(model, speed)))
+        };
     step_linear: |spread| -> [2] {
             let [speed, load] = tick(spread);
             [0.02 * speed, 0.1 * load]

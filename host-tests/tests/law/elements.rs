@@ -1,7 +1,7 @@
 //! Laws of the elements: what they are at their limits, over cycles, in the mirror, for any tick and any number.
 
 use epas_friction::law::memory::{
-    Backbone, BackboneElement, Hysteresis, LoadExactElements, MemoryState, Part,
+    Backbone, BackboneElement, Hysteresis, LoadExactElements, MemoryState, Part, PreloadedElements,
     ProportionalElements, SLIP_4, SLIP_6, SLIP_8, SLIP_10, SPIN_4, SPIN_6, SPIN_8, SPIN_10,
     sticking_share,
 };
@@ -396,6 +396,50 @@ fn rounding_is_as_promised() {
         &mut errors,
     );
     errors.assert_promised(&promises::MEMORY_LOAD_EXACT);
+}
+
+/// Sum of two flanks' loads over that without an axial load, from the load that a caged screw tells over the same, `1 + F/(2 sqrt(2) P)`:
+/// both share one Hertzian deflection, `F1^(2/3) + F2^(2/3) = 2 P^(2/3)`, until one is lost.
+fn both_flanks(told: f64) -> f64 {
+    let lost = 8.0_f64.sqrt();
+    let load = (told - 1.0) * lost;
+    if load > lost {
+        return 0.5 * load;
+    }
+    let (mut low, mut high) = (load, load + 2.0);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if middle.powf(2.0 / 3.0) + (middle - load).powf(2.0 / 3.0) < 2.0 {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    0.5 * (low + (low - load))
+}
+
+/// Elements of a preloaded screw against elements in f64 under the exact load of both flanks.
+#[test]
+fn flanks_share_as_promised() {
+    let elements = PreloadedElements::new(LoadExactElements::<8>::new(1.0, 1.0, 4.0).unwrap());
+    let mut exact = transcription::Elements::by_load(8, 4.0);
+    let (mut random, mut state) = (Random(9), LoadExactElements::<8>::VIRGIN);
+    let mut errors = Errors::default();
+    for tick in 0..100_000 {
+        let turn = random.sign() * 10_f64.powf(random.between(-6.0, 1.0)) as f32;
+        let [forward, backward] = [(); 2].map(|()| random.between(0.0, 4.0) as f32);
+        let load = random.between(1.0, 4.0) as f32;
+        let limits = SlidingLimits {
+            forward,
+            backward,
+            load,
+        };
+        let found = f64::from(elements.follow(&mut state, turn, &limits));
+        let [turn, forward, backward, load] = [turn, forward, backward, load].map(f64::from);
+        let wanted = exact.follow(turn, forward, backward, both_flanks(load));
+        errors.add_case(found - wanted, || format!("{tick}: {load}"));
+    }
+    errors.assert_promised(&promises::MEMORY_PRELOADED);
 }
 
 #[test]

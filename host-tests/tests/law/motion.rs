@@ -130,6 +130,50 @@ fn gaps_are_spanned() {
     assert_eq!(speed.turn(&mut (), -1e9), Turn::Limited(-0.5));
 }
 
+/// A turn is the speed times the tick, rounded once: the constant's own rounding is not the product's.
+#[test]
+fn speeds_are_turns_over_a_tick() {
+    let mut random = Random(7);
+    let mut errors = Errors::default();
+    for _ in 0..200_000 {
+        let tick = 10_f64.powf(random.between(-6.0, -1.0)) as f32;
+        let speed = random.sign() * 10_f64.powf(random.between(-3.0, 3.0)) as f32;
+        let exact = f64::from(speed) * f64::from(tick);
+        let turn = SpeedOverTick::new(tick, 1e3).unwrap().turn(&mut (), speed);
+        assert!(turn.is_measured());
+        errors.add_case(f64::from(turn.angle()) / exact - 1.0, || {
+            format!("{speed} {tick}")
+        });
+    }
+    errors.assert_promised(&promises::TURN_OF_SPEED);
+}
+
+/// A sensor behind a play lets through the turn of its counts less what the play takes, from the same place.
+#[test]
+fn a_steady_sensor_turns_as_promised() {
+    const COUNT: f32 = 0.0157;
+    let play = Play::new(1.0).unwrap();
+    let steady = Steady::new(counter(16_384, COUNT, 4.0), 1.0).unwrap();
+    // Nobody sees a sensor's place: a play beside it is moved by the same turns.
+    let (mut place, mut reading) = (PlayState::FRESH, Steady::<CountSensor>::FRESH);
+    let mut random = Random(8);
+    let mut errors = Errors::default();
+    let mut count = 0_i64;
+    steady.turn(&mut reading, 0);
+    for tick in 0..200_000 {
+        let counts = random.between(-128.0, 128.0) as i64;
+        count += counts;
+        let before = f64::from(place.place());
+        let turn = counts as f64 * f64::from(COUNT);
+        let _ = play.follow(&mut place, turn as f32);
+        let found = steady.turn(&mut reading, count.rem_euclid(16_384) as u32);
+        assert!(found.is_measured());
+        let exact = (before + turn) - (before + turn).clamp(-1.0, 1.0);
+        errors.add_case(f64::from(found.angle()) - exact, || tick.to_string());
+    }
+    errors.assert_promised(&promises::TURN_STEADY);
+}
+
 /// Angles that wrap at either end: the difference of the readings, which are what they are.
 #[test]
 fn angles_lose_nothing_across_either_end() {

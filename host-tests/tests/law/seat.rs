@@ -1,7 +1,8 @@
 //! The seat, and kinds of elements side by side.
 
 use epas_friction::law::memory::{
-    Hysteresis, SLIP_8, SPIN_8, SeatElement, SeatState, Together, sticking_share,
+    Backbone, BackboneElement, Hysteresis, SLIP_6, SLIP_8, SPIN_4, SPIN_8, SeatElement, SeatState,
+    Together, sticking_share,
 };
 use epas_friction::law::{Elements, SlidingLimits};
 use epas_friction::promises;
@@ -10,6 +11,7 @@ use crate::elements::proportional;
 use crate::kit::errors::Errors;
 use crate::kit::measured;
 use crate::kit::random::Random;
+use crate::transcription;
 
 fn virgin<E: Elements>(_: &E) -> E::State {
     E::VIRGIN
@@ -88,6 +90,56 @@ fn play_is_free_and_sliding_is_full() {
     assert_eq!(sticking_share(0.01, &limits), 0.75);
     assert_eq!(sticking_share(-0.03, &limits), 0.0);
     assert_eq!(sticking_share(f32::NAN, &limits), 0.0);
+}
+
+fn exact<const N: usize>(backbone: &Backbone<N>) -> transcription::Elements {
+    let of =
+        |f: fn(&BackboneElement) -> f32| backbone.elements.map(|element| f64::from(f(&element)));
+    transcription::Elements::of_table(&of(|e| e.angle), &of(|e| e.weight))
+}
+
+/// Two kinds with 0.3 and 0.7 of the limits: four elements beside six, and eight beside a seat. The sum of both in f64, from the same
+/// place of the seat.
+#[test]
+fn together_they_are_the_sum_of_both() {
+    let share = 0.3_f32;
+    let of_tables = Together::new(
+        proportional(&SPIN_4, share, 1.0),
+        proportional(&SLIP_6, 1.0 - share, 1.0),
+        share,
+    )
+    .unwrap();
+    let seat = SeatElement::new(1.0 - share, 0.5, 1.0).unwrap();
+    let seated = Together::new(proportional(&SLIP_8, share, 1.0), seat, share).unwrap();
+    let [mut four, mut six, mut eight] = [exact(&SPIN_4), exact(&SLIP_6), exact(&SLIP_8)];
+    let (mut of_tables_state, mut seated_state) = (virgin(&of_tables), virgin(&seated));
+    let (mut random, mut place) = (Random(11), 0.0_f64);
+    let mut errors = Errors::default();
+    let share = f64::from(share);
+    for tick in 0..200_000 {
+        let size = 10_f64.powf(random.between(-6.0, 1.0));
+        let turn = random.sign() * size as f32;
+        let [forward, backward] = [(); 2].map(|()| random.between(0.0, 3.0) as f32);
+        let limits = SlidingLimits {
+            forward,
+            backward,
+            load: 1.0,
+        };
+        let found = of_tables.follow(&mut of_tables_state, turn, &limits);
+        let found_seated = seated.follow(&mut seated_state, turn, &limits);
+        let [turn, forward, backward] = [turn, forward, backward].map(f64::from);
+        let followed =
+            |elements: &mut transcription::Elements| elements.follow(turn, forward, backward, 1.0);
+        let wanted = share * followed(&mut four) + (1.0 - share) * followed(&mut six);
+        errors.add_case(f64::from(found) - wanted, || format!("{tick}: tables"));
+        let end = |limit: f64| 0.5 + limit.powf(2.0 / 3.0);
+        place = (place + turn).clamp(-end(backward), end(forward));
+        let pressed = (place.abs() - 0.5).max(0.0).powf(1.5) * place.signum();
+        let wanted = share * followed(&mut eight) + (1.0 - share) * pressed;
+        errors.add_case(f64::from(found_seated) - wanted, || format!("{tick}: seat"));
+        place = f64::from(seated_state.second.place());
+    }
+    errors.assert_promised(&promises::MEMORY_TOGETHER);
 }
 
 #[test]

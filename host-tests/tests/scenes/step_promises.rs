@@ -9,8 +9,16 @@ use std::f64::consts::{FRAC_PI_4, TAU};
 use epas_friction::ball::{
     AnalyticLinearBall, GrooveFit, LinearBallParameters, PUBLISHED_SLOPE, ScrewRow,
 };
+use epas_friction::law::coefficient::{
+    CoefficientLaw, CoefficientParameters, OneCoefficient, TemperatureFade, Viscosity,
+};
+use epas_friction::law::memory::{Part, ProportionalElements, SLIP_8};
+use epas_friction::law::motion::SpeedOverTick;
 use epas_friction::promises;
 use epas_friction::refined::{BallChain, FourPointBall};
+use epas_friction::scene::{
+    CoefficientFor, Freshness, Sliding, WithMemory, WithMemoryConfiguration, WithMemoryInputs,
+};
 use epas_friction::train::Train;
 use epas_friction::{
     BallScrew, CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, Clearance,
@@ -91,7 +99,7 @@ fn caged_step() {
         }
     }
     // A dozen roundings of 2^-24, which add up at random.
-    errors.assert_measured();
+    errors.assert_promised(&promises::STEP_CAGED_CLOSED);
 }
 
 /// The same screw in float64; contact laws from the reference's own curvatures and elliptic integrals.
@@ -184,10 +192,73 @@ fn exact_screw() -> BallScrewDesign {
     }
 }
 
-/// Friction torque over its mean against the exact whole screw, two turns of the nut, balls that have settled.
+/// A scene with a memory whose elements slide fully within a tick of the motions here, and whose balls follow every turn: in steady
+/// motion its friction is that of the scene. The breakaway angle, rad (m), is that under 1 N m (1 N).
+type Remembering<S, L> = FrictionModel<WithMemory<S, ProportionalElements<8>, SpeedOverTick, L>>;
+
+fn remembering<S: Sliding<Constants: Copy>, L: CoefficientFor<S::Inputs>>(
+    scene: S::Configuration,
+    coefficient: L,
+    (breakaway_angle, tick): (f32, f32),
+) -> Remembering<S, L> {
+    FrictionModel::new(&WithMemoryConfiguration {
+        scene,
+        elements: ProportionalElements::new(
+            1.0,
+            &[Part {
+                backbone: &SLIP_8.elements,
+                share: 1.0,
+                breakaway_angle,
+            }],
+        )
+        .unwrap(),
+        angle: SpeedOverTick::new(tick, 1.0).unwrap(),
+        reference_load: 1000.0,
+        play: 0.0,
+        coefficient,
+        temperature: TemperatureFade::DEFAULT,
+        freshness: Freshness::DEFAULT,
+    })
+    .unwrap()
+}
+
+/// Temperature of the law, K.
+const TEMPERATURE: f32 = 313.15;
+
+fn sound<I>(scene: I, reading: f32) -> WithMemoryInputs<I, f32> {
+    WithMemoryInputs {
+        scene,
+        reading,
+        load_age: 0.0,
+        temperature: TEMPERATURE,
+        temperature_age: 0.0,
+    }
+}
+
+/// A law that gives 0.1 at a speed, between 0.12 at standstill and 0.08.
+fn law_through(speed: f32) -> CoefficientLaw {
+    CoefficientLaw::new(&CoefficientParameters {
+        boundary: 0.12,
+        full_film: 0.08,
+        half_share_speed: speed,
+        reference_temperature: TEMPERATURE,
+        viscosity: Viscosity::through((313.15, 0.1), (373.15, 0.01), 233.15).unwrap(),
+        forward: 1.0,
+        backward: 1.0,
+        churning: 0.0,
+    })
+    .unwrap()
+}
+
+/// Reading between two steps over that of a step: friction is asked for at an angle hardly beyond the step's.
+const BETWEEN: f32 = 1e-3;
+
+/// Friction torque over its mean against the exact whole screw, two turns of the nut, balls that have settled: without memory; with
+/// it, one friction coefficient and a law; and between two steps.
 #[test]
 fn uncaged_step() {
-    let mut errors = Errors::default();
+    // Without memory, with it, between two steps.
+    let mut errors = [(); 3].map(|()| Errors::default());
     for (degrees, load, speed) in [
         (2.0, -1500.0, TAU),
         (3.0, -1500.0, TAU),
@@ -218,27 +289,31 @@ fn uncaged_step() {
         };
         let map: &'static DeviationMap =
             Box::leak(Box::new(DeviationMap::from_harmonics(1, &[wave]).unwrap()));
-        let mut model =
-            FrictionModel::<UncagedBallScrew<37>>::new(&UncagedBallScrewConfiguration {
-                design: screw(),
-                friction: 0.1,
-                ball_friction: 0.1,
-                rolling_resistance: RollingResistance::NONE,
-                clearance: Clearance::ZERO,
-                turns: 2.0,
-                return_length: 0.0,
-                screw_deviation: map,
-                nut_deviation: &DeviationMap::NONE,
-                load_shares: LoadShares::EVEN,
-                reversal_speed: 1e-3,
-                tick: TICK,
-                limits: Limits {
-                    nut_speed: 300.0,
-                    axial_load: 20_000.0,
-                    friction_torque: 10.0,
-                },
-            })
-            .unwrap();
+        let configuration = UncagedBallScrewConfiguration {
+            design: screw(),
+            friction: 0.1,
+            ball_friction: 0.1,
+            rolling_resistance: RollingResistance::NONE,
+            clearance: Clearance::ZERO,
+            turns: 2.0,
+            return_length: 0.0,
+            screw_deviation: map,
+            nut_deviation: &DeviationMap::NONE,
+            load_shares: LoadShares::EVEN,
+            reversal_speed: 1e-3,
+            tick: TICK,
+            limits: Limits {
+                nut_speed: 300.0,
+                axial_load: 20_000.0,
+                friction_torque: 10.0,
+            },
+        };
+        let mut model = FrictionModel::<UncagedBallScrew<37>>::new(&configuration).unwrap();
+        let scale = (6e-5, TICK);
+        let one = OneCoefficient::new(0.1).unwrap();
+        let mut remembers = remembering::<UncagedBallScrew<37>, _>(configuration, one, scale);
+        let law = law_through(TAU as f32);
+        let mut by_law = remembering::<UncagedBallScrew<37>, _>(configuration, law, scale);
         let mean =
             states.iter().map(|state| state.torque().abs()).sum::<f64>() / states.len() as f64;
         for (place, state) in states.iter().enumerate() {
@@ -246,21 +321,36 @@ fn uncaged_step() {
                 nut_speed: speed as f32,
                 axial_load: load as f32,
             };
+            let reading = inputs.nut_speed;
+            let known = sound(inputs, reading);
             for _ in 1..TICKS {
                 if place > 0 {
                     let _ = model.step(inputs);
+                    let _ = remembers.step(known);
+                    let _ = by_law.step(known);
                 }
             }
-            let found = model.step(inputs);
-            if found.faults.any() {
-                continue;
+            for (found, kind) in [
+                (model.step(inputs), 0),
+                (remembers.step(known), 1),
+                (by_law.step(known), 1),
+                (remembers.between(BETWEEN * reading), 2),
+                (by_law.between(BETWEEN * reading), 2),
+            ] {
+                if found.faults.any() {
+                    continue;
+                }
+                let error = (f64::from(found.friction_torque) - state.torque()) / mean;
+                errors[kind].add_case(error, || {
+                    format!("{degrees} deg {load} {speed} state {place}")
+                });
             }
-            let error = (f64::from(found.friction_torque) - state.torque()) / mean;
-            errors.add_case(error, || {
-                format!("{degrees} deg {load} {speed} state {place}")
-            });
         }
     }
+    let [errors, with_memory, between] = &errors;
+    assert!(with_memory.count > 1.9 * errors.count);
+    with_memory.assert_promised(&promises::STEP_UNCAGED_MEMORY);
+    between.assert_promised(&promises::BETWEEN_UNCAGED);
     errors.assert_promised(&promises::STEP_UNCAGED);
 }
 
@@ -440,10 +530,11 @@ fn pairs_in_a_linear_bearing() {
     chained.assert_promised(&promises::BALL_CHAIN);
 }
 
-/// Straight grooves: friction of the grooves is the power that all balls lose over the speed.
+/// Straight grooves: friction of the grooves is the power that all balls lose over the speed; without memory, with it, and
+/// between two steps.
 #[test]
 fn linear_step() {
-    let mut model = FrictionModel::<LinearBearingTrain<24>>::new(&LinearBearingConfiguration {
+    let configuration = LinearBearingConfiguration {
         bearing: LinearBearing::new(LinearBearingParameters {
             ball_radius: BALL_RADIUS as f32,
             groove: GrooveSize::Conformity(CONFORMITY as f32),
@@ -467,9 +558,13 @@ fn linear_step() {
             load: 1e5,
             friction_force: 1e3,
         },
-    })
-    .unwrap();
+    };
+    let mut model = FrictionModel::<LinearBearingTrain<24>>::new(&configuration).unwrap();
+    let one = OneCoefficient::new(0.1).unwrap();
+    let mut remembers =
+        remembering::<LinearBearingTrain<24>, _>(configuration, one, (1e-6, configuration.tick));
     let mut errors = Errors::default();
+    let (mut with_memory, mut between) = (Errors::default(), Errors::default());
     for per_ball in [1.0, 10.0, 100.0, 300.0] {
         for side in [-0.5, -0.3, -0.1, 0.0, 0.2, 0.4, 0.5] {
             for speed in [-1.0, 1.0] {
@@ -480,15 +575,24 @@ fn linear_step() {
                 .solve(1.0)
                 .unwrap()
                 .power_loss;
-                let found = model.step(LinearInputs {
+                let inputs = LinearInputs {
                     speed: speed as f32,
                     normal_load: (24.0 * per_ball) as f32,
                     side_load: (24.0 * per_ball * side) as f32,
-                });
-                let error = speed * f64::from(found.groove_force) / (24.0 * exact) - 1.0;
-                errors.add_case(error, || format!("{per_ball} {side} {speed}"));
+                };
+                let known = sound(inputs, inputs.speed);
+                for (found, errors) in [
+                    (model.step(inputs), &mut errors),
+                    (remembers.step(known), &mut with_memory),
+                    (remembers.between(BETWEEN * inputs.speed), &mut between),
+                ] {
+                    let error = speed * f64::from(found.groove_force) / (24.0 * exact) - 1.0;
+                    errors.add_case(error, || format!("{per_ball} {side} {speed}"));
+                }
             }
         }
     }
+    with_memory.assert_promised(&promises::STEP_LINEAR_MEMORY);
+    between.assert_promised(&promises::BETWEEN_LINEAR);
     errors.assert_promised(&promises::STEP_LINEAR);
 }

@@ -1,0 +1,50 @@
+//! What is set while a model runs.
+
+use super::promise::Promise;
+
+/// [`FrictionModel::set_friction`](crate::FrictionModel::set_friction) of 37 balls.
+pub const SET_FRICTION: Promise = Promise {
+    function: "UncagedBallScrew: set_friction",
+    domain: "37 balls, friction 0.05 to 0.15",
+    error: "none: balls take it over as their turn comes",
+    largest: 0.0,
+    rms: 0.0,
+    mean: 0.0,
+    outside: "an error that names the field; the model goes on as it was",
+    not_finite: "an error",
+    tiny: "an error below 1e-6",
+    cycles: 200,
+    counted: &["set_friction_37"],
+};
+
+/// [`FrictionModel::set_clearance`](crate::FrictionModel::set_clearance) of a ball screw without cage; the number of balls does not
+/// matter.
+pub const SET_CLEARANCE: Promise = Promise {
+    function: "UncagedBallScrew: set_clearance",
+    domain: "clearance -5 to 5 um",
+    tiny: "zeros and subnormals are clearances",
+    cycles: 200,
+    counted: &["set_clearance_uncaged"],
+    ..SET_FRICTION
+};
+
+/// [`FrictionModel::set_friction`](crate::FrictionModel::set_friction) of a caged ball screw: the first one turns from the law over
+/// the load to balls, by two of [`ElasticGrooves::start`](crate::ball::elastic::ElasticGrooves::start).
+pub const SET_FRICTION_CAGED: Promise = Promise {
+    function: "CagedBallScrew: set_friction, the first time",
+    domain: "friction 0.05 to 0.15",
+    error: "none: the ball of the next ticks has it",
+    cycles: 6500,
+    counted: &["set_friction_caged"],
+    ..SET_FRICTION
+};
+
+/// [`FrictionModel::set_clearance`](crate::FrictionModel::set_clearance) of the same.
+pub const SET_CLEARANCE_CAGED: Promise = Promise {
+    function: "CagedBallScrew: set_clearance, the first time",
+    domain: "clearance -5 to 5 um",
+    tiny: "zeros and subnormals are clearances",
+    cycles: 6700,
+    counted: &["set_clearance_caged"],
+    ..SET_FRICTION_CAGED
+};
