@@ -1,0 +1,4 @@
+//! What went wrong, in words.
+
+/// What went wrong, in words.
+pub type Failure = Box<dyn std::error::Error + Send + Sync>;
