@@ -154,6 +154,62 @@ fn slides_as_without<S>(
     }
 }
 
+/// Churned lubricant adds its torque to the friction, against the motion, in a step and between two.
+fn churns<S>(configuration: S::Configuration, load: S::Inputs)
+where
+    S: Sliding<Constants: Copy, Configuration: Copy, Inputs = Inputs>,
+    S::Outputs: Into<Friction>,
+{
+    let law = |churning| {
+        CoefficientLaw::new(&CoefficientParameters {
+            churning,
+            ..COEFFICIENT
+        })
+        .unwrap()
+    };
+    let model = |coefficient| {
+        FrictionModel::<WithMemory<S, Slip, SpeedOverTick>>::new(&WithMemoryConfiguration {
+            play: 0.0,
+            coefficient,
+            ..with_memory(configuration, slip(0.5, BREAKAWAY), speed_sensor(), 0.1)
+        })
+        .unwrap()
+    };
+    let churning = law(1e-3);
+    let (mut dry, mut wet) = (model(law(0.0)), model(churning));
+    for speed in [15.0, -15.0] {
+        let inputs = load.with(speed, 1.0);
+        let added = churning.at_temperature(TEMPERATURE).churning_torque(speed);
+        assert!(added * speed > 0.0 && added.abs() > 1e-4, "{added}");
+        for tick in 0..600 {
+            let known: [Friction; 2] = [&mut dry, &mut wet].map(|model| {
+                if tick % 3 == 2 {
+                    model.between(speed).into()
+                } else {
+                    model.step(fresh(inputs, speed)).into()
+                }
+            });
+            if tick < 100 {
+                // Both are on their way to full sliding.
+                continue;
+            }
+            let difference = known[1].friction - known[0].friction;
+            // Derived: three roundings of 2^-24 of the friction.
+            let rounding = 2e-7 * known[1].friction.abs();
+            assert!(
+                (difference - added).abs() <= rounding,
+                "{speed} tick {tick}: {difference} in the place of {added}"
+            );
+        }
+    }
+}
+
+#[test]
+fn churned_lubricant_adds_to_the_friction() {
+    churns::<CagedBallScrew>(caged(), screw(0.0, 3000.0));
+    churns::<UncagedBallScrew<SCREW_BALLS>>(uncaged(), screw(0.0, 3000.0));
+}
+
 /// What the outputs of all scenes have.
 #[derive(Clone, Copy, Debug)]
 struct Friction {
