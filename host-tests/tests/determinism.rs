@@ -200,6 +200,35 @@ fn slow_courses_give_the_stored_bits() {
             },
         ));
     }
+    // Friction alone, by little and by much: what clearance set with it would hide.
+    for step in [5e-4, 0.011] {
+        let configuration = UncagedBallScrewConfiguration {
+            tick: 5e-4,
+            limits: Limits {
+                nut_speed: screw[0],
+                ..gears::LIMITS
+            },
+            ..gears::uncaged()
+        };
+        hashes.push(course::<UncagedBallScrew<41>>(
+            &configuration,
+            screw,
+            |model, leg| {
+                model
+                    .set_friction(if leg % 2 == 0 { 0.08 } else { 0.08 + step })
+                    .unwrap();
+            },
+        ));
+        hashes.push(course::<CagedBallScrew>(
+            &gears::caged(),
+            screw,
+            |model, leg| {
+                model
+                    .set_friction(if leg % 2 == 0 { 0.08 } else { 0.08 + step })
+                    .unwrap();
+            },
+        ));
+    }
     let linear = [2.0, 10_000.0, 10_000.0];
     hashes.push(course::<LinearBearingTrain<{ gears::LINEAR_BALLS }>>(
         &gears::linear(),
@@ -211,11 +240,13 @@ fn slow_courses_give_the_stored_bits() {
 }
 
 /// Without clearance, with play, with oversize: the caged screw's three branches, the caged one that changes, the one of 41 balls and
-/// the one of nine that changes; then the bearing. The closed forms know no play: theirs are those without.
+/// the one of nine that changes; friction alone that changes, without cage and caged, by
+/// little and by much; then the bearing. The closed forms know no play: theirs are those without.
 #[rustfmt::skip]
-const STORED_COURSES: [&str; 19] = [
+const STORED_COURSES: [&str; 23] = [
     "0xbee1a0dcec7895bd", "0x316a396c688361e7", "0x375f49dd1117e5d0", "0x64c643c1f7a7e959", "0x5e891d4e68674890", "0xe001d825002d304c",
     "0xbdc2997ad969e9fe", "0x316a396c688361e7", "0x375f49dd1117e5d0", "0x5c427b7126feaf4e", "0xb55514bc1451a607", "0x1c25b600754f9037",
     "0x060d492de6673b2d", "0xfa32da7b9ff02837", "0x521addf81efb27c3", "0x5e8a5b3c8e8de5aa", "0xc16a55e959002bcd", "0xa10abf2aa99ece49",
+    "0x16711543ecf1d37c", "0x4b56f93e12516977", "0x4a7115fa39cb3e9a", "0x22f64230a331d21f",
     "0xc19343b6b5acbffa",
 ];
