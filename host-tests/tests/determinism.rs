@@ -133,6 +133,15 @@ const fn share(share: f32) -> LoadShare {
 #[test]
 fn slow_courses_give_the_stored_bits() {
     let screw = [100.0, 15_000.0, 0.0];
+    // Long enough for balls to close up, of which the track is nearly full.
+    let full = UncagedBallScrewConfiguration {
+        tick: 5e-4,
+        limits: Limits {
+            nut_speed: screw[0],
+            ..gears::LIMITS
+        },
+        ..gears::uncaged()
+    };
     let mut hashes = Vec::new();
     let clearances = [
         Clearance::ZERO,
@@ -176,13 +185,7 @@ fn slow_courses_give_the_stored_bits() {
                 lubricant_drag: 1e-3,
                 ..RollingResistance::STEEL
             },
-            // Long enough for balls to close up, of which the track is nearly full.
-            tick: 5e-4,
-            limits: Limits {
-                nut_speed: screw[0],
-                ..gears::LIMITS
-            },
-            ..gears::uncaged()
+            ..full
         };
         hashes.push(course::<UncagedBallScrew<41>>(
             &configuration,
@@ -202,16 +205,8 @@ fn slow_courses_give_the_stored_bits() {
     }
     // Friction alone, by little and by much: what clearance set with it would hide.
     for step in [5e-4, 0.011] {
-        let configuration = UncagedBallScrewConfiguration {
-            tick: 5e-4,
-            limits: Limits {
-                nut_speed: screw[0],
-                ..gears::LIMITS
-            },
-            ..gears::uncaged()
-        };
         hashes.push(course::<UncagedBallScrew<41>>(
-            &configuration,
+            &full,
             screw,
             |model, leg| {
                 model
