@@ -9,6 +9,7 @@ mod kit;
 use crate::kit::absurd::{EDGES, Trial};
 use crate::kit::gears;
 use crate::kit::random::Random;
+use epas_friction::scene::{ChangingClearance, ChangingFriction};
 use epas_friction::{
     CagedBallScrew, CagedBallScrewConfiguration, Clearance, FrictionBranch, FrictionModel, Limits,
     LinearBearingTrain, LoadShare, LoadShares, RollingResistance, UncagedBallScrew,
@@ -116,6 +117,14 @@ fn course<S: Trial>(
     hash
 }
 
+/// Another friction coefficient and another clearance at each point of the course.
+fn change_both<S: ChangingFriction + ChangingClearance>(model: &mut FrictionModel<S>, leg: usize) {
+    model.set_friction(0.07 + 0.003 * leg as f32).unwrap();
+    model
+        .set_clearance(Clearance::new(1e-6 * (leg as f32 - 6.0)).unwrap())
+        .unwrap();
+}
+
 /// Shares of the load that differ from ball to ball and with the sign of the load.
 static UNEVEN: [[LoadShare; 3]; 2] = [
     [share(1.3), share(0.7), share(1.0)],
@@ -165,16 +174,7 @@ fn slow_courses_give_the_stored_bits() {
             clearance,
             ..gears::caged()
         };
-        hashes.push(course::<CagedBallScrew>(
-            &configuration,
-            screw,
-            |model, leg| {
-                model.set_friction(0.07 + 0.003 * leg as f32).unwrap();
-                model
-                    .set_clearance(Clearance::new(1e-6 * (leg as f32 - 6.0)).unwrap())
-                    .unwrap();
-            },
-        ));
+        hashes.push(course::<CagedBallScrew>(&configuration, screw, change_both));
         let configuration = UncagedBallScrewConfiguration {
             clearance,
             load_shares: LoadShares {
@@ -195,12 +195,7 @@ fn slow_courses_give_the_stored_bits() {
         hashes.push(course::<UncagedBallScrew<9>>(
             &configuration,
             screw,
-            |model, leg| {
-                model.set_friction(0.07 + 0.003 * leg as f32).unwrap();
-                model
-                    .set_clearance(Clearance::new(1e-6 * (leg as f32 - 6.0)).unwrap())
-                    .unwrap();
-            },
+            change_both,
         ));
     }
     // Friction alone, by little and by much: what clearance set with it would hide.

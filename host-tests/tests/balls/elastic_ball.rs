@@ -1,5 +1,6 @@
 //! The ball in elastic grooves, renewed step by step, against equilibrium with exact contact integrals.
 
+use crate::kit::designs::SIZES;
 use crate::kit::errors::Errors;
 use crate::kit::random::Random;
 use epas_friction::ball::elastic::{BallInputs, ElasticGrooves, Renewal, Settled};
@@ -199,20 +200,6 @@ fn stored_pressing_pairs() {
     torque.assert_measured();
 }
 
-/// Nominal diameter, lead and ball diameter, mm; conformity of both grooves.
-const DESIGNS: [(f64, f64, f64, f64); 10] = [
-    (16.0, 5.0, 3.175, 0.53),
-    (20.0, 10.0, 3.969, 0.55),
-    (25.0, 10.0, 3.969, 0.54),
-    (29.0, 7.0, 4.0, 0.54),
-    (33.0, 20.0, 5.556, 0.5857),
-    (33.0, 20.0, 5.556, 0.56),
-    (32.0, 10.0, 6.35, 0.52),
-    (40.0, 10.0, 6.35, 0.53),
-    (50.0, 20.0, 9.525, 0.54),
-    (63.0, 20.0, 9.525, 0.52),
-];
-
 /// One ball under random conditions.
 struct Case {
     design: BallScrewDesign,
@@ -222,7 +209,7 @@ struct Case {
 
 impl Case {
     fn random(random: &mut Random, clearance: (f64, f64)) -> Self {
-        let (diameter, lead, ball, conformity) = random.of(&DESIGNS);
+        let (diameter, lead, ball, conformity) = random.of(&SIZES);
         let turned = 3.0_f64.to_radians();
         let groove = conformity * ball * 1e-3;
         let design = BallScrewDesign {

@@ -12,6 +12,7 @@
 //! which prints every figure; those in the comments of the constants are such. The ceilings are what the chosen ones give, in a run
 //! that repeats bit by bit, so that a constant that does worse somewhere, or a changed result, shows in them.
 
+use crate::kit::designs::SIZES;
 use crate::kit::random::Random;
 use epas_friction::ball::elastic::{BallInputs, ElasticGrooves, Settled};
 use epas_friction::{
@@ -22,22 +23,8 @@ use epas_friction::{
 };
 use std::f64::consts::TAU;
 
-/// Nominal diameter, lead and ball diameter, mm; conformity of both grooves.
-const DESIGNS: [(f64, f64, f64, f64); 10] = [
-    (16.0, 5.0, 3.175, 0.53),
-    (20.0, 10.0, 3.969, 0.55),
-    (25.0, 10.0, 3.969, 0.54),
-    (29.0, 7.0, 4.0, 0.54),
-    (33.0, 20.0, 5.556, 0.5857),
-    (33.0, 20.0, 5.556, 0.56),
-    (32.0, 10.0, 6.35, 0.52),
-    (40.0, 10.0, 6.35, 0.53),
-    (50.0, 20.0, 9.525, 0.54),
-    (63.0, 20.0, 9.525, 0.52),
-];
-
 fn design(random: &mut Random) -> BallScrew {
-    let (diameter, lead, ball, conformity) = random.of(&DESIGNS);
+    let (diameter, lead, ball, conformity) = random.of(&SIZES);
     let groove = GrooveSize::Conformity(conformity as f32);
     BallScrew::new(BallScrewParameters {
         pitch_radius: (0.5e-3 * diameter) as f32,

@@ -40,3 +40,17 @@ pub const LINEAR_BEARING: LinearBearingParameters = LinearBearingParameters {
     ball_material: Material::STEEL,
     groove_material: Material::STEEL,
 };
+
+/// Ball screws from small to large: nominal diameter, lead and ball diameter, mm; conformity of both grooves.
+pub const SIZES: [(f64, f64, f64, f64); 10] = [
+    (16.0, 5.0, 3.175, 0.53),
+    (20.0, 10.0, 3.969, 0.55),
+    (25.0, 10.0, 3.969, 0.54),
+    (29.0, 7.0, 4.0, 0.54),
+    (33.0, 20.0, 5.556, 0.5857),
+    (33.0, 20.0, 5.556, 0.56),
+    (32.0, 10.0, 6.35, 0.52),
+    (40.0, 10.0, 6.35, 0.53),
+    (50.0, 20.0, 9.525, 0.54),
+    (63.0, 20.0, 9.525, 0.52),
+];
