@@ -125,12 +125,16 @@ fn main() -> Result<(), Failure> {
         .copied()
         .filter(|mutant| wanted(mutant.number))
         .collect();
-    for number in 1..=mutants.len() {
-        if switched.uncompiled.contains(&number) {
-            keep(number, Outcome::Uncompiled);
-        } else if !switched.placed.iter().any(|mutant| mutant.number == number) {
-            keep(number, Outcome::Unplaced);
-        }
+    let behind: BTreeSet<usize> = switched.placed.iter().map(|mutant| mutant.number).collect();
+    for number in (1..=mutants.len()).filter(|number| !behind.contains(number)) {
+        let compiles = !switched.uncompiled.contains(&number);
+        let outcome = if compiles {
+            Outcome::Unplaced
+        } else {
+            Outcome::Uncompiled
+        };
+        // Written with the first one that is tried.
+        locked(&outcomes).insert(mutants[number - 1].name.clone(), outcome);
     }
     trial.tried(
         &tests,
