@@ -17,8 +17,6 @@ pub mod calibrate;
 #[cfg(feature = "program")]
 mod cli;
 mod controller;
-#[doc(hidden)]
-pub mod design_study;
 mod designs;
 mod document;
 mod eval;
@@ -40,8 +38,6 @@ mod plot;
 mod progress;
 #[cfg(feature = "program")]
 mod report;
-#[doc(hidden)]
-pub mod row;
 #[cfg(feature = "program")]
 mod screws;
 mod simulate;

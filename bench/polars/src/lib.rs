@@ -1,21 +1,18 @@
 //! Studies of ball-screw designs as a Polars expression: a row of numbers of a design in, a row of figures out.
 //!
-//! Figures are those of [`epas_bench::design_study`]; nothing is computed here. A row follows from its own numbers alone, so that
+//! Figures are those of [`epas_rows::design_study`]; nothing is computed here. A row follows from its own numbers alone, so that
 //! any partition of a table, on threads or machines, has the same answer to the bit.
 
-#![allow(clippy::wildcard_imports)]
+mod plugin;
 
-use epas_bench::design_study::{Design, Duty, Figures, figures};
-use polars::prelude::*;
-use pyo3::Bound;
-use pyo3::prelude::{PyModule, PyResult, pymodule};
-use pyo3_polars::PolarsAllocator;
-use pyo3_polars::derive::polars_expr;
+use epas_rows::design_study::{Design, Duty, Figures, figures};
+use polars_core::error::{PolarsResult, polars_bail};
+use polars_core::prelude::{
+    DataType, Field, Float32Chunked, IntoSeries, NewChunkedArray, Series, StringChunked,
+    StructChunked, UInt32Chunked,
+};
+use pyo3::prelude::pymodule;
 use serde::Deserialize;
-
-/// The engine owns what a plugin returns: both take memory from the same place.
-#[global_allocator]
-static ALLOCATOR: PolarsAllocator = PolarsAllocator::new();
 
 /// Loads and settings of all rows, in SI units.
 #[derive(Deserialize)]
@@ -50,9 +47,9 @@ const INPUTS: [&str; 6] = [
 ];
 
 /// Fields of the figures, and why a row has none.
-fn output(_: &[Field]) -> PolarsResult<Field> {
+fn output() -> Field {
     let number = |name: &str| Field::new(name.into(), DataType::Float32);
-    Ok(Field::new(
+    Field::new(
         "figures".into(),
         DataType::Struct(vec![
             Field::new("loaded_balls".into(), DataType::UInt32),
@@ -62,7 +59,7 @@ fn output(_: &[Field]) -> PolarsResult<Field> {
             number("contact_force"),
             Field::new("refused".into(), DataType::String),
         ]),
-    ))
+    )
 }
 
 /// A column as `f32`, as long as the longest; a literal stands for every row.
@@ -79,8 +76,7 @@ fn column(input: &Series, name: &str, rows: usize) -> PolarsResult<Float32Chunke
 }
 
 /// Figures of each design; a row with a missing or refused number has none, and says why.
-#[polars_expr(output_type_func=output)]
-fn design_figures(inputs: &[Series], kwargs: Settings) -> PolarsResult<Series> {
+fn design_figures(inputs: &[Series], settings: &Settings) -> PolarsResult<Series> {
     if inputs.len() != INPUTS.len() {
         polars_bail!(InvalidOperation: "designs have the columns {}", INPUTS.join(", "));
     }
@@ -94,7 +90,7 @@ fn design_figures(inputs: &[Series], kwargs: Settings) -> PolarsResult<Series> {
         .zip(INPUTS)
         .map(|(input, name)| column(input, name, rows))
         .collect::<PolarsResult<Vec<_>>>()?;
-    let duty = kwargs.duty();
+    let duty = settings.duty();
     let found: Vec<_> = (0..rows)
         .map(|row| {
             let number = |at: usize| {
@@ -144,6 +140,4 @@ fn answer(found: &[Result<Figures, String>]) -> PolarsResult<Series> {
 
 /// The library of the Python package; the engine finds the expression in it by its name.
 #[pymodule]
-fn _polars(_module: &Bound<'_, PyModule>) -> PyResult<()> {
-    Ok(())
-}
+mod _polars {}

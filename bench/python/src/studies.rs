@@ -5,7 +5,7 @@ use epas_bench::calibrate::sums::Sums;
 use epas_bench::calibrate::trace::columns::Frame;
 use epas_bench::calibrate::with_design;
 use epas_bench::calibrate::without_design::{self, Filters};
-use epas_bench::design_study::{Design as StudiedDesign, Duty, figures};
+use epas_rows::design_study::{Design as StudiedDesign, Duty, figures};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 

@@ -2,9 +2,9 @@
 
 use epas_friction::{BallScrew, BallScrewParameters, Error, GrooveSize, Material};
 use epas_reference::ReferenceError;
+pub use epas_rows::{LARGEST_TRAIN, contact_forces, pressed, room_of_a_row};
 
 use super::fields::BadField;
-pub use crate::row::{LARGEST_TRAIN, contact_forces, pressed, room_of_a_row};
 
 /// The numbers of a ball screw in a request, SI; both grooves are alike.
 pub struct ScrewNumbers {

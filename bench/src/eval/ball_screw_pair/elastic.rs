@@ -1,12 +1,12 @@
-//! A row of balls as the scene of a ball screw without cage has it once it has settled ([`crate::row::settled`]).
+//! A row of balls as the scene of a ball screw without cage has it once it has settled ([`epas_rows::settled`]).
 
 use epas_friction::ball::elastic::{BallInputs, ElasticGrooves, Renewal};
 use epas_friction::{BallScrew, Clearance};
+use epas_rows::LARGEST_TRAIN;
+use epas_rows::settled::{SettledRow, settled};
 
 use super::super::fields::BadField;
 use super::request::{Request, Row};
-use crate::row::LARGEST_TRAIN;
-use crate::row::settled::{SettledRow, settled};
 
 /// What the scene computes in f32; nothing where its clearance is not among those that the scene takes, or where a ball
 /// carries no load or loses its grooves.

@@ -1,4 +1,4 @@
-//! Given balls as the scene of a ball screw without cage has them once they have settled ([`crate::row::settled`]): in elastic
+//! Given balls as the scene of a ball screw without cage has them once they have settled ([`epas_rows::settled`]): in elastic
 //! grooves without play, under the axial loads and the deviations that the contacts tell.
 //!
 //! Contact angles are those of balls that give way: where the arcs of the grooves stand follows from angles and deflections. The
@@ -11,12 +11,12 @@ use epas_friction::ball::elastic::{BallInputs, ElasticGrooves, Renewal};
 use epas_friction::geometry::Groove;
 use epas_friction::hertz::HertzContact;
 use epas_friction::{BallScrew, Error};
+use epas_rows::LARGEST_TRAIN;
+use epas_rows::settled::{SettledRow, settled};
 use serde::Serialize;
 
 use super::contacts::{Given, NL, NR, Row, SL, SR};
 use super::{LARGEST_LOAD_MISMATCH, Ways};
-use crate::row::LARGEST_TRAIN;
-use crate::row::settled::{SettledRow, settled};
 
 /// What the scene computes.
 #[derive(Serialize)]

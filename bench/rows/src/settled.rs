@@ -8,7 +8,7 @@ use epas_friction::BallScrew;
 use epas_friction::ball::elastic::{BallInputs, ElasticGrooves, Renewal, Settled};
 use epas_friction::train::Press;
 
-use super::{contact_forces, pressed, room_of_a_row};
+use crate::{contact_forces, pressed, room_of_a_row};
 
 /// Renewals of a ball by itself: the slowest of the stored pairs needs 20.
 const ALONE: usize = 60;

@@ -1,5 +1,6 @@
-//! A row of balls that all touch, as a scene has it: what `eval` and the study of designs share.
+//! Rows of balls that all touch, as a scene has them once they have settled: what `eval` answers, and designs are studied by.
 
+pub mod design_study;
 pub mod settled;
 
 use epas_friction::train::{IMPEDANCE_RANGE, Press};

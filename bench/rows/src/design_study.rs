@@ -1,9 +1,9 @@
 //! What many designs of a ball screw do under one duty: friction torque, efficiency, contact pressure, force between balls.
 //!
 //! Every number is what firmware would compute: the settled balls of the scenes, whose grooves rub as in their `step()`, and the
-//! contact ellipse; without rolling resistance, which is about 1 % of the friction. A design's figures follow from its own numbers alone, so that any partition of a table of designs
-//! gives the same answers, to the bit: an engine that spreads a table over threads or machines calls [`figures`] row by row, or
-//! [`columns`] for a slice.
+//! contact ellipse; without rolling resistance, which is about 1 % of the friction. A design's figures follow from its own
+//! numbers alone, so that any partition of a table of designs gives the same answers, to the bit: an engine that spreads a
+//! table over threads or machines calls [`figures`] row by row, or [`columns`] for a slice.
 
 use core::f32::consts::TAU;
 
@@ -15,7 +15,7 @@ use epas_friction::{
     BallScrew, BallScrewParameters, Clearance, Error, GrooveSize, Material, Range,
 };
 
-use crate::row::settled::{SettledRow, settled};
+use crate::settled::{SettledRow, settled};
 
 /// A design of steel balls in steel grooves, both grooves alike.
 #[derive(Clone, Copy, Debug, PartialEq)]
