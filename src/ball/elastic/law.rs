@@ -120,6 +120,24 @@ pub(super) const fn between(value: f32, least: f32, most: f32) -> f32 {
     }
 }
 
+/// Growth of a ball's friction torque from one axial load, N, to another, of either sign and not both zero: the power 7/6 of that of
+/// the contact force, preload counted, as a ratio of its square `x`:
+///
+/// ```text
+/// x^(7/12) = (19 x + 5)/(5 x + 19)
+/// ```
+///
+/// Within 0.3 % for factors of the force up to 1.25, 1.7 % up to 1.5, 8 % up to 2; between 5/19 and 19/5 for any.
+#[inline(always)]
+pub(super) fn growth(constants: &RingConstants, lift_off: f32, from: f32, to: f32) -> f32 {
+    let square = |axial: f32| {
+        let normal = constants.ball.normal * axial;
+        normal * normal + lift_off * lift_off
+    };
+    let (from, to) = (square(from), square(to));
+    (19.0 * to + 5.0 * from) / (5.0 * to + 19.0 * from)
+}
+
 impl RingLoad {
     /// Of a mean axial load in the frame in which the nut turns forward, N.
     #[inline(always)]

@@ -5,10 +5,10 @@ mod chosen;
 mod stored;
 
 use self::chosen::{
-    FAR, FIRST_LOAD, FIRST_RENEWALS, HELD, LOAD_JUMP, LOAD_STEP, LONGEST_ROUND, SETTLING_ROUNDS,
-    SMALLEST_LOAD, STIFFER,
+    FAR, FIRST_LOAD, FIRST_RENEWALS, HELD, HELD_GROWTH, LOAD_JUMP, LOAD_STEP, LONGEST_ROUND,
+    SETTLING_ROUNDS, SMALLEST_LOAD, STIFFER,
 };
-use super::law::{Neighbours, RingBall, RingConstants, RingLoad, between};
+use super::law::{Neighbours, RingBall, RingConstants, RingLoad, between, growth};
 use super::renewal::{BallInputs, Settled};
 use crate::ball::preload::preload_counted;
 use crate::train::LARGEST_FREE_SPEED;
@@ -291,6 +291,12 @@ impl<const N: usize> Ring<N> {
         // they settle once more.
         let torque = ball.torque;
         ball.keep(constants, load, &settled, &found, force, fastest);
+        // The renewal found the torque of the load that the contacts carried before it.
+        let grown = growth(constants, self.lift_off, found.carried, inputs.axial_load);
+        let follows = self.lift_off == 0.0 || grown < HELD_GROWTH && HELD_GROWTH * grown > 1.0;
+        if follows {
+            ball.torque *= grown;
+        }
         if found.taken < 1.0 {
             if self.settling == 0 {
                 ball.torque = torque;
