@@ -9,11 +9,16 @@ mod kit;
 use crate::kit::absurd::{EDGES, Trial};
 use crate::kit::gears;
 use crate::kit::random::Random;
-use epas_friction::scene::{ChangingClearance, ChangingFriction};
+use crate::kit::remembering::{
+    COUNTS, CagedByAngle, LinearBySpeed, TEMPERATURE, TICK, UncagedByCounts, caged_by_angle,
+    linear_by_speed, uncaged_by_counts,
+};
+use epas_friction::ball::{GrooveFit, ScrewRow};
+use epas_friction::scene::{ChangingClearance, ChangingFriction, Scene, WithMemoryInputs};
 use epas_friction::{
-    CagedBallScrew, CagedBallScrewConfiguration, Clearance, FrictionBranch, FrictionModel, Limits,
-    LinearBearingTrain, LoadShare, LoadShares, RollingResistance, UncagedBallScrew,
-    UncagedBallScrewConfiguration,
+    CagedBallScrew, CagedBallScrewConfiguration, Clearance, FrictionBranch, FrictionModel, Inputs,
+    Limits, LinearBearingTrain, LinearInputs, LoadShare, LoadShares, RollingResistance,
+    UncagedBallScrew, UncagedBallScrewConfiguration,
 };
 
 const TICKS: u32 = 200_000;
@@ -101,14 +106,8 @@ fn course<S: Trial>(
 ) -> u64 {
     let mut model = FrictionModel::<S>::new(configuration).unwrap();
     let mut hash = EMPTY;
-    for (leg, points) in COURSE.windows(2).enumerate() {
-        let ticks = LEG[leg % LEG.len()];
-        for tick in 0..ticks {
-            let part = tick as f32 / ticks as f32;
-            let sensors = std::array::from_fn(|sensor| {
-                let (from, to) = (points[0][sensor], points[1][sensor]);
-                full_scale[sensor] * (from + part * (to - from))
-            });
+    for leg in 0..LEGS {
+        for sensors in sensors(leg, full_scale) {
             let outputs = model.step(S::inputs(sensors));
             hash = taken_in(hash, &S::numbers(&outputs));
         }
@@ -116,6 +115,157 @@ fn course<S: Trial>(
     }
     hash
 }
+
+/// Legs of the course.
+const LEGS: usize = COURSE.len() - 1;
+
+/// What the sensors deliver on a leg.
+fn sensors(leg: usize, full_scale: [f32; 3]) -> impl Iterator<Item = [f32; 3]> {
+    let ticks = LEG[leg % LEG.len()];
+    (0..ticks).map(move |tick| {
+        let part = tick as f32 / ticks as f32;
+        std::array::from_fn(|sensor| {
+            let (from, to) = (COURSE[leg][sensor], COURSE[leg + 1][sensor]);
+            full_scale[sensor] * (from + part * (to - from))
+        })
+    })
+}
+
+/// Hash of all digits of all outputs of a slow course of a scene with memory, in whose every second tick the sensor alone is read.
+/// The temperature rises by 3 K from leg to leg.
+fn remembered<S: Scene<Outputs: std::fmt::Debug>>(
+    mut model: FrictionModel<S>,
+    full_scale: [f32; 3],
+    mut tick: impl FnMut(&mut FrictionModel<S>, [f32; 3], f32, bool) -> S::Outputs,
+) -> u64 {
+    let mut hash = EMPTY;
+    for leg in 0..LEGS {
+        let temperature = TEMPERATURE + 3.0 * leg as f32;
+        for (number, sensors) in sensors(leg, full_scale).enumerate() {
+            let outputs = tick(&mut model, sensors, temperature, number % 2 == 1);
+            // The shortest decimals of an f32 tell every two of them apart.
+            let digits = format!("{outputs:?}");
+            hash = digits
+                .bytes()
+                .fold(hash, |hash, byte| taken_in(hash, &[u32::from(byte)]));
+        }
+    }
+    hash
+}
+
+fn at<I, R>(scene: I, reading: R, temperature: f32) -> WithMemoryInputs<I, R> {
+    WithMemoryInputs {
+        scene,
+        reading,
+        load_age: 0.0,
+        temperature,
+        temperature_age: 0.0,
+    }
+}
+
+/// Friction with memory, whose coefficient follows speed and temperature, in steps and between them.
+#[test]
+fn memories_give_the_stored_bits() {
+    use std::f32::consts::TAU;
+    let screw = [100.0, 15_000.0, 0.0];
+    let inputs = |[nut_speed, axial_load, _]: [f32; 3]| Inputs {
+        nut_speed,
+        axial_load,
+    };
+    let mut angle = 0.0;
+    let mut turned = |speed: f32| {
+        angle = (angle + speed * TICK).rem_euclid(TAU);
+        angle
+    };
+    let caged = remembered::<CagedByAngle>(
+        FrictionModel::new(&caged_by_angle()).unwrap(),
+        screw,
+        |model, sensors, temperature, between| {
+            let angle = turned(sensors[0]);
+            if between {
+                model.between(angle)
+            } else {
+                model.step(at(inputs(sensors), angle, temperature))
+            }
+        },
+    );
+    let uncaged = remembered::<UncagedByCounts>(
+        FrictionModel::new(&uncaged_by_counts()).unwrap(),
+        screw,
+        |model, sensors, temperature, between| {
+            let count = (turned(sensors[0]) / TAU * COUNTS as f32) as u32 % COUNTS;
+            if between {
+                model.between(count)
+            } else {
+                model.step(at(inputs(sensors), count, temperature))
+            }
+        },
+    );
+    let linear = remembered::<LinearBySpeed>(
+        FrictionModel::new(&linear_by_speed()).unwrap(),
+        [2.0, 10_000.0, 10_000.0],
+        |model, [speed, normal_load, side_load], temperature, between| {
+            let inputs = LinearInputs {
+                speed,
+                normal_load,
+                side_load,
+            };
+            if between {
+                model.between(speed)
+            } else {
+                model.step(at(inputs, speed, temperature))
+            }
+        },
+    );
+    let hashes = [caged, uncaged, linear].map(|hash| format!("{hash:#018x}"));
+    assert_eq!(hashes, STORED_MEMORIES);
+}
+
+const STORED_MEMORIES: [&str; 3] = [
+    "0x871ff1b06729533e",
+    "0xf33c312ab87ae8c0",
+    "0xab01d38c51b5bc3e",
+];
+
+/// The closed form of a row of balls, which no step runs: without a gap, with play and with a preload that the loads leave or lose.
+#[test]
+fn closed_forms_of_rows_give_the_stored_bits() {
+    let design = gears::caged().design;
+    let mut random = Random(3);
+    let fits = [
+        GrooveFit::Zero,
+        GrooveFit::Play,
+        GrooveFit::Preload {
+            contact_force: 30.0,
+        },
+    ];
+    let hashes = fits.map(|fit| {
+        let row = ScrewRow::new(&design, 0.09, fit).unwrap();
+        let mut hash = taken_in(EMPTY, &[row.largest_deviation().to_bits()]);
+        for _ in 0..4000 {
+            let mut unit = || (2.0 * random.unit() - 1.0) as f32;
+            let tick = row.at(50.0 * unit(), 300.0 * unit() * unit().abs());
+            let ball = tick.ball(0.06 * unit(), 0.06 * unit(), &LoadShare::MEAN);
+            let numbers = [
+                ball.speed_deviation,
+                ball.compliance,
+                ball.groove_torque,
+                ball.rubbing,
+                tick.main_load(),
+                tick.third_load(),
+            ];
+            hash = taken_in(hash, &numbers.map(f32::to_bits));
+        }
+        format!("{hash:#018x}")
+    });
+    assert_eq!(hashes, STORED_ROWS);
+}
+
+const STORED_ROWS: [&str; 3] = [
+    "0x81a1ceb329a5d502",
+    "0x698a615bacef725e",
+    "0x2ce06e75d1d22373",
+];
 
 /// Another friction coefficient and another clearance at each point of the course.
 fn change_both<S: ChangingFriction + ChangingClearance>(model: &mut FrictionModel<S>, leg: usize) {

@@ -13,3 +13,4 @@ pub mod measured;
 pub mod objects;
 pub mod random;
 pub mod recorded;
+pub mod remembering;

@@ -14,6 +14,7 @@ mod laws;
 mod linear_scene;
 mod memory;
 mod noise;
+mod phases;
 mod preloaded;
 mod promises;
 mod scene_constants;

@@ -3,38 +3,24 @@
 use std::f32::consts::TAU;
 use std::fmt::Debug;
 
-use epas_friction::defaults::COEFFICIENT;
-use epas_friction::law::coefficient::{CoefficientLaw, OneCoefficient, TemperatureFade};
-use epas_friction::law::memory::{
-    LoadExactElements, Part, ProportionalElements, SLIP_8, SPIN_4, SeatElement, Together,
-};
-use epas_friction::law::motion::{
-    CountSensor, CountSensorParameters, SpeedOverTick, Steady, WrappedAngle, WrappedAngleParameters,
-};
-use epas_friction::scene::{
-    Freshness, Sliding, StoredScene, WithMemory, WithMemoryConfiguration, WithMemoryInputs,
-};
+use epas_friction::law::motion::{WrappedAngle, WrappedAngleParameters};
+use epas_friction::scene::{Sliding, StoredScene, WithMemoryConfiguration, WithMemoryInputs};
 use epas_friction::stored::{VERSION, crc32};
 use epas_friction::{
-    CagedBallScrew, CagedBallScrewConfiguration, Clearance, FrictionBranch, FrictionModel, Inputs,
-    LinearBearingTrain, LinearInputs, Refusal, UncagedBallScrew,
+    CagedBallScrew, CagedBallScrewConfiguration, Clearance, DeviationMap, FrictionBranch,
+    FrictionModel, Inputs, LinearBearingTrain, LinearInputs, Refusal, UncagedBallScrew,
 };
 
 use crate::kit::absurd::{Trial, accepted};
 use crate::kit::gears::{LINEAR_BALLS, SCREW_BALLS, caged, linear, uncaged};
 use crate::kit::random::Random;
+use crate::kit::remembering::{
+    COUNTS, CagedByAngle, LinearBySpeed, TEMPERATURE, TICK, UncagedByCounts, caged_by_angle,
+    linear_by_speed, slip, uncaged_by_counts, with_memory,
+};
 
 type Uncaged = UncagedBallScrew<SCREW_BALLS>;
 type Linear = LinearBearingTrain<LINEAR_BALLS>;
-type Slip = ProportionalElements<8>;
-type CagedByAngle = WithMemory<CagedBallScrew, Slip, WrappedAngle>;
-type UncagedByCounts =
-    WithMemory<Uncaged, Together<ProportionalElements<4>, SeatElement>, Steady<CountSensor>>;
-type LinearBySpeed = WithMemory<Linear, LoadExactElements<8>, SpeedOverTick, OneCoefficient>;
-
-const TICK: f32 = 1e-4;
-const COUNTS: u32 = 16_384;
-const TEMPERATURE: f32 = 313.15;
 
 /// Offsets in a block.
 const VERSION_AT: usize = 4;
@@ -183,40 +169,9 @@ impl Kept for Linear {
     }
 }
 
-fn with_memory<C, E, A>(scene: C, elements: E, angle: A) -> WithMemoryConfiguration<C, E, A> {
-    WithMemoryConfiguration {
-        scene,
-        elements,
-        angle,
-        reference_load: 1000.0,
-        play: 2e-3,
-        coefficient: CoefficientLaw::new(&COEFFICIENT).unwrap(),
-        temperature: TemperatureFade::new(TEMPERATURE, 60.0, 60.0).unwrap(),
-        freshness: Freshness::DEFAULT,
-    }
-}
-
-fn slip(limit: f32) -> Slip {
-    ProportionalElements::new(
-        limit,
-        &[Part {
-            backbone: &SLIP_8.elements,
-            share: 1.0,
-            breakaway_angle: 2e-3,
-        }],
-    )
-    .unwrap()
-}
-
 impl Kept for CagedByAngle {
     fn model() -> FrictionModel<Self> {
-        let angle = WrappedAngle::new(WrappedAngleParameters {
-            lowest: 0.0,
-            period: TAU,
-            largest_turn: 1.0,
-        })
-        .unwrap();
-        FrictionModel::new(&with_memory(caged(), slip(0.05), angle)).unwrap()
+        FrictionModel::new(&caged_by_angle()).unwrap()
     }
 
     fn drive(model: &mut FrictionModel<Self>, manoeuvre: &Manoeuvre, tick: u32) -> Self::Outputs {
@@ -234,25 +189,7 @@ impl Kept for CagedByAngle {
 
 impl Kept for UncagedByCounts {
     fn model() -> FrictionModel<Self> {
-        let sensor = CountSensor::new(CountSensorParameters {
-            period: COUNTS,
-            turn_per_count: TAU / COUNTS as f32,
-            largest_turn: 1.0,
-        })
-        .unwrap();
-        let sensor = Steady::new(sensor, 2e-4).unwrap();
-        let spin = ProportionalElements::new(
-            0.02,
-            &[Part {
-                backbone: &SPIN_4.elements,
-                share: 1.0,
-                breakaway_angle: 1e-3,
-            }],
-        )
-        .unwrap();
-        let seat = SeatElement::new(0.03, 1e-3, 5e-3).unwrap();
-        let elements = Together::new(spin, seat, 0.4).unwrap();
-        FrictionModel::new(&with_memory(uncaged(), elements, sensor)).unwrap()
+        FrictionModel::new(&uncaged_by_counts()).unwrap()
     }
 
     fn drive(model: &mut FrictionModel<Self>, manoeuvre: &Manoeuvre, tick: u32) -> Self::Outputs {
@@ -271,15 +208,7 @@ impl Kept for UncagedByCounts {
 
 impl Kept for LinearBySpeed {
     fn model() -> FrictionModel<Self> {
-        let elements = LoadExactElements::new(20.0, 1e-4, 4.0).unwrap();
-        let sensor = SpeedOverTick::new(TICK, 0.1).unwrap();
-        let scene = linear();
-        let one = WithMemoryConfiguration::new(scene, scene.friction, elements, sensor, 1000.0);
-        FrictionModel::new(&WithMemoryConfiguration {
-            play: 2e-3,
-            ..one.unwrap()
-        })
-        .unwrap()
+        FrictionModel::new(&linear_by_speed()).unwrap()
     }
 
     fn drive(model: &mut FrictionModel<Self>, manoeuvre: &Manoeuvre, tick: u32) -> Self::Outputs {
@@ -338,7 +267,8 @@ fn goes_on<S: Kept>(set: bool) {
         assert_eq!(S::import(&mut next, &block), Ok(()));
         assert_eq!(export(&next), block);
         let mut last = String::new();
-        for tick in 0..1000 {
+        // What lies between two steps first: it reads what the last step has left.
+        for tick in 1..=1000 {
             manoeuvre.next();
             // The shortest decimal of an f32 tells every two of them apart.
             let was = format!("{:?}", S::drive(&mut model, &manoeuvre, tick));
@@ -353,6 +283,12 @@ fn goes_on<S: Kept>(set: bool) {
     // A caged screw under its first friction reads laws alone.
     assert_eq!(known, if S::STILL && !set { 0 } else { 6 });
 }
+
+/// No wave in two turns.
+static TWO_TURNS: DeviationMap = match DeviationMap::from_harmonics(2, &[]) {
+    Ok(map) => map,
+    Err(_) => panic!("a deviation is too large"),
+};
 
 #[test]
 fn a_scene_goes_on_to_the_bit() {
@@ -392,6 +328,29 @@ fn what_a_model_did_before_an_import_does_not_count() {
     check::<CagedByAngle>();
     check::<UncagedByCounts>();
     check::<LinearBySpeed>();
+}
+
+/// A clearance that other balls take, and these do not.
+#[test]
+fn a_clearance_of_other_balls_is_refused() {
+    let mut other = Uncaged::model();
+    let own = Clearance::new(-1e-6).unwrap();
+    other.set_clearance(own).unwrap();
+    let block = export(&other);
+    let bytes = own.gap().to_le_bytes();
+    let at = block.windows(4).position(|window| window == bytes).unwrap();
+    let with = |gap: f32| {
+        let mut block = block.clone();
+        block[at..at + 4].copy_from_slice(&gap.to_le_bytes());
+        sealed(block)
+    };
+    // Play up to 0.05 of the ball radius, 3.175 mm.
+    let mut model = Uncaged::model();
+    assert_eq!(model.import(&with(1.58e-4)), Ok(()));
+    assert_eq!(
+        refused(&mut model, &with(1.6e-4)),
+        Refusal::OutOfRange { field: "clearance" }
+    );
 }
 
 /// A closed form has no state; its block is as long as that of the contacts, and not the same.
@@ -610,6 +569,18 @@ fn blocks_of_other_constants_are_refused() {
     longer.return_length = 0.02;
     let mut model = FrictionModel::<Uncaged>::new(&longer).unwrap();
     assert_eq!(model.import(&block), Err(Refusal::OtherConstants));
+    let mut others = [uncaged(), uncaged(), uncaged()];
+    others[0].turns = 2.45;
+    others[1].screw_deviation = &TWO_TURNS;
+    others[2].design = epas_friction::CATALOGUE[14].design().unwrap();
+    for other in others {
+        let mut model = FrictionModel::<Uncaged>::new(&other).unwrap();
+        assert_eq!(
+            model.import(&block),
+            Err(Refusal::OtherConstants),
+            "{other:?}"
+        );
+    }
     let mut slower = uncaged();
     slower.tick = 2e-5;
     let mut model = FrictionModel::<Uncaged>::new(&slower).unwrap();

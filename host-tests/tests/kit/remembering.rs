@@ -1,0 +1,115 @@
+//! Mechanisms whose friction remembers, one of every scene, each with another sensor.
+
+use core::f32::consts::TAU;
+
+use epas_friction::defaults::COEFFICIENT;
+use epas_friction::law::coefficient::{CoefficientLaw, OneCoefficient, TemperatureFade};
+use epas_friction::law::memory::{
+    LoadExactElements, Part, ProportionalElements, SLIP_8, SPIN_4, SeatElement, Together,
+};
+use epas_friction::law::motion::{
+    CountSensor, CountSensorParameters, SpeedOverTick, Steady, WrappedAngle, WrappedAngleParameters,
+};
+use epas_friction::scene::{Freshness, WithMemory, WithMemoryConfiguration};
+use epas_friction::{
+    CagedBallScrew, CagedBallScrewConfiguration, LinearBearingConfiguration, LinearBearingTrain,
+    UncagedBallScrew, UncagedBallScrewConfiguration,
+};
+
+use super::gears::{LINEAR_BALLS, SCREW_BALLS, caged, linear, uncaged};
+
+pub type Slip = ProportionalElements<8>;
+pub type SpinAndSeat = Together<ProportionalElements<4>, SeatElement>;
+pub type CagedByAngle = WithMemory<CagedBallScrew, Slip, WrappedAngle>;
+pub type UncagedByCounts =
+    WithMemory<UncagedBallScrew<SCREW_BALLS>, SpinAndSeat, Steady<CountSensor>>;
+pub type LinearBySpeed = WithMemory<
+    LinearBearingTrain<LINEAR_BALLS>,
+    LoadExactElements<8>,
+    SpeedOverTick,
+    OneCoefficient,
+>;
+
+/// Of the scenes, s.
+pub const TICK: f32 = 1e-4;
+
+/// Counts of a turn in [`uncaged_by_counts`].
+pub const COUNTS: u32 = 16_384;
+
+/// For which the friction coefficients are given, K.
+pub const TEMPERATURE: f32 = 313.15;
+
+pub fn with_memory<C, E, A>(scene: C, elements: E, angle: A) -> WithMemoryConfiguration<C, E, A> {
+    WithMemoryConfiguration {
+        scene,
+        elements,
+        angle,
+        reference_load: 1000.0,
+        play: 2e-3,
+        coefficient: CoefficientLaw::new(&COEFFICIENT).unwrap(),
+        temperature: TemperatureFade::new(TEMPERATURE, 60.0, 60.0).unwrap(),
+        freshness: Freshness::DEFAULT,
+    }
+}
+
+pub fn slip(limit: f32) -> Slip {
+    ProportionalElements::new(
+        limit,
+        &[Part {
+            backbone: &SLIP_8.elements,
+            share: 1.0,
+            breakaway_angle: 2e-3,
+        }],
+    )
+    .unwrap()
+}
+
+pub fn caged_by_angle() -> WithMemoryConfiguration<CagedBallScrewConfiguration, Slip, WrappedAngle>
+{
+    let angle = WrappedAngle::new(WrappedAngleParameters {
+        lowest: 0.0,
+        period: TAU,
+        largest_turn: 1.0,
+    })
+    .unwrap();
+    with_memory(caged(), slip(0.05), angle)
+}
+
+pub fn uncaged_by_counts()
+-> WithMemoryConfiguration<UncagedBallScrewConfiguration, SpinAndSeat, Steady<CountSensor>> {
+    let sensor = CountSensor::new(CountSensorParameters {
+        period: COUNTS,
+        turn_per_count: TAU / COUNTS as f32,
+        largest_turn: 1.0,
+    })
+    .unwrap();
+    let sensor = Steady::new(sensor, 2e-4).unwrap();
+    let spin = ProportionalElements::new(
+        0.02,
+        &[Part {
+            backbone: &SPIN_4.elements,
+            share: 1.0,
+            breakaway_angle: 1e-3,
+        }],
+    )
+    .unwrap();
+    let seat = SeatElement::new(0.03, 1e-3, 5e-3).unwrap();
+    let elements = Together::new(spin, seat, 0.4).unwrap();
+    with_memory(uncaged(), elements, sensor)
+}
+
+pub fn linear_by_speed() -> WithMemoryConfiguration<
+    LinearBearingConfiguration,
+    LoadExactElements<8>,
+    SpeedOverTick,
+    OneCoefficient,
+> {
+    let elements = LoadExactElements::new(20.0, 1e-4, 4.0).unwrap();
+    let sensor = SpeedOverTick::new(TICK, 0.1).unwrap();
+    let scene = linear();
+    let one = WithMemoryConfiguration::new(scene, scene.friction, elements, sensor, 1000.0);
+    WithMemoryConfiguration {
+        play: 2e-3,
+        ..one.unwrap()
+    }
+}
