@@ -243,7 +243,7 @@ fn closed_forms_of_rows_give_the_stored_bits() {
         let row = ScrewRow::new(&design, 0.09, fit).unwrap();
         let mut hash = taken_in(EMPTY, &[row.largest_deviation().to_bits()]);
         for _ in 0..4000 {
-            let mut unit = || (2.0 * random.unit() - 1.0) as f32;
+            let mut unit = || 2.0 * random.unit() - 1.0;
             let tick = row.at(50.0 * unit(), 300.0 * unit() * unit().abs());
             let ball = tick.ball(0.06 * unit(), 0.06 * unit(), &LoadShare::MEAN);
             let numbers = [

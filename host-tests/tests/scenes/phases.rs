@@ -49,7 +49,6 @@ fn from_angle(angle: f32) -> Vec<f32> {
 fn from_position(position: f32, (cosine, sine): (f32, f32)) -> Vec<f32> {
     let configuration = LinearBearingConfiguration {
         rail_deviation: one_wave(1, cosine, sine),
-        carriage_deviation: &DeviationMap::NONE,
         ..gears::linear()
     };
     let mut model = FrictionModel::<Linear>::new(&configuration).unwrap();
@@ -57,7 +56,7 @@ fn from_position(position: f32, (cosine, sine): (f32, f32)) -> Vec<f32> {
     let inputs = LinearInputs {
         speed: 1.0,
         normal_load: 3000.0,
-        side_load: 0.0,
+        side_load: 1000.0,
     };
     (0..600)
         .map(|_| model.step(inputs).friction_force)
