@@ -569,6 +569,87 @@ fn friction_power_keeps_above_its_bound() {
     }
 }
 
+/// `v_S / S + v_S' / S' = -omega sin(psi)` at the centres of both contacts, at two yaw angles, tells `S` and `S'`; over an ellipse that
+/// is deformed to the rolling radius their mean is less by about `a^2 / (10 r')`, up to some per cent.
+#[test]
+fn least_mean_slip_is_that_of_the_nearer_contact() {
+    let mut random = Random(0x5EED_1008);
+    let (mut seen, mut worst) = (0, 0.0_f64);
+    for _ in 0..2000 {
+        let mut given = parameters(&random.input());
+        given.yaw_angle = 0.08;
+        let (yaw, sine) = (given.yaw_angle, f64::from(given.lead_angle).sin());
+        if sine < 0.1 {
+            continue;
+        }
+        let side = |yaw_angle| {
+            let other = KinematicsParameters { yaw_angle, ..given };
+            let ball = ContactKinematics::new(&other).ok()?.tick(1.0);
+            Some([ball.screw.side_slip, ball.nut.side_slip].map(f64::from))
+        };
+        let (Some([a, b]), Some([c, d])) = (side(yaw), side(-yaw)) else {
+            continue;
+        };
+        let determinant = a * d - b * c;
+        if determinant.abs() < 0.05 * (a * d).abs().max((b * c).abs()) {
+            continue;
+        }
+        seen += 1;
+        let distances = [(b - d) * sine, (c - a) * sine].map(|part| determinant / part);
+        let ellipses = [
+            (given.semi_major_screw, given.rolling_radius_screw),
+            (given.semi_major_nut, given.rolling_radius_nut),
+        ];
+        let mut means = [0.0; 2];
+        for ((mean, distance), (major, radius)) in means.iter_mut().zip(distances).zip(ellipses) {
+            *mean = distance.abs() - f64::from(major).powi(2) / (10.0 * f64::from(radius));
+        }
+        let wanted = means[0].min(means[1]) * sine;
+        let found = ContactKinematics::new(&given).unwrap().least_mean_slip();
+        worst = worst.max((f64::from(found) / wanted - 1.0).abs());
+    }
+    measured::assert("least mean slip, from side slips", worst);
+    assert!(seen > 300, "{seen}");
+}
+
+/// One load may be zero.
+#[test]
+fn a_pitch_angle_takes_the_load_of_one_contact() {
+    let given = parameters(&Random(0x5EED_1009).input());
+    for loads in [(0.0, 5.0), (5.0, 0.0)] {
+        assert!(
+            PitchMethod::Constant(given.pitch_angle)
+                .angle(&given, loads.0, loads.1)
+                .is_ok()
+        );
+    }
+    let error = PitchMethod::Constant(given.pitch_angle).angle(&given, 0.0, 0.0);
+    assert_eq!(error.unwrap_err().field(), "load_screw");
+}
+
+/// Zeros of either sign are a point.
+#[test]
+fn a_contact_may_be_a_point() {
+    let given = parameters(&Random(0x5EED_100A).input());
+    let mut kinematics = ContactKinematics::new(&given).unwrap();
+    let point = |semi_major, semi_minor| EllipticContact {
+        contact_angle: given.contact_angle_screw,
+        semi_major,
+        semi_minor,
+    };
+    let minor = 0.2 * given.semi_major_nut;
+    let whole = point(given.semi_major_nut, minor);
+    for (contact, is_taken) in [
+        (point(0.0, -0.0), true),
+        (point(-0.0, 0.0), true),
+        (point(given.semi_major_screw, -0.0), true),
+        (point(given.semi_major_screw, -1e-9), false),
+        (point(-1e-9, -1e-9), false),
+    ] {
+        assert_eq!(kinematics.update(contact, whole), is_taken, "{contact:?}");
+    }
+}
+
 /// Fields of any direction, offset and spin on any ellipse, set by rolling radius and yaw angle. On an
 /// ellipse of a fiftieth of the ball the parabola of rolling slip is a hundredth of the spin's slip: as
 /// good as linear.
@@ -771,13 +852,21 @@ fn what_cannot_roll_is_refused() {
     assert!(matches!(error, Error::FoldedGroove { .. }));
     assert_eq!(error.field(), "rolling_radius_screw");
     let limit = error.allowed().maximum;
+    let (sin_lead, cos_lead) = f64::from(small.lead_angle).sin_cos();
+    let path_radius = f64::from(small.pitch_radius) * (1.0 + (sin_lead / cos_lead).powi(2));
+    let border = 0.9 * path_radius / f64::from(small.contact_angle_screw).cos();
+    // Ten roundings.
     assert!(
-        ContactKinematics::new(&KinematicsParameters {
-            rolling_radius_screw: limit * 0.9999,
-            ..small
-        })
-        .is_ok()
+        (f64::from(limit) / border - 1.0).abs() < 6e-7,
+        "{limit} {border}"
     );
+    for (factor, is_taken) in [(0.9999, true), (1.0001, false)] {
+        let made = ContactKinematics::new(&KinematicsParameters {
+            rolling_radius_screw: limit * factor,
+            ..small
+        });
+        assert_eq!(made.is_ok(), is_taken);
+    }
     // A groove narrower than the ball.
     let error = refused(KinematicsParameters {
         groove_radius_nut: 3.9e-3,

@@ -483,6 +483,7 @@ const KINEMATICS: &[Measured] = &[
     largest("friction power, 95 of 100", 3e-3, 1.8e-3),
     largest("friction power, largest", 0.05, 0.028),
     largest("friction power, mean", 2e-4, 1.3e-4),
+    largest("least mean slip, from side slips", 1e-3, 6.94e-4),
     largest("friction power of linear fields", 0.031, 0.021),
     largest("pitch angle, weighted, in rad", 6e-6, 4e-6),
     largest("pitch angle, closed form, in rad", 2.5e-7, 1.4e-7),
