@@ -124,7 +124,7 @@ pub(super) const fn between(value: f32, least: f32, most: f32) -> f32 {
 /// the contact force, preload counted, as a ratio of its square `x`:
 ///
 /// ```text
-/// x^(7/12) = (19 x + 5)/(5 x + 19)
+/// x^(7/12) -> (19 x + 5)/(5 x + 19)
 /// ```
 ///
 /// Within 0.3 % for factors of the force up to 1.25, 1.7 % up to 1.5, 8 % up to 2; between 5/19 and 19/5 for any.
