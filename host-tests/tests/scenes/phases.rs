@@ -93,9 +93,9 @@ fn a_rail_is_the_same_a_wavelength_on() {
 }
 
 /// The field that is refused, and its range.
-fn range<T>(made: Result<T, Error>) -> (&'static str, f32, f32) {
+fn range<T>(made: &Result<T, Error>) -> (&'static str, f32, f32) {
     match made {
-        Err(Error::OutOfRange { field, allowed, .. }) => (field, allowed.minimum, allowed.maximum),
+        Err(Error::OutOfRange { field, allowed, .. }) => (*field, allowed.minimum, allowed.maximum),
         Err(error) => panic!("{error}"),
         Ok(_) => panic!("taken"),
     }
@@ -119,7 +119,7 @@ fn a_bearing_is_as_long_and_its_ticks_as_short_as_promised() {
     let with = |change: &dyn Fn(&mut LinearBearingConfiguration)| {
         let mut configuration = gears::linear();
         change(&mut configuration);
-        range(FrictionModel::<Linear>::new(&configuration))
+        range(&FrictionModel::<Linear>::new(&configuration))
     };
     let loaded = f64::from(gears::linear().loaded_length);
     let found = with(&|c| (c.return_length, c.wavelength) = (31.0, 1.0));
@@ -160,19 +160,19 @@ fn a_screw_is_as_long_and_its_ticks_as_short_as_promised() {
         return_length: 9.0,
         ..configuration
     };
-    let found = range(FrictionModel::<Uncaged>::new(&short));
+    let found = range(&FrictionModel::<Uncaged>::new(&short));
     close(found, "return_length", (1000.0 - turns) * small_turn, false);
     let few = UncagedBallScrewConfiguration {
         turns: 0.2,
         return_length: 9.0,
         ..configuration
     };
-    let found = range(FrictionModel::<Uncaged>::new(&few));
+    let found = range(&FrictionModel::<Uncaged>::new(&few));
     close(found, "return_length", 250.0 * 0.2 * per_turn, false);
     let mut slow = gears::uncaged();
     slow.tick = 0.9;
     slow.return_length = 5.0;
     slow.limits.nut_speed = 10.0;
-    let found = range(FrictionModel::<Uncaged>::new(&slow));
+    let found = range(&FrictionModel::<Uncaged>::new(&slow));
     close(found, "tick", 0.499 * f64::from(TAU) / 10.0, false);
 }
