@@ -2,9 +2,11 @@
 //! tests of the bench program.
 
 use crate::kit::designs::{SCREW_TRACK, screw as design};
+use crate::kit::gears::{self, SCREW_BALLS};
 use crate::kit::measured;
 use std::f64::consts::{FRAC_PI_4, TAU};
 
+use epas_friction::scene::Scene;
 use epas_friction::{
     Clearance, DeviationMap, Faults, FrictionModel, Harmonic, Inputs, Limits, LoadShare,
     LoadShares, Outputs, Regime, RollingResistance, UncagedBallScrew,
@@ -603,4 +605,88 @@ fn every_scene_of_a_screw_has_the_common_outputs() {
     let expected = 1.0 - f64::from(output.friction_torque.abs()) / power_out;
     let error = f64::from(common.efficiency) - expected;
     measured::assert("screw without cage, efficiency", error);
+}
+
+type Long = FrictionModel<UncagedBallScrew<SCREW_BALLS>>;
+
+/// Balls that have settled at one speed under one load, and how many of the next ticks say that they settle again.
+fn unsettled_by(change: impl FnOnce(&mut Long)) -> usize {
+    let configuration = UncagedBallScrewConfiguration {
+        screw_deviation: &DeviationMap::NONE,
+        nut_deviation: &DeviationMap::NONE,
+        clearance: Clearance::new(-2e-6).unwrap(),
+        ..gears::uncaged()
+    };
+    let mut model = Long::new(&configuration).unwrap();
+    let inputs = Inputs {
+        nut_speed: 5.0,
+        axial_load: 3000.0,
+    };
+    let settles = |model: &mut Long| {
+        let outputs = model.step(inputs);
+        outputs.faults.contains(Faults::SETTLING)
+    };
+    for _ in 0..2000 {
+        settles(&mut model);
+    }
+    assert!(!settles(&mut model));
+    change(&mut model);
+    (0..1000).filter(|_| settles(&mut model)).count()
+}
+
+/// Small changes of friction coefficient and clearance are followed, larger ones settle for three rounds of renewals.
+#[test]
+fn small_changes_are_followed_and_large_ones_settle() {
+    let clearance = |gap: f32| Clearance::new(gap).unwrap();
+    assert_eq!(unsettled_by(|model| model.set_friction(0.0755).unwrap()), 0);
+    assert_eq!(
+        unsettled_by(|model| model.set_clearance(clearance(-2.005e-6)).unwrap()),
+        0
+    );
+    // A ball a tick, and the nominal one after all others: it counts as well.
+    let rounds = 3 * SCREW_BALLS;
+    let close = |ticks: usize| ticks.abs_diff(rounds) <= 6;
+    let friction = unsettled_by(|model| model.set_friction(0.077).unwrap());
+    assert!(close(friction), "{friction}");
+    let gap = unsettled_by(|model| model.set_clearance(clearance(-2.05e-6)).unwrap());
+    assert!(close(gap), "{gap}");
+}
+
+/// Constants that are swapped: balls settle, and then rub as those of a model that has had them from the first tick.
+#[test]
+fn balls_settle_under_swapped_constants() {
+    type Constants = <UncagedBallScrew<SCREW_BALLS> as Scene>::Constants;
+    let configured = |friction| UncagedBallScrewConfiguration {
+        friction,
+        screw_deviation: &DeviationMap::NONE,
+        nut_deviation: &DeviationMap::NONE,
+        ..gears::uncaged()
+    };
+    let constants = |friction| -> Constants {
+        let model = Long::new(&configured(friction));
+        *model.unwrap().constants()
+    };
+    let same = unsettled_by(|model| {
+        let own = *model.constants();
+        model.swap_constants(own).unwrap();
+    });
+    assert!(same.abs_diff(3 * SCREW_BALLS) <= 6, "{same}");
+    let mut swapped = Long::new(&configured(0.075)).unwrap();
+    let mut fresh = Long::new(&configured(0.12)).unwrap();
+    let inputs = Inputs {
+        nut_speed: 5.0,
+        axial_load: 3000.0,
+    };
+    for _ in 0..1000 {
+        swapped.step(inputs);
+        fresh.step(inputs);
+    }
+    swapped.swap_constants(constants(0.12)).unwrap();
+    let mut torques = [0.0_f32; 2];
+    for _ in 0..1500 {
+        torques = [&mut swapped, &mut fresh].map(|model| model.step(inputs).groove_torque);
+    }
+    let [swapped, fresh] = torques;
+    // Settled balls stay where Newton's method leaves them, within 1e-4 of their friction.
+    assert!((swapped / fresh - 1.0).abs() < 1e-3, "{swapped} {fresh}");
 }
