@@ -8,13 +8,14 @@ mod kit;
 
 use crate::kit::absurd::{EDGES, Trial};
 use crate::kit::gears;
+use crate::kit::objects::row_numbers;
 use crate::kit::random::Random;
 use crate::kit::remembering::{
-    COUNTS, CagedByAngle, LinearBySpeed, TEMPERATURE, TICK, UncagedByCounts, caged_by_angle,
+    COUNTS, CagedByAngle, LinearBySpeed, TEMPERATURE, TICK, UncagedByCounts, at, caged_by_angle,
     linear_by_speed, uncaged_by_counts,
 };
 use epas_friction::ball::{GrooveFit, ScrewRow};
-use epas_friction::scene::{ChangingClearance, ChangingFriction, Scene, WithMemoryInputs};
+use epas_friction::scene::{ChangingClearance, ChangingFriction, Scene};
 use epas_friction::{
     CagedBallScrew, CagedBallScrewConfiguration, Clearance, FrictionBranch, FrictionModel, Inputs,
     Limits, LinearBearingTrain, LinearInputs, LoadShare, LoadShares, RollingResistance,
@@ -153,16 +154,6 @@ fn remembered<S: Scene<Outputs: std::fmt::Debug>>(
     hash
 }
 
-fn at<I, R>(scene: I, reading: R, temperature: f32) -> WithMemoryInputs<I, R> {
-    WithMemoryInputs {
-        scene,
-        reading,
-        load_age: 0.0,
-        temperature,
-        temperature_age: 0.0,
-    }
-}
-
 /// Friction with memory, whose coefficient follows speed and temperature, in steps and between them.
 #[test]
 fn memories_give_the_stored_bits() {
@@ -246,15 +237,7 @@ fn closed_forms_of_rows_give_the_stored_bits() {
             let mut unit = || 2.0 * random.unit() - 1.0;
             let tick = row.at(50.0 * unit(), 300.0 * unit() * unit().abs());
             let ball = tick.ball(0.06 * unit(), 0.06 * unit(), &LoadShare::MEAN);
-            let numbers = [
-                ball.speed_deviation,
-                ball.compliance,
-                ball.groove_torque,
-                ball.rubbing,
-                tick.main_load(),
-                tick.third_load(),
-            ];
-            hash = taken_in(hash, &numbers.map(f32::to_bits));
+            hash = taken_in(hash, &row_numbers(&tick, &ball).map(f32::to_bits));
         }
         format!("{hash:#018x}")
     });

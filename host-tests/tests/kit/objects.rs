@@ -1,7 +1,8 @@
 //! Every object that is made from plain numbers: refused, or its answers are finite.
 
 use epas_friction::ball::{
-    AnalyticLinearBall, GrooveFit, LinearBallParameters, ScrewRow, SpeedDeviation,
+    AnalyticLinearBall, GrooveFit, LinearBallParameters, ScrewRow, ScrewTick, ScrewTickBall,
+    SpeedDeviation,
 };
 use epas_friction::contact::FrictionMap;
 use epas_friction::curvature::{FittedCurvature, GothicArch};
@@ -215,17 +216,7 @@ fn ball_screw(numbers: &mut Numbers) -> Result<(), String> {
             let what = format!(
                 "ScrewRow {parameters:?} {friction} {fit:?} at {nut_speed} {load} {screw} {nut}"
             );
-            all_finite(
-                &what,
-                &[
-                    ball.speed_deviation,
-                    ball.compliance,
-                    ball.groove_torque,
-                    ball.rubbing,
-                    tick.main_load(),
-                    tick.third_load(),
-                ],
-            )?;
+            all_finite(&what, &row_numbers(&tick, &ball))?;
             if ball.compliance > 0.0 && ball.groove_torque >= 0.0 {
                 Ok(())
             } else {
@@ -234,6 +225,18 @@ fn ball_screw(numbers: &mut Numbers) -> Result<(), String> {
         }
         Err(error) => refused("ScrewRow", &error),
     }
+}
+
+/// What a row in closed form gives of a ball in a tick.
+pub fn row_numbers(tick: &ScrewTick, ball: &ScrewTickBall) -> [f32; 6] {
+    [
+        ball.speed_deviation,
+        ball.compliance,
+        ball.groove_torque,
+        ball.rubbing,
+        tick.main_load(),
+        tick.third_load(),
+    ]
 }
 
 fn curvature(numbers: &mut Numbers) -> Result<(), String> {

@@ -10,7 +10,7 @@ use epas_friction::law::memory::{
 use epas_friction::law::motion::{
     CountSensor, CountSensorParameters, SpeedOverTick, Steady, WrappedAngle, WrappedAngleParameters,
 };
-use epas_friction::scene::{Freshness, WithMemory, WithMemoryConfiguration};
+use epas_friction::scene::{Freshness, WithMemory, WithMemoryConfiguration, WithMemoryInputs};
 use epas_friction::{
     CagedBallScrew, CagedBallScrewConfiguration, LinearBearingConfiguration, LinearBearingTrain,
     UncagedBallScrew, UncagedBallScrewConfiguration,
@@ -38,6 +38,17 @@ pub const COUNTS: u32 = 16_384;
 
 /// For which the friction coefficients are given, K.
 pub const TEMPERATURE: f32 = 313.15;
+
+/// Inputs as fresh as they can be, at a temperature, K.
+pub fn at<I, R>(scene: I, reading: R, temperature: f32) -> WithMemoryInputs<I, R> {
+    WithMemoryInputs {
+        scene,
+        reading,
+        load_age: 0.0,
+        temperature,
+        temperature_age: 0.0,
+    }
+}
 
 pub fn with_memory<C, E, A>(scene: C, elements: E, angle: A) -> WithMemoryConfiguration<C, E, A> {
     WithMemoryConfiguration {

@@ -15,7 +15,7 @@ use crate::kit::absurd::{Trial, accepted};
 use crate::kit::gears::{LINEAR_BALLS, SCREW_BALLS, caged, linear, uncaged};
 use crate::kit::random::Random;
 use crate::kit::remembering::{
-    COUNTS, CagedByAngle, LinearBySpeed, TEMPERATURE, TICK, UncagedByCounts, caged_by_angle,
+    COUNTS, CagedByAngle, LinearBySpeed, TEMPERATURE, TICK, UncagedByCounts, at, caged_by_angle,
     linear_by_speed, slip, uncaged_by_counts, with_memory,
 };
 
@@ -84,13 +84,7 @@ impl Manoeuvre {
     }
 
     fn with<I, R>(&self, scene: I, reading: R) -> WithMemoryInputs<I, R> {
-        WithMemoryInputs {
-            scene,
-            reading,
-            load_age: 0.0,
-            temperature: self.temperature,
-            temperature_age: 0.0,
-        }
+        at(scene, reading, self.temperature)
     }
 }
 
