@@ -120,6 +120,13 @@ pub(super) const fn between(value: f32, least: f32, most: f32) -> f32 {
     }
 }
 
+/// Square of a ball's contact force under an axial load, N, preload counted, smooth where the load crosses zero: `F^2 + 8 P^2`, N^2.
+#[inline(always)]
+fn whole_squared(constants: &RingConstants, axial: f32, lift_off: f32) -> f32 {
+    let normal = constants.ball.normal * axial;
+    normal * normal + lift_off * lift_off
+}
+
 /// Growth of a ball's friction torque from one axial load, N, to another, of either sign and not both zero: the power 7/6 of that of
 /// the contact force, preload counted, as a ratio of its square `x`:
 ///
@@ -130,11 +137,7 @@ pub(super) const fn between(value: f32, least: f32, most: f32) -> f32 {
 /// Within 0.3 % for factors of the force up to 1.25, 1.7 % up to 1.5, 8 % up to 2; between 5/19 and 19/5 for any.
 #[inline(always)]
 pub(super) fn growth(constants: &RingConstants, lift_off: f32, from: f32, to: f32) -> f32 {
-    let square = |axial: f32| {
-        let normal = constants.ball.normal * axial;
-        normal * normal + lift_off * lift_off
-    };
-    let (from, to) = (square(from), square(to));
+    let [from, to] = [from, to].map(|axial| whole_squared(constants, axial, lift_off));
     (19.0 * to + 5.0 * from) / (5.0 * to + 19.0 * from)
 }
 
@@ -142,8 +145,7 @@ impl RingLoad {
     /// Of a mean axial load in the frame in which the nut turns forward, N.
     #[inline(always)]
     pub(super) fn new(constants: &RingConstants, axial: f32, lift_off: f32) -> Self {
-        let normal = constants.ball.normal * axial;
-        let whole = math::sqrt(normal * normal + lift_off * lift_off);
+        let whole = math::sqrt(whole_squared(constants, axial, lift_off));
         let [inverse, _] = inverse_cube_roots([whole, 1.0]);
         let two_thirds = whole * inverse;
         let seven_sixths = two_thirds * two_thirds * math::sqrt(inverse);
