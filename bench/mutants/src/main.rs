@@ -19,8 +19,8 @@ mod trial;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 use std::sync::Mutex;
-use std::time::Duration;
-use std::{env, fs, thread};
+use std::time::{Duration, Instant};
+use std::{env, thread};
 
 use clap::Parser;
 
@@ -29,13 +29,16 @@ use crate::rewrite::Placed;
 use crate::tree::Tree;
 use crate::trial::{Outcome, Trial, locked};
 
+/// Outcomes are written at most so often, and at the end: a run that is broken off loses no more.
+const BETWEEN_WRITES: Duration = Duration::from_secs(10);
+
 /// All mutants of epas-friction in one build.
 #[derive(Debug, Parser)]
 struct Arguments {
     /// Files whose mutants are tried, as `cargo mutants -f` takes them; all without.
     #[arg(long = "file", value_name = "GLOB")]
     files: Vec<String>,
-    /// Where outcomes are kept; mutants that are in it with an outcome are not tried again.
+    /// Where outcomes are kept; mutants that are in it with an outcome are not tried again, those no longer listed fall out.
     #[arg(long, default_value = "target/mutants.json")]
     outcomes: PathBuf,
     /// Tries again what stands, with the selected tests.
@@ -64,7 +67,9 @@ fn main() -> Result<(), Failure> {
     let folder = checkout.join(&arguments.folder);
     let mutants = list::mutants(&checkout, &arguments.files)?;
     println!("{} mutants", mutants.len());
-    let outcomes = trial::read(&arguments.outcomes)?;
+    let mut outcomes = trial::read(&arguments.outcomes)?;
+    let listed: BTreeSet<&str> = mutants.iter().map(|mutant| mutant.name.as_str()).collect();
+    outcomes.retain(|name, _| listed.contains(name.as_str()));
     let uncompiled =
         |number: &usize| outcomes.get(&mutants[number - 1].name) == Some(&Outcome::Uncompiled);
     let uncompiled: BTreeSet<usize> = (1..=mutants.len()).filter(uncompiled).collect();
@@ -91,6 +96,7 @@ fn main() -> Result<(), Failure> {
     println!("{} tests", tests.len());
 
     let outcomes = Mutex::new(outcomes);
+    let written = Mutex::new(Instant::now());
     let wanted = |number: usize| {
         let name = &mutants[number - 1].name;
         let open = match locked(&outcomes).get(name) {
@@ -109,14 +115,19 @@ fn main() -> Result<(), Failure> {
         if !matches!(outcome, Outcome::Falls(_)) {
             println!("{number} {name}: {outcome:?}");
         }
-        // Other tests that do not tell it either say nothing new.
-        if matches!(outcome, Outcome::Falls(_) | Outcome::Time(_)) || !outcomes.contains_key(&name)
+        // Other tests that know less of it say nothing new.
+        if outcomes
+            .get(&name)
+            .is_none_or(|before| before.rank() <= outcome.rank())
         {
             outcomes.insert(name, outcome);
         }
-        let written = serde_json::to_vec_pretty(&*outcomes).map_err(Failure::from);
-        if let Err(failure) = written.and_then(|text| Ok(fs::write(&arguments.outcomes, text)?)) {
-            eprintln!("{}: {failure}", arguments.outcomes.display());
+        let mut written = locked(&written);
+        if written.elapsed() > BETWEEN_WRITES {
+            *written = Instant::now();
+            if let Err(failure) = trial::write(&arguments.outcomes, &outcomes) {
+                eprintln!("{}: {failure}", arguments.outcomes.display());
+            }
         }
     };
     let placed: Vec<Placed> = switched
@@ -133,7 +144,6 @@ fn main() -> Result<(), Failure> {
         } else {
             Outcome::Uncompiled
         };
-        // Written with the first one that is tried.
         locked(&outcomes).insert(mutants[number - 1].name.clone(), outcome);
     }
     trial.tried(
@@ -142,7 +152,9 @@ fn main() -> Result<(), Failure> {
         |number| mutants[number - 1].file.clone(),
         keep,
     );
-    print!("{}", summary(&locked(&outcomes)));
+    let outcomes = locked(&outcomes);
+    trial::write(&arguments.outcomes, &outcomes)?;
+    print!("{}", summary(&outcomes));
     Ok(())
 }
 

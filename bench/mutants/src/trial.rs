@@ -59,6 +59,19 @@ pub enum Outcome {
     Unplaced,
 }
 
+impl Outcome {
+    /// How much it says: what runs is more than what compiles, and a test that fails more than one that passes.
+    pub fn rank(&self) -> u8 {
+        match self {
+            Self::Uncompiled | Self::Unplaced => 0,
+            Self::Unreached => 1,
+            Self::Same => 2,
+            Self::Stands(_) => 3,
+            Self::Falls(_) | Self::Time(_) => 4,
+        }
+    }
+}
+
 /// Where tests run, and how many at once.
 #[derive(Debug)]
 pub struct Trial {
@@ -108,13 +121,16 @@ impl Trial {
             let kept = self
                 .folder
                 .join(format!("{build} {}", name.replace("::", ".")));
-            if let Some((time, reached)) = read_reached(&kept, &program.file) {
+            let known = |time, reached| {
                 locked(&tests).push(Test {
                     program: program.clone(),
                     name: name.clone(),
                     time,
                     reached,
                 });
+            };
+            if let Some((time, reached)) = read_reached(&kept, &program.file) {
+                known(time, reached);
                 return;
             }
             let start = Instant::now();
@@ -133,12 +149,7 @@ impl Trial {
                         &kept,
                         [&time.as_secs_f64().to_le_bytes()[..], &reached].concat(),
                     );
-                    locked(&tests).push(Test {
-                        program: program.clone(),
-                        name: name.clone(),
-                        time,
-                        reached,
-                    });
+                    known(time, reached);
                 }
                 Some(false) => locked(&failed).push(format!("{} {name}", program.name)),
                 None => println!("left out, too long: {} {name}", program.name),
@@ -303,4 +314,9 @@ pub fn read(file: &Path) -> Result<BTreeMap<String, Outcome>, Failure> {
     } else {
         Ok(BTreeMap::default())
     }
+}
+
+/// Writes outcomes by name.
+pub fn write(file: &Path, outcomes: &BTreeMap<String, Outcome>) -> Result<(), Failure> {
+    Ok(fs::write(file, serde_json::to_vec_pretty(outcomes)?)?)
 }
