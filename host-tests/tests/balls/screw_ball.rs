@@ -5,7 +5,7 @@ use crate::kit::errors::Errors;
 use crate::kit::given;
 use crate::kit::measured;
 use crate::kit::random::Congruential;
-use epas_friction::ball::{GrooveFit, RowContacts, ScrewRow};
+use epas_friction::ball::{GrooveFit, LoopSums, RowContacts, ScrewRow};
 use epas_friction::refined::{
     ScrewBall, ScrewBallMotion, ScrewBallState, ScrewChain, ScrewContacts,
 };
@@ -32,7 +32,6 @@ fn law(design: &BallScrew, groove: curvature::Groove) -> HertzLaw {
 
 #[test]
 fn row_is_the_closed_form_with_a_third_contact() {
-    let design = design();
     let mut speeds = Errors::of("row, orbital speed");
     // A ball's share of the load enters through powers that fit the mean one.
     let of = |quantity: &str| {
@@ -44,14 +43,24 @@ fn row_is_the_closed_form_with_a_third_contact() {
     let mut mains = Errors::of("row, main load");
     let mut thirds = Errors::of("row, third load");
     let mut rubbings = Errors::of("row, rubbing");
-    for friction in [0.05, 0.12] {
+    for (nominal, friction) in [
+        (FRAC_PI_4, 0.05),
+        (FRAC_PI_4, 0.12),
+        (f64::to_radians(38.0), 0.08),
+        (f64::to_radians(52.0), 0.08),
+    ] {
+        let design = BallScrew::new(BallScrewParameters {
+            contact_angle: nominal as f32,
+            ..*design().parameters()
+        })
+        .unwrap();
         let row = ScrewRow::new(&design, friction as f32, GrooveFit::Zero).unwrap();
         let model = ThreePointModel {
             track: TRACK,
             screw: law(&design, curvature::Groove::Screw),
             nut: law(&design, curvature::Groove::Nut),
             friction,
-            contact_angle: FRAC_PI_4,
+            contact_angle: nominal,
         };
         for load in [-1000.0, -100.0, -50.0, -10.0, -1.0, -0.1, 1.0, 50.0f64] {
             for speed in [1.0, -1.0] {
@@ -63,12 +72,12 @@ fn row_is_the_closed_form_with_a_third_contact() {
                             let support = Support::of(load, speed);
                             let side = if load < 0.0 { 1.0 } else { -1.0 };
                             let angles = ContactAngles {
-                                screw: FRAC_PI_4 + side * t,
-                                nut: FRAC_PI_4 - side * e,
+                                screw: nominal + side * t,
+                                nut: nominal - side * e,
                                 third: if support == Support::ThirdOnScrew {
-                                    FRAC_PI_4 - side * t
+                                    nominal - side * t
                                 } else {
-                                    FRAC_PI_4 + side * e
+                                    nominal + side * e
                                 },
                             };
                             let exact = model.ball(support, angles, load * share, speed).unwrap();
@@ -90,7 +99,7 @@ fn row_is_the_closed_form_with_a_third_contact() {
                                         - exact.orbital_speed.abs() * TRACK.lead_angle().1))
                                 - 1.0;
                             let case = format!(
-                                "friction {friction}, {load} N, nut speed {speed}, share {share}, {theta}, {eta} degrees"
+                                "{nominal} rad, friction {friction}, {load} N, nut speed {speed}, share {share}, {theta}, {eta} degrees"
                             );
                             speeds.add_at(dev, &case);
                             compliances[usize::from(share != 1.0)].add_at(y, &case);
@@ -590,6 +599,76 @@ fn the_third_contact_follows_load_and_direction() {
     // The third contact takes part of its force from friction along its own track; friction also shifts all angles.
     main.assert_measured();
     third.assert_measured();
+}
+
+/// Angles deviate on the screw and in the nut, each with its own groove.
+#[test]
+fn contact_angles_deviate_with_their_groove() {
+    let row = ScrewRow::new(&design(), 0.1, GrooveFit::Zero).unwrap();
+    let nominal = FRAC_PI_4 as f32;
+    assert_eq!(
+        row.contacts(1.0, 50.0, 0.02, 0.03).angles,
+        [
+            nominal - 0.02,
+            nominal + 0.02,
+            nominal - 0.03,
+            nominal + 0.03
+        ]
+    );
+}
+
+/// A load takes the preload off one contact after the other; none of them pulls, and the third one never carries less than a
+/// millionth of the main one.
+#[test]
+fn contacts_of_a_preloaded_ball_only_press() {
+    let preload = GrooveFit::Preload {
+        contact_force: 30.0,
+    };
+    let row = ScrewRow::new(&design(), 0.1, preload).unwrap();
+    let mut lost = 0;
+    for step in 1..=400 {
+        let load = 0.5 * step as f32;
+        let [third, main, other_main, fourth] = row.contacts(1.0, -load, 0.0, 0.0).forces;
+        assert!(
+            fourth >= 0.0 && fourth < third && main > 0.0 && main == other_main,
+            "{load} N"
+        );
+        lost += i32::from(fourth == 0.0);
+    }
+    // Lost from about 2 sqrt(2) times the preload's axial part on: 30 N sin(45 degrees) 2 sqrt(2) = 60 N at the most.
+    assert!((280..350).contains(&lost), "{lost}");
+    let slippery = ScrewRow::new(&design(), 1e-6, GrooveFit::Zero).unwrap();
+    for load in [10.0, 1e3, 1e5] {
+        let tick = slippery.at(1.0, load);
+        let part = tick.third_load() / tick.main_load();
+        assert!((0.99e-6..2e-6).contains(&part), "{load} N: {part:e}");
+    }
+}
+
+/// A ball is the same in other units: of speed, of force over it, and of the deviations.
+#[test]
+fn units_of_a_row_do_not_matter() {
+    let row = ScrewRow::new(&design(), 0.1, GrooveFit::Zero).unwrap();
+    for speed in [-0.02_f32, 3.0] {
+        let tick = row.at(1.0, -80.0);
+        let share = LoadShare::new(1.2).unwrap();
+        let (screw, nut) = (0.03, -0.02);
+        let known = tick.ball(screw, nut, &share);
+        let balls = tick.per_speed(speed, 1.0 / speed, (1e-3, 4e-3));
+        let mut sums = LoopSums::NONE;
+        let found = balls.ball(screw / 1e-3, nut / 4e-3, &share, &mut sums);
+        // Some ten roundings of 6e-8 each.
+        for (found, known) in [
+            (found.speed * speed, known.speed_deviation),
+            (speed.abs() / found.impedance, known.compliance),
+            (balls.groove_torque(&sums), known.groove_torque),
+        ] {
+            assert!(
+                (found / known - 1.0).abs() < 1e-6,
+                "{speed}: {found} {known}"
+            );
+        }
+    }
 }
 
 /// Force between two balls, loads and all, against the exact model of balls in elastic grooves.

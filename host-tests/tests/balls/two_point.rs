@@ -10,7 +10,7 @@ use epas_friction::ball::{
     AnalyticLinearBall, GrooveFit, LinearBallParameters, PUBLISHED_SLOPE, ScrewRow,
 };
 use epas_friction::refined::{FourPointBall, ScrewBall};
-use epas_friction::{BallScrew, LoadShare};
+use epas_friction::{BallScrew, BallScrewParameters, GrooveSize, LoadShare};
 use epas_reference::friction::ball_screw_ball::{
     Groove as Flank, ScrewContact, motion_with_contacts,
 };
@@ -340,4 +340,40 @@ fn a_row_with_play_has_the_mean_speed_of_two_contacts() {
         }
     }
     assert!((0.9 * DOCUMENTED..DOCUMENTED).contains(&worst), "{worst}");
+}
+
+/// Balls alike that stick to the groove with the longer ellipse rub with the speed of their surface that the exact ball has.
+#[test]
+fn balls_in_two_contacts_rub_as_they_turn() {
+    for [on_screw, in_nut] in [[3.0e-3, 3.4e-3], [3.4e-3, 3.0e-3]] {
+        let design = BallScrew::new(BallScrewParameters {
+            screw_groove: GrooveSize::Radius(on_screw),
+            nut_groove: GrooveSize::Radius(in_nut),
+            ..*screw().parameters()
+        })
+        .unwrap();
+        let row = ScrewRow::new(&design, FRICTION as f32, GrooveFit::Play).unwrap();
+        for load in [-50.0_f32, 50.0] {
+            let normal = 50.0 / (FRAC_PI_4.sin() * TRACK.lead_angle().1);
+            let flanks = if load < 0.0 {
+                [Flank::ScrewRight, Flank::NutLeft]
+            } else {
+                [Flank::ScrewLeft, Flank::NutRight]
+            };
+            let numbers = given::ball_screw(design.parameters());
+            let contacts = flanks.map(|flank| ScrewContact {
+                groove: flank,
+                load: normal,
+                contact_angle: FRAC_PI_4,
+                ellipse: numbers.contact_at(flank.part(), FRAC_PI_4).unwrap().into(),
+            });
+            let exact = motion_with_contacts(&TRACK, &contacts, FRICTION, 1.0).unwrap();
+            // Neighbours touch along the track, y: their surfaces turn across it, and the orbit turns with the balls.
+            let (_, cos) = TRACK.lead_angle();
+            let [x, _, z] = exact.spin;
+            let turn = x.hypot(z - exact.orbital_speed * cos);
+            let found = f64::from(row.at(1.0, load).rubbing()) / TRACK.ball_radius;
+            measured::assert_at("row with play, rubbing", found / turn - 1.0, load);
+        }
+    }
 }

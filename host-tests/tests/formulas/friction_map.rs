@@ -173,6 +173,34 @@ fn dissipation_is_the_gradient_of_one_potential() {
     }
 }
 
+/// Stiffness outside the contact is the slope of the force, up to where the least stiffness of sliding takes its place.
+#[test]
+fn stiffness_outside_the_contact_is_the_slope_of_the_force() {
+    let semi_major = 0.05_f32;
+    let mut slopes = 0;
+    for axis_ratio in [0.25, 0.5, 1.0] {
+        let map = FrictionMap::new(axis_ratio).unwrap();
+        for spin in [0.02_f32, 1.0, 30.0] {
+            let end_speed = semi_major * spin;
+            let at = |offset: f32| map.dissipation(offset * end_speed, spin, semi_major, 0.0);
+            for offset in [1.03_f32, 1.1, 1.2, 1.4, 2.0, 4.0] {
+                let here = at(offset);
+                let found = here.stiffness * end_speed;
+                let slope = (at(offset + 0.01).force - at(offset - 0.01).force) / 0.02;
+                // A twentieth of the force over the slip, the least that a step counts on.
+                let least = 0.05 * here.force / offset;
+                let expected = slope.max(least);
+                // A sixth of the third derivative times the step's square, 56/6 1e-4 of the slope, and a force's rounding over
+                // twice the step, 3e-6 of the slope of 0.04 and more.
+                let label = format!("{axis_ratio} {spin} {offset}: {found} {expected}");
+                assert!((found / expected - 1.0).abs() < 2e-3, "{label}");
+                slopes += i32::from(slope > 1.05 * least);
+            }
+        }
+    }
+    assert!(slopes >= 15, "{slopes}");
+}
+
 /// `W - |w| <= delta²/(2 |w|)`: the stick treatment changes the loss by no more than that.
 #[test]
 fn stick_treatment_changes_the_loss_by_its_square() {

@@ -112,6 +112,38 @@ fn forces_are_slopes_of_the_potential() {
     }
 }
 
+/// A contact that hardly spins slides: its friction goes against its slip, however far away that is.
+#[test]
+fn friction_of_a_far_slip_keeps_its_direction() {
+    let map = SlipMap::new(0.3).unwrap();
+    let at = |across: f32, along: f32| {
+        let friction = map.dissipation(across, along, 1.0, 1.0, 0.0);
+        [friction.across, friction.along]
+    };
+    for distance in [2e3, 1e5, 1e8, 1e18, 1e30] {
+        for (across, along) in [(0.6, 0.8), (-0.8, 0.6), (0.0, -1.0), (1.0, 0.0)] {
+            let found = at(distance * across, distance * along);
+            // The next term of the series is 1/distance², 3e-7; three roundings.
+            for (found, direction) in found.into_iter().zip([across, along]) {
+                assert!(
+                    (found - direction).abs() < 1e-6,
+                    "{across} {along} {distance}: {found}"
+                );
+            }
+        }
+    }
+    // Without bound along, and what is no number as if it slid across.
+    let infinite = f32::INFINITY;
+    for (across, along, direction) in [
+        (5.0, infinite, [0.0, 1.0]),
+        (5.0, -infinite, [0.0, -1.0]),
+        (-infinite, 5.0, [-1.0, 0.0]),
+        (f32::NAN, f32::NAN, [1.0, 0.0]),
+    ] {
+        assert_eq!(at(across, along), direction, "{across} {along}");
+    }
+}
+
 /// Every slip and spin, rest and infinity among them, gives finite friction within its limit.
 #[test]
 fn hostile_slips_and_spins() {

@@ -199,14 +199,14 @@ const SCREW_BALL: &[Measured] = &[
     row("given pairs, contact force after 4 steps", [1e-4, 2e-5, 1.4e-5], [3.3e-5, 9.8e-6, 1.6e-6]),
     row("given pairs, contact force after 5 steps", [1e-4, 2e-5, 1.4e-5], [3.3e-5, 9e-6, 1.1e-6]),
     row("given pairs, power loss after 5 steps", [3e-4, 1e-4, 2e-5], [1.2e-4, 5.1e-5, 7.6e-6]),
-    row("row, orbital speed", [4e-7, 1e-7, 1e-7], [1.3e-7, 5.6e-8, 4.4e-8]),
+    row("row, orbital speed", [4e-7, 1e-7, 1e-7], [1.7e-7, 5.7e-8, 2.7e-8]),
     row("row, compliance, mean load", [0.01, 3e-3, 3e-3], [3.8e-3, 9.9e-4, 5.9e-4]),
     row("row, compliance, shares 0.1 to 3", [0.08, 0.03, 0.03], [0.056, 0.019, 0.012]),
     row("row, groove torque, mean load", [0.01, 3e-3, 3e-3], [6.2e-3, 1.6e-3, 3.6e-4]),
     row("row, groove torque, shares 0.1 to 3", [0.15, 0.05, 0.05], [0.12, 0.036, 0.015]),
     row("row, main load", [5e-3, 2e-3, 2e-4], [2.9e-3, 7.8e-4, 5.3e-5]),
-    row("row, third load", [0.08, 0.03, 3e-3], [0.059, 0.016, 1.2e-3]),
-    row("row, rubbing", [4e-7, 2e-7, 1e-7], [2.6e-7, 1.3e-7, 2.2e-8]),
+    row("row, third load", [0.11, 0.03, 3e-3], [0.075, 0.017, 1.3e-3]),
+    row("row, rubbing", [6e-7, 2e-7, 1e-7], [4.1e-7, 1.4e-7, 3.1e-8]),
     row("stored pairs, orbital speed, closed form", [1.4e-3, 5e-4, 2e-4], [1.3e-3, 3.8e-4, 1.2e-4]),
     row("stored pairs, orbital speed after 3 steps", [3e-7, 2e-7, 2e-7], [2.4e-7, 1.1e-7, 6.1e-8]),
     row("stored pairs, contact force, closed form", [0.19, 0.09, 0.09], [0.18, 0.085, 0.06]),
@@ -411,6 +411,7 @@ const TRAIN: &[Measured] = &[
 /// `balls/two_point.rs`: speed deviations of the linear ball in units of half the track speed; orbital speeds over the nut's.
 #[rustfmt::skip]
 const TWO_POINT: &[Measured] = &[
+    largest("row with play, rubbing", 0.013, 8.6e-3),
     largest("linear jump, load of the weak diagonal", 0.04, 0.02),
     largest("linear jump, speed after it per degree", 4e-4, 2.5e-4),
     largest("before the linear jump, closed form per degree", 2e-3, 2e-3),
