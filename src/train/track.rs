@@ -148,3 +148,29 @@ impl Rooms {
         gap as f32 * self.per_unit
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Another track is told by its length or its pitch, in metres.
+    #[test]
+    fn another_track_is_named_in_metres() {
+        let own = Track::new(0.25, 0.006, 30).unwrap();
+        assert_eq!(own.is_same(&own), Ok(()));
+        for (other, field, value, allowed) in [
+            (Track::new(0.3, 0.006, 30), "length", 0.3, 0.25),
+            (Track::new(0.25, 0.0061, 30), "pitch", 0.0061, 0.006),
+        ] {
+            let error = own.is_same(&other.unwrap()).unwrap_err();
+            let near = |one: f32, other: f32| (one / other - 1.0).abs() < 3e-7;
+            assert!(
+                error.field() == field
+                    && near(error.value(), value)
+                    && matches!(error, Error::OutOfRange { allowed: range, .. }
+                        if near(range.minimum, allowed) && near(range.maximum, allowed)),
+                "{error}"
+            );
+        }
+    }
+}

@@ -538,6 +538,41 @@ fn absurd_inputs_do_no_harm() {
     }
 }
 
+/// A travel beyond 3 % of the track counts as that, either way, and one that is no number as none.
+#[test]
+fn a_travel_without_bound_is_three_per_cent_of_the_track() {
+    for (travel, counts) in [
+        (0.9, 0.03),
+        (f32::INFINITY, 0.03),
+        (-0.031, -0.03),
+        (f32::NEG_INFINITY, -0.03),
+        (-0.029, -0.029),
+        (f32::NAN, 0.0),
+    ] {
+        let mut train = Train::<3>::evenly_spaced(1.0, 0.01).unwrap();
+        let before: Vec<u32> = train.positions().collect();
+        train.step(&[0.0; 3], &[1e3; 3], travel);
+        for (before, after) in before.into_iter().zip(train.positions()) {
+            let moved = f64::from(after.wrapping_sub(before) as i32) / 2_f64.powi(32);
+            // Rounding of a travel in f32: 6e-8 of it.
+            assert!((moved - counts).abs() < 1e-8, "{travel}: {moved}");
+        }
+    }
+}
+
+/// Balls of which nothing valid is known press on none, and the last one is foremost, as in a new train.
+#[test]
+fn what_is_not_valid_joins_nothing() {
+    let mut press = Press::<5>::new();
+    let behind_a_gap = [0.0, f32::INFINITY, 0.0, 0.0, 0.0];
+    let around_the_end = [0.1, 0.0, 0.3, 0.25, 0.2];
+    assert!(press.solve(&around_the_end, &[1e3; 5], &behind_a_gap));
+    assert_eq!(press.foremost(), 1);
+    assert!(!press.solve(&[f32::NAN; 5], &[1e3; 5], &behind_a_gap));
+    assert_eq!(press.foremost(), 4);
+    assert!(press.forces().chain(press.speeds()).eq([0.0; 10]));
+}
+
 /// What does not fit on the track is refused by name.
 #[test]
 fn bad_tracks_are_refused() {

@@ -14,12 +14,13 @@ use epas_friction::law::motion::{
 };
 use epas_friction::law::{Elements, SlidingLimits};
 use epas_friction::scene::{
-    CagedConstants, Freshness, Motion, Scene, Sliding, WithMemory, WithMemoryConfiguration,
-    WithMemoryInputs,
+    CagedConstants, Freshness, Motion, Passage, Scene, Sliding, WithMemory,
+    WithMemoryConfiguration, WithMemoryInputs,
 };
 use epas_friction::{
-    CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, Clearance, Faults, FrictionModel,
-    Inputs, LinearBearingTrain, LinearInputs, Regime, UncagedBallScrew,
+    CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, Clearance, DeviationMap, Faults,
+    FrictionModel, Inputs, LinearBearingConfiguration, LinearBearingTrain, LinearInputs, Regime,
+    UncagedBallScrew, UncagedBallScrewConfiguration,
 };
 
 use crate::kit::errors::Errors;
@@ -751,5 +752,127 @@ fn limits_have_no_past() {
             assert_eq!(found, alone, "{inputs:?} {friction:?}");
             assert!(found.forward > 0.0 && found.backward > 0.0);
         }
+    }
+}
+
+/// Full friction in a direction is what the scene puts out where all of it passes that way: what presses rubs both ways alike, and
+/// grooves go with their direction's coefficient.
+#[test]
+fn full_friction_is_what_passes_in_its_direction() {
+    fn check<S>(
+        configuration: &S::Configuration,
+        load: S::Inputs,
+        speed: f32,
+        parts: impl Fn(&S::Outputs) -> [f32; 2],
+    ) where
+        S: Sliding,
+    {
+        let constants = S::constants(configuration).unwrap();
+        let mut state = S::initial_state(&constants);
+        let coefficients = DirectionalCoefficient {
+            forward: 0.07,
+            backward: 0.09,
+        };
+        let mut pressing = 0;
+        for tick in 0..4000 {
+            let way = if tick < 2000 { 1.0 } else { -1.0 };
+            let inputs = load.with(way * speed, 1.0);
+            let full = S::full(&constants, &mut state, None, inputs, coefficients);
+            let friction = S::friction(&full);
+            let [[groove, ball], [groove_back, ball_back]] = [1.0, -1.0].map(|share| {
+                let standing = false;
+                let passage = Passage {
+                    share,
+                    way,
+                    standing,
+                };
+                parts(&S::passed(&constants, inputs, &full, passage))
+            });
+            pressing += i32::from(ball > 0.0);
+            assert_eq!(ball, -ball_back, "tick {tick}");
+            // Derived: three roundings of 6e-8 each.
+            for (found, expected) in [
+                (groove + ball, friction.forward),
+                (-groove_back - ball_back, friction.backward),
+                (
+                    groove * coefficients.backward,
+                    -groove_back * coefficients.forward,
+                ),
+            ] {
+                assert!(
+                    (found / expected - 1.0).abs() < 3e-7,
+                    "tick {tick}: {found} {expected}"
+                );
+            }
+        }
+        assert!(
+            (1000..4000).contains(&pressing),
+            "{}: {pressing}",
+            std::any::type_name::<S>()
+        );
+    }
+    // As many balls as the track holds, and time for them to close up.
+    let mut configuration = UncagedBallScrewConfiguration {
+        tick: 5e-4,
+        ..uncaged()
+    };
+    configuration.limits.nut_speed = 100.0;
+    check::<UncagedBallScrew<41>>(&configuration, screw(0.0, 3000.0), 50.0, |outputs| {
+        [outputs.groove_torque, outputs.ball_torque]
+    });
+    let load = LinearInputs {
+        speed: 0.0,
+        normal_load: 1500.0,
+        side_load: 200.0,
+    };
+    let full = LinearBearingConfiguration {
+        return_length: 0.0405,
+        ..linear()
+    };
+    check::<LinearBearingTrain<LINEAR_BALLS>>(&full, load, 2.0, |outputs| {
+        [outputs.groove_force, outputs.ball_force]
+    });
+}
+
+/// Balls follow a coefficient that changes by less than a tenth, and are flagged while those last renewed are further behind.
+#[test]
+fn balls_far_behind_their_coefficient_are_flagged() {
+    type Uncaged = UncagedBallScrew<SCREW_BALLS>;
+    let configuration = UncagedBallScrewConfiguration {
+        screw_deviation: &DeviationMap::NONE,
+        nut_deviation: &DeviationMap::NONE,
+        ..uncaged()
+    };
+    let constants = Uncaged::constants(&configuration).unwrap();
+    let inputs = screw(20.0, 3000.0);
+    let flagged = |after: f32| {
+        let mut state = Uncaged::initial_state(&constants);
+        let mut settles = |friction: f32| {
+            let both = DirectionalCoefficient {
+                forward: friction,
+                backward: friction,
+            };
+            let full = Uncaged::full(&constants, &mut state, None, inputs, both);
+            let way = 1.0;
+            let passage = Passage {
+                share: way,
+                way,
+                standing: false,
+            };
+            Uncaged::passed(&constants, inputs, &full, passage)
+                .faults
+                .contains(Faults::SETTLING)
+        };
+        let before = (0..2000).filter(|_| settles(0.08)).count();
+        assert!(before < 500 && !settles(0.08), "{before}");
+        (0..2000).filter(|_| settles(after)).count()
+    };
+    assert_eq!(flagged(0.087), 0);
+    assert_eq!(flagged(0.0735), 0);
+    // The rest of a jump falls by 1/37 of itself in a tick: from 0.25 and 0.2 of the new one to a tenth of it in
+    // 37 ln(2.5) = 34 and 37 ln 2 = 26 ticks, the first of which is that of the jump.
+    for (after, ticks) in [(0.064, 34), (0.1, 26)] {
+        let found = flagged(after);
+        assert!(found.abs_diff(ticks) <= 2, "{after}: {found} ticks");
     }
 }

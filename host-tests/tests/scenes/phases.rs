@@ -176,3 +176,85 @@ fn a_screw_is_as_long_and_its_ticks_as_short_as_promised() {
     let found = range(&FrictionModel::<Uncaged>::new(&slow));
     close(found, "tick", 0.499 * f64::from(TAU) / 10.0, false);
 }
+
+/// Grooves deviate by half the contact angle at most, here 10 degrees of 20: so much is taken, and a thousandth more refused.
+#[test]
+fn grooves_deviate_by_as_much_as_promised() {
+    let largest = 10_f32.to_radians();
+    let more = 1.001 * largest;
+    let mut screw = gears::uncaged();
+    screw.design = epas_friction::BallScrew::new(epas_friction::BallScrewParameters {
+        contact_angle: 2.0 * largest,
+        ..*screw.design.parameters()
+    })
+    .unwrap();
+    (screw.screw_deviation, screw.nut_deviation) = (&DeviationMap::NONE, &DeviationMap::NONE);
+    let with = |screw_deviation, nut_deviation| {
+        let configuration = UncagedBallScrewConfiguration {
+            screw_deviation,
+            nut_deviation,
+            ..screw
+        };
+        FrictionModel::<Uncaged>::new(&configuration)
+    };
+    let [taken, refused] = [largest, more].map(|size| one_wave(1, 0.0, size));
+    let none = &DeviationMap::NONE;
+    assert!(with(taken, none).is_ok() && with(none, taken).is_ok());
+    let border = f64::from(largest);
+    close(
+        range(&with(refused, none)),
+        "screw_deviation",
+        border,
+        false,
+    );
+    close(range(&with(none, refused)), "nut_deviation", border, false);
+
+    let mut bearing = gears::linear();
+    bearing.bearing = epas_friction::LinearBearing::new(epas_friction::LinearBearingParameters {
+        contact_angle: 2.0 * largest,
+        ..*bearing.bearing.parameters()
+    })
+    .unwrap();
+    let with = |rail_deviation, carriage_deviation| {
+        let configuration = LinearBearingConfiguration {
+            rail_deviation,
+            carriage_deviation,
+            ..bearing
+        };
+        FrictionModel::<Linear>::new(&configuration)
+    };
+    assert!(with(taken, none).is_ok() && with(none, taken).is_ok());
+    close(range(&with(refused, none)), "rail_deviation", border, false);
+    close(
+        range(&with(none, refused)),
+        "carriage_deviation",
+        border,
+        false,
+    );
+}
+
+/// Deviations of both grooves that would have a ball run against the nut, or twice as fast, are refused with a size that would not.
+#[test]
+fn grooves_that_would_turn_a_ball_round_are_refused() {
+    let mut screw = gears::uncaged();
+    screw.design = epas_friction::BallScrew::new(epas_friction::BallScrewParameters {
+        contact_angle: 75_f32.to_radians(),
+        pitch_radius: 10e-3,
+        ball_radius: 4e-3,
+        lead: 5e-3,
+        ..*screw.design.parameters()
+    })
+    .unwrap();
+    screw.return_length = 0.5;
+    let mut with = |size: f32| {
+        let wave = one_wave(1, 0.0, size);
+        (screw.screw_deviation, screw.nut_deviation) = (wave, wave);
+        FrictionModel::<UncagedBallScrew<3>>::new(&screw)
+    };
+    // Within half the inverse tangent of the contact angle, what a row's formula takes.
+    let largest = 0.13;
+    let (field, least, most) = range(&with(largest));
+    assert_eq!((field, least), ("screw_deviation", 0.0));
+    assert!((0.11..0.125).contains(&most), "{most}");
+    assert!(with(most).is_ok());
+}

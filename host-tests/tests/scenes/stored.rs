@@ -7,8 +7,9 @@ use epas_friction::law::motion::{WrappedAngle, WrappedAngleParameters};
 use epas_friction::scene::{Sliding, StoredScene, WithMemoryConfiguration, WithMemoryInputs};
 use epas_friction::stored::{VERSION, crc32};
 use epas_friction::{
-    CagedBallScrew, CagedBallScrewConfiguration, Clearance, DeviationMap, FrictionBranch,
-    FrictionModel, Inputs, LinearBearingTrain, LinearInputs, Refusal, UncagedBallScrew,
+    BallScrew, BallScrewParameters, CagedBallScrew, CagedBallScrewConfiguration, Clearance,
+    DeviationMap, FrictionBranch, FrictionModel, Inputs, LinearBearingTrain, LinearInputs,
+    Material, Refusal, UncagedBallScrew, UncagedBallScrewConfiguration,
 };
 
 use crate::kit::absurd::{Trial, accepted};
@@ -38,6 +39,8 @@ struct Manoeuvre {
     load: f32,
     temperature: f32,
     angle: f32,
+    /// Whether the bus delivers no load.
+    lost: bool,
 }
 
 impl Manoeuvre {
@@ -48,6 +51,7 @@ impl Manoeuvre {
             load: 1000.0,
             temperature: TEMPERATURE,
             angle: 0.0,
+            lost: false,
         }
     }
 
@@ -71,16 +75,20 @@ impl Manoeuvre {
     fn screw(&self) -> Inputs {
         Inputs {
             nut_speed: self.speed,
-            axial_load: self.load,
+            axial_load: self.delivered(),
         }
     }
 
     fn bearing(&self) -> LinearInputs {
         LinearInputs {
             speed: 0.02 * self.speed,
-            normal_load: 2000.0 + 0.2 * self.load,
+            normal_load: 2000.0 + 0.2 * self.delivered(),
             side_load: 0.05 * self.load,
         }
+    }
+
+    fn delivered(&self) -> f32 {
+        if self.lost { f32::NAN } else { self.load }
     }
 
     fn with<I, R>(&self, scene: I, reading: R) -> WithMemoryInputs<I, R> {
@@ -145,6 +153,22 @@ impl Kept for Uncaged {
         model.set_friction(0.06).unwrap();
         model.set_clearance(Clearance::new(-1e-6).unwrap()).unwrap();
         model.set_nut_angle(1.0);
+    }
+}
+
+/// Balls that press: as many as the track holds, with time to close up.
+impl Kept for UncagedBallScrew<41> {
+    fn model() -> FrictionModel<Self> {
+        let mut full = UncagedBallScrewConfiguration {
+            tick: 5e-4,
+            ..uncaged()
+        };
+        full.limits.nut_speed = 100.0;
+        FrictionModel::new(&full).unwrap()
+    }
+
+    fn drive(model: &mut FrictionModel<Self>, manoeuvre: &Manoeuvre, _: u32) -> Self::Outputs {
+        model.step(manoeuvre.screw())
     }
 }
 
@@ -261,9 +285,10 @@ fn goes_on<S: Kept>(set: bool) {
         assert_eq!(S::import(&mut next, &block), Ok(()));
         assert_eq!(export(&next), block);
         let mut last = String::new();
-        // What lies between two steps first: it reads what the last step has left.
+        // What lies between two steps first, and then a step without a load: they read what the last step has left.
         for tick in 1..=1000 {
             manoeuvre.next();
+            manoeuvre.lost = tick == 2;
             // The shortest decimal of an f32 tells every two of them apart.
             let was = format!("{:?}", S::drive(&mut model, &manoeuvre, tick));
             let is = format!("{:?}", S::drive(&mut next, &manoeuvre, tick));
@@ -291,6 +316,7 @@ fn a_scene_goes_on_to_the_bit() {
         goes_on::<Uncaged>(set);
         goes_on::<Linear>(set);
     }
+    goes_on::<UncagedBallScrew<41>>(false);
 }
 
 #[test]
@@ -509,8 +535,8 @@ fn foreign_and_old_blocks_are_refused() {
     assert_eq!(refused(&mut remembers, &block), Refusal::OtherScene);
 }
 
-fn uncaged_of_seven() -> epas_friction::UncagedBallScrewConfiguration {
-    epas_friction::UncagedBallScrewConfiguration {
+fn uncaged_of_seven() -> UncagedBallScrewConfiguration {
+    UncagedBallScrewConfiguration {
         turns: 1.0,
         ..uncaged()
     }
@@ -563,10 +589,15 @@ fn blocks_of_other_constants_are_refused() {
     longer.return_length = 0.02;
     let mut model = FrictionModel::<Uncaged>::new(&longer).unwrap();
     assert_eq!(model.import(&block), Err(Refusal::OtherConstants));
-    let mut others = [uncaged(), uncaged(), uncaged()];
+    let mut others = [uncaged(), uncaged(), uncaged(), uncaged()];
     others[0].turns = 2.45;
     others[1].screw_deviation = &TWO_TURNS;
     others[2].design = epas_friction::CATALOGUE[14].design().unwrap();
+    others[3].design = BallScrew::new(BallScrewParameters {
+        ball_material: Material::SILICON_NITRIDE,
+        ..*uncaged().design.parameters()
+    })
+    .unwrap();
     for other in others {
         let mut model = FrictionModel::<Uncaged>::new(&other).unwrap();
         assert_eq!(
@@ -616,6 +647,66 @@ fn blocks_of_other_constants_are_refused() {
     ] {
         let refusal = import(elements, angle, play);
         assert_eq!(refusal, Err(Refusal::OtherConstants));
+    }
+}
+
+/// Bytes of a ball of a train in a block: its place in units of 2^-32 of the track, sixteenths of a unit, force.
+const BALL_BYTES: usize = 9;
+/// And where the first one begins: behind what the train carries over, and the number of the foremost ball.
+const TRAIN_AT: usize = STATE_AT + 5;
+
+/// The last ball of a train and its foremost one may overlap the next by roundings; the others may not, and no more than that.
+#[test]
+fn balls_overlap_by_roundings_alone() {
+    let mut model = Linear::model();
+    let block = export(&model);
+    let configuration = linear();
+    let length = f64::from(configuration.loaded_length + configuration.return_length);
+    let pitch = 2.0 * f64::from(configuration.bearing.ball_radius()) / length;
+    // To 64 units, what f32 holds of it.
+    let pitch = (pitch * 2_f64.powi(32)) as u32;
+    let mut import = |foremost: usize, ball: usize, overlap: u32| {
+        let mut block = block.clone();
+        block[TRAIN_AT - 1] = foremost as u8;
+        let at = |ball: usize| TRAIN_AT + BALL_BYTES * (ball % LINEAR_BALLS);
+        let ahead = at(ball + 1);
+        let ahead = u32::from_le_bytes(block[ahead..ahead + 4].try_into().unwrap());
+        let place = ahead.wrapping_sub(pitch).wrapping_add(overlap);
+        block[at(ball)..at(ball) + 4].copy_from_slice(&place.to_le_bytes());
+        model.import(&sealed(block))
+    };
+    let refused = |field| Err(Refusal::OutOfRange { field });
+    let last = LINEAR_BALLS - 1;
+    for (ball, foremost) in [(last, last), (last, 3), (3, 3), (0, 0)] {
+        assert_eq!(import(foremost, ball, 500), Ok(()));
+        assert_eq!(import(foremost, ball, 1200), refused("position"));
+    }
+    for (ball, foremost) in [(3, last), (0, 1), (4, 3)] {
+        assert_eq!(import(foremost, ball, 500), refused("position"));
+    }
+    assert_eq!(import(LINEAR_BALLS, last, 500), refused("foremost"));
+}
+
+/// A friction coefficient over that of the set-up is the ratio of any two from 1e-6 to 1, and a factor of two beyond.
+#[test]
+fn a_ratio_of_two_coefficients_is_in_range() {
+    let mut model = Linear::model();
+    let block = export(&model);
+    let mut import = |ratio: f32| {
+        let mut block = block.clone();
+        let at = block.len() - 8;
+        block[at..at + 4].copy_from_slice(&ratio.to_le_bytes());
+        model.import(&sealed(block))
+    };
+    let refused = Err(Refusal::OutOfRange { field: "friction" });
+    let largest = 1e6_f32;
+    for (ratio, expected) in [
+        (0.49 / largest, refused),
+        (0.51 / largest, Ok(())),
+        (1.99 * largest, Ok(())),
+        (2.01 * largest, refused),
+    ] {
+        assert_eq!(import(ratio), expected, "{ratio}");
     }
 }
 

@@ -44,8 +44,9 @@ impl<const N: usize> Ring<N> {
         self.friction = friction;
         self.renewed_friction += (friction - self.renewed_friction) * (1.0 / N as f32);
         let behind = (friction - self.renewed_friction).abs() > FRICTION_BEHIND * friction;
-        if behind && self.settling == 0 {
-            self.settling = 1;
+        // One for this tick's renewal, which counts down, and one to be flagged.
+        if behind && self.settling < 2 {
+            self.settling = 2;
         }
     }
 
