@@ -480,10 +480,13 @@ fn hostile_input_gives_numbers_or_a_lost_ball() {
                     );
                 }
             }
-            // From a good state as well.
+            // From a good state as well, whose speed a lost ball keeps.
             let mut ball = case.grooves.start(&good);
+            let mut speed = renewed(&case.grooves, &mut ball, &good, 20).speed;
             for _ in 0..20 {
                 let found = case.grooves.renew(&mut ball, &inputs);
+                assert!(!found.lost || found.speed == speed, "{found:?}");
+                speed = found.speed;
                 assert!(found.lost || found.speed.is_finite() && found.torque.is_finite());
             }
             let found = renewed(&case.grooves, &mut ball, &good, 60);

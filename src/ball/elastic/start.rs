@@ -219,6 +219,19 @@ mod tests {
     use crate::geometry::{BallScrew, CATALOGUE};
     use crate::material::Material;
 
+    /// A ball beside an arc is as far from its centre as it is told, towards the groove's middle on either side.
+    #[test]
+    fn a_ball_lies_between_an_arc_and_the_middle() {
+        let (x, distance) = (0.1_f32, 0.9_f32);
+        for centre in [(0.3_f32, 0.5_f32), (0.3, -0.5)] {
+            let (ax, az) = centre;
+            let z = beside(centre, distance, x);
+            assert!((z < az) == (az > 0.0), "{z}");
+            // Derived: a root of rounded squares.
+            assert!(((x - ax).hypot(z - az) - distance).abs() < 2e-7);
+        }
+    }
+
     /// Loads that no screw bears, to 1e7 N a ball, leave a ball somewhere: no place that is no number gets into a state.
     #[test]
     fn crushed_balls_have_a_place() {
