@@ -851,6 +851,8 @@ fn what_cannot_roll_is_refused() {
     let error = refused(folded);
     assert!(matches!(error, Error::FoldedGroove { .. }));
     assert_eq!(error.field(), "rolling_radius_screw");
+    // Down to a quarter of the ball's diameter.
+    assert_eq!(error.allowed().minimum, 0.25 * small.ball_diameter);
     let limit = error.allowed().maximum;
     let (sin_lead, cos_lead) = f64::from(small.lead_angle).sin_cos();
     let path_radius = f64::from(small.pitch_radius) * (1.0 + (sin_lead / cos_lead).powi(2));
@@ -873,6 +875,32 @@ fn what_cannot_roll_is_refused() {
         ..good
     });
     assert_eq!(error.field(), "groove_radius_nut");
+}
+
+/// Slip along the direction of rolling has the angle 0 or pi, whatever the sign of a side slip of zero, on both raceways.
+#[test]
+fn slip_along_the_direction_of_rolling_has_an_angle_of_zero_or_pi() {
+    use std::f32::consts::PI;
+    let good = parameters(&operating::table_two().unwrap());
+    let mut against = 0;
+    for semi_major in [0.2e-3, 0.9e-3] {
+        for yaw_angle in [0.0, -0.0] {
+            let kinematics = ContactKinematics::new(&KinematicsParameters {
+                lead_angle: 0.0,
+                yaw_angle,
+                semi_major_screw: semi_major,
+                semi_major_nut: semi_major,
+                ..good
+            })
+            .unwrap();
+            for contact in [kinematics.screw(), kinematics.nut()] {
+                let angle = contact.ratios().slide_angle;
+                assert!(angle == 0.0 || angle == PI, "{angle}");
+                against += i32::from(angle == PI);
+            }
+        }
+    }
+    assert!(against > 0);
 }
 
 /// An update is the set-up with other contacts, bit for bit; a refused one changes nothing.
