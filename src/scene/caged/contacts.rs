@@ -310,6 +310,7 @@ impl Contacts {
             (drive, backdrive)
         };
         let far = own.is_far(whole);
+        own.meet(whole);
         if far || turned && opposite.is_far(whole) {
             let (ball, assists, axial) = if far {
                 (&mut *own, other, axial)
