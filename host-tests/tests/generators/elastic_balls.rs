@@ -13,12 +13,13 @@
 //! that repeats bit by bit, so that a constant that does worse somewhere, or a changed result, shows in them.
 
 use crate::kit::designs::SIZES;
+use crate::kit::gears;
 use crate::kit::random::Random;
 use epas_friction::ball::elastic::{BallInputs, ElasticGrooves, Settled};
 use epas_friction::{
     BallScrew, BallScrewParameters, CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration,
     Clearance, DISSERTATION_DESIGNS, DeviationMap, FrictionBranch, FrictionModel, GrooveSize,
-    Harmonic, Inputs, Limits, LoadShares, Material, RollingResistance, UncagedBallScrew,
+    Inputs, Limits, LoadShares, Material, RollingResistance, UncagedBallScrew,
     UncagedBallScrewConfiguration,
 };
 use std::f64::consts::TAU;
@@ -204,13 +205,7 @@ const BALLS: usize = 16;
 type Ring = FrictionModel<UncagedBallScrew<BALLS>>;
 
 fn wave(degrees: f64, order: u8) -> &'static DeviationMap {
-    let harmonic = Harmonic {
-        order,
-        cosine: 0.0,
-        sine: degrees.to_radians() as f32,
-    };
-    let map = DeviationMap::from_harmonics(1, &[harmonic]);
-    Box::leak(Box::new(map.unwrap()))
+    gears::wave(1, order, 0.0, degrees.to_radians() as f32)
 }
 
 const LIMITS: Limits = Limits {

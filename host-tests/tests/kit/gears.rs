@@ -7,7 +7,9 @@ use epas_friction::{
     UncagedBallScrewConfiguration,
 };
 
-/// Balls of [`uncaged`].
+use super::designs::screw;
+
+/// Balls of [`uncaged`], and of [`full`].
 pub const SCREW_BALLS: usize = 37;
 
 /// Balls of [`linear`].
@@ -37,6 +39,18 @@ static NUT_MAP: DeviationMap = match DeviationMap::from_harmonics(
     Ok(map) => map,
     Err(_) => panic!("a deviation is too large"),
 };
+
+/// A wave of so many periods in so many turns, rad, for as long as the program runs.
+pub fn wave(turns: u16, order: u8, cosine: f32, sine: f32) -> &'static DeviationMap {
+    let harmonic = Harmonic {
+        order,
+        cosine,
+        sine,
+    };
+    Box::leak(Box::new(
+        DeviationMap::from_harmonics(turns, &[harmonic]).unwrap(),
+    ))
+}
 
 pub const LIMITS: Limits = Limits {
     nut_speed: 500.0,
@@ -83,6 +97,29 @@ pub fn uncaged() -> UncagedBallScrewConfiguration {
         reversal_speed: 0.5,
         tick: 1e-4,
         limits: LIMITS,
+    }
+}
+
+/// The screw of Lin 2019, Tables 2.1 and 3.6, whose two turns 37 balls fill, with a wave on its screw.
+pub fn full(screw_deviation: &'static DeviationMap, tick: f32) -> UncagedBallScrewConfiguration {
+    UncagedBallScrewConfiguration {
+        design: screw(),
+        friction: 0.1,
+        ball_friction: 0.1,
+        rolling_resistance: RollingResistance::NONE,
+        clearance: Clearance::ZERO,
+        turns: 2.0,
+        return_length: 0.0,
+        screw_deviation,
+        nut_deviation: &DeviationMap::NONE,
+        load_shares: LoadShares::EVEN,
+        reversal_speed: 1e-3,
+        tick,
+        limits: Limits {
+            nut_speed: 300.0,
+            axial_load: 20_000.0,
+            friction_torque: 10.0,
+        },
     }
 }
 

@@ -1,14 +1,15 @@
 //! The scene of a linear bearing against the closed forms in f64, ball by ball, and against the numerical
 //! solution of its two-ball case.
 
+use crate::kit::gears;
 use crate::kit::given;
 use crate::kit::measured;
 use std::f64::consts::{FRAC_PI_4, TAU};
 
 use epas_friction::{
-    DeviationMap, Faults, FrictionModel, GrooveSize, Harmonic, LinearBearing,
-    LinearBearingConfiguration, LinearBearingParameters, LinearBearingTrain, LinearInputs,
-    LinearLimits, LoadShare, Material, Regime,
+    DeviationMap, Faults, FrictionModel, GrooveSize, LinearBearing, LinearBearingConfiguration,
+    LinearBearingParameters, LinearBearingTrain, LinearInputs, LinearLimits, LoadShare, Material,
+    Regime,
 };
 use epas_reference::friction::linear_ball::{
     LinearBall, analytic_compliance, analytic_speed_deviation,
@@ -46,14 +47,7 @@ fn contact() -> Hertz {
 }
 
 fn map([cosine, sine]: [f64; 2], order: u8) -> &'static DeviationMap {
-    let harmonic = Harmonic {
-        order,
-        cosine: cosine as f32,
-        sine: sine as f32,
-    };
-    Box::leak(Box::new(
-        DeviationMap::from_harmonics(1, &[harmonic]).unwrap(),
-    ))
+    gears::wave(1, order, cosine as f32, sine as f32)
 }
 
 /// Shares of the load along the loaded track.

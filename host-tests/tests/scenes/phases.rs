@@ -3,31 +3,19 @@
 use std::f32::consts::TAU;
 
 use epas_friction::{
-    DeviationMap, Error, FrictionModel, Harmonic, Inputs, LinearBearingConfiguration,
-    LinearBearingTrain, LinearInputs, UncagedBallScrew, UncagedBallScrewConfiguration,
+    DeviationMap, Error, FrictionModel, Inputs, LinearBearingConfiguration, LinearBearingTrain,
+    LinearInputs, UncagedBallScrew, UncagedBallScrewConfiguration,
 };
 
-use crate::kit::gears::{self, LINEAR_BALLS, SCREW_BALLS};
+use crate::kit::gears::{self, LINEAR_BALLS, SCREW_BALLS, wave};
 
 type Linear = LinearBearingTrain<LINEAR_BALLS>;
 type Uncaged = UncagedBallScrew<SCREW_BALLS>;
 
-/// One wave in a period of so many turns.
-fn one_wave(turns: u16, cosine: f32, sine: f32) -> &'static DeviationMap {
-    let wave = Harmonic {
-        order: 1,
-        cosine,
-        sine,
-    };
-    Box::leak(Box::new(
-        DeviationMap::from_harmonics(turns, &[wave]).unwrap(),
-    ))
-}
-
 /// Torques of balls, which press where the grooves deviate, from an angle of the nut on.
 fn from_angle(angle: f32) -> Vec<f32> {
     let configuration = UncagedBallScrewConfiguration {
-        screw_deviation: one_wave(2, 0.0, 0.04),
+        screw_deviation: wave(2, 1, 0.0, 0.04),
         nut_deviation: &DeviationMap::NONE,
         return_length: 0.0,
         turns: 2.53,
@@ -48,7 +36,7 @@ fn from_angle(angle: f32) -> Vec<f32> {
 /// Forces of a bearing whose rail has one wave, from a place of the carriage on.
 fn from_position(position: f32, (cosine, sine): (f32, f32)) -> Vec<f32> {
     let configuration = LinearBearingConfiguration {
-        rail_deviation: one_wave(1, cosine, sine),
+        rail_deviation: wave(1, 1, cosine, sine),
         ..gears::linear()
     };
     let mut model = FrictionModel::<Linear>::new(&configuration).unwrap();
@@ -133,7 +121,7 @@ fn a_bearing_is_as_long_and_its_ticks_as_short_as_promised() {
     close(found, "tick", 0.499 * 0.06 / 3.0, false);
     let found = with(&|c| {
         (c.loaded_length, c.return_length, c.tick) = (1.0, 1.0, 0.03);
-        c.rail_deviation = one_wave(2, 0.0, 0.01);
+        c.rail_deviation = wave(2, 1, 0.0, 0.01);
     });
     close(found, "tick", 0.499 * 0.12 / 3.0, false);
 }
@@ -197,7 +185,7 @@ fn grooves_deviate_by_as_much_as_promised() {
         };
         FrictionModel::<Uncaged>::new(&configuration)
     };
-    let [taken, refused] = [largest, more].map(|size| one_wave(1, 0.0, size));
+    let [taken, refused] = [largest, more].map(|size| wave(1, 1, 0.0, size));
     let none = &DeviationMap::NONE;
     assert!(with(taken, none).is_ok() && with(none, taken).is_ok());
     // A map keeps its largest sample to four roundings.
@@ -248,8 +236,8 @@ fn grooves_that_would_turn_a_ball_round_are_refused() {
     .unwrap();
     screw.return_length = 0.5;
     let mut with = |size: f32| {
-        let wave = one_wave(1, 0.0, size);
-        (screw.screw_deviation, screw.nut_deviation) = (wave, wave);
+        (screw.screw_deviation, screw.nut_deviation) =
+            (wave(1, 1, 0.0, size), wave(1, 1, 0.0, size));
         FrictionModel::<UncagedBallScrew<3>>::new(&screw)
     };
     // Within half the inverse tangent of the contact angle, what a row's formula takes.

@@ -2,6 +2,7 @@
 
 use crate::kit::designs::{SCREW_TRACK as TRACK, screw};
 use crate::kit::errors::Errors;
+use crate::kit::gears;
 use crate::kit::given;
 use crate::kit::random::Random;
 use std::f64::consts::{FRAC_PI_4, TAU};
@@ -22,10 +23,10 @@ use epas_friction::scene::{
 use epas_friction::train::Train;
 use epas_friction::{
     BallScrew, CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, Clearance,
-    DISSERTATION_DESIGNS, DeviationMap, FrictionBranch, FrictionModel, GrooveSize, Harmonic,
-    Inputs, Limits, LinearBearing, LinearBearingConfiguration, LinearBearingParameters,
-    LinearBearingTrain, LinearInputs, LinearLimits, LoadShare, LoadShares, Material,
-    RollingResistance, UncagedBallScrew, UncagedBallScrewConfiguration,
+    DISSERTATION_DESIGNS, DeviationMap, FrictionBranch, FrictionModel, GrooveSize, Inputs, Limits,
+    LinearBearing, LinearBearingConfiguration, LinearBearingParameters, LinearBearingTrain,
+    LinearInputs, LinearLimits, LoadShare, Material, RollingResistance, UncagedBallScrew,
+    UncagedBallScrewConfiguration,
 };
 use epas_reference::design::BallScrewDesign;
 use epas_reference::efficiency::Screw;
@@ -282,32 +283,8 @@ fn uncaged_step() {
         }
         .simulate(&steady_samples(speed, load, 2.0 * TAU, 200), |_, _| ())
         .unwrap();
-        let wave = Harmonic {
-            order: 2,
-            cosine: 0.0,
-            sine: degrees.to_radians() as f32,
-        };
-        let map: &'static DeviationMap =
-            Box::leak(Box::new(DeviationMap::from_harmonics(1, &[wave]).unwrap()));
-        let configuration = UncagedBallScrewConfiguration {
-            design: screw(),
-            friction: 0.1,
-            ball_friction: 0.1,
-            rolling_resistance: RollingResistance::NONE,
-            clearance: Clearance::ZERO,
-            turns: 2.0,
-            return_length: 0.0,
-            screw_deviation: map,
-            nut_deviation: &DeviationMap::NONE,
-            load_shares: LoadShares::EVEN,
-            reversal_speed: 1e-3,
-            tick: TICK,
-            limits: Limits {
-                nut_speed: 300.0,
-                axial_load: 20_000.0,
-                friction_torque: 10.0,
-            },
-        };
+        let wave = gears::wave(1, 2, 0.0, degrees.to_radians() as f32);
+        let configuration = gears::full(wave, TICK);
         let mut model = FrictionModel::<UncagedBallScrew<37>>::new(&configuration).unwrap();
         let scale = (6e-5, TICK);
         let one = OneCoefficient::new(0.1).unwrap();
@@ -361,16 +338,6 @@ fn light_balls_with_play() {
     const BALLS: usize = 16;
     let parameters = DISSERTATION_DESIGNS[2].parameters;
     let (turns, load, speed) = (0.75, 80.0, TAU);
-    let wave = |sine: f32, order| {
-        let harmonic = Harmonic {
-            order,
-            cosine: 0.0,
-            sine,
-        };
-        let map = DeviationMap::from_harmonics(1, &[harmonic]).unwrap();
-        let map: &'static DeviationMap = Box::leak(Box::new(map));
-        map
-    };
     let states = ElasticRing {
         design: given::ball_screw(&parameters),
         clearance: f64::from(5e-6_f32),
@@ -390,22 +357,9 @@ fn light_balls_with_play() {
     .unwrap();
     let mut model = FrictionModel::<UncagedBallScrew<BALLS>>::new(&UncagedBallScrewConfiguration {
         design: BallScrew::new(parameters).unwrap(),
-        friction: 0.1,
-        ball_friction: 0.1,
-        rolling_resistance: RollingResistance::NONE,
         clearance: Clearance::new(5e-6).unwrap(),
         turns: turns as f32,
-        return_length: 0.0,
-        screw_deviation: wave(0.03, 2),
-        nut_deviation: &DeviationMap::NONE,
-        load_shares: LoadShares::EVEN,
-        reversal_speed: 1e-3,
-        tick: TICK,
-        limits: Limits {
-            nut_speed: 300.0,
-            axial_load: 20_000.0,
-            friction_torque: 10.0,
-        },
+        ..gears::full(gears::wave(1, 2, 0.0, 0.03), TICK)
     })
     .unwrap();
     let mut errors = Errors::of("light balls with play");

@@ -1,14 +1,15 @@
 //! Where the flag of a linear bearing near two-point rolling begins: against exact balls, alone and in rows that press on
 //! each other, which jump there.
 
+use crate::kit::gears;
 use crate::kit::given;
 use crate::kit::measured;
 use std::f64::consts::{FRAC_PI_4, TAU};
 
 use epas_friction::{
-    DeviationMap, Faults, FrictionModel, GrooveSize, Harmonic, LinearBearing,
-    LinearBearingConfiguration, LinearBearingParameters, LinearBearingTrain, LinearInputs,
-    LinearLimits, LinearOutputs, LoadShare, Material,
+    DeviationMap, Faults, FrictionModel, GrooveSize, LinearBearing, LinearBearingConfiguration,
+    LinearBearingParameters, LinearBearingTrain, LinearInputs, LinearLimits, LinearOutputs,
+    LoadShare, Material,
 };
 use epas_reference::friction::chain::solve_chain;
 use epas_reference::friction::linear_ball::{
@@ -59,12 +60,7 @@ const CASE: Case = Case {
 };
 
 fn map((amplitude, order): (f64, u8)) -> &'static DeviationMap {
-    let wave = Harmonic {
-        order,
-        cosine: amplitude as f32,
-        sine: 0.0,
-    };
-    Box::leak(Box::new(DeviationMap::from_harmonics(1, &[wave]).unwrap()))
+    gears::wave(1, order, amplitude as f32, 0.0)
 }
 
 impl Case {

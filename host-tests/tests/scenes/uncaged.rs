@@ -8,46 +8,16 @@ use std::f64::consts::{FRAC_PI_4, TAU};
 
 use epas_friction::scene::Scene;
 use epas_friction::{
-    Clearance, DeviationMap, Faults, FrictionModel, Harmonic, Inputs, Limits, LoadShare,
-    LoadShares, Outputs, Regime, RollingResistance, UncagedBallScrew,
-    UncagedBallScrewConfiguration, UncagedOutputs,
+    Clearance, DeviationMap, Faults, FrictionModel, Inputs, Limits, LoadShare, LoadShares, Outputs,
+    Regime, RollingResistance, UncagedBallScrew, UncagedBallScrewConfiguration, UncagedOutputs,
 };
 use epas_reference::friction::ball_screw_closed::{ContactAngles, Support, speed_ratio};
 
-fn map(degrees: f64) -> &'static DeviationMap {
-    let map = DeviationMap::from_harmonics(
-        1,
-        &[Harmonic {
-            order: 2,
-            cosine: 0.0,
-            sine: degrees.to_radians() as f32,
-        }],
-    );
-    Box::leak(Box::new(map.unwrap()))
-}
-
 const TICK: f32 = 1e-3;
 
+/// Two waves a turn of so many degrees on the screw.
 fn configuration(degrees: f64) -> UncagedBallScrewConfiguration {
-    UncagedBallScrewConfiguration {
-        design: design(),
-        friction: 0.1,
-        ball_friction: 0.1,
-        rolling_resistance: RollingResistance::NONE,
-        clearance: Clearance::ZERO,
-        turns: 2.0,
-        return_length: 0.0,
-        screw_deviation: map(degrees),
-        nut_deviation: &DeviationMap::NONE,
-        load_shares: LoadShares::EVEN,
-        reversal_speed: 1e-3,
-        tick: TICK,
-        limits: Limits {
-            nut_speed: 300.0,
-            axial_load: 20_000.0,
-            friction_torque: 10.0,
-        },
-    }
+    gears::full(gears::wave(1, 2, 0.0, degrees.to_radians() as f32), TICK)
 }
 
 type Model = FrictionModel<UncagedBallScrew<37>>;
