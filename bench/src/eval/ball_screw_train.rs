@@ -104,12 +104,7 @@ pub fn evaluate(mut fields: Fields) -> Result<Answer, BadField> {
         poisson_ratio: fields.number("poisson_ratio")?,
         friction: fields.number("friction")?,
         nut_speed: fields.number("nut_speed")?,
-        balls: fields
-            .objects("balls", LARGEST_TRAIN)?
-            .into_iter()
-            .enumerate()
-            .map(|(index, ball)| contacts(ball).map_err(|error| error.of_ball(index)))
-            .collect::<Result<_, _>>()?,
+        balls: fields.balls(LARGEST_TRAIN, contacts)?,
     };
     fields.finish()?;
     request.check()?;

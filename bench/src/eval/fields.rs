@@ -147,8 +147,13 @@ impl<'a> Fields<'a> {
         raw.map(|raw| list(field, raw, largest)).transpose()
     }
 
-    /// Takes a list of `1..=largest` objects.
-    pub fn objects(&mut self, field: &str, largest: usize) -> Result<Vec<Fields<'a>>, BadField> {
+    /// Takes the list `balls` of `1..=largest` objects, each read by `one`.
+    pub fn balls<T>(
+        &mut self,
+        largest: usize,
+        one: impl Fn(Fields<'a>) -> Result<T, BadField>,
+    ) -> Result<Vec<T>, BadField> {
+        let field = "balls";
         let raw = self.take(field)?;
         let values: Option<Vec<&RawValue>> = serde_json::from_str(raw.get()).ok();
         let Some(values) = values else {
@@ -166,7 +171,11 @@ impl<'a> Fields<'a> {
         values
             .into_iter()
             .enumerate()
-            .map(|(index, raw)| Self::nested(field, raw).map_err(|error| error.of_ball(index)))
+            .map(|(index, raw)| {
+                Self::nested(field, raw)
+                    .and_then(&one)
+                    .map_err(|error| error.of_ball(index))
+            })
             .collect()
     }
 

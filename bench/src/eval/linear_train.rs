@@ -69,12 +69,7 @@ pub fn evaluate(mut fields: Fields) -> Result<Answer, BadField> {
         friction: fields.number("friction")?,
         ball_friction: fields.optional_number("ball_friction")?.unwrap_or(0.0),
         speed: fields.number("speed")?,
-        balls: fields
-            .objects("balls", LARGEST_TRAIN)?
-            .into_iter()
-            .enumerate()
-            .map(|(index, ball)| Ball::read(ball).map_err(|error| error.of_ball(index)))
-            .collect::<Result<_, _>>()?,
+        balls: fields.balls(LARGEST_TRAIN, Ball::read)?,
     };
     fields.finish()?;
     request.check()?;

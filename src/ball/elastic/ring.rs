@@ -279,10 +279,8 @@ impl<const N: usize> Ring<N> {
         };
         let found = constants.ball.grooves.renew(&mut settled, &inputs);
         self.two_point = self.two_point.saturating_add(u8::from(found.two_point()));
-        // Newton's method comes from a far larger or smaller load in many steps, a start in a few.
-        let (wanted, carried) = (inputs.axial_load.abs(), found.carried.abs());
-        let far = self.lift_off == 0.0 && (carried > FAR * wanted || FAR * carried < wanted);
-        if found.lost || far {
+        let wanted = inputs.axial_load;
+        if found.lost || is_far(self.lift_off, found.carried, wanted) {
             let Settled { place, turning, .. } = constants.ball.grooves.start(&inputs);
             (ball.place, ball.turning) = (place, turning);
             return;
@@ -291,12 +289,7 @@ impl<const N: usize> Ring<N> {
         // they settle once more.
         let torque = ball.torque;
         ball.keep(constants, load, &settled, &found, force, fastest);
-        // The renewal found the torque of the load that the contacts carried before it.
-        let grown = growth(constants, self.lift_off, found.carried, inputs.axial_load);
-        let follows = self.lift_off == 0.0 || grown < HELD_GROWTH && HELD_GROWTH * grown > 1.0;
-        if follows {
-            ball.torque *= grown;
-        }
+        ball.torque *= grown(constants, self.lift_off, found.carried, wanted);
         if found.taken < 1.0 {
             if self.settling == 0 {
                 ball.torque = torque;
@@ -377,5 +370,25 @@ impl<const N: usize> Ring<N> {
             *ball = neighbour;
             self.entered = index as u8 + 1;
         }
+    }
+}
+
+/// Whether a ball without preload carried far more, or far less, than it should: Newton's method comes from there in many steps, a
+/// start in a few.
+#[inline(always)]
+fn is_far(lift_off: f32, carried: f32, wanted: f32) -> bool {
+    let (carried, wanted) = (carried.abs(), wanted.abs());
+    lift_off == 0.0 && (carried > FAR * wanted || FAR * carried < wanted)
+}
+
+/// Growth of the torque that a renewal found, that of the load which the contacts carried before it, to the load that the ball
+/// should carry; 1 where a preload holds a ball far from its balance.
+#[inline(always)]
+fn grown(constants: &RingConstants, lift_off: f32, carried: f32, wanted: f32) -> f32 {
+    let grown = growth(constants, lift_off, carried, wanted);
+    if lift_off == 0.0 || grown < HELD_GROWTH && HELD_GROWTH * grown > 1.0 {
+        grown
+    } else {
+        1.0
     }
 }

@@ -66,12 +66,7 @@ impl Request {
             ball_friction: fields.optional_number("ball_friction")?.unwrap_or(0.0),
             clearance: fields.number("clearance")?,
             nut_speed: fields.number("nut_speed")?,
-            balls: fields
-                .objects("balls", LARGEST_TRAIN)?
-                .into_iter()
-                .enumerate()
-                .map(|(index, given)| ball(given).map_err(|error| error.of_ball(index)))
-                .collect::<Result<_, _>>()?,
+            balls: fields.balls(LARGEST_TRAIN, ball)?,
         })
     }
 
