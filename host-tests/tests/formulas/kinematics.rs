@@ -821,6 +821,16 @@ fn what_cannot_roll_is_refused() {
         ..good
     });
     assert_eq!(error.field(), "contact_angle_nut");
+    // A ball's diameter is twice a radius of 10 um to 1 m.
+    let error = refused(KinematicsParameters {
+        ball_diameter: 2.1,
+        ..good
+    });
+    assert_eq!(error.field(), "ball_diameter");
+    assert_eq!(
+        (error.allowed().minimum, error.allowed().maximum),
+        (2e-5, 2.0)
+    );
     // Ellipse beyond 0.3 of the ball's radius, 1.191 mm.
     assert!(
         ContactKinematics::new(&KinematicsParameters {

@@ -8,8 +8,9 @@ use epas_friction::scene::{Sliding, StoredScene, WithMemoryConfiguration, WithMe
 use epas_friction::stored::{VERSION, crc32};
 use epas_friction::{
     BallScrew, BallScrewParameters, CagedBallScrew, CagedBallScrewConfiguration, Clearance,
-    DeviationMap, FrictionBranch, FrictionModel, Inputs, LinearBearingTrain, LinearInputs,
-    Material, Refusal, UncagedBallScrew, UncagedBallScrewConfiguration,
+    DeviationMap, FrictionBranch, FrictionModel, Inputs, LinearBearing, LinearBearingParameters,
+    LinearBearingTrain, LinearInputs, Material, Refusal, UncagedBallScrew,
+    UncagedBallScrewConfiguration,
 };
 
 use crate::kit::absurd::{Trial, accepted};
@@ -612,10 +613,25 @@ fn blocks_of_other_constants_are_refused() {
     assert_eq!(model.import(&block), Ok(()));
 
     let block = export(&Linear::model());
-    let mut wavier = linear();
-    wavier.wavelength = 0.05;
-    let mut model = FrictionModel::<Linear>::new(&wavier).unwrap();
-    assert_eq!(model.import(&block), Err(Refusal::OtherConstants));
+    let mut others = [linear(), linear(), linear()];
+    others[0].wavelength = 0.05;
+    // A track of the same shape, and other balls on the same track.
+    others[1].loaded_length *= 2.0;
+    others[1].return_length *= 2.0;
+    others[1].wavelength *= 2.0;
+    others[2].bearing = LinearBearing::new(LinearBearingParameters {
+        ball_radius: 0.0049,
+        ..*linear().bearing.parameters()
+    })
+    .unwrap();
+    for other in others {
+        let mut model = FrictionModel::<Linear>::new(&other).unwrap();
+        assert_eq!(
+            model.import(&block),
+            Err(Refusal::OtherConstants),
+            "{other:?}"
+        );
+    }
 
     let block = export(&CagedByAngle::model());
     let angle = WrappedAngle::new(WrappedAngleParameters {
