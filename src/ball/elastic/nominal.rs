@@ -12,22 +12,22 @@ use crate::stored::{Port, Refusal, Stored};
 /// the load ends there as well, at 0.008 N of 1000 N.
 pub(crate) const SMALLEST_LOAD: f32 = 0.01;
 
-/// Change of the contact force from which on the ball begins anew, as a factor.
+/// Change of the contact force from which on the ball begins anew, as [`NominalBall::apart`] counts it: a factor of 2.7 to 3.
 ///
 /// A start has to settle, which is flagged, and Newton's method follows small changes without. After jumps of the load by 2.5
-/// 23 % of the ticks are flagged at 1.5 and 2 without a gap and with play, 18 % from 3 on; after jumps by ten 19, 20, 22, 24, 28 and
-/// 30 % at 1.5, 2, 3, 4, 6 and 10 with preload, 25 % up to 6 and 32 % at 10 without a gap. What is not flagged is the same with
-/// all. Scans here and below: the 72 screws of `ring::chosen`, without deviations, as a caged one whose balls are renewed in
-/// every tick, against its law over the load.
-const LOAD_JUMP: f32 = 3.0;
+/// 23 % of the ticks are flagged at factors of 1.5 and 2 without a gap and with play, 18 % from 3 on; after jumps by ten 19, 20, 22,
+/// 24, 28 and 30 % at 1.5, 2, 3, 4, 6 and 10 with preload, 25 % up to 6 and 32 % at 10 without a gap. What is not flagged is the
+/// same with all. Scans here and below: the 72 screws of `ring::chosen`, without deviations, as a caged one whose balls are
+/// renewed in every tick, against its law over the load.
+const LOAD_JUMP: u32 = 3 << 22;
 
-/// Change of the contact force in a tick from which on the ball has to settle again, as a factor: its friction is still that of the
-/// load before, and its next renewals find that of a ball on its way.
+/// Change of the contact force in a tick from which on the ball has to settle again, counted alike: a factor of 1.02 to 1.04. Its
+/// friction is still that of the load before, and its next renewals find that of a ball on its way.
 ///
-/// After jumps of the load by 2.5 one torque that is not flagged is off by up to 67, 11, 7.3 and 4.0 % of itself at 1.5, 1.25, 1.1
-/// and 1.05 with preload, by 2.3e-4 from 1.03 down; after jumps by ten by 20 % at 1.5, and by 150 % without such a bound. At 1.02 one
-/// per cent more of the ticks is flagged than without, and a load that moves by 1 % a tick meets it nowhere.
-const LOAD_STEP: f32 = 1.02;
+/// After jumps of the load by 2.5 one torque that is not flagged is off by up to 67, 11, 7.3 and 4.0 % of itself at factors of 1.5,
+/// 1.25, 1.1 and 1.05 with preload, by 2.3e-4 from 1.03 down and as chosen; after jumps by ten by 20 % at 1.5, and by 150 % without such a bound.
+/// One per cent more of the ticks is flagged than without, and a load that moves by 1 % a tick meets it nowhere.
+const LOAD_STEP: u32 = 5 << 16;
 
 /// A renewal that changes the ratio of torque and load by more than this part of it shows that the ball still settles.
 ///
@@ -125,16 +125,23 @@ impl NominalBall {
         }
     }
 
+    /// Distance of a contact force, preload counted, from that for which the ball is settled, in parts of 2^-23 octaves, an
+    /// octave being taken as straight: what the bits of two positive numbers differ by. What is no number is far.
+    #[inline(always)]
+    fn apart(&self, whole: f32) -> u32 {
+        whole.to_bits().abs_diff(self.whole.to_bits())
+    }
+
     /// Whether the ball is settled for a load that is far from this one.
     #[inline(always)]
     pub(crate) fn is_far(&self, whole: f32) -> bool {
-        !(whole <= LOAD_JUMP * self.whole && LOAD_JUMP * whole >= self.whole)
+        self.apart(whole) > LOAD_JUMP
     }
 
-    /// Takes notice of the contact force of a tick, preload counted, N: after a step of it the ball has to settle again.
+    /// Takes notice of the contact force of a tick: after a step of it the ball has to settle again.
     #[inline(always)]
     pub(crate) fn meet(&mut self, whole: f32) {
-        if !(whole <= LOAD_STEP * self.whole && LOAD_STEP * whole >= self.whole) {
+        if self.apart(whole) > LOAD_STEP {
             self.unsettled = QUIET;
         }
     }
