@@ -25,8 +25,9 @@ const LOAD_JUMP: u32 = 3 << 22;
 /// friction is still that of the load before, and its next renewals find that of a ball on its way.
 ///
 /// After jumps of the load by 2.5 one torque that is not flagged is off by up to 67, 11, 7.3 and 4.0 % of itself at factors of 1.5,
-/// 1.25, 1.1 and 1.05 with preload, by 2.3e-4 from 1.03 down and as chosen; after jumps by ten by 20 % at 1.5, and by 150 % without such a bound.
-/// One per cent more of the ticks is flagged than without, and a load that moves by 1 % a tick meets it nowhere.
+/// 1.25, 1.1 and 1.05 with preload, by 2.3e-4 from 1.03 down and as chosen; after jumps by ten by 20 % at 1.5, and by 150 %
+/// without such a bound. One per cent more of the ticks is flagged than without, and a load that moves by 1 % a tick meets it
+/// nowhere.
 const LOAD_STEP: u32 = 5 << 16;
 
 /// A renewal that changes the ratio of torque and load by more than this part of it shows that the ball still settles.
