@@ -203,7 +203,8 @@ fn an_hour_of_the_same_winds_nothing_up() {
         let adapted = adaptation.update(&inputs(1.0));
         let moved = (adapted.estimates.backward - backward).abs();
         backward = adapted.estimates.backward;
-        assert!(moved < 1e-3);
+        // Measured: 0.
+        assert!(moved < 1.2e-7);
     }
     let deviations = adaptation.deviations();
     // To rounding of a sum of five squares.
@@ -211,12 +212,12 @@ fn an_hour_of_the_same_winds_nothing_up() {
     assert!(within(deviations.forward, 0.3) && within(deviations.backward, 0.3));
     assert!(within(deviations.drag, 2e-4) && within(deviations.offset, 5e-3));
     assert!(within(deviations.load_error, 0.01));
-    // Nothing was told of the other direction.
-    assert!((backward - 1.0).abs() < 1e-3 && deviations.backward > 0.26);
-    // What was told: friction at this speed and load, however it is shared out.
+    // Nothing was told of the other direction. Measured: 0 and 0.287.
+    assert!((backward - 1.0).abs() < 1.2e-7 && deviations.backward > 0.26);
+    // What was told: friction at this speed and load, however it is shared out. Measured: 1.6e-5 N m, with noise of 2e-3.
     let found = adaptation.estimates();
     let sum = 0.04 * found.forward + 8.0 * found.drag + found.offset + 0.5 * found.load_error;
-    assert!((sum - 0.048).abs() < 1e-3, "{found:?}");
+    assert!((sum - 0.048).abs() < 4e-5, "{found:?}");
     let mut furthest = 0.0_f32;
     for _ in 0..1000 {
         let found = adaptation.update(&inputs(-1.0)).estimates;
@@ -225,7 +226,8 @@ fn an_hour_of_the_same_winds_nothing_up() {
         let sum = 0.04 * found.backward + 8.0 * found.drag - found.offset - 0.5 * found.load_error;
         furthest = sum;
     }
-    assert!((furthest - 0.048).abs() < 2e-3, "{furthest}");
+    // Measured: 1.0e-4 N m.
+    assert!((furthest - 0.048).abs() < 3e-4, "{furthest}");
 }
 
 /// A jammed sensor that shows ten times the friction moves the level to its bound and not beyond, and flags it.
@@ -252,7 +254,8 @@ fn bounds_hold() {
     assert_eq!(adaptation.estimates().forward, 0.4);
 }
 
-/// A knock of 1 N m, four hundred times the noise, in one update in a hundred moves the level by less than 0.02.
+/// A knock of 1 N m, four hundred times the noise, in one update in a hundred moves the level by less than 0.006. Measured: 3.0e-3
+/// forward and 3.6e-4 backward.
 #[test]
 fn knocks_count_little() {
     let mut adaptation = running();
@@ -264,8 +267,8 @@ fn knocks_count_little() {
         adaptation.update(&sound(0.048 * way + knock, 0.04 * way, 8.0 * way));
     }
     let found = adaptation.estimates();
-    assert!((found.forward - before.forward).abs() < 0.02, "{found:?}");
-    assert!((found.backward - before.backward).abs() < 0.02, "{found:?}");
+    assert!((found.forward - before.forward).abs() < 6e-3, "{found:?}");
+    assert!((found.backward - before.backward).abs() < 1e-3, "{found:?}");
 }
 
 #[test]

@@ -34,20 +34,22 @@ fn run(adaptation: &mut Adaptation, level: f32, seconds: usize) -> Adapted {
 fn a_level_that_falls_is_flagged_and_its_flag_goes_late() {
     let mut adaptation = Adaptation::new(&slow()).unwrap();
     let health = run(&mut adaptation, 1.0, 300).health;
-    assert!(health.drift.abs() < 1e-3 && !health.fallen && !health.risen);
+    // Measured: 2.8e-8.
+    assert!(health.drift.abs() < 8e-8 && !health.fallen && !health.risen);
     let health = run(&mut adaptation, 0.5, 85).health;
     assert!(!health.fallen && health.drift > -0.3, "{health:?}");
     let health = run(&mut adaptation, 0.5, 20).health;
     assert!(health.fallen && !health.risen, "{health:?}");
-    // A level of 0.75 takes the drift to -0.25: within the hysteresis. One of 0.9 takes it to -0.1.
+    // A level of 0.75 takes the drift to -0.25: within the hysteresis. One of 0.9 takes it to -0.1. Derived: after 500 s
+    // exp(-5) of the way is left, 5e-4 of 0.07 and 1.0e-3 of 0.15. Measured: 5.1e-4 and 1.08e-3.
     let health = run(&mut adaptation, 0.75, 500).health;
     assert!(
-        health.fallen && (health.drift + 0.25).abs() < 0.01,
+        health.fallen && (health.drift + 0.25).abs() < 1.5e-3,
         "{health:?}"
     );
     let health = run(&mut adaptation, 0.9, 500).health;
     assert!(
-        !health.fallen && (health.drift + 0.1).abs() < 0.01,
+        !health.fallen && (health.drift + 0.1).abs() < 2e-3,
         "{health:?}"
     );
 }
@@ -59,10 +61,10 @@ fn drift_counts_from_commissioning() {
     run(&mut adaptation, 1.4, 60);
     adaptation.commission();
     assert_eq!(adaptation.health().drift, 0.0);
-    // 1.4 times 1.4 is a rise of 0.4, not of 0.96.
+    // 1.4 times 1.4 is a rise of 0.4, not of 0.96. Derived: after 700 s exp(-7) of it is left, 3.6e-4. Measured: 4.0e-4.
     let health = run(&mut adaptation, 1.96, 700).health;
     assert!(
-        !health.risen && (health.drift - 0.4).abs() < 0.01,
+        !health.risen && (health.drift - 0.4).abs() < 1e-3,
         "{health:?}"
     );
     let health = run(&mut adaptation, 2.2, 700).health;
@@ -71,7 +73,7 @@ fn drift_counts_from_commissioning() {
     assert_eq!(adaptation, Adaptation::new(&slow()).unwrap());
 }
 
-/// An average over a day of sliding still moves in f32: a level 0.1 % away is found to a tenth of that.
+/// An average over a day of sliding still moves in f32.
 #[test]
 fn a_slow_average_does_not_stand_still() {
     let configuration = AdaptationConfiguration {
@@ -83,10 +85,10 @@ fn a_slow_average_does_not_stand_still() {
     };
     let mut adaptation = Adaptation::new(&configuration).unwrap();
     let health = run(&mut adaptation, 1.2, 30_000).health;
-    // 0.2 (1 - exp(-0.3)), less the seconds until the level is found.
+    // 0.2 (1 - exp(-0.3)), less the seconds until the level is found. Measured: 4.9e-5.
     let exact = 0.2 * (1.0 - (-0.3_f32).exp());
     assert!(
-        (health.drift / exact - 1.0).abs() < 0.01,
+        (health.drift / exact - 1.0).abs() < 1.5e-4,
         "{health:?} {exact}"
     );
 }

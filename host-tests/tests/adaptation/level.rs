@@ -70,9 +70,9 @@ where
         if tick > 100 && (100..400).contains(&(tick % 500)) {
             let level = LEVEL.of(plain.friction_torque);
             let wanted = level * plain.friction_torque;
-            // Roundings of a product, a sum of eight elements, a ratio and a product.
+            // Measured: 0. A rounding of either product is 6e-8.
             assert!(
-                (scaled.friction_torque / wanted - 1.0).abs() < 2e-6,
+                (scaled.friction_torque / wanted - 1.0).abs() < 1.2e-7,
                 "{tick}"
             );
             assert_eq!(scaled.regime, plain.regime);
@@ -108,8 +108,8 @@ fn stiffness_stays() {
         before - step(&mut model, -1.0).friction_torque
     };
     let (plain, scaled) = (fall(FrictionLevel::ONE), fall(LEVEL));
-    // The torque itself, half as large again, is rounded.
-    assert!((scaled / plain - 1.0).abs() < 1e-4, "{scaled} {plain}");
+    // The torque itself, half as large again, is rounded. Measured: 4.1e-6 of a fall of 3.7e-3 N m.
+    assert!((scaled / plain - 1.0).abs() < 1.2e-5, "{scaled} {plain}");
     let mut model = model::<CagedBallScrew>(caged());
     step(&mut model, 0.0);
     let held = step(&mut model, 1.0).friction_torque;
@@ -122,7 +122,8 @@ fn stiffness_stays() {
             })
             .unwrap();
         let still = step(&mut model, 0.0).friction_torque;
-        assert!((still / held - 1.0).abs() < 1e-6, "{still} {held}");
+        // Measured: 0.
+        assert!((still / held - 1.0).abs() < 1.2e-7, "{still} {held}");
     }
 }
 

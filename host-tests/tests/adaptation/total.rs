@@ -91,6 +91,7 @@ proptest! {
         for inputs in &ticks {
             let adapted = adaptation.update(inputs);
             let found = adapted.estimates;
+            // Bounds of the configuration.
             prop_assert!((0.4..=2.5).contains(&found.forward) && (0.4..=2.5).contains(&found.backward));
             prop_assert!(found.drag.abs() <= 2e-3 && found.offset.abs() <= 0.05 && found.load_error.abs() <= 0.1);
             prop_assert!(adapted.health.drift.is_finite());
@@ -118,7 +119,8 @@ proptest! {
         }
         let level = adaptation.level();
         if noise < 1.0 {
-            prop_assert!((level.forward - 1.2).abs() < 0.02 && (level.backward - 1.2).abs() < 0.02, "{level:?}");
+            // Measured: 1.2e-7, an ulp, in 3000 cases; the sound ticks have no noise.
+            prop_assert!((level.forward - 1.2).abs() < 4e-7 && (level.backward - 1.2).abs() < 4e-7, "{level:?}");
         }
     }
 }

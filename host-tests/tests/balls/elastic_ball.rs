@@ -405,11 +405,12 @@ fn clearance_is_continuous_through_zero() {
     };
     let (play, none, oversize) = (at(1e-8), at(0.0), at(-1e-8));
     for other in [play, oversize] {
-        // A hundredth of a micrometre is a part in some hundreds of the deflection of a light contact.
-        assert!((other.torque / none.torque - 1.0).abs() < 3e-3);
+        // A hundredth of a micrometre is a part in some hundreds of the deflection of a light contact. Measured: 1.8e-4, 4.8e-5
+        // and 5.7e-3 N of up to 72 N.
+        assert!((other.torque / none.torque - 1.0).abs() < 4e-4);
         assert!((other.speed / none.speed - 1.0).abs() < 1e-4);
         for (load, before) in other.loads.iter().zip(none.loads) {
-            assert!((load - before).abs() < 0.2, "{load} {before}");
+            assert!((load - before).abs() < 0.012, "{load} {before}");
         }
     }
     assert!(play.loads[0] < none.loads[0] && none.loads[0] < oversize.loads[0]);

@@ -657,14 +657,14 @@ fn units_of_a_row_do_not_matter() {
         let balls = tick.per_speed(speed, 1.0 / speed, (1e-3, 4e-3));
         let mut sums = LoopSums::NONE;
         let found = balls.ball(screw / 1e-3, nut / 4e-3, &share, &mut sums);
-        // Some ten roundings of 6e-8 each.
+        // Some ten roundings of 6e-8 each. Measured: 1.2e-7.
         for (found, known) in [
             (found.speed * speed, known.speed_deviation),
             (speed.abs() / found.impedance, known.compliance),
             (balls.groove_torque(&sums), known.groove_torque),
         ] {
             assert!(
-                (found / known - 1.0).abs() < 1e-6,
+                (found / known - 1.0).abs() < 3.6e-7,
                 "{speed}: {found} {known}"
             );
         }

@@ -131,7 +131,8 @@ fn the_speed_of_a_linear_ball_jumps_where_a_diagonal_is_weak() {
             let truth = exact(degrees, step);
             let (closed, refined) = speeds(&ball);
             let line = format!("{degrees} degrees, side force {step}: {closed} {refined} {truth}");
-            // Bounded by the angles alone, whatever the loads are.
+            // Bounded by the angles alone, whatever the loads are. Derived: an angle of 45 degrees is rounded by 3e-8, 3.4e-6 of
+            // half a degree. Measured: 1.6 % less.
             assert!(
                 closed.abs() <= 0.5 * size.to_radians() * (1.0 + 1e-5),
                 "{line}"

@@ -142,7 +142,8 @@ fn preload_is_the_force_in_elastic_grooves() {
             }
             let slope = design.parameters().contact_angle.sin() * design.cos_lead_angle();
             let flank = oversize.axial_preload(&design, 37) / (37.0 * oversize.preload(&design));
-            assert!((flank / slope - 1.0).abs() < 1e-6);
+            // Measured: 1.2e-7, roundings.
+            assert!((flank / slope - 1.0).abs() < 3.6e-7);
         }
     }
     // The ball moves towards the groove in which it is softer, and its contact angles turn: both grow with the gap.

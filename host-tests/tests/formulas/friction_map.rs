@@ -56,7 +56,7 @@ fn maps_equal_the_contact_integral() {
             if offset.abs() <= 1.0 {
                 inside = error.iter().fold(inside, |max, e| max.max(e.abs()));
             }
-            // Documented, see below.
+            // Documented, see below. Measured: 7.8e-4, 1.7e-3 and 2.4e-4.
             assert!(
                 error[0].abs() <= 1e-3 && error[1].abs() <= 2e-3 && error[2].abs() <= 1e-3,
                 "axis_ratio {axis_ratio} offset {offset}: {fast:?}, exact {exact:?}"
@@ -138,7 +138,7 @@ fn dissipation_is_the_gradient_of_one_potential() {
     for slip in [-0.3_f32, -0.02, -0.001, 0.0, 0.004, 0.03, 0.7] {
         for spin in [-0.8_f32, -0.05, -0.004, 0.0, 0.01, 0.3, 1.0] {
             let here = at(slip, spin);
-            // Differences of f32 values of size 0.1: 1e-8/step, and curvature times step.
+            // Differences of f32 values of size 0.1: 1e-8/step, and the third derivative times the step's square.
             let step = 1e-3_f32 * (semi_major * spin.hypot(stick_spin)).max(0.1 * slip.abs());
             let force = (at(slip + step, spin).potential - at(slip - step, spin).potential)
                 / ((slip + step) - (slip - step));
@@ -146,27 +146,34 @@ fn dissipation_is_the_gradient_of_one_potential() {
             let moment = (at(slip, spin + turn).potential - at(slip, spin - turn).potential)
                 / ((spin + turn) - (spin - turn));
             let label = format!("slip {slip} spin {spin}: {here:?}, {force} {moment}");
-            assert!((here.force - force).abs() <= 0.03, "{label}");
-            assert!((here.moment - moment).abs() <= 0.02 * semi_major, "{label}");
-            // Where a sliding contact is given a least stiffness, there is no derivative to compare.
+            // Measured: 5.5e-4 and 6.9e-4.
+            assert!((here.force - force).abs() <= 1.2e-3, "{label}");
+            assert!(
+                (here.moment - moment).abs() <= 1.4e-3 * semi_major,
+                "{label}"
+            );
+            // Where a sliding contact is given a least stiffness, a twentieth of the secant, there is no derivative to compare.
+            // Measured: 0.05000.
             let secant = (here.force / slip).abs();
-            if slip.abs() > here.end_speed && here.stiffness < 0.0501 * secant {
-                assert!(here.stiffness > 0.0499 * secant, "{label}");
+            if slip.abs() > here.end_speed && here.stiffness < 0.05001 * secant {
+                assert!(here.stiffness > 0.04999 * secant, "{label}");
                 continue;
             }
             // Hessian: [stiffness, -stiffness tilt; ., stiffness tilt² + stick].
             let along = (at(slip, spin + turn).force - at(slip, spin - turn).force) / (2.0 * turn);
             let cross = -here.stiffness * here.tilt;
             let size = here.stiffness * semi_major;
+            // Measured: 1.3e-4.
             assert!(
-                (along - cross).abs() <= 0.02 * size + 1e-3,
+                (along - cross).abs() <= 3e-4 * size,
                 "{label} {along} {cross}"
             );
             let around =
                 (at(slip, spin + turn).moment - at(slip, spin - turn).moment) / (2.0 * turn);
             let own = here.stiffness * here.tilt * here.tilt + here.stick;
+            // Measured: 5.2e-5.
             assert!(
-                (around - own).abs() <= 0.03 * own + 0.02 * size * semi_major + 1e-5,
+                (around - own).abs() <= 1.2e-4 * (own + size * semi_major),
                 "{label} {around} {own}"
             );
         }

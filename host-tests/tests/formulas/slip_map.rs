@@ -83,7 +83,8 @@ fn forces_are_slopes_of_the_potential() {
                     f64::from(map.dissipation(z, x, w, 1.0, stick).potential)
                 };
                 let here = map.dissipation(across, along, spin, 1.0, stick);
-                // Rounding of the potential (3e-7) over the step, and a sixth of its square.
+                // Rounding of the potential (3e-7) over the step, 6e-5, and a sixth of the third derivative times the step's
+                // square. Measured: 3.1e-4.
                 let step = 0.005_f32;
                 let width = 2.0 * f64::from(step);
                 let slopes = [
@@ -102,7 +103,7 @@ fn forces_are_slopes_of_the_potential() {
                 ];
                 for (given, difference) in slopes {
                     assert!(
-                        (f64::from(given) - difference / width).abs() < 3e-3,
+                        (f64::from(given) - difference / width).abs() < 7e-4,
                         "{across} {along} {spin}: {given} {}",
                         difference / width
                     );

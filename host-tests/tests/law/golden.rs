@@ -72,6 +72,7 @@ impl Case {
             .map(|sample| sample as usize)
             .collect();
         for (&sample, angle) in samples.iter().zip(numbers(case, "angle_at_samples")) {
+            // Derived: angles are printed to nine digits, those up to 10 with eight decimals: 5e-9. Measured: 5.0e-9.
             assert!((angles[sample] - angle).abs() < 1e-8, "{}", case["name"]);
         }
         let ratio = numbers(case, "limit_ratio");
@@ -160,9 +161,9 @@ fn golden_cases() {
             "{}: torque {:.1e}, work {:.1e}, f64 {:.1e}",
             case["name"], found[0], found[1], found[2]
         );
-        // Torque: as the golden file demands. Work: the same over all ticks of a case.
+        // The golden file demands 5e-6. Measured: torque 1.5e-6, work over all ticks of a case 6.4e-7, torque from f64 1.6e-6.
         assert!(
-            found[0] < 5e-6 && found[1] < 5e-6 && found[2] < 5e-6,
+            found[0] < 4.5e-6 && found[1] < 2e-6 && found[2] < 4.5e-6,
             "{}",
             case["name"]
         );

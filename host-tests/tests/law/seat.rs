@@ -56,9 +56,9 @@ fn play_is_free_and_sliding_is_full() {
     let error = state.place() / seat.breakaway() - 1.0;
     measured::assert("seat, place of sliding", error);
     assert_eq!(seat.follow(&mut state, -1.0, &limits), -0.03);
-    // Formed again from the place: a cube root, a square root and four products.
+    // Formed again from the place: a cube root, a square root and four products. Measured: 1.2e-7.
     for turn in [0.0, f32::NAN, f32::INFINITY, 1e7] {
-        assert!((seat.follow(&mut state, turn, &limits) / -0.03 - 1.0).abs() < 5e-7);
+        assert!((seat.follow(&mut state, turn, &limits) / -0.03 - 1.0).abs() < 3.6e-7);
     }
     assert_eq!(seat.stored_energy(&SeatElement::VIRGIN), 0.0);
     for (turn, friction) in [(1e6, 0.04), (-1e6, -0.03), (1e5, 0.04)] {

@@ -123,9 +123,9 @@ fn back_driving_ends_where_the_efficiency_does() {
     let (turned, held) = (lowered(turns), lowered(holds));
     assert!(turned.regime == Regime::BackDriving && turned.efficiency > 0.0);
     assert!(held.efficiency <= 0.0);
-    // Roundings of two torques that cancel: some parts in 1e7 of the load's own.
+    // Roundings of two torques that cancel. Measured: 1.2e-7 of the load's own.
     assert!(
-        turned.efficiency - held.efficiency < 1e-6,
+        turned.efficiency - held.efficiency < 3.6e-7,
         "{turned:?} {held:?}"
     );
 }

@@ -78,8 +78,8 @@ fn torque_is_the_efficiency_of_the_reference() {
                     (computed / expected - 1.0).abs() < 4e-6,
                     "{parameters:?}: {computed}"
                 );
-                // Five roundings of 2^-24 beside those of the roots.
-                assert!((f64::from(outputs.efficiency) - drive).abs() < 3e-7);
+                // Measured: 7.9e-8 driving and 4.9e-8 driven: some roundings of 6e-8.
+                assert!((f64::from(outputs.efficiency) - drive).abs() < 2e-7);
                 assert_eq!(outputs.regime, Regime::Driving);
                 let outputs = step(&mut model, speed, -load);
                 let expected = 900.0 * arm * (1.0 - backdrive);
@@ -88,7 +88,8 @@ fn torque_is_the_efficiency_of_the_reference() {
                     (computed / expected - 1.0).abs() < 4e-6,
                     "{parameters:?}: {computed}"
                 );
-                assert!((f64::from(outputs.efficiency) - backdrive).abs() < 3e-7);
+                // Measured: see above.
+                assert!((f64::from(outputs.efficiency) - backdrive).abs() < 2e-7);
                 let expected = if backdrive > 0.0 {
                     Regime::BackDriving
                 } else {
@@ -186,8 +187,9 @@ proptest! {
         let mut last = step(&mut model, -2.0, load).friction_torque;
         for tick in -199..=200_i16 {
             let torque = step(&mut model, f32::from(tick) * 0.01, load).friction_torque;
-            // The slope is at most that of s (1 + ...) at standstill, a step being 0.05 of the width.
-            prop_assert!((torque - last).abs() <= 0.11 * full + 1e-6);
+            // Derived: the torque is `s (A + s B)` with |B| <= A. Its slope, (A + 2 s B) (1 - s²)^(3/2) over the width, is
+            // nowhere more than A + |B|, the full torque, over the width; a step is 0.05 of the width. Measured: 0.04993.
+            prop_assert!((torque - last).abs() <= 0.0501 * full + 1e-6);
             last = torque;
         }
         prop_assert_eq!(step(&mut model, 0.0, load).friction_torque, 0.0);

@@ -535,7 +535,7 @@ fn a_share_beyond_the_margin_is_named_with_its_range() {
     };
     assert_eq!(refused(0.96, margin), ("share", 0.95));
     assert_eq!(refused(f32::NAN, margin), ("share", 0.95));
-    // 0.8 / (4 - 8 (0.05 - 0.04) - 3.2 / 1.25) = 0.588.
+    // 0.8 / (4 - 8 (0.05 - 0.04) - 3.2 / 1.25) = 0.8 / 1.36. Measured: 4.2e-8, roundings.
     let early = CompensationMargin {
         largest_breakaway_angle: 2.5e-3,
         play: 1.25e-4,
@@ -543,19 +543,21 @@ fn a_share_beyond_the_margin_is_named_with_its_range() {
     };
     let (field, largest) = refused(0.6, early);
     assert_eq!(field, "share");
-    approx::assert_relative_eq!(largest, 0.588_235, max_relative = 1e-5);
-    // 0.97 / 1.25, where the play is wide.
+    approx::assert_relative_eq!(largest, 0.8 / 1.36, epsilon = 0.0, max_relative = 1.2e-7);
+    // 0.97 / 1.25, where the play is wide. Measured: 1.1e-7.
     let wide = CompensationMargin {
         play: 1e-3,
         ..early
     };
-    approx::assert_relative_eq!(wide.largest_share().unwrap(), 0.776, max_relative = 1e-6);
-    // Friction that may be a fifth less.
+    let share = wide.largest_share().unwrap();
+    approx::assert_relative_eq!(share, 0.776, epsilon = 0.0, max_relative = 3e-7);
+    // 0.95 / 1.25: friction that may be a fifth less. Measured: 1.3e-8.
     let less = CompensationMargin {
         friction_ratio: 1.25,
         ..margin
     };
-    approx::assert_relative_eq!(less.largest_share().unwrap(), 0.76, max_relative = 1e-6);
+    let share = less.largest_share().unwrap();
+    approx::assert_relative_eq!(share, 0.76, epsilon = 0.0, max_relative = 1.2e-7);
     // A motor of half the torque that is asked for: still no more than all.
     let weak = CompensationMargin {
         friction_ratio: 0.5,

@@ -251,8 +251,9 @@ fn behind_a_play_friction_stands() {
         for screw in rests(half_width, Rest::WentBack) {
             assert_eq!(screw.changes, 0, "{half_width}: {screw:?}");
             assert!(screw.steps <= 6, "{half_width}: {screw:?}");
-            // Differences of two torques, each rounded.
-            assert!(screw.largest <= 1.001 * torque_of_a_count(), "{screw:?}");
+            // Derived: the turn of a count at most, and two torques of 0.08 N m, each rounded by 4e-9, 4e-7 of a count's torque.
+            // Measured: 0.947.
+            assert!(screw.largest <= 1.00001 * torque_of_a_count(), "{screw:?}");
         }
     }
 }
@@ -263,10 +264,12 @@ fn behind_a_play_friction_stands() {
 fn without_a_play_friction_follows_the_counts() {
     for screw in rests(0.0, Rest::WentBack) {
         assert_eq!(screw.changes, 0, "{screw:?}");
-        assert!(screw.largest <= 2.001 * torque_of_a_count(), "{screw:?}");
+        // Derived: the turn of two counts, and roundings as above. Measured: 2.0000002.
+        assert!(screw.largest <= 2.00001 * torque_of_a_count(), "{screw:?}");
     }
     for screw in rests(0.0, Rest::Slid) {
         assert!(screw.changes > 1000, "{screw:?}");
-        assert!(screw.largest <= 2.001 * torque_of_a_count(), "{screw:?}");
+        // Measured: 0.9999999, one count.
+        assert!(screw.largest <= 1.00001 * torque_of_a_count(), "{screw:?}");
     }
 }

@@ -63,20 +63,21 @@ fn difference(one: &[f32], other: &[f32]) -> f32 {
 fn a_groove_is_the_same_a_period_on() {
     let angle = 1.1;
     let here = from_angle(angle);
-    assert!(difference(&here, &from_angle(angle + 4.0 * TAU)) < 1e-4);
-    assert!(difference(&here, &from_angle(angle - 2.0 * TAU)) < 1e-4);
+    assert!(difference(&here, &from_angle(angle + 4.0 * TAU)) < 7e-7);
+    assert!(difference(&here, &from_angle(angle - 2.0 * TAU)) < 7e-7);
     assert!(difference(&here, &from_angle(angle + TAU)) > 1e-3);
 }
 
-/// A quarter of a wavelength turns a sine into a cosine.
+/// A quarter of a wavelength turns a sine into a cosine. Measured: 0, as 5 and a quarter are exact in f32, and 0.083 between sine
+/// and cosine.
 #[test]
 fn a_rail_is_the_same_a_wavelength_on() {
     let wavelength = gears::linear().wavelength;
     let (sine, cosine) = ((0.0, 0.03), (0.03, 0.0));
     let here = from_position(0.0, sine);
-    assert!(difference(&here, &from_position(5.0 * wavelength, sine)) < 1e-4);
+    assert!(difference(&here, &from_position(5.0 * wavelength, sine)) < 2e-7);
     let quarter = from_position(0.25 * wavelength, sine);
-    assert!(difference(&quarter, &from_position(0.0, cosine)) < 1e-4);
+    assert!(difference(&quarter, &from_position(0.0, cosine)) < 2e-7);
     assert!(difference(&here, &quarter) > 1e-3);
 }
 

@@ -54,13 +54,15 @@ fn told<S: Sliding<Inputs = Inputs>>(configuration: &S::Configuration, axial_loa
 fn flanks_share<S: Sliding<Inputs = Inputs>>(configuration: &S::Configuration) {
     let alone = told::<S>(configuration, 0.0);
     let counted = 2.0 * SQRT_2 * PRELOAD;
-    assert!((alone / counted - 1.0).abs() < 2e-3, "{alone} {counted}");
+    // Measured: 4.2e-5.
+    assert!((alone / counted - 1.0).abs() < 1e-4, "{alone} {counted}");
     let elements = PreloadedElements::new(());
     for step in 0..60_u8 {
         let load = 0.1 * f32::from(step) * PRELOAD;
         for load in [load, -load] {
             let found = f64::from(elements.shared(told::<S>(configuration, load) / alone));
             let exact = exact_sum(load.abs().into());
+            // Measured: 0.83 %.
             assert!(
                 (found / exact - 1.0).abs() < 0.0085,
                 "{load}: {found} {exact}"
@@ -80,6 +82,7 @@ fn a_caged_screw_tells_what_its_flanks_share() {
     for load in [150.0, -600.0, 848.5, 1500.0] {
         let found = f64::from(elements.shared(told::<CagedBallScrew>(&caged(), load) / alone));
         let exact = exact_sum(f64::from(load).abs());
+        // Measured: 0.83 % in all three tests.
         assert!(
             (found / exact - 1.0).abs() < 0.0085,
             "{load}: {found} {exact}"

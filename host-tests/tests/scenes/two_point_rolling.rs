@@ -453,7 +453,8 @@ fn groove_friction_follows_two_point_rolling() {
                 );
             }
         }
-        assert!(last < 1e-3 * whole);
+        // Measured: 4.8e-6.
+        assert!(last < 1.2e-5 * whole);
     }
 }
 
@@ -566,5 +567,6 @@ fn shares_of_the_load_move_the_border() {
     };
     let shared = border(&SHARES, 100.0);
     let heavy = border(&[LoadShare::MEAN], 160.0);
-    assert!((shared - heavy).abs() < 3e-5, "{shared} {heavy}");
+    // Derived: each is found to 1e-5. Measured: 0.
+    assert!((shared - heavy).abs() < 2e-5, "{shared} {heavy}");
 }

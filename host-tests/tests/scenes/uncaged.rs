@@ -91,10 +91,11 @@ fn four_groups_build_up_release_and_build_up_again() {
     );
     // The exact whole screw: 38.8 % at 103.4 degrees, released at 262.5 degrees; the text's 49.6 % takes a deviation of 2.5
     // degrees there. With ticks of 0.36 degrees balls are renewed every seven degrees, and all of it comes that much later.
+    // Measured: 1.5 %, 8.2 and 9.3 degrees off.
     assert!((first - 0.388).abs() < 0.02);
     assert!((degrees(at) - 103.4).abs() < 12.0);
     assert!((degrees(released) - 262.5).abs() < 12.0);
-    // A second build-up follows, lower than the first.
+    // A second build-up follows, lower than the first. Measured: 0.094.
     assert!(again > 0.03 && again < 0.6 * first);
 }
 
@@ -125,7 +126,8 @@ fn balls_without_friction_between_them_still_press() {
         };
         let (with, without) = (rough.step(inputs), smooth.step(inputs));
         assert_eq!(without.ball_torque, 0.0);
-        // Balls that do not rub turn faster: forces between them are larger, friction of the grooves hardly differs.
+        // Balls that do not rub turn faster: forces between them are larger, friction of the grooves hardly differs. Measured:
+        // 1.6e-2.
         assert!((with.groove_torque / without.groove_torque - 1.0).abs() < 0.03);
         largest.0 = largest.0.max(with.largest_contact_force);
         largest.1 = largest.1.max(without.largest_contact_force);
@@ -223,8 +225,9 @@ fn a_return_without_load_takes_its_share_of_the_balls() {
     let ratio = sum / whole;
     println!("groove torque with return over without: {ratio:.5}, largest force {largest_force} N");
     assert!(ratio > 1.0 && ratio < 1.5_f64.powf(1.0 / 3.0));
-    // Balls in the return have no speed of their own: none presses with more than its impedance.
-    assert!(largest_force < 1e-3);
+    // Balls in the return have no speed of their own: none presses with more than its impedance. Derived: that is 1e-6 N for a
+    // speed as large as that of all. Measured: 0.
+    assert!(largest_force < 1e-6);
 }
 
 #[test]
@@ -657,6 +660,6 @@ fn balls_settle_under_swapped_constants() {
         torques = [&mut swapped, &mut fresh].map(|model| model.step(inputs).groove_torque);
     }
     let [swapped, fresh] = torques;
-    // Settled balls stay where Newton's method leaves them, within 1e-4 of their friction.
-    assert!((swapped / fresh - 1.0).abs() < 1e-3, "{swapped} {fresh}");
+    // Settled balls stay where Newton's method leaves them, within 1e-4 of their friction. Measured: 0.
+    assert!((swapped / fresh - 1.0).abs() < 1e-4, "{swapped} {fresh}");
 }
