@@ -113,8 +113,9 @@ impl Curve {
             corners.iter().map(|corner| corner.0).collect::<Vec<_>>()
         );
         let sum: f64 = stored.iter().map(|element| element.1).sum();
-        // Rounded to f32 one by one.
+        // Derived: rounded to f32 one by one, each by 6e-8 of less than one.
         assert!((sum - 1.0).abs() < 6e-8 * N as f64);
+        // Derived: said to five decimals, rounded up.
         let said = f64::from(table.error);
         assert!(
             error <= said && error > said - 1.1e-5,
@@ -153,7 +154,8 @@ fn the_best_line_has_the_error_that_it_is_found_for() {
     for (curve, count) in [(SLIP, 4), (SLIP, 8), (SPIN, 6), (SPIN, 10)] {
         let (least, corners) = curve.best(count);
         let error = curve.error(&elements(&corners));
-        assert!((error / least - 1.0).abs() < 1e-4, "{error} {least}");
+        // Measured: 1.4e-13, of a corner that is sought to 1e-15.
+        assert!((error / least - 1.0).abs() < 4e-13, "{error} {least}");
     }
 }
 
@@ -174,6 +176,7 @@ fn chords_are_within_their_closed_form() {
 /// The stored ones were fitted to loops, by a search that stopped. They are what stored cases were made with.
 #[test]
 fn stored_tables_are_near_the_best_ones() {
+    // Measured: 1.110, 1.125, 1.267 and 1.315; 1.437, 1.592, 2.091 and 1.619.
     SLIP.holds("slip4", &SLIP_4, 1.12);
     SLIP.holds("slip6", &SLIP_6, 1.14);
     SLIP.holds("slip8", &SLIP_8, 1.28);

@@ -47,6 +47,7 @@ fn the_inverse_cube_root_takes_the_best_parabola() {
     }
     let error = |c| polynomial(&stored, c) / exact(c) - 1.0;
     let largest = equioscillates("inverse cube root", error, interval, 4, 0.01);
+    // Measured: 2.654e-5.
     assert!(largest < 2.7e-5);
 }
 

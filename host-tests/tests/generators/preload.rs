@@ -39,12 +39,14 @@ fn the_displacement_takes_the_best_series() {
         assert!((found - stored).abs() < 5e-6, "{found} {stored}");
     }
     let error = |s: f64| weight(s) * (polynomial(&stored, s) - exact(s));
+    // Measured: 4.22e-4.
     assert!(equioscillates("displacement", error, interval, 4, 0.01) < 4.3e-4);
 }
 
 #[test]
 fn the_sum_of_both_forces_meets_the_load_where_a_side_is_lost() {
     let lost = 8.0_f64.sqrt();
+    // Derived: both are rounded to f32, by at most 2^-24 = 6.0e-8.
     assert!((f64::from(LOST) / lost - 1.0).abs() < 6e-8);
     // 2 + y²/12 (1 + q y²) = y at y = 2 sqrt(2).
     let quartic = (12.0 * (lost - 2.0) / 8.0 - 1.0) / 8.0;
@@ -60,5 +62,6 @@ fn the_sum_of_both_forces_meets_the_load_where_a_side_is_lost() {
         })
         .fold(0.0_f64, |worst, error| worst.max(error.abs()));
     println!("{worst:.2e}");
+    // Measured: 8.35e-3.
     assert!(worst < 8.4e-3);
 }

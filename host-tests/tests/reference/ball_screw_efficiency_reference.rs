@@ -75,13 +75,13 @@ fn the_root_of_the_load_follows_houpert() {
     for step in 0..=20 {
         let load = 5.0 * 60_f64.powf(f64::from(step) / 20.0);
         let ratio = resistance.lubricant_force(load) / contact.drag(load, speed);
-        let bound = 1.01 * (40.0_f64 / 5.0).powf(0.03);
+        let bound = (1.0 + 1e-12) * (40.0_f64 / 5.0).powf(0.03);
         assert!(ratio < bound && ratio > 1.0 / bound, "{load} N: {ratio}");
     }
-    // What the crate's documentation prints.
+    // What the crate's documentation prints: half a unit of the last digit.
     assert!((contact.drag(DRAG_LOAD, speed) - 0.006).abs() < 0.0005);
     assert!(
-        (contact.drag(DRAG_LOAD, 20.0 * speed) / contact.drag(DRAG_LOAD, speed) - 7.2).abs() < 0.1
+        (contact.drag(DRAG_LOAD, 20.0 * speed) / contact.drag(DRAG_LOAD, speed) - 7.2).abs() < 0.05
     );
 }
 
@@ -262,7 +262,8 @@ fn catalogue_sizes_lie_on_the_makers_chart() {
         }
         let efficiency = screw(design, 100.0).solve().unwrap().efficiency();
         let friction = catalogue::chart_friction(angle, efficiency);
-        assert!((catalogue::chart_efficiency(angle, friction) - efficiency).abs() < 1e-12);
+        // Measured: 1.1e-16, a rounding.
+        assert!((catalogue::chart_efficiency(angle, friction) - efficiency).abs() < 4e-16);
         frictions.add_at(friction / 0.0075 - 1.0, size.name);
         assert!(
             friction > 0.85 * 0.005 && friction < 1.15 * 0.01,
@@ -282,12 +283,13 @@ fn oversize_braces_both_flanks() {
     assert_eq!(friction.contacts(), 4);
     let [sl, sr, nl, nr] = friction.ball.loads;
     // The remaining outer load is a fiftieth of the preload, 0.85 N of 42 across two diagonals, and friction across the
-    // track adds to it.
+    // track adds to it. Measured: 7.9 %.
     for load in [sl, sr, nl, nr] {
         assert!((load / (0.25 * (sl + sr + nl + nr)) - 1.0).abs() < 0.15);
     }
     let normal = 30.0 / (0.5_f64.sqrt() * table_3_6().lead_angle().cos());
-    assert!((0.25 * (sl + sr + nl + nr) / normal - 1.0).abs() < 0.05);
+    // Measured: 8.0e-4.
+    assert!((0.25 * (sl + sr + nl + nr) / normal - 1.0).abs() < 2e-3);
 }
 
 #[test]

@@ -339,7 +339,7 @@ fn stored_pairs() {
             );
         }
         // Power: the balance holds with the relative slip, up to cos a against one in the friction along the track (0.3 per
-        // cent of the ball-to-ball loss); the total spin overstates the loss by 12 to 14 per cent.
+        // cent of the ball-to-ball loss); the total spin overstates the loss. Measured: by 11.87 to 12.01 per cent.
         let relative = pair(radius, 2.0, 0.0, BallSlip::Orbiting)
             .solve(support)
             .unwrap();
@@ -357,8 +357,9 @@ fn stored_pairs() {
             missing(&relative).abs(),
             format_args!("{key}: {}", missing(&relative)),
         );
+        // As measured above.
         assert!(
-            missing(&solved) > 0.1 && missing(&solved) < 0.15,
+            missing(&solved) > 0.117 && missing(&solved) < 0.122,
             "{key}: {}",
             missing(&solved)
         );
@@ -468,7 +469,7 @@ fn given_contacts_decide_the_orbital_speed() {
 
 /// Along the track and in rotation every ball is balanced by the forces of its neighbours; power in = power lost.
 fn check_train(train: &ScrewTrain, nut_speed: f64) {
-    let (_, cos_b) = TRACK.ball_contact_angle();
+    let (sin_b, cos_b) = TRACK.ball_contact_angle();
     let mut input = 0.0;
     for (j, motion) in train.balls.iter().enumerate() {
         let (force, _, power) = friction_sums(motion, nut_speed);
@@ -480,9 +481,9 @@ fn check_train(train: &ScrewTrain, nut_speed: f64) {
         };
         let ahead = train.contact_forces.get(j).copied().unwrap_or(0.0);
         let net = force[1] * nut_speed.signum() + cos_b * (behind - ahead);
-        // What is left is the friction between balls along the track, 0.1 F sin b of each contact.
+        // Derived: what is left is the friction between balls along the track, at most 0.1 F sin b of each contact.
         assert!(
-            net.abs() <= 0.1 * 0.17 * (behind + ahead) + 1e-8,
+            net.abs() <= 0.1 * sin_b * (behind + ahead),
             "ball {j}: {net}"
         );
     }
@@ -495,8 +496,8 @@ fn check_train(train: &ScrewTrain, nut_speed: f64) {
         let parting =
             (train.balls[j + 1].orbital_speed - train.balls[j].orbital_speed) * nut_speed.signum();
         assert!(parting > -1e-12 * nut_speed.abs() && *force >= 0.0);
-        // One of the two is zero.
-        assert!(parting * force < 1e-10 * nut_speed.abs());
+        // One of the two is zero. Measured: 0.0.
+        assert!((parting * force).abs() < 1e-15 * nut_speed.abs());
     }
 }
 
@@ -595,8 +596,9 @@ fn two_point_contact_sticks_on_one_race() {
         motion.gap,
         motion.orbital_speed / TAU
     );
+    // Half a unit of the last digit.
     assert!(
-        (across[0] - across[1]).abs() > 3.29 && across.iter().sum::<f64>() < 3.32,
+        (across[0] - across[1]).abs() > 3.3055 && across.iter().sum::<f64>() < 3.3065,
         "{across:?}"
     );
     let angles = ContactAngles {
@@ -605,9 +607,9 @@ fn two_point_contact_sticks_on_one_race() {
         third: FRAC_PI_4,
     };
     let rolling = speed_ratio(&TRACK, Support::TwoPoint, angles);
-    // Rolling is exact but for the smoothing of friction.
+    // Rolling is exact but for the smoothing of friction. Measured: 0.0.
     assert!(
-        (motion.orbital_speed / TAU - rolling).abs() < 1e-12,
+        (motion.orbital_speed / TAU - rolling).abs() < 4e-16,
         "{} {rolling}",
         motion.orbital_speed / TAU
     );
@@ -766,14 +768,14 @@ fn hostile_input_converges_or_is_named() {
     );
     let smooth = motion_with_contacts(&TRACK, &contacts, 0.0, 1.0).unwrap();
     assert_eq!(smooth.power_loss, 0.0);
-    // The limit of no friction is the same problem.
+    // The limit of no friction is the same problem. Measured: 0.0.
     assert!(
         (smooth.orbital_speed
             - motion_with_contacts(&TRACK, &contacts, 0.3, 1.0)
                 .unwrap()
                 .orbital_speed)
             .abs()
-            < 1e-14
+            < 4e-16
     );
     assert!(solve_screw_train(&TRACK, &[], 0.1, 0.1, 1.0).is_err());
 
@@ -811,7 +813,8 @@ fn hostile_input_converges_or_is_named() {
         refused.is_empty() && solved == 90,
         "{solved} solved, refused: {refused:#?}"
     );
-    // A millinewton with 30 micrometres of play: solved, or refused with the force left over.
+    // A millinewton with 30 micrometres of play: solved to the solver's 1e-6 of the load, or refused with the force left over,
+    // which is no more than the load. Measured: refused, with 1.2e-4 N.
     let loose = ElasticBalls {
         grooves: vec![grooves("3.254", 0.0, -30e-6)],
         ..single("3.254", 0.1, 1.0)

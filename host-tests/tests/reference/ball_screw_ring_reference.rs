@@ -77,14 +77,14 @@ fn check(ring: &ElasticRing, state: &RingState) {
     for (j, ball) in state.balls.iter().enumerate() {
         let next = &state.balls[(j + 1) % n];
         assert!(ball.gap >= 0.0 && ball.force >= 0.0);
-        // What the march takes as touching.
+        // Derived: balls press only where the march takes them as touching, at 1e-12 rad.
         assert!(ball.force == 0.0 || ball.gap <= 1e-12);
         let apart = (next.place - ball.place - pitch() - ball.gap).rem_euclid(length);
         if n > 1 {
             measured::assert("ring, places in rad", apart.min(length - apart));
         }
         if ball.gap <= 1e-12 && n > 1 {
-            // Of either way: the gap shrinks.
+            // Touching as above. Of either way: the gap shrinks.
             let overtakes = (ball.speed - next.speed) / ball.speed.abs();
             let wrong = if ball.force > 0.0 {
                 overtakes
@@ -514,7 +514,7 @@ fn samples_are_lines_between_values() {
     for at in 0..100 {
         let phase = 0.37 * f64::from(at) - 5.0;
         let wave = 0.01 * (phase / 2.0).sin();
-        // Sagitta of a line between two samples: (2 pi/64)^2/8 of the amplitude.
+        // Derived: the sagitta of a line between two samples, (2 pi/64)^2/8 of the amplitude; and a few roundings of it.
         assert!((map.at(phase) - wave).abs() < 0.01 * (TAU / 64.0_f64).powi(2) / 8.0 + 1e-15);
     }
 }
@@ -613,10 +613,10 @@ fn figures_3_24_and_3_25() {
             "{degrees} deg {load} N: exact {found:?}, closed {:?}",
             peak_and_release(&closed)
         );
-        // Two units of the last digit: other rounding may move an event from one state to the next.
-        assert!((found[0] - peak).abs() < 0.2, "{found:?}");
+        // Measured: 0.03 and 0.0; other rounding may move an event from one state to the next, by a degree.
+        assert!((found[0] - peak).abs() < 0.09, "{found:?}");
         assert!(
-            (found[1] - at).abs() < 2.5 && (found[2] - release).abs() < 2.5,
+            (found[1] - at).abs() < 1.5 && (found[2] - release).abs() < 1.5,
             "{found:?}"
         );
     }
@@ -633,7 +633,8 @@ fn random_rings_have_an_answer() {
         for state in ring.simulate(&samples, |_, _| {}).unwrap() {
             states += 1;
             if state.solved() {
-                assert!(state.power_error.abs() <= 1e-7 && state.residual <= 1e-7);
+                // Measured over 3276 of the 5460 states: 7.6e-10, and 4.5e-11, of which the solver accepts 1e-8.
+                assert!(state.power_error.abs() <= 1e-7 && state.residual <= 1e-8);
             } else {
                 failed += 1;
                 println!("{:?}: {ring:?}", state.failure);

@@ -480,7 +480,8 @@ fn extreme_rows_are_answered_or_named() {
         }
         match row.solve() {
             Ok(found) => {
-                assert!(found.power_error.abs() < 1e-8);
+                // Measured: 1.1e-11.
+                assert!(found.power_error.abs() < 3.3e-11);
                 solved += 1;
             }
             Err(error) => {

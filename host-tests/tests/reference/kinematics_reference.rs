@@ -706,9 +706,10 @@ fn figures_show_what_the_paper_says() {
         // "underestimated" entrainment, "excessively high" rolling slip
         let (new, old) = (&pair[1].revised[0], &pair[1].traditional[0]);
         assert!(old.entrainment_speed < new.entrainment_speed);
-        // Up to the paper's own 10 degrees; further on the classic speeds let it pass through zero.
+        // Up to the paper's own 10 degrees, in steps of one; further on the classic speeds let it pass through zero.
+        // Measured: at least 251 times.
         if pair[1].lead_angle < 10.5 * DEGREE {
-            assert!(old.rolling_slip.abs() > 50.0 * new.rolling_slip.abs());
+            assert!(old.rolling_slip.abs() > 150.0 * new.rolling_slip.abs());
         }
         // The traditional ellipse does not see the helix.
         assert_eq!(old.semi_major, rows[0].traditional[0].semi_major);
@@ -717,7 +718,8 @@ fn figures_show_what_the_paper_says() {
     let same = figures::same_slide_to_roll(8).unwrap();
     let point = same.rolling_only[0];
     let centre = same.without_spin[0];
-    assert!((point.slip_x - centre.slip_x.hypot(centre.slip_y)).abs() < 1e-15);
+    // Measured: 0.0, of 0.042 m/s; a unit of its last place is 7e-18.
+    assert!((point.slip_x - centre.slip_x.hypot(centre.slip_y)).abs() < 2.1e-17);
     assert_eq!(same.reference.len(), same.rolling_only.len());
     // Figure 10: the rolling radius turns the slip; spin and entrainment hardly move.
     let rolling = figures::rolling_radius_sweep(10).unwrap();
@@ -733,14 +735,15 @@ fn figures_show_what_the_paper_says() {
     for pair in yaw.windows(2) {
         assert!(pair[1].screw.side_slip > pair[0].screw.side_slip);
         assert!(pair[1].nut.side_slip < pair[0].nut.side_slip);
-        assert!((pair[1].screw.rolling_slip - pair[0].screw.rolling_slip).abs() < 1e-15);
+        // Measured: 1.1e-19, of 3.8e-4 m/s: two units of the last place, here and below.
+        assert!((pair[1].screw.rolling_slip - pair[0].screw.rolling_slip).abs() < 3.3e-19);
     }
     // Figure 12: pitch moves spin from one contact to the other, rolling slip not at all.
     let pitch = figures::pitch_sweep(24).unwrap();
     for pair in pitch.windows(2) {
         assert!(pair[1].screw.spin.abs() < pair[0].screw.spin.abs() || pair[1].screw.spin > 0.0);
         assert!(pair[1].nut.spin < pair[0].nut.spin);
-        assert!((pair[1].screw.rolling_slip - pair[0].screw.rolling_slip).abs() < 1e-15);
+        assert!((pair[1].screw.rolling_slip - pair[0].screw.rolling_slip).abs() < 3.3e-19);
     }
     // Figure 13: "IRC and ORC provide the upper and lower limiting predictions".
     for revolutions in [1000.0, 3500.0] {
@@ -764,9 +767,11 @@ fn figures_show_what_the_paper_says() {
     // A field stays on its ellipse.
     let revised = figures::case_one(10.0 * DEGREE).unwrap();
     let field = figures::slip_field(&revised, figures::Formulation::Revised, Raceway::Screw, 10);
+    // 317 places of a grid with ten steps to the radius lie in a circle; some of them on it.
     assert!(field.len() > 300);
     let centre = field.iter().find(|p| p.x == 0.0 && p.y == 0.0).unwrap();
-    assert!((centre.slip_y - revised.evaluate().screw.side_slip).abs() < 1e-15);
+    // Measured: 0.0, of 0.042 m/s.
+    assert!((centre.slip_y - revised.evaluate().screw.side_slip).abs() < 2.1e-17);
 }
 
 /// Bad numbers are refused with the field named, and never panic.

@@ -76,11 +76,15 @@ fn check_laws(ball: &LinearBall, motion: &LinearMotion, speed: f64) {
             format_args!("{rows:?} of {ball:?}"),
         );
     }
-    // The top groove is the only input of power: it drives the ball with f_TR + f_TL at v.
+    // The top groove is the only input of power: it drives the ball with f_TR + f_TL at v. Derived: they differ by the bound of
+    // the smoothed power; by the power of unbalanced forces, at 0.5, 0.7 and 0 of v; and by some tens of roundings.
     let input = (f[2] + f[3]) * speed;
     assert!(
         (input - motion.power_loss).abs()
-            <= 1e-9 * motion.power_loss + motion.gap + 2.0 * motion.residual * speed.abs() + 1e-300,
+            <= 1e-14 * motion.power_loss
+                + motion.gap
+                + 2.0 * motion.residual * speed.abs()
+                + 1e-300,
         "input {input}, loss {}, gap {}",
         motion.power_loss,
         motion.gap
@@ -123,9 +127,10 @@ fn stored_single_balls() {
                 "stored sticking balls, speed deviation",
                 motion.speed_deviation - eps,
             );
+            // From 0 to 5e-7. Measured: 4.43e-7, and a gap of 1.40e-9.
             assert!(
                 (power - motion.power_loss / 0.01 - 2.5e-7).abs() < 2.5e-7
-                    && motion.gap / 0.01 < 1e-8
+                    && motion.gap / 0.01 < 3e-9
             );
             continue;
         }
@@ -333,26 +338,29 @@ fn two_point_contact_rolls() {
                 motion.gap,
                 format_args!("theta = {theta}, rho = {rho}: gap {:e}", motion.gap),
             );
+            // Derived: the strong pair alone deviates by half the angle, 0.0262 at 3 degrees. Measured: 0.0251.
             assert!(
-                motion.speed_deviation.abs() < 0.05
+                motion.speed_deviation.abs() < 0.0262
                     && motion.contacts.iter().all(|c| c.slip.is_finite())
             );
         }
     }
+    // That one contact is lost, is what the case is for. Measured: -3.5 N.
     let lost = tilted(2.0, -0.98);
     assert!(
         lost.contact_forces[1] < 0.0,
         "statics beyond the reach of the angles: {:?}",
         lost.contact_forces
     );
-    // Two opposite contacts alone roll without any loss.
+    // Two opposite contacts alone roll without any loss. Measured: 0.0 both; a rounding of the speed, 1.1e-16 m/s, would lose
+    // that times 20 N of friction.
     let pair = LinearBall {
         contact_forces: [100.0, 0.0, 100.0, 0.0],
         ..tilted(0.0, 0.0)
     };
     let motion = pair.solve(1.0).unwrap();
-    assert!(motion.power_loss < 1e-12, "{}", motion.power_loss);
-    assert!(motion.speed_deviation.abs() < 1e-12);
+    assert!(motion.power_loss < 7e-15, "{}", motion.power_loss);
+    assert!(motion.speed_deviation.abs() < 7e-16);
 }
 
 /// The jump at the switch: the strong pair stops spinning when `F_D < F_U (3/8) E (a_U/R_B)/sin 2 b0`, at 0.0373.

@@ -92,7 +92,8 @@ fn three_hundred_newtons_a_ball_of_both_signs() {
                     let load = of_a_ball * balls;
                     let what = format!("{name}, {oversize} m, {fault:?}, {load} N");
                     let solution = solve(&case, load, fault).unwrap();
-                    assert!(solution.residual <= 1e-10, "{what}: {}", solution.residual);
+                    // Measured: 1.0e-11.
+                    assert!(solution.residual <= 2e-11, "{what}: {}", solution.residual);
                     let largest = solution
                         .forces
                         .iter()
@@ -100,7 +101,7 @@ fn three_hundred_newtons_a_ball_of_both_signs() {
                         .fold(0.0, |most: f64, force| most.max(*force));
                     let unbalanced = (solution.on_nut[2] - load).abs();
                     assert!(
-                        unbalanced < 200.0 * 1e-10 * largest.max(load.abs()),
+                        unbalanced < 200.0 * 2e-11 * largest.max(load.abs()),
                         "{what}: {unbalanced} N"
                     );
                     // A push is carried by SL and NR, a pull by SR and NL.
@@ -109,7 +110,8 @@ fn three_hundred_newtons_a_ball_of_both_signs() {
                     assert_eq!(left > right, load > 0.0, "{what}: {left} {right}");
                     let table = ShareTable::new(load, &solution).unwrap();
                     let mean = table.shares.iter().sum::<f64>() / balls;
-                    assert!((mean - 1.0).abs() < 1e-12, "{what}: {mean}");
+                    // Measured: 1.3e-15, roundings of up to 71 sums.
+                    assert!((mean - 1.0).abs() < 4e-15, "{what}: {mean}");
                     assert!(table.positive().iter().all(|share| *share >= LEAST_SHARE));
                 }
             }
@@ -134,7 +136,7 @@ fn a_pull_at_one_end_mirrors_a_push_at_the_other() {
             turned.shares.reverse();
             let error = table(&case, load).error_at(&turned).unwrap();
             assert!(
-                error.groove_torque.abs() < 1e-12 && error.ball_load < 1e-12,
+                error.groove_torque.abs() < 2.4e-14 && error.ball_load < 2.4e-14,
                 "{name}: {error:?}"
             );
         }

@@ -184,7 +184,7 @@ fn tables_are_the_stored_ones_and_follow_their_backbones() {
         };
         // The file's decimals, read to the last bit but one.
         assert!(apart(table.angles, &numbers("theta")) < 2e-15);
-        assert!(apart(table.shares, &numbers("weight")) < 2e-15);
+        assert!(apart(table.shares, &numbers("weight")) < 1e-16);
         // Sums of at most ten rounded numbers.
         assert!((table.shares.iter().sum::<f64>() - 1.0).abs() < 1e-15);
         let error = (0..=20_000)
@@ -316,7 +316,7 @@ fn dense_elements_converge_to_the_closed_form_under_changing_load() {
     }
 }
 
-/// 3000 elements are Mindlin's law at S = 0.2, 1 and 5 to 4e-7 of the limit.
+/// 3000 elements are Mindlin's law at S = 0.2, 1 and 5 to 4e-7 of the limit. Measured: 3.2e-7.
 #[test]
 fn dense_elements_are_mindlins_law_at_any_load() {
     for load in [0.2_f64, 1.0, 5.0] {
@@ -369,12 +369,12 @@ fn spin_follows_its_backbone_on_narrow_ellipses() {
 fn rolling_changes_little_before_breakaway() {
     // Screw, load, axis ratio, path of rolling at breakaway over the contact's length, largest loss on the way, loss in the end; measured.
     for (name, ratio, rolled, largest, steady) in [
-        ("lin-3.6, 300 N", 0.215, 0.0454, 0.0002, 0.0002),
-        ("lin-3.6, 1 kN", 0.215, 0.0678, 0.0008, 0.0008),
-        ("lin-3.6, 5 kN", 0.215, 0.1159, 0.0044, 0.0044),
-        ("lin-4.1, 300 N", 0.173, 0.1325, 0.0066, 0.0066),
-        ("lin-4.1, 1 kN", 0.173, 0.1979, 0.0213, 0.0213),
-        ("lin-4.1, 5 kN", 0.173, 0.3384, 0.0820, 0.0820),
+        ("lin-3.6, 300 N", 0.215, 0.0454, 0.00013, 0.00013),
+        ("lin-3.6, 1 kN", 0.215, 0.0678, 0.00071, 0.00071),
+        ("lin-3.6, 5 kN", 0.215, 0.1159, 0.00435, 0.00435),
+        ("lin-4.1, 300 N", 0.173, 0.1325, 0.00659, 0.00659),
+        ("lin-4.1, 1 kN", 0.173, 0.1979, 0.02116, 0.02116),
+        ("lin-4.1, 5 kN", 0.173, 0.3384, 0.08215, 0.08215),
     ] {
         let cells = 600;
         let mut still = Brush::new(ratio, 41, cells, 2.0 / 3.0);
@@ -391,8 +391,9 @@ fn rolling_changes_little_before_breakaway() {
             })
             .collect();
         let found = losses.iter().copied().fold(0.0, f64::max);
-        assert!((found - largest).abs() < 0.0002, "{name}: {found}");
-        assert!((losses[losses.len() - 1] - steady).abs() < 0.0002, "{name}");
+        // Measured above, to five decimals: half a unit, and as much for other roundings.
+        assert!((found - largest).abs() < 1e-5, "{name}: {found}");
+        assert!((losses[losses.len() - 1] - steady).abs() < 1e-5, "{name}");
     }
 }
 
@@ -417,9 +418,10 @@ fn spin_takes_friction_from_slip() {
             })
             .force;
     }
-    assert!((alone - 1.0).abs() < 1e-9);
-    // Velocity centre on the edge of the contact.
-    assert!(together < 0.95 && together > 0.6, "{together}");
+    // Measured: 1.9e-15, roundings of a sum over 41 x 41 bristles.
+    assert!((alone - 1.0).abs() < 6e-15);
+    // Velocity centre on the edge of the contact. Measured: 0.922.
+    assert!(together < 0.95 && together > 0.9, "{together}");
 }
 
 /// Elements never give out more than was put in, whatever the limits do, and a closed path leaves no trace.
@@ -465,7 +467,8 @@ fn elements_are_passive_and_do_not_drift() {
                 })
                 .collect();
             let drift = (torques[398] - torques[2]).abs() / 198.0;
-            assert!(drift < 1e-16, "{drift}");
+            // Measured: 0.0; one rounding of a torque below one would be 1.1e-16 in 198 cycles.
+            assert!(drift < 6e-19, "{drift}");
         }
     }
 }

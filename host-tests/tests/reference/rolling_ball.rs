@@ -120,8 +120,10 @@ fn rolling_leads_to_eq_3_as_smoothing_goes_to_zero() {
         let [coarse, usual, fine] = [1e-2, 1e-3, 1e-4].map(deviation);
         println!("{lead} {contact} {friction}: {coarse:.1e} {usual:.1e} {fine:.1e}");
         measured::assert("rolling ball, smoothing of 1e-3", usual);
+        // What goes with the smoothing falls to a tenth, what goes with its square to a hundredth.
+        // Measured: at most 0.143, then 0.103.
         assert!(usual < 0.15 * coarse);
-        assert!(fine < 0.15 * usual);
+        assert!(fine < 0.12 * usual);
     }
 }
 
@@ -216,7 +218,8 @@ proptest! {
         // What still changes in a turn is less than the speed over which friction is smoothed.
         prop_assert!(settled.drift < SMOOTHING, "{:?}", settled);
         let ball = rolling.ball;
-        // 5e-7 of the loss, and the gyroscopic moment's part.
+        // 5e-7 of the loss, and the gyroscopic moment's part. Measured over 1200 balls: 5.4e-8, and 2.9e-7, 1.4e-6 and 3.0e-5 of
+        // the loads; the rarest ones, light and fast, have more.
         prop_assert!((settled.efficiency - limit.efficiency).abs() < 1e-6, "{:?} {:?}", settled, limit);
         prop_assert!((settled.normal_screw / limit.normal_screw - 1.0).abs() < 1e-4);
         prop_assert!((settled.normal_nut / limit.normal_nut - 1.0).abs() < 1e-4);
@@ -225,8 +228,8 @@ proptest! {
 
         let useful = ball.axial_load * ball.pitch_radius * ball.lead_angle.tan() * ball.speed;
         let balance = settled.torque * ball.speed - useful - settled.friction_power;
-        // The tolerance of the integration, whose states loads and power are formed from.
-        prop_assert!(balance.abs() < 1e-9 * useful.abs(), "{} of {}", balance, useful);
+        // Whatever the state is, its loads balance. Measured: 1.0e-15 of 1200 balls; room for smaller efficiencies.
+        prop_assert!(balance.abs() < 1e-13 * useful.abs(), "{} of {}", balance, useful);
 
         let closed = closed(&ball);
         if ball.speed > 0.0 {
@@ -242,11 +245,12 @@ fn instants_of_a_run_are_those_of_the_motion() {
     assert_eq!(run.len(), 8);
     for (index, instant) in run.iter().enumerate() {
         let turns = 0.25 * (index + 1) as f64;
-        assert!((instant.angle / (turns * std::f64::consts::TAU) - 1.0).abs() < 1e-12);
+        // Derived: four roundings of 1.1e-16 in both angles and their quotient.
+        assert!((instant.angle / (turns * std::f64::consts::TAU) - 1.0).abs() < 5e-16);
         let alone = rolling.settle(turns).unwrap();
-        // The same equations in steps of their own: what the integration leaves, as above.
-        assert!((instant.efficiency - alone.efficiency).abs() < 1e-9);
-        assert!((instant.normal_minor / alone.normal_minor - 1.0).abs() < 1e-6);
+        // Measured: 0.0 both: the integrator's steps do not depend on where it ends, and an instant is read between two of them.
+        assert!((instant.efficiency - alone.efficiency).abs() < 4e-16);
+        assert!((instant.normal_minor / alone.normal_minor - 1.0).abs() < 4e-16);
     }
 }
 
@@ -258,7 +262,8 @@ fn no_friction_no_loss() {
         ..published()
     });
     let settled = rolling.settle(1.0).unwrap();
-    assert!((settled.efficiency - 1.0).abs() < 1e-14);
+    // Measured: 2.2e-16.
+    assert!((settled.efficiency - 1.0).abs() < 7e-16);
     assert_eq!(settled.friction_power, 0.0);
     assert_eq!(rolling.limit().unwrap().efficiency, 1.0);
 }

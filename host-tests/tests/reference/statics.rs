@@ -484,7 +484,8 @@ fn energy_is_convex() {
                 };
                 let [first, second, mean] =
                     [&first, &second, &mean].map(|state| case.energy(state).0);
-                let rounding = 1e-12 * (first.abs() + second.abs());
+                // Measured: the mean is below by 2.6e-8 of both at least. Roundings of some hundred terms are less than 1e-13.
+                let rounding = 1e-13 * (first.abs() + second.abs());
                 assert!(
                     mean <= 0.5 * (first + second) + rounding,
                     "size {size}: {mean} over {first} and {second}"
@@ -721,10 +722,12 @@ fn hostile_starts() {
                 let found = case
                     .solve()
                     .unwrap_or_else(|error| panic!("{name}: {error}"));
-                // Loads of 1 uN and less on balls 0.1 mm small: the shaft's forces of 1e10 N/m times
-                // 0.3 mm are known to 1e-9 N.
+                // Residuals over the largest force, and forces in N. Loads of 1 mN and less on balls 0.1 mm small: the shaft's
+                // forces of 1e10 N/m times 0.3 mm are known to 1e-9 N, 1e-3 of 1 uN.
+                // Measured: 5.2e-4 and 1.4e-6 N there; 3.2e-10 elsewhere, where the forces differ by 1.9e-9 of the largest, and
+                // 1e-9 N.
                 let loose = load.abs() <= 1e-3 && oversize < 0.0;
-                let (allowed, near) = if loose { (1e-3, 1e-5) } else { (1e-7, 1e-7) };
+                let (allowed, near) = if loose { (1e-3, 4e-6) } else { (1e-9, 1e-9) };
                 assert!(
                     finite(&found) && found.residual <= allowed,
                     "{name}: {}",
@@ -760,8 +763,9 @@ fn hostile_starts() {
                                 .flatten()
                                 .zip(other.forces.iter().flatten())
                             {
+                                // As measured above.
                                 assert!(
-                                    (a - b).abs() <= 1e-5 * largest + near,
+                                    (a - b).abs() <= 6e-9 * largest + near,
                                     "{name}, start {start}: {a} {b}"
                                 );
                             }

@@ -29,9 +29,9 @@ fn spline_has_two_continuous_derivatives() {
             let (before, after) = (spline.at(place - 1e-9), spline.at(place + 1e-9));
             measured::assert("splines, values", spline.at(*place)[0] - value);
             for order in 0..3 {
-                // The next derivative, below 1e4 here, times the gap of 2e-9.
+                // Measured: 1.5e-6, the next derivative times the gap of 2e-9.
                 let gap = (before[order] - after[order]).abs();
-                assert!(gap < 2e-5, "{ends:?} at {place}, order {order}: {gap}");
+                assert!(gap < 3e-6, "{ends:?} at {place}, order {order}: {gap}");
             }
         }
         // The derivatives are those of the value, beyond the knots as well.
@@ -184,7 +184,8 @@ fn a_measured_roundness_error_gives_its_loads() {
     let exact = loads_with([vec![exact.clone()], vec![exact], Vec::new(), Vec::new()]);
     let difference = worst(&fitted, &exact);
     println!("loads of the measured surface: {difference:.1e} N off");
-    assert!(difference < 0.02, "{difference}");
+    // Measured: 6.1e-4 N.
+    assert!(difference < 2e-3, "{difference}");
 }
 
 #[test]

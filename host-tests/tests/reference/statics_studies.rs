@@ -152,8 +152,9 @@ fn tie_rod_angle_loads_the_ball_screw_more_than_the_bearing() {
         .map(|four| four[0])
         .collect();
     let mean = even.iter().sum::<f64>() / even.len() as f64;
+    // Measured: 0.5 %.
     assert!(
-        even.iter().all(|force| (force / mean - 1.0).abs() < 0.1),
+        even.iter().all(|force| (force / mean - 1.0).abs() < 0.01),
         "{even:?}"
     );
     let of = |index: usize| points[index].largest();
@@ -162,6 +163,7 @@ fn tie_rod_angle_loads_the_ball_screw_more_than_the_bearing() {
         "largest load at 18 degrees over 0: ball screw {:.2}, bearing {:.2}",
         ratios[0], ratios[1]
     );
+    // Of the text's 3.32 and 1.47, at other positions. Measured: 4.50 and 1.72.
     assert!(
         (2.0..6.0).contains(&ratios[0]) && (1.2..2.2).contains(&ratios[1]),
         "{ratios:?}"
@@ -191,6 +193,7 @@ fn roundness_error_loosens_balls_and_pitch_error_does_not() {
             .collect::<Vec<_>>(),
         [0, 0, 25]
     );
+    // Measured: 1.65.
     assert!(largest(&long[2].1) > 1.5 * largest(&long[1].1));
     let short = CaseStudy {
         axial_load: 1000.0,

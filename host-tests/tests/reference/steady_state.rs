@@ -150,7 +150,7 @@ fn hostile_inputs_converge_or_say_why() {
                             Ok(found) => {
                                 solved += 1;
                                 assert!(found.efficiency.is_finite(), "{state:?}");
-                                assert!(found.efficiency < 1.0 + 1e-9, "{state:?} {found:?}");
+                                assert!(found.efficiency < 1.0, "{state:?} {found:?}");
                             }
                             Err(error) if error.field().is_some() => panic!("{state:?}: {error}"),
                             Err(_) => refused += 1,
@@ -349,6 +349,7 @@ fn no_load_and_no_friction_are_named() {
                 // A light ball at 200 rad/s is thrown off its screw: the centrifugal force passes the load.
                 Err(error) => {
                     println!("{axial_load} N, friction {friction}: {error:?}");
+                    // Its 2.73 g on 24.3 mm at half the screw's speed weigh 0.66 N. Measured: below a load of 1 N, the next is 1 mN.
                     assert!(axial_load < 1.5, "{axial_load} N: {error:?}");
                 }
             }

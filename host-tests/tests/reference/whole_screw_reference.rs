@@ -180,8 +180,9 @@ fn four_groups_release_and_build_up_again() {
         .filter(|s| s.nut_angle > TAU)
         .map(|s| s.ball_torque)
         .fold(0.0, f64::max);
+    // Measured: 0.259.
     assert!(
-        second > 0.05 * peak.ball_torque && second < 0.6 * peak.ball_torque,
+        second > 0.2 * peak.ball_torque && second < 0.35 * peak.ball_torque,
         "{second} {}",
         peak.ball_torque
     );
@@ -213,9 +214,9 @@ fn balls_never_overlap_and_forces_only_push() {
             };
             let run = one.simulate(2.0 * TAU, 150, 4).unwrap();
             for state in &run {
-                // Rounding of azimuths up to 4 pi over all steps.
+                // Roundings of azimuths. Measured: 2.7e-15.
                 assert!(
-                    state.smallest_gap > -1e-11,
+                    state.smallest_gap > -9e-15,
                     "theta {theta}, speed {speed}, load {load}: {:e}",
                     state.smallest_gap
                 );
@@ -227,10 +228,11 @@ fn balls_never_overlap_and_forces_only_push() {
                 );
                 assert!(state.ball_torque * speed >= 0.0 && state.groove_torque() * speed > 0.0);
                 // Balls that press are equally fast at the end of the substep; here within the gap they still close.
+                // Measured: 1.3e-13.
                 for j in 0..37 {
                     let closing = (state.speeds[j] - state.speeds[(j + 1) % 37]) * speed.signum();
                     if state.contact_forces[j] > 0.0 {
-                        assert!(closing > -1e-9 * speed.abs(), "pressing balls part");
+                        assert!(closing > -4e-13 * speed.abs(), "pressing balls part");
                     }
                 }
             }

@@ -215,6 +215,7 @@ fn spoiled_traces_are_wrong_in_one_way() {
         let slowest = trace.truth.speed[50..3950]
             .iter()
             .fold(f64::MAX, |least, speed| least.min(*speed));
+        // A condition of the case: never back, here not below 1.0 rad/s.
         assert!(slowest > 0.9, "{manoeuvre:?}: {slowest}");
     }
     let trace = rig.run(&course.unloaded(), 3).unwrap();

@@ -69,9 +69,10 @@ fn the_reference_has_the_tabulated_coefficients() {
     }
     println!("largest {largest:.1e}");
     for (celsius, printed) in [(-20.0, 0.20), (20.0, 4.9), (80.0, 73.0)] {
+        // Measured: 0.73 %, of figures with two digits.
         let found = film().half_share_speed(OIL.at(celsius)) / ENTRAINMENT;
         assert!(
-            (found / printed - 1.0_f64).abs() < 0.02,
+            (found / printed - 1.0_f64).abs() < 0.015,
             "{celsius} C: {found}"
         );
     }
@@ -120,7 +121,8 @@ fn the_form_with_its_best_speed() {
     assert!((best - 0.057).abs() < 5e-4, "{best}");
 }
 
-/// Measured, over the exact law, as the table of `Viscosity` prints it.
+/// Measured, over the exact law, as the table of `Viscosity` prints it, with two decimals: half a unit. The pole to a tenth
+/// of a degree.
 #[test]
 fn viscosities_by_two_points() {
     let worst = |found: &Viscosity, oil: &dyn Fn(f64) -> f64, from: i32, to: i32| {
@@ -185,11 +187,11 @@ fn viscosities_by_two_points() {
         ];
         println!("{from} to {to}: {found:.3?}");
         for (found, printed) in found.into_iter().zip(printed) {
-            assert!((found - printed).abs() < 6e-3, "{found} for {printed}");
+            assert!((found - printed).abs() < 5e-3, "{found} for {printed}");
         }
     }
     let near = worst(&near, &mineral, -20, 60);
-    assert!((near - 0.2).abs() < 6e-3, "{near}");
+    assert!((near - 0.2).abs() < 5e-3, "{near}");
     assert!((two.pole() - 273.15 + 67.0).abs() < 0.05);
 }
 
@@ -305,10 +307,10 @@ fn faulty_inputs() {
     assert_eq!(now.churning_torque(f32::NAN), 0.0);
     assert_eq!(now.churning_torque(f32::INFINITY), now.churning_torque(1e6));
     assert_eq!(now.churning_torque(-3.0), -now.churning_torque(3.0));
-    // Viscosity times the constant: b eta w.
+    // Viscosity times the constant: b eta w. Measured: 7.7e-8.
     let exact = 1e-3 * f64::from(defaults::VISCOSITY.at(353.15)) * 7.0;
     let found = f64::from(law.at_temperature(353.15).churning_torque(7.0));
-    assert!((found / exact - 1.0).abs() < 2e-6, "{found} {exact}");
+    assert!((found / exact - 1.0).abs() < 2.4e-7, "{found} {exact}");
 }
 
 /// The factor of a direction scales its coefficient, and only that.
@@ -327,6 +329,7 @@ fn directions_differ() {
             plain.at_temperature(300.0).at(speed),
         );
         let both = now.both(-speed);
+        // Measured: 1.2e-7 and 0.0: roundings of two products and a sum on either side.
         assert!((both.forward / (1.25 * alike) - 1.0).abs() < 3e-7);
         assert!((both.backward / (0.5 * alike) - 1.0).abs() < 3e-7);
         assert_eq!(now.at(speed), both.forward);
@@ -346,8 +349,9 @@ fn the_slope_is_bounded() {
     })
     .unwrap();
     let now = law.at_temperature(293.15);
-    assert!((now.largest_negative_damping(0.04) - 4e-3).abs() < 1e-8);
-    assert!((now.half_share_speed() - 5.0).abs() < 1e-5);
+    // Measured: 1.9e-9 and 2.9e-6, four and six ulp.
+    assert!((now.largest_negative_damping(0.04) - 4e-3).abs() < 5e-9);
+    assert!((now.half_share_speed() - 5.0).abs() < 8e-6);
     let step = 0.05;
     let slopes = (0..400_u16).map(|n| {
         let speed = step * f32::from(n);

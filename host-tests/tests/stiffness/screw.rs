@@ -308,7 +308,8 @@ fn every_catalogue_size_is_that_of_the_reference() {
             let clearance = Clearance::new(1e-6).unwrap();
             let seat = Seat::of(&design, &contacts, clearance, 0.1, load);
             let gap = reference.third_gap(f64::from(1e-6_f32), q);
-            assert!((f64::from(seat.gap()) / gap - 1.0).abs() < 3e-5);
+            // Measured: 2.5e-6.
+            assert!((f64::from(seat.gap()) / gap - 1.0).abs() < 7e-6);
             for share in [0.3_f32, 0.9, 1.0] {
                 let drift = reference.drift(mu, q, gap, f64::from(share)).unwrap();
                 pairs.push((f64::from(seat.drift(share)), drift));
@@ -345,10 +346,7 @@ fn tabulated_angles_with_a_seat() {
             for (share, printed) in [(0.9, ninety), (1.0, whole)] {
                 let found = 1e3 * seat.angle(share);
                 println!("{name} {axial} N, {share}: {found} for {printed}");
-                assert!(
-                    (found - printed).abs() < 0.0501 + 0.003 * printed,
-                    "{found}"
-                );
+                assert!((found - printed).abs() < 0.05, "{found}");
             }
         }
     }
@@ -370,8 +368,9 @@ fn tabulated_angles_with_play() {
             let [none, little, play] = [0.0, 2e-6, 20e-6]
                 .map(|gap| 1e3 * Seat::with_gap(&design, &contacts, gap, 0.1, load).angle(1.0));
             println!("{name} {axial} N: {none} {little} {play}");
-            assert!((play - printed).abs() < 0.51, "{play} for {printed}");
-            // Some of the force goes over to the grooves' slope.
+            // Half a unit of the last digit.
+            assert!((play - printed).abs() < 0.5, "{play} for {printed}");
+            // Some of the force goes over to the grooves' slope. Measured: 0.953 to 1.008.
             assert!((little - none) / added > 0.9 && (little - none) / added < 1.02);
         }
     }
@@ -428,7 +427,7 @@ fn configuration(gap: f32, contact_load: f32, loaded_balls: u16) -> BreakawayCon
     }
 }
 
-/// Shares add up to 1 within three roundings; torque and stiffness of the parts are those of the whole; breakaway angles are
+/// Shares add up to 1 within five roundings; torque and stiffness of the parts are those of the whole; breakaway angles are
 /// those of slip, spin and rolling; the first angle of slip is never below that of the contacts.
 #[test]
 fn parts_make_the_whole() {
@@ -439,12 +438,14 @@ fn parts_make_the_whole() {
                 let breakaway = Breakaway::of(&design, &configuration(gap, load, 40)).unwrap();
                 for parts in [breakaway.parts(), breakaway.contact_parts()] {
                     let sum: f32 = parts.iter().map(|part| part.share).sum();
-                    assert!((sum - 1.0).abs() < 4e-7, "{sum}");
+                    // Derived: three quotients and two sums, 6e-8 each.
+                    assert!((sum - 1.0).abs() < 3e-7, "{sum}");
                     for part in parts {
                         assert!(part.share >= 0.0 && part.share <= 1.0);
                         assert!(part.breakaway_angle > 0.0 && part.breakaway_angle.is_finite());
                         let stiffness = 1.5 * part.share * breakaway.torque / part.breakaway_angle;
-                        assert!((stiffness / part.stiffness - 1.0).abs() < 1e-6, "{part:?}");
+                        // Measured: 1.8e-7, three roundings.
+                        assert!((stiffness / part.stiffness - 1.0).abs() < 5e-7, "{part:?}");
                     }
                 }
                 let slip = breakaway.part(Mechanism::Slip);
@@ -475,10 +476,10 @@ fn powers_of_the_load() {
     let slip = ratios(|contacts, load| contacts.slip(0.1, load));
     let spin = ratios(|contacts, load| contacts.spin(0.1, load, Rolling::TwoPoint));
     for (found, truth) in slip.into_iter().zip([8.0, 2.0, 4.0]) {
-        assert!((found / truth - 1.0).abs() < 4e-7, "{found}");
+        assert!((found / truth - 1.0).abs() < 2.4e-7, "{found}");
     }
     for (found, truth) in spin.into_iter().zip([16.0, 8.0, 2.0]) {
-        assert!((found / truth - 1.0).abs() < 4e-7, "{found}");
+        assert!((found / truth - 1.0).abs() < 2.4e-7, "{found}");
     }
 }
 
@@ -494,7 +495,8 @@ fn a_seat_is_monotone() {
             for gap in [-5e-6, -1e-6, 0.0, 1e-6, 20e-6, 1e-4] {
                 let seat = Seat::with_gap(&design, &contacts, gap, 0.1, load);
                 let mut last = 0.0;
-                assert!(seat.drift(0.0) < 1e-12 && seat.drift(f32::NAN) < 1e-12);
+                // Derived: no force, and halvings between zero and zero.
+                assert_eq!([seat.drift(0.0), seat.drift(f32::NAN)], [0.0; 2]);
                 for step in 0..=50_u8 {
                     let angle = seat.angle(f32::from(step) / 50.0);
                     assert!(angle >= last, "{} {gap}: {angle} after {last}", size.name);
@@ -502,7 +504,8 @@ fn a_seat_is_monotone() {
                 }
                 assert_eq!(seat.angle(2.0), last);
                 let largest = 0.1 * design.clearance(Groove::Screw);
-                assert!(seat.drift(1.0) <= largest * (1.0 + 1e-6));
+                // Derived: five roundings of 6e-8.
+                assert!(seat.drift(1.0) <= largest * (1.0 + 3e-7));
                 assert!(last >= before, "{} {gap}", size.name);
                 before = last;
             }
@@ -520,6 +523,7 @@ fn without_lead_nothing_slips() {
     let [slip, spin, rolling] = breakaway.parts();
     assert_eq!((slip.share, slip.stiffness), (0.0, 0.0));
     assert!(slip.breakaway_angle > 0.0);
+    // Derived: two quotients and a sum, 6e-8 each.
     assert!((spin.share + rolling.share - 1.0).abs() < 2e-7);
     assert_eq!(breakaway.seat.drift_angle(1.0), 0.0);
 }
@@ -580,7 +584,8 @@ fn errors_name_the_field() {
 fn a_linear_bearing_spins_on_four_points() {
     let bearing = LinearBearing::new(LINEAR_BEARING).unwrap();
     let contacts = BearingContacts::of(&bearing);
-    assert!((contacts.spin_per_travel() - 100.0).abs() < 1e-4);
+    // Derived: five roundings of 6e-8 of 100: of sine, cosine, radius, product and quotient.
+    assert!((contacts.spin_per_travel() - 100.0).abs() < 3e-5);
     let found =
         BearingBreakaway::of(&bearing, 0.1, RollingResistance::STEEL, 24, [100.0, 50.0]).unwrap();
     let [slip, spin, rolling] = found.parts();
@@ -589,9 +594,10 @@ fn a_linear_bearing_spins_on_four_points() {
     let sum = |f: &dyn Fn(f32) -> f32| 48.0 * (f(100.0) + f(50.0));
     let force = sum(&|load| contact.spin_moment(0.1, load) * 100.0);
     let stiffness = sum(&|load| contact.torsion_stiffness(load) * 1e4);
-    assert!((spin.share * found.force / force - 1.0).abs() < 1e-6);
-    assert!((spin.stiffness / stiffness - 1.0).abs() < 1e-6);
-    assert!((spin.breakaway_angle / (1.5 * force / stiffness) - 1.0).abs() < 1e-6);
+    // Measured: 0.0 all; some ten roundings of 6e-8.
+    assert!((spin.share * found.force / force - 1.0).abs() < 6e-7);
+    assert!((spin.stiffness / stiffness - 1.0).abs() < 6e-7);
+    assert!((spin.breakaway_angle / (1.5 * force / stiffness) - 1.0).abs() < 6e-7);
     let lengths = [50.0, 100.0].map(|load| 4.0 * contact.contact().at(load).semi_minor);
     assert!(rolling.breakaway_angle > lengths[0] && rolling.breakaway_angle < lengths[1]);
     // One diagonal alone carries; or none.
@@ -668,6 +674,7 @@ fn the_whole_torque_is_near_that_of_the_scene() {
     }
     errors.assert_measured();
     println!("within 5 %: {:.2}", small / errors.count);
+    // Measured: 0.53.
     assert!(small > 0.5 * errors.count);
 }
 
@@ -679,7 +686,8 @@ fn preloaded_contacts() {
     let contacts = ScrewContacts::of(&design);
     let clearance = Clearance::of_preload(&design, 50.0).unwrap();
     let none = contacts.preloaded(0.0, 20, clearance);
-    assert!((none / 50.0 - 1.0).abs() < 1e-5, "{none}");
+    // Measured: 0.0; the root of an oversize and its power 3/2 are some roundings of 6e-8.
+    assert!((none / 50.0 - 1.0).abs() < 4e-7, "{none}");
     assert_eq!(contacts.preloaded(f32::NAN, 20, clearance), none);
     let mut last = none;
     for step in 1..=100_u8 {
@@ -691,8 +699,9 @@ fn preloaded_contacts() {
         let other = (2.0 * 50_f32.powf(2.0 / 3.0) - load.powf(2.0 / 3.0))
             .max(0.0)
             .powf(1.5);
+        // Measured: 2.0e-7 of the load.
         assert!(
-            load > last && (load - other - alone).abs() < 1e-5 * load + 1e-4,
+            load > last && (load - other - alone).abs() < 6e-7 * load,
             "{axial}"
         );
         last = load;
@@ -717,6 +726,7 @@ fn elements_have_the_parts_stiffness() {
     let breakaway = Breakaway::of(&design, &configuration(-1e-6, 30.0, 37)).unwrap();
     let elements: ProportionalElements<20> = breakaway.elements(&tables).unwrap();
     let sum: f32 = elements.stiffnesses().iter().sum();
+    // Measured: 2.5 %.
     assert!((sum / breakaway.stiffness() - 1.0).abs() < 0.05, "{sum}");
     let fewer: Result<ProportionalElements<20>, _> = breakaway.elements(&Tables {
         rolling_resistance: &[],
@@ -755,8 +765,9 @@ fn elements_have_the_parts_stiffness() {
         load: 1.0,
     };
     let free = both.follow(&mut state, 0.99 * loose.seat.free_play(), &limits);
+    // All that is beside the seat, to ten roundings of 6e-8; then all of it.
     assert!(
-        free > 0.0 && free <= 1.001 * (1.0 - share) * loose.torque,
+        free > 0.0 && free <= (1.0 + 6e-7) * (1.0 - share) * loose.torque,
         "{free}"
     );
     let whole = both.follow(
@@ -764,7 +775,8 @@ fn elements_have_the_parts_stiffness() {
         loose.part(Mechanism::Slip).breakaway_angle,
         &limits,
     );
-    assert!((whole / loose.torque - 1.0).abs() < 1e-3, "{whole}");
+    // Measured: 0.0.
+    assert!((whole / loose.torque - 1.0).abs() < 6e-7, "{whole}");
 
     let bearing = LinearBearing::new(LINEAR_BEARING).unwrap();
     let bearing =
@@ -777,5 +789,6 @@ fn elements_have_the_parts_stiffness() {
         })
         .unwrap();
     let sum: f32 = elements.stiffnesses().iter().sum();
-    assert!((sum / bearing.stiffness() - 1.0).abs() < 0.06, "{sum}");
+    // Measured: 1.4 %.
+    assert!((sum / bearing.stiffness() - 1.0).abs() < 0.03, "{sum}");
 }
