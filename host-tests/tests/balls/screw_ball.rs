@@ -649,8 +649,9 @@ fn contacts_of_a_preloaded_ball_only_press() {
 #[test]
 fn units_of_a_row_do_not_matter() {
     let row = ScrewRow::new(&design(), 0.1, GrooveFit::Zero).unwrap();
-    for speed in [-0.02_f32, 3.0] {
-        let tick = row.at(1.0, -80.0);
+    // With the third contact on the screw and on the nut.
+    for (speed, load) in [(-0.02_f32, -80.0), (3.0, -80.0), (3.0, 80.0)] {
+        let tick = row.at(1.0, load);
         let share = LoadShare::new(1.2).unwrap();
         let (screw, nut) = (0.03, -0.02);
         let known = tick.ball(screw, nut, &share);

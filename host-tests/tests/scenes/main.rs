@@ -21,5 +21,6 @@ mod scene_constants;
 mod step_promises;
 mod stiff;
 mod stored;
+mod swapped;
 mod two_point_rolling;
 mod uncaged;
