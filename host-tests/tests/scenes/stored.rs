@@ -4,12 +4,12 @@ use std::f32::consts::TAU;
 use std::fmt::Debug;
 
 use epas_friction::law::motion::{WrappedAngle, WrappedAngleParameters};
-use epas_friction::scene::{Sliding, StoredScene, WithMemoryConfiguration, WithMemoryInputs};
+use epas_friction::scene::{StoredScene, WithMemoryConfiguration, WithMemoryInputs};
 use epas_friction::stored::{VERSION, crc32};
 use epas_friction::{
     BallScrew, BallScrewParameters, CagedBallScrew, CagedBallScrewConfiguration, Clearance,
-    DeviationMap, FrictionBranch, FrictionModel, Inputs, LinearBearing, LinearBearingParameters,
-    LinearBearingTrain, LinearInputs, Material, Refusal, UncagedBallScrew,
+    DeviationMap, Faults, FrictionBranch, FrictionModel, Inputs, LinearBearing,
+    LinearBearingParameters, LinearBearingTrain, LinearInputs, Material, Refusal, UncagedBallScrew,
     UncagedBallScrewConfiguration,
 };
 
@@ -244,9 +244,14 @@ impl Kept for LinearBySpeed {
     }
 }
 
+/// A block, every byte of which is written.
 fn export<S: StoredScene>(model: &FrictionModel<S>) -> Vec<u8> {
-    let mut block = vec![0xA5; FrictionModel::<S>::STATE_BYTES];
-    assert_eq!(model.export(&mut block), Ok(block.len()));
+    let [block, other] = [0xA5, 0x5A].map(|fill| {
+        let mut block = vec![fill; FrictionModel::<S>::STATE_BYTES];
+        assert_eq!(model.export(&mut block), Ok(block.len()));
+        block
+    });
+    assert_eq!(block, other);
     block
 }
 
@@ -920,7 +925,7 @@ fn a_refusal_says_what_is_wrong() {
     }
 }
 
-/// What of a block of this scene is in `Sliding` scenes: a scene with memory holds the block of the one without.
+/// Every byte of a block counts: flash that is set aside for it is neither too little nor wasted.
 #[test]
 fn blocks_are_as_small_as_said() {
     fn bytes<S: StoredScene>() -> usize {
@@ -929,8 +934,25 @@ fn blocks_are_as_small_as_said() {
     assert_eq!(bytes::<CagedBallScrew>(), 114);
     assert_eq!(bytes::<Uncaged>(), 1794);
     assert_eq!(bytes::<Linear>(), 181);
-    fn with<S: StoredScene + Sliding>() -> usize {
-        bytes::<S>()
-    }
-    assert!(with::<CagedBallScrew>() < bytes::<CagedByAngle>());
+    assert_eq!(bytes::<CagedByAngle>(), 206);
+    assert_eq!(bytes::<UncagedByCounts>(), 1895);
+    assert_eq!(bytes::<LinearBySpeed>(), 284);
+}
+
+/// The faults of the last step are the last thing in a block with memory; a flag that is none is refused.
+#[test]
+fn unknown_flags_are_refused() {
+    let (mut model, _) = driven::<CagedByAngle>(1, 50);
+    let block = export(&model);
+    let mut import = |flags: u16| {
+        let mut block = block.clone();
+        let at = block.len() - 6;
+        block[at..at + 2].copy_from_slice(&flags.to_le_bytes());
+        model.import(&sealed(block))
+    };
+    let next = Faults::TEMPERATURE_STALE.bits() << 1;
+    assert_eq!(import(next - 1), Ok(()));
+    let refused = Err(Refusal::OutOfRange { field: "faults" });
+    assert_eq!(import(next), refused);
+    assert_eq!(import(u16::MAX), refused);
 }
