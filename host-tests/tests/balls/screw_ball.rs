@@ -655,6 +655,10 @@ fn units_of_a_row_do_not_matter() {
         let share = LoadShare::new(1.2).unwrap();
         let (screw, nut) = (0.03, -0.02);
         let known = tick.ball(screw, nut, &share);
+        assert_eq!(
+            known.rubbing,
+            tick.rubbing() + tick.rubbing_slope() * known.speed_deviation
+        );
         let balls = tick.per_speed(speed, 1.0 / speed, (1e-3, 4e-3));
         let mut sums = LoopSums::NONE;
         let found = balls.ball(screw / 1e-3, nut / 4e-3, &share, &mut sums);
