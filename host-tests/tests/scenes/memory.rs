@@ -149,6 +149,11 @@ fn slides_as_without<S>(
                     "{load:?} {way}: {outputs:?} {plain:?}"
                 );
                 assert_eq!(outputs.regime, plain.regime, "{load:?} {way} tick {tick}");
+                // It follows the friction: no more than the loss over the work.
+                assert!(
+                    (outputs.efficiency - plain.efficiency).abs() <= tolerance,
+                    "{load:?} {way} tick {tick}: {outputs:?} {plain:?}"
+                );
             }
             assert!(slid > 100, "{slid} ticks slid");
         }
@@ -211,11 +216,20 @@ fn churned_lubricant_adds_to_the_friction() {
     churns::<UncagedBallScrew<SCREW_BALLS>>(uncaged(), screw(0.0, 3000.0));
 }
 
+/// How a caged screw finds its friction.
+const BRANCHES: [FrictionBranch; 3] = [
+    FrictionBranch::Contacts,
+    FrictionBranch::Rolling,
+    FrictionBranch::Sliding,
+];
+
 /// What the outputs of all scenes have.
 #[derive(Clone, Copy, Debug)]
 struct Friction {
     friction: f32,
     regime: Regime,
+    /// Of a caged screw; 0 where the outputs have none.
+    efficiency: f32,
 }
 
 impl From<epas_friction::Outputs> for Friction {
@@ -223,6 +237,7 @@ impl From<epas_friction::Outputs> for Friction {
         Self {
             friction: outputs.friction_torque,
             regime: outputs.regime,
+            efficiency: outputs.efficiency,
         }
     }
 }
@@ -232,6 +247,7 @@ impl From<epas_friction::UncagedOutputs> for Friction {
         Self {
             friction: outputs.friction_torque,
             regime: outputs.regime,
+            efficiency: 0.0,
         }
     }
 }
@@ -241,6 +257,7 @@ impl From<epas_friction::LinearOutputs> for Friction {
         Self {
             friction: outputs.friction_force,
             regime: outputs.regime,
+            efficiency: 0.0,
         }
     }
 }
@@ -256,14 +273,17 @@ fn steady_sliding_is_the_scene_without_memory() {
     configuration.reversal_speed = 1e-6;
     let loads = [screw(0.0, 3000.0), screw(0.0, -500.0), screw(0.0, 0.0)];
     let friction = configuration.friction;
-    slides_as_without::<CagedBallScrew>(
-        configuration,
-        friction,
-        (0.5, BREAKAWAY),
-        &loads,
-        20.0,
-        3e-7,
-    );
+    for branch in BRANCHES {
+        configuration.branch = branch;
+        slides_as_without::<CagedBallScrew>(
+            configuration,
+            friction,
+            (0.5, BREAKAWAY),
+            &loads,
+            20.0,
+            3e-7,
+        );
+    }
     let mut configuration = uncaged();
     configuration.reversal_speed = 1e-6;
     let friction = configuration.friction;
@@ -947,12 +967,7 @@ fn without_laws_friction_is_in_proportion() {
 /// another friction than one that assists it.
 #[test]
 fn backward_is_forward_under_the_opposite_load() {
-    let branches = [
-        FrictionBranch::Contacts,
-        FrictionBranch::Rolling,
-        FrictionBranch::Sliding,
-    ];
-    for branch in branches {
+    for branch in BRANCHES {
         let configuration = CagedBallScrewConfiguration { branch, ..caged() };
         let constants = CagedConstants::new(&configuration).unwrap();
         let friction = configuration.friction;
