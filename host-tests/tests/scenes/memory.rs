@@ -118,7 +118,7 @@ fn slides_as_without<S>(
     tolerance: f32,
 ) where
     S: Sliding<Constants: Copy, Configuration: Copy>,
-    S::Outputs: Into<Friction>,
+    S::Outputs: Into<Figures>,
 {
     let mut without = FrictionModel::<S>::new(&configuration).unwrap();
     let elements = slip(reference, breakaway);
@@ -136,8 +136,8 @@ fn slides_as_without<S>(
             let inputs = load.with(way * speed, 1.0);
             let mut slid = 0;
             for tick in 0..600 {
-                let plain: Friction = without.step(inputs).into();
-                let outputs: Friction = with.step(fresh(inputs, way * speed)).into();
+                let plain: Figures = without.step(inputs).into();
+                let outputs: Figures = with.step(fresh(inputs, way * speed)).into();
                 // Both directions' breakaway and the play lie behind.
                 if tick as f32 * speed * TICK < 4.0 * breakaway {
                     continue;
@@ -164,7 +164,7 @@ fn slides_as_without<S>(
 fn churns<S>(configuration: S::Configuration, load: S::Inputs)
 where
     S: Sliding<Constants: Copy, Configuration: Copy, Inputs = Inputs>,
-    S::Outputs: Into<Friction>,
+    S::Outputs: Into<Figures>,
 {
     let law = |churning| {
         CoefficientLaw::new(&CoefficientParameters {
@@ -188,7 +188,7 @@ where
         let added = churning.at_temperature(TEMPERATURE).churning_torque(speed);
         assert!(added * speed > 0.0 && added.abs() > 1e-4, "{added}");
         for tick in 0..600 {
-            let known: [Friction; 2] = [&mut dry, &mut wet].map(|model| {
+            let known: [Figures; 2] = [&mut dry, &mut wet].map(|model| {
                 if tick % 3 == 2 {
                     model.between(speed).into()
                 } else {
@@ -225,14 +225,14 @@ const BRANCHES: [FrictionBranch; 3] = [
 
 /// What the outputs of all scenes have.
 #[derive(Clone, Copy, Debug)]
-struct Friction {
+struct Figures {
     friction: f32,
     regime: Regime,
     /// Of a caged screw; 0 where the outputs have none.
     efficiency: f32,
 }
 
-impl From<epas_friction::Outputs> for Friction {
+impl From<epas_friction::Outputs> for Figures {
     fn from(outputs: epas_friction::Outputs) -> Self {
         Self {
             friction: outputs.friction_torque,
@@ -242,7 +242,7 @@ impl From<epas_friction::Outputs> for Friction {
     }
 }
 
-impl From<epas_friction::UncagedOutputs> for Friction {
+impl From<epas_friction::UncagedOutputs> for Figures {
     fn from(outputs: epas_friction::UncagedOutputs) -> Self {
         Self {
             friction: outputs.friction_torque,
@@ -252,7 +252,7 @@ impl From<epas_friction::UncagedOutputs> for Friction {
     }
 }
 
-impl From<epas_friction::LinearOutputs> for Friction {
+impl From<epas_friction::LinearOutputs> for Figures {
     fn from(outputs: epas_friction::LinearOutputs) -> Self {
         Self {
             friction: outputs.friction_force,
