@@ -939,6 +939,27 @@ fn blocks_are_as_small_as_said() {
     assert_eq!(bytes::<LinearBySpeed>(), 284);
 }
 
+/// A block says which scene it is of, by numbers that stay.
+#[test]
+fn kinds_of_scenes_have_their_numbers() {
+    fn kind<S: Kept>() -> u16 {
+        let block = export(&S::model());
+        u16::from_le_bytes([block[KIND_AT], block[KIND_AT + 1]])
+    }
+    let plain = [
+        kind::<CagedBallScrew>(),
+        kind::<Uncaged>(),
+        kind::<Linear>(),
+    ];
+    assert_eq!(plain, [1, 2, 3]);
+    let remembering = [
+        kind::<CagedByAngle>(),
+        kind::<UncagedByCounts>(),
+        kind::<LinearBySpeed>(),
+    ];
+    assert_eq!(remembering, plain.map(|kind| 0x100 + kind));
+}
+
 /// The faults of the last step are the last thing in a block with memory; a flag that is none is refused.
 #[test]
 fn unknown_flags_are_refused() {
