@@ -18,8 +18,8 @@ use epas_friction::ball::{GrooveFit, ScrewRow};
 use epas_friction::scene::{ChangingClearance, ChangingFriction, Scene};
 use epas_friction::{
     CagedBallScrew, CagedBallScrewConfiguration, Clearance, FrictionBranch, FrictionModel, Inputs,
-    Limits, LinearBearingTrain, LinearInputs, LoadShare, LoadShares, RollingResistance,
-    UncagedBallScrew, UncagedBallScrewConfiguration,
+    LinearBearingTrain, LinearInputs, LoadShare, LoadShares, RollingResistance, UncagedBallScrew,
+    UncagedBallScrewConfiguration,
 };
 
 const TICKS: u32 = 200_000;
@@ -275,15 +275,7 @@ const fn share(share: f32) -> LoadShare {
 #[test]
 fn slow_courses_give_the_stored_bits() {
     let screw = [100.0, 15_000.0, 0.0];
-    // Long enough for balls to close up, of which the track is nearly full.
-    let full = UncagedBallScrewConfiguration {
-        tick: 5e-4,
-        limits: Limits {
-            nut_speed: screw[0],
-            ..gears::LIMITS
-        },
-        ..gears::uncaged()
-    };
+    let full = gears::crowded();
     let mut hashes = Vec::new();
     let clearances = [
         Clearance::ZERO,
@@ -320,7 +312,7 @@ fn slow_courses_give_the_stored_bits() {
             },
             ..full
         };
-        hashes.push(course::<UncagedBallScrew<41>>(
+        hashes.push(course::<UncagedBallScrew<{ gears::CROWD }>>(
             &configuration,
             screw,
             |_, _| (),
@@ -333,7 +325,7 @@ fn slow_courses_give_the_stored_bits() {
     }
     // Friction alone, by little and by much: what clearance set with it would hide.
     for step in [5e-4, 0.011] {
-        hashes.push(course::<UncagedBallScrew<41>>(
+        hashes.push(course::<UncagedBallScrew<{ gears::CROWD }>>(
             &full,
             screw,
             |model, leg| {

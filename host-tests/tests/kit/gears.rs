@@ -100,6 +100,30 @@ pub fn uncaged() -> UncagedBallScrewConfiguration {
     }
 }
 
+/// [`uncaged`] with grooves that do not deviate.
+pub fn even() -> UncagedBallScrewConfiguration {
+    UncagedBallScrewConfiguration {
+        screw_deviation: &DeviationMap::NONE,
+        nut_deviation: &DeviationMap::NONE,
+        ..uncaged()
+    }
+}
+
+/// Balls that nearly fill the track of [`uncaged`].
+pub const CROWD: usize = 41;
+
+/// [`uncaged`] with ticks long enough for a [`CROWD`] to close up.
+pub fn crowded() -> UncagedBallScrewConfiguration {
+    UncagedBallScrewConfiguration {
+        tick: 5e-4,
+        limits: Limits {
+            nut_speed: 100.0,
+            ..LIMITS
+        },
+        ..uncaged()
+    }
+}
+
 /// The screw of Lin 2019, Tables 2.1 and 3.6, whose two turns 37 balls fill, with a wave on its screw.
 pub fn full(screw_deviation: &'static DeviationMap, tick: f32) -> UncagedBallScrewConfiguration {
     UncagedBallScrewConfiguration {
@@ -149,5 +173,17 @@ pub fn linear() -> LinearBearingConfiguration {
             load: 20_000.0,
             friction_force: 500.0,
         },
+    }
+}
+
+/// [`linear`] with other balls on the same track.
+pub fn linear_of_smaller_balls() -> LinearBearingConfiguration {
+    LinearBearingConfiguration {
+        bearing: LinearBearing::new(LinearBearingParameters {
+            ball_radius: 0.0049,
+            ..*linear().bearing.parameters()
+        })
+        .unwrap(),
+        ..linear()
     }
 }

@@ -14,18 +14,19 @@ use epas_friction::law::motion::{
 };
 use epas_friction::law::{Elements, SlidingLimits};
 use epas_friction::scene::{
-    CagedConstants, Freshness, Motion, Passage, Scene, Sliding, WithMemory,
+    CagedConstants, Freshness, Motion, Passage, Scene, Sliding, SlidingFriction, WithMemory,
     WithMemoryConfiguration, WithMemoryInputs,
 };
 use epas_friction::{
-    CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, Clearance, DeviationMap, Faults,
-    FrictionBranch, FrictionModel, Inputs, LinearBearingConfiguration, LinearBearingTrain,
-    LinearInputs, Regime, UncagedBallScrew, UncagedBallScrewConfiguration,
+    CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, Clearance, Faults, FrictionBranch,
+    FrictionModel, Inputs, LinearBearingConfiguration, LinearBearingTrain, LinearInputs, Regime,
+    UncagedBallScrew,
 };
 
 use crate::kit::errors::Errors;
-use crate::kit::gears::{LINEAR_BALLS, SCREW_BALLS, caged, linear, uncaged};
+use crate::kit::gears::{CROWD, LINEAR_BALLS, SCREW_BALLS, caged, crowded, even, linear, uncaged};
 use crate::kit::random::Random;
+use crate::kit::remembering::at;
 
 type Slip = ProportionalElements<8>;
 type Caged<A> = FrictionModel<WithMemory<CagedBallScrew, Slip, A>>;
@@ -80,13 +81,7 @@ fn angle_sensor() -> WrappedAngle {
 }
 
 fn fresh<I, R>(scene: I, reading: R) -> WithMemoryInputs<I, R> {
-    WithMemoryInputs {
-        scene,
-        reading,
-        load_age: 0.0,
-        temperature: TEMPERATURE,
-        temperature_age: 0.0,
-    }
+    at(scene, reading, TEMPERATURE)
 }
 
 /// A model of the caged screw that follows an angle, rad.
@@ -834,13 +829,7 @@ fn full_friction_is_what_passes_in_its_direction() {
             std::any::type_name::<S>()
         );
     }
-    // As many balls as the track holds, and time for them to close up.
-    let mut configuration = UncagedBallScrewConfiguration {
-        tick: 5e-4,
-        ..uncaged()
-    };
-    configuration.limits.nut_speed = 100.0;
-    check::<UncagedBallScrew<41>>(&configuration, screw(0.0, 3000.0), 50.0, |outputs| {
+    check::<UncagedBallScrew<CROWD>>(&crowded(), screw(0.0, 3000.0), 50.0, |outputs| {
         [outputs.groove_torque, outputs.ball_torque]
     });
     let load = LinearInputs {
@@ -857,25 +846,35 @@ fn full_friction_is_what_passes_in_its_direction() {
     });
 }
 
+/// One coefficient for both directions.
+fn both_ways(friction: f32) -> DirectionalCoefficient {
+    DirectionalCoefficient {
+        forward: friction,
+        backward: friction,
+    }
+}
+
+/// Full friction of a fresh caged screw at 5 rad/s under a load, N.
+fn full_friction(
+    constants: &CagedConstants,
+    friction: DirectionalCoefficient,
+    load: f32,
+) -> SlidingFriction {
+    let mut state = CagedBallScrew::initial_state(constants);
+    let full = CagedBallScrew::full(constants, &mut state, None, screw(5.0, load), friction);
+    CagedBallScrew::friction(&full)
+}
+
 /// Balls follow a coefficient that changes by less than a tenth, and are flagged while those last renewed are further behind.
 #[test]
 fn balls_far_behind_their_coefficient_are_flagged() {
     type Uncaged = UncagedBallScrew<SCREW_BALLS>;
-    let configuration = UncagedBallScrewConfiguration {
-        screw_deviation: &DeviationMap::NONE,
-        nut_deviation: &DeviationMap::NONE,
-        ..uncaged()
-    };
-    let constants = Uncaged::constants(&configuration).unwrap();
+    let constants = Uncaged::constants(&even()).unwrap();
     let inputs = screw(20.0, 3000.0);
     let flagged = |after: f32| {
         let mut state = Uncaged::initial_state(&constants);
         let mut settles = |friction: f32| {
-            let both = DirectionalCoefficient {
-                forward: friction,
-                backward: friction,
-            };
-            let full = Uncaged::full(&constants, &mut state, None, inputs, both);
+            let full = Uncaged::full(&constants, &mut state, None, inputs, both_ways(friction));
             let way = 1.0;
             let passage = Passage {
                 share: way,
@@ -944,15 +943,13 @@ fn a_law_is_flagged_where_balls_of_one_coefficient_are() {
 fn without_laws_friction_is_in_proportion() {
     let constants = CagedConstants::new(&caged()).unwrap();
     let own = caged().friction;
-    let full = |forward: f32, backward: f32, load: f32| {
-        let both = DirectionalCoefficient { forward, backward };
-        let mut state = CagedBallScrew::initial_state(&constants);
-        let full = CagedBallScrew::full(&constants, &mut state, None, screw(5.0, load), both);
-        CagedBallScrew::friction(&full)
+    let others = DirectionalCoefficient {
+        forward: 1.2 * own,
+        backward: 0.7 * own,
     };
     for load in [3000.0, -800.0] {
-        let known = full(own, own, load);
-        let found = full(1.2 * own, 0.7 * own, load);
+        let known = full_friction(&constants, both_ways(own), load);
+        let found = full_friction(&constants, others, load);
         for (found, expected) in [
             (found.forward, 1.2 * known.forward),
             (found.backward, 0.7 * known.backward),
@@ -970,17 +967,8 @@ fn backward_is_forward_under_the_opposite_load() {
     for branch in BRANCHES {
         let configuration = CagedBallScrewConfiguration { branch, ..caged() };
         let constants = CagedConstants::new(&configuration).unwrap();
-        let friction = configuration.friction;
-        let both = DirectionalCoefficient {
-            forward: friction,
-            backward: friction,
-        };
-        let full = |load: f32| {
-            let mut state = CagedBallScrew::initial_state(&constants);
-            let full = CagedBallScrew::full(&constants, &mut state, None, screw(5.0, load), both);
-            CagedBallScrew::friction(&full)
-        };
-        let (there, back) = (full(3000.0), full(-3000.0));
+        let friction = both_ways(configuration.friction);
+        let [there, back] = [3000.0, -3000.0].map(|load| full_friction(&constants, friction, load));
         assert_eq!(
             (there.forward, there.backward),
             (back.backward, back.forward),

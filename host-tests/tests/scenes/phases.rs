@@ -3,8 +3,9 @@
 use std::f32::consts::TAU;
 
 use epas_friction::{
-    DeviationMap, Error, FrictionModel, Inputs, LinearBearingConfiguration, LinearBearingTrain,
-    LinearInputs, UncagedBallScrew, UncagedBallScrewConfiguration,
+    BallScrew, BallScrewParameters, DeviationMap, Error, FrictionModel, Inputs, LinearBearing,
+    LinearBearingConfiguration, LinearBearingParameters, LinearBearingTrain, LinearInputs,
+    UncagedBallScrew, UncagedBallScrewConfiguration,
 };
 
 use crate::kit::gears::{self, LINEAR_BALLS, SCREW_BALLS, wave};
@@ -136,7 +137,7 @@ fn a_screw_is_as_long_and_its_ticks_as_short_as_promised() {
         f64::from(TAU) * f64::from(configuration.design.path_radius()),
     );
     // A short pitch radius: 1000 turns are 6 m.
-    let design = epas_friction::BallScrew::new(epas_friction::BallScrewParameters {
+    let design = BallScrew::new(BallScrewParameters {
         pitch_radius: 1e-3,
         lead: 1e-4,
         ball_radius: 1e-4,
@@ -172,7 +173,7 @@ fn grooves_deviate_by_as_much_as_promised() {
     let largest = 10_f32.to_radians();
     let more = 1.001 * largest;
     let mut screw = gears::uncaged();
-    screw.design = epas_friction::BallScrew::new(epas_friction::BallScrewParameters {
+    screw.design = BallScrew::new(BallScrewParameters {
         contact_angle: 2.0 * largest,
         ..*screw.design.parameters()
     })
@@ -200,7 +201,7 @@ fn grooves_deviate_by_as_much_as_promised() {
     close(range(&with(none, refused)), "nut_deviation", border, false);
 
     let mut bearing = gears::linear();
-    bearing.bearing = epas_friction::LinearBearing::new(epas_friction::LinearBearingParameters {
+    bearing.bearing = LinearBearing::new(LinearBearingParameters {
         contact_angle: 2.0 * largest,
         ..*bearing.bearing.parameters()
     })
@@ -227,7 +228,7 @@ fn grooves_deviate_by_as_much_as_promised() {
 #[test]
 fn grooves_that_would_turn_a_ball_round_are_refused() {
     let mut screw = gears::uncaged();
-    screw.design = epas_friction::BallScrew::new(epas_friction::BallScrewParameters {
+    screw.design = BallScrew::new(BallScrewParameters {
         contact_angle: 75_f32.to_radians(),
         pitch_radius: 10e-3,
         ball_radius: 4e-3,

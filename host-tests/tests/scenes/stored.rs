@@ -8,13 +8,14 @@ use epas_friction::scene::{StoredScene, WithMemoryConfiguration, WithMemoryInput
 use epas_friction::stored::{VERSION, crc32};
 use epas_friction::{
     BallScrew, BallScrewParameters, CagedBallScrew, CagedBallScrewConfiguration, Clearance,
-    DeviationMap, Faults, FrictionBranch, FrictionModel, Inputs, LinearBearing,
-    LinearBearingParameters, LinearBearingTrain, LinearInputs, Material, Refusal, UncagedBallScrew,
-    UncagedBallScrewConfiguration,
+    DeviationMap, Faults, FrictionBranch, FrictionModel, Inputs, LinearBearingTrain, LinearInputs,
+    Material, Refusal, UncagedBallScrew, UncagedBallScrewConfiguration,
 };
 
 use crate::kit::absurd::{Trial, accepted};
-use crate::kit::gears::{LINEAR_BALLS, SCREW_BALLS, caged, linear, uncaged};
+use crate::kit::gears::{
+    CROWD, LINEAR_BALLS, SCREW_BALLS, caged, crowded, linear, linear_of_smaller_balls, uncaged,
+};
 use crate::kit::random::Random;
 use crate::kit::remembering::{
     COUNTS, CagedByAngle, LinearBySpeed, TEMPERATURE, TICK, UncagedByCounts, at, caged_by_angle,
@@ -157,15 +158,10 @@ impl Kept for Uncaged {
     }
 }
 
-/// Balls that press: as many as the track holds, with time to close up.
-impl Kept for UncagedBallScrew<41> {
+/// Balls that press.
+impl Kept for UncagedBallScrew<CROWD> {
     fn model() -> FrictionModel<Self> {
-        let mut full = UncagedBallScrewConfiguration {
-            tick: 5e-4,
-            ..uncaged()
-        };
-        full.limits.nut_speed = 100.0;
-        FrictionModel::new(&full).unwrap()
+        FrictionModel::new(&crowded()).unwrap()
     }
 
     fn drive(model: &mut FrictionModel<Self>, manoeuvre: &Manoeuvre, _: u32) -> Self::Outputs {
@@ -322,7 +318,7 @@ fn a_scene_goes_on_to_the_bit() {
         goes_on::<Uncaged>(set);
         goes_on::<Linear>(set);
     }
-    goes_on::<UncagedBallScrew<41>>(false);
+    goes_on::<UncagedBallScrew<CROWD>>(false);
 }
 
 #[test]
@@ -548,6 +544,21 @@ fn uncaged_of_seven() -> UncagedBallScrewConfiguration {
     }
 }
 
+/// Models of all these configurations say that a block is of other constants.
+fn refused_by_all<S: Kept>(block: &[u8], others: &[S::Configuration])
+where
+    S::Configuration: Debug,
+{
+    for other in others {
+        let mut model = FrictionModel::<S>::new(other).unwrap();
+        assert_eq!(
+            model.import(block),
+            Err(Refusal::OtherConstants),
+            "{other:?}"
+        );
+    }
+}
+
 /// Constants with which a state's numbers mean something else, and those that may change from one ignition to the next.
 #[test]
 fn blocks_of_other_constants_are_refused() {
@@ -591,11 +602,7 @@ fn blocks_of_other_constants_are_refused() {
     }
 
     let block = export(&Uncaged::model());
-    let mut longer = uncaged();
-    longer.return_length = 0.02;
-    let mut model = FrictionModel::<Uncaged>::new(&longer).unwrap();
-    assert_eq!(model.import(&block), Err(Refusal::OtherConstants));
-    let mut others = [uncaged(), uncaged(), uncaged(), uncaged()];
+    let mut others = [uncaged(); 5];
     others[0].turns = 2.45;
     others[1].screw_deviation = &TWO_TURNS;
     others[2].design = epas_friction::CATALOGUE[14].design().unwrap();
@@ -604,39 +611,21 @@ fn blocks_of_other_constants_are_refused() {
         ..*uncaged().design.parameters()
     })
     .unwrap();
-    for other in others {
-        let mut model = FrictionModel::<Uncaged>::new(&other).unwrap();
-        assert_eq!(
-            model.import(&block),
-            Err(Refusal::OtherConstants),
-            "{other:?}"
-        );
-    }
+    others[4].return_length = 0.02;
+    refused_by_all::<Uncaged>(&block, &others);
     let mut slower = uncaged();
     slower.tick = 2e-5;
     let mut model = FrictionModel::<Uncaged>::new(&slower).unwrap();
     assert_eq!(model.import(&block), Ok(()));
 
     let block = export(&Linear::model());
-    let mut others = [linear(), linear(), linear()];
+    let mut others = [linear(), linear(), linear_of_smaller_balls()];
     others[0].wavelength = 0.05;
-    // A track of the same shape, and other balls on the same track.
+    // A track of the same shape.
     others[1].loaded_length *= 2.0;
     others[1].return_length *= 2.0;
     others[1].wavelength *= 2.0;
-    others[2].bearing = LinearBearing::new(LinearBearingParameters {
-        ball_radius: 0.0049,
-        ..*linear().bearing.parameters()
-    })
-    .unwrap();
-    for other in others {
-        let mut model = FrictionModel::<Linear>::new(&other).unwrap();
-        assert_eq!(
-            model.import(&block),
-            Err(Refusal::OtherConstants),
-            "{other:?}"
-        );
-    }
+    refused_by_all::<Linear>(&block, &others);
 
     let block = export(&CagedByAngle::model());
     let angle = WrappedAngle::new(WrappedAngleParameters {

@@ -4,11 +4,10 @@
 use epas_friction::scene::WithMemoryConfiguration;
 use epas_friction::{
     CagedBallScrew, CagedBallScrewConfiguration, Clearance, FrictionBranch, FrictionModel, Inputs,
-    LinearBearing, LinearBearingConfiguration, LinearBearingParameters, LinearBearingTrain,
-    LinearInputs,
+    LinearBearingConfiguration, LinearBearingTrain, LinearInputs,
 };
 
-use crate::kit::gears::{LINEAR_BALLS, caged, linear};
+use crate::kit::gears::{LINEAR_BALLS, caged, linear, linear_of_smaller_balls};
 use crate::kit::remembering::{CagedByAngle, TEMPERATURE, at, caged_by_angle};
 
 type Caged = FrictionModel<CagedBallScrew>;
@@ -104,16 +103,14 @@ fn a_bearing_takes_the_friction_of_its_new_constants() {
     model.swap_constants(*fresh.constants()).unwrap();
     let [found, expected] = [&mut model, &mut fresh].map(|model| model.step(inputs).groove_force);
     assert_eq!(found, expected);
-    let smaller = LinearBearingConfiguration {
-        bearing: LinearBearing::new(LinearBearingParameters {
-            ball_radius: 0.0049,
-            ..*linear().bearing.parameters()
-        })
-        .unwrap(),
-        ..linear()
-    };
-    let smaller = *Linear::new(&smaller).unwrap().constants();
-    assert_eq!(model.swap_constants(smaller).unwrap_err().field(), "pitch");
+    let smaller = Linear::new(&linear_of_smaller_balls()).unwrap();
+    assert_eq!(
+        model
+            .swap_constants(*smaller.constants())
+            .unwrap_err()
+            .field(),
+        "pitch"
+    );
 }
 
 /// A clearance set under a memory is the scene's: friction of sliding is that of a screw that has it from the first tick.

@@ -6,10 +6,9 @@ use crate::kit::gears::{self, SCREW_BALLS};
 use crate::kit::measured;
 use std::f64::consts::{FRAC_PI_4, TAU};
 
-use epas_friction::scene::Scene;
 use epas_friction::{
-    Clearance, DeviationMap, Faults, FrictionModel, Inputs, Limits, LoadShare, LoadShares, Outputs,
-    Regime, RollingResistance, UncagedBallScrew, UncagedBallScrewConfiguration, UncagedOutputs,
+    Clearance, Faults, FrictionModel, Inputs, Limits, LoadShare, LoadShares, Outputs, Regime,
+    RollingResistance, UncagedBallScrew, UncagedBallScrewConfiguration, UncagedOutputs,
 };
 use epas_reference::friction::ball_screw_closed::{ContactAngles, Support, speed_ratio};
 
@@ -580,22 +579,18 @@ fn every_scene_of_a_screw_has_the_common_outputs() {
     measured::assert("screw without cage, efficiency", error);
 }
 
-type Long = FrictionModel<UncagedBallScrew<SCREW_BALLS>>;
-
 /// Balls that have settled at one speed under one load, and how many of the next ticks say that they settle again.
-fn unsettled_by(change: impl FnOnce(&mut Long)) -> usize {
+fn unsettled_by(change: impl FnOnce(&mut Model)) -> usize {
     let configuration = UncagedBallScrewConfiguration {
-        screw_deviation: &DeviationMap::NONE,
-        nut_deviation: &DeviationMap::NONE,
         clearance: Clearance::new(-2e-6).unwrap(),
-        ..gears::uncaged()
+        ..gears::even()
     };
-    let mut model = Long::new(&configuration).unwrap();
+    let mut model = Model::new(&configuration).unwrap();
     let inputs = Inputs {
         nut_speed: 5.0,
         axial_load: 3000.0,
     };
-    let settles = |model: &mut Long| {
+    let settles = |model: &mut Model| {
         let outputs = model.step(inputs);
         outputs.faults.contains(Faults::SETTLING)
     };
@@ -628,24 +623,19 @@ fn small_changes_are_followed_and_large_ones_settle() {
 /// Constants that are swapped: balls settle, and then rub as those of a model that has had them from the first tick.
 #[test]
 fn balls_settle_under_swapped_constants() {
-    type Constants = <UncagedBallScrew<SCREW_BALLS> as Scene>::Constants;
-    let configured = |friction| UncagedBallScrewConfiguration {
-        friction,
-        screw_deviation: &DeviationMap::NONE,
-        nut_deviation: &DeviationMap::NONE,
-        ..gears::uncaged()
-    };
-    let constants = |friction| -> Constants {
-        let model = Long::new(&configured(friction));
-        *model.unwrap().constants()
+    let with = |friction| {
+        Model::new(&UncagedBallScrewConfiguration {
+            friction,
+            ..gears::even()
+        })
+        .unwrap()
     };
     let same = unsettled_by(|model| {
         let own = *model.constants();
         model.swap_constants(own).unwrap();
     });
     assert!(same.abs_diff(3 * SCREW_BALLS) <= 6, "{same}");
-    let mut swapped = Long::new(&configured(0.075)).unwrap();
-    let mut fresh = Long::new(&configured(0.12)).unwrap();
+    let (mut swapped, mut fresh) = (with(0.075), with(0.12));
     let inputs = Inputs {
         nut_speed: 5.0,
         axial_load: 3000.0,
@@ -654,7 +644,7 @@ fn balls_settle_under_swapped_constants() {
         swapped.step(inputs);
         fresh.step(inputs);
     }
-    swapped.swap_constants(constants(0.12)).unwrap();
+    swapped.swap_constants(*fresh.constants()).unwrap();
     let mut torques = [0.0_f32; 2];
     for _ in 0..1500 {
         torques = [&mut swapped, &mut fresh].map(|model| model.step(inputs).groove_torque);
