@@ -6,10 +6,11 @@ use epas_friction::law::FrictionLevel;
 use epas_friction::law::coefficient::OneCoefficient;
 use epas_friction::law::memory::{Part, ProportionalElements, SLIP_8};
 use epas_friction::law::motion::SpeedOverTick;
-use epas_friction::scene::{Sliding, WithMemory, WithMemoryConfiguration, WithMemoryInputs};
+use epas_friction::scene::{Sliding, WithMemory, WithMemoryConfiguration};
 use epas_friction::{CagedBallScrew, FrictionModel, Inputs, Outputs, UncagedBallScrew};
 
 use crate::kit::gears::{SCREW_BALLS, caged, uncaged};
+use crate::kit::remembering::at;
 
 const TICK: f32 = 1e-4;
 
@@ -39,13 +40,7 @@ where
         nut_speed,
         axial_load: 1000.0,
     };
-    let inputs = WithMemoryInputs {
-        scene,
-        reading: nut_speed,
-        load_age: 0.0,
-        temperature: 313.0,
-        temperature_age: 0.0,
-    };
+    let inputs = at(scene, nut_speed, 313.0);
     model.step(inputs).into()
 }
 

@@ -6,7 +6,7 @@ use epas_friction::law::coefficient::{
 };
 use epas_friction::law::memory::LoadExactElements;
 use epas_friction::law::motion::SpeedOverTick;
-use epas_friction::scene::{Freshness, WithMemory, WithMemoryConfiguration, WithMemoryInputs};
+use epas_friction::scene::{Freshness, WithMemory, WithMemoryConfiguration};
 use epas_friction::{
     BallScrew, CagedBallScrew, CagedBallScrewConfiguration, Clearance, DISSERTATION_DESIGNS,
     FrictionBranch, FrictionModel, Inputs, Limits, RollingResistance, promises,
@@ -15,6 +15,7 @@ use epas_reference::rig::friction::{Sliding, State};
 use epas_reference::rig::parameters::{Coefficient, Parameters};
 
 use crate::kit::errors::Errors;
+use crate::kit::remembering::at;
 
 type Remembering = FrictionModel<WithMemory<CagedBallScrew, LoadExactElements<8>, SpeedOverTick>>;
 
@@ -196,16 +197,14 @@ fn slid(model: &mut Remembering, speed: f64, load: f64, temperature: f64) -> f32
     let ticks = (0.05 / (speed.abs() * f64::from(TICK))).ceil() as usize;
     let mut torque = 0.0;
     for _ in 0..=ticks {
-        let outputs = model.step(WithMemoryInputs {
-            scene: Inputs {
+        let outputs = model.step(at(
+            Inputs {
                 nut_speed: speed as f32,
                 axial_load: load as f32,
             },
-            reading: speed as f32,
-            load_age: 0.0,
-            temperature: temperature as f32,
-            temperature_age: 0.0,
-        });
+            speed as f32,
+            temperature as f32,
+        ));
         assert!(!outputs.faults.any());
         torque = outputs.friction_torque;
     }

@@ -20,6 +20,7 @@ use epas_reference::closed_loop::{ClosedLoop, Swing};
 
 use crate::kit::gears::caged;
 use crate::kit::random::Random;
+use crate::kit::remembering::at;
 
 const TEMPERATURE: f32 = 313.15;
 
@@ -79,16 +80,14 @@ fn model<E: Elements + Copy>(elements: E, play: f64, load: f64) -> Caged<E> {
 }
 
 fn still(reading: u32) -> WithMemoryInputs<Inputs, u32> {
-    WithMemoryInputs {
-        scene: Inputs {
+    at(
+        Inputs {
             nut_speed: 0.0,
             axial_load: 0.0,
         },
         reading,
-        load_age: 0.0,
-        temperature: TEMPERATURE,
-        temperature_age: 0.0,
-    }
+        TEMPERATURE,
+    )
 }
 
 /// Full friction of the model, N m: by the preload alone, the same in both directions.

@@ -3,9 +3,7 @@
 use epas_friction::law::coefficient::{CoefficientLaw, TemperatureFade};
 use epas_friction::law::memory::{Hysteresis, Part, ProportionalElements, SLIP_8};
 use epas_friction::law::motion::{CountSensor, CountSensorParameters, NutAngle, Steady};
-use epas_friction::scene::{
-    Freshness, Sliding, WithMemory, WithMemoryConfiguration, WithMemoryInputs,
-};
+use epas_friction::scene::{Freshness, Sliding, WithMemory, WithMemoryConfiguration};
 use epas_friction::{
     CagedBallScrew, CagedBallScrewConfiguration, FrictionModel, Inputs, Outputs, Regime,
     UncagedBallScrew, UncagedBallScrewConfiguration, UncagedOutputs,
@@ -14,6 +12,7 @@ use epas_reference::closed_loop::ClosedLoop;
 
 use crate::kit::gears::{SCREW_BALLS, caged, uncaged};
 use crate::kit::random::Random;
+use crate::kit::remembering::at;
 
 const TICK: f64 = 1e-3;
 const TICKS: usize = 4900;
@@ -130,16 +129,14 @@ where
         // The speed is a difference of two angles over a tick.
         let noise = SPEED_NOISE * TICK / 2.0_f64.sqrt() * normal(random);
         let count = ((0.3 + turn + noise) / ClosedLoop::COUNT).floor() as u32;
-        let outputs = model.step(WithMemoryInputs {
-            scene: Inputs {
+        let outputs = model.step(at(
+            Inputs {
                 nut_speed: speed(random),
                 axial_load: LOAD,
             },
-            reading: count % 16384,
-            load_age: 0.0,
-            temperature: TEMPERATURE,
-            temperature_age: 0.0,
-        });
+            count % 16384,
+            TEMPERATURE,
+        ));
         outputs.friction()
     };
     for tick in 0..200 {

@@ -5,6 +5,7 @@ use crate::kit::errors::Errors;
 use crate::kit::gears;
 use crate::kit::given;
 use crate::kit::random::Random;
+use crate::kit::remembering::at;
 use std::f64::consts::{FRAC_PI_4, TAU};
 
 use epas_friction::ball::{
@@ -227,13 +228,7 @@ fn remembering<S: Sliding<Constants: Copy>, L: CoefficientFor<S::Inputs>>(
 const TEMPERATURE: f32 = 313.15;
 
 fn sound<I>(scene: I, reading: f32) -> WithMemoryInputs<I, f32> {
-    WithMemoryInputs {
-        scene,
-        reading,
-        load_age: 0.0,
-        temperature: TEMPERATURE,
-        temperature_age: 0.0,
-    }
+    at(scene, reading, TEMPERATURE)
 }
 
 /// A law that gives 0.1 at a speed, between 0.12 at standstill and 0.08.
