@@ -788,7 +788,7 @@ const ROLLING: &[Measured] = &[
     row("rolling resistance, both", [3.3e-6, 7.5e-7, 4e-7], [2.2e-6, 5.0e-7, 2.1e-7]),
 ];
 
-/// `scenes/memory.rs`: friction torque, relative.
+/// `scenes/memory/coefficients.rs`: friction torque, relative.
 #[rustfmt::skip]
 const FRICTION_TORQUE: &[Measured] = &[
     row("friction between two coefficients", [3.2e-2, 6e-3, 3e-4], [2.9e-2, 5.3e-3, 1.6e-4]),

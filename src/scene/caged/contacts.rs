@@ -173,7 +173,7 @@ impl Contacts {
     pub(super) fn one_way(&self, state: &mut ContactsState, inputs: Inputs, way: f32) -> CagedFull {
         let (load, whole, other) = self.under(state, inputs.axial_load, way);
         let (ratio, accuracy) = if state.changes {
-            self.renewed(state, load, whole, other)
+            self.renewed(state, load, other)
         } else {
             state.folded(self.range, load, other)
         };
@@ -200,7 +200,7 @@ impl Contacts {
         let (own_friction, opposite_friction) = friction.of(way);
         let (own, opposite, accuracy) = if state.changes {
             state.grooving.friction = own_friction;
-            let (own, accuracy) = self.renewed(state, load, whole, other);
+            let (own, accuracy) = self.renewed(state, load, other);
             let [drive, backdrive] = &state.balls;
             let opposite = if other { drive } else { backdrive };
             (own, opposite.ratio(), accuracy)
@@ -288,18 +288,13 @@ impl Contacts {
     ///
     /// A function of its own, so that a step by the law needs none of its stack.
     #[inline(never)]
-    fn renewed(
-        &self,
-        state: &mut ContactsState,
-        load: f32,
-        whole: f32,
-        other: bool,
-    ) -> (f32, Faults) {
+    fn renewed(&self, state: &mut ContactsState, load: f32, other: bool) -> (f32, Faults) {
         let size = if load > SMALLEST_LOAD {
             load
         } else {
             SMALLEST_LOAD
         };
+        let whole = state.grooving.whole(&self.ball, size);
         let axial = if other { -size } else { size };
         state.turn = state.turn.wrapping_add(1) % OTHER_TURN;
         let turned = state.turn == 0;
