@@ -171,8 +171,9 @@ impl<S: Scene, C: Borrow<S::Constants>> FrictionModel<S, C> {
     /// What has to settle is flagged [`Faults::SETTLING`](crate::Faults::SETTLING).
     ///
     /// Not in the middle of a step: an interrupt that steps the model has to wait. With constants in flash (`C` a reference)
-    /// it is a pointer that changes. A caged ball screw renews a ball in every tick from then on, until it is set up anew:
-    /// see [`STEP_CAGED_CHANGING`](crate::promises::STEP_CAGED_CHANGING).
+    /// it is a pointer that changes. A caged ball screw renews a ball in every tick from then on, after a reset and an import as well,
+    /// until it is set up anew: see [`STEP_CAGED_CHANGING`](crate::promises::STEP_CAGED_CHANGING). Where the maps of a screw's or a
+    /// rail's deviations have another period, set the angle or the place anew, from which they are counted.
     ///
     /// # Errors
     /// [`Error`] naming what does not fit to the state; the model goes on as it was.
@@ -221,7 +222,7 @@ impl<S: ChangingFriction, C: Borrow<S::Constants>> FrictionModel<S, C> {
 
 impl<S: ChangingClearance, C: Borrow<S::Constants>> FrictionModel<S, C> {
     /// Sets how balls fit between the grooves, -0.02 to 0.05 ball radii, with the cost and the flag of
-    /// [`FrictionModel::set_friction`]; a memory stays.
+    /// [`FrictionModel::set_friction`]; a memory stays. The closed forms of [`FrictionBranch`](crate::FrictionBranch) keep theirs.
     ///
     /// # Errors
     /// [`Error`] naming `clearance`; the model goes on as it was.

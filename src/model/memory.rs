@@ -7,8 +7,8 @@ use crate::error::Error;
 use crate::law::motion::NutAngle;
 use crate::law::{Elements, FrictionLevel};
 use crate::scene::{
-    CoefficientFor, Faults, Inputs, Sliding, UncagedBallScrew, UncagedConstants, WithMemory,
-    WithMemoryConstants,
+    CoefficientFor, Faults, Inputs, LinearBearingTrain, LinearConstants, LinearInputs, Sliding,
+    UncagedBallScrew, UncagedConstants, WithMemory, WithMemoryConstants,
 };
 
 impl<S, E, A, L, C> FrictionModel<WithMemory<S, E, A, L>, C>
@@ -21,7 +21,7 @@ where
 {
     /// Friction between two steps, after a new reading of the angle: elements follow it under the limits that the last step
     /// found. Balls, loads and the friction coefficient stay as they are; the next step takes the balls on by all turns
-    /// since the last one.
+    /// since the last one, as far as the scene's largest speed lets it, and the steps after it by the rest.
     ///
     /// For a current loop that runs faster than the balls need: a step every millisecond, this in every tick. It costs what
     /// the elements do, and some tens of cycles. Before the first step there is no friction. Its faults stand in its outputs and are
@@ -64,9 +64,28 @@ where
     L: CoefficientFor<Inputs>,
     C: Borrow<WithMemoryConstants<UncagedConstants<N>, E, A, L>>,
 {
-    /// Sets the angle of the nut against the screw, rad, from which the screw's deviations are counted, as without memory.
+    /// Sets the angle of the nut against the screw, rad, from which the screw's deviations are counted, as without memory: that of
+    /// the last reading.
     pub fn set_nut_angle(&mut self, angle: f32) {
         let scene = self.constants.borrow().scene();
-        scene.set_nut_angle(&mut self.state.scene, angle);
+        // The next step takes the balls on by the turns since the last one.
+        let at_last_step = angle - self.state.remembered.moved();
+        scene.set_nut_angle(&mut self.state.scene, at_last_step);
+    }
+}
+
+impl<const N: usize, E, A, L, C> FrictionModel<WithMemory<LinearBearingTrain<N>, E, A, L>, C>
+where
+    E: Elements + Copy,
+    A: NutAngle + Copy,
+    L: CoefficientFor<LinearInputs>,
+    C: Borrow<WithMemoryConstants<LinearConstants<N>, E, A, L>>,
+{
+    /// Sets the carriage's place along the rail, m, from which the rail's deviations are counted, as without memory: that of the
+    /// last reading.
+    pub fn set_carriage_position(&mut self, position: f32) {
+        let scene = self.constants.borrow().scene();
+        let at_last_step = position - self.state.remembered.moved();
+        scene.set_carriage_position(&mut self.state.scene, at_last_step);
     }
 }

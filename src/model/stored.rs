@@ -73,7 +73,8 @@ impl<S: StoredScene, C: Borrow<S::Constants>> FrictionModel<S, C> {
     }
 
     /// Takes over the state of a block that a model of the same constants exported: when the ignition goes on, before the first
-    /// step. From then on steps give the same bits as those of the model that was exported.
+    /// step. From then on steps give the same bits as those of the model that was exported (not so a caged ball screw whose constants
+    /// have been swapped, which goes on to renew its balls).
     ///
     /// Memory and balls are as they were. An angle sensor begins anew: the first reading is no turn, whatever the nut did while the
     /// power was off. If somebody turned the wheel then, the true friction has forgotten more than the model; after a turn of

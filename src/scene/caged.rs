@@ -198,8 +198,8 @@ impl Sliding for CagedBallScrew {
     }
 
     #[inline(always)]
-    fn speed_of(_: &CagedConstants, _: f32, measured: f32) -> f32 {
-        measured
+    fn in_a_tick(_: &CagedConstants, turn: f32, measured: f32) -> (f32, f32) {
+        (turn, measured)
     }
 }
 
@@ -244,7 +244,9 @@ impl ChangingFriction for CagedBallScrew {
     ) -> Result<(), Error> {
         match (&constants.law, &mut state.contacts) {
             (Law::Contacts(contacts), Some(state)) => contacts.set_friction(state, friction),
-            _ => Ok(()),
+            _ => ranges::FRICTION_OF_A_ROW
+                .checked("friction", friction)
+                .map(|_| ()),
         }
     }
 }

@@ -70,14 +70,27 @@ pub trait SceneOutputs: Copy {
     fn faults(&self) -> Faults;
 
     /// These outputs with `faults` added, and with their friction within plus and minus `largest`, which is flagged where
-    /// it cuts.
+    /// it cuts. Friction that is no number, which no scene is known to make, is none, flagged the same.
     #[must_use]
     #[inline(always)]
     fn limited(mut self, largest: f32, faults: Faults) -> Self {
         let (friction, flags) = self.friction_and_faults();
-        *flags = (*flags | faults).with_friction_limit(*friction, largest);
-        *friction = bounded(*friction, largest);
+        let within = friction.abs() <= largest;
+        *flags = (*flags | faults).with(!within, Faults::FRICTION_LIMIT);
+        if !within {
+            *friction = cut(*friction, largest);
+        }
         self
+    }
+}
+
+/// What stands in for friction that is not within plus and minus `largest`.
+#[cold]
+const fn cut(friction: f32, largest: f32) -> f32 {
+    if friction.is_nan() {
+        0.0
+    } else {
+        largest.copysign(friction)
     }
 }
 

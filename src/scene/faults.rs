@@ -27,7 +27,8 @@ impl Faults {
     pub const SPEED_RANGE: Self = Self(1 << 2);
     /// A load is beyond its limit: the limit stands in for it.
     pub const LOAD_RANGE: Self = Self(1 << 3);
-    /// The friction torque of a screw, or the friction force of a bearing, was cut to its limit.
+    /// The friction torque of a screw, or the friction force of a bearing, was cut to its limit; or it was no number, which no scene
+    /// is known to make, and is none.
     pub const FRICTION_LIMIT: Self = Self(1 << 4);
     /// The mechanism is where its formulas leave the accuracy that they promise. What is put out is the best estimate, finite
     /// and continuous: not the safe output, and no reason to take the friction away. Where this begins stands with the scene.
@@ -37,7 +38,7 @@ impl Faults {
     pub const SETTLING: Self = Self(1 << 6);
     /// A reading of the angle is missing or cannot be right: friction stays where it is, and the next reading spans the gap.
     pub const ANGLE_NOT_VALID: Self = Self(1 << 7);
-    /// The temperature is no number, or beyond its range: the last one, or the bound, stands in for it.
+    /// The temperature is no number, or beyond its range: that of the configuration stands in for it.
     pub const TEMPERATURE_RANGE: Self = Self(1 << 8);
     /// A load is older than it may be: its friction fades away.
     pub const LOAD_STALE: Self = Self(1 << 9);
@@ -96,12 +97,6 @@ impl Faults {
             .with(load, Self::LOAD_NOT_FINITE)
     }
 
-    /// This set, with [`Faults::FRICTION_LIMIT`] where a friction torque or force is beyond its limit.
-    #[inline(always)]
-    pub(super) fn with_friction_limit(self, friction: f32, largest: f32) -> Self {
-        self.with(friction.abs() > largest, Self::FRICTION_LIMIT)
-    }
-
     /// This set with `other` added where `condition` holds.
     #[inline]
     #[must_use]
@@ -148,15 +143,6 @@ pub(super) const fn bounded(value: f32, bound: f32) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_flag_that_stands_stays() {
-        let cut = Faults::NONE.with_friction_limit(2.0, 1.0);
-        assert_eq!(cut, Faults::FRICTION_LIMIT);
-        assert_eq!(cut.with_friction_limit(-2.0, 1.0), cut);
-        assert_eq!(cut.with_friction_limit(1.0, 1.0), cut);
-        assert_eq!(Faults::NONE.with_friction_limit(1.0, 1.0), Faults::NONE);
-    }
 
     #[test]
     fn a_set_contains_its_flags_and_no_others() {

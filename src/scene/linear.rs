@@ -7,7 +7,7 @@ mod stored;
 use super::changing::ChangingFriction;
 use super::circuit::{Circuit, CircuitState, UNLOADED, per_loaded_ball};
 use super::contract::{Admitted, Regime, Scene};
-use super::faults::Faults;
+use super::faults::{Faults, bounded};
 use super::outputs::LinearOutputs;
 use super::passage::{Passage, Reversal, way};
 use super::row::RowFull;
@@ -69,7 +69,8 @@ pub struct LinearConstants<const N: usize> {
     circuit: Circuit,
     /// Friction coefficient of the configuration.
     friction: f32,
-    /// 1 / time between two ticks, 1/s.
+    /// Time between two ticks, s, and 1 / it.
+    tick: f32,
     per_tick: f32,
     ball: AnalyticLinearBall,
     /// Half the sum of both diagonals' forces over the normal load, `1/(n cos beta)` for `n` loaded balls.
@@ -181,8 +182,9 @@ impl<const N: usize> Sliding for LinearBearingTrain<N> {
     }
 
     #[inline(always)]
-    fn speed_of(constants: &LinearConstants<N>, turn: f32, _: f32) -> f32 {
-        turn * constants.per_tick
+    fn in_a_tick(constants: &LinearConstants<N>, travel: f32, _: f32) -> (f32, f32) {
+        let travel = bounded(travel, constants.limits.speed * constants.tick);
+        (travel, travel * constants.per_tick)
     }
 }
 
@@ -212,6 +214,7 @@ impl<const N: usize> LinearConstants<N> {
         Ok(Self {
             circuit,
             friction,
+            tick: configuration.tick,
             per_tick: 1.0 / configuration.tick,
             ball,
             normal: per_ball / angle.cos,

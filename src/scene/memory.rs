@@ -136,7 +136,12 @@ where
     fn take_over(constants: &Self::Constants, state: &mut Self::State) -> Result<(), Error> {
         checked::<S, L>(constants.coefficient)?;
         S::take_over(&constants.scene, &mut state.scene)?;
-        state.remembered.set_coefficient(constants.coefficient)
+        let remembered = &mut state.remembered;
+        constants.play.take_over(&mut remembered.play);
+        if !constants.angle.gave(&remembered.reading) {
+            remembered.reading = A::FRESH;
+        }
+        remembered.set_coefficient(constants.coefficient)
     }
 
     /// Inputs of the scene that are no numbers leave the others as they are.
@@ -181,9 +186,13 @@ where
 
         let way = remembered.way();
         let measured = inputs.speed();
-        let speed = S::speed_of(&constants.scene, remembered.moved, measured);
-        remembered.moved = 0.0;
-        let speed = if speed * way > CREEP {
+        let (turn_now, speed) = S::in_a_tick(&constants.scene, remembered.moved, measured);
+        // What balls could not follow, and the nut has turned back since, they need not make.
+        let goes = turn_now * way >= 0.0;
+        if goes {
+            remembered.moved -= turn_now;
+        }
+        let speed = if goes && speed * way > CREEP {
             speed
         } else {
             way * CREEP
@@ -334,7 +343,11 @@ impl<C, E: Elements, A: NutAngle, L: CoefficientModel> WithMemoryConstants<C, E,
             } else {
                 remembered.play.way()
             },
-            standing: share.abs() < SLIDES,
+            standing: if limit > 0.0 {
+                share.abs() < SLIDES
+            } else {
+                turn == 0.0
+            },
         };
         let mut outputs = S::passed(&self.scene, inputs, full, passage);
         let (torque, flags) = outputs.friction_and_faults();

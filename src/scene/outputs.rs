@@ -156,7 +156,8 @@ pub(super) fn efficiency(driving: bool, load_torque: f32, friction_torque: f32) 
 }
 
 impl From<UncagedOutputs> for Outputs {
-    /// The outputs that every scene of a ball screw has: torques from torques.
+    /// The outputs that every scene of a ball screw has: torques from torques. The efficiency is that of the friction that is put
+    /// out, after its passage, its level and its limit.
     fn from(outputs: UncagedOutputs) -> Self {
         let UncagedOutputs {
             friction_torque,

@@ -34,17 +34,24 @@ impl RowFull {
         }
     }
 
+    /// Full friction in the direction of a sign.
+    #[inline(always)]
+    pub(super) const fn of(&self, way: f32) -> f32 {
+        self.way(way) * self.groove + self.ball
+    }
+
+    /// Groove friction in the direction of a sign, over `groove`.
+    #[inline(always)]
+    const fn way(&self, way: f32) -> f32 {
+        let [forward, backward] = self.ways;
+        if way < 0.0 { backward } else { forward }
+    }
+
     /// Friction of the grooves and of the balls at a passage, with the sign of its share.
     #[inline(always)]
     pub(super) fn passed(&self, passage: Passage) -> (f32, f32) {
-        let [forward, backward] = self.ways;
-        let way = if passage.share < 0.0 {
-            backward
-        } else {
-            forward
-        };
         (
-            passage.share * (way * self.groove),
+            passage.share * (self.way(passage.share) * self.groove),
             passage.share * self.ball,
         )
     }

@@ -73,6 +73,7 @@ pub trait Sliding: Scene<Known = <Self as Scene>::Inputs, Inputs: Motion> {
         passage: Passage,
     ) -> Self::Outputs;
 
-    /// Speed at which a turn, rad (m of a bearing), is made in a tick; a scene that knows no tick gives the measured speed.
-    fn speed_of(constants: &Self::Constants, turn: f32, measured: f32) -> f32;
+    /// Turn, rad (m of a bearing), of a given one that balls can make in a tick, and the speed at which they make it; a scene that
+    /// knows no tick makes all of it, at the measured speed.
+    fn in_a_tick(constants: &Self::Constants, turn: f32, measured: f32) -> (f32, f32);
 }

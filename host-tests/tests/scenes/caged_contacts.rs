@@ -461,6 +461,37 @@ fn friction_and_clearance_change_while_running() {
     ramp.assert_measured();
 }
 
+/// Friction is flagged in the tick after a jump whichever ball is renewed in it, and small steps are followed unflagged.
+#[test]
+fn a_jump_is_flagged_at_once() {
+    let changes: [fn(&mut Caged, f32); 2] = [
+        |model, size| model.set_friction(0.1 * (1.0 + size)).unwrap(),
+        |model, size| {
+            let oversize = Clearance::new(-1e-6 * (1.0 + size)).unwrap();
+            model.set_clearance(oversize).unwrap();
+        },
+    ];
+    let configuration = CagedBallScrewConfiguration {
+        friction: 0.1,
+        clearance: Clearance::new(-1e-6).unwrap(),
+        ..configuration()
+    };
+    for change in changes {
+        for tick in 0..4 {
+            let mut model = renewed(&configuration);
+            settled(&mut model, 10.0, 50.0);
+            for _ in 0..tick {
+                step(&mut model, 10.0, 50.0);
+            }
+            for (size, flagged) in [(1e-4, false), (0.5, true)] {
+                change(&mut model, size);
+                let faults = step(&mut model, 10.0, 50.0).faults;
+                assert_eq!(faults.contains(Faults::SETTLING), flagged, "{tick} {size}");
+            }
+        }
+    }
+}
+
 /// Refused values change nothing, and a reset brings the configuration's back, to the bit.
 #[test]
 fn settings_are_checked_and_reset() {

@@ -1,14 +1,17 @@
 //! Constants that are swapped while a model runs: friction is then that of a model which has had them from the first tick, and
 //! what does not fit is refused.
 
-use epas_friction::scene::WithMemoryConfiguration;
+use epas_friction::law::motion::{CountSensor, CountSensorParameters, Steady};
+use epas_friction::scene::{WithMemory, WithMemoryConfiguration};
 use epas_friction::{
-    CagedBallScrew, CagedBallScrewConfiguration, Clearance, FrictionBranch, FrictionModel, Inputs,
-    LinearBearingConfiguration, LinearBearingTrain, LinearInputs,
+    CagedBallScrew, CagedBallScrewConfiguration, Clearance, Faults, FrictionBranch, FrictionModel,
+    Inputs, LinearBearingConfiguration, LinearBearingTrain, LinearInputs,
 };
 
 use crate::kit::gears::{LINEAR_BALLS, caged, linear, linear_of_smaller_balls};
-use crate::kit::remembering::{CagedByAngle, TEMPERATURE, at, caged_by_angle};
+use crate::kit::remembering::{
+    CagedByAngle, Slip, TEMPERATURE, at, caged_by_angle, slip, with_memory,
+};
 
 type Caged = FrictionModel<CagedBallScrew>;
 type Linear = FrictionModel<LinearBearingTrain<LINEAR_BALLS>>;
@@ -53,6 +56,78 @@ fn a_caged_screw_takes_friction_and_clearance_of_its_new_constants() {
             (found / expected - 1.0).abs() < 2.5e-4,
             "{found} {expected}"
         );
+    }
+}
+
+/// The law over the load is that of the first constants: neither a reset nor a block of a model that follows its law brings it back.
+#[test]
+fn no_law_of_other_constants_comes_back() {
+    let other = CagedBallScrewConfiguration {
+        friction: 0.12,
+        ..caged()
+    };
+    let mut fresh = Caged::new(&other).unwrap();
+    let mut block = [0; Caged::STATE_BYTES];
+    fresh.export(&mut block).unwrap();
+    let expected = settled(&mut fresh);
+    for back in [
+        |model: &mut Caged, _: &[u8]| model.reset(),
+        |model: &mut Caged, block: &[u8]| model.import(block).unwrap(),
+    ] {
+        let mut model = Caged::new(&caged()).unwrap();
+        settled(&mut model);
+        model.swap_constants(*fresh.constants()).unwrap();
+        settled(&mut model);
+        back(&mut model, &block);
+        assert!(model.step(INPUTS).faults.contains(Faults::SETTLING));
+        let found = settled(&mut model);
+        // As above.
+        assert!(
+            (found / expected - 1.0).abs() < 2.5e-4,
+            "{found} {expected}"
+        );
+    }
+}
+
+/// Where a play becomes narrower, and a counter shorter, nothing turns.
+#[test]
+fn a_swap_turns_nothing() {
+    type Counted = FrictionModel<WithMemory<CagedBallScrew, Slip, Steady<CountSensor>>>;
+    let with = |period: u32, half_width: f32, play: f32| {
+        let counts = CountSensor::new(CountSensorParameters {
+            period,
+            turn_per_count: 1e-3,
+            largest_turn: 0.4,
+        })
+        .unwrap();
+        let sensor = Steady::new(counts, half_width).unwrap();
+        // Its friction is the same before and after.
+        let scene = CagedBallScrewConfiguration {
+            branch: FrictionBranch::Rolling,
+            ..caged()
+        };
+        let whole = with_memory(scene, slip(0.05), sensor);
+        Counted::new(&WithMemoryConfiguration { play, ..whole }).unwrap()
+    };
+    for (period, half_width, play) in [
+        (16_384, 1e-3, 2e-3),
+        (1000, 5e-3, 2e-3),
+        (16_384, 5e-3, 1e-4),
+    ] {
+        let mut model = with(16_384, 5e-3, 2e-3);
+        let mut count = 2000;
+        for _ in 0..100 {
+            count += 1;
+            model.step(at(INPUTS, count, TEMPERATURE));
+        }
+        let before = model.state().remembered.elements;
+        let other = with(period, half_width, play);
+        model.swap_constants(*other.constants()).unwrap();
+        for _ in 0..3 {
+            let outputs = model.step(at(INPUTS, count % period, TEMPERATURE));
+            assert!(!outputs.faults.faulty(), "{:?}", outputs.faults);
+        }
+        assert_eq!(model.state().remembered.elements, before);
     }
 }
 

@@ -27,6 +27,8 @@ pub(crate) struct Ring<const N: usize> {
     renewed_friction: f32,
     /// Radial gap of every contact at the centred ball, m.
     pub(crate) clearance: f32,
+    /// Friction coefficient and clearance, m, as they were when the round began, or after a jump.
+    followed: (f32, f32),
     /// Contact force at which a preloaded ball loses its unloaded diagonal, N: `2 sqrt(2)` times the preload; 0 without.
     lift_off: f32,
     /// Load, preload counted, that the balls are settled for, N.
@@ -83,6 +85,7 @@ impl<const N: usize> Ring<N> {
             friction,
             renewed_friction: friction,
             clearance,
+            followed: (friction, clearance),
             lift_off,
             settled_load: FIRST_LOAD,
             round: 0.0,
@@ -235,6 +238,7 @@ impl<const N: usize> Ring<N> {
         }
         self.round = 0.0;
         self.two_point = 0;
+        self.follow_changes();
     }
 
     /// Renews a ball under its share of the load, its deviations and the force of its neighbours, in the forward frame.
@@ -358,16 +362,16 @@ impl<const N: usize> Ring<N> {
         ]
     }
 
-    /// Marks a ball as loaded that was not: it takes over what its neighbour does.
+    /// Marks a ball as loaded that was not: it takes over what its neighbour does, or the nominal one where no neighbour carries load.
     #[inline(always)]
     pub(crate) fn enter(&mut self, index: usize) {
         let neighbour = Self::beside(index)
             .into_iter()
             .filter_map(|place| self.balls.get(place))
-            .find(|ball| ball.loaded())
-            .copied();
-        if let (Some(neighbour), Some(ball)) = (neighbour, self.balls.get_mut(index)) {
-            *ball = neighbour;
+            .find(|ball| ball.loaded());
+        let like = *neighbour.unwrap_or(&self.nominal);
+        if let Some(ball) = self.balls.get_mut(index) {
+            *ball = like;
             self.entered = index as u8 + 1;
         }
     }

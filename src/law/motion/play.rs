@@ -61,6 +61,13 @@ impl Play {
         Ok(Self { half_width })
     }
 
+    /// Makes a state that another play left one of this play.
+    pub(crate) const fn take_over(&self, state: &mut PlayState) {
+        if state.place.abs() > self.half_width {
+            state.place = self.half_width.copysign(state.place);
+        }
+    }
+
     /// What the output does under a turn, rad (m).
     #[inline]
     pub fn follow(&self, state: &mut PlayState, turn: f32) -> Moved {

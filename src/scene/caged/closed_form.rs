@@ -157,7 +157,10 @@ impl ClosedForm {
             load_torque: load * self.reduced_lead,
             efficiency,
             regime: Regime::of(standing, load_opposes, moves),
-            faults: Faults::NONE.with(locks_driving, Faults::FRICTION_LIMIT),
+            faults: Faults::NONE.with(
+                locks_driving && friction_torque != 0.0,
+                Faults::FRICTION_LIMIT,
+            ),
         }
     }
 

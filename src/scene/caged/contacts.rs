@@ -56,6 +56,8 @@ pub(super) struct ContactsState {
     grooving: Grooving,
     /// Whether friction or clearance have been set.
     changes: bool,
+    /// Whether the laws are those of constants that were there before.
+    foreign: bool,
     /// Ticks since the opposite ball's turn, 0 to 3.
     turn: u8,
 }
@@ -96,13 +98,13 @@ impl Contacts {
 
     /// Laws and balls before the first tick: some thousand renewals.
     pub(super) fn initial_state(&self) -> ContactsState {
-        let grooving = Grooving::new(&self.ball, self.friction, self.clearance.gap());
-        let nominal = |side| NominalBall::new(&self.ball, &grooving, side * FIRST_LOAD, 0.0);
+        let grooving = self.grooving();
         let mut state = ContactsState {
             laws: LoadLaws::NONE,
-            balls: [nominal(1.0), nominal(-1.0)],
+            balls: self.first_balls(&grooving, [0.0; 2]),
             grooving,
             changes: false,
+            foreign: false,
             turn: 0,
         };
         let grooved = [1.0, -1.0].map(|side| Grooved { grooving, side });
@@ -110,17 +112,39 @@ impl Contacts {
         state
     }
 
-    /// Back to the state before the first tick: the laws are as they were.
+    /// Friction and fit of the configuration.
+    fn grooving(&self) -> Grooving {
+        Grooving::new(&self.ball, self.friction, self.clearance.gap())
+    }
+
+    /// Balls that have not settled, under a load that opposes the motion and under one that assists it.
+    fn first_balls(&self, grooving: &Grooving, [drive, backdrive]: [f32; 2]) -> [NominalBall; 2] {
+        let new = |load, ratio| NominalBall::new(&self.ball, grooving, load, ratio);
+        [new(FIRST_LOAD, drive), new(-FIRST_LOAD, backdrive)]
+    }
+
+    /// Back to the state before the first tick. Laws are as they were; balls are renewed in their place where these are the laws of
+    /// other constants.
     pub(super) fn reset(&self, state: &mut ContactsState) {
-        state.grooving = Grooving::new(&self.ball, self.friction, self.clearance.gap());
+        state.grooving = self.grooving();
+        state.balls = self.first_balls(&state.grooving, [0.0; 2]);
+        state.turn = 0;
         state.changes = false;
+        self.keep_out_foreign_laws(state);
     }
 
     /// Balls go on with the friction coefficient and the clearance of these constants, renewed in every tick: the laws are those
     /// of other constants.
     pub(super) fn take_over(&self, state: &mut ContactsState) {
-        state.grooving = Grooving::new(&self.ball, self.friction, self.clearance.gap());
-        self.change(state);
+        state.foreign = true;
+        self.change(state, self.grooving());
+    }
+
+    /// Balls are renewed in the place of laws that are those of other constants.
+    fn keep_out_foreign_laws(&self, state: &mut ContactsState) {
+        if state.foreign && !state.changes {
+            self.change(state, state.grooving);
+        }
     }
 
     /// See [`FrictionModel::set_friction`](crate::FrictionModel::set_friction).
@@ -129,8 +153,10 @@ impl Contacts {
         state: &mut ContactsState,
         friction: f32,
     ) -> Result<(), Error> {
-        state.grooving.friction = ranges::FRICTION_OF_A_ROW.checked("friction", friction)?;
-        self.change(state);
+        let friction = ranges::FRICTION_OF_A_ROW.checked("friction", friction)?;
+        let mut grooving = state.grooving;
+        grooving.friction = friction;
+        self.change(state, grooving);
         Ok(())
     }
 
@@ -142,21 +168,21 @@ impl Contacts {
     ) -> Result<(), Error> {
         let clearance = self.ball.checked(clearance)?;
         let friction = state.grooving.friction;
-        state.grooving = Grooving::new(&self.ball, friction, clearance.gap());
-        self.change(state);
+        let grooving = Grooving::new(&self.ball, friction, clearance.gap());
+        self.change(state, grooving);
         Ok(())
     }
 
-    /// From now on balls are renewed, in the place of the laws.
-    fn change(&self, state: &mut ContactsState) {
+    /// From now on balls are renewed under this friction and fit, in the place of the laws.
+    fn change(&self, state: &mut ContactsState, grooving: Grooving) {
         if !state.changes {
             state.changes = true;
             let ratios = state.laws.at(self.range, FIRST_LOAD).ratios();
-            for ((ball, ratio), side) in state.balls.iter_mut().zip(ratios).zip([1.0, -1.0]) {
-                let load = side * FIRST_LOAD;
-                *ball = NominalBall::new(&self.ball, &state.grooving, load, ratio);
-            }
+            state.balls = self.first_balls(&grooving, ratios);
+        } else if grooving.jumps_from(&state.grooving) {
+            state.balls.iter_mut().for_each(NominalBall::unsettle);
         }
+        state.grooving = grooving;
     }
 
     /// Axial load of a ball, N; its contact force `whole`, preload counted, N; whether the load assists the motion.
@@ -203,7 +229,9 @@ impl Contacts {
             let (own, accuracy) = self.renewed(state, load, other);
             let [drive, backdrive] = &state.balls;
             let opposite = if other { drive } else { backdrive };
-            (own, opposite.ratio(), accuracy)
+            // It is renewed under the coefficient of this direction; friction of another one is about in proportion.
+            let opposite = opposite.ratio() * (opposite_friction / own_friction);
+            (own, opposite, accuracy)
         } else {
             let friction = if other {
                 [opposite_friction, own_friction]

@@ -32,7 +32,8 @@ pub struct WithMemoryKnown<I, R> {
 
 /// How old a load may be.
 ///
-/// An age that is no number is too old; one below zero counts as none.
+/// An age that is no number is too old; one below zero counts as none. What fades is friction; the torque that holds the load, and the
+/// efficiency beside it, are those of the whole load.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Freshness {

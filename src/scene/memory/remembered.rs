@@ -14,7 +14,8 @@ pub struct Remembered<S: Sliding, E: Elements, A: NutAngle, L: CoefficientModel>
     pub elements: E::State,
     pub(super) reading: A::State,
     pub(super) play: PlayState,
-    /// Turn beyond the play since the last step, rad (m): the next step moves the balls by it.
+    /// Turn beyond the play that balls have still to make, rad (m): the next steps move them by it, each within the scene's largest
+    /// speed.
     pub(super) moved: f32,
     pub(super) coefficient: L,
     /// Temperature of the last step, K, 150 to 500, and the law at it.
@@ -75,6 +76,11 @@ impl<S: Sliding, E: Elements, A: NutAngle, L: CoefficientModel> Remembered<S, E,
     pub(crate) const fn set_level(&mut self, level: FrictionLevel) -> Result<(), Error> {
         self.level = attempt!(level.checked());
         Ok(())
+    }
+
+    /// Turn that the balls have still to make, rad (m).
+    pub(crate) const fn moved(&self) -> f32 {
+        self.moved
     }
 
     /// -1 where the balls went backward last, else 1.

@@ -19,9 +19,8 @@ impl UncagedFull {
     #[inline(always)]
     pub(super) fn passed(&self, load_torque: f32, passage: Passage) -> UncagedOutputs {
         let (groove_torque, ball_torque) = self.row.passed(passage);
-        let friction_torque = groove_torque + ball_torque;
         UncagedOutputs {
-            friction_torque,
+            friction_torque: groove_torque + ball_torque,
             groove_torque,
             ball_torque,
             load_torque,
@@ -30,7 +29,7 @@ impl UncagedFull {
             regime: Regime::under(
                 passage.standing,
                 passage.way * load_torque,
-                friction_torque.abs(),
+                self.row.of(passage.way),
             ),
             faults: self.faults,
         }

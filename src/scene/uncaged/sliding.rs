@@ -6,6 +6,7 @@ use crate::error::Range;
 use crate::law::coefficient::DirectionalCoefficient;
 use crate::ranges;
 use crate::scene::contract::Inputs;
+use crate::scene::faults::bounded;
 use crate::scene::outputs::UncagedOutputs;
 use crate::scene::passage::Passage;
 use crate::scene::sliding::{Sliding, SlidingFriction};
@@ -52,7 +53,8 @@ impl<const N: usize> Sliding for UncagedBallScrew<N> {
     }
 
     #[inline(always)]
-    fn speed_of(constants: &UncagedConstants<N>, turn: f32, _: f32) -> f32 {
-        turn * constants.per_tick
+    fn in_a_tick(constants: &UncagedConstants<N>, turn: f32, _: f32) -> (f32, f32) {
+        let turn = bounded(turn, constants.limits.nut_speed * constants.tick);
+        (turn, turn * constants.per_tick)
     }
 }

@@ -6,7 +6,7 @@ use epas_friction::law::coefficient::{
 };
 use epas_friction::law::motion::SpeedOverTick;
 use epas_friction::scene::{
-    CagedConstants, Motion, Passage, Scene, Sliding, SlidingFriction, WithMemory,
+    CagedConstants, ChangingFriction, Motion, Passage, Scene, Sliding, SlidingFriction, WithMemory,
     WithMemoryConfiguration, WithMemoryInputs,
 };
 use epas_friction::{
@@ -101,6 +101,74 @@ fn equal_coefficients_are_one() {
             ..fresh(screw(speed, load), speed)
         };
         assert_eq!(by_law.step(inputs), one.step(inputs));
+    }
+}
+
+/// Coefficients that are one but for their rounding are one: friction is a number, and that of this coefficient.
+#[test]
+fn coefficients_a_rounding_apart_are_one() {
+    for boundary in [0.10_f32, 0.12, 0.15] {
+        for factor in [0.8_f32, 0.9, 1.0] {
+            let law = CoefficientLaw::new(&CoefficientParameters {
+                boundary,
+                full_film: boundary,
+                forward: factor,
+                backward: factor,
+                ..COEFFICIENT
+            })
+            .unwrap();
+            let own = (f64::from(boundary) * f64::from(factor)) as f32;
+            for bits in 0..8 {
+                let friction = f32::from_bits(own.to_bits() - 4 + bits);
+                let mut scene = caged();
+                scene.friction = friction;
+                scene.reversal_speed = 1e-6;
+                let mut direct = FrictionModel::<CagedBallScrew>::new(&scene).unwrap();
+                let mut model = Caged::new(&WithMemoryConfiguration {
+                    coefficient: law,
+                    ..with_memory(scene, slip(0.5, 1e-9), angle_sensor(), friction)
+                })
+                .unwrap();
+                let inputs = screw(5.0, 3000.0);
+                model.step(fresh(inputs, 0.0));
+                let found = model.step(fresh(inputs, 0.1)).friction_torque;
+                let expected = direct.step(inputs).friction_torque;
+                // Derived: four roundings between the coefficients, and five of the ratio.
+                assert!(
+                    (found / expected - 1.0).abs() < 1e-6,
+                    "{friction} {found} {expected}"
+                );
+            }
+        }
+    }
+}
+
+/// Balls that are renewed in the place of their law have, in each direction, the friction of its coefficient.
+#[test]
+fn renewed_balls_take_the_coefficient_of_each_direction() {
+    let constants = CagedConstants::new(&caged()).unwrap();
+    let own = caged().friction;
+    let mut state = CagedBallScrew::initial_state(&constants);
+    CagedBallScrew::set_friction(&constants, &mut state, own).unwrap();
+    let others = DirectionalCoefficient {
+        forward: own,
+        backward: 1.2 * own,
+    };
+    let inputs = screw(5.0, 3000.0);
+    let mut settled = |friction| {
+        let mut full = CagedBallScrew::full(&constants, &mut state, None, inputs, friction);
+        for _ in 0..400 {
+            full = CagedBallScrew::full(&constants, &mut state, None, inputs, friction);
+        }
+        CagedBallScrew::friction(&full)
+    };
+    let (same, found) = (settled(both_ways(own)), settled(others));
+    for (found, expected) in [
+        (found.forward, same.forward),
+        (found.backward, 1.2 * same.backward),
+    ] {
+        // Measured: 0, and what renewals change in the last digits.
+        assert!((found / expected - 1.0).abs() < 1e-5, "{found} {expected}");
     }
 }
 

@@ -4,7 +4,7 @@ use super::Ring;
 use super::chosen::SETTLING_ROUNDS;
 use crate::ball::elastic::law::RingConstants;
 
-/// Changes that balls follow without being flagged, as their turn comes: of the friction coefficient, over it, and of the
+/// Changes since the begin of a round that balls follow without being flagged, as their turn comes: of the friction coefficient, over it, and of the
 /// clearance, m.
 ///
 /// Of 72 screws a coefficient larger by 2 % changes the torque by 1.2 % rms more than in proportion, by 5.8 % at most; a gap
@@ -22,14 +22,21 @@ impl<const N: usize> Ring<N> {
     /// Sets friction coefficient and clearance, m; balls settle where one of them jumps.
     pub(crate) fn set(&mut self, constants: &RingConstants, friction: f32, clearance: f32) {
         let (most, widest) = SMALL_CHANGE;
-        let changed = (friction - self.friction).abs() > most * self.friction
-            || (clearance - self.clearance).abs() > widest;
-        if changed {
-            self.settling = SETTLING_ROUNDS * N as u16;
-        }
+        let (old_friction, old_clearance) = self.followed;
+        let changed = (friction - old_friction).abs() > most * old_friction
+            || (clearance - old_clearance).abs() > widest;
         self.friction = friction;
         self.clearance = clearance;
+        if changed {
+            self.settling = SETTLING_ROUNDS * N as u16;
+            self.follow_changes();
+        }
         self.lift_off = constants.ball.lift_off(clearance);
+    }
+
+    /// What is set from now on counts from what is set now.
+    pub(super) const fn follow_changes(&mut self) {
+        self.followed = (self.friction, self.clearance);
     }
 
     /// Balls of other constants settle under these.

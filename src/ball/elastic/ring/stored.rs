@@ -52,6 +52,7 @@ impl<const N: usize> Ring<N> {
     pub(crate) fn complete(&mut self, constants: &RingConstants) -> Result<(), Refusal> {
         constants.ball.takes(self.clearance)?;
         self.lift_off = constants.ball.lift_off(self.clearance);
+        self.follow_changes();
         if self.nominal.loaded() {
             Ok(())
         } else {

@@ -32,6 +32,8 @@ impl Contacts {
         &self,
         state: &mut ContactsState,
     ) -> Result<(), Refusal> {
-        state.grooving.complete(&self.ball)
+        state.grooving.complete(&self.ball)?;
+        self.keep_out_foreign_laws(state);
+        Ok(())
     }
 }
