@@ -266,6 +266,15 @@ fn a_locked_drive_is_said_and_bounded() {
     assert!(driven.efficiency == 0.0);
     let lowered = step(&mut model, -100.0, 1000.0);
     assert!(lowered.friction_torque < 0.0 && !lowered.faults.any());
+    // Nothing is cut where nothing is put out.
+    let still = step(&mut model, 0.0, 1000.0);
+    assert!(still.friction_torque == 0.0 && !still.faults.any());
+    // A closed form keeps its friction, and refuses what is none all the same.
+    for bad in [f32::NAN, 0.0, 0.6] {
+        assert_eq!(model.set_friction(bad).unwrap_err().field(), "friction");
+    }
+    model.set_friction(0.1).unwrap();
+    assert_eq!(step(&mut model, -100.0, 1000.0), lowered);
 }
 
 /// A self-locking fine lead: the load does not turn it, the motor has to push it down.

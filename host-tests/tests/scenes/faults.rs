@@ -4,9 +4,10 @@ use crate::kit::absurd::{EDGES, Trial, sound_train};
 use crate::kit::measured;
 use crate::kit::random::Random;
 use crate::kit::{gears, recorded};
+use epas_friction::scene::{Admitted, SceneOutputs};
 use epas_friction::{
-    BallScrew, CagedBallScrew, Clearance, DeviationMap, Faults, FrictionModel, Inputs,
-    LinearBearing, LinearBearingTrain, LinearInputs, UncagedBallScrew,
+    BallScrew, CagedBallScrew, Clearance, DeviationMap, Error, Faults, FrictionModel, Inputs,
+    LinearBearing, LinearBearingTrain, LinearInputs, Outputs, Scene, UncagedBallScrew,
     UncagedBallScrewConfiguration, promises,
 };
 
@@ -478,5 +479,66 @@ fn a_reversal_every_tick_is_even() {
     for (before, now) in start.iter().zip(even.state().circuit.train.positions()) {
         let moved = now.wrapping_sub(*before).cast_signed();
         assert!(moved.unsigned_abs() <= 2, "{moved} units");
+    }
+}
+
+/// A mechanism whose friction is whatever comes in.
+#[derive(Clone, Copy)]
+struct Anything;
+
+impl Scene for Anything {
+    type Configuration = ();
+    type Constants = ();
+    type State = ();
+    type Inputs = f32;
+    type Known = f32;
+    type Outputs = Outputs;
+
+    fn constants(&(): &()) -> Result<(), Error> {
+        Ok(())
+    }
+
+    fn initial_state(&(): &()) {}
+
+    fn take_over(&(): &(), (): &mut ()) -> Result<(), Error> {
+        Ok(())
+    }
+
+    fn admit(&(): &(), inputs: f32) -> Admitted<f32> {
+        Admitted {
+            inputs: Some(inputs),
+            faults: Faults::NONE,
+        }
+    }
+
+    fn outputs(&(): &(), (): &mut (), friction_torque: f32) -> Outputs {
+        Outputs {
+            friction_torque,
+            ..Outputs::SAFE
+        }
+    }
+
+    fn largest_friction(&(): &()) -> f32 {
+        2.0
+    }
+}
+
+/// Whatever a scene computes, what is put out is a number within its limit, flagged and counted where it is cut.
+#[test]
+fn friction_that_is_no_number_is_none() {
+    let mut model = FrictionModel::<Anything>::new(&()).unwrap();
+    for (found, put_out, cut) in [
+        (1.5, 1.5, false),
+        (-2.0, -2.0, false),
+        (f32::NAN, 0.0, true),
+        (-f32::NAN, 0.0, true),
+        (f32::INFINITY, 2.0, true),
+        (-2.1, -2.0, true),
+    ] {
+        let outputs = model.step(found);
+        assert_eq!(outputs.friction_torque, put_out, "{found}");
+        assert_eq!(outputs.faults == Faults::FRICTION_LIMIT, cut, "{found}");
+        assert_eq!(outputs.faults.any(), cut, "{found}");
+        assert_eq!(model.faulted_ticks() > 0, cut, "{found}");
     }
 }

@@ -7,8 +7,9 @@ use crate::kit::measured;
 use std::f64::consts::{FRAC_PI_4, TAU};
 
 use epas_friction::{
-    Clearance, Faults, FrictionModel, Inputs, Limits, LoadShare, LoadShares, Outputs, Regime,
-    RollingResistance, UncagedBallScrew, UncagedBallScrewConfiguration, UncagedOutputs,
+    BallScrew, CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, Clearance, Faults,
+    FrictionModel, Inputs, Limits, LoadShare, LoadShares, Outputs, Regime, RollingResistance,
+    UncagedBallScrew, UncagedBallScrewConfiguration, UncagedOutputs,
 };
 use epas_reference::friction::ball_screw_closed::{ContactAngles, Support, speed_ratio};
 
@@ -652,4 +653,86 @@ fn balls_settle_under_swapped_constants() {
     let [swapped, fresh] = torques;
     // Settled balls stay where Newton's method leaves them, within 1e-4 of their friction. Measured: 0.
     assert!((swapped / fresh - 1.0).abs() < 1e-4, "{swapped} {fresh}");
+}
+
+/// Friction that creeps by less than a jump in each tick, and by more in a round, is flagged all the same.
+#[test]
+fn a_creep_of_many_small_changes_settles() {
+    let mut model = Model::new(&gears::even()).unwrap();
+    let inputs = Inputs {
+        nut_speed: 5.0,
+        axial_load: 3000.0,
+    };
+    for _ in 0..2000 {
+        model.step(inputs);
+    }
+    let mut creep = |per_tick: f32| {
+        let mut friction = 0.075;
+        (0..60)
+            .filter(|_| {
+                friction *= per_tick;
+                model.set_friction(friction).unwrap();
+                model.step(inputs).faults.contains(Faults::SETTLING)
+            })
+            .count()
+    };
+    // A round of 38 ticks changes 0.4 %.
+    assert_eq!(creep(1.0001), 0);
+    assert!(creep(1.009) >= 58);
+}
+
+/// A track so long behind its loaded part that at times no ball is loaded: those that come under load carry it all the same.
+#[test]
+fn a_zone_that_was_empty_is_loaded_again() {
+    let configuration = UncagedBallScrewConfiguration {
+        turns: 1.0,
+        return_length: 0.5,
+        ..gears::even()
+    };
+    let mut model = FrictionModel::<UncagedBallScrew<4>>::new(&configuration).unwrap();
+    let mut friction = Vec::new();
+    for _ in 0..60_000 {
+        let outputs = model.step(Inputs {
+            nut_speed: 20.0,
+            axial_load: 3000.0,
+        });
+        friction.push(outputs.groove_torque);
+    }
+    // One ball of four is loaded, for two thirds of the time.
+    for minute in friction.chunks(20_000) {
+        let loaded = minute.iter().filter(|torque| **torque > 0.0).count();
+        assert!((10_000..20_000).contains(&loaded), "{loaded}");
+    }
+}
+
+/// What a screw does follows from its full friction, as in a caged one, however little of it passes near the reversal.
+#[test]
+fn the_regime_is_that_of_full_friction() {
+    let mut parameters = CATALOGUE[0].parameters();
+    parameters.lead = 0.07e-3;
+    let configuration = CagedBallScrewConfiguration {
+        design: BallScrew::new(parameters).unwrap(),
+        clearance: Clearance::ZERO,
+        ..gears::caged()
+    };
+    let uncaged = UncagedBallScrewConfiguration {
+        design: configuration.design,
+        friction: configuration.friction,
+        ..gears::even()
+    };
+    let mut caged = FrictionModel::<CagedBallScrew>::new(&configuration).unwrap();
+    let mut uncaged = Model::new(&uncaged).unwrap();
+    let mut small = 0;
+    for speed in [-0.5_f32, -0.6, -1.0, -5.0, -300.0] {
+        let inputs = Inputs {
+            nut_speed: speed,
+            axial_load: 1000.0,
+        };
+        let expected = caged.step(inputs);
+        let found = (0..2000).map(|_| uncaged.step(inputs)).last().unwrap();
+        small += i32::from(found.friction_torque.abs() < found.load_torque);
+        assert_eq!(found.regime, Regime::Locked, "{speed}");
+        assert_eq!(expected.regime, Regime::Locked, "{speed}");
+    }
+    assert!((1..5).contains(&small), "{small}");
 }
