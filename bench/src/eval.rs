@@ -61,8 +61,8 @@ use lines::{Line, Lines};
 /// friction, [ball_friction], speed, balls: a list, rear to front, of 1 to 64 {"contact_angles": [BL, BR,
 /// TR, TL], "contact_forces": [BL, BR, TR, TL]}; a force of 0 is a lost contact. Answers with actual
 /// speeds, under the forces between the balls; at standstill the reference has none of them. `in_loop` has
-/// them twice: `analytic` by the closed form that the scene of a linear bearing runs, with the printed slope
-/// 1.38 where the scene has the exact one of its contact, and `refined` by Newton steps on the balls'
+/// them three times: `scene` by the closed form that the scene of a linear bearing runs, `analytic` by the same with the
+/// printed slope 1.38 in the place of the exact one of the contact, and `refined` by Newton steps on the balls'
 /// dissipation, which no scene runs.
 ///
 /// static_load: pitch_radius, lead, ball_radius, groove_radius, contact_angle, youngs_modulus,

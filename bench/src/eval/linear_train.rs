@@ -1,6 +1,7 @@
 //! `linear_train`: a row of touching balls in a four-point contact linear bearing.
 
 use epas_friction::ball::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE};
+use epas_friction::contact::FrictionMap;
 use epas_friction::hertz::HertzContact;
 use epas_friction::refined::{BallChain, FourPointBall};
 use epas_friction::refined::{DEFAULT_NEWTON_STEPS, LARGEST_ANGLE_DEVIATION};
@@ -22,6 +23,9 @@ const STEPS: usize = 2 * DEFAULT_NEWTON_STEPS as usize;
 
 #[derive(Serialize)]
 struct InLoop {
+    /// What the scene runs: the closed form with the exact slope of the contact.
+    scene: Row,
+    /// The closed form with the printed slope.
     analytic: Row,
     refined: Row,
 }
@@ -142,9 +146,12 @@ impl Request {
             semi_major_coefficient: contact.semi_major_coefficient(),
             friction: self.friction as f32,
         };
+        let map = FrictionMap::new(contact.axis_ratio()).map_err(renamed)?;
+        let closed_form =
+            |slope| AnalyticLinearBall::new(&parameters, slope).map(|ball| self.analytic(&ball));
         Ok(InLoop {
-            analytic: self
-                .analytic(&AnalyticLinearBall::new(&parameters, PUBLISHED_SLOPE).map_err(renamed)?),
+            scene: closed_form(map.slope()).map_err(renamed)?,
+            analytic: closed_form(PUBLISHED_SLOPE).map_err(renamed)?,
             refined: self.refined(&FourPointBall::linear(&parameters).map_err(renamed)?),
         })
     }

@@ -198,8 +198,8 @@ impl Sliding for FoldedBallScrew {
         CagedBallScrew::passed(&folded.own.constants, inputs, full, passage)
     }
 
-    fn speed_of(folded: &FoldedBetween, turn: f32, measured: f32) -> f32 {
-        CagedBallScrew::speed_of(&folded.own.constants, turn, measured)
+    fn in_a_tick(folded: &FoldedBetween, turn: f32, measured: f32) -> (f32, f32) {
+        CagedBallScrew::in_a_tick(&folded.own.constants, turn, measured)
     }
 }
 
