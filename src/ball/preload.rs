@@ -25,7 +25,7 @@ pub(crate) const CLOSING: [f32; 3] = [0.055_61, -0.044_86, 0.065_821];
 /// takes by more than rounding.
 const NO_PRELOAD: f32 = 0.99e-3;
 
-/// Preload of a contact, N, `ratio^(3/2)`, from an oversize over that of one newton, `-2 gap / (C_S + C_N)`, above zero, and its root; 0
+/// Preload of a contact, N, `ratio^(3/2)`, from an oversize over that of one newton, `-2 gap / (c_S + c_N)`, above zero, and its root; 0
 /// below 0.99e-3 N.
 pub(crate) const fn preload_of(ratio: f32, root: f32) -> f32 {
     let force = ratio * root;

@@ -86,8 +86,8 @@ impl HelixPath {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum GrooveSize {
-    /// Conformity `f = groove_radius / (2 ball_radius)`, [`SMALLEST_CONFORMITY`] to
-    /// [`LARGEST_CONFORMITY`]. The better conditioned of the two: what matters is `f - 1/2`.
+    /// Conformity `f_s = groove_radius / (2 ball_radius)` (Bertolino et al. 2023, eq. (2)), [`SMALLEST_CONFORMITY`] to
+    /// [`LARGEST_CONFORMITY`]. The better conditioned of the two: what matters is `f_s - 1/2`.
     Conformity(f32),
     /// Groove radius, m, within the same bounds relative to the ball.
     Radius(f32),
@@ -138,7 +138,7 @@ pub struct GrooveProfile {
 
 impl GrooveProfile {
     /// Offsets for a nominal contact angle `beta_0`: `H = D_s cos(beta_0)`, `L = D_s sin(beta_0)` (Bertolino et al. 2023, eqs. (3),
-    /// (4)), from the groove radius `r_s`, m, and the groove's clearance `D_s = r_s - r_b`, m, which is given by itself: the difference
+    /// (4)), from the groove radius `r_s`, m, and the groove's excess `D_s = r_s - r_b`, m, which is given by itself: the difference
     /// of two radii would lose its digits. Unchecked, for numbers of a validated design; each offset is within one rounding. Cost: two
     /// multiplications.
     #[must_use]

@@ -75,16 +75,16 @@ impl ElasticGrooves {
     /// grooves.
     ///
     /// ```text
-    /// F = (delta/C)^(3/2)         a = C_a F^(1/3)         q = r_m/cos(alpha)
+    /// F = (delta/c)^(3/2)         a = a_1 F^(1/3)         q = r_m/cos(alpha)
     /// ```
     ///
-    /// with the deflection `delta`, m, of a contact under the load `F`, N, its semi-major axis `a`, m, and `C`, `C_a` by
+    /// with the deflection `delta`, m, of a contact under the load `F`, N, its semi-major axis `a`, m, and `c`, `a_1` by
     /// [`HertzContact`] at the nominal contact angle. Deviations turn the arcs and leave these as they are.
     ///
     /// For set-up, or in a constant; errors are those of [`HertzContact`] and of the maps, which
     /// [`SCREW_RENEWAL`](crate::promises::SCREW_RENEWAL) has in it.
     ///
-    /// Source: Lin 2019, (2.14) and appendix B.
+    /// Source: Lin 2019, eqs. (2.14), (B.1), (B.11).
     ///
     /// # Errors
     /// [`Error`] naming `contact_angle` (0.05 to 1.5) or `axis_ratio`.

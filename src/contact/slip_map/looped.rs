@@ -36,7 +36,7 @@ const CHEBYSHEV: [f32; TERMS] = [
 /// Forces differ from those of [`SlipMap`](super::SlipMap) by at most 2.5e-4 of their limit from an axis ratio of 0.15 on, 8.6e-4
 /// from 0.1 on.
 ///
-/// All is done in squares of speeds, the spin's being that of the end of the ellipse, `E = a W`: then one division
+/// All is done in squares of speeds, the spin's being that of the end of the ellipse, `a W`: then one division
 /// serves all quotients.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -62,13 +62,13 @@ pub struct LoopSlipMap {
 /// Integrals over the ellipse of a contact, by squares of speeds, that its friction and the second derivatives are made of. Speeds
 /// are in the unit of the slips that come in.
 struct Integrals {
-    /// 1 / the speed `E` of the spin at the end of the ellipse, 1/speed.
+    /// 1 / the speed `a W` of the spin at the end of the ellipse, 1/speed.
     inverse_end: f32,
     /// `C0`, `C1`, `C2`.
     whole: f32,
     first: f32,
     second: f32,
-    /// `C3`, `C4`, `C5` over `E²`, 1/speed².
+    /// `C3`, `C4`, `C5` over `(a W)²`, 1/speed².
     third: f32,
     fourth: f32,
     fifth: f32,
