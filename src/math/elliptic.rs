@@ -13,7 +13,7 @@ const ARC_SINE_STEPS: u8 = 6;
 /// Steps of Carlson's duplication: each divides the spread of the arguments by four.
 const DUPLICATIONS: u8 = 9;
 
-/// Panels over which `C5` is integrated at set-up, each half as long as its distance from zero: up to 1300
+/// Panels over which [`narrow_integral`] is taken at set-up, each half as long as its distance from zero: up to 1300
 /// times the lower limit.
 const PANELS: u8 = 18;
 
@@ -32,7 +32,9 @@ pub(crate) struct Complete {
     pub(crate) first: f32,
     /// Second kind, `E`.
     pub(crate) second: f32,
-    /// `(1 - e^2/2 - E/K)/e^4`, which stays finite at the circle, where the difference itself vanishes.
+    /// `(1 - e^2/2 - E/K)/e^4`: what `E/K = 1 - e^2/2 - tail e^4` leaves beyond its first two terms, without their factor. Near a
+    /// circle, where `e` and the difference itself vanish, it is 1/16; with it differences of `K` and `E` over powers of `e`
+    /// ([`FrictionMap`](crate::contact::FrictionMap)) lose no digits there.
     pub(crate) tail: f32,
 }
 
@@ -72,8 +74,15 @@ pub(crate) const fn complete(k: f32) -> Complete {
     }
 }
 
-/// `C1` and `C2` at `lambda`: `2 R_F - 2/3 R_D` and `2 R_F - 2/3 k² R_D` of the arguments `lambda`, `k² + lambda`,
-/// `1 + lambda`, the last of `R_D` being `1 + lambda` and `k² + lambda`, by Carlson's duplication.
+/// Two integrals from which the friction of a contact follows ([`SlipMap`](crate::contact::SlipMap) calls them `C1` and `C2`), over `s`
+/// from `lambda` to infinity, with the axis ratio's square `k²`, here `square`:
+///
+/// ```text
+/// C1 = ∫ T/(1 + s) ds     C2 = ∫ T/(k² + s) ds     T = sqrt(s/((1 + s)(k² + s)))
+/// ```
+///
+/// They are `2 R_F - 2/3 R_D` and `2 R_F - 2/3 k² R_D` with Carlson's integrals of the arguments `lambda`, `k² + lambda`,
+/// `1 + lambda`, the last of `R_D` being `1 + lambda` for `C1` and `k² + lambda` for `C2`, by his duplication.
 pub(crate) const fn incomplete(square: f32, lambda: f32) -> (f32, f32) {
     let (mut x, mut y, mut z) = (lambda, square + lambda, 1.0 + lambda);
     let mut weight = 1.0;
@@ -100,7 +109,8 @@ pub(crate) const fn incomplete(square: f32, lambda: f32) -> (f32, f32) {
     )
 }
 
-/// `C5` from `lambda = root²` on, by Gauss-Legendre quadrature in `sqrt(s)`, panel by panel.
+/// A third one (`C5` of [`SlipMap`](crate::contact::SlipMap)), `∫ T/(k² + s)² ds` with the `T` and `square = k²` of [`incomplete`],
+/// over `s` from `root²` to infinity, by Gauss-Legendre quadrature in `sqrt(s)`, panel by panel.
 pub(crate) const fn narrow_integral(square: f32, root: f32) -> f32 {
     let mut sum = 0.0;
     let mut end = root;
