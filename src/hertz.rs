@@ -25,8 +25,8 @@ pub const LARGEST_RADIUS_RATIO: f32 = 1e5;
 /// ```
 ///
 /// with relative radii `R1 <= R2`, contact modulus `E*` and complete elliptic integrals `E`, `K` of
-/// `sqrt(1 - k²)` (Johnson's theory as in Lin 2019, App. B, with its exact factor in place of the
-/// approximation 1). The axis ratio `k = b/a` comes from a rational function of `(R1/R2)^(1/3)` (error
+/// `sqrt(1 - k²)` (Johnson's theory as in Lin 2019, eqs. (B.1), (B.7), (B.10), (B.11), with its exact factor in place of the
+/// approximation 1; Alberdi et al., eqs. (4), (5)). **Corrected:** the exponents of (B.11) are 1/3. The axis ratio `k = b/a` comes from a rational function of `(R1/R2)^(1/3)` (error
 /// 1.1e-5 for ratios 1 to 1e5), the integrals from five steps of the arithmetic-geometric mean (exact
 /// in f32): no iteration to convergence, no logarithm.
 ///
@@ -64,7 +64,7 @@ pub struct ContactEllipse {
     pub semi_minor: f32,
     /// Approach `delta` of the two bodies, m.
     pub deflection: f32,
-    /// Pressure `p0` in the centre, Pa.
+    /// Pressure `p0` in the centre, Pa (Lin 2019, eqs. (3.15), (B.7)).
     pub max_pressure: f32,
 }
 
@@ -234,7 +234,8 @@ pub(crate) const AXIS_RATIO_DENOMINATOR: [f32; 5] = [
 /// 1: `k = x² N(x) / D(x)` with `x = (R1/R2)^(1/3)`.
 ///
 /// `k` behaves as `x²` near the circle and slowly departs from it; the quotient of degrees 5 and 4 is
-/// a minimax fit of `k / x²` to the solution of `(E/k² - K) / (K - E) = R2/R1`, largest relative error
+/// a minimax fit of `k / x²` to the solution of `(E/k² - K) / (K - E) = R2/R1` (Lin 2019, eq. (B.8), whose left side is
+/// printed upside down), largest relative error
 /// 1.02e-5, in f32 1.1e-5; made again in `host-tests/tests/generators/axis_ratio.rs`. The coefficients of each
 /// polynomial are positive but for one, so that evaluation does not cancel.
 #[inline]

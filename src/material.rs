@@ -49,7 +49,7 @@ impl Material {
     }
 }
 
-/// Contact modulus of two bodies, Pa: `1/E* = (1 - nu1²)/E1 + (1 - nu2²)/E2`.
+/// Contact modulus of two bodies, Pa: `1/E* = (1 - nu1²)/E1 + (1 - nu2²)/E2` (Lin 2019, eq. (B.6)).
 ///
 /// For steel on steel with `E = 210 GPa`, `nu = 0.28` it is 113.9 GPa. Some texts, Alberdi et al.
 /// among them, print twice this value as `E'`.

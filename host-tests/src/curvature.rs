@@ -225,7 +225,8 @@ impl Surface {
 
     /// Both principal curvatures exactly as printed: derivatives over the azimuth (13)-(16) at
     /// azimuth 0 and eq. (12), (17)-(24). A stray sign in (15) is left out, and the nut's normal is
-    /// turned into its metal. Loses digits near a lead angle of 90 degrees, where `tan(alpha)` grows.
+    /// turned into its metal. The fractions printed in (21)-(23) have the sign of `S_phi x S_theta`, against the normal of (12): their
+    /// dot products with that normal are taken. Loses digits near a lead angle of 90 degrees, where `tan(alpha)` grows.
     #[must_use]
     pub fn principal_cartesian(&self, contact_angle: f64) -> PrincipalCurvatures {
         let (sin_alpha, cos_alpha) = self.lead_angle.sin_cos();

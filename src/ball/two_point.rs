@@ -122,7 +122,7 @@ impl GrooveFriction {
                 slide * taken(0.5 * (top.1 - bottom.0), doubled),
                 slide * taken(0.5 * (bottom.1 - top.0), doubled),
             ],
-            // Balls rub with v/cos(beta) in four-point rolling, (3.52), and with v in two-point rolling.
+            // Balls rub with v/cos(beta) in four-point rolling (Lin 2019, (3.52)), and with v in two-point rolling.
             rubbing: FORCE_MARGIN * ball_friction * (1.0 / cos - 1.0) / lightest.share(),
             // The force changes the ball's speed by v/2 times the compliance: half of the product.
             pressing: 0.25 * FORCE_MARGIN * FORCE_MARGIN

@@ -141,13 +141,13 @@ impl FrictionMap {
         }
     }
 
-    /// `M(0) = P(0) = 3/8 E`: moment and power at pure spin.
+    /// `M(0) = P(0) = 3/8 E`: moment and power at pure spin (Lin 2019, eq. (3.32)).
     #[must_use]
     pub const fn spin_moment(&self) -> f32 {
         self.spin_moment
     }
 
-    /// `f'(0)`: the exact slope of the friction force, 1.442 at the conformity 0.56 for which Lin 2019
+    /// `f'(0)`: the exact slope `k_f` of the friction force (Lin 2019, eq. (3.35)), 1.442 at the conformity 0.56 for which Lin 2019
     /// reads 1.38 off a figure.
     #[must_use]
     pub const fn slope(&self) -> f32 {
@@ -175,7 +175,7 @@ impl FrictionMap {
         self.evaluate(offset).power
     }
 
-    /// Force, moment and power at offset ratio `c/a`; see [`FrictionMap`].
+    /// Force, moment and power at offset ratio `c/a`; see [`FrictionMap`]. Far away it only slides (Lin 2019, eq. (3.33)).
     #[inline]
     #[must_use]
     pub fn evaluate(&self, offset: f32) -> NormalizedFriction {

@@ -234,7 +234,7 @@ impl GothicArch {
     }
 
     /// Sums of the curvatures of groove and ball, 1/m, for a ball whose radius is smaller than the
-    /// groove's by `clearance`, m.
+    /// groove's by `clearance`, m (inverse of the radii of Lin 2019, eq. (B.3); Alberdi et al., eqs. (7), (8)).
     ///
     /// The second sum cancels to a twentieth; it is formed from the clearance and from
     /// `kappa2 + 1/r_s = (tau p)² / (r_s D (D + A)) - q`, so that no digit is lost.

@@ -206,7 +206,8 @@ impl EfficiencyGeometry {
         friction * self.drive_scale / (self.root + friction * self.sin_contact)
     }
 
-    /// Full-sliding efficiency of back-driving, eq. (17): `1 - eta = f / (Ca² R (Sb + f R))`.
+    /// Full-sliding efficiency of back-driving, eq. (17): `1 - eta = f / (Ca² R (Sb + f R))`. As in (14) the printed radical
+    /// seems to span the term with `f` too; it ends before.
     #[inline]
     #[must_use]
     pub const fn sliding_backdrive_efficiency(&self, friction: f32) -> f32 {
@@ -248,7 +249,8 @@ impl EfficiencyGeometry {
     /// Friction torque per axial load, m, of a rolling screw: `r_m [f a ta + t (1 + ta²)] / (Sb -+ f
     /// Cb -+ t ta)`, upper sign driving. Finite at zero lead.
     ///
-    /// It is eq. (3) as a torque, `r_m ta (1/eta - 1)` driving and `r_m ta (1 - eta)` back-driving,
+    /// It is the torque of eq. (1) over its axial force, less the load's own, with the `a` that its first line prints as `alpha`;
+    /// and eq. (3) as a torque, `r_m ta (1/eta - 1)` driving and `r_m ta (1 - eta)` back-driving,
     /// without the division by a vanishing lead. Infinite or negative where driving locks.
     #[must_use]
     pub const fn rolling_torque_per_load(

@@ -215,7 +215,7 @@ impl BallScrew {
         self.tan_lead_angle
     }
 
-    /// Lead angle, rad. For set-up; a constant can take it.
+    /// Lead angle, rad (Lin 2019, eqs. (2.5), (3.63)). For set-up; a constant can take it.
     ///
     /// Largest error 2e-7 rad, of any lead.
     #[must_use]
@@ -235,7 +235,8 @@ impl BallScrew {
         1.0 / constant::sqrt(1.0 + self.tan_lead_angle * self.tan_lead_angle)
     }
 
-    /// Path radius `r_m / cos(alpha)`, m: length of the path of the ball centres over the angle of a turn. For set-up.
+    /// Path radius `r_m / cos(alpha)`, m: length of the path of the ball centres over the angle of a turn,
+    /// `L/(2 pi)` with the `L` of Lin 2019, eq. (3.66). For set-up.
     #[must_use]
     pub const fn path_radius(&self) -> f32 {
         self.parameters.pitch_radius / self.cos_lead_angle()
@@ -246,7 +247,7 @@ impl BallScrew {
         self.parameters.pitch_radius / (self.cos_lead_angle() * self.parameters.ball_radius)
     }
 
-    /// Axial travel over the angle of a turn, `lead / 2 pi`, m: torque over the axial load that it holds without friction.
+    /// Axial travel over the angle of a turn, `lead / 2 pi`, m (Lin 2019, eqs. (2.2), (3.55)): torque over the axial load that it holds without friction.
     #[inline]
     #[must_use]
     pub const fn reduced_lead(&self) -> f32 {

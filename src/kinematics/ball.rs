@@ -22,7 +22,7 @@ use crate::math::{self, constant};
 /// `w_o = -G_i / (G_i + G_o)`, `n_k = cos beta cos beta' sin alpha_k - sin beta cos alpha_k` and
 /// `S_k` the distance from the ball's centre to the centre of the contact.
 ///
-/// This is Alberdi et al., eqs. (22), (23), (31), (32) and (34), rearranged: the printed (31) is the
+/// This is Alberdi et al., eqs. (22), (23), (31), (32), (34) and, for the entrainment speed, (36), rearranged: the printed (31) is the
 /// difference of two nearly equal speeds and loses three digits in f32; here the difference is
 /// `r'_k - S_k`, formed from `r'_k - D/2` and from `2 r - D`, both exact in f32 by Sterbenz' lemma.
 /// **Corrected:** (23) as printed divides `omega_m` by the geometry of the *inner* contact; rolling
@@ -132,7 +132,8 @@ impl ContactKinematics {
         true
     }
 
-    /// Motion and slip at a screw speed (rad/s, either sign).
+    /// Motion, slip and entrainment speed at a screw speed (rad/s, either sign): Alberdi et al., eqs. (22), (23), (31), (32),
+    /// (34), (36).
     ///
     /// A speed that is not a number or beyond 1e6 rad/s counts as 0: every result is 0 then.
     ///

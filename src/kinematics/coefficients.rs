@@ -190,8 +190,8 @@ impl ContactCoefficients {
     /// it, from the centre; `speed` of the screw in rad/s.
     ///
     /// Sum of rolling slip `omega w q / r' (r' - S(y))`, side slip `omega w S(y) (...)` and spin
-    /// `(-spin y, spin x)`, Alberdi et al., eq. (30), with `S(y)` of (14): the full field, parabola
-    /// included. Points outside the rectangle about the ellipse (NaN too) touch nothing and give 0;
+    /// `(-spin y, spin x)`, Alberdi et al., eqs. (30), (33), with `S(y)` of (14): the full field, parabola
+    /// included. **Corrected:** (30) prints the part of the spin as its second component alone; by (33) it has both. Points outside the rectangle about the ellipse (NaN too) touch nothing and give 0;
     /// a wrong speed counts as 0, as in [`tick`](super::ContactKinematics::tick).
     #[must_use]
     pub fn slip_at(&self, speed: f32, x: f32, y: f32) -> SlipVector {

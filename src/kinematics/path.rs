@@ -27,7 +27,7 @@ pub(super) struct GroovePath {
     pub rolling_excess: f32,
     /// Half the curvature of the deformed surface, `1 / (2 R)`, 1/m; eq. (15).
     pub half_curvature: f32,
-    /// Sagitta of ball and deformed surface over the ellipse, as a polynomial in `(a / (D/2))^2`.
+    /// Sagitta of ball and deformed surface over the ellipse, `D/2 - S(0)` with `S` of eq. (14), as a polynomial in `(a / (D/2))^2`.
     pub deficit: [f32; 3],
 }
 

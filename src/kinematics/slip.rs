@@ -7,13 +7,14 @@
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ContactSlip {
-    /// Slip along the direction of rolling, m/s.
+    /// Slip along the direction of rolling, m/s (Alberdi et al., eq. (31)).
     pub rolling_slip: f32,
-    /// Slip across the direction of rolling, m/s.
+    /// Slip across the direction of rolling, m/s (eq. (32), whose `omega_l` is `omega_t`).
     pub side_slip: f32,
-    /// Angular velocity of the ball about the contact normal, relative to the raceway, rad/s.
+    /// Angular velocity of the ball about the contact normal, relative to the raceway, rad/s (eq. (34)).
     pub spin: f32,
-    /// Mean speed of the two surfaces relative to the moving contact, m/s; never negative.
+    /// Entrainment speed: mean speed of the two surfaces relative to the moving contact, m/s (size of the vector of eqs. (35),
+    /// (36)); never negative.
     pub entrainment_speed: f32,
 }
 
@@ -36,9 +37,10 @@ impl ContactSlip {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct BallKinematics {
-    /// Angular velocity of the ball's centre about the screw's axis (`omega_m`), rad/s.
+    /// Angular velocity of the ball's centre about the screw's axis (`omega_m`), rad/s (eq. (22)).
     pub orbital_speed: f32,
-    /// Angular velocity of the ball relative to the frame that orbits with it (`omega_R`), rad/s.
+    /// Angular velocity of the ball relative to the frame that orbits with it (`omega_R`), rad/s (eq. (23),
+    /// corrected as in [`ContactKinematics`](super::ContactKinematics)).
     pub spin_speed: f32,
     /// Contact with the screw.
     pub screw: ContactSlip,

@@ -220,7 +220,7 @@ impl<const N: usize> LinearConstants<N> {
             normal: per_ball / angle.cos,
             side: per_ball / angle.sin,
             grooves,
-            // (3.52): balls that roll alike rub with v/cos(beta).
+            // Lin 2019, (3.52): balls that roll alike rub with v/cos(beta).
             rubbing: ball_friction / angle.cos,
             wavelength: configuration.wavelength,
             reversal,

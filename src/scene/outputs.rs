@@ -38,7 +38,7 @@ pub struct UncagedOutputs {
     pub friction_torque: f32,
     /// Its part from the grooves, N m.
     pub groove_torque: f32,
-    /// Its part from balls that rub against each other, N m.
+    /// Its part from balls that rub against each other (Lin 2019, eqs. (3.73), (3.74)), N m.
     pub ball_torque: f32,
     /// Torque about the nut's axis that holds the load without friction, N m: `axial_load lead / 2 pi`.
     pub load_torque: f32,
@@ -61,7 +61,7 @@ pub struct LinearOutputs {
     pub friction_force: f32,
     /// Its part from the grooves, N.
     pub groove_force: f32,
-    /// Its part from balls that rub against each other, N.
+    /// Its part from balls that rub against each other (Lin 2019, eqs. (3.52), (3.53)), N.
     pub ball_force: f32,
     /// Pairs of balls that press on each other, 0 to `N`.
     pub contacts: u8,

@@ -299,8 +299,8 @@ impl<const N: usize> UncagedConstants<N> {
         ring.renew(&self.ring, load, index, deviations, share, &neighbours);
     }
 
-    /// Sum over all pairs of loaded balls of their force times the speed with which they rub, N m per unit of nut speed. A ball
-    /// without load turns as its neighbour makes it.
+    /// Sum over all pairs of loaded balls of their force times the speed with which they rub (Lin 2019, eq. (3.73)), N m per unit of
+    /// nut speed. A ball without load turns as its neighbour makes it.
     #[inline(always)]
     fn rubbing(&self, state: &UncagedState<N>) -> f32 {
         let mut sum = 0.0;

@@ -54,7 +54,7 @@ impl InputCheck {
 /// v_j = u_j + Y_j (F_{j-1} - F_j),   F_j >= 0,   v_{j+1} - v_j + r_j >= 0,   F_j (v_{j+1} - v_j + r_j) = 0
 /// ```
 ///
-/// (Lin 2019, eqs. (3.54), (3.77), the latter as complementarity on the actual speeds: the printed rule,
+/// (Lin 2019, eqs. (3.31), (3.77), and (3.30), (3.76) of two balls, as complementarity on the actual speeds: the printed rule,
 /// which lets the free speeds of two neighbours decide, makes chains of balls overlap.) These are the
 /// optimality conditions of the isotonic regression `min sum (v_j - u_j)²/(2 Y_j)`, with the forces for
 /// multipliers, and pooling adjacent violators solves it exactly: clusters that run into the one ahead

@@ -47,7 +47,7 @@ pub struct Ellipse {
 
 /// Contact ellipse of the ball on one raceway of the screw of Table 2, exact Hertz: (4) to (10) with
 /// the ellipticity `k` from its transcendental equation
-/// `R_y / R_x = (k^2 E - K) / (K - E)`, `m = 1 - 1/k^2`.
+/// `R_y / R_x = (k^2 E - K) / (K - E)`, `m = 1 - 1/k^2`. **Corrected:** below (8) `r_nut,y = -r_o`, printed without its sign.
 ///
 /// `cos_squared` is `cos^2 psi` for the curvature of the helical groove, (9) and (10), and 1 for that
 /// of a bearing's ring, which the traditional formulation takes. `None` for a load that is not

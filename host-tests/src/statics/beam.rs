@@ -91,7 +91,8 @@ impl Section {
     /// Stiffness of an element, for the displacements and rotations `(x, y, z)` of its two nodes.
     ///
     /// (D.1) as printed, four times the same block, has no equilibrium of moments: the off-diagonal
-    /// block holds `EI (2 - Phi) / (L (1 + Phi))` and the couplings `6 EI / L²` with their own signs.
+    /// block holds `EI (2 - Phi) / (L (1 + Phi))` and the couplings `6 EI / L²` with their own signs. In (D.2) the fifth number of
+    /// the diagonal is `EI (4 + Phi) / (L (1 + Phi))` as the fourth one, for the printed `6 EI / (L² (1 + Phi))`.
     #[must_use]
     pub fn stiffness(&self, length: f64) -> SMatrix<f64, 12, 12> {
         let mut k = SMatrix::<f64, 12, 12>::zeros();

@@ -116,7 +116,8 @@ impl Shaft {
     }
 
     /// Displacement of a point at `position`, m, and `radial`, m, off the axis: the first node it depends
-    /// on, and the matrix on the displacements of that node and the next.
+    /// on, and the matrix on the displacements of that node and the next, eq. (2.21). The printed (2.20) has its two sides
+    /// exchanged: the nodes' displacements give the axis', as in (2.21).
     #[must_use]
     pub fn point(&self, position: f64, radial: Vector3<f64>) -> (usize, SMatrix<f64, 3, 12>) {
         if self.model == ShaftModel::Rigid {

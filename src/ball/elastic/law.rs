@@ -222,7 +222,8 @@ impl RingBall {
         self.impedance > 0.0
     }
 
-    /// Half the speed with which balls alike rub, m per unit of nut speed.
+    /// Half the speed with which balls alike rub, m per unit of nut speed (Lin 2019, eq. (3.73), with `cos(beta_BB)` as 1 and the
+    /// orbit of a nominal ball).
     #[inline(always)]
     pub(crate) fn rubbing(&self, constants: &RingConstants) -> f32 {
         let [x, _, z] = self.turning;

@@ -212,6 +212,7 @@ impl ElasticGrooves {
         let motion = state.motion();
         let mut all = Contacts::NONE;
         self.press(&mut all, state.place, &motion, inputs);
+        // Here and below `a`, `b`, `c`, `d` are the contacts SL, SR, NL, NR.
         let Contacts {
             shared,
             on_screw,
@@ -261,7 +262,7 @@ impl ElasticGrooves {
         }
     }
 
-    /// Adds the contacts that carry to the equations of a ball.
+    /// Adds the contacts that carry to the equations of a ball; `a`, `b`, `c`, `d` are SL, SR, NL, NR.
     #[inline(always)]
     fn press(
         &self,
@@ -301,6 +302,9 @@ impl ElasticGrooves {
 
     /// Adds the friction of both neighbours, which are taken to turn as the ball does: moments against its turning, and what
     /// this brings along the track. Gives the force on the ball, radial and axial.
+    ///
+    /// Lin 2019, eqs. (3.73)-(3.75), with `cos(beta_BB)` as 1. Left out are the moment about the track, how both balls differ in their
+    /// turning about it, and the outward part of the force between balls.
     #[inline(always)]
     fn rub(&self, motion: &Motion, [sum, difference]: [f32; 2], shared: &mut Shared) -> [f32; 2] {
         let (x, z) = (motion.x, motion.z - self.orbit * motion.speed);

@@ -170,7 +170,7 @@ impl ScrewTick {
         self.third_load
     }
 
-    /// Half the speed with which two nominal balls rub, m per unit of nut speed.
+    /// Half the speed with which two nominal balls rub, m per unit of nut speed (Lin 2019, eq. (3.73), with `cos(beta_BB)` as 1).
     #[must_use]
     pub const fn rubbing(&self) -> f32 {
         self.rubbing

@@ -60,7 +60,7 @@ impl FourPointBall {
     ///
     /// Returns whether every ball's speed counts (see [`Press::solve`]); where not, no ball presses.
     ///
-    /// Friction between the balls, with coefficient `ball_friction` (Lin 2019, eqs. (3.26)-(3.29)), lags
+    /// Friction between the balls, with coefficient `ball_friction` (Lin 2019, eqs. (3.26)-(3.29), (3.31)), lags
     /// one step behind: it uses the forces that the chain holds on entry.
     ///
     /// Largest error of the force between two balls after one, two and three steps from

@@ -14,8 +14,9 @@ impl FourPointBall {
     /// Motion from a linear problem: the four-force start.
     ///
     /// The least `sum a_i² V_i²`: friction forces linear in the slip, each contact with its exact angle
-    /// and its own load (Lin 2019, eqs. (3.37) and (3.41), without the approximations that follow them;
-    /// `a²` stands for `F^(2/3)`). Where one diagonal carries less than a tenth of the other, the two
+    /// and its own load (Lin 2019, eqs. (3.37), (3.38) and (3.41), without the approximations that follow them;
+    /// `a²` stands for `F^(2/3)`). **Corrected:** in (3.41) the numerator and the first term of the denominator are the sine of
+    /// `beta_BL + eta_BL + beta_BR + eta_BR`. Where one diagonal carries less than a tenth of the other, the two
     /// states in which the stronger diagonal rolls without slip and one of its contacts without spin are
     /// tried as well, and the least dissipation wins.
     ///
