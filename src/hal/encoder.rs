@@ -105,7 +105,7 @@ impl<SPI: SpiDevice> MagneticEncoder<SPI> {
             Ok(sample) => sample,
             Err(error) => {
                 self.asked = false;
-                self.speed.miss();
+                self.speed.miss(turning);
                 return Err(error);
             }
         };

@@ -38,7 +38,7 @@ pub(super) struct NutSpeed {
     last: Option<u16>,
     /// Ticks since the last angle.
     gap: u32,
-    /// Ticks over which the angle has not changed.
+    /// Ticks of a rotor that is known to turn since the angle has changed.
     unchanged: u32,
     speed: Option<f32>,
 }
@@ -85,8 +85,19 @@ impl NutSpeed {
 
     /// A tick without an angle.
     #[inline]
-    pub(super) fn miss(&mut self) {
+    pub(super) fn miss(&mut self, turning: bool) {
         self.gap = self.gap.saturating_add(1);
+        self.wait(turning);
+    }
+
+    /// A tick without a change of the angle; at standstill that is none that counts.
+    #[inline]
+    const fn wait(&mut self, turning: bool) {
+        self.unchanged = if turning {
+            self.unchanged.saturating_add(1)
+        } else {
+            0
+        };
     }
 
     /// A tick with an angle, counts: the smoothed nut speed, rad/s.
@@ -100,12 +111,12 @@ impl NutSpeed {
             self.speed = None;
             return Err(NoSpeed::NoEarlierReading);
         };
-        self.unchanged = if angle == last {
-            self.unchanged.saturating_add(gap)
+        if angle == last {
+            self.wait(turning);
         } else {
-            0
-        };
-        if turning && self.unchanged >= self.stuck_ticks {
+            self.unchanged = 0;
+        }
+        if self.unchanged >= self.stuck_ticks {
             self.speed = None;
             return Err(NoSpeed::Stuck(self.unchanged));
         }

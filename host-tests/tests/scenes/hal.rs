@@ -376,6 +376,39 @@ fn an_angle_that_stands_while_the_rotor_turns_is_stuck() {
     assert!(encoder.tick(true).is_ok());
 }
 
+/// Ticks before the rotor is known to turn do not count, whether they gave an angle or not.
+#[test]
+fn a_rotor_that_begins_to_turn_is_not_stuck() {
+    let sensor = sensor();
+    let mut encoder = MagneticEncoder::new(&sensor, &CONFIGURATION).unwrap();
+    encoder.tick(false).unwrap_err();
+    for round in 0..3 {
+        for _ in 0..1000 {
+            assert_eq!(encoder.tick(false).unwrap().nut_speed, 0.0);
+        }
+        if round == 1 {
+            sensor.fails.set(true);
+            encoder.tick(false).unwrap_err();
+            encoder.tick(false).unwrap_err();
+            sensor.fails.set(false);
+        }
+        // Not one count yet.
+        assert_eq!(encoder.tick(true).unwrap().nut_speed, 0.0);
+        assert_eq!(encoder.tick(true).unwrap().nut_speed, 0.0);
+        if round == 2 {
+            assert_eq!(encoder.tick(true), Err(EncoderError::Stuck { ticks: 3 }));
+        }
+    }
+    // A failed tick of a rotor that turns counts.
+    sensor.angle.set(1);
+    encoder.tick(true).unwrap();
+    encoder.tick(true).unwrap();
+    sensor.fails.set(true);
+    encoder.tick(true).unwrap_err();
+    sensor.fails.set(false);
+    assert_eq!(encoder.tick(true), Err(EncoderError::Stuck { ticks: 3 }));
+}
+
 #[test]
 fn an_overflow_in_the_sensor_is_no_angle_and_a_weak_magnet_is_one() {
     let sensor = sensor();
