@@ -6,7 +6,7 @@ use epas_friction::law::memory::{
     sticking_share,
 };
 use epas_friction::law::{Elements, SlidingLimits};
-use epas_friction::promises;
+use epas_friction::{Error, promises};
 
 use crate::kit::errors::Errors;
 use crate::kit::measured;
@@ -494,6 +494,40 @@ fn set_ups_are_refused_by_field() {
     assert_eq!(by_load(-1.0, 1e-3, 1.0), "reference_limit");
     assert_eq!(by_load(1.0, f32::INFINITY, 1.0), "breakaway_angle");
     assert_eq!(by_load(1.0, 1e-3, 0.0), "largest_load");
+}
+
+/// Elements that would have no friction at all are refused: fewer than two in proportion, whatever its parts, and none by load.
+#[test]
+fn too_few_elements_are_refused() {
+    fn slides<E: Elements>(elements: &E) -> f32 {
+        let mut state = E::VIRGIN;
+        elements.follow(&mut state, 1.0, &LIMITS)
+    }
+    fn in_proportion<const N: usize>() -> Result<f32, Error> {
+        let half = BackboneElement {
+            angle: 1.0,
+            weight: 0.5,
+        };
+        let part = Part {
+            backbone: &[half; 2],
+            share: 1.0,
+            breakaway_angle: 1e-3,
+        };
+        ProportionalElements::<N>::new(0.04, &[part]).map(|elements| slides(&elements))
+    }
+    fn by_load<const N: usize>() -> Result<f32, Error> {
+        LoadExactElements::<N>::new(0.04, 1e-3, 1.0).map(|elements| slides(&elements))
+    }
+    for (error, number, least) in [
+        (in_proportion::<0>().unwrap_err(), 0.0, 2.0),
+        (in_proportion::<1>().unwrap_err(), 1.0, 2.0),
+        (by_load::<0>().unwrap_err(), 0.0, 1.0),
+    ] {
+        assert_eq!((error.field(), error.value()), ("N", number));
+        assert_eq!(error.allowed().minimum, least);
+    }
+    assert_eq!(in_proportion::<2>(), Ok(LIMITS.forward));
+    assert_eq!(by_load::<1>(), Ok(LIMITS.forward));
 }
 
 /// The compiler's nodes are those of another program, for any number of them.

@@ -5,7 +5,7 @@ use super::quadrature::Rule;
 use super::ranges::{BREAKAWAY, REFERENCE_LIMIT};
 use super::slider::{held, held_pair, not_negative, turned};
 use super::state::MemoryState;
-use crate::error::{Error, Range, attempt};
+use crate::error::{Error, Range, attempt, in_range};
 use crate::law::{Elements, SlidingLimits};
 use crate::math::{constant, inverse_cube_roots};
 
@@ -55,12 +55,13 @@ impl<const N: usize> LoadExactElements<N> {
     /// then come closer to those in proportion.
     ///
     /// # Errors
-    /// The field that is not within [`REFERENCE_LIMIT`], [`BREAKAWAY`] or 1e-3 to 1e6.
+    /// `N` of 0; the field that is not within [`REFERENCE_LIMIT`], [`BREAKAWAY`] or 1e-3 to 1e6.
     pub const fn new(
         reference_limit: f32,
         breakaway_angle: f32,
         largest_load: f32,
     ) -> Result<Self, Error> {
+        attempt!(in_range("N", N as f32, 1.0, f32::MAX));
         let reference_limit = attempt!(REFERENCE_LIMIT.checked("reference_limit", reference_limit));
         attempt!(BREAKAWAY.checked("breakaway_angle", breakaway_angle));
         attempt!(LARGEST_LOAD.checked("largest_load", largest_load));

@@ -8,6 +8,9 @@ use super::state::MemoryState;
 use crate::error::{Error, attempt, in_range};
 use crate::law::{Elements, SlidingLimits};
 
+/// Fewest elements: `follow` adds up differences from the first one of a pair.
+const FEWEST: f32 = 2.0;
+
 /// One mechanism of a mixed one: spin, slip across the path, rolling resistance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Part<'a> {
@@ -70,10 +73,11 @@ impl<const N: usize> ProportionalElements<N> {
     /// which changes places with the first.
     ///
     /// # Errors
-    /// `reference_limit`; of a part `share` or `breakaway_angle`, of a backbone `angle` or `weight`, outside their ranges;
-    /// `parts` where they have not `N` elements together, or fewer than two (the value is their number); `shares` where
-    /// shares times weights do not add up to 1 within 1e-3.
+    /// `N` below 2; `reference_limit`; of a part `share` or `breakaway_angle`, of a backbone `angle` or `weight`, outside their ranges;
+    /// `parts` where they have not `N` elements together (the value is their number); `shares` where shares times weights do
+    /// not add up to 1 within 1e-3.
     pub const fn new(reference_limit: f32, parts: &[Part<'_>]) -> Result<Self, Error> {
+        let number = attempt!(in_range("N", N as f32, FEWEST, f32::MAX));
         let reference_limit = attempt!(REFERENCE_LIMIT.checked("reference_limit", reference_limit));
         let mut elements = Self {
             rates: [0.0; N],
@@ -105,8 +109,7 @@ impl<const N: usize> ProportionalElements<N> {
             }
             part += 1;
         }
-        let fewest = if N < 2 { 2.0 } else { N as f32 };
-        attempt!(in_range("parts", count as f32, fewest, fewest));
+        attempt!(in_range("parts", count as f32, number, number));
         attempt!(in_range("shares", sum, 0.999, 1.001));
         let mut index = 0;
         while index < N {
@@ -178,7 +181,7 @@ impl<const N: usize> Elements for ProportionalElements<N> {
             held_pair([f + d, g + e], [low; 2], [high; 2])
         };
         let mut pairs = pairs.iter_mut().zip(rate_pairs).zip(share_pairs);
-        // Two elements at the least.
+        // There is a pair: `FEWEST`.
         let Some(((held_of_pair, rates), [_, share])) = pairs.next() else {
             return 0.0;
         };
