@@ -496,6 +496,41 @@ fn errors_name_the_field() {
     );
 }
 
+/// The formula goes through both points wherever set-up takes them: temperatures 10 to 350 K apart, the ratio of the viscosities
+/// from 1.5 to that of a pole 10 K below the colder one.
+#[test]
+fn viscosities_go_through_their_points() {
+    let mut worst = 0.0_f64;
+    for cold in [150.0_f32, 200.0, 313.15, 400.0, 490.0] {
+        for apart in [10.0_f32, 20.0, 60.0, 150.0, 300.0, 320.0, 350.0] {
+            let warm = cold + apart;
+            if warm > 500.0 {
+                continue;
+            }
+            let most = (1.0 + (warm - cold) / 10.0).powi(5);
+            for step in 0..=50_u8 {
+                // A millionth within the ends, which have roundings of their own.
+                let part = (f32::from(step) / 50.0).clamp(1e-6, 1.0 - 1e-6);
+                let ratio = 1.5 * (most / 1.5).powf(part);
+                let (stiff, thin) = (1.2e-4 * ratio, 1.2e-4);
+                let oil = Viscosity::through((cold, stiff), (warm, thin), 150.0).unwrap();
+                for (temperature, viscosity) in [(cold, stiff), (warm, thin)] {
+                    let error = f64::from(oil.at(temperature)) / f64::from(viscosity) - 1.0;
+                    worst = worst.max(error.abs());
+                }
+                assert!(
+                    f64::from(cold) - f64::from(oil.pole()) > 9.999,
+                    "{cold} {warm} {ratio}: {}",
+                    oil.pole()
+                );
+            }
+        }
+    }
+    println!("{worst:.2e}");
+    // Derived: 10 K from a pole below 512 K, which is rounded to 1.5e-5 K, five times over; twice that for the roundings of the rest.
+    assert!(worst < 1.6e-5, "{worst:e}");
+}
+
 /// Fresh as it is, old the fallback, a straight line between; never outside of both.
 #[test]
 fn an_old_temperature_fades() {

@@ -22,8 +22,9 @@ const PRINTED: (f32, f32) = (313.15, 373.15);
 /// Loss of density of an oil, 1/K, and the temperature at which its density is printed, K.
 const EXPANSION: (f32, f32) = (6.5e-4, 288.15);
 
-/// Steps of Newton's method for a fifth root: a fifth of the way down each, and then twice the digits.
-const ROOT_STEPS: u8 = 60;
+/// Steps of Newton's method for a fifth root: a fifth of the way down each, and then twice the digits. From 1e8, the largest ratio
+/// of two viscosities, to its root 40 these are `ln(1e8/40)/ln(1.25)` = 66, and six more for the digits.
+const ROOT_STEPS: u8 = 80;
 
 /// What a data sheet prints of an oil, or of the base oil of a grease; unchecked.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -124,9 +125,9 @@ impl Viscosity {
         )
     }
 
-    /// Through two temperatures, K, 150 to 500, with their dynamic viscosities, Pa s, 1e-4 to 1e4: the colder one first; the
-    /// viscosity there at least 1.5 times that of the warmer one, and at most as large as a pole 10 K below allows. The temperature from which on it holds, K, is at most the
-    /// colder one.
+    /// Through two temperatures, K, 150 to 500, 10 K apart or more, with their dynamic viscosities, Pa s, 1e-4 to 1e4: the colder one
+    /// first; the viscosity there at least 1.5 times that of the warmer one, and at most as large as a pole 10 K below allows. The
+    /// temperature from which on it holds, K, is at most the colder one.
     ///
     /// # Errors
     /// [`Error`] naming `temperature`, `viscosity` or `pour_point`.
@@ -205,7 +206,7 @@ impl Viscosity {
     }
 }
 
-/// `x^(1/5)` of a number 1e-5 to 1e5, by Newton's method from above: within a rounding.
+/// `x^(1/5)` of a number 1e-5 to 1e8, by Newton's method from above: within a rounding.
 pub(super) const fn fifth_root(x: f32) -> f32 {
     let mut root = if x > 1.0 { x } else { 1.0 };
     let mut step = 0;
