@@ -5,6 +5,7 @@ use super::estimates::ESTIMATES;
 use super::flags::AdaptationFlags;
 use super::health::HealthConstants;
 use super::inputs::AdaptationInputs;
+use super::state::START;
 use crate::error::{Error, Range, attempt, in_range};
 use crate::law::LEVEL;
 use crate::scene::Regime;
@@ -31,7 +32,7 @@ pub struct AdaptationConstants {
     pub(super) deviations: [f32; ESTIMATES],
     /// Deviations over the noise, in the estimates' units over N m.
     pub(super) weights: [f32; ESTIMATES],
-    /// Bounds of the estimates, in their own units.
+    /// Bounds of the estimates, in their own units; none of one that is held.
     pub(super) least: [f32; ESTIMATES],
     pub(super) largest: [f32; ESTIMATES],
     /// Variances grow by this factor from one upkeep to the next.
@@ -59,11 +60,6 @@ impl AdaptationConstants {
             forgetting_time,
             filter_time,
             noise,
-            least_level,
-            largest_level,
-            largest_drag,
-            largest_offset,
-            largest_load_error,
             largest_torque,
             largest_speed,
             least_speed,
@@ -73,6 +69,7 @@ impl AdaptationConstants {
         } = *configuration;
         attempt!(checked(configuration));
         let deviations = deviations(configuration);
+        let (least, largest) = bounds(configuration, &deviations);
         // A level divides the model's torque: by 0.1 at the least.
         let regressors = [
             largest_torque / LEVEL.minimum,
@@ -88,20 +85,8 @@ impl AdaptationConstants {
             per_noise: 1.0 / noise,
             deviations,
             weights: over(deviations, noise),
-            least: [
-                least_level,
-                least_level,
-                -largest_drag,
-                -largest_offset,
-                -largest_load_error,
-            ],
-            largest: [
-                largest_level,
-                largest_level,
-                largest_drag,
-                largest_offset,
-                largest_load_error,
-            ],
+            least,
+            largest,
             growth: 1.0 + growth,
             prior: crate::math::constant::sqrt(fifth_power_less_one(growth)),
             largest_torque,
@@ -109,6 +94,31 @@ impl AdaptationConstants {
             least_speed,
             least_friction,
             health: attempt!(HealthConstants::new(&health, tick, ROUND * tick)),
+        })
+    }
+
+    /// True where one of the estimates is at its bound, or beyond it.
+    pub(super) const fn binds(&self, estimates: &[f32; ESTIMATES]) -> bool {
+        let mut index = 0;
+        while index < ESTIMATES {
+            let estimate = estimates[index];
+            if estimate <= self.least[index] || estimate >= self.largest[index] {
+                return true;
+            }
+            index += 1;
+        }
+        false
+    }
+
+    /// True where an adaptation with these constants may have found the estimates: within their bounds, and one that is held where
+    /// it starts.
+    pub(super) fn admits(&self, estimates: &[f32; ESTIMATES]) -> bool {
+        let bounds = self.least.iter().zip(&self.largest);
+        let starts = START.iter().zip(&self.deviations);
+        let mut all = estimates.iter().zip(bounds).zip(starts);
+        all.all(|((estimate, (least, largest)), (start, &deviation))| {
+            let found = deviation > 0.0 || estimate == start;
+            found && estimate >= least && estimate <= largest
         })
     }
 
@@ -203,6 +213,31 @@ const fn deviations(configuration: &AdaptationConfiguration) -> [f32; ESTIMATES]
         configuration.offset_deviation,
         configuration.load_deviation,
     ]
+}
+
+/// Least and largest of the five numbers. One that is held never moves, and is at no bound.
+const fn bounds(
+    configuration: &AdaptationConfiguration,
+    deviations: &[f32; ESTIMATES],
+) -> ([f32; ESTIMATES], [f32; ESTIMATES]) {
+    let AdaptationConfiguration {
+        least_level,
+        largest_level,
+        largest_drag: drag,
+        largest_offset: offset,
+        largest_load_error: load_error,
+        ..
+    } = *configuration;
+    let mut least = [least_level, least_level, -drag, -offset, -load_error];
+    let mut largest = [largest_level, largest_level, drag, offset, load_error];
+    let mut index = 0;
+    while index < ESTIMATES {
+        if deviations[index] <= 0.0 {
+            (least[index], largest[index]) = (f32::MIN, f32::MAX);
+        }
+        index += 1;
+    }
+    (least, largest)
 }
 
 /// The noise, where no regressor is too large beside it.

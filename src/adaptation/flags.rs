@@ -18,9 +18,10 @@ impl AdaptationFlags {
     pub const STANDING: Self = Self(1 << 3);
     /// The model's friction is below the least: it did not count.
     pub const TOO_WEAK: Self = Self(1 << 4);
-    /// The error was beyond four of its deviations: it counted as one of four, with as much more noise.
+    /// The error was beyond four of its deviations: it counted as one of four, with as much more noise. The ticks with a correction
+    /// say so, four of nine.
     pub const ERROR_CUT: Self = Self(1 << 5);
-    /// An estimate is at its bound: friction may be further away than it may tell.
+    /// An estimate is at its bound: friction may be further away than it may tell. Every tick that counts says so.
     pub const AT_BOUND: Self = Self(1 << 6);
     /// The flags with which a tick does not count.
     pub const CLOSED: Self = Self(0x1f);

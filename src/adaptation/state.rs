@@ -28,8 +28,13 @@ pub struct AdaptationState {
     /// Ticks since the last upkeep, and which variance the next one keeps up.
     pub(super) tick: u8,
     pub(super) place: u8,
+    /// An estimate is at its bound.
+    pub(super) at_bound: bool,
     pub(super) health: HealthState,
 }
+
+/// Estimates before the first tick: the model as it is.
+pub(super) const START: [f32; ESTIMATES] = [1.0, 1.0, 0.0, 0.0, 0.0];
 
 impl AdaptationState {
     /// Before the first tick: the model as it is.
@@ -37,7 +42,7 @@ impl AdaptationState {
         // So small that no variance passes 1 before its own first upkeep, which for the last number comes after five growths.
         let squared = constants.growth * constants.growth;
         Self {
-            estimates: [1.0, 1.0, 0.0, 0.0, 0.0],
+            estimates: START,
             covariance: Factor::independent(1.0 / (squared * squared * constants.growth)),
             observed: 0.0,
             regressors: [0.0; ESTIMATES],
@@ -46,6 +51,7 @@ impl AdaptationState {
             moves: [0.0; ESTIMATES],
             tick: 0,
             place: 0,
+            at_bound: constants.binds(&START),
             health: HealthState::NEW,
         }
     }
@@ -58,20 +64,23 @@ impl AdaptationState {
         inputs: &AdaptationInputs,
     ) -> AdaptationFlags {
         self.tick = self.tick.wrapping_add(1);
+        let mut cut = false;
         if self.tick >= UPKEEP {
             // Both sides of the equation leave this tick out of their filters, so that it stays exact.
             self.tick = 0;
             self.keep_up(constants);
-            return AdaptationFlags::NONE;
-        }
-        self.filter(constants, inputs);
-        if self.tick & 1 == 1 {
-            let flags = self.go(constants);
-            self.look(constants);
-            flags
         } else {
-            self.correct()
+            self.filter(constants, inputs);
+            if self.tick & 1 == 1 {
+                self.go(constants);
+                self.look(constants);
+            } else {
+                cut = self.correct();
+            }
         }
+        AdaptationFlags::NONE
+            .with(cut, AdaptationFlags::ERROR_CUT)
+            .with(self.at_bound, AdaptationFlags::AT_BOUND)
     }
 
     /// Torque and regressors through the same filter. Only ticks that count enter, so that the equation between them stays exact.
@@ -113,9 +122,10 @@ impl AdaptationState {
         self.seen = self.covariance.project(&weighted);
     }
 
-    /// Takes what the tick before has seen into the covariance, and finds by how much the estimates move.
+    /// Takes what the tick before has seen into the covariance, and finds by how much the estimates move. True where the error
+    /// was cut.
     #[inline(always)]
-    fn correct(&mut self) -> AdaptationFlags {
+    fn correct(&mut self) -> bool {
         let (error, projection) = (self.error, &self.seen);
         // An error beyond four deviations counts as one of four: the noise is taken as large as that needs.
         let most = error * error * (1.0 / FURTHEST) - projection.variance;
@@ -125,12 +135,12 @@ impl AdaptationState {
         for entry in &mut self.moves {
             *entry *= error;
         }
-        AdaptationFlags::NONE.with(cut, AdaptationFlags::ERROR_CUT)
+        cut
     }
 
     /// Moves the estimates, within their bounds, by what the last correction has found.
     #[inline(always)]
-    fn go(&mut self, constants: &AdaptationConstants) -> AdaptationFlags {
+    fn go(&mut self, constants: &AdaptationConstants) {
         let mut at_bound = false;
         let bounds = constants.least.iter().zip(&constants.largest);
         let moves = self.moves.iter().zip(&constants.deviations);
@@ -138,17 +148,17 @@ impl AdaptationState {
             self.estimates.iter_mut().zip(moves).zip(bounds)
         {
             let moved = *estimate + deviation * entry;
-            *estimate = if moved < least {
+            *estimate = if moved <= least {
                 at_bound = true;
                 least
-            } else if moved > largest {
+            } else if moved >= largest {
                 at_bound = true;
                 largest
             } else {
                 moved
             };
         }
-        AdaptationFlags::NONE.with(at_bound, AdaptationFlags::AT_BOUND)
+        self.at_bound = at_bound;
     }
 
     /// Old data lose weight; one variance gets back what it lost; after a round the slow average goes on.

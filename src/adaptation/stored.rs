@@ -105,12 +105,11 @@ impl<C: Borrow<AdaptationConstants>> Adaptation<C> {
     pub fn import(&mut self, block: &[u8]) -> Result<(), Refusal> {
         let mut state = self.state;
         self.block().open(&mut state, block)?;
-        let AdaptationConstants { least, largest, .. } = self.constants.borrow();
-        let bounds = least.iter().zip(largest);
-        let mut within = state.estimates.iter().zip(bounds);
-        if !within.all(|(estimate, (least, largest))| estimate >= least && estimate <= largest) {
+        let constants = self.constants.borrow();
+        if !constants.admits(&state.estimates) {
             return Err(Refusal::OutOfRange { field: "estimates" });
         }
+        state.at_bound = constants.binds(&state.estimates);
         self.state = state;
         Ok(())
     }

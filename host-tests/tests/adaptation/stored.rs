@@ -1,7 +1,7 @@
 //! Across ignition: what was found is there again, and a block that is not its own changes nothing.
 
 use epas_friction::Refusal;
-use epas_friction::adaptation::{Adaptation, AdaptationConfiguration};
+use epas_friction::adaptation::{Adaptation, AdaptationConfiguration, AdaptationFlags};
 use epas_friction::stored::VERSION;
 
 use crate::trace::{configuration, sound};
@@ -73,6 +73,24 @@ fn what_was_found_is_there_again() {
     .unwrap();
     assert_eq!(other.import(&block), Ok(()));
     assert_eq!(other.level(), was.level());
+}
+
+/// A level at its bound is flagged from the first tick on, in whichever tick the block was written.
+#[test]
+fn a_level_at_its_bound_is_known_again() {
+    let mut was = driven();
+    let jammed = sound(0.4, 0.04, 8.0);
+    for _ in 0..10_000 {
+        was.update(&jammed);
+    }
+    assert_eq!(was.estimates().forward, 2.5);
+    for _ in 0..9 {
+        was.update(&jammed);
+        let mut is = Adaptation::new(&configuration(5.0)).unwrap();
+        assert_eq!(is.import(&export(&was)), Ok(()));
+        let adapted = is.update(&jammed);
+        assert!(adapted.flags.contains(AdaptationFlags::AT_BOUND));
+    }
 }
 
 /// A block, how it is refused, and that nothing changed.
