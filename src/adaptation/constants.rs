@@ -1,12 +1,12 @@
 //! Constants of an adaptation, folded at set-up.
 
-use super::configuration::AdaptationConfiguration;
+use super::configuration::{AdaptationConfiguration, forgetting_times};
 use super::estimates::ESTIMATES;
 use super::flags::AdaptationFlags;
 use super::health::HealthConstants;
 use super::inputs::AdaptationInputs;
 use super::state::START;
-use crate::error::{Error, Range, attempt, in_range};
+use crate::error::{Error, attempt, in_range};
 use crate::law::LEVEL;
 use crate::scene::Regime;
 
@@ -79,7 +79,8 @@ impl AdaptationConstants {
             largest_torque,
         ];
         let noise = attempt!(checked_noise(noise, &deviations, &regressors));
-        let growth = ROUND * 0.2 * tick / forgetting_time;
+        // Data lose their weight over the ticks of an upkeep.
+        let growth = UPKEEP as f32 * tick / forgetting_time;
         Ok(Self {
             filter: tick / (tick + filter_time),
             per_noise: 1.0 / noise,
@@ -180,8 +181,7 @@ const fn checked(configuration: &AdaptationConfiguration) -> Result<(), Error> {
         ..
     } = *configuration;
     attempt!(in_range("tick", tick, 1e-5, 1.0));
-    let times = Range::new(200.0 * tick, 1e5 * tick);
-    attempt!(times.checked("forgetting_time", forgetting_time));
+    attempt!(forgetting_times(tick).checked("forgetting_time", forgetting_time));
     attempt!(in_range("filter_time", filter_time, 0.0, 1.0));
     attempt!(in_range("level_deviation", level_deviation, 0.0, 10.0));
     attempt!(in_range("least_level", least_level, LEVEL.minimum, 1.0));

@@ -1,7 +1,7 @@
 //! Slow drift of the level.
 
-use super::configuration::HealthConfiguration;
-use crate::error::{Error, Range, attempt, in_range};
+use super::configuration::{HealthConfiguration, average_times};
+use crate::error::{Error, attempt, in_range};
 
 /// Slow drift of the friction level, against the value at commissioning.
 ///
@@ -60,8 +60,7 @@ impl HealthConstants {
             rise,
             hysteresis,
         } = *configuration;
-        let times = Range::new(400.0 * tick, 1e7 * tick);
-        attempt!(times.checked("average_time", average_time));
+        attempt!(average_times(tick).checked("average_time", average_time));
         attempt!(in_range("fall", fall, 0.01, 0.9));
         attempt!(in_range("rise", rise, 0.01, 9.0));
         let smaller = if fall < rise { fall } else { rise };

@@ -295,6 +295,37 @@ fn what_is_held_is_at_no_bound() {
     }
 }
 
+/// `every` is valid for each tick of its range: 200 ticks and 5 s to forget, 400 ticks and ten minutes of average are the longer
+/// ones where the tick is long, and their ranges end below 5 s and ten minutes where it is short.
+#[test]
+fn every_tick_has_a_configuration() {
+    let mut tick = 1e-5_f32;
+    while tick < 1.0 {
+        let every = AdaptationConfiguration::every(tick);
+        assert!(Adaptation::new(&every).is_ok(), "{tick}");
+        tick *= 1.003;
+    }
+    for (tick, forgetting, average) in [
+        (1e-5_f32, 1e5 * 1e-5, 1e7 * 1e-5),
+        (4.9e-5, 1e5 * 4.9e-5, 1e7 * 4.9e-5),
+        (5.1e-5, 5.0, 1e7 * 5.1e-5),
+        (6.1e-5, 5.0, 600.0),
+        (1e-2, 5.0, 600.0),
+        (2.4e-2, 5.0, 600.0),
+        (2.6e-2, 200.0 * 2.6e-2, 600.0),
+        (1.0, 200.0, 600.0),
+    ] {
+        let every = AdaptationConfiguration::every(tick);
+        assert!(Adaptation::new(&every).is_ok(), "{tick}");
+        assert_eq!(every.forgetting_time, forgetting, "{tick}");
+        assert_eq!(every.health.average_time, average, "{tick}");
+    }
+    for tick in [9.9e-6, 1.01, f32::NAN] {
+        let every = AdaptationConfiguration::every(tick);
+        assert_eq!(Adaptation::new(&every).unwrap_err().field(), "tick");
+    }
+}
+
 #[test]
 fn set_ups_are_refused_by_field() {
     type Change = fn(&mut AdaptationConfiguration, f32);
