@@ -18,8 +18,9 @@ pub(crate) const PARABOLA: [f32; 3] = [1.743_091_7, 1.224_815, 0.490_906_86];
 pub(crate) fn inverse_cube_roots(x: [f32; 2]) -> [f32; 2] {
     let [p0, p1, p2] = PARABOLA;
     let [p, q] = x;
-    let y = f32::from_bits(SEED - p.to_bits() / 3);
-    let z = f32::from_bits(SEED - q.to_bits() / 3);
+    // Wraps only for negative numbers below -2.8e37 and negative NaN, which have no meaning here.
+    let y = f32::from_bits(SEED.wrapping_sub(p.to_bits() / 3));
+    let z = f32::from_bits(SEED.wrapping_sub(q.to_bits() / 3));
     let (c, d) = (p * y, q * z);
     let (e, f) = (y * y, z * z);
     let (c, d) = (c * e, d * f);
@@ -54,5 +55,22 @@ mod tests {
         );
         assert!((sum / count).abs() < 5e-6);
         assert_eq!(0.0 * inverse_cube_roots([0.0, 1.0])[0], 0.0);
+    }
+
+    /// What no caller gives has no meaning, and does no harm to the number beside it.
+    #[test]
+    fn numbers_of_no_meaning_do_not_panic() {
+        let [_, two] = inverse_cube_roots([1.0, 2.0]);
+        for x in [
+            -1.0,
+            -2.9e37,
+            f32::MIN,
+            f32::NEG_INFINITY,
+            f32::NAN,
+            -f32::NAN,
+        ] {
+            assert_eq!(inverse_cube_roots([x, 2.0])[1], two);
+            assert_eq!(inverse_cube_roots([2.0, x])[0], two);
+        }
     }
 }
