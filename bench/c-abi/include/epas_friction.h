@@ -817,7 +817,7 @@ extern "C" {
  * Version of the structures and functions of this header; `epas_abi_version` returns the library's. It rises
  * whenever a structure, a function or what a place holds changes.
  */
-#define EPAS_ABI_VERSION 6u
+#define EPAS_ABI_VERSION 7u
 
 /**
  * Place for the constants and the state of an adaptation; as `epas_caged_t`.
@@ -955,13 +955,22 @@ typedef struct epas_failure_t {
 typedef struct epas_adaptation_inputs_t {
     /**
      * Torque that the motor had to add to overcome friction, N m: its torque about the nut's axis, less what the inertia
-     * took, less `load_torque`.
+     * took, less `load_torque`. With the sign of the speed where friction opposes it.
      */
     float observed;
     /**
      * `friction_torque` of the model's outputs, N m.
      */
     float modelled;
+    /**
+     * Level that the model had in the positive direction when it gave `modelled`: that of the last `epas_memory_set_level`, or 1
+     * where none was set. Outside 0.1 to 10 ticks of this direction do not count.
+     */
+    float forward;
+    /**
+     * The same in the negative direction.
+     */
+    float backward;
     /**
      * Nut speed, rad/s.
      */
@@ -985,12 +994,13 @@ typedef struct epas_adaptation_inputs_t {
 } epas_adaptation_inputs_t;
 
 /**
- * What a tick of an adaptation returns; every number is finite, and within its bounds. The friction torque to compensate is
- * the model's times the level of its direction, and `drag` times the nut speed.
+ * What a tick of an adaptation returns; every number is finite, and within its bounds. The friction torque to compensate of an
+ * `epas_memory_t` is its own after `epas_memory_set_level` with both levels, that of another scene the model's times the level of its
+ * direction; both with `drag` times the nut speed.
  */
 typedef struct epas_adaptation_outputs_t {
     /**
-     * Friction over that of the model, in the positive direction.
+     * Friction over that of the model at level 1, in the positive direction.
      */
     float forward;
     /**
@@ -1915,8 +1925,8 @@ uint32_t epas_memory_set_coefficient(struct epas_memory_t *place,
 
 /**
  * Sets how large friction is beside that of the configuration in each direction, 0.1 to 10, from the next step or count on:
- * what an `epas_adaptation_t` has found goes in here. `epas_memory_reset` brings 1 back. Where it is refused the model goes
- * on as it was. `failure` may be NULL.
+ * what an `epas_adaptation_t` has found goes in here, and into the inputs of its next update. `epas_memory_reset` brings 1 back.
+ * Where it is refused the model goes on as it was. `failure` may be NULL.
  */
 uint32_t epas_memory_set_level(struct epas_memory_t *place,
                                float forward,

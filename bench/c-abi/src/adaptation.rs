@@ -4,9 +4,9 @@ use epas_friction::adaptation::{
     Adaptation, AdaptationConfiguration as CrateConfiguration, AdaptationConstants,
     AdaptationInputs as CrateInputs, Adapted, HealthConfiguration,
 };
-use epas_friction::law::FrictionLevel;
 use epas_friction::{Faults, Regime};
 
+use crate::memory::level;
 use crate::status::Failure;
 use crate::types::{
     EPAS_ADAPTATION_STATE_BYTES, EPAS_ADAPTATION_WORDS, EPAS_FAULT_CALL, EPAS_REGIME_BACK_DRIVING,
@@ -87,10 +87,15 @@ pub struct AdaptationConfiguration {
 #[repr(C)]
 pub struct AdaptationInputs {
     /// Torque that the motor had to add to overcome friction, N m: its torque about the nut's axis, less what the inertia
-    /// took, less `load_torque`.
+    /// took, less `load_torque`. With the sign of the speed where friction opposes it.
     pub observed: f32,
     /// `friction_torque` of the model's outputs, N m.
     pub modelled: f32,
+    /// Level that the model had in the positive direction when it gave `modelled`: that of the last `epas_memory_set_level`, or 1
+    /// where none was set. Outside 0.1 to 10 ticks of this direction do not count.
+    pub forward: f32,
+    /// The same in the negative direction.
+    pub backward: f32,
     /// Nut speed, rad/s.
     pub nut_speed: f32,
     /// `load_torque` of the model's outputs, N m.
@@ -103,12 +108,13 @@ pub struct AdaptationInputs {
     pub saturated: u32,
 }
 
-/// What a tick of an adaptation returns; every number is finite, and within its bounds. The friction torque to compensate is
-/// the model's times the level of its direction, and `drag` times the nut speed.
+/// What a tick of an adaptation returns; every number is finite, and within its bounds. The friction torque to compensate of an
+/// `epas_memory_t` is its own after `epas_memory_set_level` with both levels, that of another scene the model's times the level of its
+/// direction; both with `drag` times the nut speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub struct AdaptationOutputs {
-    /// Friction over that of the model, in the positive direction.
+    /// Friction over that of the model at level 1, in the positive direction.
     pub forward: f32,
     /// The same in the negative direction.
     pub backward: f32,
@@ -226,7 +232,7 @@ pub(crate) const fn inputs(inputs: &AdaptationInputs) -> CrateInputs {
     CrateInputs {
         observed: inputs.observed,
         modelled: inputs.modelled,
-        level: FrictionLevel::ONE,
+        level: level(inputs.forward, inputs.backward),
         nut_speed: inputs.nut_speed,
         load_torque: inputs.load_torque,
         regime: match inputs.regime {

@@ -239,6 +239,63 @@ static void memory(void)
     check((other.faults == 0u) && (other.friction_torque == forward.friction_torque), "the turn in between is unknown");
 }
 
+/* Levels of the screw itself after its commissioning. */
+#define FORWARD 1.4f
+#define BACKWARD 1.2f
+/* Parts by which levels and drift may be off: 2e-6 and 0.01 measured, the drift's average takes its time. */
+#define LEVEL_FOUND 1e-3f
+#define DRIFT_FOUND 0.02f
+
+/* The closed loop: what the adaptation finds is set as the model's level, and comes back in its friction torque. */
+static void adapted(void)
+{
+    static epas_memory_t screw_itself;
+    static epas_memory_t model;
+    static epas_adaptation_t adaptation;
+    static const epas_adaptation_configuration_t configuration = {
+        .tick = 0.01f, .forgetting_time = 2.0f, .filter_time = 0.02f, .noise = 2e-3f,
+        .level_deviation = 0.3f, .least_level = 0.4f, .largest_level = 2.5f,
+        .largest_torque = 10.0f, .largest_speed = 500.0f, .least_speed = 0.2f, .least_friction = 5e-3f,
+        .average_time = 4.0f, .fall = 0.25f, .rise = 0.25f, .hysteresis = 0.1f,
+    };
+    epas_memory_inputs_t inputs = {0.0f, 5000.0f, 1000u, 0.0f, 293.15f, 0.0f};
+    epas_adaptation_outputs_t found = {.forward = 1.0f, .backward = 1.0f};
+    uint32_t refused = 0u;
+    uint32_t tick;
+
+    check(test_setup_memory(&screw_itself) == EPAS_OK, "a screw");
+    check(test_setup_memory(&model) == EPAS_OK, "its model");
+    check(epas_adaptation_init(&adaptation, &configuration, NULL) == EPAS_OK, "an adaptation");
+    for (tick = 0u; tick < 4000u; tick++) {
+        /* To and fro, 6 rad/s: 400 counts a tick. */
+        const uint32_t back = (tick / 100u) % 2u;
+        epas_outputs_t outputs = {0};
+        epas_adaptation_inputs_t now = {.forward = found.forward, .backward = found.backward};
+
+        if (tick == 1000u) {
+            check(near(found.forward, 1.0f, 1e-3f) && near(found.backward, 1.0f, 1e-3f), "levels of 1");
+            check(epas_adaptation_commission(&adaptation) == EPAS_OK, "commissioning");
+            check(epas_memory_set_level(&screw_itself, FORWARD, BACKWARD, NULL) == EPAS_OK, "more friction");
+        }
+        inputs.count = (inputs.count + ((back == 0u) ? 400u : (16384u - 400u))) % 16384u;
+        inputs.nut_speed = (back == 0u) ? 6.136f : -6.136f;
+        (void)epas_memory_step(&screw_itself, &inputs, &outputs);
+        now.observed = outputs.friction_torque;
+        refused += epas_memory_set_level(&model, found.forward, found.backward, NULL);
+        refused += epas_memory_step(&model, &inputs, &outputs);
+        now.modelled = outputs.friction_torque;
+        now.load_torque = outputs.load_torque;
+        now.nut_speed = inputs.nut_speed;
+        now.regime = outputs.regime;
+        now.faults = outputs.faults;
+        refused += epas_adaptation_update(&adaptation, &now, &found);
+    }
+    check(refused == 0u, "a loop that is closed");
+    check(near(found.forward, FORWARD, LEVEL_FOUND) && near(found.backward, BACKWARD, LEVEL_FOUND), "the screw's levels");
+    check(near(found.drift, 0.5f * (FORWARD + BACKWARD) - 1.0f, DRIFT_FOUND), "their drift");
+    check((found.health == EPAS_HEALTH_RISEN) && (found.flags == 0u), "which is flagged");
+}
+
 uint32_t test_changes(void)
 {
     failed = 0u;
@@ -246,6 +303,7 @@ uint32_t test_changes(void)
     screw();
     linear();
     memory();
+    adapted();
     test_put("changes while a model runs: ");
     test_put_number(failed);
     test_put(" failed\n");

@@ -416,7 +416,8 @@ static void adaptation(void)
         .average_time = 600.0f, .fall = 0.3f, .rise = 0.5f, .hysteresis = 0.1f,
     };
     epas_adaptation_inputs_t now = {
-        .observed = 0.052f, .modelled = 0.04f, .nut_speed = 8.0f, .regime = EPAS_REGIME_DRIVING,
+        .observed = 0.052f, .modelled = 0.04f, .forward = 1.0f, .backward = 1.0f, .nut_speed = 8.0f,
+        .regime = EPAS_REGIME_DRIVING,
     };
     epas_adaptation_outputs_t found = {0};
     epas_failure_t failure;
@@ -446,6 +447,10 @@ static void adaptation(void)
     check(epas_adaptation_update(&place, &now, &found) == EPAS_OK, "no torque");
     check((found.flags == EPAS_ADAPTATION_INPUT_RANGE) && (found.forward == forward), "no torque, flagged");
     now.observed = 0.052f;
+    now.forward = 0.0f;
+    check(epas_adaptation_update(&place, &now, &found) == EPAS_OK, "no level");
+    check((found.flags == EPAS_ADAPTATION_INPUT_RANGE) && (found.forward == forward), "no level, flagged");
+    now.forward = 1.0f;
     now.faults = EPAS_FAULT_LOAD_RANGE;
     check(epas_adaptation_update(&place, &now, &found) == EPAS_OK, "a faulted step");
     check(found.flags == EPAS_ADAPTATION_FAULTED, "a faulted step, flagged");

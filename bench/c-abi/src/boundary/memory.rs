@@ -70,8 +70,8 @@ pub unsafe extern "C" fn epas_memory_set_coefficient(
 }
 
 /// Sets how large friction is beside that of the configuration in each direction, 0.1 to 10, from the next step or count on:
-/// what an `epas_adaptation_t` has found goes in here. `epas_memory_reset` brings 1 back. Where it is refused the model goes
-/// on as it was. `failure` may be NULL.
+/// what an `epas_adaptation_t` has found goes in here, and into the inputs of its next update. `epas_memory_reset` brings 1 back.
+/// Where it is refused the model goes on as it was. `failure` may be NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn epas_memory_set_level(
     place: *mut MemoryPlace,
