@@ -1,6 +1,7 @@
 //! The stored cases: inputs, and what the crate makes of them on the host, called from Rust.
 
 use std::fmt::Write as _;
+use std::path::Path;
 
 use epas_friction::curvature::{CircularGrooveCurvature, GothicArch, LiteratureCurvature};
 use epas_friction::efficiency::{Drive, EfficiencyGeometry};
@@ -10,6 +11,7 @@ use epas_friction::scene::WithMemoryInputs;
 use epas_friction::{CATALOGUE, Clearance, Error, Inputs, LinearInputs, Regime};
 
 use crate::outcome::Outcome;
+use crate::places::{says, with_comma};
 use crate::setups;
 
 /// Ticks of each scene.
@@ -379,4 +381,17 @@ pub fn generated() -> Outcome<String> {
         &curvature()?,
     )?;
     Ok(text)
+}
+
+/// Sees that both pages say how many cases are stored.
+pub fn told(root: &Path, stored: &str) -> Outcome<()> {
+    let cases = stored.lines().filter(|line| line.starts_with("    {"));
+    let number = with_comma(cases.count());
+    for (page, line) in [
+        ("README.md", format!("(`test/stored.h`, {number} of them)")),
+        ("../use-it-from.md", format!("| {number} stored cases")),
+    ] {
+        says(root, page, &line)?;
+    }
+    Ok(())
 }

@@ -49,7 +49,9 @@ fn run(root: &Path, write: bool, host_only: bool) -> Outcome<()> {
     places::check(root, write)?;
     let header = header::generated(root)?;
     up_to_date(root, "include/epas_friction.h", &header, write)?;
-    up_to_date(root, "test/stored.h", &cases::generated()?, write)?;
+    let stored = cases::generated()?;
+    up_to_date(root, "test/stored.h", &stored, write)?;
+    cases::told(root, &stored)?;
     host::check(root)?;
     if !host_only {
         target::check(root)?;

@@ -19,6 +19,9 @@ struct Placed<S: Scene> {
     model: FrictionModel<S>,
 }
 
+/// The page that tells the sizes.
+const README: &str = "README.md";
+
 /// Words of eight bytes where pointers have eight bytes too.
 const fn words<S: Scene>() -> usize {
     size_of::<Placed<S>>().div_ceil(8)
@@ -75,7 +78,6 @@ pub fn check(root: &Path, write: bool) -> Outcome<()> {
         // Not the numbers of the stored cases: the library's build alone can tell.
         return Ok(());
     }
-    let readme = fs::read_to_string(root.join("README.md"))?;
     for (name, object, words) in needed() {
         let found = defined(&types, name).ok_or_else(|| format!("src/types.rs: no {name}"))?;
         if found != words {
@@ -90,21 +92,23 @@ pub fn check(root: &Path, write: bool) -> Outcome<()> {
             println!("wrote {name} in src/types.rs");
         }
         says(
-            &readme,
+            root,
+            README,
             &format!("| {object} | {} |", with_comma(8 * words)),
         )?;
     }
     for (line, bytes) in TABLES {
-        says(&readme, &format!("| {line}{bytes} "))?;
+        says(root, README, &format!("| {line}{bytes} "))?;
     }
     Ok(())
 }
 
-fn says(readme: &str, line: &str) -> Outcome<()> {
-    if readme.contains(line) {
+/// Sees that a page says this.
+pub fn says(root: &Path, page: &str, line: &str) -> Outcome<()> {
+    if fs::read_to_string(root.join(page))?.contains(line) {
         Ok(())
     } else {
-        Err(format!("README.md has to say {line}").into())
+        Err(format!("{page} has to say {line}").into())
     }
 }
 
@@ -118,7 +122,7 @@ fn defined(types: &str, name: &str) -> Option<usize> {
         .ok()
 }
 
-fn with_comma(number: usize) -> String {
+pub fn with_comma(number: usize) -> String {
     if number < 1000 {
         number.to_string()
     } else {
