@@ -189,7 +189,7 @@ pub const EPAS_SCREW_BALLS: usize = 37;
 pub struct ScrewConfiguration {
     /// The design; contact angle 0.05 to 1.5 rad.
     pub design: BallScrew,
-    /// Coulomb friction coefficient of ball and groove, 1e-3 to 0.5.
+    /// Coulomb friction coefficient of ball and groove, 1e-6 to 0.5.
     pub friction: f32,
     /// Coulomb friction coefficient of ball and ball, 0 to 1.
     pub ball_friction: f32,
@@ -300,7 +300,7 @@ pub struct LinearLimits {
 pub struct LinearConfiguration {
     /// The design.
     pub bearing: LinearBearing,
-    /// Coulomb friction coefficient of ball and groove, 1e-3 to 1.
+    /// Coulomb friction coefficient of ball and groove, 1e-6 to 1.
     pub friction: f32,
     /// Coulomb friction coefficient of ball and ball, 0 to 1.
     pub ball_friction: f32,

@@ -83,6 +83,7 @@ static void screw(void)
     epas_screw_outputs_t wanted = {0};
     float sum = 0.0f;
     float wanted_sum = 0.0f;
+    epas_failure_t failure;
     uint32_t settled = 0u;
     uint32_t tick;
 
@@ -93,7 +94,8 @@ static void screw(void)
     configuration.friction = 0.13f;
     configuration.clearance = -5e-7f;
     check(epas_screw_init(&made, &configuration, NULL) == EPAS_OK, "another one");
-    check(epas_screw_set_friction(&changed, 0.0f, NULL) == EPAS_OUT_OF_RANGE, "no friction");
+    check(epas_screw_set_friction(&changed, 0.0f, &failure) == EPAS_OUT_OF_RANGE, "no friction");
+    check((failure.minimum == 1e-6f) && (failure.maximum == 0.5f), "and which there may be");
     check(epas_screw_set_friction(&changed, 0.13f, NULL) == EPAS_OK, "another friction coefficient");
     check(epas_screw_set_clearance(&changed, -5e-7f, NULL) == EPAS_OK, "another clearance");
     for (tick = 0u; tick < 600u; tick++) {
@@ -118,6 +120,7 @@ static void linear(void)
     const epas_linear_inputs_t inputs = {0.3f, 2000.0f, 300.0f};
     epas_linear_outputs_t before = {0};
     epas_linear_outputs_t found = {0};
+    epas_failure_t failure;
     uint32_t tick;
 
     check(test_setup_linear(&place) == EPAS_OK, "a bearing");
@@ -125,7 +128,8 @@ static void linear(void)
         (void)epas_linear_step(&place, &inputs, &before);
     }
     check(test_setup_linear(&place) == EPAS_OK, "a bearing again");
-    check(epas_linear_set_friction(&place, 2.0f, NULL) == EPAS_OUT_OF_RANGE, "a friction coefficient too large");
+    check(epas_linear_set_friction(&place, 2.0f, &failure) == EPAS_OUT_OF_RANGE, "a friction coefficient too large");
+    check((failure.minimum == 1e-6f) && (failure.maximum == 1.0f), "and which there may be");
     check(epas_linear_set_friction(&place, 0.2f, NULL) == EPAS_OK, "twice the friction coefficient");
     for (tick = 0u; tick < 40u; tick++) {
         (void)epas_linear_step(&place, &inputs, &found);
