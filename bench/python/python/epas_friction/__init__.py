@@ -144,8 +144,9 @@ def eval(model: str, **fields: Any) -> dict[str, Any]:
         raise NumberTypeError(str(error)) from None
     answer: Mapping[str, Any] = json.loads(eval_json(request))
     if "error" in answer:
-        fault = answer["error"]
-        raise Error(fault["message"], fault["field"])
+        field, message = answer["error"]["field"], answer["error"]["message"]
+        # Most messages name their field, some only say what is wrong with it.
+        raise Error(message if field in message.split() else f"{field}: {message}", field)
     return {"in_loop": answer["in_loop"], "reference": answer["reference"]}
 
 
