@@ -23,7 +23,7 @@ type Any<'py> = Bound<'py, PyAny>;
 /// The name of traces that have none.
 const NAME: &str = "trace";
 
-/// A trace of equal length arrays, whose times do not go back.
+/// A trace of equal length arrays, whose times rise.
 fn trace<'py, S, const I: usize>(
     py: Python<'py>,
     names: [&'static str; I],
@@ -41,14 +41,20 @@ where
             let message = format!("time goes back from {last} s to {} s", values[0]);
             return Err(Refused::value("time", message));
         }
+        if values[0] == last {
+            let message = format!(
+                "time = {last} stands twice: samples at the same time cannot be told apart"
+            );
+            return Err(Refused::value("time", message));
+        }
         last = values[0];
         samples.push(sample(values));
         Ok(())
     })?;
-    if samples.is_empty() {
+    if samples.len() < 2 {
         return Err(refused(
             py,
-            Refused::shape("time", "a trace has one sample or more"),
+            Refused::shape("time", "a trace has two samples or more"),
         ));
     }
     Ok(Trace {
@@ -99,7 +105,7 @@ fn uncaged(py: Python<'_>, design: &Design, memory: bool) -> PyResult<Uncaged> {
 ///
 /// Args:
 ///     design: its geometry and what stands beside it.
-///     time: s, shape (n,), never going back.
+///     time: s, shape (n,), n of two or more, rising.
 ///     nut_speed: rad/s, shape (n,) or a number.
 ///     axial_load: N, shape (n,) or a number.
 ///     memory: whether friction remembers; elements are designed at the trace's mean load.
@@ -108,7 +114,8 @@ fn uncaged(py: Python<'_>, design: &Design, memory: bool) -> PyResult<Uncaged> {
 ///     Run: arrays of shape (n,).
 ///
 /// Raises:
-///     Error: a sample that is NaN or infinite, arrays that do not fit, a value out of its range.
+///     Error: a sample that is NaN or infinite, a time that stands twice or goes back, a single sample, arrays that do not fit, a value
+///         out of its range.
 #[pyfunction]
 #[pyo3(signature = (design, time, nut_speed, axial_load, *, memory=false))]
 pub fn simulate_caged<'py>(
@@ -136,7 +143,7 @@ pub fn simulate_caged<'py>(
 ///
 /// Args:
 ///     design: with what it says of its circuit of balls.
-///     time: s, shape (n,), in equal steps.
+///     time: s, shape (n,), n of two or more, rising in equal steps.
 ///     nut_speed: rad/s, shape (n,) or a number.
 ///     axial_load: N, shape (n,) or a number.
 ///     memory: whether friction remembers; elements are designed at the trace's mean load.
@@ -145,7 +152,8 @@ pub fn simulate_caged<'py>(
 ///     UncagedRun: arrays of shape (n,).
 ///
 /// Raises:
-///     Error: a sample that is NaN or infinite, arrays that do not fit, a value out of its range.
+///     Error: a sample that is NaN or infinite, a time that stands twice or goes back, a single sample, arrays that do not fit, a value
+///         out of its range.
 #[pyfunction]
 #[pyo3(signature = (design, time, nut_speed, axial_load, *, memory=false))]
 pub fn simulate_uncaged<'py>(
@@ -170,7 +178,7 @@ pub fn simulate_uncaged<'py>(
 ///
 /// Args:
 ///     design: with its circuit of balls.
-///     time: s, shape (n,), in equal steps.
+///     time: s, shape (n,), n of two or more, rising in equal steps.
 ///     speed: of the carriage, m/s, shape (n,) or a number.
 ///     normal_load: N, shape (n,) or a number.
 ///     side_load: N, shape (n,) or a number.
@@ -180,7 +188,8 @@ pub fn simulate_uncaged<'py>(
 ///     LinearRun: arrays of shape (n,).
 ///
 /// Raises:
-///     Error: a sample that is NaN or infinite, arrays that do not fit, a value out of its range.
+///     Error: a sample that is NaN or infinite, a time that stands twice or goes back, a single sample, arrays that do not fit, a value
+///         out of its range.
 #[pyfunction]
 #[pyo3(signature = (design, time, speed, normal_load, side_load, *, memory=false))]
 pub fn simulate_linear<'py>(
@@ -236,7 +245,7 @@ fn reference_run(
 ///
 /// Args:
 ///     design: its geometry and what stands beside it.
-///     time: s, shape (n,), never going back.
+///     time: s, shape (n,), n of two or more, rising.
 ///     nut_speed: rad/s, shape (n,) or a number.
 ///     axial_load: N, shape (n,) or a number.
 ///
@@ -244,7 +253,8 @@ fn reference_run(
 ///     ReferenceRun: float64 arrays of shape (n,).
 ///
 /// Raises:
-///     Error: a sample that is NaN or infinite, arrays that do not fit, a value out of its range.
+///     Error: a sample that is NaN or infinite, a time that stands twice or goes back, a single sample, arrays that do not fit, a value
+///         out of its range.
 #[pyfunction]
 #[pyo3(signature = (design, time, nut_speed, axial_load))]
 pub fn reference_simulate_caged<'py>(
@@ -270,7 +280,7 @@ pub fn reference_simulate_caged<'py>(
 ///
 /// Args:
 ///     design: with what it says of its circuit of balls.
-///     time: s, shape (n,), in equal steps.
+///     time: s, shape (n,), n of two or more, rising in equal steps.
 ///     nut_speed: rad/s, shape (n,) or a number.
 ///     axial_load: N, shape (n,) or a number.
 ///
@@ -278,7 +288,8 @@ pub fn reference_simulate_caged<'py>(
 ///     ReferenceRun: float64 arrays of shape (n,).
 ///
 /// Raises:
-///     Error: a sample that is NaN or infinite, arrays that do not fit, a value out of its range.
+///     Error: a sample that is NaN or infinite, a time that stands twice or goes back, a single sample, arrays that do not fit, a value
+///         out of its range.
 #[pyfunction]
 #[pyo3(signature = (design, time, nut_speed, axial_load))]
 pub fn reference_simulate_uncaged<'py>(

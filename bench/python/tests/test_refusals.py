@@ -136,14 +136,19 @@ def test_scenes() -> None:
         ef.CagedBallScrew("lin-4.1")  # type: ignore[arg-type]
     assert refusal(lambda: ef.simulate_uncaged(pressing, [0.0, 1e-3, 5e-3], 1.0, 1.0)).args
     assert refusal(lambda: ef.simulate_caged(design, [0.0, -1e-3], 1.0, 1.0)).field == "time"
-    assert refusal(lambda: ef.simulate_caged(design, [], 1.0, 1.0)).field == "time"
+    for time in ([], [0.0], [0.0, 1e-3, 1e-3]):
+        assert refusal(lambda: ef.simulate_caged(design, time, 1.0, 1.0)).field == "time"
+        assert refusal(lambda: ef.reference.simulate_caged(design, time, 1.0, 1.0)).field == "time"
     assert refusal(lambda: ef.manoeuvre("drift", design)).field == "name"
     with_memory = ef.LinearBearingTrain(ef.LinearDesign.built_in(), memory_load=100.0)
     assert refusal(lambda: with_memory.set_carriage_position(0.1)).field == "position"
 
 
 def test_eval() -> None:
-    assert refusal(lambda: ef.eval("hertz")).field == "relative_radius_1"
+    error = refusal(lambda: ef.eval("hertz"))
+    assert (error.field, str(error)) == ("relative_radius_1", "relative_radius_1: is missing")
+    error = refusal(lambda: ef.eval("friction_map", axis_ratio=0.5, offset=2e10))
+    assert str(error).startswith("offset = 20000000000 is out of range")
     assert refusal(lambda: ef.eval("friction_map", axis_ratio=np.float32(0.5), offset=np.array(2e10))).field == "offset"
     assert refusal(lambda: ef.eval("nothing")).field == "model"
     assert refusal(lambda: ef.eval("friction_map", axis_ratio=float("nan"), offset=0.0)).field == "request"
