@@ -165,7 +165,7 @@ pub fn calibrate<'py>(
     smoothing: Option<f64>,
     rows: Option<f64>,
 ) -> PyResult<Any<'py>> {
-    within(py, "ratio", ratio, RATIOS)?;
+    geared(py, ratio)?;
     within(py, "smoothing", smoothing, FREQUENCIES)?;
     within(py, "rows", rows, FREQUENCIES)?;
     let of_a_design = [
@@ -177,7 +177,7 @@ pub fn calibrate<'py>(
         ("validate", validate.is_some()),
         ("controller", controller.is_some()),
     ];
-    options(py, design.is_some(), of_a_design, of_none)?;
+    options(py, design.is_some(), &of_a_design, &of_none)?;
     let text = text(py, &trace)?;
     let frame = design.map(|design| Frame {
         lead: design.inner.screw().lead().into(),
@@ -211,12 +211,17 @@ pub fn calibrate<'py>(
     answered(py, &answer, picture)
 }
 
+/// A gear's ratio within its range.
+pub fn geared(py: Python<'_>, ratio: Option<f64>) -> PyResult<()> {
+    within(py, "ratio", ratio, RATIOS)
+}
+
 /// Refuses options that belong to the other kind of trace.
-fn options(
+pub fn options(
     py: Python<'_>,
     design: bool,
-    of_a_design: [(&str, bool); 3],
-    of_none: [(&str, bool); 2],
+    of_a_design: &[(&str, bool)],
+    of_none: &[(&str, bool)],
 ) -> PyResult<()> {
     let needless = of_none.iter().filter(|(_, given)| *given && design);
     let missing = of_a_design.iter().filter(|(_, given)| *given && !design);

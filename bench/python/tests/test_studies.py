@@ -78,3 +78,14 @@ def test_what_holds_no_sums_is_refused():
             ef.merge_sums(parts)
     with pytest.raises(ef.Error):
         ef.trace_sums({"time": np.arange(10.0)})
+
+
+def test_a_ratio_is_checked():
+    design = ef.Design.built_in("lin-4.1")
+    for ratio in (0.0, -1.0, 1e4, float("nan")):
+        with pytest.raises(ef.Error) as refused:
+            ef.trace_sums(trace(0), design, ratio=ratio)
+        assert refused.value.field == "ratio"
+        assert refused.value.range == (0.01, 1000.0)
+    with pytest.raises(ef.Error, match="ratio needs a design"):
+        ef.trace_sums(trace(0), ratio=2.0)
