@@ -4,7 +4,8 @@ use epas_friction::efficiency::{Drive, EfficiencyGeometry};
 use epas_friction::ranges::FRICTION_OR_NONE;
 use pyo3::prelude::*;
 
-use crate::blocks::{Block, Kernel};
+use crate::arrays::{Arguments, Results};
+use crate::blocks::{Block, Kernel, Real};
 use crate::errors::Refused;
 use crate::kept::Kept;
 use crate::numbers::{arguments, within, zero};
@@ -105,6 +106,42 @@ fn efficiency_at(geometry: &EfficiencyGeometry, friction: f32, tangent: f32) -> 
     ]
 }
 
+/// Names and values of arguments, in order; 0 for a rolling tangent that is not there.
+pub fn geometries<'py>(
+    py: Python<'py>,
+    [lead_angle, contact_angle, friction, ball_ratio]: [&Any<'py>; 4],
+    rolling_tangent: Option<Any<'py>>,
+) -> PyResult<Arguments<'py, 5>> {
+    let names = [
+        "lead_angle",
+        "contact_angle",
+        "friction",
+        "ball_ratio",
+        "rolling_tangent",
+    ];
+    let rolling_tangent = rolling_tangent.unwrap_or_else(|| zero(py));
+    let values = [
+        lead_angle,
+        contact_angle,
+        friction,
+        ball_ratio,
+        &rolling_tangent,
+    ];
+    arguments(py, names, values)
+}
+
+/// All closed forms by their names; locked states as truth values.
+pub fn efficiencies<T: Real>(py: Python<'_>, found: Results<T, 6>) -> PyResult<Any<'_>> {
+    let [rolling, drive, backdrive, loss, locked, locked_backdrive] = found.arrays(py)?;
+    let locked = locked.call_method1("astype", ("bool",))?;
+    let locked_backdrive = locked_backdrive.call_method1("astype", ("bool",))?;
+    result(
+        py,
+        "Efficiency",
+        (rolling, drive, backdrive, loss, locked, locked_backdrive),
+    )
+}
+
 /// Efficiency of a ball screw by the closed forms of Lin, Velinsky and Ravani 1994, and whether it locks.
 ///
 /// Args:
@@ -129,28 +166,8 @@ pub fn efficiency<'py>(
     ball_ratio: Any<'py>,
     rolling_tangent: Option<Any<'py>>,
 ) -> PyResult<Any<'py>> {
-    let names = [
-        "lead_angle",
-        "contact_angle",
-        "friction",
-        "ball_ratio",
-        "rolling_tangent",
-    ];
-    let rolling_tangent = rolling_tangent.unwrap_or_else(|| zero(py));
-    let values = [
-        &lead_angle,
-        &contact_angle,
-        &friction,
-        &ball_ratio,
-        &rolling_tangent,
-    ];
-    let efficiency = arguments(py, names, values)?.map_blocks(py, Efficiencies(Kept::NONE))?;
-    let [rolling, drive, backdrive, loss, locked, locked_backdrive] = efficiency.arrays(py)?;
-    let locked = locked.call_method1("astype", ("bool",))?;
-    let locked_backdrive = locked_backdrive.call_method1("astype", ("bool",))?;
-    result(
-        py,
-        "Efficiency",
-        (rolling, drive, backdrive, loss, locked, locked_backdrive),
-    )
+    let values = [&lead_angle, &contact_angle, &friction, &ball_ratio];
+    let efficiency =
+        geometries(py, values, rolling_tangent)?.map_blocks(py, Efficiencies(Kept::NONE))?;
+    efficiencies(py, efficiency)
 }

@@ -172,155 +172,112 @@ fn evaluate<'py, T: Real>(
     result(py, "ContactKinematics", fields)
 }
 
-/// Motion of a ball, and slip, spin and entrainment at the centres of its two contacts.
-///
-/// Args:
-///     ball_diameter: m.
-///     pitch_radius: m.
-///     lead_angle: rad.
-///     groove_radius_screw: m.
-///     groove_radius_nut: m.
-///     contact_angle_screw: rad.
-///     contact_angle_nut: rad.
-///     pitch_angle: of the ball's own axis, rad.
-///     yaw_angle: of the ball's own axis, rad.
-///     rolling_radius_screw: radius of the deformed contact, m.
-///     rolling_radius_nut: the same at the nut, m.
-///     speed: of the screw, rad/s, -1e6 to 1e6.
-///     semi_major_screw: of the contact ellipse, m.
-///     semi_minor_screw: m.
-///     semi_major_nut: m.
-///     semi_minor_nut: m.
-///
-/// Returns:
-///     ContactKinematics: float32 arrays of the broadcast shape.
-///
-/// Raises:
-///     Error: a value out of its range, with its place in the arrays.
-#[pyfunction]
-#[pyo3(signature = (*, ball_diameter, pitch_radius, lead_angle, groove_radius_screw, groove_radius_nut, contact_angle_screw, contact_angle_nut, pitch_angle, yaw_angle, rolling_radius_screw, rolling_radius_nut, speed, semi_major_screw, semi_minor_screw, semi_major_nut, semi_minor_nut))]
-pub fn contact_kinematics<'py>(
-    py: Python<'py>,
-    ball_diameter: Any<'py>,
-    pitch_radius: Any<'py>,
-    lead_angle: Any<'py>,
-    groove_radius_screw: Any<'py>,
-    groove_radius_nut: Any<'py>,
-    contact_angle_screw: Any<'py>,
-    contact_angle_nut: Any<'py>,
-    pitch_angle: Any<'py>,
-    yaw_angle: Any<'py>,
-    rolling_radius_screw: Any<'py>,
-    rolling_radius_nut: Any<'py>,
-    speed: Any<'py>,
-    semi_major_screw: Any<'py>,
-    semi_minor_screw: Any<'py>,
-    semi_major_nut: Any<'py>,
-    semi_minor_nut: Any<'py>,
-) -> PyResult<Any<'py>> {
-    let values = [
-        &ball_diameter,
-        &pitch_radius,
-        &lead_angle,
-        &groove_radius_screw,
-        &groove_radius_nut,
-        &contact_angle_screw,
-        &contact_angle_nut,
-        &pitch_angle,
-        &yaw_angle,
-        &rolling_radius_screw,
-        &rolling_radius_nut,
-        &speed,
-        &semi_major_screw,
-        &semi_minor_screw,
-        &semi_major_nut,
-        &semi_minor_nut,
-    ];
-    let mut kept = Kept::NONE;
-    evaluate(
-        py,
-        arguments(py, NAMES, values)?,
-        move |numbers: [f32; 16]| {
-            let speed = numbers[SPEED];
-            within("speed", speed.into(), -LARGEST_SPEED, LARGEST_SPEED)?;
-            let mut constants = numbers;
-            constants[SPEED] = 0.0;
-            let model = kept.get(constants, || ContactKinematics::new(&parameters(numbers)))?;
-            let ball = model.tick(speed);
-            Ok(together(
-                [ball.orbital_speed, ball.spin_speed],
-                slip(&ball.screw, &model.screw().ratios()),
-                slip(&ball.nut, &model.nut().ratios()),
-            ))
-        },
-    )
+/// A function of Python over these arguments, in single or in double precision.
+macro_rules! function {
+    ($name:ident, $summary:literal, $float:literal, $computed:path) => {
+        #[doc = $summary]
+        ///
+        /// Args:
+        ///     ball_diameter: m.
+        ///     pitch_radius: m.
+        ///     lead_angle: rad.
+        ///     groove_radius_screw: m.
+        ///     groove_radius_nut: m.
+        ///     contact_angle_screw: rad.
+        ///     contact_angle_nut: rad.
+        ///     pitch_angle: of the ball's own axis, rad.
+        ///     yaw_angle: of the ball's own axis, rad.
+        ///     rolling_radius_screw: radius of the deformed contact, m.
+        ///     rolling_radius_nut: the same at the nut, m.
+        ///     speed: of the screw, rad/s, -1e6 to 1e6.
+        ///     semi_major_screw: of the contact ellipse, m.
+        ///     semi_minor_screw: m.
+        ///     semi_major_nut: m.
+        ///     semi_minor_nut: m.
+        ///
+        /// Returns:
+        #[doc = concat!("    ContactKinematics: ", $float, " arrays of the broadcast shape.")]
+        ///
+        /// Raises:
+        ///     Error: a value out of its range, with its place in the arrays.
+        #[pyfunction]
+        #[pyo3(signature = (*, ball_diameter, pitch_radius, lead_angle, groove_radius_screw, groove_radius_nut, contact_angle_screw, contact_angle_nut, pitch_angle, yaw_angle, rolling_radius_screw, rolling_radius_nut, speed, semi_major_screw, semi_minor_screw, semi_major_nut, semi_minor_nut))]
+        pub fn $name<'py>(
+            py: Python<'py>,
+            ball_diameter: Any<'py>,
+            pitch_radius: Any<'py>,
+            lead_angle: Any<'py>,
+            groove_radius_screw: Any<'py>,
+            groove_radius_nut: Any<'py>,
+            contact_angle_screw: Any<'py>,
+            contact_angle_nut: Any<'py>,
+            pitch_angle: Any<'py>,
+            yaw_angle: Any<'py>,
+            rolling_radius_screw: Any<'py>,
+            rolling_radius_nut: Any<'py>,
+            speed: Any<'py>,
+            semi_major_screw: Any<'py>,
+            semi_minor_screw: Any<'py>,
+            semi_major_nut: Any<'py>,
+            semi_minor_nut: Any<'py>,
+        ) -> PyResult<Any<'py>> {
+            let values = [
+                &ball_diameter,
+                &pitch_radius,
+                &lead_angle,
+                &groove_radius_screw,
+                &groove_radius_nut,
+                &contact_angle_screw,
+                &contact_angle_nut,
+                &pitch_angle,
+                &yaw_angle,
+                &rolling_radius_screw,
+                &rolling_radius_nut,
+                &speed,
+                &semi_major_screw,
+                &semi_minor_screw,
+                &semi_major_nut,
+                &semi_minor_nut,
+            ];
+            $computed(py, arguments(py, NAMES, values)?)
+        }
+    };
 }
 
-/// Motion of a ball, and slip, spin and entrainment at the centres of its two contacts, in float64.
-///
-/// Args:
-///     ball_diameter: m.
-///     pitch_radius: m.
-///     lead_angle: rad.
-///     groove_radius_screw: m.
-///     groove_radius_nut: m.
-///     contact_angle_screw: rad.
-///     contact_angle_nut: rad.
-///     pitch_angle: of the ball's own axis, rad.
-///     yaw_angle: of the ball's own axis, rad.
-///     rolling_radius_screw: radius of the deformed contact, m.
-///     rolling_radius_nut: the same at the nut, m.
-///     speed: of the screw, rad/s, -1e6 to 1e6.
-///     semi_major_screw: of the contact ellipse, m.
-///     semi_minor_screw: m.
-///     semi_major_nut: m.
-///     semi_minor_nut: m.
-///
-/// Returns:
-///     ContactKinematics: float64 arrays of the broadcast shape.
-///
-/// Raises:
-///     Error: a value out of its range, with its place in the arrays.
-#[pyfunction]
-#[pyo3(signature = (*, ball_diameter, pitch_radius, lead_angle, groove_radius_screw, groove_radius_nut, contact_angle_screw, contact_angle_nut, pitch_angle, yaw_angle, rolling_radius_screw, rolling_radius_nut, speed, semi_major_screw, semi_minor_screw, semi_major_nut, semi_minor_nut))]
-pub fn reference_contact_kinematics<'py>(
-    py: Python<'py>,
-    ball_diameter: Any<'py>,
-    pitch_radius: Any<'py>,
-    lead_angle: Any<'py>,
-    groove_radius_screw: Any<'py>,
-    groove_radius_nut: Any<'py>,
-    contact_angle_screw: Any<'py>,
-    contact_angle_nut: Any<'py>,
-    pitch_angle: Any<'py>,
-    yaw_angle: Any<'py>,
-    rolling_radius_screw: Any<'py>,
-    rolling_radius_nut: Any<'py>,
-    speed: Any<'py>,
-    semi_major_screw: Any<'py>,
-    semi_minor_screw: Any<'py>,
-    semi_major_nut: Any<'py>,
-    semi_minor_nut: Any<'py>,
-) -> PyResult<Any<'py>> {
-    let values = [
-        &ball_diameter,
-        &pitch_radius,
-        &lead_angle,
-        &groove_radius_screw,
-        &groove_radius_nut,
-        &contact_angle_screw,
-        &contact_angle_nut,
-        &pitch_angle,
-        &yaw_angle,
-        &rolling_radius_screw,
-        &rolling_radius_nut,
-        &speed,
-        &semi_major_screw,
-        &semi_minor_screw,
-        &semi_major_nut,
-        &semi_minor_nut,
-    ];
-    evaluate(py, arguments(py, NAMES, values)?, |numbers: [f64; 16]| {
+function!(
+    contact_kinematics,
+    "Motion of a ball, and slip, spin and entrainment at the centres of its two contacts.",
+    "float32",
+    single
+);
+function!(
+    reference_contact_kinematics,
+    "Motion of a ball, and slip, spin and entrainment at the centres of its two contacts, in float64.",
+    "float64",
+    double
+);
+
+/// As the control interrupt computes it.
+fn single<'py>(py: Python<'py>, arguments: Arguments<'py, 16>) -> PyResult<Any<'py>> {
+    let mut kept = Kept::NONE;
+    evaluate(py, arguments, move |numbers: [f32; 16]| {
+        let speed = numbers[SPEED];
+        within("speed", speed.into(), -LARGEST_SPEED, LARGEST_SPEED)?;
+        let mut constants = numbers;
+        constants[SPEED] = 0.0;
+        let model = kept.get(constants, || ContactKinematics::new(&parameters(numbers)))?;
+        let ball = model.tick(speed);
+        Ok(together(
+            [ball.orbital_speed, ball.spin_speed],
+            slip(&ball.screw, &model.screw().ratios()),
+            slip(&ball.nut, &model.nut().ratios()),
+        ))
+    })
+}
+
+/// By the reference.
+fn double<'py>(py: Python<'py>, arguments: Arguments<'py, 16>) -> PyResult<Any<'py>> {
+    evaluate(py, arguments, |numbers: [f64; 16]| {
         let speed = numbers[SPEED];
         within("speed", speed, -LARGEST_SPEED, LARGEST_SPEED)?;
         let ball = Revised::new(&input(numbers))?.evaluate();

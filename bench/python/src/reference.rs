@@ -6,9 +6,10 @@ use epas_reference::friction::maps::FrictionMap;
 use epas_reference::hertz::Hertz;
 use pyo3::prelude::*;
 
+use crate::efficiency::{efficiencies, geometries};
 use crate::errors::Refused;
 use crate::kept::Kept;
-use crate::numbers::{arguments, within, zero};
+use crate::numbers::{arguments, within};
 use crate::results::result;
 
 type Any<'py> = Bound<'py, PyAny>;
@@ -144,7 +145,7 @@ pub fn reference_ellipse<'py>(
 }
 
 /// All closed forms in the order of `results.Efficiency`.
-fn efficiencies(screw: &Screw) -> [f64; 6] {
+fn efficiency_of(screw: &Screw) -> [f64; 6] {
     let truth = |locked: bool| f64::from(u8::from(locked));
     [
         screw.rolling_screw(),
@@ -180,23 +181,9 @@ pub fn reference_efficiency<'py>(
     ball_ratio: Any<'py>,
     rolling_tangent: Option<Any<'py>>,
 ) -> PyResult<Any<'py>> {
-    let names = [
-        "lead_angle",
-        "contact_angle",
-        "friction",
-        "ball_ratio",
-        "rolling_tangent",
-    ];
-    let rolling_tangent = rolling_tangent.unwrap_or_else(|| zero(py));
-    let values = [
-        &lead_angle,
-        &contact_angle,
-        &friction,
-        &ball_ratio,
-        &rolling_tangent,
-    ];
+    let values = [&lead_angle, &contact_angle, &friction, &ball_ratio];
     let mut kept = Kept::NONE;
-    let efficiency = arguments(py, names, values)?.map(
+    let efficiency = geometries(py, values, rolling_tangent)?.map(
         py,
         move |[
             lead_angle,
@@ -220,17 +207,10 @@ pub fn reference_efficiency<'py>(
                 ball_ratio,
                 rolling_tangent,
             };
-            Ok::<_, Refused>(efficiencies(&screw))
+            Ok::<_, Refused>(efficiency_of(&screw))
         },
     )?;
-    let [rolling, drive, backdrive, loss, locked, locked_backdrive] = efficiency.arrays(py)?;
-    let locked = locked.call_method1("astype", ("bool",))?;
-    let locked_backdrive = locked_backdrive.call_method1("astype", ("bool",))?;
-    result(
-        py,
-        "Efficiency",
-        (rolling, drive, backdrive, loss, locked, locked_backdrive),
-    )
+    efficiencies(py, efficiency)
 }
 
 /// Friction of one contact that slips along the track and spins, normalised, by integrals in float64.
