@@ -32,9 +32,10 @@ pub fn design_names() -> Vec<&'static str> {
 /// Keys are those of a design file, in SI units and radians: ``pitch_radius`` or ``nominal_diameter``, ``lead``,
 /// ``ball_radius`` or ``ball_diameter``, ``conformity`` or ``groove_radius`` (for both grooves, or each in a dict
 /// ``screw_groove``, ``nut_groove``), ``contact_angle``; and if wanted ``name``, ``youngs_modulus``, ``poisson_ratio``,
-/// ``density`` (or dicts ``ball_material``, ``groove_material``; steel without), ``friction``, ``hysteresis_loss``,
+/// ``density`` (or dicts ``ball_material``, ``groove_material``; steel without), ``friction`` (0.1 without), ``hysteresis_loss``,
 /// ``lubricant_drag``, ``branch`` ("contacts", or a closed form: "rolling", "sliding"), ``rolling_tangent``, ``clearance``
-/// (radial gap of every contact; play above 0, oversize below) or ``preload`` (force of each contact without a load, N),
+/// (radial gap of every contact, m; play above 0, oversize below; -1e-6 without, as of a steering gear without play) or ``preload``
+/// (force of each contact without a load, N),
 /// ``reversal_speed``, ``loaded_balls``, a dict ``limits`` with ``nut_speed``, ``axial_load``, ``friction_torque``; a dict
 /// ``uncaged`` with ``balls``, ``turns`` and if wanted ``ball_friction``, ``return_length``, ``screw_deviation``,
 /// ``nut_deviation`` (lists of ``{"order", "cosine", "sine"}``), ``load_shares``; a dict ``calibration``.
