@@ -70,8 +70,8 @@ pub struct ContactEllipse {
 
 impl HertzContact {
     /// Constants from the two relative curvatures, 1/m in either order, and the contact modulus, Pa;
-    /// unchecked. For set-up; a constant can take them. Cost: 2 cube roots, 5 square roots by integers
-    /// (some 250 cycles each on a Cortex-M4F), 8 divisions.
+    /// unchecked. For set-up; a constant can take them. Cost: 2 cube roots, 5 square roots
+    /// ([`constant::sqrt`]), 8 divisions.
     #[must_use]
     pub const fn new(relative: RelativeCurvatures, contact_modulus: f32) -> Self {
         let (steep, flat) = if relative.along >= relative.across {

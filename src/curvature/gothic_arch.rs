@@ -94,7 +94,7 @@ const LARGEST_OFFSET: f32 = 0.9;
 const SURELY_APART: f32 = 0.5;
 
 /// The shape operator in orthonormal directions, its elements times `D³`, before the two roots that its
-/// eigenvalues need: the loop takes them by an instruction, set-up by integers, and all else is written
+/// eigenvalues need: the loop takes them by an instruction, set-up by [`constant::sqrt`], and all else is written
 /// once.
 struct ShapeOperator {
     /// `A`.
@@ -239,8 +239,8 @@ impl GothicArch {
     /// The second sum cancels to a twentieth; it is formed from the clearance and from
     /// `kappa2 + 1/r_s = (tau p)² / (r_s D (D + A)) - q`, so that no digit is lost.
     ///
-    /// For set-up; a constant can take it. Cost: 2 square roots by integers (some 250 cycles each on a
-    /// Cortex-M4F), 4 divisions, 46 other operations.
+    /// For set-up; a constant can take it. Cost: 2 square roots ([`constant::sqrt`]), 4 divisions, 46 other
+    /// operations.
     #[must_use]
     pub const fn relative(
         &self,

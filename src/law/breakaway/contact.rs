@@ -33,8 +33,8 @@ use crate::math::elliptic::{Complete, complete};
 /// turns the ellipse as a rigid body (Galin's theorem), and the integrals of its two equations are complete elliptic ones.
 ///
 /// Largest errors against float64 quadrature of those rays over the exact ellipse, axis ratios 0.02 to 1, Poisson's ratios 0 to
-/// 0.5: compliances 5e-6, torsion 1.7e-5, relative, and nearly all of it the ellipse's; of a catalogue screw's contact 1.2e-5. Cost: five square roots by integers, ten divisions;
-/// set-up only.
+/// 0.5: compliances 5e-6, torsion 1.7e-5, relative, and nearly all of it the ellipse's; of a catalogue screw's contact 1.2e-5. Cost: five square roots
+/// ([`constant::sqrt`]), ten divisions; set-up only.
 ///
 /// ```
 /// use epas_friction::law::breakaway::ContactStiffness;

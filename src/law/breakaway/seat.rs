@@ -28,7 +28,7 @@ const HALVINGS: u8 = 40;
 /// Series of a nonlinear spring and the contacts: hardly any torque within the gap, a stop at its end. Elements with a concave
 /// backbone can have its angle, not its shape.
 ///
-/// Cost: 40 halvings with a square root by integers each, for a drift; set-up only.
+/// Cost: 40 halvings with up to two square roots ([`constant::sqrt`]) each, for a drift; set-up only.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Seat {
