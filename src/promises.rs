@@ -1,9 +1,19 @@
 //! What every step, and every function that firmware may call in its loop, promises: for the tests that hold
 //! them to it, for the report, for the counts on the target, and for this page.
 //!
-//! Errors are against the exact model in f64, ceilings over the whole domain; cycles are modelled ones of
-//! a Cortex-M4F with the own scalar kernels, ceilings as well: `bench`'s `target --gate` fails where a count is above.
-//! Constants that nobody reads take no place in a firmware's image.
+//! Errors are against the exact model in f64, ceilings over the whole domain. Cycles are modelled ones of
+//! a Cortex-M4F with the own scalar kernels, the most over the inputs that `bench` counts, rounded up by at most a
+//! twentieth, or by 20 where that is more: `target --gate` fails where a count is above. Where a worse input is known than
+//! those, the promise names it and has its cycles. Constants that nobody reads take no place in a firmware's image.
+//!
+//! The table has what can be called, from firmware or from a program of its own that counts it. A step is inlined, and what
+//! only a step calls is inlined into it: `LoadLaws::at` (law of friction over the load), `Train::intake` and `Intake::press`
+//! (speeds of balls in, forces between them out), `LoadedZone::at` (deviations and load of a ball by its place),
+//! `AnalyticLinearBall::closed_form` and `GrooveFriction::at` (ball and groove of a linear bearing), `LoopSlipMap::at` (friction
+//! of a contact), [`both`](crate::law::coefficient::CoefficientAtTemperature::both) (friction coefficient of both directions).
+//! They have no place of their own in the image, and the compiler shares their work with what stands around them; counted
+//! apart they would be other code. Their cycles and their errors are those of the step. Where a function with a name does the
+//! same by the same formulas, it stands under [`PARTS`].
 #![doc = include_str!("promises.md")]
 
 mod adaptation;
@@ -11,6 +21,7 @@ mod direct;
 mod footprints;
 mod kernels;
 mod law;
+mod parts;
 mod promise;
 mod setting;
 mod steps;
@@ -20,11 +31,12 @@ pub use direct::*;
 pub use footprints::{FOOTPRINTS, STEP_SPREAD};
 pub use kernels::*;
 pub use law::*;
+pub use parts::*;
 pub use promise::{Footprint, Promise};
 pub use setting::*;
 pub use steps::*;
 
-/// Promises of every `step()` and `between()`, and of every function that one of them calls.
+/// Promises of every `step()` and `between()`, and of every function that one of them calls as it stands.
 pub const STEPS: [Promise; 27] = [
     STEP_CAGED,
     STEP_CAGED_CHANGING,
@@ -55,8 +67,18 @@ pub const STEPS: [Promise; 27] = [
     PLAY,
 ];
 
-/// Promises of functions that no step calls: firmware calls them by their names.
-pub const DIRECT: [Promise; 33] = [
+/// Promises of functions of which a step runs the parts, or the same formulas in another form: each names what a step has of it.
+pub const PARTS: [Promise; 6] = [
+    FRICTION_COEFFICIENT,
+    FRICTION_COEFFICIENT_WARMING,
+    ANALYTIC_BALL,
+    DEVIATION_MAP,
+    TRAIN,
+    PRESS,
+];
+
+/// Promises of functions that no step calls, nor parts of them: firmware calls them by their names.
+pub const DIRECT: [Promise; 27] = [
     SET_FRICTION,
     SET_CLEARANCE,
     SET_FRICTION_CAGED,
@@ -71,36 +93,33 @@ pub const DIRECT: [Promise; 33] = [
     ROLLING_EFFICIENCY,
     EFFICIENCY,
     BACKDRIVE_EFFICIENCY,
-    PRESENT_EFFICIENCY,
+    ROLLING_BACKDRIVE_EFFICIENCY,
     KINEMATICS_UPDATE,
     KINEMATICS,
     SLIP_RATIOS,
     FRICTION_MAP,
     DISSIPATION,
-    FRICTION_COEFFICIENT,
-    FRICTION_COEFFICIENT_WARMING,
     ADAPTATION,
     STATE,
-    DEVIATION_MAP,
-    TRAIN,
-    PRESS,
     SCREW_ROW,
     SCREW_BALL,
-    ANALYTIC_BALL,
     ANALYTIC_PAIR,
     FOUR_POINT_BALL,
     BALL_CHAIN,
 ];
 
 /// Every promise.
-pub const ALL: [Promise; STEPS.len() + DIRECT.len()] = {
-    let mut all = [SQRT; STEPS.len() + DIRECT.len()];
+pub const ALL: [Promise; STEPS.len() + PARTS.len() + DIRECT.len()] = {
+    let mut all = [SQRT; STEPS.len() + PARTS.len() + DIRECT.len()];
     let mut place = 0;
     while place < all.len() {
+        let beyond = place.saturating_sub(STEPS.len());
         all[place] = if place < STEPS.len() {
             STEPS[place]
+        } else if beyond < PARTS.len() {
+            PARTS[beyond]
         } else {
-            DIRECT[place - STEPS.len()]
+            DIRECT[beyond - PARTS.len()]
         };
         place += 1;
     }

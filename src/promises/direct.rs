@@ -1,5 +1,6 @@
-//! Functions that no step calls: firmware calls them by their names.
+//! Functions that no step calls, nor parts of them: firmware calls them by their names.
 
+use super::parts::ANALYTIC_BALL;
 use super::promise::Promise;
 
 /// [`LiteratureCurvature::first`](crate::curvature::LiteratureCurvature::first): the catalogue formula, as accurate as it is.
@@ -103,9 +104,14 @@ pub const BACKDRIVE_EFFICIENCY: Promise = Promise {
     ..EFFICIENCY
 };
 
-/// [`EfficiencyGeometry::rolling_efficiency`](crate::efficiency::EfficiencyGeometry::rolling_efficiency) or its back-driving form by the direction of power, and the torque that friction takes.
-pub const PRESENT_EFFICIENCY: Promise = Promise {
-    function: "rolling efficiency of the present direction, with its torque",
+/// [`EfficiencyGeometry::rolling_backdrive_efficiency`](crate::efficiency::EfficiencyGeometry::rolling_backdrive_efficiency).
+/// Counted in a program that asks for the direction of power, takes this efficiency or
+/// [`ROLLING_EFFICIENCY`] by it, and computes the torque that friction takes: alone it takes less.
+pub const ROLLING_BACKDRIVE_EFFICIENCY: Promise = Promise {
+    function: "EfficiencyGeometry::rolling_backdrive_efficiency",
+    domain: "friction 0.001 to 0.3, lead angles 0.5 to 60, contact angles 5 to 85 deg, no rolling resistance",
+    largest: 8e-8,
+    outside: "rolling resistance and no lead: negative infinity, for no load moves the screw",
     cycles: 77,
     counted: &["step_efficiency"],
     ..ROLLING_EFFICIENCY
@@ -173,29 +179,6 @@ pub const DISSIPATION: Promise = Promise {
     cycles: 150,
     counted: &["friction_dissipation"],
     ..FRICTION_MAP
-};
-
-/// [`CoefficientAtTemperature::at`](crate::law::coefficient::CoefficientAtTemperature::at).
-pub const FRICTION_COEFFICIENT: Promise = Promise {
-    function: "CoefficientAtTemperature::at",
-    domain: "0.1 to 500 rad/s, -20 to 120 C, the default's film and lubricant",
-    error: "over boundary less full film, against a film by Hamrock and Dowson",
-    largest: 8.1e-2,
-    rms: 3.8e-2,
-    mean: 1.5e-2,
-    outside: "boundary at standstill, full film at any higher speed; temperatures: those of the ends",
-    not_finite: "NaN: standstill, the warmest; infinity: full film, the warmest",
-    tiny: "standstill",
-    cycles: 52,
-    counted: &["friction_coefficient"],
-};
-
-/// [`CoefficientLaw::at_temperature`](crate::law::coefficient::CoefficientLaw::at_temperature), then the same.
-pub const FRICTION_COEFFICIENT_WARMING: Promise = Promise {
-    function: "CoefficientLaw::at_temperature, then at",
-    cycles: 76,
-    counted: &["friction_coefficient_warming"],
-    ..FRICTION_COEFFICIENT
 };
 
 /// [`AnalyticLinearBall::speed_deviation`](crate::ball::AnalyticLinearBall::speed_deviation) of two balls and the force between them.
@@ -269,59 +252,4 @@ pub const SCREW_BALL: Promise = Promise {
     cycles: 118,
     counted: &["ball_screw_ball"],
     ..SCREW_ROW
-};
-
-/// [`DeviationMap::at`](crate::DeviationMap::at): a step looks the same table up in integers, at places that it renews.
-pub const DEVIATION_MAP: Promise = Promise {
-    function: "DeviationMap::at",
-    domain: "one wave in a period",
-    error: "over its amplitude",
-    largest: 1.3e-3,
-    rms: 6.5e-4,
-    mean: 1e-5,
-    outside: "every phase is inside; 5e-3 for two waves, 0.08 for eight",
-    not_finite: "phases are integers",
-    tiny: "no deviation: 0",
-    cycles: 21,
-    counted: &["deviation_map"],
-};
-
-/// [`AnalyticLinearBall::speed_deviation`](crate::ball::AnalyticLinearBall::speed_deviation).
-pub const ANALYTIC_BALL: Promise = Promise {
-    function: "AnalyticLinearBall::speed_deviation",
-    domain: "side-force ratios to 0.8, contact angles within 3 deg of each other",
-    error: "speed deviation over v/2",
-    largest: 1.5e-2,
-    rms: 2e-3,
-    mean: 1e-3,
-    outside: "from a ratio of 0.88 on it misses two-point rolling, which its scene flags",
-    not_finite: "angles: deviation 0; forces: no load",
-    tiny: "no load: the compliance of 3e-14 N",
-    cycles: 122,
-    counted: &["linear_ball_speed"],
-};
-
-/// [`Train::step`](crate::train::Train::step): forces between balls and their positions from speeds and impedances in a list. A
-/// step of a scene hands them over ball by ball, by the same phases.
-pub const TRAIN: Promise = Promise {
-    function: "Train::step",
-    domain: "rows of touching balls; cycles for 37 balls",
-    cycles: 4500,
-    counted: &["train_37"],
-    ..PRESS
-};
-
-/// [`Press::solve`](crate::train::Press::solve).
-pub const PRESS: Promise = Promise {
-    function: "Press::solve",
-    domain: "2 to 64 balls, impedances that differ by up to 1e6; cycles for 37 balls",
-    error: "force over the largest force",
-    largest: 2e-6,
-    rms: 4e-7,
-    mean: 1e-7,
-    outside: "1e-5 for impedances up to 1e12; free speeds beyond 1 or impedances beyond 1e-9 to 1e9: no forces, and it says so",
-    not_finite: "free speeds and impedances as outside; rooms that are NaN: no contact",
-    tiny: "rooms up to 0: contact",
-    cycles: 7100,
-    counted: &["press_37"],
 };

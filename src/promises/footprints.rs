@@ -6,6 +6,9 @@ use super::promise::Footprint;
 pub const STEP_SPREAD: f64 = 1.5;
 
 /// Sizes of programs with one scene each, and of one with all of them, on the reference board.
+///
+/// Their constants stand in flash; the stack of the set-up is that of [`FrictionModel::of`](crate::FrictionModel::of), which says
+/// how long that takes.
 pub const FOOTPRINTS: [Footprint; 8] = [
     Footprint {
         scene: "curvature",
@@ -13,6 +16,7 @@ pub const FOOTPRINTS: [Footprint; 8] = [
         flash_small: 2200,
         ram: 16,
         stack: 16,
+        stack_set_up: 16,
     },
     Footprint {
         scene: "efficiency",
@@ -20,6 +24,7 @@ pub const FOOTPRINTS: [Footprint; 8] = [
         flash_small: 2400,
         ram: 16,
         stack: 16,
+        stack_set_up: 16,
     },
     Footprint {
         scene: "caged_ball_screw",
@@ -27,6 +32,7 @@ pub const FOOTPRINTS: [Footprint; 8] = [
         flash_small: 19_000,
         ram: 1800,
         stack: 184,
+        stack_set_up: 6400,
     },
     Footprint {
         scene: "caged_with_memory",
@@ -34,6 +40,7 @@ pub const FOOTPRINTS: [Footprint; 8] = [
         flash_small: 20_400,
         ram: 1960,
         stack: 184,
+        stack_set_up: 6300,
     },
     Footprint {
         scene: "linear_bearing",
@@ -41,6 +48,7 @@ pub const FOOTPRINTS: [Footprint; 8] = [
         flash_small: 7800,
         ram: 720,
         stack: 272,
+        stack_set_up: 32,
     },
     Footprint {
         scene: "ball_screw_37",
@@ -48,6 +56,7 @@ pub const FOOTPRINTS: [Footprint; 8] = [
         flash_small: 23_000,
         ram: 2880,
         stack: 1200,
+        stack_set_up: 3800,
     },
     Footprint {
         scene: "ball_screw_37_with_memory",
@@ -55,6 +64,7 @@ pub const FOOTPRINTS: [Footprint; 8] = [
         flash_small: 24_500,
         ram: 3000,
         stack: 1300,
+        stack_set_up: 3900,
     },
     Footprint {
         scene: "everything",
@@ -62,5 +72,6 @@ pub const FOOTPRINTS: [Footprint; 8] = [
         flash_small: 33_600,
         ram: 5400,
         stack: 1200,
+        stack_set_up: 6400,
     },
 ];

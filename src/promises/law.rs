@@ -53,7 +53,7 @@ pub const MEMORY_SEAT: Promise = Promise {
     largest: 2e-6,
     rms: 2e-7,
     mean: 2e-8,
-    cycles: 210,
+    cycles: 180,
     counted: &["memory_seat"],
     ..MEMORY
 };

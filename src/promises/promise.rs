@@ -21,7 +21,7 @@ pub struct Promise {
     pub not_finite: &'static str,
     /// Behaviour for zeros of either sign and subnormal numbers.
     pub tiny: &'static str,
-    /// Most cycles, counted; those of a scene are for the sizes that stand in its domain.
+    /// Most cycles over the counted inputs, rounded up; those of a scene are for the sizes that stand in its domain.
     pub cycles: u32,
     /// Names under which `bench` counts it.
     pub counted: &'static [&'static str],
@@ -40,4 +40,6 @@ pub struct Footprint {
     pub ram: u32,
     /// Most stack of a step.
     pub stack: u32,
+    /// Most stack of the set-up, [`FrictionModel::of`](crate::FrictionModel::of) of constants that stand in flash, built for speed.
+    pub stack_set_up: u32,
 }

@@ -6,14 +6,14 @@ use super::promise::Promise;
 pub const SET_FRICTION: Promise = Promise {
     function: "UncagedBallScrew: set_friction",
     domain: "37 balls, friction 0.05 to 0.15",
-    error: "none: balls take it over as their turn comes",
+    error: "none of its own: the step's once balls have settled, which take it over as their turn comes",
     largest: 0.0,
     rms: 0.0,
     mean: 0.0,
     outside: "an error that names the field; the model goes on as it was",
     not_finite: "an error",
     tiny: "an error below 1e-6",
-    cycles: 200,
+    cycles: 80,
     counted: &["set_friction_37"],
 };
 
@@ -23,7 +23,7 @@ pub const SET_CLEARANCE: Promise = Promise {
     function: "UncagedBallScrew: set_clearance",
     domain: "clearance -5 to 5 um",
     tiny: "zeros and subnormals are clearances",
-    cycles: 200,
+    cycles: 145,
     counted: &["set_clearance_uncaged"],
     ..SET_FRICTION
 };
@@ -33,8 +33,8 @@ pub const SET_CLEARANCE: Promise = Promise {
 pub const SET_FRICTION_CAGED: Promise = Promise {
     function: "CagedBallScrew: set_friction, the first time",
     domain: "friction 0.05 to 0.15",
-    error: "none: the ball of the next ticks has it",
-    cycles: 6500,
+    error: "none of its own: the step's once the ball has settled",
+    cycles: 5500,
     counted: &["set_friction_caged"],
     ..SET_FRICTION
 };

@@ -272,12 +272,8 @@ fn random_contact_angles_and_side_forces() {
             }
         }
     }
-    for (errors, promise) in [
-        (&errors[0], &promises::ANALYTIC_BALL),
-        (&errors[3], &promises::FOUR_POINT_BALL),
-    ] {
-        errors.assert_promised(promise);
-    }
+    errors[0].assert_promised(&promises::ANALYTIC_BALL);
+    errors[3].assert_promised(&promises::FOUR_POINT_BALL);
     errors[4].assert_measured();
     loss.assert_measured();
 }

@@ -136,6 +136,32 @@ fn rounded(given: &KinematicsParameters, speed: f64) -> KinematicsInput {
     }
 }
 
+/// Set up with other contacts, which then become these.
+fn updated(given: &KinematicsParameters) -> ContactKinematics {
+    let mut kinematics = ContactKinematics::new(&KinematicsParameters {
+        contact_angle_screw: 0.99 * given.contact_angle_screw,
+        contact_angle_nut: 0.99 * given.contact_angle_nut,
+        semi_major_screw: 0.9 * given.semi_major_screw,
+        semi_minor_screw: 0.9 * given.semi_minor_screw,
+        semi_major_nut: 0.9 * given.semi_major_nut,
+        semi_minor_nut: 0.9 * given.semi_minor_nut,
+        ..*given
+    })
+    .unwrap();
+    let screw = EllipticContact {
+        contact_angle: given.contact_angle_screw,
+        semi_major: given.semi_major_screw,
+        semi_minor: given.semi_minor_screw,
+    };
+    let nut = EllipticContact {
+        contact_angle: given.contact_angle_nut,
+        semi_major: given.semi_major_nut,
+        semi_minor: given.semi_minor_nut,
+    };
+    assert!(kinematics.update(screw, nut));
+    kinematics
+}
+
 fn slip_of(ball: &epas_friction::kinematics::BallKinematics, raceway: Raceway) -> &ContactSlip {
     match raceway {
         Raceway::Screw => &ball.screw,
@@ -160,6 +186,8 @@ struct Sweep {
     spin_speed: Errors,
     entrainment: Errors,
     rolling: Errors,
+    /// Rolling slip of contacts that came by an update.
+    updated: Errors,
     side: Errors,
     spin: Errors,
     point: Errors,
@@ -178,6 +206,7 @@ impl Sweep {
         let kinematics = ContactKinematics::new(&parameters(input))
             .unwrap_or_else(|error| panic!("{tag}: {error} {input:?}"));
         let ball = kinematics.tick(input.speed as f32);
+        let updated = updated(&parameters(input)).tick(input.speed as f32);
         let case = || format!("{tag} {input:?}");
         if input.speed != 0.0 {
             let relative = |found: f32, wanted: f64| f64::from(found) / wanted - 1.0;
@@ -201,6 +230,9 @@ impl Sweep {
                     .add_case(scaled(found.entrainment_speed, scale), case);
                 self.rolling
                     .add_case(scaled(found.rolling_slip, wanted.rolling_slip), case);
+                let updated = slip_of(&updated, raceway).rolling_slip;
+                self.updated
+                    .add_case(scaled(updated, wanted.rolling_slip), case);
                 self.side
                     .add_case(scaled(found.side_slip, wanted.side_slip), case);
                 // Spin as the speed that it makes on the ball's radius, which no ellipse reaches.
@@ -293,6 +325,7 @@ fn random_geometries() {
     }
     sweep.assert();
     sweep.rolling.assert_promised(&promises::KINEMATICS);
+    sweep.updated.assert_promised(&promises::KINEMATICS_UPDATE);
     sweep.slide_to_roll.assert_promised(&promises::SLIP_RATIOS);
 }
 

@@ -776,7 +776,6 @@ const STIFFNESS: &[Measured] = &[
     row("torque of slip and of spin over their sum", [2e-4, 4.2e-5, 5e-6], [1.3e-4, 2.8e-5, 1.4e-6]),
     row("torque by mechanisms over that of the scene", [0.34, 0.09, 0.03], [0.32, 0.076, 0.028]),
     row("rational form of the coefficient, 20 C", [0.069, 0.04, 0.014], [0.068, 0.039, 0.013]),
-    row("rational form and viscosity, -20 to 120 C", [0.081, 0.038, 0.015], [0.080, 0.037, 0.014]),
     row("rational form and viscosity, -40 to -20 C", [0.058, 0.015, 0.007], [0.057, 0.014, 6.4e-3]),
 ];
 

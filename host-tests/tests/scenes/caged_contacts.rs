@@ -2,13 +2,15 @@
 
 use crate::kit::errors::Errors;
 use crate::kit::{given, measured};
+use crate::step_promises::{BETWEEN, remembering, sound};
+use epas_friction::law::coefficient::OneCoefficient;
 use epas_friction::{BallScrew, BallScrewParameters};
 use epas_friction::{
     CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, Clearance, DISSERTATION_DESIGNS,
     DeviationMap, Faults, FrictionBranch, FrictionModel, Inputs, Limits, LoadShares, Outputs,
     Regime, RollingResistance, UncagedBallScrew, UncagedBallScrewConfiguration, promises,
 };
-use epas_reference::friction::ball_screw_efficiency::LoadedScrew;
+use epas_reference::friction::ball_screw_efficiency::{LoadedScrew, ScrewFriction};
 use epas_reference::friction::rolling_resistance;
 use std::f32::consts::TAU;
 
@@ -203,15 +205,57 @@ fn the_law_over_the_load_is_that_of_a_ball() {
     errors.assert_measured();
 }
 
-/// Against one ball with exact contact integrals in float64, rolling resistance included.
+/// Against one ball with exact contact integrals in float64, rolling resistance included: by the law over the load; by a ball that
+/// is renewed, of a screw whose friction and clearance have been others; with a memory in full sliding, and between two steps.
 #[test]
 fn friction_is_that_of_the_exact_ball() {
     let mut torque = Errors::of("caged screw and exact ball");
     let mut efficiency = Errors::of("efficiency of caged screw and exact ball");
-    against_the_exact_ball(settings(), &mut torque, &mut efficiency);
+    let mut changing = Errors::of("caged screw that changes and exact ball");
+    let (mut with_memory, mut between) = (Errors::default(), Errors::default());
+    against_the_exact_ball(settings(), |configuration, load, exact| {
+        by_the_law(configuration, load, exact, &mut torque, &mut efficiency);
+        let add = |found: Outputs, errors: &mut Errors| {
+            if !found.faults.any() {
+                errors.add_case(error(&found, exact), || case(configuration, 10.0, load));
+            }
+        };
+        let mut changed = changed_to(configuration);
+        add(settled(&mut changed, 10.0, load), &mut changing);
+        let inputs = Inputs {
+            nut_speed: 10.0,
+            axial_load: f32::from(BALLS) * load,
+        };
+        let one = OneCoefficient::new(configuration.friction).unwrap();
+        let mut remembers = remembering::<CagedBallScrew, _>(*configuration, one, (1e-6, 1e-3));
+        add(remembers.step(sound(inputs, 10.0)), &mut with_memory);
+        add(remembers.between(BETWEEN * 10.0), &mut between);
+    });
     assert!(torque.count > 350.0, "{}", torque.count);
+    for errors in [&changing, &with_memory, &between] {
+        assert!(errors.count > 0.95 * torque.count, "{errors}");
+    }
     torque.assert_promised(&promises::STEP_CAGED);
+    changing.assert_promised(&promises::STEP_CAGED_CHANGING);
+    with_memory.assert_promised(&promises::STEP_CAGED_MEMORY);
+    between.assert_promised(&promises::BETWEEN);
     efficiency.assert_measured();
+}
+
+/// Set up with another friction coefficient and another gap, which then become these.
+fn changed_to(configuration: &CagedBallScrewConfiguration) -> Caged {
+    let mut model = model(&CagedBallScrewConfiguration {
+        friction: 0.8 * configuration.friction,
+        clearance: Clearance::new(configuration.clearance.gap() - 0.5e-6).unwrap(),
+        ..*configuration
+    });
+    model.set_friction(configuration.friction).unwrap();
+    model.set_clearance(configuration.clearance).unwrap();
+    model
+}
+
+fn error(found: &Outputs, exact: &ScrewFriction) -> f64 {
+    f64::from(found.friction_torque) / exact.torque() - 1.0
 }
 
 /// Balls of 12.7 mm in a screw of 125 mm: larger than the promise's.
@@ -223,14 +267,41 @@ fn large_screws_are_known_less_well() {
         design: CATALOGUE[2].design().unwrap(),
         ..configuration
     });
-    against_the_exact_ball(large.take(15), &mut torque, &mut efficiency);
+    against_the_exact_ball(large.take(15), |configuration, load, exact| {
+        by_the_law(configuration, load, exact, &mut torque, &mut efficiency);
+    });
     torque.assert_measured();
 }
 
-fn against_the_exact_ball(
-    settings: impl Iterator<Item = CagedBallScrewConfiguration>,
+/// Adds the errors of torque and efficiency of a screw as it is set up.
+fn by_the_law(
+    configuration: &CagedBallScrewConfiguration,
+    load: f32,
+    exact: &ScrewFriction,
     torque: &mut Errors,
     efficiency: &mut Errors,
+) {
+    let found = step(&mut model(configuration), 10.0, load);
+    // Two contacts: the balance of one groove is not unique, and the crate says so.
+    if found.faults.contains(Faults::BEYOND_MODEL) {
+        return;
+    }
+    let line = || case(configuration, 10.0, load);
+    torque.add_case(error(&found, exact), line);
+    let expected = if load > 0.0 {
+        exact.efficiency()
+    } else {
+        exact.backdrive_efficiency()
+    };
+    if configuration.design.lead() > 0.0 {
+        efficiency.add_case(f64::from(found.efficiency) - expected, line);
+    }
+}
+
+/// Each screw under six loads of a ball, where the reference has a solution.
+fn against_the_exact_ball(
+    settings: impl Iterator<Item = CagedBallScrewConfiguration>,
+    mut compare: impl FnMut(&CagedBallScrewConfiguration, f32, &ScrewFriction),
 ) {
     let mut cases = Vec::new();
     for configuration in settings {
@@ -255,25 +326,9 @@ fn against_the_exact_ball(
     let exact = LoadedScrew::solve_all(&screws, &|| ());
     let mut unsolved = 0;
     for ((configuration, load), exact) in cases.iter().zip(exact) {
-        let found = step(&mut model(configuration), 10.0, *load);
-        let Ok(exact) = exact else {
-            unsolved += 1;
-            continue;
-        };
-        // Two contacts: the balance of one groove is not unique, and the crate says so.
-        if found.faults.contains(Faults::BEYOND_MODEL) {
-            continue;
-        }
-        let line = || case(configuration, 10.0, *load);
-        let error = f64::from(found.friction_torque) / exact.torque() - 1.0;
-        torque.add_case(error, line);
-        let expected = if *load > 0.0 {
-            exact.efficiency()
-        } else {
-            exact.backdrive_efficiency()
-        };
-        if configuration.design.lead() > 0.0 {
-            efficiency.add_case(f64::from(found.efficiency) - expected, line);
+        match exact {
+            Ok(exact) => compare(configuration, *load, &exact),
+            Err(_) => unsolved += 1,
         }
     }
     println!("{unsolved} unsolved by the reference");

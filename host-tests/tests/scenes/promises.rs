@@ -3,6 +3,7 @@
 use crate::kit::errors::Errors;
 use crate::kit::given;
 use std::fmt::Write;
+use std::path::Path;
 
 use crate::kit::random::Random;
 use epas_friction::contact::FrictionMap;
@@ -130,6 +131,7 @@ fn efficiencies() {
     let mut random = Random(24);
     let mut sliding = Errors::default();
     let (mut rolling, mut backdrive) = (Errors::default(), Errors::default());
+    let mut driven = Errors::default();
     for _ in 0..INPUTS {
         let lead_angle = random.within(0.5_f32.to_radians(), 60_f32.to_radians());
         let contact_angle = random.within(5_f32.to_radians(), 85_f32.to_radians());
@@ -154,10 +156,14 @@ fn efficiencies() {
             let found = f64::from(found.sliding_backdrive_efficiency(friction));
             backdrive.add_case(found - exact.sliding_backdrive(), line);
         }
+        // The reference leaves rolling resistance out.
+        let found = f64::from(found.rolling_backdrive_efficiency(friction, 0.0));
+        driven.add_case(found - exact.rolling_backdrive(), line);
     }
     sliding.assert_promised(&promises::EFFICIENCY);
     rolling.assert_promised(&promises::ROLLING_EFFICIENCY);
     backdrive.assert_promised(&promises::BACKDRIVE_EFFICIENCY);
+    driven.assert_promised(&promises::ROLLING_BACKDRIVE_EFFICIENCY);
 }
 
 #[test]
@@ -258,7 +264,7 @@ fn table(title: &str, promises: &[Promise]) -> String {
 fn sizes() -> String {
     let mut text = String::from(
         "\n# Programs with one scene each, bytes\n\n\
-         | scene | flash | flash, built for size | RAM | stack of a step |\n|---|---|---|---|---|\n",
+         | scene | flash | flash, built for size | RAM | stack of a step | stack of the set-up |\n|---|---|---|---|---|---|\n",
     );
     for Footprint {
         scene,
@@ -266,11 +272,12 @@ fn sizes() -> String {
         flash_small,
         ram,
         stack,
+        stack_set_up,
     } in promises::FOOTPRINTS
     {
         let _ = writeln!(
             text,
-            "| `{scene}` | {flash} | {flash_small} | {ram} | {stack} |"
+            "| `{scene}` | {flash} | {flash_small} | {ram} | {stack} | {stack_set_up} |"
         );
     }
     text
@@ -280,6 +287,7 @@ fn sizes() -> String {
 fn the_page_shows_the_table() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../src/promises.md");
     let tables = table("Steps, and what they call", &promises::STEPS)
+        + &table("Functions of which a step runs the parts", &promises::PARTS)
         + &table(
             "Functions that firmware calls by their names",
             &promises::DIRECT,
@@ -290,4 +298,85 @@ fn the_page_shows_the_table() {
         page == tables,
         "src/promises.md has to hold exactly:\n{tables}"
     );
+}
+
+/// The names in the lists of `src/promises.rs`, in the order of [`promises::ALL`].
+fn names() -> Vec<String> {
+    let source = include_str!("../../../src/promises.rs");
+    ["STEPS", "PARTS", "DIRECT"]
+        .iter()
+        .flat_map(|list| {
+            let (_, rest) = source.split_once(&format!("pub const {list}: ")).unwrap();
+            let (_, rest) = rest.split_once("= [").unwrap();
+            let (entries, _) = rest.split_once(']').unwrap();
+            entries.split(',').map(str::trim).map(str::to_owned)
+        })
+        .filter(|name| !name.is_empty())
+        .collect()
+}
+
+/// All of a folder's sources without their comments and white space.
+fn sources(folder: &Path) -> String {
+    let mut text = String::new();
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            text += &sources(&path);
+        } else if path.extension().is_some_and(|kind| kind == "rs") {
+            for line in std::fs::read_to_string(path).unwrap().lines() {
+                let code = line.split("//").next().unwrap_or_default();
+                text.extend(code.split_whitespace());
+            }
+        }
+    }
+    text
+}
+
+/// Errors that nothing is compared with would be words: some test of these programs finds each of them against the reference,
+/// and names the entry.
+#[test]
+fn every_error_is_asserted_by_its_name() {
+    let names = names();
+    assert_eq!(names.len(), promises::ALL.len());
+    let tests = sources(Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/tests")));
+    let missing: Vec<&String> = names
+        .iter()
+        .zip(promises::ALL)
+        .filter(|(_, promise)| !promise.error.starts_with("none"))
+        .map(|(name, _)| name)
+        .filter(|name| !tests.contains(&format!(".assert_promised(&promises::{name})")))
+        .collect();
+    assert!(missing.is_empty(), "{missing:?}");
+}
+
+/// Every constant of a promise stands in one of the lists, once: none is left out of the page and of what is counted.
+#[test]
+fn every_promise_stands_in_a_list() {
+    let declared = sources(Path::new(concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../src/promises"
+    )));
+    let mut declared: Vec<String> = declared
+        .split("pubconst")
+        .filter_map(|part| part.split_once(":Promise="))
+        .map(|(name, _)| name.to_owned())
+        .collect();
+    let mut listed = names();
+    declared.sort();
+    listed.sort();
+    assert_eq!(declared, listed);
+}
+
+/// A promise without an error has none in any column.
+#[test]
+fn no_error_is_zero() {
+    for promise in promises::ALL {
+        let zero = [promise.largest, promise.rms, promise.mean] == [0.0; 3];
+        assert_eq!(
+            zero,
+            promise.error.starts_with("none"),
+            "{}",
+            promise.function
+        );
+    }
 }

@@ -196,9 +196,10 @@ fn exact_screw() -> BallScrewDesign {
 
 /// A scene with a memory whose elements slide fully within a tick of the motions here, and whose balls follow every turn: in steady
 /// motion its friction is that of the scene. The breakaway angle, rad (m), is that under 1 N m (1 N).
-type Remembering<S, L> = FrictionModel<WithMemory<S, ProportionalElements<8>, SpeedOverTick, L>>;
+pub type Remembering<S, L> =
+    FrictionModel<WithMemory<S, ProportionalElements<8>, SpeedOverTick, L>>;
 
-fn remembering<S: Sliding<Constants: Copy>, L: CoefficientFor<S::Inputs>>(
+pub fn remembering<S: Sliding<Constants: Copy>, L: CoefficientFor<S::Inputs>>(
     scene: S::Configuration,
     coefficient: L,
     (breakaway_angle, tick): (f32, f32),
@@ -227,15 +228,15 @@ fn remembering<S: Sliding<Constants: Copy>, L: CoefficientFor<S::Inputs>>(
 /// Temperature of the law, K.
 const TEMPERATURE: f32 = 313.15;
 
-fn sound<I>(scene: I, reading: f32) -> WithMemoryInputs<I, f32> {
+pub fn sound<I>(scene: I, reading: f32) -> WithMemoryInputs<I, f32> {
     at(scene, reading, TEMPERATURE)
 }
 
-/// A law that gives 0.1 at a speed, between 0.12 at standstill and 0.08.
-fn law_through(speed: f32) -> CoefficientLaw {
+/// A law that gives a friction coefficient at a speed: a fifth more at standstill, a fifth less far beyond.
+fn law_through(friction: f32, speed: f32) -> CoefficientLaw {
     CoefficientLaw::new(&CoefficientParameters {
-        boundary: 0.12,
-        full_film: 0.08,
+        boundary: 1.2 * friction,
+        full_film: 0.8 * friction,
         half_share_speed: speed,
         reference_temperature: TEMPERATURE,
         viscosity: Viscosity::through((313.15, 0.1), (373.15, 0.01), 233.15).unwrap(),
@@ -247,24 +248,27 @@ fn law_through(speed: f32) -> CoefficientLaw {
 }
 
 /// Reading between two steps over that of a step: friction is asked for at an angle hardly beyond the step's.
-const BETWEEN: f32 = 1e-3;
+pub const BETWEEN: f32 = 1e-3;
 
 /// Friction torque over its mean against the exact whole screw, two turns of the nut, balls that have settled: without memory; with
-/// it, one friction coefficient and a law; and between two steps.
+/// it, one friction coefficient and a law; and between two steps. Set up with another friction coefficient and another gap, which
+/// then become these, it is the same.
 #[test]
 fn uncaged_step() {
-    // Without memory, with it, between two steps.
-    let mut errors = [(); 3].map(|()| Errors::default());
-    for (degrees, load, speed) in [
-        (2.0, -1500.0, TAU),
-        (3.0, -1500.0, TAU),
-        (2.5, 1500.0, TAU),
-        (2.5, 1500.0, -TAU),
+    // Without memory, with it, between two steps, without memory and set while running.
+    let mut errors = [(); 4].map(|()| Errors::default());
+    for (friction, degrees, load, speed) in [
+        (0.1, 2.0, -1500.0, TAU),
+        (0.1, 3.0, -1500.0, TAU),
+        (0.1, 2.5, 1500.0, TAU),
+        (0.1, 2.5, 1500.0, -TAU),
+        (0.05, 2.5, -1500.0, TAU),
+        (0.15, 2.5, 1500.0, TAU),
     ] {
         let states = ElasticRing {
             design: exact_screw(),
             clearance: 0.0,
-            friction: 0.1,
+            friction: f64::from(friction),
             ball_friction: 0.1,
             balls: 37,
             turns: 2.0,
@@ -279,12 +283,24 @@ fn uncaged_step() {
         .simulate(&steady_samples(speed, load, 2.0 * TAU, 200), |_, _| ())
         .unwrap();
         let wave = gears::wave(1, 2, 0.0, degrees.to_radians() as f32);
-        let configuration = gears::full(wave, TICK);
+        let configuration = UncagedBallScrewConfiguration {
+            friction,
+            ..gears::full(wave, TICK)
+        };
         let mut model = FrictionModel::<UncagedBallScrew<37>>::new(&configuration).unwrap();
+        let mut other =
+            FrictionModel::<UncagedBallScrew<37>>::new(&UncagedBallScrewConfiguration {
+                friction: 0.7 * friction,
+                clearance: Clearance::new(-1e-6).unwrap(),
+                ..configuration
+            })
+            .unwrap();
+        other.set_friction(configuration.friction).unwrap();
+        other.set_clearance(configuration.clearance).unwrap();
         let scale = (6e-5, TICK);
-        let one = OneCoefficient::new(0.1).unwrap();
+        let one = OneCoefficient::new(friction).unwrap();
         let mut remembers = remembering::<UncagedBallScrew<37>, _>(configuration, one, scale);
-        let law = law_through(TAU as f32);
+        let law = law_through(friction, TAU as f32);
         let mut by_law = remembering::<UncagedBallScrew<37>, _>(configuration, law, scale);
         let mean =
             states.iter().map(|state| state.torque().abs()).sum::<f64>() / states.len() as f64;
@@ -298,6 +314,7 @@ fn uncaged_step() {
             for _ in 1..TICKS {
                 if place > 0 {
                     let _ = model.step(inputs);
+                    let _ = other.step(inputs);
                     let _ = remembers.step(known);
                     let _ = by_law.step(known);
                 }
@@ -308,22 +325,25 @@ fn uncaged_step() {
                 (by_law.step(known), 1),
                 (remembers.between(BETWEEN * reading), 2),
                 (by_law.between(BETWEEN * reading), 2),
+                (other.step(inputs), 3),
             ] {
                 if found.faults.any() {
                     continue;
                 }
                 let error = (f64::from(found.friction_torque) - state.torque()) / mean;
                 errors[kind].add_case(error, || {
-                    format!("{degrees} deg {load} {speed} state {place}")
+                    format!("friction {friction} {degrees} deg {load} {speed} state {place}")
                 });
             }
         }
     }
-    let [errors, with_memory, between] = &errors;
+    let [errors, with_memory, between, set] = &errors;
     assert!(with_memory.count > 1.9 * errors.count);
+    assert!(set.count > 0.9 * errors.count);
     with_memory.assert_promised(&promises::STEP_UNCAGED_MEMORY);
     between.assert_promised(&promises::BETWEEN_UNCAGED);
     errors.assert_promised(&promises::STEP_UNCAGED);
+    set.assert_promised(&promises::STEP_UNCAGED);
 }
 
 /// Play of 5 um under 5 N a ball, where a light contact lies far from what it gives way: balls come to rest where the exact

@@ -1,9 +1,9 @@
 //! Friction coefficient by speed, temperature and direction.
 
-use epas_friction::defaults;
 use epas_friction::law::coefficient::{
     CoefficientLaw, CoefficientParameters, OilData, TemperatureFade, Viscosity,
 };
+use epas_friction::{defaults, promises};
 use epas_reference::coefficient::{FilmContact, Vogel, Walther, coefficient};
 
 use crate::kit::errors::Errors;
@@ -89,19 +89,29 @@ fn the_rational_form_is_near_the_full_law() {
         let error = (at_celsius(&law, speed, 20.0) - full_law(speed, 20.0)) / 0.07;
         alone.add_at(error, speed);
     }
-    let mut both = Errors::of("rational form and viscosity, -20 to 120 C");
+    let (mut both, mut warming) = (Errors::default(), Errors::default());
     let mut cold = Errors::of("rational form and viscosity, -40 to -20 C");
     for celsius in (-40..=120).step_by(5) {
-        let errors = if celsius < -20 { &mut cold } else { &mut both };
+        let is_cold = celsius < -20;
+        let celsius = f64::from(celsius);
+        let kept = law.at_temperature(kelvin(celsius));
         for speed in speeds() {
-            let celsius = f64::from(celsius);
-            let error = (at_celsius(&law, speed, celsius) - full_law(speed, celsius)) / 0.07;
-            errors.add_at(error, format!("{celsius} C {speed} rad/s"));
+            let full = full_law(speed, celsius);
+            let line = || format!("{celsius} C {speed} rad/s");
+            let anew = (at_celsius(&law, speed, celsius) - full) / 0.07;
+            if is_cold {
+                cold.add_case(anew, line);
+                continue;
+            }
+            warming.add_case(anew, line);
+            both.add_case((f64::from(kept.at(speed as f32)) - full) / 0.07, line);
         }
     }
-    for errors in [alone, both, cold] {
+    for errors in [alone, cold] {
         errors.assert_measured();
     }
+    both.assert_promised(&promises::FRICTION_COEFFICIENT);
+    warming.assert_promised(&promises::FRICTION_COEFFICIENT_WARMING);
 }
 
 /// Tabulated: 0.057, against `1/(1 + (x/x_1)^0.67)^2` with the best half-share speed; half a unit of its last digit.
