@@ -10,6 +10,7 @@ use crate::calibrate::screw::Request;
 use crate::calibrate::screw::choice::Wanted;
 use crate::calibrate::signals::{RowSettings, SmoothingSettings};
 use crate::calibrate::sums::Sums;
+use crate::calibrate::trace::Trace;
 use crate::calibrate::trace::columns::{self, Frame};
 use crate::calibrate::with_design;
 use crate::calibrate::without_design::controller::SeenController;
@@ -178,6 +179,18 @@ impl Arguments {
         }
     }
 
+    /// The trace that is not fitted, where there is one.
+    fn unseen(
+        &self,
+        frame: Option<&Frame>,
+        mapping: Option<&Mapping>,
+    ) -> Result<Option<Trace>, Failure> {
+        self.validate
+            .as_deref()
+            .map(|path| columns::read(&Source(path), frame, mapping.filter(|_| mdf4::named(path))))
+            .transpose()
+    }
+
     fn filters(&self) -> Filters {
         Filters {
             smoothing: self.smoothing,
@@ -215,7 +228,11 @@ fn with_design(
 ) -> Result<(), Failure> {
     let frame = arguments.frame(design);
     let trace = columns::read(&Source(trace), Some(&frame), mapping)?;
-    let found = with_design::told(&trace, design, &arguments.request())?;
+    let request = Request {
+        unseen: arguments.unseen(Some(&frame), mapping)?,
+        ..arguments.request()
+    };
+    let found = with_design::told(&trace, design, &request)?;
     arguments.outputs.write(Outcome {
         calibration: &found.answer,
         picture: &found.picture,
@@ -227,11 +244,7 @@ fn with_design(
 /// A trace without a design.
 fn free(arguments: &Arguments, trace: &Path, mapping: Option<&Mapping>) -> Result<(), Failure> {
     let trace = columns::read(&Source(trace), None, mapping)?;
-    let unseen = arguments
-        .validate
-        .as_deref()
-        .map(|path| columns::read(&Source(path), None, mapping.filter(|_| mdf4::named(path))))
-        .transpose()?;
+    let unseen = arguments.unseen(None, mapping)?;
     let told = without_design::calibrate(
         &trace,
         unseen.as_ref(),

@@ -40,7 +40,7 @@ use self::choice::{Start, Wanted};
 use self::evidence::Evidence;
 use self::friction::Screw;
 use self::hints::ScrewHints;
-use self::problem::ScrewProblem;
+use self::problem::{Choice, ScrewProblem};
 use self::quantities::Values;
 use self::systematic::widened;
 use crate::calibrate::answer::{Calibration, Estimate};
@@ -53,6 +53,7 @@ use crate::calibrate::fit::separable::{self, Fit, FitSettings, Fixed};
 use crate::calibrate::fit::telling::tell;
 use crate::calibrate::fit::uncertainty::{Interval, Uncertainty, uncertainty};
 use crate::calibrate::page::picture;
+use crate::calibrate::signals::filter::ZeroPhase;
 use crate::calibrate::signals::{Motion, RowSettings, Rows, SmoothingSettings};
 use crate::calibrate::trace::{Coordinate, Trace};
 use crate::designs::Design;
@@ -73,6 +74,8 @@ pub struct Request {
     pub without_models: bool,
     /// Names of the parameters whose profile likelihoods are found.
     pub profiles: Vec<String>,
+    /// Trace that is not fitted and scores the models; without it every third block of the fitted one.
+    pub unseen: Option<Trace>,
 }
 
 impl Default for Request {
@@ -90,6 +93,7 @@ impl Default for Request {
             },
             without_models: false,
             profiles: Vec::new(),
+            unseen: None,
         }
     }
 }
@@ -124,11 +128,18 @@ pub fn calibrate(
     design: &Design,
     request: &Request,
 ) -> Result<ScrewCalibration, Failure> {
-    if trace.coordinate != Coordinate::Rotation {
-        return Err(Failure::Data(
-            "a screw's trace is one of the nut's angle and the torque on it".into(),
-        ));
+    for trace in std::iter::once(trace).chain(&request.unseen) {
+        if trace.coordinate != Coordinate::Rotation {
+            return Err(Failure::Data(
+                "a screw's trace is one of the nut's angle and the torque on it".into(),
+            ));
+        }
     }
+    let unseen = request
+        .unseen
+        .as_ref()
+        .map(|unseen| Unseen::new(unseen, trace, request))
+        .transpose()?;
     let motion = Motion::of(trace, &request.smoothing)?;
     let findings = examine(trace, &motion)?;
     load_gain(trace, &motion, reduced_lead(design))?;
@@ -142,6 +153,10 @@ pub fn calibrate(
         choice,
     } = Start::of(design, &evidence, &request.wanted)?;
     let measured = (trace, &motion, &rows);
+    let other = unseen
+        .as_ref()
+        .map(|unseen| unseen.problem(screw, values, choice.clone()))
+        .transpose()?;
     let problem = ScrewProblem::new(screw, measured, &smoothing, values, choice)?;
     let hints = ScrewHints { evidence, values };
     let told = tell(&problem, &request.fit, &hints)?;
@@ -179,7 +194,15 @@ pub fn calibrate(
         })
         .collect::<Result<Vec<_>, FitError>>()?;
     if !request.without_models {
-        (answer.models, answer.winner) = scores::scores(&problem, &values, measured, &request.fit)?;
+        let other = other
+            .map(|other| other.refined(&values))
+            .transpose()?;
+        let other = unseen
+            .as_ref()
+            .zip(other.as_ref())
+            .map(|(unseen, problem)| (problem, unseen.measured()));
+        let fitted = (&problem, measured);
+        (answer.models, answer.winner) = scores::scores(fitted, other, &values, &request.fit)?;
     }
     Ok(ScrewCalibration {
         answer,
@@ -191,6 +214,47 @@ pub fn calibrate(
         evaluations,
         profiles,
     })
+}
+
+/// A trace that is not fitted, filtered as the fitted one is.
+struct Unseen<'a> {
+    trace: &'a Trace,
+    motion: Motion,
+    rows: Rows,
+    smoothing: ZeroPhase,
+}
+
+impl<'a> Unseen<'a> {
+    fn new(trace: &'a Trace, fitted: &Trace, request: &Request) -> Result<Self, Failure> {
+        if trace.load.is_some() != fitted.load.is_some() {
+            return Err(Failure::Data(format!(
+                "one of {} and {} has an axial load and the other none: one cannot score the other's models",
+                fitted.name, trace.name
+            )));
+        }
+        Ok(Self {
+            trace,
+            motion: Motion::of(trace, &request.smoothing)?,
+            rows: Rows::new(trace.step, &request.rows)?,
+            smoothing: request.smoothing.filter(trace.step)?,
+        })
+    }
+
+    const fn measured(&self) -> (&Trace, &Motion, &Rows) {
+        (self.trace, &self.motion, &self.rows)
+    }
+
+    /// The same screw on this trace, with elements up to its own loads.
+    fn problem(
+        &self,
+        mut screw: Screw,
+        values: Values,
+        choice: Choice,
+    ) -> Result<ScrewProblem<'_>, Failure> {
+        let evidence = Evidence::of(self.trace, &self.motion);
+        screw.largest_load = screw.largest_load.max(evidence.largest_load());
+        ScrewProblem::new(screw, self.measured(), &self.smoothing, values, choice)
+    }
 }
 
 /// Fastest balls about the screw's axis, m/s: twice what catalogues allow (150,000 mm/min of pitch diameter times revolutions).

@@ -1,4 +1,5 @@
-//! Models of friction on one trace of a screw, each fitted as well as it can be to two thirds of it and scored on the other third.
+//! Models of friction on one trace of a screw, each fitted as well as it can be to two thirds of it and scored on the other third, or
+//! fitted to all of it and scored on another trace.
 
 use super::blocks::Blocks;
 use super::friction::{ElementsKind, Screw};
@@ -26,18 +27,26 @@ pub const WITHOUT_MEMORY: &str = "this crate, without memory";
 /// Name of the scene with memory.
 pub const WITH_MEMORY: &str = "this crate, with memory";
 
-/// Scores of all models and the name of the one with the least error on what was not fitted.
+/// A screw on a trace, with what was measured.
+type Measured<'a> = (
+    &'a ScrewProblem<'a>,
+    (&'a Trace, &'a Motion, &'a Rows),
+);
+
+/// Scores of all models on another trace, or on a third of the fitted one, and the name of the one with the least error there.
 ///
 /// # Errors
 /// A model that cannot be fitted.
 pub fn scores(
-    problem: &ScrewProblem<'_>,
+    fitted: Measured<'_>,
+    unseen: Option<Measured<'_>>,
     values: &Values,
-    (trace, motion, rows): (&Trace, &Motion, &Rows),
     settings: &FitSettings,
 ) -> Result<(Vec<ModelScore>, Option<String>), Failure> {
+    let (problem, (_, _, rows)) = fitted;
     let screw = problem.screw();
     let beside = problem.beside(values);
+    let other = unseen.map(|(problem, traced)| (problem, traced, problem.beside(values)));
     let rivals = FitSettings {
         starts: RIVALS.0.min(settings.starts),
         finished: RIVALS.1,
@@ -49,23 +58,34 @@ pub fn scores(
     let mut scores = Vec::new();
     for law in laws {
         let preload = screw.axial_preload(values);
-        let traced = (trace, motion, rows);
-        let rival = Rival::new(*law, traced, &beside, preload, screw.largest_load);
-        scores.push(score(law.name, &rival, &rivals, law.cost)?);
+        let rival = Rival::new(*law, fitted.1, &beside, preload, screw.largest_load);
+        let unseen = other.as_ref().map(|(_, traced, beside)| {
+            Rival::new(*law, *traced, beside, preload, screw.largest_load)
+        });
+        let unseen = unseen.as_ref().map(|rival| rival as &dyn Separable);
+        scores.push(score(law.name, (&rival, unseen), &rivals, law.cost)?);
     }
     let estimated = problem.nonlinear();
     let course = (problem.course(), rows, &beside);
     let without = WithoutMemory::new(*screw, *values, estimated, course);
+    let unseen = other.as_ref().map(|(problem, (_, _, rows), beside)| {
+        let course = (problem.course(), *rows, beside);
+        WithoutMemory::new(*screw, *values, estimated, course)
+    });
+    let unseen = unseen.as_ref().map(|scene| scene as &dyn Separable);
     let cost = Cost::Counted(&["step_caged"]);
-    scores.push(score(WITHOUT_MEMORY, &without, &rivals, cost)?);
+    scores.push(score(WITHOUT_MEMORY, (&without, unseen), &rivals, cost)?);
     let single = FitSettings {
         starts: 1,
         finished: 1,
         ..*settings
     };
+    let unseen = other
+        .as_ref()
+        .map(|(problem, ..)| *problem as &dyn Separable);
     scores.push(score(
         WITH_MEMORY,
-        problem,
+        (problem, unseen),
         &single,
         cost_with_memory(screw),
     )?);
@@ -95,13 +115,17 @@ fn cost_with_memory(screw: &Screw) -> Cost {
 
 fn score(
     name: &str,
-    problem: &dyn Separable,
+    (problem, unseen): (&dyn Separable, Option<&dyn Separable>),
     settings: &FitSettings,
     cost: Cost,
 ) -> Result<ModelScore, Failure> {
-    let [fitted, unseen] = [Blocks::fitted(problem), Blocks::unseen(problem)];
-    let found = fit(&fitted, settings).map_err(|error| Failure::from(error).of(name))?;
-    let rest = residual(&unseen, &found.nonlinear, &found.linear);
+    let blocks = [Blocks::fitted(problem), Blocks::unseen(problem)];
+    let (fitted, unseen): (&dyn Separable, &dyn Separable) = match unseen {
+        Some(unseen) => (problem, unseen),
+        None => (&blocks[0], &blocks[1]),
+    };
+    let found = fit(fitted, settings).map_err(|error| Failure::from(error).of(name))?;
+    let rest = residual(unseen, &found.nonlinear, &found.linear);
     let size = |rows: &[f64]| {
         let sum: f64 = rows.iter().map(|x| x * x).sum();
         (sum / rows.len().max(1) as f64).sqrt()
@@ -124,6 +148,6 @@ fn score(
         parameters,
         cycles: cycles(cost),
         cycles_estimated: matches!(cost, Cost::Estimated(_)),
-        values: estimates(&uncertainty(&fitted, &found)),
+        values: estimates(&uncertainty(fitted, &found)),
     })
 }
