@@ -34,8 +34,8 @@ use crate::source::Source;
 /// parameter is estimated where the trace can tell it.
 ///
 /// Without a design a mass or an inertia with load-free friction is fitted, in the trace's own coordinate, and models of
-/// friction are compared on what was not fitted: another trace (--validate), or the last third of this one. With --controller they are
-/// compared by the simulated closed loop.
+/// friction are compared on what was not fitted: another trace (--validate), or the last third of this one; with a design that is every
+/// third twelfth. With --controller they are compared by the simulated closed loop.
 ///
 /// Of a folder every trace (*.csv, *.mf4) is fitted, and their parameters together; a run that was stopped goes on where it was.
 #[derive(Debug, clap::Args)]
@@ -154,6 +154,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let Some(trace) = &arguments.trace else {
         return Err(Failure::Data("there is no trace".into()));
     };
+    let folder = trace.is_dir() || !arguments.folder.merge.is_empty();
+    arguments.fits(folder)?;
     arguments.outputs.check(trace, arguments.design.as_ref())?;
     let mapping = arguments
         .channels
@@ -161,7 +163,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         .map(Mapping::read)
         .transpose()?;
     let mapping = mapping.as_ref();
-    if trace.is_dir() || !arguments.folder.merge.is_empty() {
+    if folder {
         return whole_folder(arguments, trace, design.as_ref(), mapping);
     }
     match &design {
@@ -171,6 +173,29 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 impl Arguments {
+    /// Refuses options that a folder, or that one trace, has no use for.
+    fn fits(&self, folder: bool) -> Result<(), Failure> {
+        let of_one_trace = [
+            ("--design-out", self.outputs.design_out.is_some()),
+            ("--constants", self.outputs.constants.is_some()),
+            ("--validate", self.validate.is_some()),
+            ("--controller", self.controller.is_some()),
+            ("--profile", !self.profile.is_empty()),
+        ];
+        let needless = of_one_trace.iter().find(|(_, given)| *given && folder);
+        if let Some((name, _)) = needless {
+            return Err(Failure::Data(format!(
+                "{name} is for one trace, and not for a folder of them"
+            )));
+        }
+        if self.folder.part.is_some() && !folder {
+            return Err(Failure::Data(
+                "--part is for a folder of traces, and not for one trace".into(),
+            ));
+        }
+        Ok(())
+    }
+
     /// What refers motor and carriage to the nut of a design.
     fn frame(&self, design: &Design) -> Frame {
         Frame {

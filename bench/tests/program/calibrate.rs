@@ -144,7 +144,13 @@ fn a_slide_is_told_with_intervals_that_hold_the_truth() {
 #[test]
 fn what_cannot_be_is_refused_with_a_word() {
     let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("slide.csv"), trace(2, 0.0)).unwrap();
+    let slide = trace(2, 0.0);
+    fs::write(folder.path().join("slide.csv"), &slide).unwrap();
+    let screw = slide
+        .replace("position", "nut_position")
+        .replace("reference_nut_position", "reference_position")
+        .replace("motor_force", "motor_torque");
+    fs::write(folder.path().join("screw.csv"), screw).unwrap();
     for (arguments, code, word) in [
         (&["calibrate", "none.csv"][..], 1, "none.csv"),
         (
@@ -169,6 +175,18 @@ fn what_cannot_be_is_refused_with_a_word() {
         ),
         (
             &["calibrate", "slide.csv", "--validate", "none.csv"],
+            1,
+            "none.csv",
+        ),
+        (
+            &[
+                "calibrate",
+                "screw.csv",
+                "--design",
+                "lin-4.1",
+                "--validate",
+                "none.csv",
+            ],
             1,
             "none.csv",
         ),

@@ -119,6 +119,31 @@ fn a_folder_that_tells_nothing_ends_with_code_1() {
         assert_eq!(run.code, 1, "{}", run.stdout);
         assert!(run.stderr.contains(word), "{}", run.stderr);
     }
+    for (arguments, word) in [
+        (&[".", "--validate", "bad.csv"][..], "--validate"),
+        (
+            &[".", "--controller", "gain_position=1,gain_speed=1"],
+            "--controller",
+        ),
+        (
+            &[".", "--design", "lin-4.1", "--design-out", "gear.toml"],
+            "--design-out",
+        ),
+        (
+            &[".", "--design", "lin-4.1", "--constants", "gear.rs"],
+            "--constants",
+        ),
+        (
+            &[".", "--design", "lin-4.1", "--profile", "friction"],
+            "--profile",
+        ),
+        (&["bad.csv", "--part", "1/3"], "--part"),
+    ] {
+        let run = calibrate(place.path(), arguments);
+        assert_eq!(run.code, 1, "{arguments:?}: {}", run.stderr);
+        let refused = format!("{word} is for");
+        assert!(run.stderr.contains(&refused), "{}", run.stderr);
+    }
     for arguments in [&["--part", "3/2"][..], &["--part", "1/2", "--merge", "out"]] {
         let all: Vec<_> = ["."].iter().chain(arguments).copied().collect();
         assert_eq!(calibrate(place.path(), &all).code, 2, "{arguments:?}");
