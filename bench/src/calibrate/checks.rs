@@ -18,7 +18,7 @@ use crate::failure::Failure;
 
 use crate::calibrate::checks::finding::{Finding, FindingKind};
 use crate::calibrate::checks::relation::{
-    Against, Relation, relation, root_mean_square, shift, speeds,
+    Against, Relation, Sliding, relation, root_mean_square, shift, speeds,
 };
 use crate::calibrate::signals::Motion;
 use crate::calibrate::trace::channels::range;
@@ -58,6 +58,13 @@ fn look(trace: &Trace, motion: &Motion) -> Result<Vec<Finding>, String> {
     measured_speed(trace, motion, &mut findings)?;
     if let Some(relation) = relation(trace, motion) {
         signs(trace, motion, &relation)?;
+        if relation.sliding.is_none() {
+            findings.push(Finding::new(
+                FindingKind::SignUnchecked,
+                0.0,
+                "the motion turns round before it slides for long: signs and clocks of effort and motion are not checked",
+            ));
+        }
         unexplained(trace, motion, &relation, &mut findings)?;
     }
     clocks(trace, motion, &mut findings)?;
@@ -276,7 +283,9 @@ fn signs(trace: &Trace, motion: &Motion, relation: &Relation) -> Result<(), Stri
     if !excitation::both_ways(motion) {
         return Ok(());
     }
-    let resists = relation.power > -CERTAIN;
+    let resists = relation
+        .sliding
+        .is_none_or(|sliding| sliding.power > -CERTAIN);
     if trace.load.is_some() && relation.gain_certainty < -CERTAIN && resists {
         return Err(
             "the effort falls as the load rises: turn the sign of the load, which is positive where it opposes a positive motion"
@@ -289,7 +298,8 @@ fn signs(trace: &Trace, motion: &Motion, relation: &Relation) -> Result<(), Stri
                 .into(),
         );
     }
-    if relation.inertia < -CERTAIN && relation.left < 0.3 {
+    let falls = |sliding: Sliding| sliding.inertia < -CERTAIN && sliding.left < 0.3;
+    if relation.sliding.is_some_and(falls) {
         return Err(
             "the effort falls as the acceleration rises: turn the sign of the effort or of the position"
                 .into(),

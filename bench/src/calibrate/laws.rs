@@ -116,12 +116,13 @@ impl Law {
             Passage::AtOnce => {}
             Passage::Speed => parameters.push(speeds(REVERSAL_SPEED, 0.01)),
             Passage::Dahl | Passage::LuGre | Passage::Elements => {
+                // A motion of some hundred steps of the sensor may be all before sliding.
                 parameters.push(Parameter {
                     name: BREAKAWAY,
                     unit: way,
-                    start: (20.0 * shortest).min(1e-3 * scales.way),
+                    start: (20.0 * shortest).min((1e-3 * scales.way).max(3.0 * shortest)),
                     low: shortest,
-                    high: 0.1 * scales.way,
+                    high: (0.1 * scales.way).max(100.0 * shortest),
                     scale: Scale::Logarithmic,
                 });
             }

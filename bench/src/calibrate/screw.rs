@@ -202,7 +202,9 @@ pub fn calibrate(
             .zip(other.as_ref())
             .map(|(unseen, problem)| (problem, unseen.measured()));
         let fitted = (&problem, measured);
-        (answer.models, answer.winner) = scores::scores(fitted, other, &values, &request.fit)?;
+        let scores = scores::scores(fitted, other, &values, &request.fit);
+        (answer.models, answer.winner) = (scores.models, scores.winner);
+        answer.cannot_tell.extend(scores.left_out);
     }
     Ok(ScrewCalibration {
         answer,
@@ -293,6 +295,7 @@ fn spoiled(findings: Vec<Finding>) -> impl Iterator<Item = String> {
             FindingKind::ClippedEffort
                 | FindingKind::ShiftedEffort
                 | FindingKind::ShiftedSpeed
+                | FindingKind::SignUnchecked
                 | FindingKind::DeadChannel
                 | FindingKind::Repaired
                 | FindingKind::IgnoredColumns

@@ -20,11 +20,15 @@ use crate::calibrate::checks::finding::{Finding, FindingKind};
 use crate::calibrate::fit::problem::Separable;
 use crate::calibrate::fit::separable::{Fit, FitSettings, fit};
 use crate::calibrate::fit::uncertainty::{Uncertainty, uncertainty};
+use crate::calibrate::laws::Law;
 use crate::calibrate::page::picture::{Correlations, Picture};
 use crate::calibrate::signals::{Motion, RowSettings, Rows, SmoothingSettings};
 use crate::calibrate::sums::{Reference, Sums, SumsError};
 use crate::calibrate::trace::Trace;
-use crate::calibrate::without_design::choice::{LAWS, PLAIN, Prepared, estimates, model, terms};
+use crate::calibrate::without_design::choice::{
+    LAWS, PLAIN, Prepared, estimates, left_out, model, terms,
+};
+
 use crate::calibrate::without_design::closed_loop::size;
 use crate::calibrate::without_design::controller::SeenController;
 use crate::calibrate::without_design::slide::{Slide, Terms};
@@ -149,16 +153,27 @@ pub fn calibrate(
     let whole = literature(&slide)?;
     let sure = uncertainty(&slide, &whole);
 
-    let all = terms(&prepared)?;
-    let mut models =
-        vec![model(&prepared, other.as_ref(), LAWS[0], Terms::default(), PLAIN)?.score];
+    let all = terms(&prepared);
+    let (mut models, mut untold) = (Vec::new(), Vec::new());
+    let mut add = |law: Law, terms: Terms, name: &str| match model(
+        &prepared,
+        other.as_ref(),
+        law,
+        terms,
+        name,
+    ) {
+        Ok(fitted) => models.push(fitted.score),
+        Err(Failure::Data(why)) => untold.push(left_out(name, &why)),
+        Err(_) => {}
+    };
+    add(LAWS[0], Terms::default(), PLAIN);
     for law in LAWS {
         let name = if law.name == PLAIN {
             format!("{PLAIN}, with the drive's other terms")
         } else {
             law.name.into()
         };
-        models.push(model(&prepared, other.as_ref(), law, all, &name)?.score);
+        add(law, all, &name);
     }
     let ours = LAWS[LAWS.len() - 1];
     if all.period.is_some() {
@@ -168,7 +183,7 @@ pub fn calibrate(
             ..all
         };
         let name = format!("{}, without terms of the position", ours.name);
-        models.push(model(&prepared, other.as_ref(), ours, without, &name)?.score);
+        add(ours, without, &name);
     }
     let winner = rank(&mut models);
     let answer = Calibration {
@@ -176,7 +191,7 @@ pub fn calibrate(
         residual_rms: whole.residual_rms(),
         relative_error: size(&whole.residual) / size(slide.target()),
         effective_rows: sure.effective_rows,
-        cannot_tell: cannot_tell(trace, &filtered.motion, &findings),
+        cannot_tell: [cannot_tell(trace, &filtered.motion, &findings), untold].concat(),
         models,
         winner,
     };
@@ -332,12 +347,14 @@ fn reversals(motion: &Motion) -> Reversals {
     }
 }
 
-/// What the page draws: the crate's model with memory over the whole trace.
+/// What the page draws: the crate's model with memory over the whole trace, or the plain one where that cannot be fitted.
 fn picture(prepared: &Prepared<'_>, terms: Terms, sure: &Uncertainty) -> Result<Picture, Failure> {
-    let law = LAWS[LAWS.len() - 1];
-    let slide = Slide::new(prepared.trace, prepared.motion, prepared.rows, law, terms);
-    let fit =
-        fit(&slide, &FitSettings::default()).map_err(|error| Failure::Data(error.to_string()))?;
+    let of = |law: Law, terms: Terms| {
+        let slide = Slide::new(prepared.trace, prepared.motion, prepared.rows, law, terms);
+        fit(&slide, &FitSettings::default()).map(|fit| (slide, fit))
+    };
+    let (slide, fit) =
+        of(LAWS[LAWS.len() - 1], terms).or_else(|_| of(LAWS[0], Terms::default()))?;
     let trace = prepared.trace;
     let samples: Vec<usize> = prepared.rows.samples(trace.len()).collect();
     let at =

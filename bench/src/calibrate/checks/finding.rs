@@ -25,6 +25,8 @@ pub enum FindingKind {
     ShiftedEffort,
     /// A shift between effort and motion would not be seen.
     ClockUnchecked,
+    /// Neither signs nor clocks can be checked: the motion hardly slides.
+    SignUnchecked,
     /// The measured speed is early or late against the position, and is not used.
     ShiftedSpeed,
     /// Much of the effort goes with nothing that is in the trace.

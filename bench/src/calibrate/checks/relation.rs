@@ -7,7 +7,7 @@
 use nalgebra::{DMatrix, DVector, SVector};
 
 use crate::calibrate::signals::Motion;
-use crate::calibrate::trace::Trace;
+use crate::calibrate::trace::{Coordinate, Trace};
 
 /// Terms of the relation.
 const TERMS: usize = 6;
@@ -21,6 +21,8 @@ const SHARE: usize = 5;
 /// Most samples that are looked at once, and for each shift of many.
 const MOST: usize = 60_000;
 const MOST_SHIFTED: usize = 6_000;
+/// Fewest samples that say anything.
+const FEWEST: usize = 10 * TERMS;
 /// Samples of one and the same deviation, because it changes slowly: the deviations that count are fewer than the samples
 /// by this.
 const ALIKE: f64 = 50.0;
@@ -32,14 +34,23 @@ const SLIDING: f64 = 0.1;
 pub struct Relation {
     /// Root mean square of what is left, over the effort's deviation from its mean.
     pub left: f64,
-    /// Inertia over its standard deviation.
-    pub inertia: f64,
-    /// Power of the friction over its standard deviation.
-    pub power: f64,
     /// Effort of a unit of load.
     pub gain: f64,
     /// The same over its standard deviation; 0 without a load.
     pub gain_certainty: f64,
+    /// The same where the motion slides; `None` where too little of the trace does.
+    pub sliding: Option<Sliding>,
+}
+
+/// The relation that fits best where the motion has gone beyond what is elastic since it turned round.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sliding {
+    /// Root mean square of what is left, over the effort's deviation from its mean.
+    pub left: f64,
+    /// Inertia over its standard deviation.
+    pub inertia: f64,
+    /// Power of the friction over its standard deviation.
+    pub power: f64,
 }
 
 /// A shift of the effort's clock against another channel.
@@ -65,8 +76,34 @@ pub enum Against {
     Load,
 }
 
-/// The samples where the trace slides, away from its ends, thinned out.
-fn sliding(trace: &Trace, motion: &Motion, margin: usize, most: usize) -> Vec<usize> {
+/// Way after a turning point on which elasticity stands in for friction, rad and m: it leads or lags a motion, as a wrong sign or a
+/// shifted clock would. Two and a half breakaway travels of usual screws (5 mrad of a nut, 40 um of a carriage).
+const ELASTIC: [f64; 2] = [12e-3, 0.1e-3];
+
+/// Whether a sample is beyond that way, for every one.
+fn beyond_elasticity(trace: &Trace, motion: &Motion) -> Vec<bool> {
+    let way = match trace.coordinate {
+        Coordinate::Rotation => ELASTIC[0],
+        Coordinate::Translation => ELASTIC[1],
+    };
+    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+    let mut forwards = true;
+    let positions = motion.position.iter().zip(&motion.speed);
+    positions
+        .map(|(position, speed)| {
+            // Where it turned round, and how far it has come since.
+            if forwards != (*speed >= 0.0) {
+                forwards = !forwards;
+                (low, high) = (f64::INFINITY, f64::NEG_INFINITY);
+            }
+            (low, high) = (low.min(*position), high.max(*position));
+            high - low > way
+        })
+        .collect()
+}
+
+/// The samples where the trace moves, away from its ends, thinned out.
+fn moving(trace: &Trace, motion: &Motion, margin: usize, most: usize) -> Vec<usize> {
     let samples = trace.len();
     let slow = SLIDING * root_mean_square(&motion.speed);
     let inner = margin..samples.saturating_sub(margin);
@@ -163,39 +200,80 @@ fn solve(sums: &Sums) -> Option<(DVector<f64>, f64, DMatrix<f64>)> {
     Some((best, left.max(1e-14 * sums.square), inverse))
 }
 
-/// The relation of effort and motion; `None` where too little of the trace slides.
+/// The relation of effort and motion; `None` where too little of the trace moves.
 pub fn relation(trace: &Trace, motion: &Motion) -> Option<Relation> {
-    let samples = sliding(trace, motion, motion.edge, MOST);
-    if samples.len() < 10 * TERMS {
-        return None;
+    let mut samples = moving(trace, motion, motion.edge, MOST);
+    let all = Solved::of(trace, motion, &samples)?;
+    let beyond = beyond_elasticity(trace, motion);
+    samples.retain(|sample| beyond.get(*sample) == Some(&true));
+    let only = |term: usize| DVector::from_fn(TERMS, |row, _| f64::from(u8::from(row == term)));
+    Some(Relation {
+        left: all.left_over(),
+        gain: all.best[GAIN],
+        gain_certainty: all.certainty(&only(GAIN)),
+        sliding: Solved::of(trace, motion, &samples).map(|sliding| Sliding {
+            left: sliding.left_over(),
+            inertia: sliding.certainty(&only(INERTIA)),
+            power: sliding.certainty(&DVector::from_column_slice(sliding.sums.powers.as_slice())),
+        }),
+    })
+}
+
+/// Sums over some samples, with the best values of the terms.
+struct Solved {
+    sums: Sums,
+    best: DVector<f64>,
+    left: f64,
+    inverse: DMatrix<f64>,
+}
+
+impl Solved {
+    /// `None` for too few samples.
+    fn of(trace: &Trace, motion: &Motion, samples: &[usize]) -> Option<Self> {
+        if samples.len() < FEWEST {
+            return None;
+        }
+        let sums = sums(trace, motion, samples, [0, 0])?;
+        let (best, left, inverse) = solve(&sums)?;
+        Some(Self {
+            sums,
+            best,
+            left,
+            inverse,
+        })
     }
-    let sums = sums(trace, motion, &samples, [0, 0])?;
-    let (best, left, inverse) = solve(&sums)?;
-    let variance = left / sums.count * ALIKE;
-    let certainty = |direction: &DVector<f64>| {
-        let deviation = (direction.dot(&(&inverse * direction)) * variance).sqrt();
-        let value = direction.dot(&best);
+
+    /// A sum of terms over its standard deviation.
+    fn certainty(&self, direction: &DVector<f64>) -> f64 {
+        let variance = self.left / self.sums.count * ALIKE;
+        let deviation = (direction.dot(&(&self.inverse * direction)) * variance).sqrt();
+        let value = direction.dot(&self.best);
         if deviation > 0.0 {
             value / deviation
         } else {
             0.0
         }
-    };
-    let only = |term: usize| DVector::from_fn(TERMS, |row, _| f64::from(u8::from(row == term)));
-    let spread = sums.square - sums.mean * sums.mean / sums.count;
-    Some(Relation {
-        left: (left / spread.max(f64::MIN_POSITIVE)).sqrt(),
-        inertia: certainty(&only(INERTIA)),
-        power: certainty(&DVector::from_column_slice(sums.powers.as_slice())),
-        gain: best[GAIN],
-        gain_certainty: certainty(&only(GAIN)),
-    })
+    }
+
+    /// Root mean square of what is left, over the effort's deviation from its mean.
+    fn left_over(&self) -> f64 {
+        let Sums {
+            square,
+            mean,
+            count,
+            ..
+        } = self.sums;
+        let spread = square - mean * mean / count;
+        (self.left / spread.max(f64::MIN_POSITIVE)).sqrt()
+    }
 }
 
 /// The shift of the effort that leaves least, within so many ticks; `None` where too little of the trace slides.
 pub fn shift(trace: &Trace, motion: &Motion, against: Against, most: usize) -> Option<Shift> {
-    let samples = sliding(trace, motion, motion.edge + most, MOST_SHIFTED);
-    if samples.len() < 10 * TERMS {
+    let beyond = beyond_elasticity(trace, motion);
+    let mut samples = moving(trace, motion, motion.edge + most, MOST_SHIFTED);
+    samples.retain(|sample| beyond.get(*sample) == Some(&true));
+    if samples.len() < FEWEST {
         return None;
     }
     let left = |ticks: isize| {

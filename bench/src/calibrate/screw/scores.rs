@@ -9,6 +9,7 @@ use super::rivals::{Rival, WithoutMemory};
 use crate::calibrate::answer::ModelScore;
 use crate::calibrate::fit::part::residual;
 use crate::calibrate::fit::problem::Separable;
+use crate::calibrate::fit::separable::checks::FitError;
 use crate::calibrate::fit::separable::{FitSettings, fit};
 use crate::calibrate::fit::uncertainty::uncertainty;
 use crate::calibrate::laws::cost::cycles;
@@ -16,8 +17,7 @@ use crate::calibrate::laws::{Cost, Passage};
 use crate::calibrate::signals::autocorrelation::effective_rows;
 use crate::calibrate::signals::{Motion, Rows};
 use crate::calibrate::trace::Trace;
-use crate::calibrate::without_design::choice::{LAWS, estimates};
-use crate::failure::Failure;
+use crate::calibrate::without_design::choice::{LAWS, estimates, left_out};
 
 /// Starts of the laws of the literature and of the scene without memory, of which so many are finished.
 const RIVALS: (usize, usize) = (2, 1);
@@ -33,16 +33,34 @@ type Measured<'a> = (
     (&'a Trace, &'a Motion, &'a Rows),
 );
 
-/// Scores of all models on another trace, or on a third of the fitted one, and the name of the one with the least error there.
-///
-/// # Errors
-/// A model that cannot be fitted.
+/// Models of friction beside each other.
+#[derive(Default)]
+pub struct Scores {
+    /// Those that could be fitted.
+    pub models: Vec<ModelScore>,
+    /// Name of the one with the least error on what was not fitted.
+    pub winner: Option<String>,
+    /// Sentences on those that could not.
+    pub left_out: Vec<String>,
+}
+
+impl Scores {
+    /// Adds a model, or why it is not there.
+    fn add(&mut self, name: &str, score: Result<ModelScore, FitError>) {
+        match score {
+            Ok(score) => self.models.push(score),
+            Err(error) => self.left_out.push(left_out(name, &error.to_string())),
+        }
+    }
+}
+
+/// Scores of all models on another trace, or on a third of the fitted one. One that cannot be fitted is left out.
 pub fn scores(
     fitted: Measured<'_>,
     unseen: Option<Measured<'_>>,
     values: &Values,
     settings: &FitSettings,
-) -> Result<(Vec<ModelScore>, Option<String>), Failure> {
+) -> Scores {
     let (problem, (_, _, rows)) = fitted;
     let screw = problem.screw();
     let beside = problem.beside(values);
@@ -55,7 +73,7 @@ pub fn scores(
     let laws = LAWS
         .iter()
         .filter(|law| !matches!(law.passage, Passage::Speed | Passage::Elements));
-    let mut scores = Vec::new();
+    let mut scores = Scores::default();
     for law in laws {
         let preload = screw.axial_preload(values);
         let rival = Rival::new(*law, fitted.1, &beside, preload, screw.largest_load);
@@ -63,7 +81,7 @@ pub fn scores(
             Rival::new(*law, *traced, beside, preload, screw.largest_load)
         });
         let unseen = unseen.as_ref().map(|rival| rival as &dyn Separable);
-        scores.push(score(law.name, (&rival, unseen), &rivals, law.cost)?);
+        scores.add(law.name, score(law.name, (&rival, unseen), &rivals, law.cost));
     }
     let estimated = problem.nonlinear();
     let course = (problem.course(), rows, &beside);
@@ -74,7 +92,7 @@ pub fn scores(
     });
     let unseen = unseen.as_ref().map(|scene| scene as &dyn Separable);
     let cost = Cost::Counted(&["step_caged"]);
-    scores.push(score(WITHOUT_MEMORY, (&without, unseen), &rivals, cost)?);
+    scores.add(WITHOUT_MEMORY, score(WITHOUT_MEMORY, (&without, unseen), &rivals, cost));
     let single = FitSettings {
         starts: 1,
         finished: 1,
@@ -83,25 +101,22 @@ pub fn scores(
     let unseen = other
         .as_ref()
         .map(|(problem, ..)| *problem as &dyn Separable);
-    scores.push(score(
-        WITH_MEMORY,
-        (problem, unseen),
-        &single,
-        cost_with_memory(screw),
-    )?);
+    let cost = cost_with_memory(screw);
+    scores.add(WITH_MEMORY, score(WITH_MEMORY, (problem, unseen), &single, cost));
     let least = scores
+        .models
         .iter()
         .map(|score| score.information_criterion)
         .fold(f64::INFINITY, f64::min);
-    for score in &mut scores {
+    for score in &mut scores.models {
         score.information_criterion -= least;
     }
-    let winner = scores.iter().min_by(|one, other| {
+    let winner = scores.models.iter().min_by(|one, other| {
         let error = |score: &ModelScore| score.relative_error_unseen.unwrap_or(f64::INFINITY);
         error(one).total_cmp(&error(other))
     });
-    let winner = winner.map(|score| score.name.clone());
-    Ok((scores, winner))
+    scores.winner = winner.map(|score| score.name.clone());
+    scores
 }
 
 /// Cost of a step with memory: counted for elements in constant shares; load-exact ones cost what they cost beyond these.
@@ -118,13 +133,13 @@ fn score(
     (problem, unseen): (&dyn Separable, Option<&dyn Separable>),
     settings: &FitSettings,
     cost: Cost,
-) -> Result<ModelScore, Failure> {
+) -> Result<ModelScore, FitError> {
     let blocks = [Blocks::fitted(problem), Blocks::unseen(problem)];
     let (fitted, unseen): (&dyn Separable, &dyn Separable) = match unseen {
         Some(unseen) => (problem, unseen),
         None => (&blocks[0], &blocks[1]),
     };
-    let found = fit(fitted, settings).map_err(|error| Failure::from(error).of(name))?;
+    let found = fit(fitted, settings)?;
     let rest = residual(unseen, &found.nonlinear, &found.linear);
     let size = |rows: &[f64]| {
         let sum: f64 = rows.iter().map(|x| x * x).sum();

@@ -143,7 +143,7 @@ pub struct Fitted {
 }
 
 /// What every model but the plain one has beside its law: with a deviation along the way where the trace shows one.
-pub fn terms(prepared: &Prepared<'_>) -> Result<Terms, Failure> {
+pub fn terms(prepared: &Prepared<'_>) -> Terms {
     let without = Terms {
         drag_of_each_direction: true,
         position: true,
@@ -152,14 +152,16 @@ pub fn terms(prepared: &Prepared<'_>) -> Result<Terms, Failure> {
         delay: true,
     };
     let slide = prepared.slide(LAWS[LAWS.len() - 1], without);
-    let fit = fitted(&slide, false)?;
+    let Ok(fit) = fitted(&slide, false) else {
+        return without;
+    };
     let position: Vec<f64> = prepared
         .rows
         .samples(prepared.trace.len())
         .filter_map(|sample| prepared.motion.position.get(sample).copied())
         .collect();
     let Some(first) = period(&position, &fit.residual, prepared.trace.resolution) else {
-        return Ok(without);
+        return without;
     };
     // A line of the spectrum is as wide as one period of the whole way: the best place within it is found by the residual itself.
     let low = position.iter().copied().fold(f64::INFINITY, f64::min);
@@ -184,7 +186,7 @@ pub fn terms(prepared: &Prepared<'_>) -> Result<Terms, Failure> {
         })
         .min_by(|one, other| one.0.total_cmp(&other.0))
         .map(|(_, terms)| terms);
-    Ok(best.unwrap_or(without))
+    best.unwrap_or(without)
 }
 
 /// A fit, from several starts or from one.
@@ -208,7 +210,7 @@ pub fn model(
     let plain = terms == Terms::default();
     let share = if unseen.is_some() { 1.0 } else { FITTED };
     let seen = Part::before(&slide, share);
-    let fit = fitted(&seen, plain).map_err(|failure| failure.of(name))?;
+    let fit = fitted(&seen, plain)?;
     let uncertainty = uncertainty(&seen, &fit);
     let course = prepared.course(&slide, &fit, 0.0)?;
     let relative = |rows: &[f64], target: &[f64]| size(rows) / size(target);
@@ -277,6 +279,11 @@ fn load_factor(other: &Prepared<'_>, fitted: &Prepared<'_>, slide: &Slide<'_>, f
         })
         .min_by(|one, other| one.0.total_cmp(&other.0))
         .map_or(0.0, |(_, factor)| factor)
+}
+
+/// What is said of a model that could not be fitted.
+pub fn left_out(name: &str, why: &str) -> String {
+    format!("{name}: cannot be fitted to this trace, and is not compared; {why}.")
 }
 
 /// Values with their intervals.
