@@ -305,8 +305,12 @@ fn whole_folder(
 ) -> Result<(), Failure> {
     let name = folder_name(traces);
     let output = arguments.outputs.folder(&name);
+    if design.is_some() {
+        arguments.request().check()?;
+    }
     let mut settings = format!(
-        "{:?} {:?} {:?} {:?} {:?}",
+        "{} {:?} {:?} {:?} {:?} {:?}",
+        env!("CARGO_PKG_VERSION"),
         design.map(|design| (&design.configuration, &design.calibrated)),
         arguments.ratio,
         arguments.estimate,

@@ -98,6 +98,20 @@ impl Default for Request {
     }
 }
 
+impl Request {
+    /// Fails where a name is unknown or stands where it cannot, before anything is fitted.
+    ///
+    /// # Errors
+    /// The name.
+    pub fn check(&self) -> Result<(), Failure> {
+        choice::check_names(&self.wanted)?;
+        let profiles = self.profiles.iter();
+        profiles
+            .map(|name| choice::check_profile(name, &self.wanted))
+            .collect()
+    }
+}
+
 /// What a trace tells of a screw.
 #[derive(Clone, Debug)]
 pub struct ScrewCalibration {
@@ -128,6 +142,7 @@ pub fn calibrate(
     design: &Design,
     request: &Request,
 ) -> Result<ScrewCalibration, Failure> {
+    request.check()?;
     for trace in std::iter::once(trace).chain(&request.unseen) {
         if trace.coordinate != Coordinate::Rotation {
             return Err(Failure::Data(
@@ -184,9 +199,15 @@ pub fn calibrate(
     let left_out = hints.left_out(&fixed);
     let untold = told.untold.into_iter().map(|untold| untold.sentence);
     answer.cannot_tell = untold.chain(left_out).chain(spoiled(findings)).collect();
+    // What the trace does not tell has no profile, and a sentence above.
+    let told_apart = |name: &&String| {
+        let mut intervals = by_residual.intervals.iter();
+        intervals.any(|interval| interval.name == **name)
+    };
     let profiles = request
         .profiles
         .iter()
+        .filter(told_apart)
         .map(|name| {
             let profile = profile(&part, &fit, &by_residual, name, &once(&request.fit))?;
             let best = answer.value(name).unwrap_or(f64::NAN);

@@ -13,7 +13,7 @@ use crate::failure::Failure;
 use crate::files::{self, Existing};
 
 /// Form of the files; another one is fitted again.
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 
 /// A trace's file at the time of its fit, and how it was fitted.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]

@@ -84,9 +84,8 @@ impl Start {
     /// From a design, for a trace.
     ///
     /// # Errors
-    /// Names that are unknown or stand twice, values that are no numbers, a trace that cannot tell anything.
+    /// A trace that cannot tell anything.
     pub fn of(design: &Design, evidence: &Evidence, wanted: &Wanted) -> Result<Self, Failure> {
-        check_names(wanted)?;
         let (mut screw, mut values) = begin(design, evidence, wanted)?;
         for (name, value) in &wanted.fix {
             if let Some(of) = Nonlinear::named(name) {
@@ -134,12 +133,42 @@ impl Start {
     }
 }
 
-fn check_names(wanted: &Wanted) -> Result<(), Failure> {
-    let known = |name: &str| names().any(|known| known == name);
-    let unknown = |name: &str| {
-        let known: Vec<&str> = names().collect();
-        Failure::Data(format!("{name}: unknown; known are {}", known.join(", ")))
+fn known(name: &str) -> bool {
+    names().any(|known| known == name)
+}
+
+fn unknown(name: &str) -> Failure {
+    let known: Vec<&str> = names().collect();
+    Failure::Data(format!("{name}: unknown; known are {}", known.join(", ")))
+}
+
+/// Whether a parameter can have a profile.
+///
+/// # Errors
+/// A name that is unknown, or of what is not estimated.
+pub fn check_profile(name: &str, wanted: &Wanted) -> Result<(), Failure> {
+    if !known(name) {
+        return Err(unknown(name));
+    }
+    let is_wave = Linear::named(name).is_some_and(|of| of.factor.is_wave());
+    let asked = |list: &Vec<String>| {
+        list.iter()
+            .any(|asked| asked == name || is_wave && asked == HARMONICS)
     };
+    let fixed = wanted.fix.iter().any(|(fixed, _)| fixed == name);
+    if fixed || !wanted.estimate.as_ref().is_none_or(asked) {
+        return Err(Failure::Data(format!(
+            "{name}: not estimated, and without a profile"
+        )));
+    }
+    Ok(())
+}
+
+/// Whether a request names what there is.
+///
+/// # Errors
+/// A name that is unknown or stands twice, a value that is no number.
+pub fn check_names(wanted: &Wanted) -> Result<(), Failure> {
     for name in wanted.estimate.iter().flatten() {
         if !known(name) && name != HARMONICS {
             return Err(unknown(name));

@@ -182,6 +182,17 @@ fn wrong_requests_are_named() {
     let mut both = request(&[("friction", 0.1)]);
     both.wanted.estimate = Some(vec!["friction".into()]);
     assert!(refused(&both, &trace).contains("both"));
+    let mut profiled = request(&[("preload", 14.0)]);
+    for (name, word) in [("foo", "foo: unknown"), ("preload", "without a profile")] {
+        profiled.profiles = vec![name.into()];
+        assert!(refused(&profiled, &trace).contains(word));
+    }
+    let mut beside = request(&[]);
+    beside.unseen = Some(Trace {
+        load: None,
+        ..trace.clone()
+    });
+    assert!(refused(&beside, &trace).contains("axial load"));
     let mut travel = trace;
     travel.coordinate = Coordinate::Translation;
     assert!(refused(&request(&[]), &travel).contains("angle"));
