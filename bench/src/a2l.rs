@@ -7,7 +7,7 @@ use std::fs;
 use std::path::PathBuf;
 
 use crate::failure::Failure;
-use crate::files::{self, Existing};
+use crate::files::{self, Existing, refuse_same};
 use description::describe;
 use variables::Variables;
 
@@ -37,6 +37,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     };
     existing.check(&arguments.output)?;
     let image = &arguments.image;
+    refuse_same([Some(image.as_path())], std::iter::once(&arguments.output))?;
     let bytes = fs::read(image).map_err(|error| Failure::file("read", image, &error))?;
     let name = image.display().to_string();
     let variables = Variables::read(&bytes).map_err(|failure| failure.of(&name))?;

@@ -125,8 +125,8 @@ pub fn write(path: &Path, contents: &str, existing: Existing) -> Result<(), Fail
 }
 
 /// Fails where an output is an input, or another output: inputs are never overwritten.
-pub fn refuse_same<'a, const N: usize>(
-    inputs: [Option<&Path>; N],
+pub fn refuse_same<'a, 'b>(
+    inputs: impl IntoIterator<Item = Option<&'b Path>>,
     outputs: impl Iterator<Item = &'a PathBuf>,
 ) -> Result<(), Failure> {
     // What comes from standard input is not what goes to standard output.

@@ -179,7 +179,11 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     if let (true, Some(source)) = (arguments.loads.wanted(), &arguments.design) {
         let output = arguments.output.as_deref();
         refuse_same(
-            [source.file(), arguments.input.as_deref()],
+            [
+                source.file(),
+                arguments.input.as_deref(),
+                arguments.channels.as_deref(),
+            ],
             arguments.output.iter(),
         )?;
         let loads = loads::Source {
@@ -194,6 +198,10 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         &arguments.design,
         &arguments.input,
     ) {
+        refuse_same(
+            [source.file(), arguments.channels.as_deref()],
+            arguments.output.iter().chain(&arguments.plot),
+        )?;
         return mechanism::run(
             &source.load()?,
             &arguments.mechanism,
@@ -233,7 +241,11 @@ fn simulate<S: Scene>(scene: &S, arguments: &Arguments, existing: Existing) -> R
     }
     let design = arguments.design.as_ref().and_then(DesignSource::file);
     refuse_same(
-        [arguments.input.as_deref(), design],
+        [
+            arguments.input.as_deref(),
+            arguments.channels.as_deref(),
+            design,
+        ],
         output.iter().chain(&plot),
     )?;
 

@@ -156,7 +156,12 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     };
     let folder = trace.is_dir() || !arguments.folder.merge.is_empty();
     arguments.fits(folder)?;
-    arguments.outputs.check(trace, arguments.design.as_ref())?;
+    let beside = [
+        file,
+        arguments.validate.as_deref(),
+        arguments.channels.as_deref(),
+    ];
+    arguments.outputs.check(trace, beside)?;
     let mapping = arguments
         .channels
         .as_deref()

@@ -60,16 +60,20 @@ pub struct Outcome<'a> {
 }
 
 impl OutputArguments {
-    /// Fails before any work is done where an output would be in the way of a file, or is one of the inputs.
+    /// Fails before any work is done where an output would be in the way of a file, or is one of the inputs: the trace or one of those
+    /// beside it.
     ///
     /// # Errors
     /// The file.
-    pub fn check(&self, trace: &Path, design: Option<&DesignSource>) -> Result<(), Failure> {
+    pub fn check<const N: usize>(
+        &self,
+        trace: &Path,
+        beside: [Option<&Path>; N],
+    ) -> Result<(), Failure> {
         for path in self.files() {
             self.existing().check(path)?;
         }
-        let design = design.and_then(DesignSource::file);
-        refuse_same([Some(trace), design], self.files())?;
+        refuse_same(beside.into_iter().chain([Some(trace)]), self.files())?;
         let name = if trace.is_dir() {
             folder_name(trace)
         } else {

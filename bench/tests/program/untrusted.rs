@@ -223,6 +223,28 @@ fn force_replaces_outputs_only() {
         "",
     );
     assert_eq!(loads.code, 1, "{}", loads.stderr);
+    // Nor is what stands beside the first input.
+    for file in ["map.toml", "image.elf", "trace.csv"] {
+        fs::write(path(file), "precious").unwrap();
+    }
+    let mechanism = "simulate --mechanism --inertia 1 --design design.toml --input trace.csv";
+    let mapped = "simulate --design design.toml --input trace.csv --channels map.toml";
+    let calibrated = "calibrate trace.csv --design lin-4.1";
+    for (command, outputs) in [
+        (mechanism, "--output design.toml"),
+        (mapped, "--output map.toml"),
+        ("a2l --image image.elf", "--output image.elf"),
+        (calibrated, "--validate map.toml --constants map.toml"),
+        (calibrated, "--channels map.toml --design-out map.toml"),
+    ] {
+        let all = format!("{command} {outputs} --force");
+        let run = run_in(folder.path(), &all.split(' ').collect::<Vec<_>>(), "");
+        assert_eq!(run.code, 1, "{all}: {}", run.stderr);
+        assert!(run.stderr.contains("named twice"), "{all}: {}", run.stderr);
+    }
+    for file in ["map.toml", "image.elf"] {
+        assert_eq!(fs::read_to_string(path(file)).unwrap(), "precious");
+    }
     // A link is replaced, not what it leads to.
     assert_eq!(simulate("link.csv", &["--force"]).code, 0);
     assert_eq!(
