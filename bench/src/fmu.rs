@@ -26,7 +26,7 @@ use zip::write::SimpleFileOptions;
 
 use crate::designs::DesignSource;
 use crate::failure::Failure;
-use crate::files::{Existing, Pending, refuse_same};
+use crate::files::{Existing, Pending, refuse_same, told};
 use description::{Version, description};
 pub use library::mark;
 pub use running::{Moment, Running};
@@ -97,10 +97,10 @@ fn version(text: &str) -> Result<Version, String> {
 
 /// Writes the unit, or lists the scenes.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let mut stdout = io::stdout().lock();
     let (Some(scene), Some(design), Some(output)) =
         (arguments.scene, &arguments.design, &arguments.output)
     else {
+        let mut stdout = io::stdout().lock();
         for scene in SceneName::ALL {
             writeln!(stdout, "{:22} {}", scene.name(), scene.about())?;
         }
@@ -124,7 +124,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         .map_err(|error| Failure::file("write", output, &error))?;
     pending.finish()?;
     writeln!(
-        stdout,
+        told(std::iter::once(output)),
         "wrote {}: {} of {}, {} variables",
         output.display(),
         scene.name(),

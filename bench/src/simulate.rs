@@ -35,7 +35,7 @@ use std::path::PathBuf;
 use crate::designs::train::LinearDesign;
 use crate::designs::{self, DesignSource};
 use crate::failure::Failure;
-use crate::files::{self, Existing, Pending, refuse_same, refuse_shared};
+use crate::files::{self, Existing, Pending, refuse_same, refuse_shared, standard};
 use crate::mdf4::Mapping;
 use crate::source::Source;
 use choice::{Chosen, SceneName, choose};
@@ -177,7 +177,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         Existing::Keep
     };
     if let (true, Some(source)) = (arguments.loads.wanted(), &arguments.design) {
-        let output = arguments.output.as_deref();
+        // Standard output is where a load table goes by itself.
+        let output = arguments.output.as_deref().filter(|path| !standard(path));
         refuse_same(
             [
                 source.file(),

@@ -321,8 +321,11 @@ fn several_loads_and_the_other_end() {
     for (end, way) in [("left", "from"), ("right", "towards")] {
         let file = format!("{DESIGN}{LOADS}loaded_end = \"{end}\"\n");
         fs::write(path.join("end.toml"), file).unwrap();
-        let made = loads(path, &["--design", "end.toml"]);
+        let made = loads(path, &["--design", "end.toml", "--output", "-"]);
         assert_eq!(made.code, 0, "{}", made.stderr);
+        // The table alone, as it goes into a design file.
+        let table: Result<toml::Table, _> = made.stdout.parse();
+        assert!(table.is_ok(), "{}", made.stdout);
         let said = words(&made.stdout);
         assert!(
             said.contains(&format!("along the loaded track {way} the end where")),
