@@ -1,6 +1,6 @@
 //! Arguments of the program.
 
-use clap::{Parser, Subcommand};
+use clap::{Arg, CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 
 use crate::a2l;
 use crate::calibrate;
@@ -38,7 +38,10 @@ enum Command {
 
 /// Reads the arguments and runs what they ask for.
 pub fn run() -> Result<(), Failure> {
-    let command = Cli::parse().command;
+    let matches = parser().get_matches();
+    let command = Cli::from_arg_matches(&matches)
+        .unwrap_or_else(|error| error.exit())
+        .command;
     let _working = said(command.as_ref()).map(Working::new);
     match command {
         Some(Command::Simulate(arguments)) => simulate::run(&arguments),
@@ -51,6 +54,18 @@ pub fn run() -> Result<(), Failure> {
         Some(Command::Report(arguments)) => report::run(&arguments),
         None => report::run(&report::Arguments::default()),
     }
+}
+
+/// A number below zero is an option's value, and is told its range; it is no option.
+fn parser() -> clap::Command {
+    let of_option = |argument: Arg| {
+        let list = argument.get_id() == "axial_load";
+        let number = !argument.is_positional() && argument.get_action().takes_values();
+        argument
+            .allow_negative_numbers(number)
+            .allow_hyphen_values(list)
+    };
+    Cli::command().mut_subcommands(move |command| command.mut_args(of_option))
 }
 
 /// What a command says after a second. The answers of `eval` come one by one.
@@ -75,6 +90,7 @@ mod tests {
 
     #[test]
     fn without_a_subcommand_the_report_has_its_defaults() {
+        parser().debug_assert();
         assert!(Cli::parse_from(["epas-bench"]).command.is_none());
         let named = Cli::parse_from(["epas-bench", "report"]).command;
         assert!(

@@ -39,6 +39,9 @@ use stages::Stages;
 /// Rounds whose medians are a measurement.
 const ROUNDS: usize = 1500;
 
+/// Most rounds: an hour of them.
+const MOST_ROUNDS: usize = 1_000_000;
+
 /// Rounds of a look.
 const QUICK_ROUNDS: usize = 40;
 
@@ -52,7 +55,7 @@ pub struct Arguments {
     #[arg(long, default_value = "target/report")]
     output: PathBuf,
     /// Timing rounds on this machine: a median over a few is a look, not a measurement
-    #[arg(long, default_value_t = ROUNDS)]
+    #[arg(long, default_value_t = ROUNDS, value_parser = rounds)]
     rounds: usize,
     /// Few timing rounds, coarser sweeps, stored figures of the target: a look, not a measurement
     #[arg(long, conflicts_with = "rounds")]
@@ -60,6 +63,14 @@ pub struct Arguments {
     /// Replace files of the same names that no report wrote
     #[arg(long)]
     force: bool,
+}
+
+/// A number of rounds: a median is over one or more.
+fn rounds(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(rounds) if (1..=MOST_ROUNDS).contains(&rounds) => Ok(rounds),
+        _ => Err(format!("rounds are 1 to {MOST_ROUNDS}")),
+    }
 }
 
 impl Default for Arguments {

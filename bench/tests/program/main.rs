@@ -74,6 +74,24 @@ fn help_names_every_subcommand() {
     }
 }
 
+/// A number below zero is a wrong value, and no option.
+#[test]
+fn numbers_below_zero_are_told_their_range() {
+    for (arguments, word) in [
+        ("simulate --inertia -1", "an inertia is"),
+        ("calibrate a.csv --ratio -2", "a ratio is"),
+        ("calibrate a.csv --smoothing -2e1", "a cut-off is"),
+        ("report --rounds -1", "rounds are 1 to"),
+        ("report --rounds 0", "rounds are 1 to"),
+        ("screws --screws -1", "1..=100000"),
+    ] {
+        let run = run(&arguments.split(' ').collect::<Vec<_>>(), "");
+        assert_eq!(run.code, 2, "{arguments}");
+        assert!(run.stderr.contains("invalid value"), "{}", run.stderr);
+        assert!(run.stderr.contains(word), "{}", run.stderr);
+    }
+}
+
 #[test]
 fn wrong_usage_ends_with_code_2() {
     for arguments in [
