@@ -39,7 +39,7 @@ use stages::Stages;
 /// Rounds whose medians are a measurement.
 const ROUNDS: usize = 1500;
 
-/// Most rounds: an hour of them.
+/// Most rounds: far more than a median needs.
 const MOST_ROUNDS: usize = 1_000_000;
 
 /// Rounds of a look.
