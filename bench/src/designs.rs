@@ -25,7 +25,7 @@ use crate::failure::Failure;
 use crate::files::standard;
 use calibration::Calibrated;
 use loads::{LoadCase, LoadsTable};
-use tables::{MaterialTable, clearance, from_file, groove_size, material, radius, replace};
+use tables::{MaterialTable, clearance, from_text, groove_size, material, radius, replace, text_of};
 use train::{LinearDesign, UncagedDesign, UncagedTable};
 
 /// A design with what the in-loop model has to know beside it.
@@ -152,11 +152,27 @@ impl DesignSource {
         }
     }
 
+    /// The text of its file, where it is one. Standard input can be read once.
+    ///
+    /// # Errors
+    /// A file that cannot be read.
+    pub fn text(&self) -> Result<Option<String>, Failure> {
+        self.file().map(text_of).transpose()
+    }
+
     /// The ball screw, checked.
     ///
     /// # Errors
     /// A file that cannot be read, or what is wrong with it; a design of another kind.
     pub fn load(&self) -> Result<Design, Failure> {
+        self.load_from(self.text()?.as_deref())
+    }
+
+    /// The same from the text of its file.
+    ///
+    /// # Errors
+    /// What is wrong with the text; a design of another kind.
+    pub fn load_from(&self, text: Option<&str>) -> Result<Design, Failure> {
         match self {
             Self::BuiltIn {
                 name,
@@ -178,7 +194,7 @@ impl DesignSource {
                 "{} is a linear bearing: its scene is linear",
                 train::LINEAR
             ))),
-            Self::File(path) => from_file(path, DesignFile::design),
+            Self::File(path) => from_text(path, text.unwrap_or_default(), DesignFile::design),
         }
     }
 
@@ -187,9 +203,17 @@ impl DesignSource {
     /// # Errors
     /// What is wrong with its file, or that it is a ball screw.
     pub fn load_bearing(&self) -> Result<LinearDesign, Failure> {
+        self.load_bearing_from(self.text()?.as_deref())
+    }
+
+    /// The same from the text of its file.
+    ///
+    /// # Errors
+    /// What is wrong with the text, or that it is a ball screw.
+    pub fn load_bearing_from(&self, text: Option<&str>) -> Result<LinearDesign, Failure> {
         match self {
             Self::LinearBearing => LinearDesign::built_in(),
-            Self::File(path) => LinearDesign::read(path),
+            Self::File(path) => LinearDesign::read(path, text.unwrap_or_default()),
             Self::BuiltIn { name, .. } => Err(Failure::Data(format!(
                 "{name} is a ball screw; the built-in linear bearing is {}",
                 train::LINEAR

@@ -16,7 +16,7 @@ use crate::calibrate::with_design;
 use crate::calibrate::without_design::controller::SeenController;
 use crate::calibrate::without_design::{self, Filters};
 use crate::controller::Controller;
-use crate::designs::{Design, DesignSource};
+use crate::designs::{Design, DesignSource, text};
 use crate::failure::Failure;
 use crate::files::refuse_shared;
 use crate::mdf4::{self, Mapping};
@@ -146,8 +146,14 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let design = arguments
         .design
         .as_ref()
-        .map(DesignSource::load)
+        .map(|source| {
+            let text = source.text()?;
+            let design = source.load_from(text.as_deref())?;
+            let text = text.unwrap_or_else(|| text::text(&design));
+            Ok::<_, Failure>((design, text))
+        })
         .transpose()?;
+    let (design, text) = design.unzip();
     if let (Some(name), Some(design)) = (&arguments.wanted, &design) {
         return wanted::tell(design, name);
     }
@@ -171,9 +177,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     if folder {
         return whole_folder(arguments, trace, design.as_ref(), mapping);
     }
-    match &design {
-        Some(design) => with_design(arguments, trace, design, mapping),
-        None => free(arguments, trace, mapping),
+    match (&design, &text) {
+        (Some(design), Some(text)) => with_design(arguments, trace, (design, text), mapping),
+        _ => free(arguments, trace, mapping),
     }
 }
 
@@ -253,7 +259,7 @@ impl Arguments {
 fn with_design(
     arguments: &Arguments,
     trace: &Path,
-    design: &Design,
+    (design, text): (&Design, &str),
     mapping: Option<&Mapping>,
 ) -> Result<(), Failure> {
     let frame = arguments.frame(design);
@@ -266,7 +272,7 @@ fn with_design(
     arguments.outputs.write(Outcome {
         calibration: &found.answer,
         picture: &found.picture,
-        design: arguments.design.as_ref(),
+        design: Some(text),
         screw: Some(&found.screw),
     })
 }

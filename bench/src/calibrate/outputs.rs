@@ -10,7 +10,6 @@ pub mod constants;
 pub mod design_file;
 pub mod firmware;
 
-use std::fs;
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
@@ -20,7 +19,6 @@ use crate::calibrate::page;
 use crate::calibrate::page::picture::Picture;
 use crate::calibrate::page::shown;
 use crate::calibrate::screw::friction::Screw;
-use crate::designs::{DesignSource, text};
 use crate::failure::Failure;
 use crate::files::{self, Existing, refuse_same};
 use crate::folder;
@@ -53,8 +51,8 @@ pub struct Outcome<'a> {
     pub calibration: &'a Calibration,
     /// What the page draws.
     pub picture: &'a Picture,
-    /// The design that was calibrated, where there is one.
-    pub design: Option<&'a DesignSource>,
+    /// Text of the design file that was calibrated, where there is a design.
+    pub design: Option<&'a str>,
     /// The screw that was fitted, where there is a design.
     pub screw: Option<&'a Screw>,
 }
@@ -127,8 +125,8 @@ impl OutputArguments {
         folder::mark(&folder)?;
         document.write(&folder)?;
         let mut told = Vec::new();
-        if let (Some(source), true) = (design, self.files().next().is_some()) {
-            let written = calibrated(source, outcome)?;
+        if let (Some(text), true) = (design, self.files().next().is_some()) {
+            let written = calibrated(text, outcome)?;
             if let Some(path) = &self.design_out {
                 files::write(path, &written.text, self.existing())?;
                 told.push(format!("wrote {}", path.display()));
@@ -156,16 +154,10 @@ impl OutputArguments {
 }
 
 /// The design's own text with the calibrated numbers in it.
-fn calibrated(source: &DesignSource, outcome: Outcome<'_>) -> Result<Written, Failure> {
-    let text = match source.file() {
-        Some(path) => {
-            fs::read_to_string(path).map_err(|error| Failure::file("read", path, &error))?
-        }
-        None => text::text(&source.load()?),
-    };
+fn calibrated(text: &str, outcome: Outcome<'_>) -> Result<Written, Failure> {
     let trace = shown::one_line(&outcome.picture.name);
     let told = (outcome.calibration, outcome.screw);
-    design_file::written(&text, told, &trace)
+    design_file::written(text, told, &trace)
         .map_err(|message| Failure::Data(format!("the calibrated design: {message}")))
 }
 

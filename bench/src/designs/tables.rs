@@ -24,15 +24,20 @@ pub struct MaterialTable {
 /// Largest design file, bytes: a hundred times what one needs.
 const LARGEST_FILE: u64 = 1 << 18;
 
-/// Reads a design file, and makes a design of what it says and of its own name.
-pub fn from_file<Table: DeserializeOwned, Made>(
+/// The text of a design file.
+pub fn text_of(path: &Path) -> Result<String, Failure> {
+    read_text(path, LARGEST_FILE)
+}
+
+/// Makes a design of what a design file says and of its own name.
+pub fn from_text<Table: DeserializeOwned, Made>(
     path: &Path,
+    text: &str,
     design: impl FnOnce(Table, &str) -> Result<Made, String>,
 ) -> Result<Made, Failure> {
     let failure = |message: String| Failure::Data(format!("{}: {message}", path.display()));
-    let text = read_text(path, LARGEST_FILE)?;
     let file: Table =
-        toml::from_str(&text).map_err(|error| failure(error.to_string().trim_end().into()))?;
+        toml::from_str(text).map_err(|error| failure(error.to_string().trim_end().into()))?;
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     design(file, &stem).map_err(failure)
 }

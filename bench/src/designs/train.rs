@@ -9,7 +9,7 @@ use epas_friction::{
 };
 use serde::Deserialize;
 
-use super::tables::{MaterialTable, from_file, groove_size, material, radius, replace};
+use super::tables::{MaterialTable, from_text, groove_size, material, radius, replace};
 use crate::failure::Failure;
 
 /// A ball screw without cage: how many balls, and everything but the tick.
@@ -284,12 +284,12 @@ impl LinearDesign {
         file.design(name)
     }
 
-    /// Reads a design file.
+    /// The bearing of a design file with this text.
     ///
     /// # Errors
-    /// A file that cannot be read, or what is wrong with it.
-    pub fn read(path: &Path) -> Result<Self, Failure> {
-        from_file(path, LinearFile::design)
+    /// What is wrong with it.
+    pub fn read(path: &Path, text: &str) -> Result<Self, Failure> {
+        from_text(path, text, LinearFile::design)
     }
 }
 

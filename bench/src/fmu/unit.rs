@@ -61,17 +61,11 @@ impl Unit {
     /// # Errors
     /// What is wrong with the design, or that it has no such scene.
     pub fn new(scene: SceneName, design: &DesignSource) -> Result<Self, Failure> {
-        let text = match design.file() {
-            None => None,
-            Some(path) => Some(
-                std::fs::read_to_string(path)
-                    .map_err(|error| Failure::file("read", path, &error))?,
-            ),
-        };
+        let text = design.text()?;
         let source = if scene.is_linear() {
-            Source::Bearing(Box::new(design.load_bearing()?))
+            Source::Bearing(Box::new(design.load_bearing_from(text.as_deref())?))
         } else {
-            Source::Screw(Box::new(design.load()?))
+            Source::Screw(Box::new(design.load_from(text.as_deref())?))
         };
         let tick = longest_tick(scene, &source).map_err(Failure::Data)?;
         Self::of(scene, source, text, tick).map_err(Failure::Data)
