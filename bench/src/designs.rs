@@ -25,7 +25,9 @@ use crate::failure::Failure;
 use crate::files::standard;
 use calibration::Calibrated;
 use loads::{LoadCase, LoadsTable};
-use tables::{MaterialTable, clearance, from_text, groove_size, material, radius, replace, text_of};
+use tables::{
+    MaterialTable, clearance, from_text, groove_size, material, radius, replace, text_of,
+};
 use train::{LinearDesign, UncagedDesign, UncagedTable};
 
 /// A design with what the in-loop model has to know beside it.

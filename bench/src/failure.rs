@@ -7,6 +7,8 @@ use std::process::ExitCode;
 
 use epas_reference::ReferenceError;
 
+use crate::aside::say;
+
 /// Why a run stopped. Wrong usage never gets here: the argument parser ends the program itself, with
 /// exit code 2.
 #[derive(Debug)]
@@ -38,7 +40,7 @@ impl Failure {
     pub fn report(&self) -> ExitCode {
         match self {
             Self::Data(message) => {
-                eprintln!("error: {}", printable(message));
+                say(format_args!("error: {}", printable(message)));
                 ExitCode::FAILURE
             }
             Self::Answered => ExitCode::FAILURE,

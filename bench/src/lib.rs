@@ -9,6 +9,7 @@
 
 #[cfg(feature = "program")]
 mod a2l;
+mod aside;
 #[cfg(feature = "program")]
 #[doc(hidden)]
 pub mod bindings;

@@ -8,6 +8,8 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
+use crate::aside::say;
+
 /// Time after which something is to be seen.
 const SOON: Duration = Duration::from_millis(900);
 /// Time between two lines of a log.
@@ -25,7 +27,7 @@ impl Working {
         let (ended, ends) = channel();
         let thread = thread::spawn(move || {
             if ends.recv_timeout(SOON) == Err(RecvTimeoutError::Timeout) {
-                eprintln!("{said}");
+                say(said);
             }
         });
         Self {
@@ -96,11 +98,11 @@ impl Progress {
             let (done, all) = (self.bar.position(), self.bar.length().unwrap_or(0));
             let share = done as f64 / all.max(1) as f64;
             let left = self.start.elapsed().as_secs_f64() * (1.0 - share) / share.max(1e-9);
-            eprintln!(
+            say(format_args!(
                 "{}: {:.0} %, about {left:.0} s left",
                 self.work,
                 100.0 * share
-            );
+            ));
         }
     }
 

@@ -1,6 +1,7 @@
 //! `screws`: random whole screws in the loop against the exact ones.
 
 use std::f64::consts::TAU;
+use std::io::{self, Write as _};
 
 use clap::Parser;
 use rand::RngExt;
@@ -154,10 +155,15 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         })
         .collect::<Result<Vec<_>, _>>()?;
     drop(progress);
-    println!("errors in per cent of the largest exact value of each screw; states without a flag");
-    println!(
+    let mut stdout = io::stdout().lock();
+    writeln!(
+        stdout,
+        "errors in per cent of the largest exact value of each screw; states without a flag"
+    )?;
+    writeln!(
+        stdout,
         "quantity             screws   largest       rms      mean    median of rms   worst rms, its screw"
-    );
+    )?;
     for Quantity { name, of } in QUANTITIES {
         let over = Over::of(
             found
@@ -165,30 +171,33 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
                 .map(|(number, found)| (*number, of(found).relative())),
         );
         if over.screws == 0 {
-            println!("{name:20} {:6} none of these screws has it", 0);
+            writeln!(stdout, "{name:20} {:6} none of these screws has it", 0)?;
             continue;
         }
         let [largest, rms, mean, median, worst] =
             [over.largest, over.rms, over.mean, over.median, over.worst.0].map(|part| 100.0 * part);
-        println!(
+        writeln!(
+            stdout,
             "{name:20} {:6} {largest:9.2} {rms:9.3} {mean:+9.3} {median:16.3} {worst:12.3}, epas-bench screws --screws 1 --first {}",
             over.screws, over.worst.1
-        );
+        )?;
     }
     let sum =
         |of: fn(&Comparison) -> usize| found.iter().map(|(_, found)| of(found)).sum::<usize>();
-    println!(
+    writeln!(
+        stdout,
         "states: {} compared, {} flagged, {} without an exact solution",
         sum(|found| found.compared),
         sum(|found| found.flagged),
         sum(|found| found.failed)
-    );
+    )?;
     if let [(number, found)] = found.as_slice() {
-        println!(
+        writeln!(
+            stdout,
             "largest force {:.3} N; {:?}",
             found.largest_force,
             case(*number)
-        );
+        )?;
     }
     Ok(())
 }

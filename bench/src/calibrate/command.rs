@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::aside::say;
 use crate::calibrate::answer::Calibration;
 use crate::calibrate::experiment::wanted;
 use crate::calibrate::folder::{self, Folder, FolderArguments};
@@ -300,11 +301,11 @@ fn free(arguments: &Arguments, trace: &Path, mapping: Option<&Mapping>) -> Resul
 
 /// What the trace shows of its controller; beside the answer, so that a JSON object stays alone.
 fn tell(seen: &SeenController) {
-    eprintln!(
+    say(format_args!(
         "The controller's speed is {}; it explains the effort to {:.3e} rms.",
         seen.source.words(),
         seen.residual
-    );
+    ));
 }
 
 /// Every trace of a folder.

@@ -215,9 +215,7 @@ pub fn calibrate(
         })
         .collect::<Result<Vec<_>, FitError>>()?;
     if !request.without_models {
-        let other = other
-            .map(|other| other.refined(&values))
-            .transpose()?;
+        let other = other.map(|other| other.refined(&values)).transpose()?;
         let other = unseen
             .as_ref()
             .zip(other.as_ref())

@@ -2,6 +2,8 @@
 
 use std::cell::Cell;
 
+use crate::aside::say;
+
 /// Stages of some number.
 pub struct Stages {
     count: usize,
@@ -20,6 +22,6 @@ impl Stages {
     /// The next one begins.
     pub fn next(&self, what: &str) {
         self.at.set(self.at.get() + 1);
-        eprintln!("[{}/{}] {what}", self.at.get(), self.count);
+        say(format_args!("[{}/{}] {what}", self.at.get(), self.count));
     }
 }

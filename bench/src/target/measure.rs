@@ -12,6 +12,7 @@ use super::scenes::SCENES;
 use super::stored;
 use super::tools::{Built, Core, build, check};
 use super::trace::Calls;
+use crate::aside::say;
 use crate::failure::Failure;
 
 /// What an image of a scene prints: for each of its scenes the digest of its results and the stack.
@@ -104,7 +105,7 @@ fn built(images: &[&str], profile: &str) -> Result<(PathBuf, bool), Failure> {
     match build(images, Core::M4, profile, "")? {
         Built::In(folder) => Ok((folder, true)),
         Built::Panics(said) => {
-            eprintln!("{said}");
+            say(said);
             match build(images, Core::M4, profile, "halt")? {
                 Built::In(folder) => Ok((folder, false)),
                 Built::Panics(said) => Err(Failure::Data(said)),
@@ -119,7 +120,7 @@ fn whole_programs(folder: &Path) -> Result<bool, Failure> {
     let runs = programs.map(|name| Core::M4.run(&folder.join(name)));
     let runs = runs.collect::<Result<Vec<_>, Failure>>()?;
     for run in runs.iter().filter(|run| !run.passed) {
-        eprint!("{}", run.text());
+        say(run.text().trim_end());
     }
     Ok(runs.iter().all(|run| run.passed))
 }

@@ -147,10 +147,22 @@ fn a_folder_that_tells_nothing_ends_with_code_1() {
     // A name that is wrong is no word of a trace.
     let run = calibrate(
         place.path(),
-        &[".", "--design", "lin-4.1", "--estimate", "foo", "--output", "out"],
+        &[
+            ".",
+            "--design",
+            "lin-4.1",
+            "--estimate",
+            "foo",
+            "--output",
+            "out",
+        ],
     );
     assert_eq!(run.code, 1, "{}", run.stdout);
-    assert!(run.stderr.contains("foo: unknown; known are friction"), "{}", run.stderr);
+    assert!(
+        run.stderr.contains("foo: unknown; known are friction"),
+        "{}",
+        run.stderr
+    );
     for arguments in [&["--part", "3/2"][..], &["--part", "1/2", "--merge", "out"]] {
         let all: Vec<_> = ["."].iter().chain(arguments).copied().collect();
         assert_eq!(calibrate(place.path(), &all).code, 2, "{arguments:?}");

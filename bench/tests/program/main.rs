@@ -92,6 +92,19 @@ fn numbers_below_zero_are_told_their_range() {
     }
 }
 
+/// Where nothing can be said, the exit code says it.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_error_output_is_no_panic() {
+    let full = std::fs::File::create("/dev/full").unwrap();
+    let status = Command::new(env!("CARGO_BIN_EXE_epas-bench"))
+        .args(["calibrate", "none.csv"])
+        .stderr(full)
+        .status()
+        .unwrap();
+    assert_eq!(status.code(), Some(1));
+}
+
 #[test]
 fn wrong_usage_ends_with_code_2() {
     for arguments in [

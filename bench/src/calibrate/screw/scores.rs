@@ -28,10 +28,7 @@ pub const WITHOUT_MEMORY: &str = "this crate, without memory";
 pub const WITH_MEMORY: &str = "this crate, with memory";
 
 /// A screw on a trace, with what was measured.
-type Measured<'a> = (
-    &'a ScrewProblem<'a>,
-    (&'a Trace, &'a Motion, &'a Rows),
-);
+type Measured<'a> = (&'a ScrewProblem<'a>, (&'a Trace, &'a Motion, &'a Rows));
 
 /// Models of friction beside each other.
 #[derive(Default)]
@@ -81,7 +78,10 @@ pub fn scores(
             Rival::new(*law, *traced, beside, preload, screw.largest_load)
         });
         let unseen = unseen.as_ref().map(|rival| rival as &dyn Separable);
-        scores.add(law.name, score(law.name, (&rival, unseen), &rivals, law.cost));
+        scores.add(
+            law.name,
+            score(law.name, (&rival, unseen), &rivals, law.cost),
+        );
     }
     let estimated = problem.nonlinear();
     let course = (problem.course(), rows, &beside);
@@ -92,7 +92,10 @@ pub fn scores(
     });
     let unseen = unseen.as_ref().map(|scene| scene as &dyn Separable);
     let cost = Cost::Counted(&["step_caged"]);
-    scores.add(WITHOUT_MEMORY, score(WITHOUT_MEMORY, (&without, unseen), &rivals, cost));
+    scores.add(
+        WITHOUT_MEMORY,
+        score(WITHOUT_MEMORY, (&without, unseen), &rivals, cost),
+    );
     let single = FitSettings {
         starts: 1,
         finished: 1,
@@ -102,7 +105,10 @@ pub fn scores(
         .as_ref()
         .map(|(problem, ..)| *problem as &dyn Separable);
     let cost = cost_with_memory(screw);
-    scores.add(WITH_MEMORY, score(WITH_MEMORY, (problem, unseen), &single, cost));
+    scores.add(
+        WITH_MEMORY,
+        score(WITH_MEMORY, (problem, unseen), &single, cost),
+    );
     let least = scores
         .models
         .iter()

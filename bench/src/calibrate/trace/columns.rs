@@ -14,6 +14,7 @@ mod tests;
 use std::f64::consts::TAU;
 use std::io::{Read, Seek};
 
+use crate::aside::say;
 use crate::failure::Failure;
 use crate::mdf4::{self, Mapping};
 use crate::source::Source;
@@ -96,7 +97,7 @@ pub fn measured(
     };
     let found = mdf4::read(input, &request).map_err(Failure::Data)?;
     for note in &found.notes {
-        eprintln!("note: {name}: {note}");
+        say(format_args!("note: {name}: {note}"));
     }
     let table = table::of_measurement(found).map_err(Failure::Data)?;
     assemble(table, name, frame).map_err(Failure::Data)
