@@ -11,7 +11,7 @@ use crate::calibrate::screw::Request;
 use crate::calibrate::screw::choice::Wanted;
 use crate::calibrate::signals::{RowSettings, SmoothingSettings};
 use crate::calibrate::sums::Sums;
-use crate::calibrate::trace::Trace;
+use crate::calibrate::trace::{Coordinate, Trace};
 use crate::calibrate::trace::columns::{self, Frame};
 use crate::calibrate::with_design;
 use crate::calibrate::without_design::controller::SeenController;
@@ -289,7 +289,7 @@ fn free(arguments: &Arguments, trace: &Path, mapping: Option<&Mapping>) -> Resul
         &arguments.filters(),
     )?;
     if let Some(controller) = &told.controller {
-        tell(controller);
+        tell(controller, trace.coordinate);
     }
     arguments.outputs.write(Outcome {
         calibration: &told.answer,
@@ -300,11 +300,16 @@ fn free(arguments: &Arguments, trace: &Path, mapping: Option<&Mapping>) -> Resul
 }
 
 /// What the trace shows of its controller; beside the answer, so that a JSON object stays alone.
-fn tell(seen: &SeenController) {
+fn tell(seen: &SeenController, coordinate: Coordinate) {
+    let unit = match coordinate {
+        Coordinate::Rotation => "N m",
+        Coordinate::Translation => "N",
+    };
     say(format_args!(
-        "The controller's speed is {}; it explains the effort to {:.3e} rms.",
+        "The controller's speed is {}; it explains the effort to {:.3e} {unit} rms, {:.1} % of it.",
         seen.source.words(),
-        seen.residual
+        seen.residual,
+        100.0 * seen.share
     ));
 }
 

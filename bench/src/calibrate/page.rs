@@ -25,6 +25,9 @@ const CLOUD: usize = 1500;
 /// Groups of equal size whose means are drawn over a cloud.
 const GROUPS: usize = 40;
 
+/// Error over the effort from which on a model explains nothing.
+const WORTHLESS: f64 = 0.5;
+
 /// Rise of minus twice the logarithm of the likelihood at the ends of a 95 % interval: that quantile of chi squared with one
 /// degree of freedom.
 const RISE: f64 = 3.841;
@@ -131,10 +134,28 @@ fn models(calibration: &Calibration) -> Section {
         Some(name) => format!("Best on what was not fitted: {name}."),
         None => "No model was tried on anything that was not fitted.".into(),
     };
+    let mut blocks = vec![Block::Text(best)];
+    blocks.extend(doubt(calibration).map(Block::Text));
+    blocks.push(Block::Table(scores(&calibration.models)));
     Section {
         title: "Models compared",
-        blocks: vec![Block::Text(best), Block::Table(scores(&calibration.models))],
+        blocks,
     }
+}
+
+/// What is said of a comparison in which even the best model explains little.
+fn doubt(calibration: &Calibration) -> Option<String> {
+    let best = calibration
+        .models
+        .iter()
+        .filter_map(|model| model.relative_error_unseen)
+        .min_by(f64::total_cmp)?;
+    (best > WORTHLESS).then(|| {
+        format!(
+            "No model explains the trace: the best one leaves {} % of the effort, and their order says nothing. Check units, load and controller.",
+            digits(100.0 * best, 3)
+        )
+    })
 }
 
 fn scores(models: &[ModelScore]) -> Table {

@@ -186,6 +186,7 @@ pub fn calibrate(
         add(ours, without, &name);
     }
     let winner = rank(&mut models);
+    untold.extend(prepared.controller.as_ref().and_then(SeenController::doubt));
     let answer = Calibration {
         parameters: estimates(&sure),
         residual_rms: whole.residual_rms(),

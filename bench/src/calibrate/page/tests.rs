@@ -90,6 +90,10 @@ fn a_page_stands_by_itself() {
     }
     assert!(html.contains("weave &lt;17&gt;"));
     let markdown = read("report.md");
+    assert!(!markdown.contains("No model explains"));
+    let mut lost = calibration();
+    lost.models[0].relative_error_unseen = Some(1.3);
+    assert!(doubt(&lost).unwrap().contains("leaves 130 % of the effort"));
     for text in [
         "| friction | 0.1150 | 0.1100 | inf |  | estimated |",
         "| gain | 1.000 |  |  |  | set |",

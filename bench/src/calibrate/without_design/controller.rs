@@ -1,5 +1,6 @@
 //! A controller as a trace shows it: where it has its speed from, and what of the effort is not its own.
 
+use crate::calibrate::checks::relation::root_mean_square as size;
 use crate::calibrate::signals::Motion;
 use crate::calibrate::trace::Trace;
 use crate::controller::Controller;
@@ -53,7 +54,12 @@ pub struct SeenController {
     pub added: Vec<f64>,
     /// Residual of the measured effort, rms, N or N m.
     pub residual: f64,
+    /// The same over the measured effort, rms.
+    pub share: f64,
 }
+
+/// Share of the effort from which on a controller is not the trace's.
+const UNEXPLAINED: f64 = 0.5;
 
 impl SeenController {
     /// Effort at every sample from the measured positions.
@@ -115,13 +121,28 @@ impl SeenController {
             .iter()
             .map(|rest| if rest.abs() > noise { *rest } else { 0.0 })
             .collect();
-        let squares: f64 = rest.iter().map(|rest| rest.powi(2)).sum();
+        let residual = size(rest);
         Self {
             controller,
             source,
             added,
-            residual: (squares / rest.len() as f64).sqrt(),
+            residual,
+            share: residual / size(&trace.effort).max(f64::MIN_POSITIVE),
         }
+    }
+
+    /// What is said of gains that do not explain the trace.
+    pub fn doubt(&self) -> Option<String> {
+        let Controller {
+            gain_position,
+            gain_speed,
+        } = self.controller;
+        (self.share > UNEXPLAINED).then(|| {
+            format!(
+                "which model closes the loop best: the controller with gain_position = {gain_position} and gain_speed = {gain_speed} leaves {:.0} % of the measured effort; check both gains and their units",
+                100.0 * self.share
+            )
+        })
     }
 }
 
