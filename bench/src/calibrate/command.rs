@@ -44,7 +44,7 @@ pub struct Arguments {
     /// Measured trace, or a folder of them; - for standard input
     #[arg(
         value_name = "TRACE.csv|TRACE.mf4|FOLDER",
-        required_unless_present = "wanted"
+        required_unless_present_any = ["wanted", "merge"]
     )]
     trace: Option<PathBuf>,
     /// Built-in design, or design file ending in .toml
@@ -158,10 +158,14 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     if let (Some(name), Some(design)) = (&arguments.wanted, &design) {
         return wanted::tell(design, name);
     }
-    let Some(trace) = &arguments.trace else {
-        return Err(Failure::Data("there is no trace".into()));
+    let merges = !arguments.folder.merge.is_empty();
+    let trace = match &arguments.trace {
+        Some(trace) => trace,
+        // Folders that are merged have no name in common.
+        None if merges => Path::new("merged"),
+        None => return Err(Failure::Data("there is no trace".into())),
     };
-    let folder = trace.is_dir() || !arguments.folder.merge.is_empty();
+    let folder = merges || trace.is_dir();
     arguments.fits(folder)?;
     let beside = [
         file,

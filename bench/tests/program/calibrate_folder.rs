@@ -98,9 +98,7 @@ fn a_folder_is_the_sum_of_its_parts() {
     }
     let merged = json(&calibrate(
         place.path(),
-        &[
-            "traces", "--merge", "part2", "part1", "--output", "merged", "--json",
-        ],
+        &["--merge", "part2", "part1", "--output", "merged", "--json"],
     ));
     assert_eq!(merged["traces"], whole["traces"]);
     // Again: nothing is left to fit, and the answer is the same to the letter.
