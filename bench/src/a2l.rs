@@ -7,7 +7,7 @@ use std::fs;
 use std::path::PathBuf;
 
 use crate::failure::Failure;
-use crate::files::{self, Existing, refuse_same};
+use crate::files::{self, Existing, refuse_ending, refuse_same};
 use description::describe;
 use variables::Variables;
 
@@ -35,6 +35,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     } else {
         Existing::Keep
     };
+    refuse_ending("a description", Some(&arguments.output), &["a2l"])?;
     existing.check(&arguments.output)?;
     let image = &arguments.image;
     refuse_same([Some(image.as_path())], std::iter::once(&arguments.output))?;

@@ -22,7 +22,7 @@ use serde::Deserialize;
 pub use plausible::SOURCES;
 
 use crate::failure::Failure;
-use crate::files::standard;
+use crate::files::{ends, standard};
 use calibration::Calibrated;
 use loads::{LoadCase, LoadsTable};
 use tables::{
@@ -122,7 +122,7 @@ impl FromStr for DesignSource {
 
     fn from_str(text: &str) -> Result<Self, String> {
         let file = Path::new(text);
-        if standard(file) || file.extension().is_some_and(|end| end == "toml") {
+        if standard(file) || ends(file, &["toml"]) {
             return Ok(Self::File(text.into()));
         }
         if text == train::LINEAR {

@@ -145,6 +145,33 @@ pub fn refuse_same<'a, 'b>(
     Ok(())
 }
 
+/// Endings that say what a file holds, without regard to case.
+const KNOWN: [&str; 22] = [
+    "a2l", "bmp", "csv", "fmu", "gif", "htm", "html", "jpeg", "jpg", "json", "mat", "md", "mf4",
+    "ods", "parquet", "pdf", "png", "rs", "svg", "toml", "xls", "xlsx",
+];
+
+/// Whether a file has one of these endings, in whatever case.
+pub fn ends(path: &Path, endings: &[&str]) -> bool {
+    path.extension()
+        .is_some_and(|own| endings.iter().any(|one| own.eq_ignore_ascii_case(one)))
+}
+
+/// Fails where an output's ending says that it holds something else than it will.
+pub fn refuse_ending(what: &str, path: Option<&Path>, endings: &[&str]) -> Result<(), Failure> {
+    match path {
+        Some(path) if ends(path, &KNOWN) && !ends(path, endings) => {
+            let written: Vec<String> = endings.iter().map(|one| format!(".{one}")).collect();
+            Err(Failure::Data(format!(
+                "{}: {what} ends in {}",
+                path.display(),
+                written.join(" or ")
+            )))
+        }
+        _ => Ok(()),
+    }
+}
+
 /// Where a file is or will be, under one name however it is spelled.
 fn place(path: &Path) -> PathBuf {
     fs::canonicalize(path).unwrap_or_else(|_| {

@@ -26,7 +26,7 @@ use zip::write::SimpleFileOptions;
 
 use crate::designs::DesignSource;
 use crate::failure::Failure;
-use crate::files::{Existing, Pending, refuse_same, told};
+use crate::files::{Existing, Pending, refuse_ending, refuse_same, told};
 use description::{Version, description};
 pub use library::mark;
 pub use running::{Moment, Running};
@@ -111,6 +111,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     } else {
         Existing::Keep
     };
+    refuse_ending("a unit", Some(output), &["fmu"])?;
     existing.check(output)?;
     refuse_same([design.file()], std::iter::once(output))?;
     let unit = Unit::new(scene, design)?;

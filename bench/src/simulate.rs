@@ -35,7 +35,9 @@ use std::path::PathBuf;
 use crate::designs::train::LinearDesign;
 use crate::designs::{self, DesignSource};
 use crate::failure::Failure;
-use crate::files::{self, Existing, Pending, refuse_same, refuse_shared, standard};
+use crate::files::{
+    self, Existing, Pending, refuse_ending, refuse_same, refuse_shared, standard,
+};
 use crate::mdf4::Mapping;
 use crate::source::Source;
 use choice::{Chosen, SceneName, choose};
@@ -179,6 +181,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     if let (true, Some(source)) = (arguments.loads.wanted(), &arguments.design) {
         // Standard output is where a load table goes by itself.
         let output = arguments.output.as_deref().filter(|path| !standard(path));
+        refuse_ending("a load table", output, &["toml", "rs"])?;
         refuse_same(
             [
                 source.file(),
@@ -194,6 +197,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         };
         return loads::run(&source.load()?, &arguments.loads, loads, output, existing);
     }
+    refuse_ending("a table", arguments.output.as_deref(), &["csv", "mf4"])?;
+    refuse_ending("a plot", arguments.plot.as_deref(), &["svg", "html"])?;
     if let (true, Some(source), Some(input)) = (
         arguments.mechanism.wanted(),
         &arguments.design,

@@ -20,7 +20,7 @@ use crate::calibrate::page::picture::Picture;
 use crate::calibrate::page::shown;
 use crate::calibrate::screw::friction::Screw;
 use crate::failure::Failure;
-use crate::files::{self, Existing, refuse_same};
+use crate::files::{self, Existing, refuse_ending, refuse_same};
 use crate::folder;
 use crate::source::Source;
 
@@ -68,6 +68,8 @@ impl OutputArguments {
         trace: &Path,
         beside: [Option<&Path>; N],
     ) -> Result<(), Failure> {
+        refuse_ending("a design file", self.design_out.as_deref(), &["toml"])?;
+        refuse_ending("constants", self.constants.as_deref(), &["rs"])?;
         for path in self.files() {
             self.existing().check(path)?;
         }

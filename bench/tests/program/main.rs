@@ -74,6 +74,34 @@ fn help_names_every_subcommand() {
     }
 }
 
+/// An output is not called what it is not.
+#[test]
+fn foreign_endings_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("a.csv"), "time\n0\n").unwrap();
+    for (arguments, word) in [
+        ("simulate --manoeuvre kerb --plot out.png", ".svg or .html"),
+        ("simulate --manoeuvre kerb --output o.XLSX", ".csv or .mf4"),
+        (
+            "simulate --loads --design lin-3.6 --output l.mf4",
+            ".toml or .rs",
+        ),
+        ("fmu --scene caged --design lin-4.1 --output a.zip.toml", ".fmu"),
+        ("a2l --image a.elf --output a.csv", ".a2l"),
+        (
+            "calibrate a.csv --design lin-4.1 --design-out a.json",
+            ".toml",
+        ),
+        ("calibrate a.csv --design lin-4.1 --constants a.csv", ".rs"),
+        ("simulate --manoeuvre kerb --design gear.TOML", "gear.TOML"),
+    ] {
+        let all: Vec<_> = arguments.split(' ').collect();
+        let run = run_in(folder.path(), &all, "");
+        assert_eq!(run.code, 1, "{arguments}: {}", run.stderr);
+        assert!(run.stderr.contains(word), "{}", run.stderr);
+    }
+}
+
 /// A number below zero is a wrong value, and no option.
 #[test]
 fn numbers_below_zero_are_told_their_range() {

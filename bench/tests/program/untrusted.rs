@@ -234,7 +234,7 @@ fn force_replaces_outputs_only() {
         (mechanism, "--output design.toml"),
         (mapped, "--output map.toml"),
         ("a2l --image image.elf", "--output image.elf"),
-        (calibrated, "--validate map.toml --constants map.toml"),
+        (calibrated, "--validate map.toml --design-out map.toml"),
         (calibrated, "--channels map.toml --design-out map.toml"),
     ] {
         let all = format!("{command} {outputs} --force");
