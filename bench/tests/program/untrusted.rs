@@ -224,25 +224,27 @@ fn force_replaces_outputs_only() {
     );
     assert_eq!(loads.code, 1, "{}", loads.stderr);
     // Nor is what stands beside the first input.
-    for file in ["map.toml", "image.elf", "trace.csv"] {
+    let beside = ["gear.toml", "map.csv", "image.a2l", "trace.csv"];
+    for file in beside {
         fs::write(path(file), "precious").unwrap();
     }
+    std::os::unix::fs::symlink("design.toml", path("alias.csv")).unwrap();
     let mechanism = "simulate --mechanism --inertia 1 --design design.toml --input trace.csv";
-    let mapped = "simulate --design design.toml --input trace.csv --channels map.toml";
+    let mapped = "simulate --design design.toml --input trace.csv --channels map.csv";
     let calibrated = "calibrate trace.csv --design lin-4.1";
     for (command, outputs) in [
-        (mechanism, "--output design.toml"),
-        (mapped, "--output map.toml"),
-        ("a2l --image image.elf", "--output image.elf"),
-        (calibrated, "--validate map.toml --design-out map.toml"),
-        (calibrated, "--channels map.toml --design-out map.toml"),
+        (mechanism, "--output alias.csv"),
+        (mapped, "--output map.csv"),
+        ("a2l --image image.a2l", "--output image.a2l"),
+        (calibrated, "--validate gear.toml --design-out gear.toml"),
+        (calibrated, "--channels gear.toml --design-out gear.toml"),
     ] {
         let all = format!("{command} {outputs} --force");
         let run = run_in(folder.path(), &all.split(' ').collect::<Vec<_>>(), "");
         assert_eq!(run.code, 1, "{all}: {}", run.stderr);
         assert!(run.stderr.contains("named twice"), "{all}: {}", run.stderr);
     }
-    for file in ["map.toml", "image.elf"] {
+    for file in beside {
         assert_eq!(fs::read_to_string(path(file)).unwrap(), "precious");
     }
     // A link is replaced, not what it leads to.
