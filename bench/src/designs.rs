@@ -26,7 +26,7 @@ use crate::files::{ends, standard};
 use calibration::Calibrated;
 use loads::{LoadCase, LoadsTable};
 use tables::{
-    MaterialTable, clearance, from_text, groove_size, material, radius, replace, text_of,
+    MaterialTable, clearance, from_text, groove_size, material, parsed, radius, replace, text_of,
 };
 use train::{LinearDesign, UncagedDesign, UncagedTable};
 
@@ -294,7 +294,7 @@ pub fn accepts(text: &str) -> Result<(), String> {
 /// # Errors
 /// What is wrong with the text.
 pub fn read(text: &str, name: &str) -> Result<Design, String> {
-    let file: DesignFile = toml::from_str(text).map_err(|error| error.to_string())?;
+    let file: DesignFile = parsed(text)?;
     file.design(name)
 }
 
@@ -371,7 +371,12 @@ impl DesignFile {
                 limits.friction_torque,
             );
         }
-        FrictionModel::<CagedBallScrew>::new(configuration).map_err(|error| error.to_string())?;
+        FrictionModel::<CagedBallScrew>::new(configuration).map_err(|error| {
+            match error.field() {
+                "nut_speed" | "axial_load" | "friction_torque" => format!("limits.{error}"),
+                _ => error.to_string(),
+            }
+        })?;
         let configuration = *configuration;
         design.uncaged = self
             .uncaged

@@ -35,9 +35,7 @@ use std::path::PathBuf;
 use crate::designs::train::LinearDesign;
 use crate::designs::{self, DesignSource};
 use crate::failure::Failure;
-use crate::files::{
-    self, Existing, Pending, refuse_ending, refuse_same, refuse_shared, standard,
-};
+use crate::files::{self, Existing, Pending, refuse_ending, refuse_same, refuse_shared, standard};
 use crate::mdf4::Mapping;
 use crate::source::Source;
 use choice::{Chosen, SceneName, choose};

@@ -36,10 +36,22 @@ pub fn from_text<Table: DeserializeOwned, Made>(
     design: impl FnOnce(Table, &str) -> Result<Made, String>,
 ) -> Result<Made, Failure> {
     let failure = |message: String| Failure::Data(format!("{}: {message}", path.display()));
-    let file: Table =
-        toml::from_str(text).map_err(|error| failure(error.to_string().trim_end().into()))?;
+    let file: Table = parsed(text).map_err(failure)?;
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     design(file, &stem).map_err(failure)
+}
+
+/// A design file's keys. What is wrong is said without a key that is none any more.
+pub fn parsed<Table: DeserializeOwned>(text: &str) -> Result<Table, String> {
+    toml::from_str(text).map_err(|error| {
+        let said = error.to_string();
+        match said.trim_end().split_once("expected one of ") {
+            Some((before, keys)) => {
+                format!("{before}expected one of {}", keys.replace("`fit`, ", ""))
+            }
+            None => said.trim_end().into(),
+        }
+    })
 }
 
 /// Puts a given value in the place of another one.

@@ -9,7 +9,7 @@ use epas_friction::{
 };
 use serde::Deserialize;
 
-use super::tables::{MaterialTable, from_text, groove_size, material, radius, replace};
+use super::tables::{MaterialTable, from_text, groove_size, material, parsed, radius, replace};
 use crate::failure::Failure;
 
 /// A ball screw without cage: how many balls, and everything but the tick.
@@ -280,7 +280,7 @@ impl LinearDesign {
     /// # Errors
     /// What is wrong.
     pub fn parse(text: &str, name: &str) -> Result<Self, String> {
-        let file: LinearFile = toml::from_str(text).map_err(|error| error.to_string())?;
+        let file: LinearFile = parsed(text)?;
         file.design(name)
     }
 

@@ -8,10 +8,15 @@ const LONGEST: u64 = 1 << 20;
 /// Most bytes that are skipped to the end of a line which is too long: a device may never end one.
 const MOST_SKIPPED: u64 = 1 << 30;
 
+/// Byte-order mark of a text in UTF-8.
+const MARK: &[u8] = "\u{feff}".as_bytes();
+
 /// Reads lines into one buffer.
 pub struct Lines<R> {
     input: BufReader<R>,
     buffer: Vec<u8>,
+    /// Whether the next line is the first.
+    first: bool,
 }
 
 /// What a line turned out to be.
@@ -30,6 +35,7 @@ impl<R: Read> Lines<R> {
         Self {
             input: BufReader::new(input),
             buffer: Vec::new(),
+            first: true,
         }
     }
 
@@ -52,7 +58,10 @@ impl<R: Read> Lines<R> {
                 "the line is longer than {LONGEST} bytes"
             ))));
         }
-        Ok(Some(match std::str::from_utf8(&self.buffer) {
+        // An editor may put a byte-order mark before the first line.
+        let mark = std::mem::take(&mut self.first) && self.buffer.starts_with(MARK);
+        let line = &self.buffer[if mark { MARK.len() } else { 0 }..];
+        Ok(Some(match std::str::from_utf8(line) {
             Ok(text) if text.trim_ascii().is_empty() => Line::Blank,
             Ok(text) => Line::Text(text),
             Err(error) => Line::Unreadable(format!("the line is no UTF-8: {error}")),

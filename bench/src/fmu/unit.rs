@@ -67,8 +67,15 @@ impl Unit {
         } else {
             Source::Screw(Box::new(design.load_from(text.as_deref())?))
         };
-        let tick = longest_tick(scene, &source).map_err(Failure::Data)?;
-        Self::of(scene, source, text, tick).map_err(Failure::Data)
+        let failure = |message: String| {
+            let failure = Failure::Data(message);
+            match design.file() {
+                Some(path) => failure.of(&path.display().to_string()),
+                None => failure,
+            }
+        };
+        let tick = longest_tick(scene, &source).map_err(failure)?;
+        Self::of(scene, source, text, tick).map_err(failure)
     }
 
     /// The unit that is stored.

@@ -629,10 +629,12 @@ fn the_run_goes_on_in_order_after_a_bad_line() {
 fn a_file_is_read_and_a_missing_one_named() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("requests.jsonl");
-    let text: String = good_requests()
+    let requests: String = good_requests()
         .iter()
         .flat_map(|request| [request.to_string(), "\n".into()])
         .collect();
+    // As an editor may save it.
+    let text = format!("\u{feff}{requests}");
     fs::write(&path, text).unwrap();
     let good = run(&["eval", path.to_str().unwrap()], "");
     assert_eq!(good.code, 0, "{}", good.stdout);

@@ -86,7 +86,10 @@ fn foreign_endings_are_refused() {
             "simulate --loads --design lin-3.6 --output l.mf4",
             ".toml or .rs",
         ),
-        ("fmu --scene caged --design lin-4.1 --output a.zip.toml", ".fmu"),
+        (
+            "fmu --scene caged --design lin-4.1 --output a.zip.toml",
+            ".fmu",
+        ),
         ("a2l --image a.elf --output a.csv", ".a2l"),
         (
             "calibrate a.csv --design lin-4.1 --design-out a.json",

@@ -459,6 +459,16 @@ fn a_wrong_design_file_is_named_with_its_field() {
         ("conformity = 0.528", "conformity = 0.5", "conformity"),
         ("friction = 0.1", "friction = nan", "friction"),
         ("friction = 0.1", "fricton = 0.1", "fricton"),
+        (
+            "friction = 0.1",
+            "foo = 0.1",
+            "`clearance`, `preload`, `reversal_speed`",
+        ),
+        (
+            "friction = 0.1",
+            "limits = { nut_speed = -1 }",
+            "limits.nut_speed = -1",
+        ),
         ("name = \"rack\"", "name = ", "line 1"),
     ] {
         let folder = folder();

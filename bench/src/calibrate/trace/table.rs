@@ -117,7 +117,10 @@ fn message(error: &csv::Error) -> String {
     match error.kind() {
         ErrorKind::UnequalLengths {
             expected_len, len, ..
-        } => format!("{len} columns where the first line has {expected_len}"),
+        } => {
+            let many = if *len == 1 { "" } else { "s" };
+            format!("{len} column{many} where the first line has {expected_len}")
+        }
         ErrorKind::Utf8 { .. } => "no UTF-8".into(),
         _ => error.to_string(),
     }
