@@ -21,7 +21,7 @@ use super::answer::Answer;
 use super::fields::{BadField, Fields, in_range};
 use super::train::{LARGEST_TRAIN, ScrewNumbers, room_of_a_row, solved};
 use closed_form::ClosedRow;
-use contacts::Given;
+use contacts::{Given, Ways};
 use elastic::ElasticRow;
 
 /// Names of the grooves' flanks: screw or nut, left or right.
@@ -41,18 +41,6 @@ const STEPS: usize = 24;
 /// friction between the balls then changes the forces by more than the forces changed it.
 const UNCHANGED: f32 = 1e-5;
 const SETTLED: f32 = 2e-3;
-
-/// Furthest that loads, over the main ones, may be from those found for a ball. The closed form is within 0.048 of stored balls in
-/// elastic grooves without play; twice that is let pass.
-const LARGEST_LOAD_MISMATCH: f32 = 0.1;
-
-/// How balls slide.
-#[derive(Clone, Copy)]
-struct Ways {
-    friction: f32,
-    /// rad/s.
-    nut_speed: f32,
-}
 
 /// A quantity that was not found is none.
 #[derive(Default, Serialize)]

@@ -10,8 +10,7 @@ use epas_friction::{BallScrew, LoadShare};
 use serde::Serialize;
 
 use super::super::train::{LARGEST_TRAIN, contact_forces, room_of_a_row};
-use super::contacts::{Given, Row};
-use super::{LARGEST_LOAD_MISMATCH, Ways};
+use super::contacts::{Given, LARGEST_LOAD_MISMATCH, Row, Ways};
 
 /// Furthest that contact angles, rad, may be from those of the closed form. Stored balls in elastic grooves without play are
 /// within 2.1e-4.

@@ -15,8 +15,7 @@ use epas_rows::LARGEST_TRAIN;
 use epas_rows::settled::{SettledRow, settled};
 use serde::Serialize;
 
-use super::contacts::{Given, NL, NR, Row, SL, SR};
-use super::{LARGEST_LOAD_MISMATCH, Ways};
+use super::contacts::{Given, LARGEST_LOAD_MISMATCH, NL, NR, Row, SL, SR, Ways};
 
 /// What the scene computes.
 #[derive(Serialize)]
