@@ -165,12 +165,13 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.list {
         return list();
     }
-    let design = arguments.design.as_ref().and_then(DesignSource::file);
-    refuse_shared([
-        design,
+    let inputs = [
+        arguments.design.as_ref().and_then(DesignSource::file),
         arguments.input.as_deref(),
         arguments.channels.as_deref(),
-    ])?;
+    ];
+    refuse_shared(inputs)?;
+    refuse_same(inputs, arguments.output.iter().chain(&arguments.plot))?;
     let existing = if arguments.force {
         Existing::Replace
     } else {
@@ -180,14 +181,6 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         // Standard output is where a load table goes by itself.
         let output = arguments.output.as_deref().filter(|path| !standard(path));
         refuse_ending("a load table", output, &["toml", "rs"])?;
-        refuse_same(
-            [
-                source.file(),
-                arguments.input.as_deref(),
-                arguments.channels.as_deref(),
-            ],
-            arguments.output.iter(),
-        )?;
         let loads = loads::Source {
             input: arguments.input.as_ref(),
             channels: arguments.channels.as_deref(),
@@ -202,10 +195,6 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         &arguments.design,
         &arguments.input,
     ) {
-        refuse_same(
-            [source.file(), arguments.channels.as_deref()],
-            arguments.output.iter().chain(&arguments.plot),
-        )?;
         return mechanism::run(
             &source.load()?,
             &arguments.mechanism,
