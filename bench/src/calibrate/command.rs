@@ -310,7 +310,7 @@ fn tell(seen: &SeenController, coordinate: Coordinate) {
         Coordinate::Translation => "N",
     };
     say(format_args!(
-        "The controller's speed is {}; it explains the effort to {:.3e} {unit} rms, {:.1} % of it.",
+        "The controller's speed is {}; it leaves {:.3e} {unit} rms of the effort, {:.1} %.",
         seen.source.words(),
         seen.residual,
         100.0 * seen.share

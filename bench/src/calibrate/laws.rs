@@ -326,3 +326,37 @@ fn bristle(held: f64, turn: f64, way: f64, level: f64) -> (f64, f64) {
     let found = (held + pull) / (1.0 + pull.abs() / level);
     (found, found - held)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_start_is_within_its_bounds_for_any_way() {
+        for steps in [4.0, 20.0, 500.0, 2000.0, 1e4, 1e6] {
+            let scales = Scales {
+                speed: 1.0,
+                way: steps * 1e-4,
+                resolution: 1e-4,
+                tick: 1e-3,
+            };
+            for passage in [Passage::Dahl, Passage::LuGre, Passage::Elements] {
+                let law = Law {
+                    name: "any",
+                    level: Level::Stribeck,
+                    passage,
+                    cost: Cost::Estimated(1),
+                };
+                for parameter in law.parameters(&scales, ["rad", "rad/s"]) {
+                    let Parameter {
+                        low, start, high, ..
+                    } = parameter;
+                    assert!(
+                        0.0 < low && low < start && start < high,
+                        "{steps}: {parameter:?}"
+                    );
+                }
+            }
+        }
+    }
+}
