@@ -373,7 +373,7 @@ impl DesignFile {
         }
         FrictionModel::<CagedBallScrew>::new(configuration).map_err(|error| {
             match error.field() {
-                "nut_speed" | "axial_load" | "friction_torque" => format!("limits.{error}"),
+                "nut_speed" | "axial_load" | "friction_torque" => format!("limits: {error}"),
                 _ => error.to_string(),
             }
         })?;

@@ -467,7 +467,7 @@ fn a_wrong_design_file_is_named_with_its_field() {
         (
             "friction = 0.1",
             "limits = { nut_speed = -1 }",
-            "limits.nut_speed = -1",
+            "limits: nut_speed = -1",
         ),
         ("name = \"rack\"", "name = ", "line 1"),
     ] {
