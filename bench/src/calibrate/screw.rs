@@ -105,10 +105,9 @@ impl Request {
     /// The name.
     pub fn check(&self) -> Result<(), Failure> {
         choice::check_names(&self.wanted)?;
-        let profiles = self.profiles.iter();
-        profiles
-            .map(|name| choice::check_profile(name, &self.wanted))
-            .collect()
+        self.profiles
+            .iter()
+            .try_for_each(|name| choice::check_profile(name, &self.wanted))
     }
 }
 
