@@ -26,7 +26,7 @@ use crate::files::{ends, standard};
 use calibration::Calibrated;
 use loads::{LoadCase, LoadsTable};
 use tables::{
-    MaterialTable, clearance, from_text, groove_size, material, parsed, radius, replace, text_of,
+    MaterialTable, clearance, from_text, groove_size, mark, material, parsed, radius, replace, text_of,
 };
 use train::{LinearDesign, UncagedDesign, UncagedTable};
 
@@ -45,12 +45,19 @@ pub struct Design {
     pub loads: Option<LoadCase>,
     /// What a measured trace has told of it, where there is one.
     pub calibrated: Option<Calibrated>,
+    /// Keys that its file leaves to the defaults.
+    pub defaulted: Vec<&'static str>,
 }
 
-/// Settings that a catalogue does not print.
-const FRICTION: f32 = 0.075;
+/// Settings of the papers' designs, which keep the numbers that their stored results have.
+const PAPERS_FRICTION: f32 = 0.075;
+const PAPERS_CLEARANCE: Clearance = Clearance::ZERO;
+const PAPERS_REVERSAL_SPEED: f32 = 0.5;
+
+/// Settings of every other design that does not say them itself.
 const ROLLING_RESISTANCE: RollingResistance = defaults::ROLLING_RESISTANCE;
-const REVERSAL_SPEED: f32 = 0.5;
+/// Five counts of an encoder of 14 bits in a millisecond, rad/s.
+const REVERSAL_SPEED: f32 = 2.0;
 const LIMITS: Limits = Limits {
     nut_speed: 2e3,
     axial_load: 1e5,
@@ -63,11 +70,11 @@ impl Design {
             name: name.into(),
             configuration: CagedBallScrewConfiguration {
                 design,
-                friction: FRICTION,
+                friction: defaults::FRICTION,
                 rolling_resistance: ROLLING_RESISTANCE,
                 rolling_tangent: 0.0,
                 branch: FrictionBranch::Contacts,
-                clearance: Clearance::ZERO,
+                clearance: defaults::CLEARANCE,
                 loaded_balls: loaded_balls.unwrap_or_else(|| usual_balls(&design)),
                 reversal_speed: REVERSAL_SPEED,
                 limits: LIMITS,
@@ -76,7 +83,13 @@ impl Design {
             uncaged: loaded_balls.and_then(|balls| train::built_in(name, design, balls)),
             loads: loaded_balls.and_then(|balls| loads::built_in(name, balls)),
             calibrated: None,
+            defaulted: Vec::new(),
         }
+    }
+
+    /// The word behind a setting that its file leaves to the default.
+    pub fn mark(&self, key: &str) -> &'static str {
+        mark(&self.defaulted, key)
     }
 
     /// The geometry.
@@ -184,11 +197,11 @@ impl DesignSource {
                 let screw = BallScrew::new(*parameters)
                     .map_err(|error| Failure::Data(format!("{name}: {error}")))?;
                 let mut design = Design::built_in(name, screw, *loaded_balls);
-                // The designs of the papers keep the numbers that their stored results have.
                 let mut ours = FINE_LEAD_SIZES.iter().chain(&STEERING_SIZES);
-                if ours.any(|size| size.name == *name) {
-                    design.configuration.friction = defaults::FRICTION;
-                    design.configuration.clearance = defaults::CLEARANCE;
+                if !ours.any(|size| size.name == *name) {
+                    design.configuration.friction = PAPERS_FRICTION;
+                    design.configuration.clearance = PAPERS_CLEARANCE;
+                    design.configuration.reversal_speed = PAPERS_REVERSAL_SPEED;
                 }
                 Ok(design)
             }
@@ -337,8 +350,10 @@ impl DesignFile {
             return Err("loaded_balls = 0 is out of range; allowed: 1 to 1000".into());
         }
         train::refuse_fit(self.fit.as_ref())?;
+        let given = [self.clearance, self.preload];
+        let fits = given.iter().any(Option::is_some);
         let clearance = clearance(&screw, self.clearance, self.preload)?;
-        if clearance.gap() < 0.0 && self.loaded_balls.is_none() {
+        if fits && clearance.gap() < 0.0 && self.loaded_balls.is_none() {
             return Err(
                 "loaded_balls is missing: all of them press on the flanks of a preloaded nut"
                     .into(),
@@ -350,6 +365,20 @@ impl DesignFile {
             screw,
             self.loaded_balls,
         );
+        let rows = self.uncaged.as_ref();
+        design.defaulted = [
+            ("friction", self.friction.is_some()),
+            ("clearance", fits),
+            ("reversal_speed", self.reversal_speed.is_some()),
+            ("loaded_balls", self.loaded_balls.is_some()),
+            (
+                "ball_friction",
+                rows.is_none_or(UncagedTable::says_ball_friction),
+            ),
+        ]
+        .into_iter()
+        .filter_map(|(key, there)| (!there).then_some(key))
+        .collect();
         let configuration = &mut design.configuration;
         replace(&mut configuration.friction, self.friction);
         let rolling = &mut configuration.rolling_resistance;

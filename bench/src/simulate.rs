@@ -63,12 +63,13 @@ use targets::targets;
 /// A design file in TOML holds, in m and rad: pitch_radius or nominal_diameter, lead, ball_radius or
 /// ball_diameter, conformity or groove_radius (for both grooves, or each in a table [screw_groove],
 /// [nut_groove]), contact_angle; and if wanted name, youngs_modulus, poisson_ratio, density (for both
-/// bodies, or each in a table [ball_material], [groove_material]; steel without), friction,
-/// hysteresis_loss, lubricant_drag (N a contact under 100 N), branch ("contacts", or a paper's closed form "rolling" or
-/// "sliding"), rolling_tangent (closed forms), clearance (radial gap of every contact, m; play above 0,
-/// oversize below) or preload (force of each contact without a load, N), reversal_speed, loaded_balls
-/// (needed with oversize), a table [limits] with nut_speed, axial_load, friction_torque; and for --scene
-/// uncaged a table [uncaged] with balls (1 to 64), turns, and if wanted ball_friction, return_length,
+/// bodies, or each in a table [ball_material], [groove_material]; steel without), friction (0.1 without),
+/// hysteresis_loss (0.01 without), lubricant_drag (N a contact under 100 N; 0 without), branch ("contacts", or a paper's closed
+/// form "rolling" or "sliding"), rolling_tangent (closed forms), clearance (radial gap of every contact, m; play above 0,
+/// oversize below) or preload (force of each contact without a load, N; without both 1 um of oversize, clearance = -1e-6),
+/// reversal_speed (2 rad/s without), loaded_balls (needed with an oversize that is given; without, those of 2.5 turns), a table
+/// [limits] with nut_speed (2000 rad/s without), axial_load (100000 N), friction_torque (100 N m); and for --scene
+/// uncaged a table [uncaged] with balls (1 to 64), turns, and if wanted ball_friction (0.1 without), return_length (0 without),
 /// screw_deviation and nut_deviation (lists of { order, cosine, sine }, over deviation_turns turns),
 /// load_shares (a list along the loaded track) and negative_load_shares (as long a list, for loads below
 /// zero; load_shares serves both signs without it).
@@ -81,8 +82,8 @@ use targets::targets;
 /// For --scene linear a trace has the columns time, speed (m/s), normal_load and side_load (N), and a
 /// design file ball_radius or ball_diameter, conformity or groove_radius, contact_angle, balls,
 /// loaded_length, and if wanted return_length, wavelength, rail_deviation, carriage_deviation,
-/// load_shares, friction, ball_friction, materials as above, reversal_speed, and a table [limits] with
-/// speed, load, friction_force. Scenes with a train need a trace of equal steps of time.
+/// load_shares, friction and ball_friction (0.1 without), materials as above, reversal_speed (0.001 m/s without), and a table
+/// [limits] with speed, load, friction_force. The summary says which settings are defaults. Scenes with a train need a trace of equal steps of time.
 ///
 /// With --loads no friction is computed: the static model of the float64 reference finds the share of each
 /// ball in the axial load, for load_shares. Shares change with the size of the load, because contacts get
@@ -310,15 +311,26 @@ fn list() -> Result<(), Failure> {
             design.configuration.friction,
             1e6 * design.configuration.clearance.gap(),
         )?;
-        match loaded_balls {
-            Some(balls) => writeln!(stdout, ", {balls} loaded balls")?,
-            None => writeln!(stdout)?,
+        if let Some(balls) = loaded_balls {
+            write!(stdout, ", {balls} loaded balls")?;
         }
+        if let Some(balls) = &design.uncaged {
+            let [screw, nut] = balls.deviations().map(|angle| 1e3 * angle);
+            let configuration = &balls.configuration;
+            write!(
+                stdout,
+                "; uncaged: friction {:5.3}, clearance {:4.1} um, contact angle off by {screw:.1} mrad on the screw, {nut:.1} mrad in the nut",
+                configuration.friction,
+                1e6 * configuration.clearance.gap(),
+            )?;
+        }
+        writeln!(stdout)?;
     }
     let LinearDesign {
         name,
         balls,
         configuration,
+        ..
     } = LinearDesign::built_in()?;
     writeln!(
         stdout,

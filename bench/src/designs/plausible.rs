@@ -10,7 +10,8 @@ Friction: 0.075 for the papers' sizes, that of the example of Lin et al. 1994; 0
 braced nuts is that of JIS B 1192.
 Clearance: -1 um is an oversize, the least preload that sorted balls set; 0 balls that just fit.
 Rolling resistance of all: 0.01 of the elastic energy, hardened steel, without lubricant drag.
-A design file sets friction, clearance or preload, hysteresis_loss and lubricant_drag; calibrate fits them to a trace.";
+A design file sets friction, clearance or preload, hysteresis_loss and lubricant_drag; calibrate fits them to a trace. Without
+them it has friction 0.1 and clearance -1 um.";
 
 /// Which lengths a file gives as diameters.
 #[derive(Clone, Copy, Debug)]

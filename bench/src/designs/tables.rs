@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use epas_friction::{BallScrew, Clearance, GrooveSize, Material};
+use epas_friction::{BallScrew, Clearance, GrooveSize, Material, defaults};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
@@ -61,6 +61,15 @@ pub fn replace<T>(value: &mut T, given: Option<T>) {
     }
 }
 
+/// The word behind a setting that its file leaves to the default.
+pub fn mark(defaulted: &[&str], key: &str) -> &'static str {
+    if defaulted.contains(&key) {
+        " (default)"
+    } else {
+        ""
+    }
+}
+
 /// A radius that may be given as a diameter instead.
 pub fn radius(
     (radius_field, radius): (&str, Option<f32>),
@@ -116,14 +125,17 @@ pub fn material(own: Option<&MaterialTable>, common: &MaterialTable) -> Material
     }
 }
 
-/// How balls fit between the grooves: the gap, m, or the preload of a contact, N, whichever a file gives.
+/// How balls fit between the grooves: the gap, m, or the preload of a contact, N, whichever a file gives, or the default.
 pub fn clearance(
     design: &BallScrew,
     gap: Option<f32>,
     preload: Option<f32>,
 ) -> Result<Clearance, String> {
     match (gap, preload) {
-        (None, None | Some(0.0)) => Ok(Clearance::ZERO),
+        (None, None) => defaults::CLEARANCE
+            .checked(design)
+            .map_err(|error| error.to_string()),
+        (None, Some(0.0)) => Ok(Clearance::ZERO),
         (Some(gap), None) => Clearance::new(gap)
             .and_then(|clearance| clearance.checked(design))
             .map_err(|error| error.to_string()),

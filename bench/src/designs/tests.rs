@@ -20,10 +20,19 @@ const GOOD: &str = "nominal_diameter = 0.032\nlead = 0.02\nball_diameter = 6.35e
 
 #[test]
 fn a_design_file_equals_the_built_in_design() {
-    let built_in = "32x20x6.35".parse::<DesignSource>().unwrap().load();
+    let built_in = |name: &str| name.parse::<DesignSource>().unwrap().load().unwrap();
+    let papers = "friction = 0.075\nclearance = 0\nreversal_speed = 0.5\n";
+    let file = parse(&format!("{GOOD}{papers}")).unwrap();
+    assert_eq!(file.configuration, built_in("32x20x6.35").configuration);
+    assert_eq!(file.defaulted, ["loaded_balls"]);
+    // What a file leaves out is what the sizes of no paper have.
+    let file = parse(&GOOD.replace("0.02\n", "0.01\n")).unwrap();
+    assert_eq!(file.configuration, built_in("32x10x6.35").configuration);
+    assert_eq!(file.configuration.friction, defaults::FRICTION);
+    assert_eq!(file.configuration.clearance, defaults::CLEARANCE);
     assert_eq!(
-        parse(GOOD).unwrap().configuration,
-        built_in.unwrap().configuration
+        file.defaulted,
+        ["friction", "clearance", "reversal_speed", "loaded_balls"]
     );
 }
 

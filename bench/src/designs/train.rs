@@ -5,11 +5,11 @@ use std::path::Path;
 use epas_friction::{
     BallScrew, Clearance, DeviationMap, GrooveSize, Harmonic, Limits, LinearBearing,
     LinearBearingConfiguration, LinearBearingParameters, LinearLimits, LoadShare, LoadShares,
-    RollingResistance, UncagedBallScrewConfiguration,
+    RollingResistance, UncagedBallScrewConfiguration, defaults,
 };
 use serde::Deserialize;
 
-use super::tables::{MaterialTable, from_text, groove_size, material, parsed, radius, replace};
+use super::tables::{MaterialTable, from_text, groove_size, mark, material, parsed, radius, replace};
 use crate::failure::Failure;
 
 /// A ball screw without cage: how many balls, and everything but the tick.
@@ -21,6 +21,18 @@ pub struct UncagedDesign {
     pub configuration: UncagedBallScrewConfiguration,
     /// What its deviation is, where the float64 reference can follow it.
     pub wave: Option<Wave>,
+}
+
+impl UncagedDesign {
+    /// Largest deviations of the contact angle on screw and nut, rad.
+    pub fn deviations(&self) -> [f32; 2] {
+        let largest = |map: &DeviationMap| {
+            let samples = (0..64).map(|sample: u32| map.at(sample << 26).abs());
+            samples.fold(0.0, f32::max)
+        };
+        let configuration = &self.configuration;
+        [configuration.screw_deviation, configuration.nut_deviation].map(largest)
+    }
 }
 
 /// A deviation of the screw alone, `amplitude sin(order phi)`.
@@ -41,6 +53,8 @@ pub struct LinearDesign {
     pub balls: u8,
     /// Configuration; the tick is the trace's.
     pub configuration: LinearBearingConfiguration,
+    /// Keys that its file leaves to the defaults.
+    pub defaulted: Vec<&'static str>,
 }
 
 /// Name of the built-in linear bearing.
@@ -162,6 +176,11 @@ pub fn built_in(name: &str, screw: BallScrew, balls: u16) -> Option<UncagedDesig
 }
 
 impl UncagedTable {
+    /// Whether it gives the friction of balls on each other.
+    pub const fn says_ball_friction(&self) -> bool {
+        self.ball_friction.is_some()
+    }
+
     /// The scene of a checked geometry.
     pub fn design(
         &self,
@@ -237,6 +256,11 @@ impl UncagedTable {
 }
 
 impl LinearDesign {
+    /// The word behind a setting that its file leaves to the default.
+    pub fn mark(&self, key: &str) -> &'static str {
+        mark(&self.defaulted, key)
+    }
+
     /// The bearing of Lin 2019, Table 3.3; number of balls, length and deviation are this program's: the
     /// text has two balls.
     ///
@@ -256,7 +280,7 @@ impl LinearDesign {
             ball_material: None,
             groove_material: None,
             friction: Some(0.1),
-            ball_friction: None,
+            ball_friction: Some(BALL_FRICTION),
             balls: 12,
             loaded_length: 0.1,
             return_length: Some(0.0205),
@@ -328,9 +352,16 @@ impl LinearFile {
         Ok(LinearDesign {
             name: self.name.clone().unwrap_or_else(|| stem.into()),
             balls: self.balls,
+            defaulted: [
+                ("friction", self.friction),
+                ("ball_friction", self.ball_friction),
+            ]
+            .into_iter()
+            .filter_map(|(key, given)| given.is_none().then_some(key))
+            .collect(),
             configuration: LinearBearingConfiguration {
                 bearing,
-                friction: self.friction.unwrap_or(0.1),
+                friction: self.friction.unwrap_or(defaults::FRICTION),
                 ball_friction: self.ball_friction.unwrap_or(BALL_FRICTION),
                 loaded_length: self.loaded_length,
                 return_length: self.return_length.unwrap_or(0.0),

@@ -169,7 +169,26 @@ impl Scene for Caged {
         for row in rows {
             summary.add(&row.sample, &row.outputs, row.reference.as_ref());
         }
-        summary.lines(trace, &self.design, None)
+        let CagedBallScrewConfiguration {
+            friction,
+            clearance,
+            loaded_balls,
+            reversal_speed,
+            ..
+        } = self.design.configuration;
+        let mut settings = screw::settings(&self.design, friction, clearance);
+        if !self.memory {
+            let speed = screw::reversal_speed(&self.design, reversal_speed);
+            settings.add("reversal speed", speed);
+        }
+        let balls = self.design.mark("loaded_balls");
+        if !balls.is_empty() {
+            settings.add(
+                "loaded balls",
+                format!("{loaded_balls}{balls}, of 2.5 turns"),
+            );
+        }
+        summary.lines(trace, &self.design, settings, None)
     }
 
     fn picture(

@@ -187,7 +187,19 @@ impl Scene for Linear {
                 travel,
             );
         }
-        let mut lines = course.peaks(trace, self.name(), &WORDS);
+        let configuration = &self.design.configuration;
+        let mut settings = Lines::default();
+        for (name, value, key) in [
+            ("friction coefficient", configuration.friction, "friction"),
+            (
+                "between balls",
+                configuration.ball_friction,
+                "ball_friction",
+            ),
+        ] {
+            settings.add(name, format!("{value}{}", self.design.mark(key)));
+        }
+        let mut lines = course.peaks(trace, self.name(), settings, &WORDS);
         course.energy(&mut lines);
         pressing.lines(&mut lines, &WORDS);
         course.regimes(&mut lines, trace.samples.len());

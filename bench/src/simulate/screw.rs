@@ -2,16 +2,36 @@
 
 use std::f64::consts::TAU;
 
-use epas_friction::Outputs;
 use epas_friction::efficiency::EfficiencyGeometry;
 use epas_friction::geometry::Groove;
 use epas_friction::hertz::HertzContact;
+use epas_friction::{Clearance, Outputs};
 
 use super::reference::Friction;
 use super::samples::ScrewSample;
 use super::summary::{Course, Lines, Moment, Pressing, Words, regime_name};
 use super::trace::{Sample, Trace};
 use crate::designs::Design;
+
+/// Settings that decide the friction of a scene, with what a design file leaves to the defaults.
+pub fn settings(design: &Design, friction: f32, clearance: Clearance) -> Lines {
+    let mut lines = Lines::default();
+    lines.add(
+        "friction coefficient",
+        format!("{friction}{}", design.mark("friction")),
+    );
+    let gap = 1e6 * clearance.gap();
+    lines.add(
+        "clearance",
+        format!("{gap:.1} um{}", design.mark("clearance")),
+    );
+    lines
+}
+
+/// The speed over which friction turns round without memory.
+pub fn reversal_speed(design: &Design, speed: f32) -> String {
+    format!("{speed} rad/s{}", design.mark("reversal_speed"))
+}
 
 /// What a ball screw's quantities are called.
 pub const WORDS: Words = Words {
@@ -140,9 +160,10 @@ impl ScrewSummary {
         &self,
         trace: &Trace<ScrewSample>,
         design: &Design,
+        settings: Lines,
         pressing: Option<&Pressing>,
     ) -> Lines {
-        let mut lines = self.course.peaks(trace, &design.name, &WORDS);
+        let mut lines = self.course.peaks(trace, &design.name, settings, &WORDS);
         lines.add("peak motor torque", format!("{:.4} N m", self.peak_motor));
         self.course.energy(&mut lines);
         if let Some(pressing) = pressing {

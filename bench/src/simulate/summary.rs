@@ -168,11 +168,18 @@ impl Course {
         self.peak_load
     }
 
-    /// What was run, and its peaks.
-    pub fn peaks<S: Sample>(&self, trace: &Trace<S>, design: &str, words: &Words) -> Lines {
+    /// What was run, with its settings, and its peaks.
+    pub fn peaks<S: Sample>(
+        &self,
+        trace: &Trace<S>,
+        design: &str,
+        settings: Lines,
+        words: &Words,
+    ) -> Lines {
         let mut lines = Lines::default();
         lines.add("trace", trace.name.clone());
         lines.add("design", design);
+        lines.append(settings);
         let (duration, samples) = (trace.duration(), trace.samples.len());
         lines.add("duration", format!("{duration:.3} s, {samples} samples"));
         lines.add("travel", format!("{:.1} mm", 1e3 * self.travel));

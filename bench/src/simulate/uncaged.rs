@@ -95,6 +95,28 @@ impl Uncaged {
         .remembered(axial_load)
     }
 
+    /// What decides its friction.
+    fn settings(&self) -> Lines {
+        let UncagedBallScrewConfiguration {
+            friction,
+            ball_friction,
+            clearance,
+            reversal_speed,
+            ..
+        } = self.balls.configuration;
+        let mut settings = screw::settings(&self.design, friction, clearance);
+        let mark = self.design.mark("ball_friction");
+        settings.add("between balls", format!("{ball_friction}{mark}"));
+        let [screw, nut] = self.balls.deviations().map(|angle| 1e3 * angle);
+        let text = format!("screw {screw:.1} mrad, nut {nut:.1} mrad at most");
+        settings.add("contact angle deviates", text);
+        if !self.memory {
+            let speed = screw::reversal_speed(&self.design, reversal_speed);
+            settings.add("reversal speed", speed);
+        }
+        settings
+    }
+
     /// Elements at the trace's mean load, where friction remembers.
     fn remembered(&self, trace: &Trace<ScrewSample>) -> Result<Option<Remembered>, Failure> {
         let told = self.design.calibrated.is_some();
@@ -205,7 +227,7 @@ impl Scene for Uncaged {
                 rotation,
             );
         }
-        summary.lines(trace, &self.design, Some(&pressing))
+        summary.lines(trace, &self.design, self.settings(), Some(&pressing))
     }
 
     fn picture(

@@ -14,6 +14,7 @@ mod target;
 mod trains;
 mod untrusted;
 
+use epas_friction::defaults;
 use std::io::Write;
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -72,6 +73,10 @@ fn help_names_every_subcommand() {
         assert!(help.stdout.contains(subcommand));
         assert_eq!(run(&[subcommand, "--help"], "").code, 0);
     }
+    let help = run(&["simulate", "--help"], "").stdout.replace('\n', " ");
+    let clearance = f64::from(defaults::CLEARANCE.gap());
+    assert!(help.contains(&format!("friction ({} without)", defaults::FRICTION)));
+    assert!(help.contains(&format!("clearance = {clearance:.0e})")));
 }
 
 /// An output is not called what it is not.

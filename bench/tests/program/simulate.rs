@@ -61,6 +61,10 @@ fn the_list_holds_every_built_in_design() {
     ] {
         assert!(list.stdout.lines().any(|line| line.starts_with(name)));
     }
+    // Its two scenes differ.
+    let both =
+        |line: &&str| line.contains("friction 0.075") && line.contains("uncaged: friction 0.100");
+    assert_eq!(list.stdout.lines().filter(both).count(), 1);
 }
 
 #[test]
@@ -269,6 +273,7 @@ fn a_users_trace_and_design_give_their_own_numbers() {
         .collect();
     assert_eq!(regimes, ["driving", "standing", "back-driving"]);
     assert!(run.stdout.contains("rack") && run.stdout.contains("40 loaded balls"));
+    assert!(run.stdout.contains("2 rad/s (default)") && !run.stdout.contains("um (default)"));
 }
 
 #[test]
@@ -550,6 +555,9 @@ fn column(table: &str, name: &str) -> Vec<String> {
 #[test]
 fn friction_remembers_where_it_is_asked_for() {
     let folder = folder();
+    // Far below the speed of the trace: without memory friction is full there.
+    let design = format!("{DESIGN}reversal_speed = 0.5\n");
+    fs::write(folder.path().join("design.toml"), design).unwrap();
     // Forward, back by little, forward again, and back for good; 1 kHz.
     let rows = (0..400).map(|tick| {
         let speed = match tick {

@@ -15,6 +15,7 @@ ball_radius = 2.778e-3
 groove_radius = 3.254e-3
 contact_angle = 0.78539816
 friction = 0.1
+clearance = 0
 reversal_speed = 0.01
 [uncaged]
 balls = 37
@@ -343,7 +344,7 @@ fn what_a_train_cannot_run_is_named() {
             "clearance (m",
         ),
         ("turns = 2", "turns = 2\nfit = \"play\"", "clearance (m"),
-        ("[uncaged]", "clearance = 1e-3\n[uncaged]", "clearance"),
+        ("clearance = 0", "clearance = 1e-3", "clearance"),
     ] {
         fs::write(folder.path().join("bad.toml"), SCREW.replace(from, to)).unwrap();
         let run = simulate(
