@@ -48,7 +48,9 @@ impl Linear {
         remembered: Option<&Remembered>,
     ) -> Result<Train<LinearSample, LinearOutputs>, Failure> {
         let build = |tick| self.model(tick, remembered);
-        Train::new(trace, build).map_err(|failure| failure.of(self.name()))
+        // Its balls are renewed in every tick.
+        Train::new(trace, (f32::INFINITY, f64::INFINITY), build)
+            .map_err(|failure| failure.of(self.name()))
     }
 
     /// The model for a tick, s.

@@ -8,6 +8,14 @@ use crate::failure::Failure;
 /// Most ticks for each sample of a trace.
 const MOST_TICKS: u32 = 1 << 16;
 
+/// Angle of the nut up to which every ball of a ball screw is renewed in time, rad: in as many ticks as balls and one more.
+const LONGEST_ROUND: f64 = 0.12;
+
+/// The longest angle of the nut in a tick of so many balls, rad.
+pub fn longest_turn(balls: u8) -> f64 {
+    LONGEST_ROUND / (f64::from(balls) + 1.0)
+}
+
 /// What a train does at a sample.
 #[derive(Clone, Copy, Debug)]
 pub struct TrainRow<Outputs> {
@@ -28,14 +36,21 @@ pub struct Train<S: SceneSample, Outputs> {
 }
 
 impl<S: SceneSample, Outputs> Train<S, Outputs> {
-    /// The model that `build` makes for a tick, s: as many ticks for each sample as the limit of the balls'
-    /// travel in a tick needs.
+    /// The model that `build` makes for a tick, s: as many ticks for each sample, doubled from one, as its limits need, and as
+    /// keep the motion in a tick within the `longest` one up to the trace's peak speed, or the model's `largest`.
     pub fn new(
         trace: &Trace<S>,
+        (largest, longest): (f32, f64),
         build: impl Fn(f32) -> Built<S::Inputs, Outputs>,
     ) -> Result<Self, Failure> {
         let step = equal_step(trace)?;
+        let speeds = trace.samples.iter().map(|sample| sample.speed().abs());
+        let motion = step * speeds.fold(0.0, f64::max).min(largest.into());
         let mut ticks = 1;
+        // A motion at the bound, to the rounding of the trace's times, is within it.
+        while ticks < MOST_TICKS && motion > (1.0 + 1e-9) * longest * f64::from(ticks) {
+            ticks *= 2;
+        }
         loop {
             match build((step / f64::from(ticks)) as f32) {
                 Ok(Some(model)) => {
@@ -51,9 +66,31 @@ impl<S: SceneSample, Outputs> Train<S, Outputs> {
                         "balls is out of range; allowed: 1 to {MOST_BALLS}"
                     )));
                 }
-                Err(error) if error.field() == "tick" && ticks < MOST_TICKS => ticks *= 2,
+                Err(error) if error.field() == "tick" => {
+                    if error.value() > error.allowed().maximum && ticks < MOST_TICKS {
+                        ticks *= 2;
+                        continue;
+                    }
+                    let part = if ticks == 1 {
+                        String::new()
+                    } else {
+                        format!("1/{ticks} of ")
+                    };
+                    return Err(Failure::Data(format!(
+                        "{error} s; it is {part}the trace's step of {step} s"
+                    )));
+                }
                 Err(error) => return Err(Failure::Data(error.to_string())),
             }
+        }
+    }
+
+    /// Its ticks, for the summary.
+    pub fn told(&self) -> String {
+        let tick = 1e3 * self.step / f64::from(self.ticks);
+        match self.ticks {
+            1 => format!("{tick:.4} ms, one a sample"),
+            ticks => format!("{tick:.4} ms, {ticks} a sample"),
         }
     }
 

@@ -16,7 +16,7 @@ use super::scene::Scene;
 use super::screw::{self, ScrewSummary};
 use super::summary::{Lines, Pressing};
 use super::trace::Trace;
-use super::train::{Train, TrainRow};
+use super::train::{Train, TrainRow, longest_turn};
 use super::train_picture::{TrainPoint, draw};
 use crate::designs::Design;
 use crate::designs::train::UncagedDesign;
@@ -48,7 +48,9 @@ impl Uncaged {
         remembered: Option<&Remembered>,
     ) -> Result<Train<ScrewSample, UncagedOutputs>, Failure> {
         let build = |tick| self.model(tick, remembered);
-        Train::new(trace, build).map_err(|failure| failure.of(self.name()))
+        let largest = self.balls.configuration.limits.nut_speed;
+        let motion = (largest, longest_turn(self.balls.balls));
+        Train::new(trace, motion, build).map_err(|failure| failure.of(self.name()))
     }
 
     /// The model for a tick, s.
@@ -176,6 +178,7 @@ impl Scene for Uncaged {
                 row
             })
             .collect();
+        lines.add("tick", train.told());
         if let Some(remembered) = remembered {
             lines.append(remembered.lines);
         }

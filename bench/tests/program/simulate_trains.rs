@@ -121,6 +121,39 @@ fn two_turns_of_an_uncaged_screw_follow_the_reference() {
     assert!(rms < 0.05 * peak, "{rms} of {peak}");
 }
 
+/// However large the limit of the speed is, the nut turns by no more than 0.12 rad until every ball has been renewed.
+#[test]
+fn ticks_follow_the_speed_of_the_trace() {
+    let folder = tempdir().unwrap();
+    let design = SCREW.replace("[uncaged]", "[limits]\nnut_speed = 50\n[uncaged]");
+    fs::write(folder.path().join("screw.toml"), design).unwrap();
+    for (speed, ticks) in [(3.1, "one"), (6.2, "2"), (49.0, "16"), (1e3, "16")] {
+        let mut trace = String::from("time,nut_speed,axial_load\n");
+        for i in 0..80 {
+            writeln!(trace, "{},{speed},1000", f64::from(i) * 1e-3).unwrap();
+        }
+        fs::write(folder.path().join("trace.csv"), trace).unwrap();
+        let run = simulate(
+            folder.path(),
+            &[
+                "--scene",
+                "uncaged",
+                "--design",
+                "screw.toml",
+                "--input",
+                "trace.csv",
+                "--output",
+                "out.csv",
+                "--force",
+            ],
+        );
+        assert_eq!(run.code, 0, "{}", run.stderr);
+        let said = format!("{ticks} a sample");
+        assert!(run.stdout.contains(&said), "{speed}: {}", run.stdout);
+        assert!(!run.stdout.contains("beyond"), "{speed}: {}", run.stdout);
+    }
+}
+
 /// The closed form of each ball beside the scene, where it is asked for by name; a name that is none is a wrong use.
 #[test]
 fn the_closed_form_runs_beside_by_its_name() {
@@ -210,6 +243,11 @@ fn what_a_train_cannot_run_is_named() {
         "time,nut_speed,axial_load\n0,1,100\n",
     )
     .unwrap();
+    fs::write(
+        folder.path().join("fast.csv"),
+        "time,nut_speed,axial_load\n0,1,100\n5e-7,1,100\n",
+    )
+    .unwrap();
     for (arguments, word) in [
         (
             &[
@@ -221,6 +259,17 @@ fn what_a_train_cannot_run_is_named() {
                 "uneven.csv",
             ][..],
             "equal steps",
+        ),
+        (
+            &[
+                "--scene",
+                "uncaged",
+                "--design",
+                "screw.toml",
+                "--input",
+                "fast.csv",
+            ],
+            "the trace's step of 0.0000005 s",
         ),
         (
             &[
