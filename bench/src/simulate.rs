@@ -48,7 +48,9 @@ use reference::ReferenceModel;
 use samples::ScrewSample;
 use scene::Scene;
 pub use shown::{Courses, courses};
+use summary::Lines;
 use targets::targets;
+use trace::Temperature;
 
 /// Runs the in-loop friction model over a trace.
 ///
@@ -77,7 +79,7 @@ use targets::targets;
 /// A table [calibration] holds what `calibrate` has told of the screw beyond these; for --scene caged with --memory it gives
 /// full_film_ratio and half_share_speed (rad/s) with reference_temperature and viscosity_pole (K), direction_asymmetry,
 /// breakaway_angle (rad) at reference_load (N), elements ("proportional", or with largest_load, N, "load_exact" or "preloaded"), backlash
-/// (rad), churning; and for --mechanism inertia, drag, offset, gain. harmonics (a list of { order, cosine, sine }) stand there too.
+/// (rad), churning; there a column temperature (K; temperature_C in degrees Celsius) of the trace is followed; and for --mechanism inertia, drag, offset, gain. harmonics (a list of { order, cosine, sine }) stand there too.
 ///
 /// For --scene linear a trace has the columns time, speed (m/s), normal_load and side_load (N), and a
 /// design file ball_radius or ball_diameter, conformity or groove_radius, contact_angle, balls,
@@ -115,7 +117,8 @@ pub struct Arguments {
     /// uncaged, lin-3.3 linear]
     #[arg(long, value_name = "NAME|FILE.toml", required_unless_present_any = ["list", "manoeuvre"])]
     design: Option<DesignSource>,
-    /// Trace with the columns or channels time, nut_speed, axial_load (linear: time, speed, normal_load, side_load); - for standard input
+    /// Trace with the columns or channels time, nut_speed, axial_load (linear: time, speed, normal_load, side_load), and if wanted
+    /// temperature (K); - for standard input
     #[arg(
         long,
         value_name = "TRACE.csv|TRACE.mf4",
@@ -218,13 +221,14 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
 
 /// Runs one scene over its trace, and writes what is asked for.
 fn simulate<S: Scene>(scene: &S, arguments: &Arguments, existing: Existing) -> Result<(), Failure> {
-    let trace = match (&arguments.input, arguments.manoeuvre) {
+    let (trace, temperature) = match (&arguments.input, arguments.manoeuvre) {
         (Some(path), _) => {
             let channels = arguments.channels.as_deref();
             let mapping = channels.map(Mapping::read).transpose()?;
-            trace::read(&Source(path), mapping.as_ref())?
+            let followed = scene.follows_temperature();
+            trace::read(&Source(path), mapping.as_ref(), followed)?
         }
-        (None, Some(manoeuvre)) => scene.manoeuvre(manoeuvre)?,
+        (None, Some(manoeuvre)) => (scene.manoeuvre(manoeuvre)?, Temperature::None),
         (None, None) => return Err(Failure::Data("there is no trace".into())),
     };
 
@@ -246,7 +250,8 @@ fn simulate<S: Scene>(scene: &S, arguments: &Arguments, existing: Existing) -> R
     // Every sample is computed once and written once.
     let steps = trace.samples.len() * (1 + usize::from(output.is_some()));
     let progress = Progress::new(steps);
-    let (rows, reference) = scene.rows(&trace, arguments.reference, &|| progress.step())?;
+    let done = || progress.step();
+    let (rows, reference) = scene.rows_at(&trace, &temperature, arguments.reference, &done)?;
     let table = output
         .as_deref()
         .map(|path| {
@@ -277,8 +282,18 @@ fn simulate<S: Scene>(scene: &S, arguments: &Arguments, existing: Existing) -> R
     }
 
     let mut stdout = files::told(output.iter().chain(&plot));
-    scene.summary(&trace, &rows).print(&mut stdout)?;
+    let mut summary = scene.summary(&trace, &rows);
+    if let Some(model) = arguments.reference {
+        let from = format!("; f64 is {}", scene.reference_name(model));
+        summary.amend(screw::DIFFERENCE, &from);
+    }
+    summary.print(&mut stdout)?;
     reference.print(&mut stdout)?;
+    if let Some(told) = temperature.told() {
+        let mut lines = Lines::default();
+        lines.add("temperature", told);
+        lines.print(&mut stdout)?;
+    }
     for path in output.iter().chain(&plot) {
         writeln!(stdout, "wrote {}", path.display())?;
     }

@@ -158,6 +158,28 @@ impl Calibrated {
         Ok(self)
     }
 
+    /// Keys with which friction that remembers follows it, those that are there.
+    pub fn remembered(&self) -> Vec<&'static str> {
+        [
+            ("full_film_ratio", self.full_film_ratio.is_some()),
+            ("half_share_speed", self.half_share_speed.is_some()),
+            ("viscosity_pole", self.viscosity_pole.is_some()),
+            ("direction_asymmetry", self.direction_asymmetry.is_some()),
+            ("breakaway_angle", self.breakaway_angle.is_some()),
+            ("backlash", self.backlash.is_some()),
+            ("churning", self.churning.is_some()),
+        ]
+        .into_iter()
+        .filter_map(|(key, there)| there.then_some(key))
+        .collect()
+    }
+
+    /// Whether friction follows the temperature.
+    pub fn follows_temperature(&self) -> bool {
+        self.full_film_ratio.is_some()
+            || (self.has_law() && self.churning.is_some_and(|churning| churning > 0.0))
+    }
+
     /// Whether the friction coefficient follows speed or direction.
     pub const fn has_law(&self) -> bool {
         self.full_film_ratio.is_some() || self.direction_asymmetry.is_some()

@@ -18,8 +18,9 @@ use super::samples::ScrewSample;
 use super::scene::Scene;
 use super::screw::{self, ScrewSummary};
 use super::summary::Lines;
-use super::trace::{SceneSample, Trace};
+use super::trace::{SceneSample, Temperature, Trace};
 use crate::designs::Design;
+use crate::designs::calibration::Calibrated;
 use crate::failure::Failure;
 
 /// Largest load of a ball for which errors of the friction are promised, N.
@@ -62,8 +63,8 @@ impl Reference {
     }
 }
 
-/// The model that runs, told inputs and the angle of the nut, rad, within half a turn either way.
-type Model = Box<dyn FnMut(Inputs, f32) -> Outputs>;
+/// The model that runs, told inputs, the angle of the nut, rad, within half a turn either way, and a temperature, K.
+type Model = Box<dyn FnMut(Inputs, f32, f32) -> Outputs>;
 
 /// Boxes a screw that remembers.
 struct Boxed;
@@ -72,7 +73,7 @@ impl Use for Boxed {
     type Made = Model;
 
     fn with(self, mut screw: impl Remembers + 'static) -> Model {
-        Box::new(move |inputs, angle| screw.step(inputs, angle))
+        Box::new(move |inputs, angle, temperature| screw.step_at(inputs, angle, temperature))
     }
 }
 
@@ -86,8 +87,52 @@ impl Caged {
         }
         let model = FrictionModel::<CagedBallScrew>::new(&self.design.configuration);
         let mut model = model.map_err(refused)?;
-        let plain = Box::new(move |inputs, _| model.step(inputs));
-        Ok((plain, Lines::default()))
+        let plain = Box::new(move |inputs, _, _| model.step(inputs));
+        let mut lines = Lines::default();
+        let calibrated = self.design.calibrated.as_ref();
+        let left = calibrated.map_or_else(Vec::new, Calibrated::remembered);
+        if !left.is_empty() {
+            let text = format!("without --memory left out: {}", left.join(", "));
+            lines.add("calibration", text);
+        }
+        Ok((plain, lines))
+    }
+
+    /// Every sample with what the models say to it, with the temperature of each where there are any.
+    fn follow(
+        &self,
+        trace: &Trace<ScrewSample>,
+        temperature: impl Fn(usize) -> Option<f32>,
+        reference: Option<ReferenceModel>,
+        done: &dyn Fn(),
+    ) -> Result<(Vec<CagedRow>, Lines), Failure> {
+        let configuration = &self.design.configuration;
+        let (mut model, lines) = self.model(trace)?;
+        let reference = reference
+            .map(|model| Reference::new(model, configuration, trace))
+            .transpose()?;
+        let mut angle = 0.0;
+        let mut last = trace.samples.first().copied();
+        let rows = trace
+            .samples
+            .iter()
+            .enumerate()
+            .map(|(index, &sample)| {
+                if let Some(last) = last.replace(sample) {
+                    angle += 0.5 * (last.nut_speed + sample.nut_speed) * (sample.time - last.time);
+                }
+                let temperature = temperature(index).unwrap_or(memory::TEMPERATURE);
+                let outputs = model(sample.inputs(), wrapped(angle), temperature);
+                done();
+                CagedRow {
+                    sample,
+                    temperature,
+                    outputs,
+                    reference: reference.as_ref().map(|scene| scene.friction(&sample)),
+                }
+            })
+            .collect();
+        Ok((rows, lines))
     }
 }
 
@@ -100,6 +145,8 @@ pub fn wrapped(angle: f64) -> f32 {
 /// One sample with what the models say to it.
 pub struct CagedRow {
     sample: ScrewSample,
+    /// K.
+    temperature: f32,
     /// What the scene puts out.
     pub outputs: Outputs,
     /// What the float64 reference says.
@@ -124,30 +171,39 @@ impl Scene for Caged {
         reference: Option<ReferenceModel>,
         done: &dyn Fn(),
     ) -> Result<(Vec<CagedRow>, Lines), Failure> {
-        let configuration = &self.design.configuration;
-        let (mut model, lines) = self.model(trace)?;
-        let reference = reference
-            .map(|model| Reference::new(model, configuration, trace))
-            .transpose()?;
-        let mut angle = 0.0;
-        let mut last = trace.samples.first().copied();
-        let rows = trace
-            .samples
-            .iter()
-            .map(|&sample| {
-                if let Some(last) = last.replace(sample) {
-                    angle += 0.5 * (last.nut_speed + sample.nut_speed) * (sample.time - last.time);
-                }
-                let outputs = model(sample.inputs(), wrapped(angle));
-                done();
-                CagedRow {
-                    sample,
-                    outputs,
-                    reference: reference.as_ref().map(|scene| scene.friction(&sample)),
-                }
-            })
-            .collect();
-        Ok((rows, lines))
+        self.follow(trace, |_| None, reference, done)
+    }
+
+    fn reference_name(&self, model: ReferenceModel) -> String {
+        let form = match (self.design.configuration.branch, model) {
+            (FrictionBranch::Contacts, ReferenceModel::Exact) => "one ball in elastic balance",
+            (FrictionBranch::Contacts, ReferenceModel::ClosedForm) => {
+                "a rolling ball in closed form, another model than the design's friction of contacts"
+            }
+            (FrictionBranch::Rolling, _) => "the design's closed form, a rolling ball",
+            (FrictionBranch::Sliding, _) => "the design's closed form, a sliding ball",
+        };
+        let without = match (self.memory, &self.design.calibrated) {
+            (false, _) => "",
+            (true, None) => ", without memory",
+            (true, Some(_)) => ", without memory and calibration",
+        };
+        format!("{form}{without}")
+    }
+
+    fn follows_temperature(&self) -> bool {
+        let calibrated = self.design.calibrated.as_ref();
+        self.memory && calibrated.is_some_and(Calibrated::follows_temperature)
+    }
+
+    fn rows_at(
+        &self,
+        trace: &Trace<ScrewSample>,
+        temperature: &Temperature,
+        reference: Option<ReferenceModel>,
+        done: &dyn Fn(),
+    ) -> Result<(Vec<CagedRow>, Lines), Failure> {
+        self.follow(trace, |sample| temperature.at(sample), reference, done)
     }
 
     fn columns(with_reference: bool) -> Vec<&'static str> {
@@ -253,7 +309,8 @@ impl Caged {
                     design,
                     memory: self.memory,
                 };
-                slipping.rows(trace, None, &|| ())
+                let at = |sample: usize| rows.get(sample).map(|row| row.temperature);
+                slipping.follow(trace, at, None, &|| ())
             })
             .transpose()?;
         let promise = self.promise();

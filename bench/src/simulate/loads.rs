@@ -130,7 +130,8 @@ impl Wanted {
                 input: Some(path), ..
             } => {
                 let mapping = source.channels.map(Mapping::read).transpose()?;
-                Some(trace::read::<ScrewSample>(&Input(path), mapping.as_ref())?)
+                let input = Input(path);
+                Some(trace::read::<ScrewSample>(&input, mapping.as_ref(), false)?.0)
             }
             Source {
                 manoeuvre: Some(manoeuvre),

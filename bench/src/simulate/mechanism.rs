@@ -8,18 +8,20 @@ use std::f64::consts::{PI, TAU};
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
-use epas_friction::Outputs;
+use epas_friction::{CagedBallScrewConfiguration, Outputs};
 
 use super::memory;
 use super::nut::{Nut, STEPS};
 use super::output::write_table;
 use super::picture::Form;
 use super::remembering::{Remembers, Use, remembering};
-use super::summary::Lines;
+use super::screw;
+use super::summary::{Flags, Lines};
 use super::targets::targets;
-use super::trace::{Sample, Trace, read};
+use super::trace::{Sample, Temperature, read};
 use crate::controller::Controller;
 use crate::designs::Design;
+use crate::designs::calibration::Calibrated;
 use crate::failure::Failure;
 use crate::files::{self, Existing, Pending, refuse_same};
 use crate::mdf4::Mapping;
@@ -116,12 +118,15 @@ macro_rules! sample {
 sample!(Torque, "motor_torque");
 sample!(Wanted, "reference_position");
 
-/// What the nut did at a tick.
+/// The nut at the time of a sample: where it is, what it feels, and what acts on it from then on.
 struct Row {
     acting: Acting,
     angle: f64,
     speed: f64,
     torque: f64,
+    /// Friction at that time, N m.
+    friction: f64,
+    /// What the screw says of the tick that begins: torque of the load, flags.
     outputs: Outputs,
 }
 
@@ -135,20 +140,17 @@ pub fn run(
 ) -> Result<(), Failure> {
     let input = input.ok_or_else(|| Failure::Data("there is no trace".into()))?;
     let (source, mapping) = (Source(input), channels.map(Mapping::read).transpose()?);
-    let (name, acting) = match arguments.controller {
-        Some(_) => moments(read::<Wanted>(&source, mapping.as_ref())?, |sample| {
-            sample.0
-        }),
-        None => moments(read::<Torque>(&source, mapping.as_ref())?, |sample| {
-            sample.0
-        }),
+    let calibrated = design.calibrated.as_ref();
+    let follows = calibrated.is_some_and(Calibrated::follows_temperature);
+    let (name, acting, temperature) = match arguments.controller {
+        Some(_) => moments::<Wanted>(&source, mapping.as_ref(), follows, |sample| sample.0)?,
+        None => moments::<Torque>(&source, mapping.as_ref(), follows, |sample| sample.0)?,
     };
     let outputs = targets([output, plot], &name, &design.name);
     for path in outputs.iter().flatten() {
         existing.check(path)?;
     }
     refuse_same([Some(input)], outputs.iter().flatten())?;
-    let calibrated = design.calibrated.as_ref();
     let inertia = arguments
         .inertia
         .or_else(|| calibrated.and_then(|found| found.inertia.map(f64::from)))
@@ -158,7 +160,18 @@ pub fn run(
             )
         })?;
     let tick = tick(&acting)?;
-    let (rows, lines) = moved(design, &acting, inertia, arguments.controller, tick)?;
+    let course = Course {
+        design,
+        acting: &acting,
+        temperature: &temperature,
+        inertia,
+        controller: arguments.controller,
+        tick,
+    };
+    let (rows, mut lines) = moved(course)?;
+    if let Some(told) = temperature.told() {
+        lines.add("temperature", told);
+    }
     let mut written = Vec::new();
     if let [Some(table), _] = &outputs {
         let mut pending = Pending::new(table, existing)?;
@@ -184,6 +197,15 @@ pub fn run(
         pending.finish()?;
     }
     let mut stdout = files::told(outputs.iter().flatten());
+    let CagedBallScrewConfiguration {
+        friction,
+        clearance,
+        ..
+    } = design.configuration;
+    let mut settings = Lines::default();
+    settings.add("design", design.name.clone());
+    settings.append(screw::settings(design, friction, clearance));
+    settings.print(&mut stdout)?;
     summary(&rows, inertia, tick).print(&mut stdout)?;
     lines.print(&mut stdout)?;
     for path in outputs.iter().flatten() {
@@ -192,9 +214,15 @@ pub fn run(
     Ok(())
 }
 
-fn moments<S: Sample>(trace: Trace<S>, acting: fn(&S) -> Acting) -> (String, Vec<Acting>) {
+fn moments<S: Sample>(
+    source: &Source<'_>,
+    channels: Option<&Mapping>,
+    follows: bool,
+    acting: fn(&S) -> Acting,
+) -> Result<(String, Vec<Acting>, Temperature), Failure> {
+    let (trace, temperature) = read::<S>(source, channels, follows)?;
     let moments = trace.samples.iter().map(acting).collect();
-    (trace.name, moments)
+    Ok((trace.name, moments, temperature))
 }
 
 /// The tick of a trace of equal steps of time, s.
@@ -217,13 +245,13 @@ fn tick(acting: &[Acting]) -> Result<f64, Failure> {
 }
 
 /// Moves the nut of a design with friction that remembers.
-fn moved(
-    design: &Design,
-    acting: &[Acting],
-    inertia: f64,
-    controller: Option<Controller>,
-    tick: f64,
-) -> Result<(Vec<Row>, Lines), Failure> {
+fn moved(course: Course<'_>) -> Result<(Vec<Row>, Lines), Failure> {
+    let Course {
+        design,
+        acting,
+        tick,
+        ..
+    } = course;
     let load = acting
         .iter()
         .map(|acting| acting.axial_load.abs())
@@ -231,13 +259,6 @@ fn moved(
         / acting.len() as f64;
     let speed = memory::speed((tick / STEPS as f64) as f32)
         .map_err(|error| Failure::Data(format!("{}: {error}", design.name)))?;
-    let course = Course {
-        design,
-        acting,
-        inertia,
-        controller,
-        tick,
-    };
     remembering(design, load as f32, speed, course)
 }
 
@@ -245,6 +266,7 @@ fn moved(
 struct Course<'a> {
     design: &'a Design,
     acting: &'a [Acting],
+    temperature: &'a Temperature,
     inertia: f64,
     controller: Option<Controller>,
     tick: f64,
@@ -263,6 +285,7 @@ fn motion(model: impl Remembers, course: &Course<'_>) -> Vec<Row> {
     let Course {
         design,
         acting,
+        temperature,
         inertia,
         controller,
         tick,
@@ -280,12 +303,17 @@ fn motion(model: impl Remembers, course: &Course<'_>) -> Vec<Row> {
     };
     let time = tick / STEPS as f64;
     let mut rows = Vec::with_capacity(acting.len());
-    for acting in acting {
+    for (sample, acting) in acting.iter().enumerate() {
+        // A nut that has not moved yet feels no friction.
+        let before = mechanism.resistance.outputs;
+        let friction = before.map_or(0.0, |outputs| outputs.friction_torque.into());
         let (angle, speed) = (mechanism.position, mechanism.speed);
         let torque = controller.map_or(acting.command, |controller| {
             controller.effort(acting.command, angle, speed)
         });
         mechanism.resistance.axial_load = acting.axial_load;
+        let now = mechanism.resistance.temperature;
+        mechanism.resistance.temperature = temperature.at(sample).unwrap_or(now);
         for _ in 0..STEPS {
             mechanism.advance(torque, time);
         }
@@ -295,6 +323,7 @@ fn motion(model: impl Remembers, course: &Course<'_>) -> Vec<Row> {
                 angle,
                 speed,
                 torque,
+                friction,
                 outputs,
             });
         }
@@ -322,7 +351,7 @@ fn record(row: &Row) -> Vec<String> {
         row.acting.axial_load,
         row.angle,
         row.speed,
-        row.outputs.friction_torque.into(),
+        row.friction,
         row.outputs.load_torque.into(),
     ];
     let mut record: Vec<String> = numbers.map(|number| number.to_string()).to_vec();
@@ -364,7 +393,7 @@ fn summary(rows: &[Row], inertia: f64, tick: f64) -> Lines {
     lines.add("motor work", format!("{:.4} J", work(&|row| row.torque)));
     lines.add(
         "friction work",
-        format!("{:.4} J", work(&|row| row.outputs.friction_torque.into())),
+        format!("{:.4} J", work(&|row| row.friction)),
     );
     let held = rows.iter().filter(|row| row.speed.abs() <= 1e-6).count();
     lines.add(
@@ -374,6 +403,11 @@ fn summary(rows: &[Row], inertia: f64, tick: f64) -> Lines {
             100.0 * held as f64 / rows.len().max(1) as f64
         ),
     );
+    let mut flags = Flags::default();
+    for row in rows {
+        flags.add(row.outputs.faults);
+    }
+    flags.lines(&mut lines);
     lines
 }
 
@@ -399,7 +433,7 @@ fn drawn(trace: &str, design: &str, rows: &[Row], form: Form) -> Result<String, 
             vec![
                 ("motor", curve(&|row| row.torque)),
                 ("load", curve(&|row| row.outputs.load_torque.into())),
-                ("friction", curve(&|row| row.outputs.friction_torque.into())),
+                ("friction", curve(&|row| row.friction)),
             ],
         ),
         panel(

@@ -5,7 +5,7 @@ use super::manoeuvre::Manoeuvre;
 use super::picture::Form;
 use super::reference::ReferenceModel;
 use super::summary::Lines;
-use super::trace::{Sample, Trace};
+use super::trace::{Sample, Temperature, Trace};
 use crate::failure::Failure;
 
 /// A scene with its design.
@@ -35,6 +35,30 @@ pub trait Scene {
         reference: Option<ReferenceModel>,
         done: &dyn Fn(),
     ) -> Result<(Vec<Self::Row>, Lines), Failure>;
+
+    /// What a reference is, for the summary.
+    fn reference_name(&self, _: ReferenceModel) -> String {
+        String::new()
+    }
+
+    /// Whether temperatures of a trace change anything.
+    fn follows_temperature(&self) -> bool {
+        false
+    }
+
+    /// The same as [`rows`](Self::rows) with a trace's temperatures, where it follows them.
+    ///
+    /// # Errors
+    /// A design or a trace that the models refuse.
+    fn rows_at(
+        &self,
+        trace: &Trace<Self::Sample>,
+        _: &Temperature,
+        reference: Option<ReferenceModel>,
+        done: &dyn Fn(),
+    ) -> Result<(Vec<Self::Row>, Lines), Failure> {
+        self.rows(trace, reference, done)
+    }
 
     /// Columns of the table: those of the trace, then the outputs.
     fn columns(with_reference: bool) -> Vec<&'static str>;

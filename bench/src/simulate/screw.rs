@@ -55,6 +55,9 @@ pub fn columns() -> Vec<&'static str> {
     columns
 }
 
+/// What the summary calls the difference from the reference.
+pub const DIFFERENCE: &str = "largest difference from f64";
+
 /// Columns of the reference.
 pub const REFERENCE_COLUMNS: [&str; 2] = ["reference_friction_torque", "reference_efficiency"];
 
@@ -188,7 +191,7 @@ impl ScrewSummary {
         self.course.flags(&mut lines);
         if let Some(difference) = self.reference {
             lines.add(
-                "largest difference from f64",
+                DIFFERENCE,
                 format!(
                     "torque {:.1e} N m of {:.3} N m, efficiency {:.1e}",
                     difference.torque, difference.largest_torque, difference.efficiency

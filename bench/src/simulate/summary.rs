@@ -16,6 +16,13 @@ impl Lines {
         self.0.push((name.into(), text.into()));
     }
 
+    /// More words at the end of the line with a name, where it is there.
+    pub fn amend(&mut self, name: &str, words: &str) {
+        if let Some((_, text)) = self.0.iter_mut().find(|(own, _)| own == name) {
+            text.push_str(words);
+        }
+    }
+
     /// Others after these.
     pub fn append(&mut self, mut others: Self) {
         self.0.append(&mut others.0);
@@ -80,11 +87,17 @@ pub struct Course {
     /// Energy that friction turned into heat, J.
     energy: f64,
     regimes: [usize; REGIMES.len()],
+    flags: Flags,
+}
+
+/// How many samples were flagged, and why.
+#[derive(Clone, Debug, Default)]
+pub struct Flags {
     faulted: usize,
     faults: [usize; FAULTS.len()],
 }
 
-const FAULTS: [(Faults, &str); 7] = [
+const FAULTS: [(Faults, &str); 11] = [
     (Faults::SPEED_NOT_FINITE, "speed not finite"),
     (Faults::LOAD_NOT_FINITE, "load not finite"),
     (Faults::SPEED_RANGE, "speed limit"),
@@ -92,6 +105,10 @@ const FAULTS: [(Faults, &str); 7] = [
     (Faults::FRICTION_LIMIT, "torque limit"),
     (Faults::BEYOND_MODEL, "beyond the model"),
     (Faults::SETTLING, "balls settling"),
+    (Faults::ANGLE_NOT_VALID, "angle not valid"),
+    (Faults::TEMPERATURE_RANGE, "temperature range"),
+    (Faults::LOAD_STALE, "load too old"),
+    (Faults::TEMPERATURE_STALE, "temperature too old"),
 ];
 
 const REGIMES: [Regime; 4] = [
@@ -125,8 +142,7 @@ impl Course {
             peak_friction: 0.0,
             energy: 0.0,
             regimes: [0; REGIMES.len()],
-            faulted: 0,
-            faults: [0; FAULTS.len()],
+            flags: Flags::default(),
         }
     }
 
@@ -156,10 +172,7 @@ impl Course {
         for (count, known) in self.regimes.iter_mut().zip(REGIMES) {
             *count += usize::from(regime == known);
         }
-        self.faulted += usize::from(faults.any());
-        for (count, (fault, _)) in self.faults.iter_mut().zip(FAULTS) {
-            *count += usize::from(faults.contains(fault));
-        }
+        self.flags.add(faults);
         motion
     }
 
@@ -220,6 +233,21 @@ impl Course {
 
     /// How many samples were flagged, and why.
     pub fn flags(&self, lines: &mut Lines) {
+        self.flags.lines(lines);
+    }
+}
+
+impl Flags {
+    /// One sample more.
+    pub fn add(&mut self, faults: Faults) {
+        self.faulted += usize::from(faults.any());
+        for (count, (fault, _)) in self.faults.iter_mut().zip(FAULTS) {
+            *count += usize::from(faults.contains(fault));
+        }
+    }
+
+    /// Their line.
+    pub fn lines(&self, lines: &mut Lines) {
         let faults: Vec<_> = FAULTS
             .iter()
             .zip(self.faults)

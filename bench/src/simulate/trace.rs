@@ -73,23 +73,83 @@ const MOST_SAMPLES: usize = 5_000_000;
 /// whole.
 const LARGEST_FILE: u64 = 1 << 29;
 
-/// Reads a trace: a table, or a measurement file with the channels of a mapping or those that have a column's name.
+/// A column of temperatures beside the samples of a trace.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Temperature {
+    /// There is none.
+    None,
+    /// There is one, and nothing follows it.
+    Ignored,
+    /// One for each sample, K.
+    Followed(Vec<f32>),
+}
+
+/// Its name.
+const TEMPERATURE: &str = "temperature";
+
+/// Temperatures that a screw can have, K.
+const TEMPERATURES: (f64, f64) = (160.0, 500.0);
+
+impl Temperature {
+    /// That of a sample where one is followed, K.
+    pub fn at(&self, sample: usize) -> Option<f32> {
+        match self {
+            Self::Followed(values) => values.get(sample).copied(),
+            Self::None | Self::Ignored => None,
+        }
+    }
+
+    /// What the summary says of it.
+    pub fn told(&self) -> Option<String> {
+        match self {
+            Self::None => None,
+            Self::Ignored => Some(
+                "the trace's is ignored; what follows it: --scene caged with --memory, or --mechanism, of a design with full_film_ratio in \
+                 [calibration]"
+                    .into(),
+            ),
+            Self::Followed(values) => {
+                let low = values.iter().copied().fold(f32::INFINITY, f32::min);
+                let high = values.iter().copied().fold(0.0, f32::max);
+                Some(format!("{low:.1} to {high:.1} K, followed by the friction coefficient"))
+            }
+        }
+    }
+
+    /// One more value, K.
+    fn take(&mut self, value: f64) -> Result<(), String> {
+        let (low, high) = TEMPERATURES;
+        if !(low..=high).contains(&value) {
+            return Err(format!(
+                "{TEMPERATURE} = {value} is out of range; allowed: {low} to {high} K; a column in degrees Celsius is named temperature_C"
+            ));
+        }
+        if let Self::Followed(values) = self {
+            values.push(value as f32);
+        }
+        Ok(())
+    }
+}
+
+/// Reads a trace: a table, or a measurement file with the channels of a mapping or those that have a column's name; with its
+/// temperatures where they are `followed`.
 pub fn read<S: Sample>(
     source: &Source<'_>,
     channels: Option<&Mapping>,
-) -> Result<Trace<S>, Failure> {
+    followed: bool,
+) -> Result<(Trace<S>, Temperature), Failure> {
     let input = source.open(LARGEST_FILE)?;
-    let samples = if input.measurement {
-        let found = measured(input, channels);
+    let (samples, temperature) = if input.measurement {
+        let found = channels_of(input, channels, followed);
         found.map_err(|message| Failure::Data(format!("{}: {message}", source.shown())))?
     } else {
         source.without_channels(channels)?;
-        samples(input).map_err(|message| Failure::Data(format!("{}, {message}", source.shown())))?
+        parse(input, followed).map_err(|Fault { line, message }| {
+            Failure::Data(format!("{}, line {line}: {message}", source.shown()))
+        })?
     };
-    Ok(Trace {
-        name: source.name(),
-        samples,
-    })
+    let name = source.name();
+    Ok((Trace { name, samples }, temperature))
 }
 
 /// What a column cannot be measured in: a carriage travels, and a wanted angle of the nut is one.
@@ -103,8 +163,19 @@ fn refused(column: &str) -> Option<Dimension> {
 
 /// The samples of a measurement file.
 pub fn measured<S: Sample>(input: impl Read, channels: Option<&Mapping>) -> Result<Vec<S>, String> {
+    channels_of(input, channels, false).map(|(samples, _)| samples)
+}
+
+/// The samples of a measurement file, with its temperatures where they are `followed`.
+fn channels_of<S: Sample>(
+    input: impl Read,
+    channels: Option<&Mapping>,
+    followed: bool,
+) -> Result<(Vec<S>, Temperature), String> {
+    let optional = followed.then_some(&TEMPERATURE);
     let wanted: Vec<mdf4::Wanted> = S::COLUMNS
         .iter()
+        .chain(optional)
         .filter_map(|name| {
             let (quantity, _) = channel(name).ok()??;
             (quantity != Quantity::Time).then(|| mdf4::Wanted {
@@ -134,6 +205,9 @@ pub fn measured<S: Sample>(input: impl Read, channels: Option<&Mapping>) -> Resu
             .columns
             .iter()
             .find(|column| column.quantity == wanted.quantity);
+        if column.is_none() && wanted.name == TEMPERATURE {
+            continue;
+        }
         places.push(column.ok_or_else(|| {
             format!(
                 "channel {} is missing; a file for --channels says which channel it is",
@@ -141,6 +215,16 @@ pub fn measured<S: Sample>(input: impl Read, channels: Option<&Mapping>) -> Resu
             )
         })?);
     }
+    let warm = found
+        .columns
+        .iter()
+        .find(|column| column.quantity == Quantity::Temperature);
+    let named = |name: &String| matches!(channel(name), Ok(Some((Quantity::Temperature, _))));
+    let mut temperature = match warm {
+        Some(_) => Temperature::Followed(Vec::new()),
+        None if found.ignored.iter().any(named) => Temperature::Ignored,
+        None => Temperature::None,
+    };
     let mut samples: Vec<S> = Vec::new();
     for (row, time) in found.times.iter().enumerate() {
         let sample = S::read(|column| {
@@ -150,11 +234,15 @@ pub fn measured<S: Sample>(input: impl Read, channels: Option<&Mapping>) -> Resu
                 .map_or(Some(*time), |column| column.values.get(row).copied())
                 .ok_or("a sample is missing")
         })?;
-        samples
-            .push(follows(&samples, sample).map_err(|message| format!("sample {row}: {message}"))?);
+        let next = follows(&samples, sample).and_then(|next| {
+            let value = warm.and_then(|column| column.values.get(row));
+            value.map_or(Ok(()), |value| temperature.take(*value))?;
+            Ok(next)
+        });
+        samples.push(next.map_err(|message| format!("sample {row}: {message}"))?);
     }
     enough(&samples)?;
-    Ok(samples)
+    Ok((samples, temperature))
 }
 
 /// A trace has a duration.
@@ -168,7 +256,9 @@ fn enough<S>(samples: &[S]) -> Result<(), String> {
 
 /// The samples of a trace, or what is wrong in which line.
 pub fn samples<S: Sample>(input: impl Read + Seek) -> Result<Vec<S>, String> {
-    parse(input).map_err(|Fault { line, message }| format!("line {line}: {message}"))
+    parse(input, false)
+        .map(|(samples, _)| samples)
+        .map_err(|Fault { line, message }| format!("line {line}: {message}"))
 }
 
 /// What is wrong with a trace, and in which line.
@@ -202,7 +292,10 @@ impl Fault {
     }
 }
 
-fn parse<S: Sample>(input: impl Read + Seek) -> Result<Vec<S>, Fault> {
+fn parse<S: Sample>(
+    input: impl Read + Seek,
+    followed: bool,
+) -> Result<(Vec<S>, Temperature), Fault> {
     let mut reader = ReaderBuilder::new().trim(Trim::All).from_reader(input);
     let start = reader.position().clone();
     let header = match reader.headers() {
@@ -216,6 +309,17 @@ fn parse<S: Sample>(input: impl Read + Seek) -> Result<Vec<S>, Fault> {
         .iter()
         .map(|column| place(&header, column))
         .collect::<Result<Vec<_>, _>>()?;
+    let warm = if followed {
+        found(&header, TEMPERATURE)?
+    } else {
+        None
+    };
+    let named = |name| matches!(heading(name), Ok(Some((Quantity::Temperature, _))));
+    let mut temperature = match warm {
+        Some(_) => Temperature::Followed(Vec::new()),
+        None if header.iter().any(named) => Temperature::Ignored,
+        None => Temperature::None,
+    };
 
     let mut samples: Vec<S> = Vec::new();
     let mut record = StringRecord::new();
@@ -233,7 +337,16 @@ fn parse<S: Sample>(input: impl Read + Seek) -> Result<Vec<S>, Fault> {
                 .ok_or("a column is missing")?;
             number(&record, *place, column).map(|value| unit.map_or(value, |unit| unit.si(value)))
         });
-        match sample.and_then(|sample| follows(&samples, sample)) {
+        let next = sample
+            .and_then(|sample| follows(&samples, sample))
+            .and_then(|sample| {
+                if let Some((place, unit)) = warm {
+                    let value = number(&record, place, TEMPERATURE)?;
+                    temperature.take(unit.map_or(value, |unit| unit.si(value)))?;
+                }
+                Ok(sample)
+            });
+        match next {
             Ok(sample) => samples.push(sample),
             Err(message) => {
                 let line = line_of(reader.into_inner(), start.byte(), start.line());
@@ -242,7 +355,7 @@ fn parse<S: Sample>(input: impl Read + Seek) -> Result<Vec<S>, Fault> {
         }
     }
     enough(&samples).map_err(|message| Fault::new(reader.position().line(), message))?;
-    Ok(samples)
+    Ok((samples, temperature))
 }
 
 /// The sample, where it may follow those before it.
@@ -266,10 +379,15 @@ fn follows<S: Sample>(samples: &[S], sample: S) -> Result<S, String> {
 
 /// Place of a column and its unit, which must be there once: under its own name, else with a unit behind it or in brackets.
 fn place(header: &StringRecord, column: &str) -> Result<(usize, Option<Unit>), Fault> {
-    let fault = |message: String| Err(Fault::new(1, message));
     if header.is_empty() {
-        return fault("the file is empty".into());
+        return Err(Fault::new(1, "the file is empty"));
     }
+    found(header, column)?.ok_or_else(|| Fault::new(1, headings::missing(column, header)))
+}
+
+/// The same, where it is there.
+fn found(header: &StringRecord, column: &str) -> Result<Option<(usize, Option<Unit>)>, Fault> {
+    let fault = |message: String| Err(Fault::new(1, message));
     // A spreadsheet may put a byte-order mark before the first name.
     let names = || {
         header
@@ -282,7 +400,7 @@ fn place(header: &StringRecord, column: &str) -> Result<(usize, Option<Unit>), F
         .map(|(place, _)| place)
         .collect();
     match exact[..] {
-        [place] => return Ok((place, None)),
+        [place] => return Ok(Some((place, None))),
         [_, _, ..] => return fault(format!("column {column} is there twice")),
         [] => {}
     }
@@ -304,14 +422,14 @@ fn place(header: &StringRecord, column: &str) -> Result<(usize, Option<Unit>), F
             cut(name),
             unit.shown()
         )),
-        ([(place, _, unit)], _) => Ok((*place, Some(*unit))),
+        ([(place, _, unit)], _) => Ok(Some((*place, Some(*unit)))),
         ([(_, one, _), (_, other, _), ..], _) => fault(format!(
             "columns {} and {} are both {column}",
             cut(one),
             cut(other)
         )),
         ([], Some(message)) => fault(message),
-        ([], None) => fault(headings::missing(column, header)),
+        ([], None) => Ok(None),
     }
 }
 

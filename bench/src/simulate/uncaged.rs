@@ -185,6 +185,15 @@ impl Scene for Uncaged {
         Ok((rows, lines))
     }
 
+    fn reference_name(&self, model: ReferenceModel) -> String {
+        let form = match model {
+            ReferenceModel::Exact => "the exact whole screw",
+            ReferenceModel::ClosedForm => "the closed form of each ball, which is not exact",
+        };
+        let without = if self.memory { ", without memory" } else { "" };
+        format!("{form}{without}")
+    }
+
     fn columns(with_reference: bool) -> Vec<&'static str> {
         let mut columns = screw::columns();
         columns.extend([

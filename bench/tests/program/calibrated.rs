@@ -72,28 +72,39 @@ fn a_simulation_runs_what_firmware_folds() {
             [time, speed, 1200.0 * (2.0 * time).sin()]
         })
         .collect();
-    let mut trace = String::from("time,nut_speed,axial_load\n");
+    let mut trace = String::from("time,nut_speed,axial_load,temperature\n");
+    let temperature = |time: f64| 293.15 + 20.0 * time;
     for [time, speed, load] in &samples {
-        writeln!(trace, "{time},{speed},{load}").unwrap();
+        writeln!(trace, "{time},{speed},{load},{}", temperature(*time)).unwrap();
     }
     fs::write(folder.path().join("trace.csv"), trace).unwrap();
     fs::write(folder.path().join("design.toml"), DESIGN).unwrap();
-    let run = run_in(
-        folder.path(),
-        &[
+    let simulated = |memory: &[&str]| {
+        let common = [
             "simulate",
             "--design",
             "design.toml",
             "--input",
             "trace.csv",
-            "--memory",
+            "--force",
             "--output",
             "out.csv",
-        ],
-        "",
+        ];
+        let run = run_in(folder.path(), &[&common, memory].concat(), "");
+        assert_eq!(run.code, 0, "{}", run.stderr);
+        run.stdout
+    };
+    let said = simulated(&[]);
+    assert!(
+        said.contains("without --memory left out: full_film_ratio, half_share_speed,")
+            && said.contains("temperature                    the trace's is ignored"),
+        "{said}"
     );
-    assert_eq!(run.code, 0, "{}", run.stderr);
-    assert!(run.stdout.contains("as calibrated"), "{}", run.stdout);
+    let said = simulated(&["--memory"]);
+    assert!(
+        said.contains("as calibrated") && said.contains("293.1 to 333.1 K"),
+        "{said}"
+    );
 
     type Gear = WithMemory<CagedBallScrew, ProportionalElements<8>, Sensor, CoefficientLaw>;
     let mut model = FrictionModel::<Gear, &WithMemoryConstants<_, _, _, _>>::of(&GEAR);
@@ -116,7 +127,7 @@ fn a_simulation_runs_what_firmware_folds() {
             },
             reading: ((angle + PI).rem_euclid(TAU) - PI) as f32,
             load_age: 0.0,
-            temperature: 293.15,
+            temperature: temperature(sample[0]) as f32,
             temperature_age: 0.0,
         });
         let told: f32 = row.split(',').nth(column).unwrap().parse().unwrap();

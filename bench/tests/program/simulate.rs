@@ -243,6 +243,7 @@ fn manoeuvres_run_beside_the_reference() {
             "{worst:e} of {largest}"
         );
         assert!(run.stdout.contains("peak friction torque"));
+        assert!(run.stdout.contains("f64 is one ball in elastic balance\n"));
     }
 }
 
@@ -536,6 +537,63 @@ fn a_design_without_lead_makes_no_manoeuvre() {
         ],
     );
     assert_eq!(run.code, 0, "{}", run.stderr);
+}
+
+/// Every row of a mechanism is one moment: the speeds of two rows differ by what acts at the second one.
+#[test]
+fn a_mechanism_tells_one_moment_in_a_row() {
+    const INERTIA: f64 = 1e-3;
+    const TICK: f64 = 1e-4;
+    let folder = folder();
+    let rows = (0..100).map(|tick| format!("{},{},1000\n", f64::from(tick) * TICK, 4.0));
+    let trace: String = std::iter::once("time,motor_torque,axial_load\n".to_owned())
+        .chain(rows)
+        .collect();
+    fs::write(folder.path().join("torque.csv"), trace).unwrap();
+    let run = simulate(
+        folder.path(),
+        &[
+            "--mechanism",
+            "--design",
+            "design.toml",
+            "--inertia",
+            &INERTIA.to_string(),
+            "--input",
+            "torque.csv",
+            "--output",
+            "out.csv",
+        ],
+    );
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    assert!(
+        run.stdout.contains("flagged samples                0"),
+        "{}",
+        run.stdout
+    );
+    let table = fs::read_to_string(folder.path().join("out.csv")).unwrap();
+    let [time, position, speed, friction, load] = [
+        "time",
+        "nut_position",
+        "nut_speed",
+        "friction_torque",
+        "load_torque",
+    ]
+    .map(|name| {
+        let numbers = column(&table, name).into_iter();
+        numbers
+            .map(|value| value.parse().unwrap())
+            .collect::<Vec<f64>>()
+    });
+    assert_eq!([time[0], position[0], speed[0], friction[0]], [0.0; 4]);
+    // It slides; the step is divided in four, over which friction hardly changes.
+    for row in 60..100 {
+        let torque = 4.0 - load[row] - friction[row];
+        let difference = speed[row] - speed[row - 1] - torque * TICK / INERTIA;
+        assert!(
+            friction[row] > 0.01 && difference.abs() < 1e-3 * speed[row],
+            "{row}"
+        );
+    }
 }
 
 /// A column of a table by its name.

@@ -41,7 +41,7 @@ impl Sample for Moment {
 }
 
 fn parse(text: &[u8]) -> Result<Vec<Moment>, Fault> {
-    super::parse(Cursor::new(text))
+    super::parse(Cursor::new(text), false).map(|(samples, _)| samples)
 }
 
 #[test]
