@@ -32,6 +32,8 @@ pub(crate) mod uncaged;
 use std::io::{self, Cursor, Write};
 use std::path::PathBuf;
 
+use clap::error::ErrorKind;
+
 use crate::designs::train::LinearDesign;
 use crate::designs::{self, DesignSource};
 use crate::failure::Failure;
@@ -128,7 +130,13 @@ pub struct Arguments {
     input: Option<PathBuf>,
     /// Which channel of a measurement file is which column, in TOML: nut_speed = "NAME", or with group, source and unit
     /// nut_speed = { channel = "NAME", group = "GROUP", source = "SOURCE", unit = "rpm" }; - for standard input
-    #[arg(long, value_name = "MAPPING.toml", requires = "input")]
+    // What requires an argument is not heard where that argument conflicts with another: so each conflict is said again.
+    #[arg(
+        long,
+        value_name = "MAPPING.toml",
+        requires = "input",
+        conflicts_with_all = ["manoeuvre", "axial_load"]
+    )]
     channels: Option<PathBuf>,
     /// Built-in trace of rack force and rack travel
     #[arg(long, value_enum)]
@@ -199,6 +207,10 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         &arguments.design,
         &arguments.input,
     ) {
+        if let Some(SceneName::Uncaged | SceneName::Linear) = arguments.scene {
+            let conflict = "--mechanism moves the nut of a ball screw whose balls do not touch: with it --scene is caged\n";
+            clap::Error::raw(ErrorKind::ArgumentConflict, conflict).exit();
+        }
         return mechanism::run(
             &source.load()?,
             &arguments.mechanism,

@@ -29,11 +29,17 @@ pub struct LoadArguments {
     #[arg(
         long,
         requires = "design",
-        conflicts_with_all = ["plot", "reference", "scene", "list"]
+        conflicts_with_all = ["plot", "reference", "scene", "list", "memory", "mechanism"]
     )]
     loads: bool,
     /// What the load table is written as
-    #[arg(long, value_enum, default_value_t, requires = "loads")]
+    #[arg(
+        long,
+        value_enum,
+        default_value_t,
+        requires = "loads",
+        conflicts_with_all = ["plot", "reference", "scene", "memory", "mechanism"]
+    )]
     format: Format,
     /// Axial load in place of the design's, N; several with commas stand for all loads between them, of each sign
     // What requires an argument is not heard where that argument conflicts with another: so each conflict is

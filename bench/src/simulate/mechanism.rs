@@ -37,14 +37,22 @@ pub struct MechanismArguments {
     #[arg(long, requires = "input", conflicts_with_all = ["manoeuvre", "reference"])]
     mechanism: bool,
     /// Inertia at the nut, kg m^2 [default: that of the design's table [calibration]]
-    #[arg(long, value_name = "J", requires = "mechanism", value_parser = inertia)]
+    // What requires an argument is not heard where that argument conflicts with another: so each conflict is said again.
+    #[arg(
+        long,
+        value_name = "J",
+        requires = "mechanism",
+        conflicts_with_all = ["manoeuvre", "reference", "loads"],
+        value_parser = inertia
+    )]
     inertia: Option<f64>,
     /// Close the loop: motor torque = V (P (reference_position - nut angle) - nut speed); the trace has the column reference_position (rad) in
     /// place of motor_torque
     #[arg(
         long,
         value_name = "gain_position=P,gain_speed=V",
-        requires = "mechanism"
+        requires = "mechanism",
+        conflicts_with_all = ["manoeuvre", "reference", "loads"]
     )]
     controller: Option<Controller>,
 }

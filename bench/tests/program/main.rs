@@ -158,6 +158,19 @@ fn wrong_usage_ends_with_code_2() {
         &["simulate", "--input", "trace.csv"],
         &["simulate", "--input", "trace.csv", "--manoeuvre", "kerb"],
         &["simulate", "--list", "--force"],
+        &["simulate", "--manoeuvre", "kerb", "--channels", "nope.toml"],
+        &["simulate", "--manoeuvre", "kerb", "--inertia", "1e-3"],
+        &["simulate", "--loads", "--design", "lin-4.1", "--memory"],
+        &[
+            "simulate",
+            "--mechanism",
+            "--design",
+            "lin-3.6",
+            "--input",
+            "trace.csv",
+            "--scene",
+            "uncaged",
+        ],
         &["report", "--output"],
     ] {
         let run = run(arguments, "");
