@@ -3,17 +3,20 @@
 use epas_trains::{Balls, Built, MOST_BALLS};
 
 use super::trace::{Sample, SceneSample, Trace};
+use crate::designs::train::UncagedDesign;
 use crate::failure::Failure;
 
 /// Most ticks for each sample of a trace.
 const MOST_TICKS: u32 = 1 << 16;
 
-/// Angle of the nut up to which every ball of a ball screw is renewed in time, rad: in as many ticks as balls and one more.
+/// Angle of the nut up to which every ball of a ball screw is renewed in time, rad.
 const LONGEST_ROUND: f64 = 0.12;
 
-/// The longest angle of the nut in a tick of so many balls, rad.
-pub fn longest_turn(balls: u8) -> f64 {
-    LONGEST_ROUND / (f64::from(balls) + 1.0)
+/// The longest angle of the nut in a tick, rad: a round is as many ticks as balls and one more, and another one where a ball
+/// passes the return.
+pub fn longest_turn(design: &UncagedDesign) -> f64 {
+    let passing = design.configuration.return_length > 0.0;
+    LONGEST_ROUND / (f64::from(design.balls) + if passing { 2.0 } else { 1.0 })
 }
 
 /// What a train does at a sample.

@@ -49,7 +49,7 @@ impl Uncaged {
     ) -> Result<Train<ScrewSample, UncagedOutputs>, Failure> {
         let build = |tick| self.model(tick, remembered);
         let largest = self.balls.configuration.limits.nut_speed;
-        let motion = (largest, longest_turn(self.balls.balls));
+        let motion = (largest, longest_turn(&self.balls));
         Train::new(trace, motion, build).map_err(|failure| failure.of(self.name()))
     }
 

@@ -126,8 +126,15 @@ fn two_turns_of_an_uncaged_screw_follow_the_reference() {
 fn ticks_follow_the_speed_of_the_trace() {
     let folder = tempdir().unwrap();
     let design = SCREW.replace("[uncaged]", "[limits]\nnut_speed = 50\n[uncaged]");
-    fs::write(folder.path().join("screw.toml"), design).unwrap();
-    for (speed, ticks) in [(3.1, "one"), (6.2, "2"), (49.0, "16"), (1e3, "16")] {
+    let returns = design.replace("turns = 2", "turns = 1.5\nreturn_length = 0.05");
+    for (design, speed, ticks) in [
+        (&design, 3.1, "one"),
+        (&design, 6.2, "2"),
+        (&design, 1e3, "16"),
+        (&returns, 3.0, "one"),
+        (&returns, 3.1, "2"),
+    ] {
+        fs::write(folder.path().join("screw.toml"), design).unwrap();
         let mut trace = String::from("time,nut_speed,axial_load\n");
         for i in 0..80 {
             writeln!(trace, "{},{speed},1000", f64::from(i) * 1e-3).unwrap();
