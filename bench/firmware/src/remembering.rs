@@ -1,4 +1,4 @@
-//! Scenes without cage whose friction remembers, as they are counted: the gear of the library's `firmware.md`, whose sensor
+//! Scenes without cage whose friction remembers, as they are counted: a gear like that of the library's `firmware.md`, whose sensor
 //! counts, and a linear bearing.
 
 use epas_friction::defaults::COEFFICIENT;
