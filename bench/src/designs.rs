@@ -26,7 +26,8 @@ use crate::files::{ends, standard};
 use calibration::Calibrated;
 use loads::{LoadCase, LoadsTable};
 use tables::{
-    MaterialTable, clearance, from_text, groove_size, mark, material, parsed, radius, replace, text_of,
+    MaterialTable, clearance, from_text, groove_size, mark, material, parsed, radius, replace,
+    text_of,
 };
 use train::{LinearDesign, UncagedDesign, UncagedTable};
 

@@ -249,7 +249,7 @@ impl LinearDesign {
     #[staticmethod]
     fn read(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
         let design = py
-            .detach(|| Linear::read(&path))
+            .detach(|| DesignSource::File(path).load_bearing())
             .map_err(|failure| refused(py, failure))?;
         Ok(Self::of(design))
     }

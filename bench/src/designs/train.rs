@@ -9,7 +9,9 @@ use epas_friction::{
 };
 use serde::Deserialize;
 
-use super::tables::{MaterialTable, from_text, groove_size, mark, material, parsed, radius, replace};
+use super::tables::{
+    MaterialTable, from_text, groove_size, mark, material, parsed, radius, replace,
+};
 use crate::failure::Failure;
 
 /// A ball screw without cage: how many balls, and everything but the tick.
