@@ -17,7 +17,7 @@ pub const STEP_CAGED: Promise = Promise {
     outside: "beyond a limit: the limit, flagged; balls in two contacts flagged; diameter 125 mm 2e-2",
     not_finite: "no torque, flagged",
     tiny: "no torque at standstill; without load that of the preload",
-    cycles: 425,
+    cycles: 415,
     counted: &["step_caged"],
 };
 
@@ -59,7 +59,7 @@ pub const STEP_CAGED_MEMORY: Promise = Promise {
     outside: "beyond a limit: the limit, flagged; balls in two contacts flagged; old loads fade, flagged",
     not_finite: "the last sound inputs, friction within their limits, flagged",
     tiny: "no turn: friction stays; without load that of the preload",
-    cycles: 860,
+    cycles: 900,
     counted: &["step_caged_memory"],
     ..STEP_CAGED
 };
@@ -73,7 +73,7 @@ pub const STEP_CAGED_LAW: Promise = Promise {
     largest: 3.2e-2,
     rms: 6e-3,
     mean: 1e-3,
-    cycles: 1200,
+    cycles: 1250,
     counted: &["step_caged_law"],
     ..STEP_CAGED_MEMORY
 };
@@ -81,7 +81,7 @@ pub const STEP_CAGED_LAW: Promise = Promise {
 /// [`FrictionModel::between`](crate::FrictionModel::between) of the same.
 pub const BETWEEN: Promise = Promise {
     function: "WithMemory<CagedBallScrew>: between",
-    cycles: 410,
+    cycles: 430,
     counted: &["between_caged"],
     ..STEP_CAGED_MEMORY
 };
@@ -129,7 +129,7 @@ pub const STEP_UNCAGED_MEMORY: Promise = Promise {
 /// [`FrictionModel::between`](crate::FrictionModel::between) of the same.
 pub const BETWEEN_UNCAGED: Promise = Promise {
     function: "WithMemory<UncagedBallScrew>: between",
-    cycles: 430,
+    cycles: 450,
     counted: &["between_train_37"],
     ..STEP_UNCAGED_MEMORY
 };

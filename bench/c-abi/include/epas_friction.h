@@ -2001,7 +2001,7 @@ uint32_t epas_caged_faulted_ticks(const struct epas_caged_t *place, uint32_t *ti
 /**
  * Sets the friction coefficient of ball and groove while the model runs, 1e-6 to 0.5; `epas_caged_reset` brings the
  * configuration's back. From the first call on a ball is renewed in every tick, which then takes 13 times as long (some 5,300 cycles
- * of a Cortex-M4F in the place of 410); the first call itself takes up to 6,700. Until friction is exact again, after some ticks, it is
+ * of a Cortex-M4F in the place of 400); the first call itself takes up to 6,800. Until friction is exact again, after some ticks, it is
  * flagged `EPAS_FAULT_SETTLING`. The closed forms keep their friction. Where it is refused the model goes on as it was. `failure` may
  * be NULL. In the task of the step.
  */

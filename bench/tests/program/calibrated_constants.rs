@@ -54,7 +54,7 @@ pub const SCREW: CagedBallScrewConfiguration = CagedBallScrewConfiguration {
     branch: FrictionBranch::Contacts,
     clearance: sound(Clearance::new(-8.696318e-7)),
     loaded_balls: 40,
-    reversal_speed: 0.5,
+    reversal_speed: 2.0,
     limits: Limits {
         nut_speed: 2000.0,
         axial_load: 100000.0,

@@ -77,8 +77,8 @@ pub enum Against {
 }
 
 /// Way after a turning point on which elasticity stands in for friction, rad and m: it leads or lags a motion, as a wrong sign or a
-/// shifted clock would. Two and a half breakaway travels of usual screws (5 mrad of a nut, 40 um of a carriage).
-const ELASTIC: [f64; 2] = [12e-3, 0.1e-3];
+/// shifted clock would. Five breakaway travels of usual screws (5 mrad of a nut, 50 um of a carriage).
+const ELASTIC: [f64; 2] = [25e-3, 0.25e-3];
 
 /// Whether a sample is beyond that way, for every one.
 fn beyond_elasticity(trace: &Trace, motion: &Motion) -> Vec<bool> {

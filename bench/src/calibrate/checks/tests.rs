@@ -250,16 +250,23 @@ fn wrong_signs_are_refused() {
 /// Friction of a small motion is a spring's for a part of it, and no wrong sign, no shifted clock; of the smallest nothing is checked.
 #[test]
 fn small_motions_are_taken() {
-    const BREAKAWAY: f64 = 2e-3;
-    for (size, checked) in [(4e-3, false), (20e-3, true), (50e-3, true), (200e-3, true)] {
+    let noise = Normal::new(0.0, 5e-3).unwrap();
+    let mut random = rand_pcg::Pcg64::seed_from_u64(5);
+    for (size, breakaway, checked) in [
+        (4e-3, 2e-3, false),
+        (20e-3, 2e-3, true),
+        (50e-3, 2e-3, true),
+        (50e-3, 5e-3, true),
+        (200e-3, 5e-3, true),
+    ] {
         let mut small = unloaded(weave);
         let angle = |sample: usize| size * (TAU * 0.8 * STEP * sample as f64).sin();
         let (mut held, mut before) = (0.0_f64, 0.0);
         for (sample, effort) in small.effort.iter_mut().enumerate() {
-            let pull = (angle(sample) - before) / BREAKAWAY;
+            let pull = (angle(sample) - before) / breakaway;
             before = angle(sample);
             held = (held + pull) / (1.0 + pull.abs());
-            *effort = 0.3 * held;
+            *effort = 0.3 * held + noise.sample(&mut random);
             small.position[sample] = (before / small.resolution).round() * small.resolution;
         }
         let found = kinds(&small);
