@@ -795,7 +795,7 @@ extern "C" {
 /**
  * Size of `epas_screw_t` in words of eight bytes.
  */
-#define EPAS_SCREW_WORDS 379
+#define EPAS_SCREW_WORDS 380
 
 /**
  * Balls in the circuit of `epas_linear_t`, return included. A bearing with another number needs the

@@ -228,7 +228,7 @@ pub struct ScrewConfiguration {
 pub const EPAS_SCREW_STATE_BYTES: u32 = 1794u32;
 
 /// Size of `epas_screw_t` in words of eight bytes.
-pub const EPAS_SCREW_WORDS: usize = 379;
+pub const EPAS_SCREW_WORDS: usize = 380;
 
 /// Place for the constants and the state of a ball screw whose balls press on each other; as
 /// `epas_caged_t`.
