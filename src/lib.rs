@@ -58,6 +58,8 @@
 #![doc = include_str!("equations.md")]
 // Symbols of the papers are no code.
 #![allow(clippy::doc_markdown)]
+// None over 60: see `.clippy.toml`.
+#![warn(clippy::too_many_lines)]
 
 /// The README's examples are compiled as tests.
 #[cfg(doctest)]

@@ -233,7 +233,9 @@ where
 }
 
 impl<C: Copy, E: Copy, A: Copy, L: Copy> WithMemoryConstants<C, E, A, L> {
-    /// Checks what memory adds to the constants of a scene: at set-up, or in a constant when firmware is compiled.
+    /// Checks what memory adds to the constants of a scene: at set-up, or in a constant when firmware is compiled. The compiler cannot
+    /// ask a law for its largest coefficient, as [`FrictionModel::new`](crate::FrictionModel::new) does: one that is more than the
+    /// scene takes counts in the loop as the most that it takes, without a flag.
     ///
     /// # Errors
     /// [`Error`] naming `reference_load`, `half_width` (of the play) or a time of the freshness.

@@ -1,6 +1,6 @@
 //! Bounds that are measured, not derived: what was found, and what is accepted, with room for another compiler or
-//! other rounding: about half as much again, where only roundings and the last step of an iteration are left three times
-//! as much. All sweeps give the same numbers in every run.
+//! other rounding: about half as much again, and up to three times as much where only roundings and the last step of an iteration
+//! are left. All sweeps give the same numbers in every run.
 
 use std::collections::BTreeMap;
 use std::fmt::Display;
@@ -56,7 +56,7 @@ pub fn assert_at(name: &str, error: impl Into<f64>, case: impl Display) {
 /// The row of a name.
 ///
 /// # Panics
-/// Where there is none or more than one, or less is accepted than was found.
+/// Where there is none or more than one, or less is accepted than was found, or far more.
 pub fn of(name: &str) -> &'static Measured {
     let mut rows = TABLES
         .iter()
@@ -68,6 +68,11 @@ pub fn of(name: &str) -> &'static Measured {
     assert!(rows.next().is_none(), "{name} stands twice");
     for (accepted, found) in row.accepted.iter().zip(row.found) {
         assert!(found <= *accepted, "{name}: {found:e} above {accepted:e}");
+    }
+    for (accepted, found) in row.accepted.iter().zip(row.found).take(2) {
+        // Three times, rounded up to two digits.
+        let far = found > 0.0 && accepted.is_finite() && *accepted > 3.3 * found;
+        assert!(!far, "{name}: {accepted:e} far above {found:e}");
     }
     row
 }
@@ -120,13 +125,13 @@ const TABLES: &[&[Measured]] = &[
 #[rustfmt::skip]
 const CAGED: &[Measured] = &[
     row("caged and spread balls", [2.3e-5, 2.1e-6, 1e-7], [7.5e-6, 7.0e-7, 3.1e-8]),
-    row("light balls with play", [1.1e-2, 4.2e-3, 3.3e-3], [6.8e-3, 2.7e-3, 2.1e-3]),
+    row("light balls with play", [1.1e-2, 4.2e-3, 3.2e-3], [6.8e-3, 2.7e-3, 2.1e-3]),
     row("law over the load", [1e-3, 1.2e-4, 2e-6], [5.0e-4, 7.4e-5, 1.1e-6]),
     row("caged screw of 125 mm and exact ball", [3e-2, 5e-3, 2e-3], [2.0e-2, 3.3e-3, 1.1e-3]),
     row("efficiency of caged screw and exact ball", [3e-3, 5e-4, 2e-4], [2e-3, 3e-4, 1e-4]),
-    row("friction after a jump", [3e-5, 3e-6, 3e-7], [7.9e-6, 8.4e-7, 7.3e-8]),
+    row("friction after a jump", [2.4e-5, 2.6e-6, 3e-7], [7.9e-6, 8.4e-7, 7.3e-8]),
     row("friction on a ramp", [1.2e-4, 2.1e-5, 1e-5], [8.3e-5, 1.4e-5, 6.9e-6]),
-    largest("friction set in a screw without cage", 1.5e-6, 4.6e-7),
+    largest("friction set in a screw without cage", 1.4e-6, 4.6e-7),
     largest("ticks after a jump of friction", 120.0, 77.0),
 ];
 
@@ -135,55 +140,55 @@ const CAGED: &[Measured] = &[
 #[rustfmt::skip]
 const SCREW_BALL: &[Measured] = &[
     row("vanishing loads, third contact", [1e-4, 3e-5, 3e-6], [6.4e-5, 1.5e-5, 2.4e-7]),
-    row("vanishing loads, two contacts", [1e-6, 3e-7, 2e-7], [1.2e-7, 3.6e-8, 3.2e-9]),
-    row("10 N, SR-NL, pinning: closed form", [0.035, 0.028, 0.0245], [6e-3, 4e-3, 3.5e-3]),
-    row("10 N, SR-NL, pinning: refined", [0.03, 0.027, 0.024], [7.7e-3, 7.5e-3, 7.5e-3]),
-    row("10 N, SR-NL, opposite: closed form", [0.13, 0.104, 0.091], [0.1, 0.057, 0.045]),
-    row("10 N, SR-NL, opposite: refined", [0.06, 0.054, 0.048], [0.04, 0.022, 0.018]),
+    row("vanishing loads, two contacts", [3.6e-7, 1.1e-7, 7.7e-8], [1.2e-7, 3.6e-8, 3.2e-9]),
+    row("10 N, SR-NL, pinning: closed form", [0.018, 0.012, 8.4e-3], [6e-3, 4e-3, 3.5e-3]),
+    row("10 N, SR-NL, pinning: refined", [0.024, 0.023, 0.017], [7.7e-3, 7.5e-3, 7.5e-3]),
+    row("10 N, SR-NL, opposite: closed form", [0.13, 0.104, 0.073], [0.1, 0.057, 0.045]),
+    row("10 N, SR-NL, opposite: refined", [0.06, 0.054, 0.038], [0.04, 0.022, 0.018]),
     row("10 N, SL-NR, pinning: closed form", [0.035, 0.028, 0.0245], [0.031, 0.021, 0.018]),
-    row("10 N, SL-NR, pinning: refined", [0.03, 0.027, 0.024], [0.021, 0.012, 6.3e-3]),
-    row("10 N, SL-NR, opposite: closed form", [0.13, 0.104, 0.091], [0.11, 0.063, 0.053]),
-    row("10 N, SL-NR, opposite: refined", [0.06, 0.054, 0.048], [0.042, 0.027, 0.025]),
-    row("25 N, SR-NL, pinning: closed form", [0.035, 0.028, 0.0245], [0.013, 8e-3, 4.7e-3]),
-    row("25 N, SR-NL, pinning: refined", [0.03, 0.027, 0.024], [0.015, 0.014, 0.013]),
-    row("25 N, SR-NL, opposite: closed form", [0.25, 0.2, 0.175], [0.21, 0.11, 0.078]),
-    row("25 N, SR-NL, opposite: refined", [0.18, 0.162, 0.144], [0.15, 0.078, 0.054]),
-    row("25 N, SL-NR, pinning: closed form", [0.035, 0.028, 0.0245], [0.032, 0.019, 0.012]),
-    row("25 N, SL-NR, pinning: refined", [0.03, 0.027, 0.024], [0.018, 0.012, 5.2e-3]),
-    row("25 N, SL-NR, opposite: closed form", [0.25, 0.2, 0.175], [0.18, 0.099, 0.08]),
-    row("25 N, SL-NR, opposite: refined", [0.18, 0.162, 0.144], [0.12, 0.067, 0.055]),
-    row("50 N, SR-NL, pinning: closed form", [0.03, 0.024, 0.021], [0.015, 0.011, 9.5e-5]),
-    row("50 N, SR-NL, pinning: refined", [0.04, 0.036, 0.032], [0.025, 0.021, 0.02]),
-    row("50 N, SR-NL, opposite: closed form", [0.5, 0.4, 0.35], [0.44, 0.24, 0.17]),
-    row("50 N, SR-NL, opposite: refined", [0.45, 0.405, 0.36], [0.38, 0.2, 0.14]),
-    row("50 N, SL-NR, pinning: closed form", [0.03, 0.024, 0.021], [0.026, 0.019, 3.4e-4]),
-    row("50 N, SL-NR, pinning: refined", [0.04, 0.036, 0.032], [0.034, 0.023, 0.019]),
-    row("50 N, SL-NR, opposite: closed form", [0.5, 0.4, 0.35], [0.42, 0.23, 0.17]),
-    row("50 N, SL-NR, opposite: refined", [0.45, 0.405, 0.36], [0.35, 0.19, 0.14]),
-    row("100 N, SR-NL, pinning: closed form", [0.08, 0.064, 0.056], [0.048, 0.037, 6.5e-3]),
-    row("100 N, SR-NL, pinning: refined", [0.09, 0.081, 0.072], [0.06, 0.042, 0.023]),
-    row("100 N, SR-NL, opposite: closed form", [1.1, 0.88, 0.77], [0.94, 0.58, 0.49]),
-    row("100 N, SR-NL, opposite: refined", [1.0, 0.9, 0.8], [0.83, 0.52, 0.45]),
-    row("100 N, SL-NR, pinning: closed form", [0.08, 0.064, 0.056], [0.071, 0.048, 0.019]),
-    row("100 N, SL-NR, pinning: refined", [0.09, 0.081, 0.072], [0.081, 0.054, 0.035]),
+    row("10 N, SL-NR, pinning: refined", [0.03, 0.027, 0.019], [0.021, 0.012, 6.3e-3]),
+    row("10 N, SL-NR, opposite: closed form", [0.13, 0.104, 0.080], [0.11, 0.063, 0.053]),
+    row("10 N, SL-NR, opposite: refined", [0.06, 0.054, 0.038], [0.042, 0.027, 0.025]),
+    row("25 N, SR-NL, pinning: closed form", [0.035, 0.024, 0.017], [0.013, 8e-3, 4.7e-3]),
+    row("25 N, SR-NL, pinning: refined", [0.03, 0.027, 0.020], [0.015, 0.014, 0.013]),
+    row("25 N, SR-NL, opposite: closed form", [0.25, 0.2, 0.14], [0.21, 0.11, 0.078]),
+    row("25 N, SR-NL, opposite: refined", [0.18, 0.162, 0.12], [0.15, 0.078, 0.054]),
+    row("25 N, SL-NR, pinning: closed form", [0.035, 0.028, 0.020], [0.032, 0.019, 0.012]),
+    row("25 N, SL-NR, pinning: refined", [0.03, 0.027, 0.019], [0.018, 0.012, 5.2e-3]),
+    row("25 N, SL-NR, opposite: closed form", [0.25, 0.2, 0.14], [0.18, 0.099, 0.08]),
+    row("25 N, SL-NR, opposite: refined", [0.18, 0.162, 0.12], [0.12, 0.067, 0.055]),
+    row("50 N, SR-NL, pinning: closed form", [0.03, 0.024, 0.017], [0.015, 0.011, 9.5e-5]),
+    row("50 N, SR-NL, pinning: refined", [0.04, 0.036, 0.030], [0.025, 0.021, 0.02]),
+    row("50 N, SR-NL, opposite: closed form", [0.5, 0.4, 0.28], [0.44, 0.24, 0.17]),
+    row("50 N, SR-NL, opposite: refined", [0.45, 0.405, 0.29], [0.38, 0.2, 0.14]),
+    row("50 N, SL-NR, pinning: closed form", [0.03, 0.024, 0.017], [0.026, 0.019, 3.4e-4]),
+    row("50 N, SL-NR, pinning: refined", [0.04, 0.036, 0.029], [0.034, 0.023, 0.019]),
+    row("50 N, SL-NR, opposite: closed form", [0.5, 0.4, 0.28], [0.42, 0.23, 0.17]),
+    row("50 N, SL-NR, opposite: refined", [0.45, 0.405, 0.29], [0.35, 0.19, 0.14]),
+    row("100 N, SR-NL, pinning: closed form", [0.08, 0.064, 0.045], [0.048, 0.037, 6.5e-3]),
+    row("100 N, SR-NL, pinning: refined", [0.09, 0.081, 0.057], [0.06, 0.042, 0.023]),
+    row("100 N, SR-NL, opposite: closed form", [1.1, 0.88, 0.74], [0.94, 0.58, 0.49]),
+    row("100 N, SR-NL, opposite: refined", [1.0, 0.9, 0.68], [0.83, 0.52, 0.45]),
+    row("100 N, SL-NR, pinning: closed form", [0.08, 0.064, 0.045], [0.071, 0.048, 0.019]),
+    row("100 N, SL-NR, pinning: refined", [0.09, 0.081, 0.057], [0.081, 0.054, 0.035]),
     row("100 N, SL-NR, opposite: closed form", [1.1, 0.88, 0.77], [1.0, 0.62, 0.54]),
-    row("100 N, SL-NR, opposite: refined", [1.0, 0.9, 0.8], [0.87, 0.56, 0.49]),
+    row("100 N, SL-NR, opposite: refined", [1.0, 0.9, 0.74], [0.87, 0.56, 0.49]),
     row("four contacts, 1 degree, orbital speed after 0 steps", [9e-4, 2e-4, 1.4e-4], [7.5e-4, 1.3e-4, 1.5e-5]),
-    row("four contacts, 1 degree, orbital speed after 1 steps", [1e-4, 3e-5, 2.1e-5], [3.5e-5, 8.3e-6, 9.5e-7]),
-    row("four contacts, 1 degree, orbital speed after 2 steps", [1e-4, 3e-5, 2.1e-5], [5.6e-5, 9e-6, 1e-6]),
-    row("four contacts, 1 degree, orbital speed after 3 steps", [2e-5, 3e-6, 2.1e-6], [1.8e-6, 3.6e-7, 4.9e-8]),
-    row("four contacts, 1 degree, orbital speed after 4 steps", [3e-6, 6e-7, 4.2e-7], [8.1e-7, 2e-7, 6.1e-8]),
+    row("four contacts, 1 degree, orbital speed after 1 steps", [1e-4, 2.5e-5, 1.8e-5], [3.5e-5, 8.3e-6, 9.5e-7]),
+    row("four contacts, 1 degree, orbital speed after 2 steps", [1e-4, 2.7e-5, 1.9e-5], [5.6e-5, 9e-6, 1e-6]),
+    row("four contacts, 1 degree, orbital speed after 3 steps", [5.4e-6, 1.1e-6, 7.7e-7], [1.8e-6, 3.6e-7, 4.9e-8]),
+    row("four contacts, 1 degree, orbital speed after 4 steps", [2.5e-6, 6e-7, 4.2e-7], [8.1e-7, 2e-7, 6.1e-8]),
     row("four contacts, 1 degree, orbital speed after 5 steps", [2e-6, 5e-7, 3.5e-7], [8.1e-7, 1.9e-7, 7.9e-8]),
     row("four contacts, 1 degree, groove torque after 0 steps", [0.07, 0.02, 0.014], [0.046, 8.6e-3, 3.4e-3]),
     row("four contacts, 1 degree, groove torque after 1 steps", [0.05, 8e-3, 5.6e-3], [0.037, 5.9e-3, 1.3e-3]),
     row("four contacts, 1 degree, groove torque after 2 steps", [0.05, 7e-3, 4.9e-3], [0.036, 5.8e-3, 7.4e-4]),
     row("four contacts, 1 degree, groove torque after 3 steps", [2e-3, 3e-4, 2.1e-4], [8.5e-4, 1.6e-4, 3.5e-5]),
-    row("four contacts, 1 degree, groove torque after 4 steps", [3e-4, 1e-4, 7e-5], [6.6e-5, 2.9e-5, 2.1e-6]),
-    row("four contacts, 1 degree, groove torque after 5 steps", [3e-4, 1e-4, 7e-5], [6.6e-5, 2.9e-5, 1.1e-6]),
+    row("four contacts, 1 degree, groove torque after 4 steps", [2e-4, 8.7e-5, 6.1e-5], [6.6e-5, 2.9e-5, 2.1e-6]),
+    row("four contacts, 1 degree, groove torque after 5 steps", [2e-4, 8.7e-5, 6.1e-5], [6.6e-5, 2.9e-5, 1.1e-6]),
     row("four contacts, 3 degrees, orbital speed after 0 steps", [7e-3, 2e-3, 1.4e-3], [6e-3, 1.2e-3, 1.7e-4]),
     row("four contacts, 3 degrees, orbital speed after 1 steps", [8e-4, 2e-4, 1.4e-4], [6.1e-4, 1.3e-4, 2.9e-5]),
     row("four contacts, 3 degrees, orbital speed after 2 steps", [1e-4, 3e-5, 2.1e-5], [6.6e-5, 1.7e-5, 6.9e-7]),
-    row("four contacts, 3 degrees, orbital speed after 3 steps", [3e-5, 5e-6, 3.5e-6], [7.3e-6, 1.5e-6, 6e-7]),
+    row("four contacts, 3 degrees, orbital speed after 3 steps", [2.2e-5, 4.5e-6, 3.2e-6], [7.3e-6, 1.5e-6, 6e-7]),
     row("four contacts, 3 degrees, orbital speed after 4 steps", [1e-5, 2e-6, 1.4e-6], [3.4e-6, 8.5e-7, 4.4e-7]),
     row("four contacts, 3 degrees, orbital speed after 5 steps", [1e-5, 2e-6, 1.4e-6], [3.4e-6, 8.4e-7, 4.7e-7]),
     row("four contacts, 3 degrees, groove torque after 0 steps", [0.11, 0.03, 0.021], [0.094, 0.018, 7.1e-3]),
@@ -196,23 +201,23 @@ const SCREW_BALL: &[Measured] = &[
     row("given pairs, contact force after 1 step", [0.03, 5e-3, 3.5e-3], [0.017, 3.7e-3, 1.3e-3]),
     row("given pairs, contact force after 2 steps", [4e-3, 6e-4, 4.2e-4], [2.3e-3, 3.9e-4, 8.7e-5]),
     row("given pairs, contact force after 3 steps", [2e-4, 3e-5, 2.1e-5], [6.9e-5, 1.5e-5, 3.3e-6]),
-    row("given pairs, contact force after 4 steps", [1e-4, 2e-5, 1.4e-5], [3.3e-5, 9.8e-6, 1.6e-6]),
-    row("given pairs, contact force after 5 steps", [1e-4, 2e-5, 1.4e-5], [3.3e-5, 9e-6, 1.1e-6]),
+    row("given pairs, contact force after 4 steps", [9.9e-5, 2e-5, 1.4e-5], [3.3e-5, 9.8e-6, 1.6e-6]),
+    row("given pairs, contact force after 5 steps", [9.9e-5, 2e-5, 1.4e-5], [3.3e-5, 9e-6, 1.1e-6]),
     row("given pairs, power loss after 5 steps", [3e-4, 1e-4, 2e-5], [1.2e-4, 5.1e-5, 7.6e-6]),
-    row("row, orbital speed", [4e-7, 1e-7, 1e-7], [1.7e-7, 5.7e-8, 2.7e-8]),
-    row("row, compliance, mean load", [0.01, 3e-3, 3e-3], [3.8e-3, 9.9e-4, 5.9e-4]),
-    row("row, compliance, shares 0.1 to 3", [0.08, 0.03, 0.03], [0.056, 0.019, 0.012]),
-    row("row, groove torque, mean load", [0.01, 3e-3, 3e-3], [6.2e-3, 1.6e-3, 3.6e-4]),
-    row("row, groove torque, shares 0.1 to 3", [0.15, 0.05, 0.05], [0.12, 0.036, 0.015]),
+    row("row, orbital speed", [4e-7, 1e-7, 7e-8], [1.7e-7, 5.7e-8, 2.7e-8]),
+    row("row, compliance, mean load", [0.01, 3e-3, 2.1e-3], [3.8e-3, 9.9e-4, 5.9e-4]),
+    row("row, compliance, shares 0.1 to 3", [0.08, 0.03, 0.021], [0.056, 0.019, 0.012]),
+    row("row, groove torque, mean load", [0.01, 3e-3, 2.1e-3], [6.2e-3, 1.6e-3, 3.6e-4]),
+    row("row, groove torque, shares 0.1 to 3", [0.15, 0.05, 0.035], [0.12, 0.036, 0.015]),
     row("row, main load", [5e-3, 2e-3, 2e-4], [2.9e-3, 7.8e-4, 5.3e-5]),
     row("row, third load", [0.11, 0.03, 3e-3], [0.075, 0.017, 1.3e-3]),
     row("row, rubbing", [6e-7, 2e-7, 1e-7], [4.1e-7, 1.4e-7, 3.1e-8]),
     row("stored pairs, orbital speed, closed form", [1.4e-3, 5e-4, 2e-4], [1.3e-3, 3.8e-4, 1.2e-4]),
-    row("stored pairs, orbital speed after 3 steps", [3e-7, 2e-7, 2e-7], [2.4e-7, 1.1e-7, 6.1e-8]),
+    row("stored pairs, orbital speed after 3 steps", [3e-7, 2e-7, 1.4e-7], [2.4e-7, 1.1e-7, 6.1e-8]),
     row("stored pairs, contact force, closed form", [0.19, 0.09, 0.09], [0.18, 0.085, 0.06]),
-    row("stored pairs, contact force after 1 step", [0.023, 0.012, 0.012], [0.02, 8.1e-3, 3.2e-3]),
-    row("stored pairs, contact force after 2 steps", [5e-3, 3e-3, 3e-3], [4.2e-3, 2.2e-3, 1.9e-3]),
-    row("stored pairs, contact force after 3 steps", [5e-3, 3e-3, 3e-3], [4.1e-3, 2.2e-3, 1.9e-3]),
+    row("stored pairs, contact force after 1 step", [0.023, 0.012, 8.4e-3], [0.02, 8.1e-3, 3.2e-3]),
+    row("stored pairs, contact force after 2 steps", [5e-3, 3e-3, 2.9e-3], [4.2e-3, 2.2e-3, 1.9e-3]),
+    row("stored pairs, contact force after 3 steps", [5e-3, 3e-3, 2.9e-3], [4.1e-3, 2.2e-3, 1.9e-3]),
     row("load of the main contacts", [0.03, 0.02, 0.02], [0.025, 0.017, 0.015]),
     row("load of the third contact", [0.3, 0.2, 0.2], [0.24, 0.16, 0.15]),
     row("third contact slides, from the start, orbital speed after 0 steps", [2e-3, 7e-4, 4.9e-4], [1.5e-3, 5e-4, 2e-5]),
@@ -249,20 +254,20 @@ const SCREW_BALL: &[Measured] = &[
     row("third contact slides, from the closed form, groove torque after 1 steps", [0.08, 0.02, 0.014], [0.055, 0.015, 7.4e-3]),
     row("third contact slides, from the closed form, groove torque after 2 steps", [0.08, 0.02, 0.014], [0.054, 0.014, 6.4e-3]),
     row("third contact slides, from the closed form, groove torque after 3 steps", [0.08, 0.02, 0.014], [0.045, 0.011, 5e-3]),
-    row("third contact slides, from the closed form, groove torque after 4 steps", [0.08, 0.02, 0.014], [0.022, 5.5e-3, 2.2e-3]),
-    row("third contact slides, from the closed form, groove torque after 5 steps", [0.08, 0.02, 0.014], [0.014, 3.4e-3, 1.1e-3]),
-    row("two contacts, orbital speed after 0 steps", [4e-4, 7e-5, 4.9e-5], [5.4e-5, 8.9e-6, 1.2e-6]),
-    row("two contacts, orbital speed after 1 steps", [4e-4, 7e-5, 4.9e-5], [2.4e-5, 7.9e-6, 4.3e-7]),
-    row("two contacts, orbital speed after 2 steps", [4e-4, 7e-5, 4.9e-5], [4.2e-5, 1.5e-5, 4.8e-7]),
-    row("two contacts, orbital speed after 3 steps", [4e-4, 7e-5, 4.9e-5], [6.3e-5, 2.2e-5, 7.7e-7]),
-    row("two contacts, orbital speed after 4 steps", [4e-4, 7e-5, 4.9e-5], [8.6e-5, 3.1e-5, 1.3e-6]),
-    row("two contacts, orbital speed after 5 steps", [4e-4, 7e-5, 4.9e-5], [1.2e-4, 4.2e-5, 2.3e-6]),
-    row("two contacts, groove torque after 0 steps", [6e-4, 1e-4, 7e-5], [1.2e-4, 3.3e-5, 1.1e-5]),
+    row("third contact slides, from the closed form, groove torque after 4 steps", [0.066, 0.017, 0.012], [0.022, 5.5e-3, 2.2e-3]),
+    row("third contact slides, from the closed form, groove torque after 5 steps", [0.042, 0.011, 7.7e-3], [0.014, 3.4e-3, 1.1e-3]),
+    row("two contacts, orbital speed after 0 steps", [1.7e-4, 2.7e-5, 1.9e-5], [5.4e-5, 8.9e-6, 1.2e-6]),
+    row("two contacts, orbital speed after 1 steps", [7.2e-5, 2.4e-5, 1.7e-5], [2.4e-5, 7.9e-6, 4.3e-7]),
+    row("two contacts, orbital speed after 2 steps", [1.3e-4, 4.5e-5, 3.2e-5], [4.2e-5, 1.5e-5, 4.8e-7]),
+    row("two contacts, orbital speed after 3 steps", [1.9e-4, 6.6e-5, 4.7e-5], [6.3e-5, 2.2e-5, 7.7e-7]),
+    row("two contacts, orbital speed after 4 steps", [2.6e-4, 7e-5, 4.9e-5], [8.6e-5, 3.1e-5, 1.3e-6]),
+    row("two contacts, orbital speed after 5 steps", [3.6e-4, 7e-5, 4.9e-5], [1.2e-4, 4.2e-5, 2.3e-6]),
+    row("two contacts, groove torque after 0 steps", [3.6e-4, 9.9e-5, 7e-5], [1.2e-4, 3.3e-5, 1.1e-5]),
     row("two contacts, groove torque after 1 steps", [0.01, 3e-3, 2.1e-3], [5.4e-3, 1.6e-3, 1.1e-3]),
     row("two contacts, groove torque after 2 steps", [0.01, 3e-3, 2.1e-3], [4.8e-3, 1.5e-3, 1.1e-3]),
     row("two contacts, groove torque after 3 steps", [0.01, 3e-3, 2.1e-3], [3.6e-3, 1.1e-3, 8.9e-4]),
-    row("two contacts, groove torque after 4 steps", [0.01, 3e-3, 2.1e-3], [2.4e-3, 7.3e-4, 5.8e-4]),
-    row("two contacts, groove torque after 5 steps", [0.01, 3e-3, 2.1e-3], [1.5e-3, 4.2e-4, 3.3e-4]),
+    row("two contacts, groove torque after 4 steps", [7.2e-3, 2.2e-3, 1.6e-3], [2.4e-3, 7.3e-4, 5.8e-4]),
+    row("two contacts, groove torque after 5 steps", [4.5e-3, 1.3e-3, 9.1e-4], [1.5e-3, 4.2e-4, 3.3e-4]),
     largest("Table 3.7, row", 0.035, 0.03),
     largest("Table 3.7, refined", 0.015, 0.012),
     largest("touching balls of a screw in step", 6e-9, 3.8e-9),
@@ -273,7 +278,7 @@ const SCREW_BALL: &[Measured] = &[
 /// `formulas/slip_map.rs`. Two terms of the far field are off by the largest error of the stiffness where it takes over.
 #[rustfmt::skip]
 const SLIP_MAP: &[Measured] = &[
-    row("slip map, power, relative", [3e-4, 3e-5, 1e-6], [1.4e-4, 9.4e-6, 1.1e-7]),
+    row("slip map, power, relative", [3e-4, 2.9e-5, 1e-6], [1.4e-4, 9.4e-6, 1.1e-7]),
     row("slip map, force over its limit", [5e-4, 3e-5, 1e-6], [3.1e-4, 1.2e-5, 1e-8]),
     row("slip map, moment over that of sliding at the semi-major axis", [5e-4, 3e-5, 1e-6], [3.1e-4, 1.5e-5, 1.4e-8]),
     row("slip map, stiffness over the sum of both", [6e-3, 3e-4, 1e-5], [3.7e-3, 1.8e-4, 2.2e-6]),
@@ -296,7 +301,7 @@ const FRICTION_MAP: &[Measured] = &[
 /// the largest error and most of the rms.
 #[rustfmt::skip]
 const UNCAGED: &[Measured] = &[
-    largest("whole screw, work of normal forces over friction", 1e-4, 1.2e-5),
+    largest("whole screw, work of normal forces over friction", 3.6e-5, 1.2e-5),
     largest("whole screw, rubbing of the pairs", 0.05, 0.033),
 ];
 
@@ -306,25 +311,25 @@ const LINEAR_BALL: &[Measured] = &[
     largest("four-point, (3.43)", 4.2e-3, 4.1e-3),
     largest("four-point, start", 4.1e-3, 4.1e-3),
     largest("four-point, +1", 1.5e-3, 1.4e-3),
-    largest("four-point, +2", 1.5e-4, 2.5e-5),
-    largest("four-point, +3", 2e-5, 2.3e-6),
-    largest("four-point, loss", 1e-3, 2.7e-4),
+    largest("four-point, +2", 7.5e-5, 2.5e-5),
+    largest("four-point, +3", 6.9e-6, 2.3e-6),
+    largest("four-point, loss", 8.1e-4, 2.7e-4),
     largest("next to the two-point switch, (3.43)", 2.5e-2, 2.1e-2),
     largest("next to the two-point switch, start", 7e-3, 5.6e-3),
     largest("next to the two-point switch, +1", 3e-3, 2.6e-3),
     largest("next to the two-point switch, +2", 5e-4, 3.5e-4),
     largest("next to the two-point switch, +3", 5e-4, 3.5e-4),
     largest("next to the two-point switch, loss", 2e-3, 1.8e-3),
-    row("random linear ball, +3", [5e-5, 3e-6, 1e-6], [4.8e-6, 7.5e-7, 4.1e-8]),
-    largest("random linear ball, loss", 1e-3, 2.9e-4),
-    largest("swinging load, amplitude 0.6", 5e-5, 1.2e-6),
-    largest("swinging load, amplitude 0.8", 3e-4, 5.4e-5),
-    largest("swinging load, amplitude 0.85", 3e-4, 7.5e-5),
+    row("random linear ball, +3", [1.5e-5, 2.3e-6, 1e-6], [4.8e-6, 7.5e-7, 4.1e-8]),
+    largest("random linear ball, loss", 8.7e-4, 2.9e-4),
+    largest("swinging load, amplitude 0.6", 3.6e-6, 1.2e-6),
+    largest("swinging load, amplitude 0.8", 1.7e-4, 5.4e-5),
+    largest("swinging load, amplitude 0.85", 2.3e-4, 7.5e-5),
     largest("swinging load, amplitude 0.9", 2.5e-2, 1.8e-2),
     largest("exact ball, speed deviation", 8e-11, 2.7e-11),
     largest("exact ball, loss", 1.5e-6, 8.8e-7),
     largest("Table 3.4, refined", 1e-6, 5.7e-7),
-    largest("mated top groove, speed deviation", 2e-10, 6e-11),
+    largest("mated top groove, speed deviation", 1.8e-10, 6e-11),
     largest("Table 3.5, refined force in N", 2e-3, 1.2e-3),
     largest("touching balls in step", 5e-9, 2.8e-9),
     largest("tabulated chains, speed deviation", 1e-6, 6.2e-7),
@@ -354,12 +359,12 @@ const LINEAR_BALL: &[Measured] = &[
     row("pairs, ball friction 0.1, +1", [0.7, 0.25, 0.1], [0.45, 0.16, 0.066]),
     row("pairs, ball friction 0.1, +2", [0.04, 0.012, 5e-3], [0.025, 7.7e-3, 2.9e-3]),
     row("pairs, ball friction 0.1, +3", [4e-3, 1.5e-3, 7e-4], [2.6e-3, 9.1e-4, 4.2e-4]),
-    row("pairs near the switch, ball friction 0, +1", [0.7, 0.4, 0.3], [0.41, 0.24, 0.17]),
+    row("pairs near the switch, ball friction 0, +1", [0.7, 0.4, 0.28], [0.41, 0.24, 0.17]),
     row("pairs near the switch, ball friction 0, +2", [0.07, 0.035, 0.015], [0.042, 0.021, 9.7e-3]),
     row("pairs near the switch, ball friction 0, +3", [0.15, 0.08, 0.04], [0.098, 0.049, 0.025]),
-    row("pairs near the switch, ball friction 0.1, +1", [1.2, 0.7, 0.5], [0.8, 0.42, 0.27]),
+    row("pairs near the switch, ball friction 0.1, +1", [1.2, 0.7, 0.49], [0.8, 0.42, 0.27]),
     row("pairs near the switch, ball friction 0.1, +2", [0.4, 0.25, 0.15], [0.25, 0.14, 0.094]),
-    row("pairs near the switch, ball friction 0.1, +3", [0.4, 0.2, 0.15], [0.19, 0.12, 0.087]),
+    row("pairs near the switch, ball friction 0.1, +3", [0.4, 0.2, 0.14], [0.19, 0.12, 0.087]),
     row("pairs, (3.51)", [1.0, 0.4, 0.2], [0.62, 0.24, 0.12]),
     row("pairs near the switch, (3.51)", [2.0, 1.2, 0.8], [1.3, 0.72, 0.47]),
     row("chains without ball friction", [2.5e-3, 1e-3, 6e-4], [1.5e-3, 6.1e-4, 3.5e-4]),
@@ -387,16 +392,16 @@ const ROTARY_BALL: &[Measured] = &[
 /// programs take displacements at different points.
 #[rustfmt::skip]
 const ROTARY_BEARING: &[Measured] = &[
-    largest("axial load, force on one ball in N", 9e-12, 2.9e-12),
+    largest("axial load, force on one ball in N", 8.7e-12, 2.9e-12),
     largest("Stribeck number", 2e-5, 1.2e-5),
     largest("deflection over load", 2.5e-5, 1.5e-5),
-    largest("bearing balance of a ball in N", 6e-11, 1.9e-11),
-    largest("turned load, forces in N", 6e-12, 1.8e-12),
-    largest("reciprocal displacements", 2.5e-10, 6.8e-11),
+    largest("bearing balance of a ball in N", 5.7e-11, 1.9e-11),
+    largest("turned load, forces in N", 5.4e-12, 1.8e-12),
+    largest("reciprocal displacements", 2.1e-10, 6.8e-11),
     largest("double row, variation", 1.6, 1.6),
     largest("hostile loads, residual", 5e-8, 3.2e-8),
-    largest("bearing balance of the ring in N", 4e-10, 1.2e-10),
-    largest("ball screw of zero lead, Held", 1e-11, 3.3e-12),
+    largest("bearing balance of the ring in N", 3.6e-10, 1.2e-10),
+    largest("ball screw of zero lead, Held", 9.9e-12, 3.3e-12),
     largest("ball screw of zero lead, Free", 0.06, 0.027),
 ];
 
@@ -442,7 +447,7 @@ const TWO_POINT: &[Measured] = &[
 /// `formulas/curvature.rs`, relative.
 #[rustfmt::skip]
 const CURVATURE: &[Measured] = &[
-    largest("bias of kappa1", 7e-10, 2.2e-10),
+    largest("bias of kappa1", 6.6e-10, 2.2e-10),
     largest("bias of kappa2", 2.5e-8, 1.5e-8),
     largest("fitted curvature on tabulated cases", 1.5e-6, 5.3e-7),
     largest("fitted curvature, rms", 3e-7, 1.7e-7),
@@ -454,7 +459,7 @@ const CURVATURE: &[Measured] = &[
 /// `formulas/efficiency.rs`; the coefficient of the dynamic correction beside a thirtieth.
 #[rustfmt::skip]
 const EFFICIENCY: &[Measured] = &[
-    largest("optimum and locking angles in rad", 5e-13, 1.5e-13),
+    largest("optimum and locking angles in rad", 4.5e-13, 1.5e-13),
     largest("coefficient of the dynamic correction", 9e-7, 5.6e-7),
     largest("corrected efficiency", 9e-8, 5.8e-8),
     largest("rolling back-drive efficiency", 6e-8, 3.4e-8),
@@ -464,7 +469,7 @@ const EFFICIENCY: &[Measured] = &[
 /// `formulas/hertz.rs`, relative.
 #[rustfmt::skip]
 const HERTZ: &[Measured] = &[
-    largest("tabulated contacts", 5e-15, 1.6e-15),
+    largest("tabulated contacts", 4.8e-15, 1.6e-15),
     largest("tabulated axis ratios", 8e-15, 2.7e-15),
     largest("circle by the fitted axis ratio", 1e-5, 5.1e-6),
     largest("contact constants, mean", 2.5e-7, 1.6e-7),
@@ -496,7 +501,7 @@ const SCENES: &[Measured] = &[
     largest("locked drive, friction torque in N m", 1.5e-4, 1e-4),
     largest("preload of two flanks", 8e-3, 7.8e-3),
     largest("groove friction after a failure", 0.36, 0.24),
-    largest("lifted off, friction in N", 7e-10, 2.2e-10),
+    largest("lifted off, friction in N", 6.6e-10, 2.2e-10),
     largest("stiff rows, speeds", 6e-8, 3.6e-8),
     largest("full track, sum of gaps in m", 1.2e-8, 7.5e-9),
     largest("linear scene, bias of v/2", 9e-9, 5.9e-9),
@@ -516,12 +521,12 @@ const SCENES: &[Measured] = &[
 /// given; contacts in N, degrees, rad/s, mm/s, N mm and mW.
 #[rustfmt::skip]
 const SCREW_REFERENCE: &[Measured] = &[
-    largest("single balls of a screw, speed ratio", 2e-9, 6.3e-10),
-    largest("single balls of a screw, positions in um", 2.5e-9, 7.9e-10),
+    largest("single balls of a screw, speed ratio", 1.9e-9, 6.3e-10),
+    largest("single balls of a screw, positions in um", 2.4e-9, 7.9e-10),
     largest("single balls of a screw, spin in rad/s", 5e-8, 3.2e-8),
     largest("single balls of a screw, loss", 5e-10, 1.7e-10),
     largest("single balls of a screw, contacts", 2e-7, 1.3e-7),
-    largest("single balls of a screw, power balance", 1.5e-11, 4.4e-12),
+    largest("single balls of a screw, power balance", 1.4e-11, 4.4e-12),
     largest("pairs of a screw, contact force in N", 3.5e-8, 2.3e-8),
     largest("pairs of a screw, losses", 2.5e-8, 1.4e-8),
     largest("pairs of a screw, positions in um", 1.2e-8, 7.8e-9),
@@ -529,136 +534,136 @@ const SCREW_REFERENCE: &[Measured] = &[
     largest("pairs of a screw, spin in rad/s", 7e-8, 4.6e-8),
     largest("pairs of a screw, missing power", 5e-3, 2.5e-3),
     largest("pairs of a screw, contact force by the other slip", 1.5e-5, 8.4e-6),
-    largest("given contacts, orbital speed", 1e-9, 3.1e-10),
+    largest("given contacts, orbital speed", 9.3e-10, 3.1e-10),
     largest("given contacts, orbital speed by impedances", 1e-6, 3.5e-7),
     largest("elastic pair, contact force in N", 3e-7, 1.8e-7),
     largest("given contacts, contact force", 7e-3, 4.1e-3),
-    largest("train of a screw, power balance", 2e-13, 5.4e-14),
+    largest("train of a screw, power balance", 1.7e-13, 5.4e-14),
     largest("reversed train of a screw", 9e-3, 6e-3),
-    largest("given contacts, balance in N", 1e-13, 3.1e-14),
-    largest("given contacts, power balance", 3e-13, 8.9e-14),
-    largest("two contacts of a screw, gap over loss", 1.5e-10, 4.1e-11),
+    largest("given contacts, balance in N", 9.3e-14, 3.1e-14),
+    largest("given contacts, power balance", 2.7e-13, 8.9e-14),
+    largest("two contacts of a screw, gap over loss", 1.3e-10, 4.1e-11),
     largest("closed forms of a screw, contact force", 0.02, 7.1e-3),
     largest("closed forms of a screw, groove loss", 0.05, 0.043),
     largest("closed forms of a screw, orbital speed", 8e-3, 3.7e-3),
     largest("hostile balls of a screw, power balance", 2.5e-9, 1.5e-9),
     largest("single balls of a screw, balance over the load", 6e-13, 2e-13),
-    largest("given contacts, moment in N m", 2.5e-16, 7.1e-17),
+    largest("given contacts, moment in N m", 2.2e-16, 7.1e-17),
 ];
 
 /// `reference/chain_reference.rs`: speed deviations in units of half the track speed.
 #[rustfmt::skip]
 const CHAIN_REFERENCE: &[Measured] = &[
-    largest("stored chains, contact force in N", 7e-10, 2.1e-10),
-    largest("stored chains, speed deviation", 4e-13, 1.3e-13),
-    largest("stored chains, closed form", 6e-15, 1.8e-15),
-    largest("chains three ways, speed", 3e-14, 9e-15),
-    largest("chains three ways, force", 5e-14, 1.6e-14),
+    largest("stored chains, contact force in N", 6.3e-10, 2.1e-10),
+    largest("stored chains, speed deviation", 3.9e-13, 1.3e-13),
+    largest("stored chains, closed form", 5.4e-15, 1.8e-15),
+    largest("chains three ways, speed", 2.7e-14, 9e-15),
+    largest("chains three ways, force", 4.8e-14, 1.6e-14),
     largest("stored pairs, stuck true, contact force in N", 2e-4, 8e-5),
     largest("stored pairs, stuck true, speed deviation", 3e-7, 1.8e-7),
     largest("stored pairs, stuck false, contact force in N", 5e-9, 1.9e-9),
     largest("stored pairs, stuck false, speed deviation", 1e-11, 5.3e-12),
     largest("balance of stored chains in N", 1.2e-12, 3.9e-13),
-    largest("balance of stored pairs in N", 2e-12, 5.2e-13),
+    largest("balance of stored pairs in N", 1.6e-12, 5.2e-13),
     largest("balance of sticking pairs in N", 1.5e-6, 9.5e-7),
-    largest("balance of reversed pairs in N", 9e-14, 2.7e-14),
-    largest("balance of rough pairs in N", 4e-13, 1.2e-13),
-    largest("balance of long chains in N", 8e-13, 2.6e-13),
+    largest("balance of reversed pairs in N", 8.1e-14, 2.7e-14),
+    largest("balance of rough pairs in N", 3.6e-13, 1.2e-13),
+    largest("balance of long chains in N", 7.8e-13, 2.6e-13),
     largest("balance of chains at the switch in N", 3.5e-6, 2.2e-6),
 ];
 
 /// `reference/linear_ball_reference.rs`: speed deviations in units of half the track speed.
 #[rustfmt::skip]
 const LINEAR_REFERENCE: &[Measured] = &[
-    largest("stored linear balls, load in N", 1.5e-13, 4.3e-14),
+    largest("stored linear balls, load in N", 1.3e-13, 4.3e-14),
     largest("stored sticking balls, speed deviation", 5e-8, 3e-8),
-    largest("stored linear balls, speed deviation", 2e-13, 5.7e-14),
-    largest("stored linear balls, loss in N", 3.5e-12, 1.1e-12),
-    largest("stored linear balls, offset", 1.5e-11, 4.2e-12),
-    largest("stored linear balls, friction in N", 6e-11, 1.8e-11),
-    largest("stored linear balls, moment in N m", 6e-15, 1.7e-15),
-    largest("stored linear balls, closed form", 6e-17, 1.8e-17),
+    largest("stored linear balls, speed deviation", 1.8e-13, 5.7e-14),
+    largest("stored linear balls, loss in N", 3.3e-12, 1.1e-12),
+    largest("stored linear balls, offset", 1.3e-11, 4.2e-12),
+    largest("stored linear balls, friction in N", 5.4e-11, 1.8e-11),
+    largest("stored linear balls, moment in N m", 5.1e-15, 1.7e-15),
+    largest("stored linear balls, closed form", 5.4e-17, 1.8e-17),
     largest("closed form with the exact slope, contact force in N", 8e-4, 5.1e-4),
     largest("factor of the contact angle", 9e-3, 5.9e-3),
     largest("two-point contact, gap in W", 5e-9, 3.1e-9),
     largest("switch to rolling", 1e-5, 6.5e-6),
-    largest("balance of slipping linear balls", 1.5e-12, 4.1e-13),
+    largest("balance of slipping linear balls", 1.3e-12, 4.1e-13),
     largest("balance of sticking linear balls", 2.5e-7, 1.4e-7),
 ];
 
 /// `reference/rotary_reference.rs`, relative where no unit is given.
 #[rustfmt::skip]
 const ROTARY_REFERENCE: &[Measured] = &[
-    largest("stored Hertz constants", 5e-15, 1.6e-15),
+    largest("stored Hertz constants", 4.8e-15, 1.6e-15),
     largest("stored rotary cases, torque", 1.2e-13, 3.9e-14),
-    largest("rotary torque from its own loads", 5e-14, 1.5e-14),
+    largest("rotary torque from its own loads", 4.5e-14, 1.5e-14),
     largest("rotary torque by the physical radii", 1e-3, 9.2e-4),
     largest("rotary ball, force along the track in N", 1.5e-6, 8.9e-7),
-    largest("rotary ball, power balance", 8e-11, 2.6e-11),
+    largest("rotary ball, power balance", 7.8e-11, 2.6e-11),
     largest("rotary ball, axial load", 5e-9, 3.1e-9),
 ];
 
 /// `reference/friction_maps_reference.rs`: forces over their limit, moments over that and the semi-major axis.
 #[rustfmt::skip]
 const MAPS_REFERENCE: &[Measured] = &[
-    largest("friction maps, coefficients", 7e-16, 2.3e-16),
-    largest("line integral, force", 7e-15, 2.3e-15),
+    largest("friction maps, coefficients", 6.9e-16, 2.3e-16),
+    largest("line integral, force", 6.9e-15, 2.3e-15),
     largest("line integral, moment", 2e-14, 6.7e-15),
-    largest("line integral, power", 1e-14, 3.2e-15),
-    largest("line integral, slope", 7e-15, 2.3e-15),
-    largest("area quadrature, maps", 9e-13, 2.9e-13),
-    largest("area quadrature, any direction", 1.2e-12, 3.6e-13),
-    largest("reduction and maps", 3.5e-15, 1.1e-15),
+    largest("line integral, power", 9.6e-15, 3.2e-15),
+    largest("line integral, slope", 6.9e-15, 2.3e-15),
+    largest("area quadrature, maps", 8.7e-13, 2.9e-13),
+    largest("area quadrature, any direction", 1.1e-12, 3.6e-13),
+    largest("reduction and maps", 3.3e-15, 1.1e-15),
     largest("friction of the contacts of a screw", 2e-7, 1.1e-7),
-    largest("power of a contact, homogeneous", 5e-15, 1.6e-15),
-    largest("Hessian of a contact along its velocity", 2e-15, 6.3e-16),
+    largest("power of a contact, homogeneous", 4.8e-15, 1.6e-15),
+    largest("Hessian of a contact along its velocity", 1.9e-15, 6.3e-16),
     largest("Hessian of a contact by differences", 3e-9, 2e-9),
     largest("friction maps, force", 6e-16, 2e-16),
     largest("friction maps, moment", 1.5e-14, 4.7e-15),
-    largest("friction maps, power", 3e-15, 8.5e-16),
-    largest("friction maps, slope", 1.5e-15, 4.5e-16),
+    largest("friction maps, power", 2.6e-15, 8.5e-16),
+    largest("friction maps, slope", 1.4e-15, 4.5e-16),
 ];
 
 /// `reference/curvature_reference.rs`, relative.
 #[rustfmt::skip]
 const CURVATURE_REFERENCE: &[Measured] = &[
-    largest("Appendix B as printed", 7e-16, 2.3e-16),
-    largest("Appendix B as corrected", 9e-15, 2.9e-15),
+    largest("Appendix B as printed", 6.9e-16, 2.3e-16),
+    largest("Appendix B as corrected", 8.7e-15, 2.9e-15),
 ];
 
 /// `reference/kinematics_reference.rs`: slips over the entrainment speed, the rest relative.
 #[rustfmt::skip]
 const KINEMATICS_REFERENCE: &[Measured] = &[
-    largest("golden kinematics", 2.5e-15, 7.6e-16),
+    largest("golden kinematics", 2.3e-15, 7.6e-16),
     largest("rolling slip, its own digits", 1e-12, 3.6e-13),
-    largest("bearing of zero lead, speeds", 2.5e-15, 7.8e-16),
-    largest("bearing of zero lead, spin", 9e-16, 2.9e-16),
+    largest("bearing of zero lead, speeds", 2.4e-15, 7.8e-16),
+    largest("bearing of zero lead, spin", 8.7e-16, 2.9e-16),
     largest("sum of both side slips", 9e-16, 3e-16),
-    largest("sum of both spins", 4e-16, 1.3e-16),
-    largest("equal contact angles, orbital speed", 7e-16, 2.3e-16),
+    largest("sum of both spins", 3.9e-16, 1.3e-16),
+    largest("equal contact angles, orbital speed", 6.9e-16, 2.3e-16),
     largest("equal contact angles, rolling speed", 2e-15, 6.7e-16),
     largest("equal contact angles, side slip", 2.5e-16, 8.4e-17),
-    largest("traditional formula, slip", 1.5e-15, 4.6e-16),
-    largest("traditional formula, spin", 6e-16, 1.7e-16),
+    largest("traditional formula, slip", 1.4e-15, 4.6e-16),
+    largest("traditional formula, spin", 5.1e-16, 1.7e-16),
     largest("golden mean slip", 1e-4, 5.4e-5),
-    largest("moments of the Hertz weight", 2e-14, 5.8e-15),
+    largest("moments of the Hertz weight", 1.8e-14, 5.8e-15),
     largest("mean slip of pure spin", 1.5e-7, 9.2e-8),
     largest("friction power over its bound, closest", 1e-3, 6.1e-4),
     largest("loss of the published screw in W", 2e-5, 9.6e-6),
-    largest("parts of the mean slip", 2.5e-15, 7.8e-16),
+    largest("parts of the mean slip", 2.4e-15, 7.8e-16),
     largest("loss over the pitch angle", 0.035, 0.033),
-    largest("golden raceway controls in rad", 1.5e-15, 4.5e-16),
+    largest("golden raceway controls in rad", 1.4e-15, 4.5e-16),
     largest("ellipses of the published screw", 1e-15, 3.4e-16),
     largest("contact angle of the published screw in degrees", 0.01, 7.2e-3),
     largest("entrainment speed over the rolling radius", 2e-3, 1.2e-3),
-    largest("material points", 1.2e-14, 3.5e-15),
+    largest("material points", 1.1e-14, 3.5e-15),
 ];
 
 /// `reference/rolling_ball.rs`: what the integration and the smoothing of friction leave.
 #[rustfmt::skip]
 const ROLLING_BALL: &[Measured] = &[
-    largest("rolling ball, tabulated", 7e-11, 2.3e-11),
-    largest("rolling ball, drift", 1.5e-10, 4.1e-11),
+    largest("rolling ball, tabulated", 6.9e-11, 2.3e-11),
+    largest("rolling ball, drift", 1.3e-10, 4.1e-11),
     largest("rolling ball, smoothing of 1e-3", 1.2e-7, 8.3e-8),
     largest("driven nut, efficiency", 2e-8, 1.1e-8),
 ];
@@ -666,32 +671,32 @@ const ROLLING_BALL: &[Measured] = &[
 /// `reference/statics.rs`: residuals of the iterations, and another program's loads.
 #[rustfmt::skip]
 const STATICS: &[Measured] = &[
-    largest("independent statics, forces over the load", 3.5e-12, 1.1e-12),
+    largest("independent statics, forces over the load", 3.3e-12, 1.1e-12),
     largest("independent statics, axial displacement", 3.5e-10, 1.2e-10),
     largest("independent statics, contact angle in rad", 6e-12, 2e-12),
     largest("independent statics, geometric errors in N", 5e-5, 2.7e-5),
-    largest("golden Hertz constants", 7e-12, 2.3e-12),
+    largest("golden Hertz constants", 6.9e-12, 2.3e-12),
     largest("loads by the printed curvatures", 1.1e-3, 5.9e-4),
     largest("energy by differences, nodes", 8e-7, 5.2e-7),
     largest("energy by differences, balls", 1.5e-7, 8.3e-8),
     largest("balance of the case studies, residual in N", 1.5e-12, 4.9e-13),
     largest("screw of twice the size, forces in N", 6e-11, 2e-11),
     largest("ring of zero lead, forces", 3e-15, 1e-15),
-    largest("two-point statics in closed form", 2.5e-13, 7.3e-14),
+    largest("two-point statics in closed form", 2.2e-13, 7.3e-14),
     largest("loads of every kind, residual in N", 1.2e-11, 3.9e-12),
-    largest("profile offset, forces in N", 2e-12, 5.6e-13),
+    largest("profile offset, forces in N", 1.7e-12, 5.6e-13),
 ];
 
 /// `reference/statics_measured.rs`.
 #[rustfmt::skip]
 const STATICS_MEASURED: &[Measured] = &[
-    largest("splines, values", 8e-15, 2.5e-15),
+    largest("splines, values", 7.5e-15, 2.5e-15),
     largest("splines, slope by differences", 5e-8, 2.9e-8),
     largest("splines, bend by differences", 8e-9, 5.3e-9),
     largest("splines, periodic", 7e-14, 2.4e-14),
-    largest("straight profile, offset in m", 8e-19, 2.6e-19),
-    largest("straight profile, slope", 2.5e-18, 8e-19),
-    largest("straight profile, bend", 4e-17, 1.3e-17),
+    largest("straight profile, offset in m", 7.8e-19, 2.6e-19),
+    largest("straight profile, slope", 2.4e-18, 8e-19),
+    largest("straight profile, bend", 3.9e-17, 1.3e-17),
     largest("straight profile, forces in N", 2.5e-12, 8.3e-13),
 ];
 
@@ -701,7 +706,7 @@ const STATICS_STUDIES: &[Measured] = &[
     largest("lash of an independent solver", 4e-3, 3.2e-3),
     largest("tie rod, residual over the load", 9e-9, 5.7e-9),
     largest("tie rod, forces in N", 1.5e-4, 8.3e-5),
-    largest("tie rod, rack load", 9e-12, 2.8e-12),
+    largest("tie rod, rack load", 8.4e-12, 2.8e-12),
     largest("long nuts, residual in N", 1.5e-12, 4.9e-13),
 ];
 
@@ -710,7 +715,7 @@ const STATICS_STUDIES: &[Measured] = &[
 const STEADY_STATE: &[Measured] = &[
     largest("steady state, closed form", 8e-6, 5.1e-6),
     largest("steady state, error over the square of the speed", 4e-3, 2.5e-3),
-    largest("stored coefficient of inertia", 7e-16, 2.3e-16),
+    largest("stored coefficient of inertia", 6.9e-16, 2.3e-16),
     largest("steady state, 2000 rpm, 2113 N, closed form", 1.5e-5, 1.4e-5),
     largest("steady state, 2000 rpm, 2113 N, corrected", 7e-9, 6.3e-9),
     largest("steady state, 10000 rpm, 2113 N, closed form", 3.6e-4, 3.5e-4),
@@ -721,16 +726,16 @@ const STEADY_STATE: &[Measured] = &[
     largest("steady state, 10000 rpm, 211.3 N, corrected", 6e-4, 4.8e-4),
     largest("steady state, 10000 rpm, 21.13 N, closed form", 0.034, 0.026),
     largest("steady state, 10000 rpm, 21.13 N, corrected", 0.016, 0.014),
-    largest("steady state, eta", 1.5e-15, 4.5e-16),
-    largest("steady state, torque", 1.5e-15, 4.5e-16),
-    largest("steady state, Q_A", 1.5e-15, 4.5e-16),
-    largest("steady state, Q_B", 2e-15, 5.6e-16),
-    largest("steady state, Q_Ap", 6e-15, 1.8e-15),
-    largest("steady state, omega_n", 3e-15, 8.9e-16),
-    largest("steady state, omega_t", 2e-14, 6.3e-15),
-    largest("steady state, psi_A", 7e-16, 2.3e-16),
+    largest("steady state, eta", 1.4e-15, 4.5e-16),
+    largest("steady state, torque", 1.4e-15, 4.5e-16),
+    largest("steady state, Q_A", 1.4e-15, 4.5e-16),
+    largest("steady state, Q_B", 1.7e-15, 5.6e-16),
+    largest("steady state, Q_Ap", 5.4e-15, 1.8e-15),
+    largest("steady state, omega_n", 2.7e-15, 8.9e-16),
+    largest("steady state, omega_t", 1.9e-14, 6.3e-15),
+    largest("steady state, psi_A", 6.9e-16, 2.3e-16),
     largest("steady state, psi_B", 6e-15, 2e-15),
-    largest("steady state, slip_A", 2e-14, 6.3e-15),
+    largest("steady state, slip_A", 1.9e-14, 6.3e-15),
     largest("steady state, slip_B", 6e-15, 2e-15),
 ];
 
@@ -756,9 +761,9 @@ const SINES: &[Measured] = &[
 /// settle.
 #[rustfmt::skip]
 const LONG_ROWS: &[Measured] = &[
-    largest("rows of balls, speed", 5e-4, 5.9e-6),
-    largest("rows of balls, force", 0.1, 0.016),
-    largest("rows of balls, power", 1e-4, 1.6e-5),
+    largest("rows of balls, speed", 1.8e-5, 5.9e-6),
+    largest("rows of balls, force", 0.048, 0.016),
+    largest("rows of balls, power", 4.8e-5, 1.6e-5),
     largest("rows of balls, loss", 5e-4, 2.8e-4),
 ];
 
@@ -768,9 +773,9 @@ const STIFFNESS: &[Measured] = &[
     row("stiffness of a contact, across", [6.6e-6, 3.5e-6, 5e-7], [4.4e-6, 2.3e-6, 1.5e-7]),
     row("stiffness of a contact, along", [7.2e-6, 3.9e-6, 5e-7], [4.8e-6, 2.6e-6, 1.4e-7]),
     row("stiffness of a contact, torsion", [2.6e-5, 1.5e-5, 1.2e-6], [1.7e-5, 1.0e-5, 3.8e-7]),
-    row("every catalogue size, slip", [5.5e-7, 2.4e-7, 9e-8], [1.8e-7, 7.9e-8, 3.0e-8]),
-    row("every catalogue size, slip stiffness", [4.5e-6, 3.7e-6, 3.7e-6], [2.9e-6, 2.4e-6, 2.4e-6]),
-    row("every catalogue size, spin", [7.5e-6, 7e-6, 7e-6], [4.9e-6, 4.5e-6, 4.5e-6]),
+    row("every catalogue size, slip", [5.4e-7, 2.4e-7, 9e-8], [1.8e-7, 7.9e-8, 3.0e-8]),
+    row("every catalogue size, slip stiffness", [4.5e-6, 3.7e-6, 3.6e-6], [2.9e-6, 2.4e-6, 2.4e-6]),
+    row("every catalogue size, spin", [7.5e-6, 7e-6, 6.8e-6], [4.9e-6, 4.5e-6, 4.5e-6]),
     row("every catalogue size, spin stiffness", [1.5e-5, 1.3e-5, 1.3e-5], [1.2e-5, 1.2e-5, 1.2e-5]),
     row("every catalogue size, drift", [3.5e-6, 1.5e-6, 1.1e-6], [2.3e-6, 1.0e-6, 7.3e-7]),
     row("torque of slip and of spin over their sum", [2e-4, 4.2e-5, 5e-6], [1.3e-4, 2.8e-5, 1.4e-6]),
@@ -783,7 +788,7 @@ const STIFFNESS: &[Measured] = &[
 #[rustfmt::skip]
 const ROLLING: &[Measured] = &[
     row("rolling resistance, hysteresis", [5.7e-6, 4.1e-6, 3.5e-6], [3.8e-6, 2.7e-6, 2.3e-6]),
-    row("rolling resistance, lubricant", [3e-7, 1.5e-7, 1.2e-7], [1.2e-7, 7.8e-8, 7.3e-8]),
+    row("rolling resistance, lubricant", [3e-7, 1.5e-7, 1.1e-7], [1.2e-7, 7.8e-8, 7.3e-8]),
     row("rolling resistance, both", [3.3e-6, 7.5e-7, 4e-7], [2.2e-6, 5.0e-7, 2.1e-7]),
 ];
 
@@ -819,8 +824,8 @@ const ELASTIC_BALL: &[Measured] = &[
     row("elastic balls, in three points: torque", [3.6e-2, 4e-3, 1.1e-3], [2.4e-2, 2.7e-3, 7.0e-4]),
     row("elastic balls, in three points: loads", [8e-3, 4.7e-4, 9e-5], [5.4e-3, 3.1e-4, 5.4e-5]),
     row("elastic balls, in two points: speed", [0.24, 0.13, 5e-2], [0.16, 8.6e-2, 2.0e-2]),
-    row("elastic balls, in two points: torque", [2.8e-4, 1.4e-4, 1e-4], [1.8e-4, 9.1e-5, 6.4e-5]),
-    row("elastic balls, in two points: loads", [4e-6, 1e-6, 6e-7], [1.2e-6, 4.9e-7, 2.6e-7]),
+    row("elastic balls, in two points: torque", [2.8e-4, 1.4e-4, 9.8e-5], [1.8e-4, 9.1e-5, 6.4e-5]),
+    row("elastic balls, in two points: loads", [3.6e-6, 1e-6, 6e-7], [1.2e-6, 4.9e-7, 2.6e-7]),
     row("elastic balls, in three points with play: speed", [4.7e-2, 1.1e-2, 1e-3], [3.1e-2, 6.8e-3, 7.5e-5]),
     row("elastic balls, in three points with play: torque", [1.1e-2, 2.7e-3, 1.1e-3], [6.9e-3, 1.8e-3, 7.0e-4]),
     row("elastic balls, in three points with play: loads", [1.3e-3, 1.7e-4, 6e-5], [8.5e-4, 1.1e-4, 3.3e-5]),
@@ -835,7 +840,7 @@ const RING_REFERENCE: &[Measured] = &[
     largest("ring, residual", 3e-12, 9.9e-13),
     largest("ring, balance of power", 6.3e-9, 2.1e-9),
     largest("ring, complementarity", 1e-12, 0.0),
-    largest("ring, places in rad", 6.4e-14, 2.1e-14),
+    largest("ring, places in rad", 6.3e-14, 2.1e-14),
     largest("ring, speeds of touching balls", 1e-12, 0.0),
     largest("ring, distances all around", 2e-15, 6.7e-16),
     largest("ring of balls alike, force in N", 1e-11, 0.0),
@@ -879,7 +884,7 @@ const ROW_REFERENCE: &[Measured] = &[
     largest("row with friction of balls, balance of power", 1e-9, 3.4e-10),
     largest("row with friction of balls, change of force", 6.3e-3, 4.2e-3),
     largest("row, loss over a friction that vanishes", 4.4e-2, 2.9e-2),
-    largest("random rows, residual", 9e-8, 2.9e-8),
+    largest("random rows, residual", 8.7e-8, 2.9e-8),
     largest("random rows, balance of power", 1e-8, 3.8e-9),
     largest("random rows, balance of forces in N", 1.5e-8, 4.9e-9),
     largest("random rows, speeds of touching balls", 1e-11, 0.0),

@@ -82,7 +82,8 @@ impl Grooving {
         }
     }
 
-    /// Contact force of a ball under an axial load and of a preload, N: what its friction torque is about in proportion to.
+    /// Contact force of a ball under an axial load and of a preload, N, `|F| + 2 sqrt(2) P`: what its friction torque is about in
+    /// proportion to. (Balls of a ring have `sqrt(F^2 + 8 P^2)`, which is smooth where a load crosses zero between two renewals.)
     #[inline(always)]
     pub(crate) fn whole(&self, ball: &BallConstants, axial_load: f32) -> f32 {
         preload_counted(ball.normal * axial_load, self.lift_off)

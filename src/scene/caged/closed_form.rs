@@ -85,25 +85,25 @@ impl ClosedForm {
         let direction = passage.share;
         let sum = self.flanks.under(load);
         // Full friction in the direction of motion, for the efficiency; standstill counts as forward.
-        let opposing = if speed < 0.0 { -load } else { load };
-        let friction_torque = if self.locks(opposing) {
+        let opposing_load = if speed < 0.0 { -load } else { load };
+        let friction_torque = if self.locks(opposing_load) {
             direction * self.largest_torque
         } else {
             direction * self.friction_torque(sum, direction * load)
         };
-        let full = self.friction_torque(sum, opposing);
-        self.put_out(load, opposing, full, friction_torque, passage.standing)
+        let full = self.friction_torque(sum, opposing_load);
+        self.put_out(load, opposing_load, full, friction_torque, passage.standing)
     }
 
     /// Full friction in both directions.
     #[inline(always)]
     pub(super) fn both_ways(&self, load: f32) -> CagedFull {
         let sum = self.flanks.under(load);
-        let of = |opposing| {
-            if self.locks(opposing) {
+        let of = |opposing_load| {
+            if self.locks(opposing_load) {
                 self.largest_torque
             } else {
-                self.friction_torque(sum, opposing)
+                self.friction_torque(sum, opposing_load)
             }
         };
         CagedFull {
@@ -118,35 +118,35 @@ impl ClosedForm {
     #[inline(always)]
     pub(super) fn passed(&self, load: f32, found: &CagedFull, passage: Passage) -> Outputs {
         let friction_torque = passage.share * found.of(passage.share);
-        let opposing = passage.way * load;
+        let opposing_load = passage.way * load;
         let full = found.of(passage.way);
-        self.put_out(load, opposing, full, friction_torque, passage.standing)
+        self.put_out(load, opposing_load, full, friction_torque, passage.standing)
     }
 
     /// Whether no torque drives this load.
     #[inline(always)]
-    fn locks(&self, opposing: f32) -> bool {
-        self.drive_locked && opposing > 0.0
+    fn locks(&self, opposing_load: f32) -> bool {
+        self.drive_locked && opposing_load > 0.0
     }
 
-    /// The outputs under a load that opposes the motion by `opposing`.
+    /// The outputs under a load that opposes the motion by `opposing_load`.
     #[inline(always)]
     fn put_out(
         &self,
         load: f32,
-        opposing: f32,
+        opposing_load: f32,
         full: f32,
         friction_torque: f32,
         standing: bool,
     ) -> Outputs {
-        let load_work = opposing * self.reduced_lead;
-        let locks_driving = self.locks(opposing);
+        let opposing_torque = opposing_load * self.reduced_lead;
+        let locks_driving = self.locks(opposing_load);
         let efficiency = if locks_driving {
             0.0
         } else {
-            efficiency(load_work > 0.0, load_work, full)
+            efficiency(opposing_torque > 0.0, opposing_torque, full)
         };
-        let load_opposes = !(load_work < 0.0);
+        let load_opposes = !(opposing_torque < 0.0);
         let moves = if load_opposes {
             !locks_driving
         } else {

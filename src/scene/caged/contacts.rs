@@ -138,6 +138,7 @@ impl Contacts {
     pub(super) fn take_over(&self, state: &mut ContactsState) {
         state.foreign = true;
         self.change(state, self.grooving());
+        state.balls.iter_mut().for_each(NominalBall::unsettle);
     }
 
     /// Balls are renewed in the place of laws that are those of other constants.
@@ -197,11 +198,11 @@ impl Contacts {
     /// Full friction in the direction of motion, which stands for both.
     #[inline(always)]
     pub(super) fn one_way(&self, state: &mut ContactsState, inputs: Inputs, way: f32) -> CagedFull {
-        let (load, whole, other) = self.under(state, inputs.axial_load, way);
+        let (load, whole, assists) = self.under(state, inputs.axial_load, way);
         let (ratio, accuracy) = if state.changes {
-            self.renewed(state, load, other)
+            self.renewed(state, load, assists)
         } else {
-            state.folded(self.range, load, other)
+            state.folded(self.range, load, assists)
         };
         let full = self.balls * (whole * ratio);
         CagedFull {
@@ -222,25 +223,25 @@ impl Contacts {
         friction: DirectionalCoefficient,
     ) -> CagedFull {
         let way = way(inputs.nut_speed);
-        let (load, whole, other) = self.under(state, inputs.axial_load, way);
+        let (load, whole, assists) = self.under(state, inputs.axial_load, way);
         let (own_friction, opposite_friction) = friction.of(way);
         let (own, opposite, accuracy) = if state.changes {
             state.grooving.friction = own_friction;
-            let (own, accuracy) = self.renewed(state, load, other);
+            let (own, accuracy) = self.renewed(state, load, assists);
             let [drive, backdrive] = &state.balls;
-            let opposite = if other { drive } else { backdrive };
+            let opposite = if assists { drive } else { backdrive };
             // It is renewed under the coefficient of this direction; friction of another one is about in proportion.
             let opposite = opposite.ratio() * (opposite_friction / own_friction);
             (own, opposite, accuracy)
         } else {
-            let friction = if other {
+            let friction = if assists {
                 [opposite_friction, own_friction]
             } else {
                 [own_friction, opposite_friction]
             };
             let ([drive, backdrive], beyond) = self.between(state, laws, load, friction);
             let [drive_beyond, backdrive_beyond] = beyond;
-            let (own, opposite, beyond) = if other {
+            let (own, opposite, beyond) = if assists {
                 (backdrive, drive, backdrive_beyond)
             } else {
                 (drive, backdrive, drive_beyond)
@@ -301,33 +302,33 @@ impl Contacts {
     #[inline(always)]
     pub(super) fn passed(&self, axial_load: f32, found: &CagedFull, passage: Passage) -> Outputs {
         let full = found.of(passage.way);
-        let load_work = passage.way * axial_load * self.reduced_lead;
+        let opposing_torque = passage.way * axial_load * self.reduced_lead;
         Outputs {
             friction_torque: passage.share * found.of(passage.share),
             load_torque: axial_load * self.reduced_lead,
-            efficiency: efficiency(load_work > 0.0, load_work, full),
-            regime: Regime::under(passage.standing, load_work, full),
+            efficiency: efficiency(opposing_torque > 0.0, opposing_torque, full),
+            regime: Regime::under(passage.standing, opposing_torque, full),
             faults: found.faults,
         }
     }
 
-    /// Friction torque over contact force, m, of a ball that is renewed for this tick, with its flags of accuracy. `other`:
+    /// Friction torque over contact force, m, of a ball that is renewed for this tick, with its flags of accuracy. `assists`:
     /// whether the load assists the motion.
     ///
     /// A function of its own, so that a step by the law needs none of its stack.
     #[inline(never)]
-    fn renewed(&self, state: &mut ContactsState, load: f32, other: bool) -> (f32, Faults) {
+    fn renewed(&self, state: &mut ContactsState, load: f32, assists: bool) -> (f32, Faults) {
         let size = if load > SMALLEST_LOAD {
             load
         } else {
             SMALLEST_LOAD
         };
         let whole = state.grooving.whole(&self.ball, size);
-        let axial = if other { -size } else { size };
+        let axial = if assists { -size } else { size };
         state.turn = state.turn.wrapping_add(1) % OTHER_TURN;
         let turned = state.turn == 0;
         let [drive, backdrive] = &mut state.balls;
-        let (own, opposite) = if other {
+        let (own, opposite) = if assists {
             (backdrive, drive)
         } else {
             (drive, backdrive)
@@ -336,9 +337,9 @@ impl Contacts {
         own.meet(whole);
         if far || turned && opposite.is_far(whole) {
             let (ball, assists, axial) = if far {
-                (&mut *own, other, axial)
+                (&mut *own, assists, axial)
             } else {
-                (opposite, !other, -axial)
+                (opposite, !assists, -axial)
             };
             // The law is that of another friction coefficient; it is about in proportion.
             let (ratio, _) = state.laws.found(self.range, size, assists.into());
@@ -359,8 +360,8 @@ impl Contacts {
 impl ContactsState {
     /// Friction torque over contact force, m, by the law of this direction, with its flags of accuracy.
     #[inline(always)]
-    fn folded(&self, range: LoadRange, load: f32, other: bool) -> (f32, Faults) {
-        let (ratio, beyond) = self.laws.found(range, load, other.into());
+    fn folded(&self, range: LoadRange, load: f32, assists: bool) -> (f32, Faults) {
+        let (ratio, beyond) = self.laws.found(range, load, assists.into());
         (ratio, Faults::NONE.with(beyond, Faults::BEYOND_MODEL))
     }
 }
