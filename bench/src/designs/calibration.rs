@@ -87,6 +87,9 @@ fn check(field: &str, value: f32, (low, high): (f32, f32)) -> Result<(), String>
     }
 }
 
+/// Temperatures of a screw, K.
+pub const TEMPERATURES: (f32, f32) = (160.0, 500.0);
+
 impl Calibrated {
     /// The same, checked.
     ///
@@ -99,7 +102,7 @@ impl Calibrated {
             (
                 "reference_temperature",
                 self.reference_temperature,
-                (160.0, 500.0),
+                TEMPERATURES,
             ),
             ("viscosity_pole", self.viscosity_pole, (1.0, 490.0)),
             ("direction_asymmetry", self.direction_asymmetry, (-0.9, 0.9)),

@@ -4,6 +4,8 @@ use std::io::{Read, Seek};
 
 use csv::{ErrorKind, Position, Reader, ReaderBuilder, StringRecord, Trim};
 
+use crate::aside::say;
+use crate::designs::calibration::TEMPERATURES;
 use crate::failure::Failure;
 use crate::files::line_of;
 use crate::headings;
@@ -87,9 +89,6 @@ pub enum Temperature {
 /// Its name.
 const TEMPERATURE: &str = "temperature";
 
-/// Temperatures that a screw can have, K.
-const TEMPERATURES: (f64, f64) = (160.0, 500.0);
-
 impl Temperature {
     /// That of a sample where one is followed, K.
     pub fn at(&self, sample: usize) -> Option<f32> {
@@ -119,7 +118,7 @@ impl Temperature {
     /// One more value, K.
     fn take(&mut self, value: f64) -> Result<(), String> {
         let (low, high) = TEMPERATURES;
-        if !(low..=high).contains(&value) {
+        if !(f64::from(low)..=f64::from(high)).contains(&value) {
             return Err(format!(
                 "{TEMPERATURE} = {value} is out of range; allowed: {low} to {high} K; a column in degrees Celsius is named temperature_C"
             ));
@@ -197,7 +196,7 @@ fn channels_of<S: Sample>(
     };
     let found = mdf4::read(input, &request)?;
     for note in &found.notes {
-        eprintln!("note: {note}");
+        say(format_args!("note: {note}"));
     }
     let mut places = Vec::new();
     for wanted in &wanted {

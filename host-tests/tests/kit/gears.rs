@@ -187,3 +187,10 @@ pub fn linear_of_smaller_balls() -> LinearBearingConfiguration {
         ..linear()
     }
 }
+
+/// Phase of the groove that passes by, in units of 2^-32 of its period, and what is left of a unit: as a state prints them.
+pub fn printed_phase(state: &impl std::fmt::Debug) -> String {
+    let state = format!("{state:?}");
+    let (_, phase) = state.split_once("phase: ").unwrap();
+    phase.split_once('}').unwrap().0.to_owned()
+}

@@ -236,11 +236,8 @@ where
     (model, ahead)
 }
 
-/// The phase of the passing groove's deviations, as the state prints it.
 fn phase<S: Trial<State: std::fmt::Debug>>(model: &FrictionModel<S>) -> String {
-    let state = format!("{:?}", model.state());
-    let (_, phase) = state.split_once("phase: ").unwrap();
-    phase.split_once('}').unwrap().0.to_owned()
+    gears::printed_phase(model.state())
 }
 
 #[test]

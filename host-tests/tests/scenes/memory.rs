@@ -23,7 +23,7 @@ use epas_friction::{
     LinearInputs, Regime, UncagedBallScrew,
 };
 
-use crate::kit::gears::{LINEAR_BALLS, SCREW_BALLS, caged, linear, uncaged};
+use crate::kit::gears::{LINEAR_BALLS, SCREW_BALLS, caged, linear, printed_phase, uncaged};
 use crate::kit::random::Random;
 use crate::kit::remembering::at;
 
@@ -562,12 +562,11 @@ fn between_steps_the_memory_goes_on() {
     }
 }
 
-/// Phase of the groove that passes by, in units of 2^-32 of its period, as the state shows it for diagnosis.
+/// Phase of the groove that passes by, in units of 2^-32 of its period.
 fn phase_of(state: &impl std::fmt::Debug) -> u32 {
-    let state = format!("{state:?}");
-    let (_, phase) = state.split_once("phase: Phase { units: ").unwrap();
-    let (phase, _) = phase.split_once(',').unwrap();
-    phase.parse().unwrap()
+    let phase = printed_phase(state);
+    let (_, units) = phase.split_once("units: ").unwrap();
+    units.split_once(',').unwrap().0.parse().unwrap()
 }
 
 /// Turns that no tick can make, because readings were missing, are made in the next ones: balls and the groove that passes by then
