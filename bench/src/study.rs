@@ -120,7 +120,8 @@ pub fn screw_pair(degrees: [f64; 2]) -> Result<ElasticBalls, Failure> {
         let turn = degrees.to_radians();
         ElasticGrooves {
             track: TRACK,
-            groove_radius: GROOVE_RADIUS,
+            screw_groove_radius: GROOVE_RADIUS,
+            nut_groove_radius: GROOVE_RADIUS,
             arc_angles: [-turn, turn, 0.0, 0.0].map(|deviation| FRAC_PI_4 + deviation),
             screw,
             nut,

@@ -26,7 +26,7 @@ const FIT: (f64, f64) = (1e-9, 0.01);
 /// A ball screw under a load.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoadedScrew {
-    /// Screw, with one groove radius of both grooves.
+    /// Screw.
     pub design: BallScrewDesign,
     /// Radial gap of every contact at the centred ball and the unloaded screw, m: play above zero, oversize below.
     pub clearance: f64,

@@ -7,13 +7,15 @@ use super::contact_law::HertzLaw;
 use super::newton::Local;
 use crate::error::{ReferenceError, within};
 
-/// Grooves with their elasticity: four arcs of one radius around the ball.
+/// Grooves with their elasticity: four arcs around the ball.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ElasticGrooves {
     /// Track.
     pub track: ScrewTrack,
-    /// Groove radius, m.
-    pub groove_radius: f64,
+    /// Groove radius of the screw, m.
+    pub screw_groove_radius: f64,
+    /// Groove radius of the nut, m.
+    pub nut_groove_radius: f64,
     /// Angles of the arc centres, SL, SR, NL, NR, rad: the nominal contact angle plus its deviation.
     pub arc_angles: [f64; 4],
     /// Contact law on the screw.
@@ -32,7 +34,12 @@ impl ElasticGrooves {
     pub fn check(&self) -> Result<(), ReferenceError> {
         self.track.check()?;
         let r = self.track.ball_radius;
-        within("groove_radius", self.groove_radius, 1.001 * r, 2.0 * r)?;
+        for (field, radius) in [
+            ("screw_groove_radius", self.screw_groove_radius),
+            ("nut_groove_radius", self.nut_groove_radius),
+        ] {
+            within(field, radius, 1.001 * r, 2.0 * r)?;
+        }
         for angle in self.arc_angles {
             within("arc_angles", angle, 0.05, 1.5)?;
         }
@@ -43,18 +50,24 @@ impl ElasticGrooves {
         Ok(())
     }
 
-    pub(crate) fn offset(&self) -> f64 {
-        self.groove_radius - self.track.ball_radius
+    /// Distance of the arcs' centres from the centre of a ball that touches both flanks of a groove, m.
+    pub(crate) fn offset(&self, groove: Groove) -> f64 {
+        let radius = if groove.on_nut() {
+            self.nut_groove_radius
+        } else {
+            self.screw_groove_radius
+        };
+        radius - self.track.ball_radius
     }
 
     /// Vector from each arc's centre to the ball centre at `position` in the cross section, with the screw displaced axially.
     fn arms(&self, position: [f64; 2], screw_displacement: f64) -> [[f64; 2]; 4] {
         let shift = screw_displacement * self.track.lead_angle().1;
-        let offset = self.offset();
         let mut arms = [[0.0; 2]; 4];
         for ((arm, groove), angle) in arms.iter_mut().zip(Groove::ALL).zip(self.arc_angles) {
             let (sx, sz) = groove.signs();
             let moved = if groove.on_nut() { 0.0 } else { shift };
+            let offset = self.offset(groove);
             *arm = [
                 position[0] + offset * sx * angle.cos(),
                 position[1] + offset * sz * angle.sin() - moved,
@@ -88,7 +101,7 @@ impl ElasticGrooves {
             } else {
                 self.screw
             };
-            contact.load = law.load(arm[0].hypot(arm[1]) - self.offset() + self.oversize);
+            contact.load = law.load(arm[0].hypot(arm[1]) - self.offset(contact.groove) + self.oversize);
             contact.contact_angle = (arm[1] * sz).atan2(arm[0] * sx);
         }
         contacts
@@ -113,7 +126,7 @@ impl ElasticGrooves {
                 self.screw
             };
             let length = arm[0].hypot(arm[1]);
-            let deflection = (length - self.offset() + self.oversize).max(0.0);
+            let deflection = (length - self.offset(groove) + self.oversize).max(0.0);
             let force = law.load(deflection);
             if force > 0.0 {
                 let moved = if groove.on_nut() { 0.0 } else { -cos_a };
@@ -135,12 +148,9 @@ impl ElasticGrooves {
         let cos_a = self.track.lead_angle().1;
         let normal = axial_load.abs() / (sin * cos_a);
         let reach = (self.screw.compliance + self.nut.compliance) * normal.powf(2.0 / 3.0);
-        let offset = self.offset();
-        let length = f64::max(2.0 * (offset - self.oversize) + reach, 0.0);
-        let travel = (length.powi(2) - (2.0 * offset * cos).powi(2))
-            .max(0.0)
-            .sqrt()
-            - 2.0 * offset * sin;
+        let offsets = self.offset(Groove::ScrewLeft) + self.offset(Groove::NutLeft);
+        let length = f64::max(offsets - 2.0 * self.oversize + reach, 0.0);
+        let travel = (length.powi(2) - (offsets * cos).powi(2)).max(0.0).sqrt() - offsets * sin;
         (travel.max(0.0) / cos_a * axial_load.signum(), reach)
     }
 }

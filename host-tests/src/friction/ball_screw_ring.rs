@@ -39,7 +39,7 @@ const COMPLEMENTARITY: f64 = 1e-8;
 /// A ball screw without cage.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ElasticRing {
-    /// Screw, with one groove radius and one material of both grooves.
+    /// Screw.
     pub design: BallScrewDesign,
     /// Radial gap of every contact at the centred ball and the unloaded screw, m: play above zero, oversize below.
     pub clearance: f64,
@@ -204,12 +204,6 @@ impl ElasticRing {
         within("return_length", self.return_length, 0.0, 10.0)?;
         let radius = self.design.ball_radius;
         within("clearance", self.clearance, -0.05 * radius, 0.2 * radius)?;
-        if self.design.screw_groove_radius != self.design.nut_groove_radius {
-            return Err(ReferenceError::input(
-                "nut_groove_radius",
-                "is not that of the screw's groove",
-            ));
-        }
         self.screw_deviation.check("screw_deviation")?;
         self.nut_deviation.check("nut_deviation")?;
         for share in &self.load_shares {
@@ -264,7 +258,8 @@ impl ElasticRing {
         let angle = self.design.contact_angle;
         ElasticGrooves {
             track: self.track(),
-            groove_radius: self.design.screw_groove_radius,
+            screw_groove_radius: self.design.screw_groove_radius,
+            nut_groove_radius: self.design.nut_groove_radius,
             arc_angles: [angle - screw, angle + screw, angle - nut, angle + nut],
             screw: laws[0],
             nut: laws[1],

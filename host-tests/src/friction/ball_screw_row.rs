@@ -41,7 +41,7 @@ pub struct RowBall {
 /// A row of balls, rear to front in the direction of orbiting; all neighbours touch.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ElasticRow {
-    /// Screw, with one groove radius and one material of both grooves.
+    /// Screw.
     pub design: BallScrewDesign,
     /// Radial gap of every contact at the centred ball and the unloaded screw, m: play above zero, oversize below.
     pub clearance: f64,
@@ -234,12 +234,6 @@ impl ElasticRow {
         within("balls", self.balls.len() as f64, 1.0, 1e4)?;
         let radius = self.design.ball_radius;
         within("clearance", self.clearance, -0.05 * radius, 0.2 * radius)?;
-        if self.design.screw_groove_radius != self.design.nut_groove_radius {
-            return Err(ReferenceError::input(
-                "nut_groove_radius",
-                "is not that of the screw's groove",
-            ));
-        }
         let screw = self.design.contact(Groove::Screw)?.into();
         let nut = self.design.contact(Groove::Nut)?.into();
         self.balls
@@ -254,7 +248,8 @@ impl ElasticRow {
                 let angle = self.design.contact_angle;
                 let grooves = ElasticGrooves {
                     track: (&self.design).into(),
-                    groove_radius: self.design.screw_groove_radius,
+                    screw_groove_radius: self.design.screw_groove_radius,
+                    nut_groove_radius: self.design.nut_groove_radius,
                     arc_angles: [
                         angle - ball.screw_deviation,
                         angle + ball.screw_deviation,

@@ -95,7 +95,7 @@ impl PlacedBall<'_> {
                 self.grooves.nut
             };
             let deflection = law.compliance * load.cbrt().powi(2);
-            let length = self.grooves.offset() - self.grooves.oversize + deflection;
+            let length = self.grooves.offset(row.contact.groove) - self.grooves.oversize + deflection;
             by_load *= 1.5 * load / deflection * unit;
             angle *= unit / length;
             let moved = if screw { -cos_a } else { 0.0 };
@@ -212,7 +212,8 @@ mod tests {
             let angle = SCREW.contact_angle;
             let grooves = ElasticGrooves {
                 track: TRACK,
-                groove_radius: SCREW.screw_groove_radius,
+                screw_groove_radius: SCREW.screw_groove_radius,
+                nut_groove_radius: SCREW.nut_groove_radius,
                 arc_angles: [angle - 0.02, angle + 0.02, angle + 0.01, angle - 0.01],
                 screw: law(Groove::Screw),
                 nut: law(Groove::Nut),

@@ -27,6 +27,7 @@
 //! | [`ball_screw_row`] | rows of balls with elasticity, clearance of either sign, and an axial load of each ball |
 //! | [`rolling_resistance`] | elastic hysteresis and lubricant drag of a contact, beside its Coulomb friction |
 //! | [`ball_screw_efficiency`] | friction torque and efficiency of a screw under a steady load, by one of its balls |
+//! | [`caged_ball`] | one ball under one load after the other, no neighbour pressing |
 //! | [`ball_screw_ring`] | the whole screw, exactly: balls in elastic grooves that recirculate and press on each other |
 //! | [`ball_screw_train`] | trains of any length with given contacts, (3.77) |
 //! | [`ball_screw_closed`] | closed-form orbital speed, spin, loads and compliance in a ball screw |
@@ -56,6 +57,7 @@ mod ball_screw_rubbing;
 mod ball_screw_settle;
 mod ball_screw_tangent;
 pub mod ball_screw_train;
+pub mod caged_ball;
 pub mod chain;
 pub mod contact_law;
 pub mod isotonic;

@@ -134,7 +134,8 @@ pub fn screw_pair(theta: f64) -> Result<ElasticBalls, ReferenceError> {
     let (screw, nut) = (screw_law(Groove::Screw)?, screw_law(Groove::Nut)?);
     let grooves = |theta: f64| ElasticGrooves {
         track: TRACK,
-        groove_radius: GROOVE_RADIUS,
+        screw_groove_radius: GROOVE_RADIUS,
+        nut_groove_radius: GROOVE_RADIUS,
         arc_angles: [FRAC_PI_4 - theta, FRAC_PI_4 + theta, FRAC_PI_4, FRAC_PI_4],
         screw,
         nut,

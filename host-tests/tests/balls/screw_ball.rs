@@ -546,7 +546,8 @@ fn elastic(deviations: &[f64], nut_speed: f64) -> ElasticBalls {
         .iter()
         .map(|theta| ElasticGrooves {
             track: TRACK,
-            groove_radius: SCREW_GROOVE_RADIUS,
+            screw_groove_radius: SCREW_GROOVE_RADIUS,
+            nut_groove_radius: SCREW_GROOVE_RADIUS,
             arc_angles: [FRAC_PI_4 - theta, FRAC_PI_4 + theta, FRAC_PI_4, FRAC_PI_4],
             screw,
             nut,

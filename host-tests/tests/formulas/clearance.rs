@@ -85,7 +85,8 @@ fn pressed(design: &BallScrew, gap: f64) -> [f64; 4] {
     let contact = |groove| drawing.contact(groove).unwrap().into();
     let grooves = ElasticGrooves {
         track: (&drawing).into(),
-        groove_radius: drawing.screw_groove_radius,
+        screw_groove_radius: drawing.screw_groove_radius,
+        nut_groove_radius: drawing.nut_groove_radius,
         arc_angles: [drawing.contact_angle; 4],
         screw: contact(curvature::Groove::Screw),
         nut: contact(curvature::Groove::Nut),

@@ -42,7 +42,8 @@ fn grooves(groove_radius: &str, theta_degrees: f64, oversize: f64) -> ElasticGro
     let theta = theta_degrees.to_radians();
     ElasticGrooves {
         track: TRACK,
-        groove_radius: groove_radius.parse::<f64>().unwrap() * 1e-3,
+        screw_groove_radius: groove_radius.parse::<f64>().unwrap() * 1e-3,
+        nut_groove_radius: groove_radius.parse::<f64>().unwrap() * 1e-3,
         arc_angles: [FRAC_PI_4 - theta, FRAC_PI_4 + theta, FRAC_PI_4, FRAC_PI_4],
         screw: law("S", groove_radius),
         nut: law("N", groove_radius),

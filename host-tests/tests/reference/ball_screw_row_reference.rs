@@ -292,7 +292,8 @@ fn one_ball_is_that_of_the_pair_model() {
         let other = ElasticBalls {
             grooves: vec![ElasticGrooves {
                 track: (&row.design).into(),
-                groove_radius: row.design.screw_groove_radius,
+                screw_groove_radius: row.design.screw_groove_radius,
+                nut_groove_radius: row.design.nut_groove_radius,
                 arc_angles: [
                     angle - ball.screw_deviation,
                     angle + ball.screw_deviation,
