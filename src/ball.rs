@@ -8,8 +8,6 @@
 //! | [`LoadShare`], [`LoadShares`] | a ball's share of the load; along the track, for both signs of it | `UncagedBallScrew`, `LinearBearingTrain` |
 //! | [`Clearance`] | how balls fit between the grooves | set-up of both ball screws |
 //! | `preload` | two springs pressed against each other, and what a load leaves of it | closed forms of `CagedBallScrew` and [`ScrewRow`]; [`PreloadedElements`](crate::law::memory::PreloadedElements) |
-//!
-//! Refined forms, which a step does not run, stand in [`refined`](crate::refined).
 
 mod clearance;
 pub mod elastic;
@@ -21,7 +19,6 @@ pub(crate) mod two_point;
 
 pub use clearance::Clearance;
 pub use linear::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE, SpeedDeviation};
-pub(crate) use loads::loaded;
 pub use loads::{LoadShare, LoadShares};
 pub(crate) use preload::PreloadSum;
 pub(crate) use screw::largest_deviation;

@@ -2,8 +2,7 @@
 //! friction, all three from one convex dissipation potential.
 //!
 //! A contact that slips in any direction runs in the steps of both ball screws (`slip_map::looped`). [`FrictionMap`]
-//! runs at the set-up of the linear scene. [`SlipMap`] is called directly; no scene links it. [`RollingContact`] adds
-//! what a contact loses that rolls without slip.
+//! runs at the set-up of the linear scene. [`RollingContact`] adds what a contact loses that rolls without slip.
 //!
 //! A contact of ball and groove slips along the ball path with the velocity `V` of its centre and spins
 //! about its normal with `w`. With the friction coefficient `mu`, the contact force `F` and the ellipse
@@ -16,8 +15,7 @@
 //! ```
 //!
 //! where `c` is the distance of the velocity centre from the contact centre. `D` is convex and
-//! homogeneous, so a body that rests on several such contacts moves with the least loss, and Newton's
-//! method finds that motion from anywhere.
+//! homogeneous, so a body that rests on several such contacts moves with the least loss.
 
 mod across;
 mod along;
@@ -26,6 +24,5 @@ mod rolling;
 pub(crate) mod slip_map;
 
 pub(crate) use across::{Across, AcrossTable, slip_and_spin};
-pub use along::{Dissipation, FrictionMap, NormalizedFriction, SMALLEST_AXIS_RATIO};
+pub use along::{FrictionMap, NormalizedFriction, SMALLEST_AXIS_RATIO};
 pub use rolling::{RollingContact, RollingResistance};
-pub use slip_map::{SlipFriction, SlipMap};

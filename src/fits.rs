@@ -83,10 +83,8 @@ pub mod preload {
     pub const QUARTIC: f32 = crate::ball::preload::QUARTIC;
 }
 
-/// Friction of a contact in any direction: `contact::slip_map`, `math::elliptic`.
-pub mod slip_map {
-    /// Nodes of interpolation, in the order of Leja.
-    pub const CHEBYSHEV: [f32; 10] = crate::contact::slip_map::near::CHEBYSHEV;
+/// Friction of a contact: `math::elliptic`.
+pub mod elliptic {
     /// Nodes and weights of quadrature.
     pub const GAUSS: [(f32, f32); 5] = crate::math::elliptic::GAUSS;
 }

@@ -36,7 +36,6 @@
 //! | [`contact`] | friction of one contact: along the track, across it, in any direction; rolling resistance | set-up; step of both ball screws (any direction, rolling resistance); direct |
 //! | [`train`] | a row of balls that push each other: free speeds and impedances in, forces and moves out | step of both trains |
 //! | [`ball`] | one ball between its grooves: elastic (by Newton steps) in a screw, in closed form in a linear bearing | step of all three scenes |
-//! | [`refined`] | one ball and chains of balls in a linear bearing, a rotary one (with its friction torque) or a ball screw, refined by Newton steps | direct |
 //! | [`efficiency`] | closed-form efficiency, self-locking; optimum and design procedure | set-up of the caged scene; direct |
 //! | [`kinematics`] | rolling, side and spin slip of a contact, their ratios and friction power | direct |
 //! | [`law`] | friction that remembers; friction coefficient by speed and temperature | step of scenes with memory; direct |
@@ -86,7 +85,6 @@ pub mod math;
 pub mod model;
 pub mod promises;
 pub mod ranges;
-pub mod refined;
 pub mod scene;
 pub mod stored;
 pub mod train;

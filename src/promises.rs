@@ -78,7 +78,7 @@ pub const PARTS: [Promise; 6] = [
 ];
 
 /// Promises of functions that no step calls, nor parts of them: firmware calls them by their names.
-pub const DIRECT: [Promise; 27] = [
+pub const DIRECT: [Promise; 24] = [
     SET_FRICTION,
     SET_CLEARANCE,
     SET_FRICTION_CAGED,
@@ -98,14 +98,11 @@ pub const DIRECT: [Promise; 27] = [
     KINEMATICS,
     SLIP_RATIOS,
     FRICTION_MAP,
-    DISSIPATION,
     ADAPTATION,
     STATE,
     SCREW_ROW,
     SCREW_BALL,
     ANALYTIC_PAIR,
-    FOUR_POINT_BALL,
-    BALL_CHAIN,
 ];
 
 /// Every promise.

@@ -1,7 +1,6 @@
 //! A contact that slips along the track and spins: a polynomial inside the ellipse, a series outside.
 
 use crate::error::{Error, attempt, in_range};
-use crate::math;
 use crate::math::elliptic::{Complete, complete};
 
 /// Smallest axis ratio that [`FrictionMap::new`] takes: relative radii of ratio 1 to about 1400.
@@ -10,11 +9,6 @@ pub const SMALLEST_AXIS_RATIO: f32 = 0.01;
 /// From this offset ratio, 2^30, on a contact does nothing but slide: its moment is below 1e-9. One of few numbers
 /// that an instruction can compare with, without a load.
 const LARGEST_OFFSET: f32 = 1_073_741_824.0;
-
-/// Least stiffness outside the contact, over force over slip. A contact that slides has next to no
-/// stiffness of its own: speeds and compliances found from tangents alone are far off for a body of which
-/// several contacts slide. A twentieth is too little to slow the convergence of one that grips.
-const LEAST_STIFFNESS: f32 = 0.05;
 
 /// Friction maps of one contact as functions of the offset ratio `x = c/a` of its velocity centre.
 ///
@@ -72,32 +66,6 @@ pub struct NormalizedFriction {
     pub moment: f32,
     /// `P(x)`, even; `|x|` at pure slip.
     pub power: f32,
-}
-
-/// One contact at given slip and spin, in units of `mu F`: the potential, its gradient and its Hessian.
-///
-/// The Hessian of the potential is `stiffness r rᵀ + stick d dᵀ` with `r = dV - tilt dw`, `d = dw`, where
-/// `dV` and `dw` are the gradients of slip and spin with respect to whatever they are functions of.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Dissipation {
-    /// The potential `D / (mu F)`, m/s. With no stick spin it is the power loss.
-    pub potential: f32,
-    /// Power loss over `mu F`, m/s: `force` times slip and `moment` times spin.
-    pub power: f32,
-    /// `dD/dV` over `mu F`, -1 to 1.
-    pub force: f32,
-    /// `dD/dw` over `mu F`, m.
-    pub moment: f32,
-    /// Second derivative along the slip, `f'/(a W)`, s/m; outside the contact at least a twentieth of
-    /// force over slip.
-    pub stiffness: f32,
-    /// Slip that leaves the offset ratio as it is, per spin: `V w/W²`, m.
-    pub tilt: f32,
-    /// What the stick treatment adds along the spin, `a M delta²/W³`, m s.
-    pub stick: f32,
-    /// Slip that carries the velocity centre to the end of the ellipse, `a W`, m/s.
-    pub end_speed: f32,
 }
 
 impl FrictionMap {
@@ -207,7 +175,7 @@ impl FrictionMap {
                 power,
             }
         } else if bits <= END {
-            let (force, moment, _) = self.inside(offset);
+            let (force, moment) = self.inside(offset);
             NormalizedFriction {
                 force,
                 moment,
@@ -222,106 +190,15 @@ impl FrictionMap {
         }
     }
 
-    /// Potential, forces and Hessian of a contact with slip `V` m/s, spin `w` rad/s and semi-major axis
-    /// `a` m, with stick treated smoothly.
-    ///
-    /// `|w|` in the potential is replaced by `W = sqrt(w² + delta²)`, `delta` being `stick_spin` rad/s:
-    /// `D = mu F a W P(V/(a W))`. Force and moment remain the gradient of one convex potential, a contact
-    /// that slides without spinning keeps its whole friction, and no exponential is met. This takes the
-    /// place of the sigmoid of Lin 2019, eq. (3.20), which overflows in f32, and which takes the friction
-    /// from a contact that slides without spinning. Loss and forces change by the order of
-    /// `(delta/w)²`.
-    ///
-    /// Cost: 123 modelled cycles inside the contact, 148 outside.
-    ///
-    /// `semi_major` must be positive; slip, spin and stick spin may be any numbers up to 1e15.
+    /// `f` and `M` inside the contact.
     #[inline]
-    #[must_use]
-    pub fn dissipation(
-        &self,
-        slip: f32,
-        spin: f32,
-        semi_major: f32,
-        stick_spin: f32,
-    ) -> Dissipation {
-        // The floor, a billionth of a rad/s, keeps the divisions below finite where both spins are zero, and the product
-        // of both speeds normal.
-        let stick2 = stick_spin * stick_spin + 1e-18;
-        let end_speed = semi_major * math::sqrt(spin * spin + stick2);
-        let speed = slip.abs();
-        let (force, moment, curvature, inverse_end_speed) = if speed <= end_speed {
-            let inverse_end_speed = 1.0 / end_speed;
-            let (force, moment, curvature) = self.inside(slip * inverse_end_speed);
-            (force, moment, curvature, inverse_end_speed)
-        } else {
-            // Both reciprocals by one division.
-            let inverse = 1.0 / (end_speed * speed);
-            let nearness = end_speed * (end_speed * inverse);
-            let outer = self.outside(nearness);
-            let force = 1.0 - outer.square * outer.slope;
-            let moment = nearness * (outer.sum + outer.slope);
-            let curvature = outer.square * nearness * outer.curvature;
-            let least = LEAST_STIFFNESS * force * nearness;
-            (
-                if slip < 0.0 { -force } else { force },
-                moment,
-                if curvature > least { curvature } else { least },
-                speed * inverse,
-            )
-        };
-        let inverse_spin = semi_major * inverse_end_speed;
-        let inverse_spin2 = inverse_spin * inverse_spin;
-
-        let sliding = slip * force;
-        let arm = semi_major * moment;
-        let spin_moment = arm * spin * inverse_spin;
-        let stick = arm * stick2 * inverse_spin * inverse_spin2;
-        Dissipation {
-            potential: sliding + end_speed * moment,
-            power: sliding + spin_moment * spin,
-            force,
-            moment: spin_moment,
-            stiffness: curvature * inverse_end_speed,
-            tilt: slip * spin * inverse_spin2,
-            stick,
-            end_speed,
-        }
-    }
-
-    /// `f`, `M` and `f'` inside the contact.
-    #[inline]
-    fn inside(&self, offset: f32) -> (f32, f32, f32) {
+    fn inside(&self, offset: f32) -> (f32, f32) {
         let square = offset * offset;
         let cubic = self.cubic * square;
         let secant = self.slope - cubic;
         let moment = self.spin_moment - 0.5 * (square * (secant - 0.5 * cubic));
-        (offset * secant, moment, secant - cubic - cubic)
+        (offset * secant, moment)
     }
-
-    /// Outside the contact, from `u = 1/|x|`.
-    #[inline]
-    fn outside(&self, u: f32) -> Outer {
-        let [first, fifth] = self.outer;
-        let square = u * u;
-        let fifth = fifth * (square * square);
-        let sum = first + fifth;
-        let slope = sum + 4.0 * fifth;
-        Outer {
-            square,
-            sum,
-            slope,
-            curvature: 2.0 * (slope + 10.0 * fifth),
-        }
-    }
-}
-
-/// Outside the contact: `P = |x| + u sum`, `|f| = 1 - u² slope`, `M = u (sum + slope)`, `f' = u³ curvature`.
-struct Outer {
-    /// `u²`.
-    square: f32,
-    sum: f32,
-    slope: f32,
-    curvature: f32,
 }
 
 /// Force of a contact that does nothing but slide. A call of its own in the branch for what is out of range, so that the
@@ -349,16 +226,24 @@ mod tests {
     fn friction_is_continuous_and_convex_through_the_end() {
         for step in 1_u8..=100 {
             let map = FrictionMap::new(f32::from(step) / 100.0).unwrap();
-            let (inner, outer) = (map.inside(1.0), map.outside(1.0));
-            let outer = (1.0 - outer.slope, outer.sum + outer.slope);
+            let (inner, outer) = (map.evaluate(1.0), map.evaluate(1.0 + f32::EPSILON));
             // Three coefficients of order 10 with roundings of 6e-8.
-            assert!((inner.0 - outer.0).abs() < 1e-6, "axis ratio 0.01 x {step}");
-            assert!((inner.1 - outer.1).abs() < 1e-6, "axis ratio 0.01 x {step}");
+            assert!(
+                (inner.force - outer.force).abs() < 1e-6,
+                "axis ratio 0.01 x {step}"
+            );
+            assert!(
+                (inner.moment - outer.moment).abs() < 1e-6,
+                "axis ratio 0.01 x {step}"
+            );
+            let [first, fifth] = map.outer;
             for point in 0_u8..=200 {
                 let x = f32::from(point) / 200.0;
-                assert!(map.inside(x).2 > 0.0);
+                let square = x * x;
+                // Slopes of the force: within by the offset ratio, outside over 2 u^3 with u as the ratio's inverse.
+                assert!(map.slope - 3.0 * map.cubic * square > 0.0);
                 assert!(
-                    map.outside(x).curvature >= 0.0,
+                    first + 15.0 * fifth * square * square >= 0.0,
                     "axis ratio 0.01 x {step}, u {x}"
                 );
             }

@@ -74,7 +74,7 @@ pub(crate) const fn complete(k: f32) -> Complete {
     }
 }
 
-/// Two integrals from which the friction of a contact follows ([`SlipMap`](crate::contact::SlipMap) calls them `C1` and `C2`), over `s`
+/// Two integrals from which the friction of a contact follows (`C1` and `C2` in `contact/integrals.rs`), over `s`
 /// from `lambda` to infinity, with the axis ratio's square `k²`, here `square`:
 ///
 /// ```text
@@ -109,7 +109,7 @@ pub(crate) const fn incomplete(square: f32, lambda: f32) -> (f32, f32) {
     )
 }
 
-/// A third one (`C5` of [`SlipMap`](crate::contact::SlipMap)), `∫ T/(k² + s)² ds` with the `T` and `square = k²` of [`incomplete`],
+/// A third one (`C5` in `contact/integrals.rs`), `∫ T/(k² + s)² ds` with the `T` and `square = k²` of [`incomplete`],
 /// over `s` from `root²` to infinity, by Gauss-Legendre quadrature in `sqrt(s)`, panel by panel.
 pub(crate) const fn narrow_integral(square: f32, root: f32) -> f32 {
     let mut sum = 0.0;

@@ -171,16 +171,6 @@ pub const FRICTION_MAP: Promise = Promise {
     counted: &["friction_map"],
 };
 
-/// [`FrictionMap::dissipation`](crate::contact::FrictionMap::dissipation): friction by slip and spin, with its derivatives.
-pub const DISSIPATION: Promise = Promise {
-    function: "FrictionMap::dissipation",
-    not_finite: "NaN",
-    tiny: "neither slip nor spin: a stiff contact without loss",
-    cycles: 150,
-    counted: &["friction_dissipation"],
-    ..FRICTION_MAP
-};
-
 /// [`AnalyticLinearBall::speed_deviation`](crate::ball::AnalyticLinearBall::speed_deviation) of two balls and the force between them.
 pub const ANALYTIC_PAIR: Promise = Promise {
     function: "AnalyticLinearBall::speed_deviation, twice, with the force",
@@ -192,35 +182,6 @@ pub const ANALYTIC_PAIR: Promise = Promise {
     cycles: 250,
     counted: &["linear_ball_analytic"],
     ..ANALYTIC_BALL
-};
-
-/// [`FourPointBall::step`](crate::refined::FourPointBall::step), errors after two of them from the start.
-pub const FOUR_POINT_BALL: Promise = Promise {
-    function: "FourPointBall::step",
-    domain: "side-force ratios to 0.8, contact angles within 3 deg of each other, two steps from the start",
-    largest: 3.3e-4,
-    rms: 2.2e-5,
-    mean: 1e-5,
-    outside: "follows the change to two-point rolling within some ticks",
-    not_finite: "angles: nominal; forces: lost contact; a spoilt state: nominal rolling",
-    tiny: "a contact without load is lost",
-    cycles: 1500,
-    counted: &["linear_ball_refined", "rotary_ball_refined"],
-    ..ANALYTIC_BALL
-};
-
-/// [`FourPointBall::refine_chain`](crate::refined::FourPointBall::refine_chain) of two balls, errors after three of them from the start.
-pub const BALL_CHAIN: Promise = Promise {
-    function: "FourPointBall::refine_chain, errors after three",
-    largest: 1.2e-3,
-    rms: 6e-4,
-    mean: 4e-4,
-    outside: "follows the change to two-point rolling within some ticks",
-    not_finite: "angles: nominal; forces: lost contact; a spoilt state: nominal rolling",
-    tiny: "a contact without load is lost",
-    cycles: 4200,
-    counted: &["linear_chain_2"],
-    ..ANALYTIC_PAIR
 };
 
 /// [`ScrewRow::at`](crate::ball::ScrewRow::at): what all balls of a row have in common under one load.

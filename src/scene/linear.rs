@@ -32,8 +32,6 @@ const SMALLEST_FORCE: f32 = 2e-6;
 /// Unflagged, with one groove that deviates by up to 3 degrees: the speed of a ball alone is within 7.5e-3 of `v/2` at
 /// 100 N a ball, 1e-2 at 10 N and 1.5e-2 at 1 N, and the friction of balls that press on each other within 12 % from 30 N
 /// on and 23 % at 10 N (too small: the closed form leaves out that a ball rubbed by its neighbours turns).
-/// [`FourPointBall::refine_chain`](crate::refined::FourPointBall::refine_chain) is within 4e-5 of `v/2` up to side-force
-/// ratios of 0.8, at some 2,100 cycles a ball.
 ///
 /// Where side forces leave little on one diagonal, balls change to two-point rolling, and their speed jumps.
 /// [`Faults::BEYOND_MODEL`] stands from the tick on in which the loads and the force between balls let some ball do so,

@@ -25,9 +25,6 @@ use epas_friction::law::motion::{
     AngleReading, CountReading, CountSensor, CountSensorParameters, NutAngle, Play, PlayState,
     SpeedOverTick, Steady, SteadyReading, WrappedAngle, WrappedAngleParameters,
 };
-use epas_friction::refined::{
-    BallChain, BallState, FourPointBall, RotaryBall, RotaryBallParameters,
-};
 use epas_friction::train::{Press, Train};
 use epas_friction::{
     BallScrew, CATALOGUE, CagedBallScrew, DeviationMap, Error, FrictionModel, Inputs,
@@ -72,16 +69,6 @@ pub struct Contexts {
     pub adaptation: Adaptation,
     /// Published closed form of a ball.
     pub analytic: AnalyticLinearBall,
-    /// Ball in a linear bearing.
-    pub linear: FourPointBall,
-    /// Its state.
-    pub ball: BallState,
-    /// Two balls that press on each other.
-    pub chain: BallChain<2>,
-    /// Ball in a rotary bearing.
-    pub rotary: RotaryBall,
-    /// Its state.
-    pub rotary_ball: BallState,
     /// Caged ball screw.
     pub caged: FrictionModel<CagedBallScrew>,
     /// The same with a memory.
@@ -207,21 +194,6 @@ impl Contexts {
             semi_major_nut: 0.586e-3,
             semi_minor_nut: 0.097e-3,
         });
-        // Lin 2019, Table 3.2.
-        let rotary_parameters = black_box(RotaryBallParameters {
-            ball_radius: 0.00625,
-            pitch_radius: 0.035,
-            contact_angle: 0.785,
-            axis_ratio_inner: 0.157,
-            axis_ratio_outer: 0.216,
-            semi_major_coefficient_inner: 1.288e-4,
-            semi_major_coefficient_outer: 1.196e-4,
-            friction: 0.1,
-        });
-        let linear = FourPointBall::linear(&linear_parameters)?;
-        let nominal = [linear_parameters.contact_angle; 4];
-        let rotary = RotaryBall::new(&rotary_parameters)?;
-        let rotary_nominal = [rotary_parameters.contact_angle; 4];
         let coefficient = CoefficientLaw::new(&black_box(defaults::COEFFICIENT))?;
         let screw_row = ScrewRow::new(&design, 0.1, GrooveFit::Zero)?;
         let few = elements(&SPIN_4.elements)?;
@@ -246,13 +218,6 @@ impl Contexts {
             at_temperature: coefficient.at_temperature(300.0),
             adaptation: Adaptation::new(&black_box(adaptation_configuration()))?,
             analytic: AnalyticLinearBall::new(&linear_parameters, PUBLISHED_SLOPE)?,
-            ball: linear.solve(&linear.contacts(&nominal, &[100.0; 4])),
-            linear,
-            chain: BallChain::new(),
-            rotary_ball: rotary
-                .four_point()
-                .solve(&rotary.four_point().contacts(&rotary_nominal, &[100.0; 4])),
-            rotary,
             caged: FrictionModel::new(&black_box(caged_configuration()?))?,
             caged_memory: FrictionModel::new(&black_box(caged_memory_configuration()?))?,
             caged_law: FrictionModel::new(&black_box(caged_law_configuration()?))?,

@@ -11,7 +11,7 @@ use epas_friction::ball::elastic::{BallInputs, ElasticGrooves, Renewal, Settled}
 use epas_friction::ball::{
     AnalyticLinearBall, LoopBall, LoopSums, ScrewLoop, ScrewRow, ScrewTick, SpeedDeviation,
 };
-use epas_friction::contact::{Dissipation, FrictionMap, NormalizedFriction};
+use epas_friction::contact::{FrictionMap, NormalizedFriction};
 use epas_friction::curvature::{
     CircularGrooveCurvature, FittedCurvature, GothicArch, LiteratureCurvature, PrincipalCurvatures,
 };
@@ -29,7 +29,6 @@ use epas_friction::law::motion::{
     SteadyReading, WrappedAngle,
 };
 use epas_friction::law::{Elements, SlidingLimits};
-use epas_friction::refined::{BallChain, BallState, FourPointBall, RotaryBall};
 use epas_friction::scene::WithMemoryInputs;
 use epas_friction::train::{Press, Train};
 use epas_friction::{
@@ -145,13 +144,6 @@ counted! {
         map.evaluate(offset)
     }
 
-    /// Friction of one contact by slip and spin, with its derivatives.
-    fn count_friction_dissipation(
-        map: &FrictionMap, slip: f32, spin: f32, semi_major: f32, stick_spin: f32
-    ) -> Dissipation {
-        map.dissipation(slip, spin, semi_major, stick_spin)
-    }
-
     /// Square root.
     fn count_sqrt(x: f32) -> f32 {
         math::sqrt(x)
@@ -189,31 +181,6 @@ counted! {
         let rear = ball.speed_deviation(&rear.angles, &rear.forces);
         let front = ball.speed_deviation(&front.angles, &front.forces);
         rear.contact_force(&front)
-    }
-
-    /// One ball, one tick from the last tick's state.
-    fn count_linear_ball_refined(
-        ball: &FourPointBall, contacts: &FourContacts, state: &mut BallState, axial_force: f32
-    ) -> () {
-        *state = ball.step(&ball.contacts(&contacts.angles, &contacts.forces), state, axial_force);
-    }
-
-    /// One ball of a rotary bearing, one tick from the last tick's state.
-    fn count_rotary_ball_refined(
-        ball: &RotaryBall, contacts: &FourContacts, state: &mut BallState, axial_force: f32
-    ) -> () {
-        let ball = ball.four_point();
-        *state = ball.step(&ball.contacts(&contacts.angles, &contacts.forces), state, axial_force);
-    }
-
-    /// Two balls that press on each other, one tick.
-    fn count_linear_chain_2(
-        ball: &FourPointBall, rear: &FourContacts, front: &FourContacts, chain: &mut BallChain<2>, direction: f32
-    ) -> () {
-        let contacts = [rear, front].map(|ball_contacts| {
-            ball.contacts(&ball_contacts.angles, &ball_contacts.forces)
-        });
-        ball.refine_chain(&contacts, chain, &[0.0, f32::INFINITY], direction, 0.1);
     }
 
     /// One tick of firmware that knows the efficiency alone.

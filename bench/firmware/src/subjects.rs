@@ -18,21 +18,20 @@ use crate::counted::{
     count_curvature_circular_groove, count_curvature_exact, count_curvature_fitted,
     count_curvature_literature, count_deviation_map, count_efficiency_backdrive,
     count_efficiency_rolling, count_efficiency_sliding, count_friction_coefficient,
-    count_friction_coefficient_warming, count_friction_dissipation, count_friction_map,
-    count_hertz_ellipse, count_idsp_sin_cos, count_kinematics_ratios, count_kinematics_tick,
-    count_kinematics_update, count_libm_cbrtf, count_libm_cosf, count_libm_powf,
-    count_libm_sincosf, count_libm_sqrtf, count_linear_ball_analytic, count_linear_ball_refined,
-    count_linear_ball_speed, count_linear_chain_2, count_lugre_step, count_memory_8,
+    count_friction_coefficient_warming, count_friction_map, count_hertz_ellipse,
+    count_idsp_sin_cos, count_kinematics_ratios, count_kinematics_tick, count_kinematics_update,
+    count_libm_cbrtf, count_libm_cosf, count_libm_powf, count_libm_sincosf, count_libm_sqrtf,
+    count_linear_ball_analytic, count_linear_ball_speed, count_lugre_step, count_memory_8,
     count_memory_load_exact_8, count_memory_preloaded_10, count_memory_seat,
     count_memory_together_10, count_micromath_cos, count_micromath_powf, count_micromath_sqrt,
-    count_play, count_press_37, count_rotary_ball_refined, count_set_clearance_caged,
-    count_set_clearance_uncaged, count_set_friction_37, count_set_friction_caged, count_sin_cos,
-    count_sqrt, count_step_caged, count_step_caged_changing, count_step_caged_closed,
-    count_step_caged_law, count_step_caged_memory, count_step_efficiency, count_step_linear,
-    count_step_linear_memory, count_step_train_37, count_step_train_37_law,
-    count_step_train_37_memory, count_step_train_37_memory_pressing, count_step_train_37_pressing,
-    count_stribeck_curve, count_train_37, count_turn_of_angles, count_turn_of_counts,
-    count_turn_of_speed, count_turn_steady,
+    count_play, count_press_37, count_set_clearance_caged, count_set_clearance_uncaged,
+    count_set_friction_37, count_set_friction_caged, count_sin_cos, count_sqrt, count_step_caged,
+    count_step_caged_changing, count_step_caged_closed, count_step_caged_law,
+    count_step_caged_memory, count_step_efficiency, count_step_linear, count_step_linear_memory,
+    count_step_train_37, count_step_train_37_law, count_step_train_37_memory,
+    count_step_train_37_memory_pressing, count_step_train_37_pressing, count_stribeck_curve,
+    count_train_37, count_turn_of_angles, count_turn_of_counts, count_turn_of_speed,
+    count_turn_steady,
 };
 use crate::inputs::{
     SPECIAL, adaptation, angle, contact_angle, four_contacts, impedances, memory, pair, positive,
@@ -184,13 +183,6 @@ subjects! {
             let friction = timed!(c, count_friction_map(black_box(&c.map), offset));
             [friction.force, friction.moment, friction.power]
         };
-    friction_dissipation: |spread| -> [4] [
-            spread.between(-0.02, 0.02), spread.between(-0.6, 0.6), spread.between(0.05, 0.12), 0.01,
-        ],
-        |c, [slip, spin, semi_major, stick]| -> [8] {
-            let at = timed!(c, count_friction_dissipation(black_box(&c.map), slip, spin, semi_major, stick));
-            [at.potential, at.power, at.force, at.moment, at.stiffness, at.tilt, at.stick, at.end_speed]
-        };
     friction_coefficient: |spread| -> [1] {
             let speed = spread.between(-500.0, 500.0);
             [spread.special(&[0.0, 1e6, f32::INFINITY, f32::NAN], SPECIAL).unwrap_or(speed)]
@@ -231,36 +223,6 @@ subjects! {
             let rear = black_box(contacts([a, b, d, e, f, g, h, i]));
             let front = black_box(contacts([j, k, l, m, n, o, p, q]));
             [timed!(c, count_linear_ball_analytic(black_box(&c.analytic), &rear, &front))]
-        };
-    linear_ball_refined: |spread| -> [8] four_contacts(spread),
-        |c, input| -> [6] {
-            let given = black_box(contacts(input));
-            timed!(c, count_linear_ball_refined(black_box(&c.linear), &given, black_box(&mut c.ball), 0.0));
-            let ball = &c.ball;
-            [
-                ball.motion.speed, ball.motion.roll, ball.motion.yaw,
-                ball.speed_deviation, ball.compliance, ball.friction_force,
-            ]
-        };
-    rotary_ball_refined: |spread| -> [8] four_contacts(spread),
-        |c, input| -> [4] {
-            let given = black_box(contacts(input));
-            timed!(c, count_rotary_ball_refined(
-                black_box(&c.rotary), &given, black_box(&mut c.rotary_ball), 0.0
-            ));
-            let motion = c.rotary.motion(&c.rotary_ball, 10.0);
-            [motion.orbital_speed, motion.roll, motion.yaw, c.rotary.friction_torque(&c.rotary_ball)]
-        };
-    linear_chain_2: |spread| -> [16] pair(four_contacts(spread), four_contacts(spread)),
-        |c, [a, b, d, e, f, g, h, i, j, k, l, m, n, o, p, q]| -> [3] {
-            let rear = black_box(contacts([a, b, d, e, f, g, h, i]));
-            let front = black_box(contacts([j, k, l, m, n, o, p, q]));
-            timed!(c, count_linear_chain_2(
-                black_box(&c.linear), &rear, &front, black_box(&mut c.chain), 1.0
-            ));
-            let [rear, front] = c.chain.balls;
-            let [force, _] = c.chain.forces;
-            [rear.speed_deviation, front.speed_deviation, force]
         };
     step_efficiency: |spread| -> [3] [
             spread.between(-60.0, 60.0), spread.between(-10.0, 10.0), spread.between(0.01, 0.2),

@@ -1,14 +1,14 @@
 //! `ball_screw_train`: a row of touching balls in a ball screw, each with given contacts.
 //!
-//! What is answered for just these contacts is the refined form, which no scene runs. Beside it stand what the scene computes
-//! for balls that have such contacts ([`elastic`]) and what a closed form finds for them ([`closed_form`]).
+//! In the loop it is answered by the closed form of a row ([`closed_form`]), which no step runs; beside it stands what the scene
+//! computes ([`elastic`]). Both find the contacts themselves.
 
 mod closed_form;
 mod contacts;
 mod elastic;
 
+use epas_friction::ball::{GrooveFit, ScrewRow};
 use epas_friction::geometry::{LARGEST_CONFORMITY, SMALLEST_CONFORMITY};
-use epas_friction::refined::{ScrewBall, ScrewBallState, ScrewChain};
 use epas_friction::{BallScrew, Error};
 use epas_reference::design::BallScrewDesign;
 use epas_reference::friction::ball_screw_ball::{Groove, ScrewContact, ScrewTrack};
@@ -19,7 +19,7 @@ use serde::Serialize;
 
 use super::answer::Answer;
 use super::fields::{BadField, Fields, in_range};
-use super::train::{LARGEST_TRAIN, ScrewNumbers, room_of_a_row, solved};
+use super::train::{LARGEST_TRAIN, ScrewNumbers, solved};
 use closed_form::ClosedRow;
 use contacts::{Given, Ways};
 use elastic::ElasticRow;
@@ -32,16 +32,6 @@ const FLANKS: [(&str, Groove); 4] = [
     ("NR", Groove::NutRight),
 ];
 
-/// Most impedance steps of the whole row: friction between the balls lags one step behind.
-const STEPS: usize = 24;
-
-/// Change of a force in a step, over the largest force: below the first, steps end; below the second, the row
-/// counts as settled after the last step. Forces are the means of two steps: where a third contact is about to
-/// slide, single steps swing about the solution by some per cent. Where many contacts slide the steps diverge:
-/// friction between the balls then changes the forces by more than the forces changed it.
-const UNCHANGED: f32 = 1e-5;
-const SETTLED: f32 = 2e-3;
-
 /// A quantity that was not found is none.
 #[derive(Default, Serialize)]
 struct Row {
@@ -52,15 +42,13 @@ struct Row {
 }
 
 /// What the crate computes.
-#[derive(Serialize)]
+#[derive(Default, Serialize)]
 struct InLoop {
-    /// Balls with just these contacts: the refined form, which no scene runs.
+    /// What the closed form of a row finds for the axial loads and deviations that the contacts follow from.
     #[serde(flatten)]
-    given: Row,
-    /// What the scene computes for the axial loads and deviations that the contacts follow from.
+    closed: ClosedRow,
+    /// What the scene computes for them.
     elastic: Option<ElasticRow>,
-    /// What the closed form of a row finds for them; its name is from when the scene ran it.
-    scene: Option<ClosedRow>,
 }
 
 struct Request {
@@ -96,13 +84,7 @@ pub fn evaluate(mut fields: Fields) -> Result<Answer, BadField> {
     };
     fields.finish()?;
     request.check()?;
-    let (elastic, scene) = request.of_one_screw().unwrap_or_default();
-    let in_loop = InLoop {
-        given: request.refined()?,
-        elastic,
-        scene,
-    };
-    Answer::both(&in_loop, &request.reference()?)
+    Answer::both(&request.in_loop()?, &request.reference()?)
 }
 
 fn contacts(mut ball: Fields) -> Result<Vec<Contact>, BadField> {
@@ -127,14 +109,6 @@ fn contacts(mut ball: Fields) -> Result<Vec<Contact>, BadField> {
         ));
     }
     Ok(contacts)
-}
-
-/// Whether screw and nut both carry the ball: one that either has lost does not move with the nut.
-fn is_driven(ball: &[Contact]) -> bool {
-    [false, true].into_iter().all(|on_nut| {
-        ball.iter()
-            .any(|contact| contact.groove.on_nut() == on_nut && contact.load > 0.0)
-    })
 }
 
 impl Request {
@@ -168,11 +142,20 @@ impl Request {
         Ok(())
     }
 
-    /// What scene and closed form find, in f32, for balls that have such contacts; none where they are not of one screw.
-    fn of_one_screw(&self) -> Option<(Option<ElasticRow>, Option<ClosedRow>)> {
+    /// What closed form and scene find, in f32.
+    fn in_loop(&self) -> Result<InLoop, BadField> {
+        self.check_design()?;
         if self.nut_speed == 0.0 {
-            return None;
+            return Ok(InLoop {
+                closed: self.standstill().into(),
+                elastic: None,
+            });
         }
+        Ok(self.of_one_screw().unwrap_or_default())
+    }
+
+    /// The same for balls that have such contacts; none where they are not of one screw.
+    fn of_one_screw(&self) -> Option<InLoop> {
         let balls: Vec<Given> = self
             .balls
             .iter()
@@ -191,103 +174,19 @@ impl Request {
             friction: self.friction as f32,
             nut_speed: self.nut_speed as f32,
         };
-        Some((
-            elastic::row(&given, |angle| self.design(angle), ways),
-            closed_form::row(&given, &design, ways),
-        ))
-    }
-
-    /// The impedance iteration, in f32.
-    fn refined(&self) -> Result<Row, BadField> {
-        let ball = self.ball()?;
-        if self.nut_speed == 0.0 {
-            return Ok(self.standstill());
-        }
-        if !self.balls.iter().all(|ball| is_driven(ball)) {
-            return Ok(Row::default());
-        }
-        // The chain of the crate runs from rear to front for a nut that turns forward.
-        let (direction, backward) = if self.nut_speed < 0.0 {
-            (-1.0, true)
-        } else {
-            (1.0, false)
-        };
-        let count = self.balls.len();
-        // Places without a ball have no contacts, and infinite room on both sides.
-        let mut contacts = [ball.contacts(&[0.0; 4], &[0.0; 4]); LARGEST_TRAIN];
-        let mut states = [ScrewBallState::default(); LARGEST_TRAIN];
-        let mut orbital_speed = Vec::with_capacity(count);
-        for (index, request) in self.balls.iter().enumerate() {
-            let place = if backward { count - 1 - index } else { index };
-            let (mut angles, mut loads) = ([0.0; 4], [0.0; 4]);
-            for contact in request {
-                let flank = contact.groove as usize;
-                (angles[flank], loads[flank]) = (contact.angle as f32, contact.load as f32);
-            }
-            contacts[place] = ball.contacts(&angles, &loads);
-            states[place] = ball.solve(&contacts[place]);
-            let speed = ball.orbital_speed(&states[place].motion);
-            orbital_speed.push(self.nut_speed * f64::from(speed));
-        }
-
-        let mut chain = ScrewChain::new(states);
-        let room = room_of_a_row(count);
-        let mut sound = true;
-        let mut settled = false;
-        let mut means = chain.forces;
-        for _ in 0..STEPS {
-            let before = chain.forces;
-            sound &= ball.refine_chain(
-                &contacts,
-                &mut chain,
-                &room,
-                direction,
-                self.friction as f32,
-            );
-            let (mut largest, mut change) = (0.0_f32, 0.0_f32);
-            for ((force, before), mean) in chain.forces.iter().zip(&before).zip(&mut means) {
-                let next = 0.5 * (force + before);
-                change = change.max((next - *mean).abs());
-                largest = largest.max(next);
-                *mean = next;
-            }
-            settled = change <= SETTLED * largest;
-            if change <= UNCHANGED * largest {
-                break;
-            }
-        }
-        let grooves: f64 = chain.balls[..count]
-            .iter()
-            .map(|state| f64::from(state.groove_torque))
-            .sum();
-        chain.forces = means;
-        let between = f64::from(ball.ball_torque(&chain, self.friction as f32));
-        let mut forces: Vec<_> = means[..count - 1]
-            .iter()
-            .map(|&force| force.into())
-            .collect();
-        if backward {
-            forces.reverse();
-        }
-        Ok(if sound && settled {
-            Row {
-                orbital_speed: Some(orbital_speed),
-                contact_force: Some(forces),
-                power_loss: Some(self.nut_speed.abs() * (grooves + between)),
-            }
-        } else {
-            Row {
-                orbital_speed: Some(orbital_speed),
-                ..Row::default()
-            }
+        Some(InLoop {
+            closed: closed_form::row(&given, &design, ways).unwrap_or_default(),
+            elastic: elastic::row(&given, |angle| self.design(angle), ways),
         })
     }
 
-    /// The crate's ball, with the mean contact angle for its nominal one.
-    fn ball(&self) -> Result<ScrewBall, BadField> {
+    /// Whether the crate takes the screw, with the mean contact angle for its nominal one.
+    fn check_design(&self) -> Result<(), BadField> {
         let angles = || self.balls.iter().flatten().map(|contact| contact.angle);
         let mean = angles().sum::<f64>() / angles().count() as f64;
-        ScrewBall::new(&self.design(mean as f32)?, self.friction as f32)
+        let design = self.design(mean as f32)?;
+        ScrewRow::new(&design, self.friction as f32, GrooveFit::Zero)
+            .map(drop)
             .map_err(|error| BadField::from(error).renamed("axis_ratio", "groove_radius"))
     }
 

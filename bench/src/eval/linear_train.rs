@@ -3,8 +3,6 @@
 use epas_friction::ball::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE};
 use epas_friction::contact::FrictionMap;
 use epas_friction::hertz::HertzContact;
-use epas_friction::refined::{BallChain, FourPointBall};
-use epas_friction::refined::{DEFAULT_NEWTON_STEPS, LARGEST_ANGLE_DEVIATION};
 use epas_friction::train::Press;
 use epas_friction::{GrooveSize, LinearBearing, LinearBearingParameters, Material};
 use epas_reference::friction::chain::{LinearChain, solve_chain};
@@ -16,10 +14,8 @@ use super::answer::Answer;
 use super::fields::{BadField, Fields, in_range};
 use super::train::{LARGEST_TRAIN, contact_forces, pressed, room_of_a_row, solved};
 
-/// Steps of the whole row from the four-force start. A ball alone has settled after
-/// [`DEFAULT_NEWTON_STEPS`]; friction between the balls lags one step behind, and settles with some per
-/// cent of itself a step.
-const STEPS: usize = 2 * DEFAULT_NEWTON_STEPS as usize;
+/// Contact angles are taken at most this far from the nominal one, rad.
+const LARGEST_ANGLE_DEVIATION: f64 = 0.3;
 
 #[derive(Serialize)]
 struct InLoop {
@@ -27,7 +23,6 @@ struct InLoop {
     scene: Row,
     /// The closed form with the printed slope.
     analytic: Row,
-    refined: Row,
 }
 
 #[derive(Serialize)]
@@ -103,8 +98,8 @@ impl Request {
         in_range("ball_friction", self.ball_friction, 0.0, 1.0)?;
         in_range("speed", self.speed, -1e6, 1e6)?;
         let (lowest, highest) = (
-            (nominal - f64::from(LARGEST_ANGLE_DEVIATION)).max(0.01),
-            (nominal + f64::from(LARGEST_ANGLE_DEVIATION)).min(1.56),
+            (nominal - LARGEST_ANGLE_DEVIATION).max(0.01),
+            (nominal + LARGEST_ANGLE_DEVIATION).min(1.56),
         );
         for (index, ball) in self.balls.iter().enumerate() {
             let here = |error: BadField| error.of_ball(index);
@@ -152,7 +147,6 @@ impl Request {
         Ok(InLoop {
             scene: closed_form(map.slope()).map_err(renamed)?,
             analytic: closed_form(PUBLISHED_SLOPE).map_err(renamed)?,
-            refined: self.refined(&FourPointBall::linear(&parameters).map_err(renamed)?),
         })
     }
 
@@ -187,36 +181,6 @@ impl Request {
         }
         let actual: Vec<_> = press.speeds().map(|speed| direction * speed).collect();
         Row::of(&actual, &contact_forces(&press), count)
-    }
-
-    fn refined(&self, ball: &FourPointBall) -> Row {
-        let count = self.balls.len();
-        // Places without a ball have no contacts, and infinite room on both sides.
-        let mut contacts = [ball.contacts(&[0.0; 4], &[0.0; 4]); LARGEST_TRAIN];
-        let mut chain = BallChain::<LARGEST_TRAIN>::new();
-        for ((contacts, state), request) in
-            contacts.iter_mut().zip(&mut chain.balls).zip(&self.balls)
-        {
-            let (angles, forces) = request.rounded();
-            *contacts = ball.contacts(&angles, &forces);
-            *state = ball.start(contacts);
-        }
-        let room = room_of_a_row(count);
-        let mut sound = true;
-        for _ in 0..STEPS {
-            sound &= ball.refine_chain(
-                &contacts,
-                &mut chain,
-                &room,
-                self.direction(),
-                self.ball_friction as f32,
-            );
-        }
-        if !sound {
-            return Row::NONE;
-        }
-        let deviations = chain.balls.map(|state| state.speed_deviation);
-        Row::of(&deviations, &chain.forces, count)
     }
 
     fn reference(&self) -> Result<Reference, BadField> {

@@ -6,7 +6,6 @@ use epas_firmware::counted::count_idsp_sin_cos;
 use epas_firmware::spread::Spread;
 use epas_friction::ball::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE};
 use epas_friction::math;
-use epas_friction::refined::FourPointBall;
 use epas_reference::friction::linear_ball::{EllipseLaw, LinearBall};
 
 use super::context::Context;
@@ -55,9 +54,9 @@ fn absolute(kernel: impl Fn(f32) -> (f32, f32)) -> f64 {
         .largest
 }
 
-/// Largest errors of a ball's speed deviation by the closed form and by one Newton step from the state of a
-/// neighbouring tick, side forces up to 0.8 of the load, deviations of the angles up to 3 degrees.
-fn ball_errors() -> Result<[f64; 2], Failure> {
+/// Largest error of a ball's speed deviation by the closed form, side forces up to 0.8 of the load, deviations of the angles
+/// up to 3 degrees.
+fn ball_error() -> Result<f64, Failure> {
     let refused = |error| Failure::Data(format!("{error}"));
     let parameters = LinearBallParameters {
         ball_radius: 0.005,
@@ -67,8 +66,7 @@ fn ball_errors() -> Result<[f64; 2], Failure> {
         friction: 0.1,
     };
     let analytic = AnalyticLinearBall::new(&parameters, PUBLISHED_SLOPE).map_err(refused)?;
-    let newton = FourPointBall::linear(&parameters).map_err(refused)?;
-    let (mut closed, mut stepped) = (Errors::default(), Errors::default());
+    let mut closed = Errors::default();
     for case in 0..200 {
         let mut spread = Spread::new(case);
         let side = spread.between(-0.8, 0.8);
@@ -89,13 +87,8 @@ fn ball_errors() -> Result<[f64; 2], Failure> {
         .map_err(|error| Failure::Data(format!("{error}")))?
         .speed_deviation;
         closed.add(f64::from(analytic.speed_deviation(&angles, &forces).speed_deviation) - exact);
-        // A tick earlier the angles were a hundredth of a degree away.
-        let before = newton.contacts(&angles.map(|angle| angle + 1.7e-4), &forces);
-        let state = newton.solve(&before);
-        let found = newton.step(&newton.contacts(&angles, &forces), &state, 0.0);
-        stepped.add(f64::from(found.speed_deviation) - exact);
     }
-    Ok([closed.largest, stepped.largest])
+    Ok(closed.largest)
 }
 
 /// Cycles by the name of a count.
@@ -212,13 +205,9 @@ fn angle_rivals(counts: &Counts) -> Result<Rivals, Failure> {
 }
 
 fn ball_rivals(counts: &Counts) -> Result<Rivals, Failure> {
-    let [closed, newton] = ball_errors()?;
     Ok(Rivals {
         title: "Ball in a linear bearing, error of its speed over v/2",
-        points: vec![
-            counts.point("closed form", "linear_ball_speed", closed)?,
-            counts.point("Newton step", "linear_ball_refined", newton)?,
-        ],
+        points: vec![counts.point("closed form", "linear_ball_speed", ball_error()?)?],
     })
 }
 

@@ -87,7 +87,7 @@ pub fn section(context: &Context) -> Result<Section, Failure> {
             size: (540, 420),
         }),
     ];
-    blocks.extend(two_point::blocks(context)?);
+    blocks.extend(two_point::blocks()?);
     blocks.extend(recorded::blocks(&all, requests)?);
     blocks.push(Block::Table(table_of_promises()));
     Ok(Section {

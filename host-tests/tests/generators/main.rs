@@ -12,7 +12,6 @@
 //! | `lines` | `kinematics::friction_power` |
 //! | `sagitta` | `kinematics::path` |
 //! | `preload` | `ball::preload` |
-//! | `refined_balls` | chosen constants of `refined` |
 //! | `elastic_balls` | chosen constants of `ball::elastic` |
 
 #[path = "../kit/mod.rs"]
@@ -25,7 +24,6 @@ mod elastic_balls;
 mod lines;
 mod nodes;
 mod preload;
-mod refined_balls;
 mod remez;
 mod sagitta;
 mod sine;

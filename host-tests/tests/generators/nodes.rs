@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use epas_friction::fits::{curvature, friction_power, pitch_angle, scene, slip_map};
+use epas_friction::fits::{curvature, elliptic, friction_power, pitch_angle, scene};
 use gauss_quad::{GaussJacobi, GaussLegendre};
 
 /// Rounded to nearest from a number that is itself within some ulp of float64.
@@ -53,39 +53,12 @@ fn numbers_with_a_name() {
     is_rounded(scene::HALF_TO_FOUR_THIRDS, 0.5_f64.powf(4.0 / 3.0));
 }
 
-/// Newton's form keeps its digits where each node is the one whose distances to those before it have the largest product
-/// (Leja); from the right end on, and of two that are alike either.
-#[test]
-fn elliptic_integrals_are_interpolated_at_chebyshev_nodes_in_the_order_of_leja() {
-    let mut left: Vec<f64> = (0..10)
-        .map(|i| (f64::from(2 * i + 1) * PI / 20.0).cos())
-        .collect();
-    let mut before: Vec<f64> = Vec::new();
-    for stored in slip_map::CHEBYSHEV {
-        let product = |node: f64| {
-            before
-                .iter()
-                .map(|other| (node - other).abs())
-                .product::<f64>()
-        };
-        let index = left
-            .iter()
-            .position(|node| (node - f64::from(stored)).abs() < 1e-7)
-            .expect("a Chebyshev node");
-        let node = left.swap_remove(index);
-        is_rounded(stored, node);
-        let largest = left.iter().map(|other| product(*other)).fold(0.0, f64::max);
-        assert!(product(node) > largest * (1.0 - 1e-9), "{node}");
-        before.push(node);
-    }
-}
-
 #[test]
 fn the_narrow_integral_is_summed_by_gauss() {
     let rule = GaussLegendre::new(5.try_into().unwrap());
     let mut nodes = rule.as_node_weight_pairs().to_vec();
     nodes.sort_by(|first, second| first.0.total_cmp(&second.0));
-    for ((node, weight), (stored_node, stored_weight)) in nodes.into_iter().zip(slip_map::GAUSS) {
+    for ((node, weight), (stored_node, stored_weight)) in nodes.into_iter().zip(elliptic::GAUSS) {
         if stored_node == 0.0 {
             // Measured: 6.1e-17, what float64 has for the cosine of a right angle.
             assert!(node.abs() < 2e-16);

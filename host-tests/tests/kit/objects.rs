@@ -15,7 +15,6 @@ use epas_friction::hertz::HertzContact;
 use epas_friction::kinematics::{
     ContactKinematics, EllipticContact, FrictionPower, KinematicsParameters,
 };
-use epas_friction::refined::{FourPointBall, RotaryBall, RotaryBallParameters};
 use epas_friction::train::{Press, Train};
 use epas_friction::{
     BallScrew, BallScrewParameters, Clearance, Error, GrooveSize, LoadShare, Material,
@@ -106,7 +105,7 @@ fn groove(numbers: &mut Numbers, ball_radius: f32) -> GrooveSize {
 
 /// Makes one kind of object and asks it everything.
 pub fn check(numbers: &mut Numbers) -> Result<(), String> {
-    match numbers.choice(12) {
+    match numbers.choice(11) {
         0 => ball_screw(numbers),
         1 => curvature(numbers),
         2 => hertz(numbers),
@@ -114,10 +113,9 @@ pub fn check(numbers: &mut Numbers) -> Result<(), String> {
         4 => kinematics(numbers),
         5 => friction_map(numbers),
         6 => linear_ball(numbers),
-        7 => rotary_ball(numbers),
-        8 => press(numbers),
-        9 => train(numbers),
-        10 => design(numbers),
+        7 => press(numbers),
+        8 => train(numbers),
+        9 => design(numbers),
         _ => shares(numbers),
     }
 }
@@ -416,51 +414,16 @@ fn kinematics(numbers: &mut Numbers) -> Result<(), String> {
 fn friction_map(numbers: &mut Numbers) -> Result<(), String> {
     let ratio = numbers.within(0.01, 1.0);
     let offset = numbers.size(1e-6, 1e6);
-    let [slip, spin, semi_major, stick] = numbers.several();
     match FrictionMap::new(ratio) {
         Ok(map) => {
             let found = map.evaluate(offset);
             all_finite(
                 &format!("FrictionMap {ratio} at {offset}"),
                 &[found.force, found.moment, found.power],
-            )?;
-            // Motions and ellipses that a mechanism can have.
-            let bounded = |value: f32, low: f32, high: f32| {
-                if value.is_nan() {
-                    low
-                } else {
-                    value.clamp(low, high)
-                }
-            };
-            let (slip, spin) = (bounded(slip, -1e6, 1e6), bounded(spin, -1e6, 1e6));
-            let (semi_major, stick) = (bounded(semi_major, 1e-9, 1.0), bounded(stick, 0.0, 1.0));
-            let found = map.dissipation(slip, spin, semi_major, stick);
-            all_finite(
-                &format!("dissipation of {ratio} at {slip} {spin} {semi_major} {stick}"),
-                &[found.power, found.force, found.moment, found.potential],
             )
         }
         Err(error) => refused("FrictionMap", &error),
     }
-}
-
-fn four_point(numbers: &mut Numbers, ball: &FourPointBall, what: &str) -> Result<(), String> {
-    let angles = [(); 4].map(|()| numbers.within(0.1, 1.5));
-    let forces = [(); 4].map(|()| numbers.size(1e-6, 1e7));
-    let contacts = ball.contacts(&angles, &forces);
-    let state = ball.solve(&contacts);
-    let state = ball.step(&contacts, &state, numbers.next());
-    all_finite(
-        what,
-        &[
-            state.motion.speed,
-            state.motion.roll,
-            state.motion.yaw,
-            state.speed_deviation,
-            state.compliance,
-            state.friction_force,
-        ],
-    )
 }
 
 fn linear_ball(numbers: &mut Numbers) -> Result<(), String> {
@@ -478,10 +441,6 @@ fn linear_ball(numbers: &mut Numbers) -> Result<(), String> {
         friction,
     };
     let what = format!("{parameters:?} {:?}", numbers.0);
-    match FourPointBall::linear(&parameters) {
-        Ok(ball) => four_point(numbers, &ball, &what)?,
-        Err(error) => refused("FourPointBall", &error)?,
-    }
     match AnalyticLinearBall::new(&parameters, slope) {
         Ok(ball) => {
             let rear = ball.speed_deviation(&numbers.several(), &numbers.several());
@@ -497,25 +456,6 @@ fn linear_ball(numbers: &mut Numbers) -> Result<(), String> {
             )
         }
         Err(error) => refused("AnalyticLinearBall", &error),
-    }
-}
-
-fn rotary_ball(numbers: &mut Numbers) -> Result<(), String> {
-    let ball_radius = numbers.size(1e-5, 1.0);
-    let parameters = RotaryBallParameters {
-        ball_radius,
-        pitch_radius: ball_radius * numbers.size(1.01, 1e3),
-        contact_angle: numbers.within(0.05, 1.5),
-        axis_ratio_inner: numbers.within(0.01, 1.0),
-        axis_ratio_outer: numbers.within(0.01, 1.0),
-        semi_major_coefficient_inner: numbers.size(1e-8, 1.0),
-        semi_major_coefficient_outer: numbers.size(1e-8, 1.0),
-        friction: numbers.size(1e-6, 10.0),
-    };
-    let what = format!("{parameters:?} {:?}", numbers.0);
-    match RotaryBall::new(&parameters) {
-        Ok(ball) => four_point(numbers, ball.four_point(), &what),
-        Err(error) => refused("RotaryBall", &error),
     }
 }
 

@@ -47,28 +47,3 @@ impl Random {
         values[self.below(values.len())]
     }
 }
-
-/// A linear congruential generator (Knuth's), made from a seed: figures of refined balls are measured on its
-/// numbers.
-#[derive(Clone, Debug)]
-pub struct Congruential(pub u64);
-
-impl Congruential {
-    fn bits(&mut self) -> u64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        self.0
-    }
-
-    /// 0 to 1, with the 24 bits of an f32.
-    pub fn unit(&mut self) -> f32 {
-        (self.bits() >> 40) as f32 / (1_u64 << 24) as f32
-    }
-
-    /// Uniform, with the 53 bits of an f64.
-    pub fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * ((self.bits() >> 11) as f64 / (1_u64 << 53) as f64)
-    }
-}

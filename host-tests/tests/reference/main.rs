@@ -13,7 +13,6 @@ mod friction_maps_reference;
 mod kinematics_reference;
 mod linear_ball_reference;
 mod load_shares;
-mod long_chain;
 mod presliding_reference;
 mod published_records;
 mod recorded_runs;

@@ -6,8 +6,7 @@ use std::hint::black_box;
 use epas_friction::ball::{
     AnalyticLinearBall, GrooveFit, LinearBallParameters, PUBLISHED_SLOPE, ScrewRow,
 };
-use epas_friction::contact::{FrictionMap, SlipMap};
-use epas_friction::refined::{FourPointBall, RotaryBall, RotaryBallParameters, ScrewBall};
+use epas_friction::contact::FrictionMap;
 use epas_friction::{
     BallScrew, CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, Clearance,
     DISSERTATION_DESIGNS, DeviationMap, Error, FrictionBranch, FrictionModel, GrooveSize, Harmonic,
@@ -281,11 +280,7 @@ fn a_refused_gear_names_its_field() {
 #[allow(dead_code)] // Read through `Debug`.
 struct Parts {
     map: FrictionMap,
-    slip: SlipMap,
-    linear: FourPointBall,
     published: AnalyticLinearBall,
-    rotary: RotaryBall,
-    screw: ScrewBall,
     row: ScrewRow,
 }
 
@@ -300,24 +295,10 @@ const fn parts(axis_ratio: f32, contact_angle: f32) -> Parts {
         semi_major_coefficient: 9.075e-5,
         friction: 0.1,
     };
-    let rotary = RotaryBallParameters {
-        ball_radius: 0.00625,
-        pitch_radius: 0.035,
-        contact_angle,
-        axis_ratio_inner: axis_ratio,
-        axis_ratio_outer: 0.216,
-        semi_major_coefficient_inner: 1.288e-4,
-        semi_major_coefficient_outer: 1.196e-4,
-        friction: 0.1,
-    };
     let published = AnalyticLinearBall::new(&ball, PUBLISHED_SLOPE);
     Parts {
         map: folded(FrictionMap::new(axis_ratio)),
-        slip: folded(SlipMap::new(axis_ratio)),
-        linear: folded(FourPointBall::linear(&ball)),
         published: folded(published),
-        rotary: folded(RotaryBall::new(&rotary)),
-        screw: folded(ScrewBall::new(&design, 0.1)),
         row: folded(ScrewRow::new(&design, 0.1, PRELOAD)),
     }
 }

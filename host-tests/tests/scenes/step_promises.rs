@@ -17,7 +17,6 @@ use epas_friction::law::coefficient::{
 use epas_friction::law::memory::{Part, ProportionalElements, SLIP_8};
 use epas_friction::law::motion::SpeedOverTick;
 use epas_friction::promises;
-use epas_friction::refined::{BallChain, FourPointBall};
 use epas_friction::scene::{
     CoefficientFor, Freshness, Sliding, WithMemory, WithMemoryConfiguration, WithMemoryInputs,
 };
@@ -466,8 +465,7 @@ fn pairs_in_a_linear_bearing() {
         friction: 0.1,
     };
     let analytic = AnalyticLinearBall::new(&parameters, PUBLISHED_SLOPE).unwrap();
-    let refined = FourPointBall::linear(&parameters).unwrap();
-    let (mut closed, mut chained) = (Errors::default(), Errors::default());
+    let mut closed = Errors::default();
     for degrees in [-2.0, -1.0, 0.5, 1.0, 2.0_f64] {
         for side in [-0.8, -0.6, -0.3, 0.1, 0.4, 0.7, 0.8] {
             let balls = [-side, side].map(|side| ball(degrees.to_radians(), side));
@@ -485,18 +483,9 @@ fn pairs_in_a_linear_bearing() {
             let [rear, front] =
                 given.map(|(angles, forces)| analytic.speed_deviation(&angles, &forces));
             closed.add_case(f64::from(rear.contact_force(&front)) - exact, line);
-            let contacts = given.map(|(angles, forces)| refined.contacts(&angles, &forces));
-            let mut chain = BallChain::<2>::new();
-            chain.balls = contacts.map(|contacts| refined.start(&contacts));
-            for _ in 0..3 {
-                let touching = [0.0, f32::INFINITY];
-                assert!(refined.refine_chain(&contacts, &mut chain, &touching, 1.0, 0.0));
-            }
-            chained.add_case(f64::from(chain.forces[0]) - exact, line);
         }
     }
     closed.assert_promised(&promises::ANALYTIC_PAIR);
-    chained.assert_promised(&promises::BALL_CHAIN);
 }
 
 /// Straight grooves: friction of the grooves is the power that all balls lose over the speed; without memory, with it, and

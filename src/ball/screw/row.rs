@@ -16,9 +16,8 @@ const SMALLEST_LOAD: f32 = 1e-3;
 
 /// Balls of one ball screw: constants of the closed form.
 ///
-/// The closed form of [`ScrewBall`](crate::refined::ScrewBall) where all balls carry shares of one axial load and contact angles
-/// deviate with the grooves: what depends on the load is found once ([`ScrewRow::at`]), and a ball then costs two
-/// polynomials ([`ScrewTick::ball`]). Spin moments are left out:
+/// All balls carry shares of one axial load, and contact angles deviate with the grooves: what depends on the load is found
+/// once ([`ScrewRow::at`]), and a ball then costs two polynomials ([`ScrewTick::ball`]). Spin moments are left out:
 ///
 /// ```text
 /// orbital speed, third contact on the screw
@@ -45,8 +44,7 @@ const SMALLEST_LOAD: f32 = 1e-3;
 /// at 100 N. Of the opposite sign the third contact slides, and the force is too large, by up to 11 % at 10 N,
 /// 21 % at 25 N, 44 % at 50 N and a factor two at 100 N. Table 3.7, read as 50 N on each ball: -1.3 % and -2.9 %.
 /// With two contacts and unequal contact angles the speed is that between a ball which sticks to the screw and one which
-/// sticks to the nut: off by up to 4.5e-3 of the nut's speed for deviations of 3 degrees in both grooves of Table 3.6;
-/// [`ScrewBall::closed_form`](crate::refined::ScrewBall::closed_form) tells them apart.
+/// sticks to the nut: off by up to 4.5e-3 of the nut's speed for deviations of 3 degrees in both grooves of Table 3.6.
 ///
 /// Source: not in Lin 2019; from its equations (3.65)-(3.76).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -66,8 +64,7 @@ pub struct ScrewRow {
     sticks_to_screw: bool,
 }
 
-/// Contacts of one ball of a row, in the order SL, SR, NL, NR (screw or nut, left or right): what
-/// [`ScrewBall::contacts`](crate::refined::ScrewBall::contacts) takes.
+/// Contacts of one ball of a row, in the order SL, SR, NL, NR (screw or nut, left or right).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct RowContacts {

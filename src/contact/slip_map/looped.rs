@@ -1,4 +1,4 @@
-//! Friction as [`SlipMap`](super::SlipMap) has it with fewer terms, for the balls that a step renews.
+//! Friction of a contact that slips in any direction and spins, for the balls that a step renews.
 
 use super::nodes::{FAR, Variable, divided_differences, quartic};
 use crate::contact::integrals::checked_axis_ratio;
@@ -21,10 +21,9 @@ const CHEBYSHEV: [f32; TERMS] = [
     0.195_090_32,
 ];
 
-/// Friction of one contact with slip along both axes and spin, as [`SlipMap`](super::SlipMap) has it, with two
-/// polynomials of eight terms and one division.
+/// Friction of one contact with slip along both axes and spin, with two polynomials of eight terms and one division.
 ///
-/// Of the five integrals of [`SlipMap`](super::SlipMap) two are interpolated, `C4` and `C5`; the others are sums of
+/// Of the five integrals of `contact/integrals.rs` two are interpolated, `C4` and `C5`; the others are sums of
 /// positive terms, with `w = 2 lambda T` and the factors `l = 1 + lambda` and `s = k² + lambda`:
 ///
 /// ```text
@@ -33,8 +32,9 @@ const CHEBYSHEV: [f32; TERMS] = [
 ///
 /// These are the integrations by parts of the integrals (3.16)-(3.18) and (3.68) of Lin 2019.
 ///
-/// Forces differ from those of [`SlipMap`](super::SlipMap) by at most 2.5e-4 of their limit from an axis ratio of 0.15 on, 8.6e-4
-/// from 0.1 on.
+/// Largest errors against the integrals: forces 2.6e-4 of their limit from an axis ratio of 0.15 on, 8.3e-4 from 0.1 on, and
+/// 4.3e-4 where the velocity centre is more than two semi-major axes away; second derivatives 5.5e-4 of the sum of those by
+/// both slips, 7.8e-3 just beyond two semi-major axes.
 ///
 /// All is done in squares of speeds, the spin's being that of the end of the ellipse, `a W`: then one division
 /// serves all quotients.

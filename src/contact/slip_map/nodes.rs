@@ -1,4 +1,4 @@
-//! What both maps are made from at set-up: where their integrals are sampled, and the polynomial through the samples.
+//! What the map is made from at set-up: where their integrals are sampled, and the polynomial through the samples.
 
 use crate::contact::integrals::fifth_integral;
 use crate::math::constant;
@@ -21,7 +21,7 @@ pub(super) struct Variable {
     largest: f32,
 }
 
-/// Integrals of [`SlipMap`](super::SlipMap) at one node.
+/// The integrals at one node.
 pub(super) struct Node {
     pub(super) lambda: f32,
     /// `C1`, `C2` and `C5`.

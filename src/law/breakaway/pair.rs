@@ -189,7 +189,7 @@ impl ScrewContacts {
     ///
     /// Slip takes off the spin's moment, and spin off the slip's force: the power of both together is less than the sum. With the slip
     /// `l_1/2` and the spin `s` of each contact over the nut's angle its limits are `mu F a s (P - M)` and `mu F a s M`, `P` and `M`
-    /// by the integrals of [`SlipMap`](crate::contact::SlipMap) at an axis ratio of 0.02 to 0.95. Exact for gross sliding; before it
+    /// by the integrals of `contact/integrals.rs` at an axis ratio of 0.02 to 0.95. Exact for gross sliding; before it
     /// within 5 %. Set-up: elliptic integrals for each contact.
     #[must_use]
     pub const fn slip_and_spin(

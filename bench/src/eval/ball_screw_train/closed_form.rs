@@ -1,4 +1,4 @@
-//! The closed form of a row of balls under one axial load, and the forces between its balls; no step runs it.
+//! The closed form of a row of balls under one axial load, and the forces between its balls.
 //!
 //! It does not take contacts: it finds them from the axial load of each ball and from how far the
 //! contact angles deviate in either groove. Both are read off the given contacts, and how far those are from
@@ -10,6 +10,7 @@ use epas_friction::{BallScrew, LoadShare};
 use serde::Serialize;
 
 use super::super::train::{LARGEST_TRAIN, contact_forces, room_of_a_row};
+use super::Row as Found;
 use super::contacts::{Given, LARGEST_LOAD_MISMATCH, Row, Ways};
 
 /// Furthest that contact angles, rad, may be from those of the closed form. Stored balls in elastic grooves without play are
@@ -20,15 +21,24 @@ const LARGEST_ANGLE_MISMATCH: f32 = 0.01;
 const STEPS: usize = 12;
 
 /// What the closed form finds.
-#[derive(Serialize)]
+#[derive(Default, Serialize)]
 pub struct ClosedRow {
-    orbital_speed: Vec<f64>,
-    contact_force: Vec<f64>,
-    power_loss: f64,
+    #[serde(flatten)]
+    found: Found,
     /// How far the given loads are from those that the closed form finds, over the main ones.
-    load_mismatch: f32,
+    load_mismatch: Option<f32>,
     /// How far the given contact angles are, rad.
-    angle_mismatch: f32,
+    angle_mismatch: Option<f32>,
+}
+
+impl From<Found> for ClosedRow {
+    /// Without looking for contacts.
+    fn from(found: Found) -> Self {
+        Self {
+            found,
+            ..Self::default()
+        }
+    }
 }
 
 /// A ball as the closed form takes it.
@@ -73,10 +83,10 @@ pub fn row(given: &Row, design: &BallScrew, ways: Ways) -> Option<ClosedRow> {
     if !(load_mismatch <= LARGEST_LOAD_MISMATCH && angle_mismatch <= LARGEST_ANGLE_MISMATCH) {
         return None;
     }
-    run(&row, design, &states, ways).map(|answer| ClosedRow {
-        load_mismatch,
-        angle_mismatch,
-        ..answer
+    Some(ClosedRow {
+        found: run(&row, design, &states, ways)?,
+        load_mismatch: Some(load_mismatch),
+        angle_mismatch: Some(angle_mismatch),
     })
 }
 
@@ -106,7 +116,7 @@ fn run(
         friction,
         nut_speed,
     }: Ways,
-) -> Option<ClosedRow> {
+) -> Option<Found> {
     let count = states.len();
     let mean = states.iter().map(|state| state.axial_load).sum::<f32>() / count as f32;
     let tick = row.at(nut_speed, mean);
@@ -142,15 +152,10 @@ fn run(
         .sum();
     let rubbing = tick.rubbing() * force + tick.rubbing_slope() * speed * power;
     let torque = balls.groove_torque(&sums) + 2.0 * friction * rubbing;
-    Some(ClosedRow {
-        orbital_speed,
-        contact_force: forces
-            .iter()
-            .take(count - 1)
-            .map(|&force| force.into())
-            .collect(),
-        power_loss: f64::from(nut_speed.abs()) * f64::from(torque),
-        load_mismatch: 0.0,
-        angle_mismatch: 0.0,
+    let pressing = forces.iter().take(count - 1);
+    Some(Found {
+        orbital_speed: Some(orbital_speed),
+        contact_force: Some(pressing.map(|&force| force.into()).collect()),
+        power_loss: Some(f64::from(nut_speed.abs()) * f64::from(torque)),
     })
 }

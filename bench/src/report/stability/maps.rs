@@ -10,7 +10,7 @@ use crate::document::Cell;
 use crate::eval;
 use crate::plot::{Axis, ColourMap, Colours, Panel};
 use crate::report::statistics::Errors;
-use crate::study::{FRICTION, TRACK, turned_ball};
+use crate::study::turned_ball;
 
 /// One formula over two of its inputs.
 pub struct Map {
@@ -183,57 +183,12 @@ fn linear(balls: impl IntoIterator<Item = (f64, f64)>) -> String {
     )
 }
 
-/// Balls of Lin 2019, Table 3.6, under SR and NL with a third contact at SL; the screw's groove deviates.
-pub fn screw(load: f64, third: f64, degrees: impl IntoIterator<Item = f64>) -> String {
-    let head = request(
-        "ball_screw_train",
-        &[
-            ("pitch_radius", TRACK.pitch_radius),
-            ("lead", TRACK.lead),
-            ("ball_radius", TRACK.ball_radius),
-            ("groove_radius", 3.254e-3),
-            ("youngs_modulus", 2.1e11),
-            ("poisson_ratio", 0.28),
-            ("friction", FRICTION),
-            ("nut_speed", 1.0),
-        ],
-    );
-    let contact = |name: &str, load: f64, angle: f64| {
-        format!(
-            "\"{name}\":{{\"load\":{},\"contact_angle\":{}}}",
-            exact(load),
-            exact(angle)
-        )
-    };
-    let balls: Vec<_> = degrees
-        .into_iter()
-        .map(|degrees| {
-            let turn = degrees.to_radians();
-            format!(
-                "{{\"contacts\":{{{},{},{}}}}}",
-                contact("SL", third * load, FRAC_PI_4 - turn),
-                contact("SR", load, FRAC_PI_4 + turn),
-                contact("NL", load, FRAC_PI_4),
-            )
-        })
-        .collect();
-    format!(
-        "{},\"balls\":[{}]}}",
-        head.trim_end_matches('}'),
-        balls.join(",")
-    )
-}
-
 fn power(exponent: f64) -> f64 {
     10f64.powf(exponent)
 }
 
-/// Largest load of the third contact of [`screw`]'s maps over that of the main ones, and the least: below it
-/// that contact slides, see the next part of the section.
-const HELD: (f64, f64) = (-1.2, 0.0);
-
 /// Every map.
-pub const MAPS: [Map; 21] = [
+pub const MAPS: [Map; 18] = [
     Map {
         title: "first curvature of the nut, over the second",
         x: ("contact angle (deg)", 0.0, 90.0),
@@ -422,15 +377,6 @@ pub const MAPS: [Map; 21] = [
         ..PLAIN
     },
     Map {
-        title: "speed of a linear ball, refined, over v/2",
-        x: ("side force over normal force", -1.0, 1.0),
-        y: ("deviation (deg)", -3.0, 3.0),
-        request: |side, degrees| linear([(degrees, side)]),
-        value: ("/refined/speed_deviation/0", "/speed_deviation/0"),
-        promise: Some(&promises::FOUR_POINT_BALL),
-        ..PLAIN
-    },
-    Map {
         title: "force between the rear two of a row of linear balls, relative",
         x: ("balls", 2.0, 64.0),
         y: ("deviation (deg)", 0.5, 3.0),
@@ -442,31 +388,9 @@ pub const MAPS: [Map; 21] = [
                 (degrees, 0.6 * (2.0 * place - 1.0))
             }))
         },
-        value: ("/refined/contact_force/0", "/contact_force/0"),
+        value: ("/scene/contact_force/0", "/contact_force/0"),
         over: Some("/contact_force/0"),
         fineness: 0.25,
-        ..PLAIN
-    },
-    Map {
-        title: "orbital speed of a ball in the screw, over the nut's",
-        x: (
-            "log10 of the third contact's load over the others",
-            HELD.0,
-            HELD.1,
-        ),
-        y: ("deviation (deg)", -3.0, 3.0),
-        request: |third, degrees| screw(70.0, power(third), [degrees]),
-        value: ("/orbital_speed/0", "/orbital_speed/0"),
-        fineness: 0.5,
-        ..PLAIN
-    },
-    Map {
-        title: "force between two balls in the screw, N",
-        x: ("log10 of the load of a contact (N)", 0.0, 2.5),
-        y: ("difference of the deviations (deg)", 0.0, 3.0),
-        request: |load, degrees| screw(power(load), 0.2, [0.0, degrees]),
-        value: ("/contact_force/0", "/contact_force/0"),
-        fineness: 0.5,
         ..PLAIN
     },
 ];

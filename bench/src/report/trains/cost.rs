@@ -88,18 +88,6 @@ fn printed_times(context: &Context) -> Result<Table, Failure> {
         5.54e-3,
     );
     row(
-        "linear bearing, 1 warm step with friction between balls, f32",
-        time("pair_warm_step")?,
-        "numerical model, Table 3.5",
-        0.74,
-    );
-    row(
-        "linear bearing, start and 3 steps, f32",
-        time("pair_cold_3")?,
-        "numerical model, Table 3.5",
-        0.74,
-    );
-    row(
         "linear bearing, reference, f64",
         exact,
         "numerical model, Table 3.5",
@@ -109,24 +97,6 @@ fn printed_times(context: &Context) -> Result<Table, Failure> {
     row(
         "ball screw, closed form, f32",
         time("screw_row_pair")?,
-        SCREW,
-        15.0,
-    );
-    row(
-        "ball screw, closed form of given contacts, f32",
-        time("screw_closed_pair")?,
-        SCREW,
-        15.0,
-    );
-    row(
-        "ball screw, 1 warm impedance step, f32",
-        time("screw_warm_pair")?,
-        SCREW,
-        15.0,
-    );
-    row(
-        "ball screw, start and 3 impedance steps, f32",
-        time("screw_cold_pair")?,
         SCREW,
         15.0,
     );
