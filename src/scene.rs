@@ -7,6 +7,7 @@
 //! | | what it is | links |
 //! |---|---|---|
 //! | [`CagedBallScrew`] | balls that do not touch | [`ball`](crate::ball), [`contact`](crate::contact); [`hertz`](crate::hertz) and [`efficiency`](crate::efficiency) at set-up |
+//! | [`FoldedScrew`] | the same by a law that was solved on a host | [`ball::folded`](crate::ball::folded) |
 //! | [`UncagedBallScrew`] | balls that press on each other | [`ball`](crate::ball), [`contact`](crate::contact), [`train`](crate::train); [`hertz`](crate::hertz) at set-up |
 //! | [`LinearBearingTrain`] | four-point linear bearing, balls that press on each other | [`ball`](crate::ball), [`train`](crate::train); [`contact`](crate::contact) and [`hertz`](crate::hertz) at set-up |
 //! | [`WithMemory`] | any of them, with friction that remembers | [`law`](crate::law) beside it |
@@ -20,6 +21,7 @@ mod changing;
 pub(crate) mod circuit;
 mod contract;
 mod faults;
+mod folded;
 pub(crate) mod linear;
 mod memory;
 mod outputs;
@@ -37,6 +39,7 @@ pub use changing::{ChangingClearance, ChangingFriction};
 pub use circuit::{CircuitState, DeviationMap, HIGHEST_ORDER, Harmonic, LARGEST_DEVIATION};
 pub use contract::{Admitted, Inputs, Limits, Regime, Scene, SceneOutputs};
 pub use faults::Faults;
+pub use folded::{FoldedScrew, FoldedScrewConfiguration, FoldedScrewConstants, FoldedScrewState};
 pub use linear::{
     LinearBearingConfiguration, LinearBearingTrain, LinearConstants, LinearFull, LinearInputs,
     LinearLimits, LinearState,

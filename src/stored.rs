@@ -31,6 +31,7 @@ mod refusal;
 
 pub(crate) use block::{Block, OVERHEAD};
 pub use block::{Label, VERSION};
+pub(crate) use checksum::crc32_of_words;
 pub use checksum::{Fingerprint, Fingerprinted, crc32};
 pub use port::{Port, Stored};
 pub use refusal::Refusal;

@@ -41,6 +41,22 @@ fn continued(state: u32, bytes: &[u8]) -> u32 {
         .fold(state, |rest, &byte| half(half(rest ^ u32::from(byte))))
 }
 
+/// The same of words, each with its least significant byte first; for constants too.
+pub(crate) const fn crc32_of_words(words: &[u32]) -> u32 {
+    let mut rest = u32::MAX;
+    let mut number = 0;
+    while number < words.len() {
+        rest ^= words[number];
+        let mut nibble = 0;
+        while nibble < 8 {
+            rest = (rest >> 4) ^ NIBBLES[(rest & 15) as usize];
+            nibble += 1;
+        }
+        number += 1;
+    }
+    !rest
+}
+
 /// Checksum of the constants that a state is read with, number by number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]

@@ -1,0 +1,69 @@
+//! Folds every catalogue size, steering size and published design over friction coefficients and clearances, and prints the errors of each
+//! block: `cargo run --release -p epas-design --example sweep [range]`.
+
+use epas_design::{CagedFold, Failure};
+use epas_friction::geometry::{FINE_LEAD_SIZES, STEERING_SIZES};
+use epas_friction::{
+    BallScrew, BallScrewParameters, CATALOGUE, CagedBallScrewConfiguration, Clearance,
+    DISSERTATION_DESIGNS, Error, FrictionBranch, Limits, defaults,
+};
+
+const CLEARANCES: [f32; 7] = [-5e-6, -1e-6, 0.0, 2e-6, 5e-6, 10e-6, 20e-6];
+const FRICTIONS: [f32; 3] = [0.05, 0.1, 0.15];
+
+fn fold(parameters: BallScrewParameters, clearance: f32, friction: f32) -> Result<CagedFold, Error> {
+    let design = BallScrew::new(parameters)?;
+    Ok(CagedFold::of(CagedBallScrewConfiguration {
+        design,
+        friction,
+        rolling_resistance: defaults::ROLLING_RESISTANCE,
+        rolling_tangent: 0.0,
+        branch: FrictionBranch::Contacts,
+        clearance: Clearance::new(clearance)?.checked(&design)?,
+        loaded_balls: 37,
+        reversal_speed: 0.5,
+        limits: Limits {
+            nut_speed: 1e3,
+            axial_load: 1e5,
+            friction_torque: 100.0,
+        },
+    }))
+}
+
+fn main() -> Result<(), Failure> {
+    let range = std::env::args().any(|argument| argument == "range");
+    let sizes = CATALOGUE.iter().chain(&FINE_LEAD_SIZES).chain(&STEERING_SIZES);
+    let sizes = sizes.map(|size| (size.name, size.parameters()));
+    let designs = DISSERTATION_DESIGNS.iter().map(|design| (design.name, design.parameters));
+    let (mut blocks, mut largest, mut squares, mut seconds) = (0, 0.0_f64, 0.0, 0.0_f64);
+    for (name, parameters) in sizes.chain(designs) {
+        for clearance in CLEARANCES {
+            for friction in if range { &FRICTIONS[1..2] } else { &FRICTIONS[..] } {
+                let mut fold = fold(parameters, clearance, *friction)?;
+                fold.friction = range.then_some([0.05, 0.15]);
+                match fold.folded() {
+                    Ok(folded) => {
+                        let [torque] = &folded.certificate.figures;
+                        blocks += 1;
+                        largest = largest.max(torque.largest);
+                        squares += torque.rms.powi(2);
+                        seconds = seconds.max(folded.seconds);
+                        if torque.largest > 6e-3 || torque.rms > 2e-3 || torque.unsolved > 0 || torque.flagged > 0.0 {
+                            println!(
+                                "{name}, {:.0} um, {friction}: largest {:.2e} at {:.2} N, {:.3}; rms {:.2e}, mean {:.1e}, unsolved {}, flagged {}, {:.2} s",
+                                1e6 * clearance, torque.largest, torque.worst_load, torque.worst_friction, torque.rms, torque.mean,
+                                torque.unsolved, torque.flagged, folded.seconds
+                            );
+                        }
+                    }
+                    Err(failure) => println!("{name}, {:.0} um, {friction}: {failure}", 1e6 * clearance),
+                }
+            }
+        }
+    }
+    println!(
+        "{blocks} blocks: largest {largest:.2e}, rms of rms {:.2e}, slowest {seconds:.2} s",
+        (squares / f64::from(blocks)).sqrt()
+    );
+    Ok(())
+}

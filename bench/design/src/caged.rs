@@ -1,0 +1,368 @@
+//! From a design to the law of one ball over its load.
+
+use std::time::Instant;
+
+use epas_friction::ball::folded::{FrictionNode, LoadLaw, octaves};
+use epas_friction::scene::FoldedScrewConfiguration;
+use epas_friction::{CagedBallScrewConfiguration, CagedConstants, FrictionBranch};
+use epas_reference::curvature::Groove;
+use epas_reference::design::BallScrewDesign;
+use epas_reference::friction::caged_ball::CagedBall;
+use epas_reference::friction::patch::Integration;
+use epas_reference::friction::rolling_resistance::RollingResistance;
+use rayon::prelude::*;
+use sha2::{Digest, Sha256};
+
+use crate::Failure;
+use crate::certificate::Certificate;
+use crate::curve::{Sample, fitted};
+use crate::drawing::drawing;
+
+/// Loads of one ball for which a law holds where nothing else is asked, N.
+pub const AXIAL_LOAD: [f32; 2] = [5.0, 300.0];
+
+/// Nodes of a range of friction coefficients.
+pub const NODES: usize = 5;
+
+/// Loads that are solved for a curve: in the domain, and below it.
+const LOADS: usize = 400;
+const LOADS_BELOW: usize = 80;
+
+/// How far below the least load a curve is fitted, as a factor, and the weight of its errors there: a torque that small matters less.
+const BELOW: f64 = 100.0;
+const WEIGHT_BELOW: f64 = 0.25;
+
+/// How far above the largest load a node among several is fitted, octaves: as far as its regimes are shifted.
+const SHIFT: f64 = 1.5;
+
+/// A largest error of the torque from which on a domain is not held.
+const LARGEST_ERROR: f64 = 0.02;
+
+/// States that may be left without an exact answer, as a share.
+const UNSOLVED: f64 = 0.01;
+
+/// A design to be folded.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CagedFold {
+    /// Geometry, clearance, friction coefficient, rolling resistance, balls, limits.
+    pub configuration: CagedBallScrewConfiguration,
+    /// Least and largest friction coefficient for which the law holds, where it is more than one: 1e-3 to 0.5.
+    pub friction: Option<[f32; 2]>,
+    /// Least and largest axial load of one ball for which the law holds, N, 0.01 to 1e5.
+    pub axial_load: [f32; 2],
+    /// Seed of the states of the certificate.
+    pub seed: u64,
+}
+
+/// A folded design.
+#[derive(Clone, Debug)]
+pub struct Folded {
+    /// What was folded.
+    pub fold: CagedFold,
+    /// The block.
+    pub block: Block,
+    /// Its errors.
+    pub certificate: Certificate,
+    /// Digest of all inputs: the first eight bytes of their SHA-256.
+    pub digest: u64,
+    /// Time that it took, s.
+    pub seconds: f64,
+}
+
+/// A block, by its number of friction coefficients.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Block {
+    /// One friction coefficient.
+    One(FoldedScrewConfiguration<1>),
+    /// A range of them.
+    Range(FoldedScrewConfiguration<NODES>),
+}
+
+/// The exact ball of a design.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Exact {
+    design: BallScrewDesign,
+    clearance: f64,
+    rolling: RollingResistance,
+    /// Axial load of a ball at which the unloaded side lifts off, N.
+    pub lift_off: f64,
+}
+
+impl CagedFold {
+    /// A design with the friction coefficient that it has, for loads of 5 to 300 N a ball.
+    #[must_use]
+    pub const fn of(configuration: CagedBallScrewConfiguration) -> Self {
+        Self {
+            configuration,
+            friction: None,
+            axial_load: AXIAL_LOAD,
+            seed: 1,
+        }
+    }
+
+    /// Folds it, and measures the block's errors.
+    ///
+    /// # Errors
+    /// [`Failure`] naming a number out of range, or with the reason why the domain cannot be held.
+    pub fn folded(&self) -> Result<Folded, Failure> {
+        self.folded_with(&|_| ())
+    }
+
+    /// The same; `progress` is told the share that is done, rising from 0 to 1.
+    ///
+    /// # Errors
+    /// As [`Self::folded`].
+    pub fn folded_with(&self, progress: &(dyn Fn(f64) + Sync)) -> Result<Folded, Failure> {
+        let begun = Instant::now();
+        self.check()?;
+        let exact = self.exact()?;
+        progress(0.0);
+        let block = match self.friction {
+            None => Block::One(self.configured(self.law(&exact, [self.configuration.friction])?)),
+            Some([least, largest]) => {
+                let ratio = f64::from(largest) / f64::from(least);
+                let nodes = std::array::from_fn(|node| {
+                    let share = node as f64 / (NODES - 1) as f64;
+                    (f64::from(least) * ratio.powf(share)) as f32
+                });
+                Block::Range(self.configured(self.law::<NODES>(&exact, nodes)?))
+            }
+        };
+        progress(0.5);
+        let certificate = match &block {
+            Block::One(block) => Certificate::of(self, &exact, block),
+            Block::Range(block) => Certificate::of(self, &exact, block),
+        }?;
+        progress(1.0);
+        let [torque] = &certificate.figures;
+        if torque.largest > LARGEST_ERROR {
+            return Err(Failure::Domain(format!(
+                "the torque over the load is held to {:.1} % only, largest at {:.3} N a ball, friction coefficient {:.4}; narrow the \
+                 domain there",
+                100.0 * torque.largest,
+                torque.worst_load,
+                torque.worst_friction,
+            )));
+        }
+        Ok(Folded {
+            fold: *self,
+            block,
+            certificate,
+            digest: self.digest(),
+            seconds: begun.elapsed().as_secs_f64(),
+        })
+    }
+
+    fn check(&self) -> Result<(), Failure> {
+        let configuration = &self.configuration;
+        if configuration.branch != FrictionBranch::Contacts {
+            return Err(Failure::Domain(
+                "a closed form (branch rolling or sliding) needs no fold".into(),
+            ));
+        }
+        CagedConstants::new(configuration)?;
+        let within = |field: &str, value: f32, low: f32, high: f32| {
+            if value >= low && value <= high {
+                Ok(())
+            } else {
+                Err(Failure::Domain(format!(
+                    "{field} = {value} is out of range; allowed: {low} to {high}"
+                )))
+            }
+        };
+        let [least, most] = self.axial_load;
+        within("axial_load", least, 0.01, 1e5)?;
+        within("axial_load", most, 1.1 * least, 1e5)?;
+        if let Some([least, largest]) = self.friction {
+            within("friction", least, 1e-3, 0.5)?;
+            within("friction", largest, 1.1 * least, 0.5)?;
+            within("friction", configuration.friction, least, largest)?;
+        } else {
+            within("friction", configuration.friction, 1e-3, 0.5)?;
+        }
+        Ok(())
+    }
+
+    fn exact(&self) -> Result<Exact, Failure> {
+        let CagedBallScrewConfiguration {
+            design,
+            clearance,
+            rolling_resistance,
+            ..
+        } = &self.configuration;
+        let design = drawing(design.parameters());
+        let clearance = f64::from(clearance.gap());
+        let deflection =
+            design.contact(Groove::Screw)?.deflection + design.contact(Groove::Nut)?.deflection;
+        let preload = (-2.0 * clearance / deflection).max(0.0).powf(1.5);
+        let per_normal = design.contact_angle.sin() * design.lead_angle().cos();
+        Ok(Exact {
+            design,
+            clearance,
+            rolling: RollingResistance {
+                hysteresis_loss: rolling_resistance.hysteresis_loss.into(),
+                lubricant_drag: rolling_resistance.lubricant_drag.into(),
+            },
+            lift_off: 8f64.sqrt() * preload * per_normal,
+        })
+    }
+
+    fn configured<const N: usize>(&self, law: LoadLaw<N>) -> FoldedScrewConfiguration<N> {
+        let CagedBallScrewConfiguration {
+            design,
+            friction,
+            loaded_balls,
+            reversal_speed,
+            limits,
+            ..
+        } = self.configuration;
+        let (least, largest) = law.friction_range();
+        FoldedScrewConfiguration {
+            friction: friction.clamp(least, largest),
+            lead: design.lead(),
+            loaded_balls,
+            reversal_speed,
+            limits,
+            law,
+        }
+    }
+
+    fn law<const N: usize>(
+        &self,
+        exact: &Exact,
+        frictions: [f32; N],
+    ) -> Result<LoadLaw<N>, Failure> {
+        let [least, most] = self.axial_load.map(f64::from);
+        let top = if N == 1 { most } else { most * SHIFT.exp2() };
+        let loads = loads(least, top);
+        let solved = frictions
+            .par_iter()
+            .flat_map(|&friction| [(friction, 1.0), (friction, -1.0)])
+            .map(|(friction, side)| exact.samples(friction, side, &loads, least))
+            .collect::<Result<Vec<_>, Failure>>()?;
+        let curves = solved
+            .par_iter()
+            .map(|samples| Ok(fitted(samples)?.0))
+            .collect::<Result<Vec<_>, Failure>>()?;
+        let mut nodes: [FrictionNode; N] = std::array::from_fn(|node| FrictionNode {
+            friction: frictions[node],
+            curves: [curves[2 * node], curves[2 * node + 1]],
+            shift: [0.0; 2],
+        });
+        for node in 1..N {
+            for (branch, side) in [1.0, -1.0].into_iter().enumerate() {
+                let [low, high] = [node - 1, node].map(|node| &solved[2 * node + branch][..]);
+                let friction = (f64::from(frictions[node - 1]) * f64::from(frictions[node])).sqrt();
+                let middle = exact.samples(friction as f32, side, &loads, least)?;
+                nodes[node - 1].shift[branch] = aligned(low, &middle, high) as f32;
+            }
+        }
+        let end = |load: f64| octaves((load + exact.lift_off) as f32);
+        Ok(LoadLaw {
+            nodes,
+            ends: [end(least / BELOW), end(most)],
+            lift_off: exact.lift_off as f32,
+        })
+    }
+
+    /// The first eight bytes of the SHA-256 of all inputs.
+    fn digest(&self) -> u64 {
+        let text = format!("{self:?}");
+        let bytes = Sha256::digest(text.as_bytes());
+        bytes
+            .iter()
+            .take(8)
+            .fold(0, |digest, &byte| digest << 8 | u64::from(byte))
+    }
+}
+
+impl Exact {
+    /// The ball with a friction coefficient.
+    pub fn ball(&self, friction: f32) -> CagedBall {
+        CagedBall {
+            design: self.design,
+            clearance: self.clearance,
+            friction: friction.into(),
+            rolling: self.rolling,
+            integration: Integration::Full,
+        }
+    }
+
+    /// Torque over load and friction coefficient under falling loads, at rising octaves; loads without an answer are left out.
+    fn samples(
+        &self,
+        friction: f32,
+        side: f64,
+        loads: &[f64],
+        least: f64,
+    ) -> Result<Vec<Sample>, Failure> {
+        let signed: Vec<f64> = loads.iter().map(|load| side * load).collect();
+        let solved = self.ball(friction).along(&signed)?;
+        let unsolved = solved.iter().filter(|found| found.is_err()).count();
+        if unsolved as f64 > UNSOLVED * loads.len() as f64 {
+            return Err(Failure::Domain(format!(
+                "the exact balance of a ball is not found under {unsolved} of {} loads, friction coefficient {friction}",
+                loads.len()
+            )));
+        }
+        let mut samples: Vec<Sample> = solved
+            .into_iter()
+            .flatten()
+            .map(|found| {
+                let load = found.axial_load.abs();
+                let whole = load + self.lift_off;
+                Sample {
+                    // What the step computes of it.
+                    at: octaves(whole as f32).into(),
+                    value: found.torque / (whole * f64::from(friction)),
+                    weight: if load < least { WEIGHT_BELOW } else { 1.0 },
+                }
+            })
+            .collect();
+        samples.reverse();
+        samples.dedup_by(|later, earlier| later.at <= earlier.at);
+        Ok(samples)
+    }
+}
+
+/// Loads from the largest to a [`BELOW`]th of the least.
+fn loads(least: f64, most: f64) -> Vec<f64> {
+    let part = |from: f64, to: f64, count: usize| {
+        (0..count).map(move |step| from * (to / from).powf(step as f64 / count as f64))
+    };
+    part(most, least, LOADS)
+        .chain(part(least, least / BELOW, LOADS_BELOW))
+        .chain([least / BELOW])
+        .collect()
+}
+
+/// The shift in octaves with which the middle of two nodes is best met by the nodes moved towards each other by half of it.
+fn aligned(low: &[Sample], middle: &[Sample], high: &[Sample]) -> f64 {
+    let at = |samples: &[Sample], place: f64| {
+        let above = samples.partition_point(|sample| sample.at < place);
+        let [below, above] = [above.saturating_sub(1), above.min(samples.len() - 1)]
+            .map(|number| samples[number]);
+        if above.at > below.at {
+            let share = ((place - below.at) / (above.at - below.at)).clamp(0.0, 1.0);
+            below.value + share * (above.value - below.value)
+        } else {
+            below.value
+        }
+    };
+    let error = |shift: f64| -> f64 {
+        middle
+            .iter()
+            .filter(|sample| sample.weight == 1.0)
+            .map(|sample| {
+                let blended =
+                    0.5 * (at(low, sample.at - 0.5 * shift) + at(high, sample.at + 0.5 * shift));
+                (blended / sample.value - 1.0).powi(2)
+            })
+            .sum()
+    };
+    let steps = 240;
+    (-steps..=steps)
+        .map(|step| 2.0 * SHIFT * f64::from(step) / f64::from(steps))
+        .min_by(|a, b| error(*a).total_cmp(&error(*b)))
+        .unwrap_or(0.0)
+}

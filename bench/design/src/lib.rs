@@ -1,0 +1,39 @@
+//! Solves a ball screw once, on a host, and folds what depends on its drawing alone into constants for the control interrupt.
+//!
+//! ```text
+//! design, clearance, friction coefficient -> exact ball (epas-reference, float64) -> curves over the load -> block + certificate
+//! ```
+//!
+//! [`CagedFold`] takes a design and gives a [`Folded`] block: the constants of an
+//! [`epas_friction::scene::FoldedScrew`], and the error of every torque that it puts out, against the exact solver, on states that were not
+//! fitted. The same inputs give the same bits.
+//!
+//! In a `build.rs`:
+//!
+//! ```no_run
+//! # use epas_design::{CagedFold, Failure};
+//! # use epas_friction::CagedBallScrewConfiguration;
+//! # fn gear() -> CagedBallScrewConfiguration { unimplemented!() }
+//! fn main() -> Result<(), Failure> {
+//!     CagedFold::of(gear()).folded()?.write_rust("GEAR", &std::env::var("OUT_DIR").unwrap())
+//! }
+//! ```
+//!
+//! | module | what |
+//! |---|---|
+//! | [`caged`] | from a design to the law of a ball over its load |
+//! | [`curve`] | piecewise cubics of least largest error |
+//! | [`certificate`] | errors of a folded block on states that were not fitted |
+//! | [`output`] | a block as Rust, C, TOML and bytes |
+//! | [`drawing`] | a design of the crate as one of the reference |
+
+pub mod caged;
+pub mod certificate;
+pub mod curve;
+pub mod drawing;
+mod failure;
+pub mod output;
+
+pub use caged::{CagedFold, Folded};
+pub use certificate::{Certificate, Figure};
+pub use failure::Failure;

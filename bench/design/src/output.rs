@@ -1,0 +1,1 @@
+//! A block as Rust, C, TOML and bytes.

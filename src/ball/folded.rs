@@ -1,0 +1,308 @@
+//! The law of one ball, solved on a host and folded into constants: friction torque over its load.
+//!
+//! The control interrupt evaluates it: one logarithm, one search among eight parts, one cubic. Nothing is solved and nothing settles.
+
+use crate::error::{Error, attempt, in_range};
+use crate::ranges;
+
+/// Parts of a [`LoadCurve`].
+pub const PARTS: usize = 8;
+
+/// Exponent's bias and mantissa's bits of an `f32`.
+const BIAS: u32 = 127;
+const MANTISSA: u32 = 23;
+
+/// Change of a friction coefficient, over it, that counts as none: roundings of what computed it.
+const SAME_FRICTION: f32 = 1e-3;
+
+/// Coefficients of `log2(1 + m)` by the powers 1 to 4 of `m`: value and slope are continuous where the exponent changes (they add up to 1, and
+/// the slope at 0 is twice that at 1); the two that this leaves free are those of the least error.
+const LOGARITHM: [f32; 4] = [1.438_308_4, -0.674_842_3, 0.315_605_3, -0.079_071_4];
+
+/// Logarithm of a positive number to the base 2, plus 127, within 1.3e-4: the biased exponent and a polynomial of the mantissa.
+///
+/// Value and slope are continuous, so that a curve over it has no kinks of its own. 0 gives 0.
+#[inline(always)]
+#[must_use]
+pub const fn octaves(number: f32) -> f32 {
+    let bits = number.to_bits();
+    let mantissa = f32::from_bits(bits & ((1 << MANTISSA) - 1) | (BIAS << MANTISSA)) - 1.0;
+    let [a, b, c, d] = LOGARITHM;
+    (bits >> MANTISSA) as f32 + mantissa * (a + mantissa * (b + mantissa * (c + mantissa * d)))
+}
+
+/// A function of the [`octaves`] of a load: a cubic in each part.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct LoadCurve {
+    /// Where each part begins, octaves, rising; parts that are not needed begin at `f32::MAX`. The first begins where the curve does.
+    pub starts: [f32; PARTS],
+    /// Coefficients of the powers 0 to 3 of the octaves above the part's begin.
+    pub cubics: [[f32; 4]; PARTS],
+}
+
+impl LoadCurve {
+    /// The curve's value.
+    #[inline(always)]
+    pub(crate) const fn at(&self, octaves: f32) -> f32 {
+        let mut part = 0;
+        let mut step = PARTS / 2;
+        while step > 0 {
+            // The mask tells the compiler what the halving ensures: the index is one of an array.
+            if octaves >= self.starts[(part + step) % PARTS] {
+                part += step;
+            }
+            step /= 2;
+        }
+        let [a, b, c, d] = self.cubics[part % PARTS];
+        let along = octaves - self.starts[part % PARTS];
+        a + along * (b + along * (c + along * d))
+    }
+
+    /// Refuses numbers that are no curve.
+    const fn checked(self) -> Result<Self, Error> {
+        let mut part = 0;
+        while part < PARTS {
+            let least = if part == 0 { 0.0 } else { self.starts[part - 1] };
+            attempt!(in_range("starts", self.starts[part], least, f32::MAX));
+            let [a, b, c, d] = self.cubics[part];
+            attempt!(in_range("cubics", a, 0.0, 1e9));
+            attempt!(in_range("cubics", b, -1e9, 1e9));
+            attempt!(in_range("cubics", c, -1e9, 1e9));
+            attempt!(in_range("cubics", d, -1e9, 1e9));
+            part += 1;
+        }
+        Ok(self)
+    }
+}
+
+/// The curves for one friction coefficient.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct FrictionNode {
+    /// Friction coefficient of ball and groove, 1e-6 to 0.5.
+    pub friction: f32,
+    /// Friction torque over load and friction coefficient, m, under a load that opposes the motion and under one that assists it.
+    pub curves: [LoadCurve; 2],
+    /// Octaves by which the regimes of the contacts lie higher at the next node's friction coefficient, of both curves, -30 to 30; 0 of the
+    /// last node.
+    pub shift: [f32; 2],
+}
+
+/// Friction torque of one ball over its load, for `NODES` friction coefficients: what `epas-design` folds and a scene evaluates.
+///
+/// ```text
+/// T = mu W [(1 - t) c_k(x - t d) + t c_(k+1)(x + (1 - t) d)],    W = |F| + F_0,    x = octaves of W
+/// ```
+///
+/// with the axial load `F` of the ball, the lift-off load `F_0` of its preload, the curves `c` of the two nodes around the friction coefficient
+/// `mu`, its place `t` between them (0 to 1, by octaves), and the shift `d` that aligns the loads at which a contact begins to carry.
+/// Below the least load the torque is in proportion to `W`.
+///
+/// Accuracy: that of the block's certificate. Cost: part of [`STEP_FOLDED`](crate::promises::STEP_FOLDED).
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct LoadLaw<const NODES: usize> {
+    /// Nodes by rising friction coefficient.
+    pub nodes: [FrictionNode; NODES],
+    /// Least and largest [`octaves`] of `W`.
+    pub ends: [f32; 2],
+    /// Axial load of one ball at which the preload's unloaded side lifts off, N, 0 to 1e7; 0 without a preload.
+    pub lift_off: f32,
+}
+
+/// A friction coefficient between the nodes of a law.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct FrictionPlace {
+    friction: f32,
+    /// The node below it, and its share of the way to the next, 0 to 1.
+    node: u32,
+    share: f32,
+}
+
+impl<const NODES: usize> LoadLaw<NODES> {
+    /// Refuses numbers that are no law.
+    ///
+    /// # Errors
+    /// [`Error`] naming `friction`, `starts`, `cubics`, `shift`, `ends` or `lift_off`.
+    pub(crate) const fn checked(self) -> Result<Self, Error> {
+        const { assert!(NODES > 0) };
+        let [least, most] = self.ends;
+        attempt!(in_range("ends", least, 1.0, 254.0));
+        attempt!(in_range("ends", most, least, 254.0));
+        attempt!(in_range("lift_off", self.lift_off, 0.0, 1e7));
+        let mut number = 0;
+        while number < NODES {
+            let FrictionNode {
+                friction,
+                curves: [drive, backdrive],
+                shift: [forward, backward],
+            } = self.nodes[number];
+            attempt!(ranges::FRICTION_OF_A_ROW.checked("friction", friction));
+            if number > 0 {
+                let least = 1.01 * self.nodes[number - 1].friction;
+                attempt!(in_range("friction", friction, least, 0.5));
+            }
+            attempt!(drive.checked());
+            attempt!(backdrive.checked());
+            attempt!(in_range("shift", forward, -30.0, 30.0));
+            attempt!(in_range("shift", backward, -30.0, 30.0));
+            number += 1;
+        }
+        Ok(self)
+    }
+
+    /// Least and largest friction coefficient.
+    #[must_use]
+    pub const fn friction_range(&self) -> (f32, f32) {
+        (self.nodes[0].friction, self.nodes[NODES - 1].friction)
+    }
+
+    /// Whether a friction coefficient is one of those that the law is folded for.
+    #[inline(always)]
+    pub(crate) const fn holds(&self, friction: f32) -> bool {
+        let (least, largest) = self.friction_range();
+        friction >= (1.0 - SAME_FRICTION) * least && friction <= (1.0 + SAME_FRICTION) * largest
+    }
+
+    /// The place of a friction coefficient. Beyond the outermost nodes the torque is in proportion to it.
+    #[inline(always)]
+    pub(crate) const fn place(&self, friction: f32) -> FrictionPlace {
+        let mut place = FrictionPlace {
+            friction,
+            node: 0,
+            share: 0.0,
+        };
+        let mut number = 1;
+        while number < NODES {
+            let (low, high) = (
+                self.nodes[number - 1].friction,
+                self.nodes[number].friction,
+            );
+            if friction > low {
+                place.node = (number - 1) as u32;
+                place.share = if friction < high {
+                    (octaves(friction) - octaves(low)) / (octaves(high) - octaves(low))
+                } else {
+                    1.0
+                };
+            }
+            number += 1;
+        }
+        place
+    }
+
+    /// Friction torque of a ball over its load `W`, m, whose octaves these are, within the ends; `branch` 0 under a load that opposes the
+    /// motion, 1 under one that assists it. Never negative.
+    #[inline(always)]
+    pub(crate) const fn torque_over_load(
+        &self,
+        octaves: f32,
+        branch: usize,
+        place: FrictionPlace,
+    ) -> f32 {
+        let below = &self.nodes[place.node as usize % NODES];
+        let value = if NODES == 1 {
+            below.curves[branch & 1].at(octaves)
+        } else {
+            let above = &self.nodes[(place.node as usize + 1) % NODES];
+            let shift = below.shift[branch & 1];
+            let low = below.curves[branch & 1].at(octaves - place.share * shift);
+            let high = above.curves[branch & 1].at(octaves + (1.0 - place.share) * shift);
+            low + place.share * (high - low)
+        };
+        if value > 0.0 {
+            place.friction * value
+        } else {
+            0.0
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Within 1.4e-4 of the logarithm, from the least to the largest normal number.
+    #[test]
+    fn octaves_are_logarithms() {
+        for step in 0..25_300_u16 {
+            let exponent = -126.0 + 0.01 * f64::from(step);
+            let number = libm::exp2(exponent) as f32;
+            let found = f64::from(octaves(number)) - 127.0;
+            assert!((found - exponent).abs() < 1.4e-4, "{exponent}: {found}");
+        }
+    }
+
+    fn curve(of: [f32; 4]) -> LoadCurve {
+        let mut starts = [f32::MAX; PARTS];
+        let mut cubics = [[0.0; 4]; PARTS];
+        for (part, value) in of.iter().enumerate() {
+            starts[part] = 120.0 + 2.0 * part as f32;
+            cubics[part] = [*value, 0.5, 0.0, 0.0];
+        }
+        LoadCurve { starts, cubics }
+    }
+
+    /// Each load meets the part in which it lies, its begin included.
+    #[test]
+    fn a_load_meets_its_part() {
+        let curve = curve([1.0, 2.0, 3.0, 4.0]).checked().unwrap();
+        for (at, expected) in [
+            (120.0, 1.0),
+            (121.0, 1.5),
+            (122.0, 2.0),
+            (123.5, 2.75),
+            (124.0, 3.0),
+            (126.0, 4.0),
+            (140.0, 11.0),
+        ] {
+            assert_eq!(curve.at(at), expected, "{at}");
+        }
+    }
+
+    fn law() -> LoadLaw<2> {
+        let node = |friction, value| FrictionNode {
+            friction,
+            curves: [curve([value; 4]); 2],
+            shift: [0.0; 2],
+        };
+        LoadLaw {
+            nodes: [node(0.05, 1.0), node(0.1, 2.0)],
+            ends: [120.0, 128.0],
+            lift_off: 0.0,
+        }
+    }
+
+    /// At a node the law is that node's; between two it lies between theirs; beyond them it is in proportion.
+    #[test]
+    fn friction_coefficients_lie_between_nodes() {
+        let law = law().checked().unwrap();
+        let over = |friction: f32| law.torque_over_load(120.0, 0, law.place(friction)) / friction;
+        assert_eq!(over(0.05), 1.0);
+        assert_eq!(over(0.1), 2.0);
+        assert_eq!(over(0.03), 1.0);
+        assert_eq!(over(0.2), 2.0);
+        let middle = over(0.071);
+        assert!(middle > 1.4 && middle < 1.6, "{middle}");
+        assert!(law.holds(0.05) && law.holds(0.1) && law.holds(0.071));
+        assert!(!law.holds(0.0499) && !law.holds(0.1002));
+    }
+
+    #[test]
+    fn what_is_no_law_is_refused() {
+        let wrong = |change: fn(&mut LoadLaw<2>)| {
+            let mut law = law();
+            change(&mut law);
+            law.checked().unwrap_err().field()
+        };
+        assert_eq!(wrong(|law| law.nodes[1].friction = 0.05), "friction");
+        assert_eq!(wrong(|law| law.nodes[0].friction = f32::NAN), "friction");
+        assert_eq!(wrong(|law| law.ends[1] = 119.0), "ends");
+        assert_eq!(wrong(|law| law.lift_off = -1.0), "lift_off");
+        assert_eq!(wrong(|law| law.nodes[1].curves[1].starts[2] = 121.0), "starts");
+        assert_eq!(wrong(|law| law.nodes[1].curves[0].cubics[3][0] = -1.0), "cubics");
+        assert_eq!(wrong(|law| law.nodes[0].shift[1] = f32::NAN), "shift");
+    }
+}

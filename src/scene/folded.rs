@@ -1,0 +1,281 @@
+//! A ball screw whose balls do not touch, by a law that was solved on a host: [`epas-design`] folds it, a step evaluates it.
+//!
+//! [`epas-design`]: https://docs.rs/epas-design
+
+mod block;
+
+use super::caged::CagedFull;
+use super::changing::ChangingFriction;
+use super::contract::{Admitted, Inputs, Limits, Regime, Scene};
+use super::faults::Faults;
+use super::outputs::{Outputs, efficiency};
+use super::passage::{Passage, Reversal};
+use super::sliding::{Sliding, SlidingFriction};
+use crate::ball::folded::{FrictionPlace, LoadLaw, octaves};
+use crate::error::{Error, Range, attempt, in_range};
+use crate::law::coefficient::DirectionalCoefficient;
+use crate::ranges;
+
+/// A ball screw whose balls do not touch (caged, or with spacer balls), by the folded law of one ball, for `NODES` friction coefficients.
+///
+/// It starts at once, a step takes the same cycles whatever was set, and nothing settles. Its constants are a block that `epas-design`
+/// writes on a host, with a certificate of its errors: as Rust, C, TOML or bytes. Clearance changes by another block
+/// ([`FrictionModel::swap_constants`](crate::FrictionModel::swap_constants)), the friction coefficient within the block's nodes
+/// ([`FrictionModel::set_friction`](crate::FrictionModel::set_friction)).
+///
+/// A load above the block's largest is computed with the law's end and flagged [`Faults::BEYOND_MODEL`], as is a friction coefficient
+/// beyond its nodes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct FoldedScrew<const NODES: usize = 1>;
+
+/// What the engineer sets for a folded screw; unchecked.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct FoldedScrewConfiguration<const NODES: usize = 1> {
+    /// Law of one ball.
+    pub law: LoadLaw<NODES>,
+    /// Friction coefficient of ball and groove before [`FrictionModel::set_friction`](crate::FrictionModel::set_friction), within the
+    /// law's nodes.
+    pub friction: f32,
+    /// Advance of the nut per turn, m, 0 to 0.2.
+    pub lead: f32,
+    /// Number of balls that carry load, 1 to 1000.
+    pub loaded_balls: u16,
+    /// Nut speed over which friction changes its direction, rad/s, 1e-6 to 1e3: at this speed it has 71 % of its full value.
+    pub reversal_speed: f32,
+    /// Bounds that are kept whatever comes in.
+    pub limits: Limits,
+}
+
+/// Constants of a folded screw: a block that has been checked.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct FoldedScrewConstants<const NODES: usize = 1> {
+    law: LoadLaw<NODES>,
+    /// Place of the configuration's friction coefficient.
+    friction: FrictionPlace,
+    /// 1 over the number of loaded balls; lift-off load of all balls, N.
+    per_ball: f32,
+    lift_off: f32,
+    /// Torque per axial load without friction, `lead / 2 pi`, m.
+    reduced_lead: f32,
+    reversal: Reversal,
+    limits: Limits,
+}
+
+/// What of a folded screw can be set while it runs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct FoldedScrewState {
+    friction: FrictionPlace,
+}
+
+/// A load in the law.
+#[derive(Clone, Copy)]
+struct Loaded {
+    /// Octaves of a ball's load, lift-off counted, within the law's ends.
+    octaves: f32,
+    /// Load of all balls, lift-off counted, N.
+    whole: f32,
+    beyond: bool,
+}
+
+impl<const NODES: usize> FoldedScrewConstants<NODES> {
+    /// Checks a configuration and folds its constants: at set-up, or in a constant when firmware is compiled.
+    ///
+    /// # Errors
+    /// [`Error`] naming the field out of range.
+    pub const fn new(configuration: &FoldedScrewConfiguration<NODES>) -> Result<Self, Error> {
+        let FoldedScrewConfiguration {
+            law,
+            friction,
+            lead,
+            loaded_balls,
+            reversal_speed,
+            limits,
+        } = *configuration;
+        let law = attempt!(law.checked());
+        let (least, largest) = law.friction_range();
+        attempt!(in_range("friction", friction, least, largest));
+        attempt!(in_range("lead", lead, 0.0, 0.2));
+        let balls = attempt!(in_range("loaded_balls", loaded_balls as f32, 1.0, 1e3));
+        Ok(Self {
+            friction: law.place(friction),
+            per_ball: 1.0 / balls,
+            lift_off: balls * law.lift_off,
+            law,
+            reduced_lead: lead / core::f32::consts::TAU,
+            reversal: attempt!(Reversal::new(reversal_speed, 1e-6, 1e3)),
+            limits: attempt!(limits.checked()),
+        })
+    }
+
+    /// Where a load lies.
+    #[inline(always)]
+    fn loaded(&self, axial_load: f32) -> Loaded {
+        let [least, most] = self.law.ends;
+        let whole = axial_load.abs() + self.lift_off;
+        let octaves = octaves(whole * self.per_ball);
+        let beyond = octaves > most;
+        let octaves = if beyond { most } else { octaves };
+        Loaded {
+            octaves: if octaves > least { octaves } else { least },
+            whole,
+            beyond,
+        }
+    }
+
+    /// Friction torque of all balls, N m, not negative, under a load that opposes a motion in this direction where `opposing` is not below 0.
+    #[inline(always)]
+    fn torque(&self, loaded: &Loaded, opposing: f32, place: FrictionPlace) -> f32 {
+        let branch = usize::from(opposing < 0.0);
+        let per_load = self.law.torque_over_load(loaded.octaves, branch, place);
+        loaded.whole * per_load
+    }
+
+    /// What a motion puts out whose full friction is `full`, in the direction of motion and in that of the share.
+    #[inline(always)]
+    fn put_out(
+        &self,
+        axial_load: f32,
+        [full, shared]: [f32; 2],
+        passage: Passage,
+        faults: Faults,
+    ) -> Outputs {
+        let load_torque = axial_load * self.reduced_lead;
+        let opposing = passage.way * load_torque;
+        Outputs {
+            friction_torque: passage.share * shared,
+            load_torque,
+            efficiency: efficiency(opposing > 0.0, opposing, full),
+            regime: Regime::under(passage.standing, opposing, full),
+            faults,
+        }
+    }
+}
+
+impl<const NODES: usize> Scene for FoldedScrew<NODES> {
+    type Configuration = FoldedScrewConfiguration<NODES>;
+    type Constants = FoldedScrewConstants<NODES>;
+    type State = FoldedScrewState;
+    type Inputs = Inputs;
+    type Known = Inputs;
+    type Outputs = Outputs;
+
+    fn constants(
+        configuration: &FoldedScrewConfiguration<NODES>,
+    ) -> Result<FoldedScrewConstants<NODES>, Error> {
+        FoldedScrewConstants::new(configuration)
+    }
+
+    fn initial_state(constants: &FoldedScrewConstants<NODES>) -> FoldedScrewState {
+        FoldedScrewState {
+            friction: constants.friction,
+        }
+    }
+
+    /// The friction coefficient is that of the new constants.
+    fn take_over(
+        constants: &FoldedScrewConstants<NODES>,
+        state: &mut FoldedScrewState,
+    ) -> Result<(), Error> {
+        state.friction = constants.friction;
+        Ok(())
+    }
+
+    #[inline(always)]
+    fn admit(constants: &FoldedScrewConstants<NODES>, inputs: Inputs) -> Admitted<Inputs> {
+        constants.limits.admit(inputs)
+    }
+
+    #[inline(always)]
+    fn outputs(
+        constants: &FoldedScrewConstants<NODES>,
+        state: &mut FoldedScrewState,
+        inputs: Inputs,
+    ) -> Outputs {
+        let passage = constants.reversal.passage(inputs.nut_speed);
+        let loaded = constants.loaded(inputs.axial_load);
+        let opposing = passage.way * inputs.axial_load;
+        let full = constants.torque(&loaded, opposing, state.friction);
+        let faults = Faults::NONE.with(loaded.beyond, Faults::BEYOND_MODEL);
+        constants.put_out(inputs.axial_load, [full, full], passage, faults)
+    }
+
+    #[inline(always)]
+    fn largest_friction(constants: &FoldedScrewConstants<NODES>) -> f32 {
+        constants.limits.friction_torque
+    }
+}
+
+impl<const NODES: usize> Sliding for FoldedScrew<NODES> {
+    const FRICTION: Range = ranges::FRICTION_OF_A_ROW;
+
+    const COUNTS_PRELOAD: bool = true;
+
+    /// The block holds the nodes.
+    type Coefficients = ();
+    type Full = CagedFull;
+
+    fn coefficients(_: &FoldedScrewConstants<NODES>, _: f32, _: f32) {}
+
+    #[inline(always)]
+    fn full(
+        constants: &FoldedScrewConstants<NODES>,
+        _: &mut FoldedScrewState,
+        _: Option<&()>,
+        inputs: Inputs,
+        friction: DirectionalCoefficient,
+    ) -> CagedFull {
+        let DirectionalCoefficient { forward, backward } = friction;
+        let law = &constants.law;
+        let loaded = constants.loaded(inputs.axial_load);
+        let beyond = loaded.beyond || !law.holds(forward) || !law.holds(backward);
+        let load = inputs.axial_load;
+        CagedFull {
+            forward: constants.torque(&loaded, load, law.place(forward)),
+            backward: constants.torque(&loaded, -load, law.place(backward)),
+            load: loaded.whole,
+            faults: Faults::NONE.with(beyond, Faults::BEYOND_MODEL),
+        }
+    }
+
+    #[inline(always)]
+    fn friction(full: &CagedFull) -> SlidingFriction {
+        SlidingFriction {
+            forward: full.forward,
+            backward: full.backward,
+            load: full.load,
+        }
+    }
+
+    #[inline(always)]
+    fn passed(
+        constants: &FoldedScrewConstants<NODES>,
+        inputs: Inputs,
+        full: &CagedFull,
+        passage: Passage,
+    ) -> Outputs {
+        let torques = [full.of(passage.way), full.of(passage.share)];
+        constants.put_out(inputs.axial_load, torques, passage, full.faults)
+    }
+
+    #[inline(always)]
+    fn in_a_tick(_: &FoldedScrewConstants<NODES>, turn: f32, measured: f32) -> (f32, f32) {
+        (turn, measured)
+    }
+}
+
+impl<const NODES: usize> ChangingFriction for FoldedScrew<NODES> {
+    fn set_friction(
+        constants: &FoldedScrewConstants<NODES>,
+        state: &mut FoldedScrewState,
+        friction: f32,
+    ) -> Result<(), Error> {
+        let (least, largest) = constants.law.friction_range();
+        let friction = in_range("friction", friction, least, largest)?;
+        state.friction = constants.law.place(friction);
+        Ok(())
+    }
+}
