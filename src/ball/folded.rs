@@ -63,7 +63,11 @@ impl LoadCurve {
     const fn checked(self) -> Result<Self, Error> {
         let mut part = 0;
         while part < PARTS {
-            let least = if part == 0 { 0.0 } else { self.starts[part - 1] };
+            let least = if part == 0 {
+                0.0
+            } else {
+                self.starts[part - 1]
+            };
             attempt!(in_range("starts", self.starts[part], least, f32::MAX));
             let [a, b, c, d] = self.cubics[part];
             attempt!(in_range("cubics", a, 0.0, 1e9));
@@ -176,10 +180,7 @@ impl<const NODES: usize> LoadLaw<NODES> {
         };
         let mut number = 1;
         while number < NODES {
-            let (low, high) = (
-                self.nodes[number - 1].friction,
-                self.nodes[number].friction,
-            );
+            let (low, high) = (self.nodes[number - 1].friction, self.nodes[number].friction);
             if friction > low {
                 place.node = (number - 1) as u32;
                 place.share = if friction < high {
@@ -301,8 +302,14 @@ mod tests {
         assert_eq!(wrong(|law| law.nodes[0].friction = f32::NAN), "friction");
         assert_eq!(wrong(|law| law.ends[1] = 119.0), "ends");
         assert_eq!(wrong(|law| law.lift_off = -1.0), "lift_off");
-        assert_eq!(wrong(|law| law.nodes[1].curves[1].starts[2] = 121.0), "starts");
-        assert_eq!(wrong(|law| law.nodes[1].curves[0].cubics[3][0] = -1.0), "cubics");
+        assert_eq!(
+            wrong(|law| law.nodes[1].curves[1].starts[2] = 121.0),
+            "starts"
+        );
+        assert_eq!(
+            wrong(|law| law.nodes[1].curves[0].cubics[3][0] = -1.0),
+            "cubics"
+        );
         assert_eq!(wrong(|law| law.nodes[0].shift[1] = f32::NAN), "shift");
     }
 }

@@ -11,7 +11,11 @@ use epas_friction::{
 const CLEARANCES: [f32; 7] = [-5e-6, -1e-6, 0.0, 2e-6, 5e-6, 10e-6, 20e-6];
 const FRICTIONS: [f32; 3] = [0.05, 0.1, 0.15];
 
-fn fold(parameters: BallScrewParameters, clearance: f32, friction: f32) -> Result<CagedFold, Error> {
+fn fold(
+    parameters: BallScrewParameters,
+    clearance: f32,
+    friction: f32,
+) -> Result<CagedFold, Error> {
     let design = BallScrew::new(parameters)?;
     Ok(CagedFold::of(CagedBallScrewConfiguration {
         design,
@@ -32,13 +36,22 @@ fn fold(parameters: BallScrewParameters, clearance: f32, friction: f32) -> Resul
 
 fn main() -> Result<(), Failure> {
     let range = std::env::args().any(|argument| argument == "range");
-    let sizes = CATALOGUE.iter().chain(&FINE_LEAD_SIZES).chain(&STEERING_SIZES);
+    let sizes = CATALOGUE
+        .iter()
+        .chain(&FINE_LEAD_SIZES)
+        .chain(&STEERING_SIZES);
     let sizes = sizes.map(|size| (size.name, size.parameters()));
-    let designs = DISSERTATION_DESIGNS.iter().map(|design| (design.name, design.parameters));
+    let designs = DISSERTATION_DESIGNS
+        .iter()
+        .map(|design| (design.name, design.parameters));
     let (mut blocks, mut largest, mut squares, mut seconds) = (0, 0.0_f64, 0.0, 0.0_f64);
     for (name, parameters) in sizes.chain(designs) {
         for clearance in CLEARANCES {
-            for friction in if range { &FRICTIONS[1..2] } else { &FRICTIONS[..] } {
+            for friction in if range {
+                &FRICTIONS[1..2]
+            } else {
+                &FRICTIONS[..]
+            } {
                 let mut fold = fold(parameters, clearance, *friction)?;
                 fold.friction = range.then_some([0.05, 0.15]);
                 match fold.folded() {
@@ -48,15 +61,29 @@ fn main() -> Result<(), Failure> {
                         largest = largest.max(torque.largest);
                         squares += torque.rms.powi(2);
                         seconds = seconds.max(folded.seconds);
-                        if torque.largest > 6e-3 || torque.rms > 2e-3 || torque.unsolved > 0 || torque.flagged > 0.0 {
+                        if torque.largest > 6e-3
+                            || torque.rms > 2e-3
+                            || torque.unsolved > 0
+                            || torque.flagged > 0.0
+                        {
                             println!(
-                                "{name}, {:.0} um, {friction}: largest {:.2e} at {:.2} N, {:.3}; rms {:.2e}, mean {:.1e}, unsolved {}, flagged {}, {:.2} s",
-                                1e6 * clearance, torque.largest, torque.worst_load, torque.worst_friction, torque.rms, torque.mean,
-                                torque.unsolved, torque.flagged, folded.seconds
+                                "{name}, {:.0} um, {friction}: largest {:.2e} at {:.2} N, {:.3}; rms {:.2e}, mean {:.1e}, two answers {:.1e}, unsolved {}, flagged {}, {:.2} s",
+                                1e6 * clearance,
+                                torque.largest,
+                                torque.worst_load,
+                                torque.worst_friction,
+                                torque.rms,
+                                torque.mean,
+                                torque.two_answers,
+                                torque.unsolved,
+                                torque.flagged,
+                                folded.seconds
                             );
                         }
                     }
-                    Err(failure) => println!("{name}, {:.0} um, {friction}: {failure}", 1e6 * clearance),
+                    Err(failure) => {
+                        println!("{name}, {:.0} um, {friction}: {failure}", 1e6 * clearance)
+                    }
                 }
             }
         }

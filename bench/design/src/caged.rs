@@ -36,7 +36,7 @@ const WEIGHT_BELOW: f64 = 0.25;
 const SHIFT: f64 = 1.5;
 
 /// A largest error of the torque from which on a domain is not held.
-const LARGEST_ERROR: f64 = 0.02;
+const LARGEST_ERROR: f64 = 0.03;
 
 /// States that may be left without an exact answer, as a share.
 const UNSOLVED: f64 = 0.01;
@@ -340,8 +340,8 @@ fn loads(least: f64, most: f64) -> Vec<f64> {
 fn aligned(low: &[Sample], middle: &[Sample], high: &[Sample]) -> f64 {
     let at = |samples: &[Sample], place: f64| {
         let above = samples.partition_point(|sample| sample.at < place);
-        let [below, above] = [above.saturating_sub(1), above.min(samples.len() - 1)]
-            .map(|number| samples[number]);
+        let [below, above] =
+            [above.saturating_sub(1), above.min(samples.len() - 1)].map(|number| samples[number]);
         if above.at > below.at {
             let share = ((place - below.at) / (above.at - below.at)).clamp(0.0, 1.0);
             below.value + share * (above.value - below.value)

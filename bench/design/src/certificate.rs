@@ -1,6 +1,8 @@
 //! Errors of a folded block against the exact solver, on states that were not fitted.
 
-use epas_friction::scene::{ChangingFriction, FoldedScrew, FoldedScrewConfiguration, FoldedScrewConstants};
+use epas_friction::scene::{
+    ChangingFriction, FoldedScrew, FoldedScrewConfiguration, FoldedScrewConstants,
+};
 use epas_friction::{FrictionModel, Inputs, Limits};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
@@ -12,6 +14,9 @@ use crate::caged::{CagedFold, Exact};
 /// States of a certificate, in as many groups of one friction coefficient and one sign of the load.
 pub const STATES: usize = 2_048;
 const GROUPS: usize = 16;
+
+/// Relative difference of two torques from which on they are two answers: far above what the solver leaves.
+const TWO_ANSWERS: f64 = 1e-5;
 
 /// Errors of a block.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,6 +42,9 @@ pub struct Figure {
     pub states: usize,
     /// Share of the states that the step flags.
     pub flagged: f64,
+    /// Share of the states that have two exact answers, because a contact opens under a rising load later than it closes under a falling one:
+    /// their error is that to the nearer answer.
+    pub two_answers: f64,
     /// States for which the exact solver found no answer: neither counted in the errors nor in the states.
     pub unsolved: usize,
     /// Axial load of a ball, N, and friction coefficient of the largest error.
@@ -51,6 +59,7 @@ struct Found {
     load: f64,
     friction: f32,
     flagged: bool,
+    two_answers: bool,
 }
 
 impl Certificate {
@@ -103,6 +112,7 @@ impl Certificate {
             mean: all.iter().map(|found| found.error).sum::<f64>() / count,
             states: all.len(),
             flagged: all.iter().filter(|found| found.flagged).count() as f64 / count,
+            two_answers: all.iter().filter(|found| found.two_answers).count() as f64 / count,
             unsolved,
             worst_load: worst.load,
             worst_friction: worst.friction.into(),
@@ -134,24 +144,39 @@ fn errors<const N: usize>(
         ..*block
     })?;
     model.set_friction(friction)?;
-    let signed: Vec<f64> = loads.iter().map(|load| side * load).collect();
-    let solved = exact.ball(friction).along(&signed)?;
-    let unsolved = solved.iter().filter(|found| found.is_err()).count();
-    let found = solved
-        .into_iter()
-        .flatten()
-        .map(|exact| {
-            let outputs = model.step(Inputs {
-                nut_speed: 1.0,
-                axial_load: exact.axial_load as f32,
-            });
-            Found {
-                error: f64::from(outputs.friction_torque) / exact.torque - 1.0,
-                load: exact.axial_load,
-                friction,
-                flagged: outputs.faults.any(),
-            }
-        })
-        .collect();
+    let ball = exact.ball(friction);
+    let mut signed: Vec<f64> = loads.iter().map(|load| side * load).collect();
+    let falling = ball.along(&signed)?;
+    signed.reverse();
+    let mut rising = ball.along(&signed)?;
+    rising.reverse();
+    let mut unsolved = 0;
+    let mut found = Vec::new();
+    for (load, answers) in loads.iter().zip(falling.iter().zip(&rising)) {
+        let torques: Vec<f64> = [answers.0, answers.1]
+            .into_iter()
+            .flatten()
+            .map(|answer| answer.torque)
+            .collect();
+        let axial_load = side * load;
+        let outputs = model.step(Inputs {
+            nut_speed: 1.0,
+            axial_load: axial_load as f32,
+        });
+        let errors = torques
+            .iter()
+            .map(|torque| f64::from(outputs.friction_torque) / torque - 1.0);
+        let Some(error) = errors.min_by(|a, b| a.abs().total_cmp(&b.abs())) else {
+            unsolved += 1;
+            continue;
+        };
+        found.push(Found {
+            error,
+            load: axial_load,
+            friction,
+            flagged: outputs.faults.any(),
+            two_answers: matches!(torques[..], [one, other] if (one / other - 1.0).abs() > TWO_ANSWERS),
+        });
+    }
     Ok((found, unsolved))
 }

@@ -65,7 +65,9 @@ pub fn fitted(samples: &[Sample]) -> Result<(LoadCurve, f64), Failure> {
         }
     }
     let parts = best.ok_or_else(|| {
-        Failure::Domain(format!("{PARTS} parts do not follow the torque over the load"))
+        Failure::Domain(format!(
+            "{PARTS} parts do not follow the torque over the load"
+        ))
     })?;
     let mut curve = LoadCurve {
         starts: [f32::MAX; PARTS],
@@ -195,7 +197,11 @@ mod tests {
     }
 
     fn found(curve: &LoadCurve, at: f64) -> f64 {
-        let part = curve.starts.iter().rposition(|&start| f64::from(start) <= at).unwrap();
+        let part = curve
+            .starts
+            .iter()
+            .rposition(|&start| f64::from(start) <= at)
+            .unwrap();
         let along = at - f64::from(curve.starts[part]);
         let [a, b, c, d] = curve.cubics[part].map(f64::from);
         a + along * (b + along * (c + along * d))
@@ -204,7 +210,9 @@ mod tests {
     /// A cubic is one part, exact to the rounding of its coefficients.
     #[test]
     fn a_cubic_is_itself() {
-        let cubic = |x: f64| 2.0 + 0.1 * (x - 120.0) - 0.01 * (x - 120.0).powi(2) + 1e-3 * (x - 120.0).powi(3);
+        let cubic = |x: f64| {
+            2.0 + 0.1 * (x - 120.0) - 0.01 * (x - 120.0).powi(2) + 1e-3 * (x - 120.0).powi(3)
+        };
         let (curve, error) = fitted(&samples(cubic)).unwrap();
         assert!(error < 1e-5, "{error}");
         // 8 octaves: rounding of the coefficients, 2^-24 of terms of at most 2 + 0.8 + 0.64 + 0.51.
@@ -219,7 +227,11 @@ mod tests {
         let kinked = |x: f64| 1.0 + (x - 121.3).abs() + 0.5 * (x - 124.71).abs();
         let (curve, error) = fitted(&samples(kinked)).unwrap();
         assert!(error < 5e-3, "{error}");
-        let used = curve.starts.iter().filter(|&&start| start < f32::MAX).count();
+        let used = curve
+            .starts
+            .iter()
+            .filter(|&&start| start < f32::MAX)
+            .count();
         assert!(used > 2);
         for number in 1..used {
             let border = f64::from(curve.starts[number]);

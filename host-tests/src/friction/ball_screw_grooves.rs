@@ -101,7 +101,8 @@ impl ElasticGrooves {
             } else {
                 self.screw
             };
-            contact.load = law.load(arm[0].hypot(arm[1]) - self.offset(contact.groove) + self.oversize);
+            contact.load =
+                law.load(arm[0].hypot(arm[1]) - self.offset(contact.groove) + self.oversize);
             contact.contact_angle = (arm[1] * sz).atan2(arm[0] * sx);
         }
         contacts

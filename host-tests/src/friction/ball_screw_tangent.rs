@@ -95,7 +95,8 @@ impl PlacedBall<'_> {
                 self.grooves.nut
             };
             let deflection = law.compliance * load.cbrt().powi(2);
-            let length = self.grooves.offset(row.contact.groove) - self.grooves.oversize + deflection;
+            let length =
+                self.grooves.offset(row.contact.groove) - self.grooves.oversize + deflection;
             by_load *= 1.5 * load / deflection * unit;
             angle *= unit / length;
             let moved = if screw { -cos_a } else { 0.0 };
