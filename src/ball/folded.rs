@@ -96,11 +96,12 @@ pub struct FrictionNode {
 /// Friction torque of one ball over its load, for `NODES` friction coefficients: what `epas-design` folds and a scene evaluates.
 ///
 /// ```text
-/// T = mu W [(1 - t) c_k(x - t d) + t c_(k+1)(x + (1 - t) d)],    W = |F| + F_0,    x = octaves of W
+/// T = mu W [(1 - t) c_k(x - t d w) + t c_(k+1)(x + (1 - t) d w)],    W = |F| + F_0,    x = octaves of W
 /// ```
 ///
 /// with the axial load `F` of the ball, the lift-off load `F_0` of its preload, the curves `c` of the two nodes around the friction coefficient
-/// `mu`, its place `t` between them (0 to 1, by octaves), and the shift `d` that aligns the loads at which a contact begins to carry.
+/// `mu`, its place `t` between them (0 to 1, by octaves), and the shift `d` that aligns the loads at which a contact begins to carry. Lift-off of a preload does not depend on friction: `w` rises from
+/// 0 there to 1 an octave above it; without a preload it is 1.
 /// Below the least load the torque is in proportion to `W`.
 ///
 /// Accuracy: that of the block's certificate. Cost: part of [`STEP_FOLDED`](crate::promises::STEP_FOLDED).
@@ -113,6 +114,8 @@ pub struct LoadLaw<const NODES: usize> {
     pub ends: [f32; 2],
     /// Axial load of one ball at which the preload's unloaded side lifts off, N, 0 to 1e7; 0 without a preload.
     pub lift_off: f32,
+    /// Octaves of `W` from which on loads are shifted between nodes: those of lift-off, 1 to 254; 1 without a preload.
+    pub shifted_from: f32,
 }
 
 /// A friction coefficient between the nodes of a law.
@@ -129,13 +132,14 @@ impl<const NODES: usize> LoadLaw<NODES> {
     /// Refuses numbers that are no law.
     ///
     /// # Errors
-    /// [`Error`] naming `friction`, `starts`, `cubics`, `shift`, `ends` or `lift_off`.
+    /// [`Error`] naming `friction`, `starts`, `cubics`, `shift`, `ends`, `lift_off` or `shifted_from`.
     pub(crate) const fn checked(self) -> Result<Self, Error> {
         const { assert!(NODES > 0) };
         let [least, most] = self.ends;
         attempt!(in_range("ends", least, 1.0, 254.0));
         attempt!(in_range("ends", most, least, 254.0));
         attempt!(in_range("lift_off", self.lift_off, 0.0, 1e7));
+        attempt!(in_range("shifted_from", self.shifted_from, 1.0, 254.0));
         let mut number = 0;
         while number < NODES {
             let FrictionNode {
@@ -208,7 +212,7 @@ impl<const NODES: usize> LoadLaw<NODES> {
             below.curves[branch & 1].at(octaves)
         } else {
             let above = &self.nodes[(place.node as usize + 1) % NODES];
-            let shift = below.shift[branch & 1];
+            let shift = below.shift[branch & 1] * shifted_part(octaves - self.shifted_from);
             let low = below.curves[branch & 1].at(octaves - place.share * shift);
             let high = above.curves[branch & 1].at(octaves + (1.0 - place.share) * shift);
             low + place.share * (high - low)
@@ -218,6 +222,19 @@ impl<const NODES: usize> LoadLaw<NODES> {
         } else {
             0.0
         }
+    }
+}
+
+/// Part of the shift so many octaves above the load from which on there is one.
+#[inline(always)]
+#[must_use]
+pub const fn shifted_part(above: f32) -> f32 {
+    if above > 1.0 {
+        1.0
+    } else if above > 0.0 {
+        above
+    } else {
+        0.0
     }
 }
 
@@ -273,6 +290,7 @@ mod tests {
             nodes: [node(0.05, 1.0), node(0.1, 2.0)],
             ends: [120.0, 128.0],
             lift_off: 0.0,
+            shifted_from: 1.0,
         }
     }
 

@@ -1,5 +1,5 @@
 //! Folds every catalogue size, steering size and published design over friction coefficients and clearances, and prints the errors of each
-//! block: `cargo run --release -p epas-design --example sweep [range]`.
+//! block: `cargo run --release -p epas-design --example sweep [range] [NAME ...]`.
 
 use epas_design::{CagedFold, Failure};
 use epas_friction::geometry::{FINE_LEAD_SIZES, STEERING_SIZES};
@@ -36,6 +36,10 @@ fn fold(
 
 fn main() -> Result<(), Failure> {
     let range = std::env::args().any(|argument| argument == "range");
+    let names: Vec<String> = std::env::args()
+        .skip(1)
+        .filter(|name| name != "range")
+        .collect();
     let sizes = CATALOGUE
         .iter()
         .chain(&FINE_LEAD_SIZES)
@@ -46,6 +50,9 @@ fn main() -> Result<(), Failure> {
         .map(|design| (design.name, design.parameters));
     let (mut blocks, mut largest, mut squares, mut seconds) = (0, 0.0_f64, 0.0, 0.0_f64);
     for (name, parameters) in sizes.chain(designs) {
+        if !(names.is_empty() || names.iter().any(|wanted| wanted == name)) {
+            continue;
+        }
         for clearance in CLEARANCES {
             for friction in if range {
                 &FRICTIONS[1..2]

@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use epas_friction::ball::folded::{FrictionNode, LoadLaw, octaves};
+use epas_friction::ball::folded::{FrictionNode, LoadLaw, octaves, shifted_part};
 use epas_friction::scene::FoldedScrewConfiguration;
 use epas_friction::{CagedBallScrewConfiguration, CagedConstants, FrictionBranch};
 use epas_reference::curvature::Groove;
@@ -244,6 +244,12 @@ impl CagedFold {
             .par_iter()
             .map(|samples| Ok(fitted(samples)?.0))
             .collect::<Result<Vec<_>, Failure>>()?;
+        let end = |load: f64| octaves((load + exact.lift_off) as f32);
+        let shifted_from = if exact.lift_off > 0.0 {
+            end(exact.lift_off)
+        } else {
+            1.0
+        };
         let mut nodes: [FrictionNode; N] = std::array::from_fn(|node| FrictionNode {
             friction: frictions[node],
             curves: [curves[2 * node], curves[2 * node + 1]],
@@ -254,14 +260,15 @@ impl CagedFold {
                 let [low, high] = [node - 1, node].map(|node| &solved[2 * node + branch][..]);
                 let friction = (f64::from(frictions[node - 1]) * f64::from(frictions[node])).sqrt();
                 let middle = exact.samples(friction as f32, side, &loads, least)?;
-                nodes[node - 1].shift[branch] = aligned(low, &middle, high) as f32;
+                nodes[node - 1].shift[branch] =
+                    aligned(low, &middle, high, shifted_from.into()) as f32;
             }
         }
-        let end = |load: f64| octaves((load + exact.lift_off) as f32);
         Ok(LoadLaw {
             nodes,
             ends: [end(least / BELOW), end(most)],
             lift_off: exact.lift_off as f32,
+            shifted_from,
         })
     }
 
@@ -337,7 +344,7 @@ fn loads(least: f64, most: f64) -> Vec<f64> {
 }
 
 /// The shift in octaves with which the middle of two nodes is best met by the nodes moved towards each other by half of it.
-fn aligned(low: &[Sample], middle: &[Sample], high: &[Sample]) -> f64 {
+fn aligned(low: &[Sample], middle: &[Sample], high: &[Sample], from: f64) -> f64 {
     let at = |samples: &[Sample], place: f64| {
         let above = samples.partition_point(|sample| sample.at < place);
         let [below, above] =
@@ -354,8 +361,8 @@ fn aligned(low: &[Sample], middle: &[Sample], high: &[Sample]) -> f64 {
             .iter()
             .filter(|sample| sample.weight == 1.0)
             .map(|sample| {
-                let blended =
-                    0.5 * (at(low, sample.at - 0.5 * shift) + at(high, sample.at + 0.5 * shift));
+                let half = 0.5 * shift * f64::from(shifted_part((sample.at - from) as f32));
+                let blended = 0.5 * (at(low, sample.at - half) + at(high, sample.at + half));
                 (blended / sample.value - 1.0).powi(2)
             })
             .sum()

@@ -8,7 +8,7 @@
 //! | 1 | number of friction coefficients (nodes) |
 //! | 2 | digest of the inputs from which the block was folded, low word first |
 //! | 7 | friction coefficient, lead, number of loaded balls, reversal speed, limits of nut speed, axial load and friction torque |
-//! | 3 | lift-off load of a ball, least and largest octaves |
+//! | 4 | lift-off load of a ball, least and largest octaves, octaves from which on loads are shifted |
 //! | 83 a node | friction coefficient; two curves, each 8 begins and 8 times 4 coefficients; two shifts |
 //! | 1 | CRC-32 of all words before it, each with its least significant byte first |
 //!
@@ -28,7 +28,7 @@ const VERSION: u32 = 1;
 
 /// Words before the numbers, numbers that do not depend on the nodes, and words of a node.
 const HEADER: usize = 6;
-const COMMON: usize = 10;
+const COMMON: usize = 11;
 const NODE: usize = 3 + 2 * 5 * PARTS;
 
 impl<const NODES: usize> FoldedScrewConfiguration<NODES> {
@@ -74,6 +74,7 @@ impl<const NODES: usize> FoldedScrewConfiguration<NODES> {
                 nodes,
                 lift_off: float(words, HEADER + 7),
                 ends: [float(words, HEADER + 8), float(words, HEADER + 9)],
+                shifted_from: float(words, HEADER + 10),
             },
             friction: float(words, HEADER),
             lead: float(words, HEADER + 1),
@@ -116,6 +117,7 @@ impl<const NODES: usize> FoldedScrewConfiguration<NODES> {
             self.law.lift_off,
             least,
             most,
+            self.law.shifted_from,
         ];
         let of_curve = |curve: &'_ LoadCurve| {
             let LoadCurve { starts, cubics } = *curve;
