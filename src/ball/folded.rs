@@ -128,6 +128,19 @@ pub struct FrictionPlace {
     share: f32,
 }
 
+impl FrictionPlace {
+    /// The friction coefficient.
+    #[must_use]
+    pub const fn friction(&self) -> f32 {
+        self.friction
+    }
+
+    /// The same place for another friction coefficient, until [`LoadLaw::place`] has found its own.
+    pub(crate) const fn with_friction(self, friction: f32) -> Self {
+        Self { friction, ..self }
+    }
+}
+
 impl<const NODES: usize> LoadLaw<NODES> {
     /// Refuses numbers that are no law.
     ///

@@ -3,6 +3,7 @@
 //! [`epas-design`]: https://docs.rs/epas-design
 
 mod block;
+mod stored;
 
 use super::caged::CagedFull;
 use super::changing::ChangingFriction;

@@ -70,6 +70,10 @@ pub struct Folded {
 }
 
 /// A block, by its number of friction coefficients.
+#[expect(
+    clippy::large_enum_variant,
+    reason = "a host has room, and a program has few of them"
+)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Block {
     /// One friction coefficient.
@@ -273,7 +277,8 @@ impl CagedFold {
     }
 
     /// The first eight bytes of the SHA-256 of all inputs.
-    fn digest(&self) -> u64 {
+    #[must_use]
+    pub fn digest(&self) -> u64 {
         let text = format!("{self:?}");
         let bytes = Sha256::digest(text.as_bytes());
         bytes

@@ -3,7 +3,7 @@
 //! All hold the same words; text forms say above them what was folded, over which domain, and how exact it is.
 
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use epas_friction::scene::FoldedScrewConfiguration;
 
@@ -171,10 +171,10 @@ impl Folded {
     ///
     /// # Errors
     /// [`Failure::File`] where it cannot be written.
-    pub fn write_rust(&self, name: &str, folder: impl AsRef<Path>) -> Result<PathBuf, Failure> {
+    pub fn write_rust(&self, name: &str, folder: impl AsRef<Path>) -> Result<(), Failure> {
         let path = folder.as_ref().join(format!("{}.rs", name.to_lowercase()));
-        std::fs::write(&path, self.rust(name)?)?;
-        Ok(path)
+        std::fs::write(path, self.rust(name)?)?;
+        Ok(())
     }
 }
 

@@ -193,16 +193,15 @@ const fn curve(words: &[u32], at: usize) -> LoadCurve {
     curve
 }
 
-/// Refuses a word that is not the expected one.
+/// Refuses a word that is not the expected one, though an `f32` may not tell them apart.
 const fn is(field: &'static str, word: u32, expected: u32) -> Result<(), Error> {
     if word == expected {
         Ok(())
     } else {
-        let expected = expected as f32;
-        let word = word as f32;
-        // Two words may have one number.
-        let found = if word == expected { word + 1.0 } else { word };
-        attempt!(in_range(field, found, expected, expected));
-        Ok(())
+        Err(Error::OutOfRange {
+            field,
+            value: word as f32,
+            allowed: Range::new(expected as f32, expected as f32),
+        })
     }
 }

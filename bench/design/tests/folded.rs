@@ -1,0 +1,461 @@
+//! Folded screws: how exact they are, what a block holds, and what a model of one does.
+
+use std::sync::LazyLock;
+
+use epas_design::caged::{Block, NODES};
+use epas_design::{CagedFold, Failure, Folded};
+use epas_friction::law::coefficient::{OneCoefficient, TemperatureFade};
+use epas_friction::law::memory::LoadExactElements;
+use epas_friction::law::motion::SpeedOverTick;
+use epas_friction::scene::{
+    FoldedScrew, FoldedScrewConfiguration, FoldedScrewConstants, Freshness, WithMemory,
+    WithMemoryConfiguration, WithMemoryInputs,
+};
+use epas_friction::{
+    BallScrew, CATALOGUE, CagedBallScrewConfiguration, Clearance, DISSERTATION_DESIGNS, Faults,
+    FrictionBranch, FrictionModel, Inputs, Limits, Regime, RollingResistance,
+};
+use epas_reference::friction::ball_screw_efficiency::LoadedScrew;
+
+type One = FrictionModel<FoldedScrew>;
+type Range = FrictionModel<FoldedScrew<NODES>>;
+
+const LIMITS: Limits = Limits {
+    nut_speed: 500.0,
+    axial_load: 50_000.0,
+    friction_torque: 50.0,
+};
+
+fn screw(size: &str) -> BallScrew {
+    let catalogue = CATALOGUE.iter().map(|size| (size.name, size.parameters()));
+    let designs = DISSERTATION_DESIGNS.iter();
+    let (_, parameters) = catalogue
+        .chain(designs.map(|design| (design.name, design.parameters)))
+        .find(|(name, _)| *name == size)
+        .unwrap();
+    BallScrew::new(parameters).unwrap()
+}
+
+fn gear(size: &str, clearance: f32, friction: f32) -> CagedBallScrewConfiguration {
+    CagedBallScrewConfiguration {
+        design: screw(size),
+        friction,
+        rolling_resistance: RollingResistance::STEEL,
+        rolling_tangent: 0.0,
+        branch: FrictionBranch::Contacts,
+        clearance: Clearance::new(clearance).unwrap(),
+        loaded_balls: 71,
+        reversal_speed: 0.5,
+        limits: LIMITS,
+    }
+}
+
+fn folded(size: &str, clearance: f32, friction: f32) -> Folded {
+    CagedFold::of(gear(size, clearance, friction))
+        .folded()
+        .unwrap()
+}
+
+/// A steering gear with preload, for one friction coefficient.
+static STEERING: LazyLock<Folded> = LazyLock::new(|| folded("lin-4.1", -1e-6, 0.1));
+
+/// The same for a range of them.
+static STEERING_RANGE: LazyLock<Folded> = LazyLock::new(|| {
+    CagedFold {
+        friction: Some([0.05, 0.15]),
+        ..CagedFold::of(gear("lin-4.1", -1e-6, 0.1))
+    }
+    .folded()
+    .unwrap()
+});
+
+fn one(folded: &Folded) -> FoldedScrewConfiguration {
+    match folded.block {
+        Block::One(block) => block,
+        Block::Range(_) => panic!("a block for one friction coefficient"),
+    }
+}
+
+fn range(folded: &Folded) -> FoldedScrewConfiguration<NODES> {
+    match folded.block {
+        Block::Range(block) => block,
+        Block::One(_) => panic!("a block for a range of friction coefficients"),
+    }
+}
+
+fn sliding(axial_load: f32) -> Inputs {
+    Inputs {
+        nut_speed: 400.0,
+        axial_load,
+    }
+}
+
+/// The goal for every design: largest 0.6 %, rms 0.2 %, on states that were not fitted, no state flagged or left out. Small and large balls,
+/// steep and flat leads, preload, play and two contacts.
+#[test]
+fn blocks_hold_their_accuracy() {
+    for (size, clearance, friction) in [
+        ("lin-4.1", -1e-6, 0.1),
+        ("lin-2.1", 0.0, 0.05),
+        ("20x50x3.5", 5e-6, 0.15),
+        ("63x25x9.525", 20e-6, 0.1),
+        ("160x25x12.7", -5e-6, 0.05),
+    ] {
+        let folded = folded(size, clearance, friction);
+        let [torque] = &folded.certificate.figures;
+        println!("{size} {clearance:e} {friction}: {torque:?}");
+        assert!(torque.largest <= 6e-3, "{size}: {}", torque.largest);
+        assert!(torque.rms <= 2e-3, "{size}: {}", torque.rms);
+        assert!(torque.mean.abs() <= 5e-4, "{size}: {}", torque.mean);
+        assert_eq!((torque.states, torque.unsolved), (2048, 0), "{size}");
+        assert_eq!(torque.flagged, 0.0, "{size}");
+    }
+}
+
+/// Against balls that are each solved from nothing, by the reference's own entry for a loaded screw: another path than the fold and its
+/// certificate take.
+#[test]
+fn a_step_is_the_torque_of_a_loaded_screw() {
+    let configuration = gear("lin-4.1", -1e-6, 0.1);
+    let mut model = One::new(&one(&STEERING)).unwrap();
+    for load_per_ball in [7.0_f32, 23.0, 24.0, 26.0, 61.0, 140.0, 299.0] {
+        for side in [1.0, -1.0] {
+            let axial_load = side * 71.0 * load_per_ball;
+            let exact = LoadedScrew {
+                design: epas_design::drawing::drawing(configuration.design.parameters()),
+                clearance: (-1e-6_f32).into(),
+                friction: 0.1_f32.into(),
+                rolling: epas_reference::friction::rolling_resistance::RollingResistance::STEEL,
+                balls: 71.0,
+                axial_load: axial_load.into(),
+            }
+            .solve()
+            .unwrap();
+            let outputs = model.step(sliding(axial_load));
+            let error = f64::from(outputs.friction_torque) / exact.torque() - 1.0;
+            assert!(error.abs() < 6e-3, "{axial_load} N: {error:e}");
+            let efficiency = if side > 0.0 {
+                exact.efficiency()
+            } else {
+                exact.backdrive_efficiency()
+            };
+            assert!((f64::from(outputs.efficiency) - efficiency).abs() < 6e-3);
+            assert_eq!(outputs.faults, Faults::NONE);
+        }
+    }
+}
+
+/// The first tick has the friction of every later one: after start-up, a load step by ten, and a reversal.
+#[test]
+fn nothing_settles() {
+    let block = one(&STEERING);
+    let mut model = One::new(&block).unwrap();
+    for inputs in [
+        sliding(900.0),
+        sliding(9000.0),
+        sliding(-9000.0),
+        Inputs {
+            nut_speed: -3.0,
+            axial_load: 9000.0,
+        },
+    ] {
+        let fresh = One::new(&block).unwrap().step(inputs);
+        for _ in 0..3 {
+            assert_eq!(model.step(inputs), fresh);
+        }
+        assert_eq!(fresh.faults, Faults::NONE);
+    }
+}
+
+/// Odd under reversal of speed and load together; none at standstill; with a preload, some without a load.
+#[test]
+fn friction_opposes_motion() {
+    let mut model = One::new(&one(&STEERING)).unwrap();
+    for axial_load in [0.0, 10.0, 800.0, -3000.0, 20_000.0] {
+        for nut_speed in [0.1, 3.0, 400.0] {
+            let there = model.step(Inputs {
+                nut_speed,
+                axial_load,
+            });
+            let back = model.step(Inputs {
+                nut_speed: -nut_speed,
+                axial_load: -axial_load,
+            });
+            assert_eq!(there.friction_torque, -back.friction_torque);
+            assert!(there.friction_torque > 0.0, "{axial_load} {nut_speed}");
+            assert_eq!(there.regime, back.regime);
+        }
+        let still = model.step(Inputs {
+            nut_speed: 0.0,
+            axial_load,
+        });
+        assert_eq!(
+            (still.friction_torque, still.regime),
+            (0.0, Regime::Standing)
+        );
+    }
+}
+
+/// Whatever comes in, what goes out is finite and flagged.
+#[test]
+fn absurd_inputs_are_flagged() {
+    let mut model = One::new(&one(&STEERING)).unwrap();
+    for wrong in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+        let speed = model.step(Inputs {
+            nut_speed: wrong,
+            axial_load: 100.0,
+        });
+        let load = model.step(sliding(wrong));
+        assert_eq!((speed.friction_torque, load.friction_torque), (0.0, 0.0));
+        assert!(speed.faults.contains(Faults::SPEED_NOT_FINITE));
+        assert!(load.faults.contains(Faults::LOAD_NOT_FINITE));
+    }
+    let most = model.step(sliding(f32::MAX));
+    assert!(
+        most.faults
+            .contains(Faults::LOAD_RANGE | Faults::BEYOND_MODEL)
+    );
+    assert!(most.friction_torque > 0.0 && most.friction_torque <= LIMITS.friction_torque);
+    for tiny in [f32::MIN_POSITIVE, 1e-45, -1e-45, -0.0] {
+        assert!(model.step(sliding(tiny)).friction_torque.is_finite());
+    }
+    // A load beyond the block's, within the limit: the law's end, flagged, without a step.
+    let border = 71.0 * 300.0;
+    let [within, beyond] = [0.9999, 1.0002].map(|part| model.step(sliding(part * border)));
+    assert_eq!(within.faults, Faults::NONE);
+    assert_eq!(beyond.faults, Faults::BEYOND_MODEL);
+    assert!(!beyond.faults.faulty());
+    assert!((beyond.friction_torque / within.friction_torque - 1.0).abs() < 1e-3);
+}
+
+/// Between nodes the torque rises with the friction coefficient, at nodes the block's own; beyond them the coefficient is refused.
+#[test]
+fn friction_is_set_within_the_nodes() {
+    let [torque] = &STEERING_RANGE.certificate.figures;
+    println!("{torque:?}");
+    // Regression: the largest error of a blend where a contact opens, 1.9 % found, and its rms of 3.4e-3.
+    assert!(torque.largest < 2.5e-2 && torque.rms < 5e-3);
+    let block = range(&STEERING_RANGE);
+    let mut model = Range::new(&block).unwrap();
+    let mut last = 0.0;
+    for step in 0..=100_u8 {
+        let friction = (0.05 + 0.001 * f32::from(step)).min(0.15);
+        model.set_friction(friction).unwrap();
+        let torque = model.step(sliding(2_000.0)).friction_torque;
+        assert!(torque > last, "{friction}");
+        last = torque;
+    }
+    for wrong in [0.049, 0.151, f32::NAN, -0.1] {
+        assert_eq!(model.set_friction(wrong).unwrap_err().field(), "friction");
+        assert_eq!(model.step(sliding(2_000.0)).friction_torque, last);
+    }
+    model.reset();
+    let fresh = Range::new(&block).unwrap().step(sliding(2_000.0));
+    assert_eq!(model.step(sliding(2_000.0)), fresh);
+    // A block for one coefficient has that one alone.
+    let mut single = One::new(&one(&STEERING)).unwrap();
+    assert_eq!(single.set_friction(0.1), Ok(()));
+    assert_eq!(single.set_friction(0.11).unwrap_err().field(), "friction");
+}
+
+/// Other constants count from the next tick on, bit by bit as if they had been there always.
+#[test]
+fn swapped_constants_count_at_once() {
+    let worn = folded("lin-4.1", 2e-6, 0.1);
+    let [first, second] =
+        [&STEERING, &worn].map(|folded| FoldedScrewConstants::new(&one(folded)).unwrap());
+    let mut model = FrictionModel::<FoldedScrew, _>::of(&first);
+    let before = model.step(sliding(1_000.0));
+    model.swap_constants(&second).unwrap();
+    let after = model.step(sliding(1_000.0));
+    assert_eq!(
+        after,
+        FrictionModel::<FoldedScrew, _>::of(&second).step(sliding(1_000.0))
+    );
+    assert!((before.friction_torque / after.friction_torque - 1.0).abs() > 0.05);
+}
+
+/// The same inputs give the same bits; what was written is read; what is damaged is refused, whatever word it is.
+#[test]
+fn a_block_is_read_as_it_was_written() {
+    let again = folded("lin-4.1", -1e-6, 0.1);
+    let words = STEERING.words().unwrap();
+    assert_eq!(words, again.words().unwrap());
+    assert_eq!(FoldedScrewConfiguration::read(&words), Ok(one(&STEERING)));
+    let constants = FoldedScrewConstants::<1>::from_block(&words).unwrap();
+    assert_eq!(
+        constants,
+        FoldedScrewConstants::new(&one(&STEERING)).unwrap()
+    );
+    let bytes = STEERING.bytes().unwrap();
+    let of_bytes: Vec<u32> = bytes
+        .chunks_exact(4)
+        .map(|word| u32::from_le_bytes(word.try_into().unwrap()))
+        .collect();
+    assert_eq!(of_bytes, words);
+    for number in 0..words.len() {
+        let mut damaged = words.clone();
+        damaged[number] ^= 1 << (number % 32);
+        let field = FoldedScrewConstants::<1>::from_block(&damaged)
+            .unwrap_err()
+            .field();
+        let expected = match number {
+            0 => "magic",
+            1 => "version",
+            2 => "words",
+            3 => "nodes",
+            _ => "checksum",
+        };
+        assert_eq!(field, expected, "{number}");
+    }
+    let short = FoldedScrewConstants::<1>::from_block(&words[1..]).unwrap_err();
+    assert_eq!(short.field(), "words");
+    let nodes = FoldedScrewConstants::<NODES>::from_block(&STEERING.words().unwrap()).unwrap_err();
+    assert_eq!(nodes.field(), "words");
+    let range = STEERING_RANGE.words().unwrap();
+    assert_eq!(
+        FoldedScrewConstants::<1>::from_block(&range)
+            .unwrap_err()
+            .field(),
+        "nodes"
+    );
+    assert!(FoldedScrewConstants::<NODES>::from_block(&range).is_ok());
+    // Another seed draws other states and folds the same law.
+    let other = CagedFold {
+        seed: 2,
+        ..STEERING.fold
+    };
+    let other = other.folded().unwrap();
+    assert_eq!(one(&other), one(&STEERING));
+    assert_ne!(
+        (other.digest, &other.certificate),
+        (STEERING.digest, &STEERING.certificate)
+    );
+}
+
+/// A digest tells every input apart.
+#[test]
+fn the_digest_is_that_of_all_inputs() {
+    let digest = |fold: CagedFold| fold.digest();
+    let fold = CagedFold::of(gear("lin-4.1", -1e-6, 0.1));
+    let mut seen = vec![digest(fold)];
+    let mut more_balls = fold;
+    more_balls.configuration.loaded_balls += 1;
+    let mut less_load = fold;
+    less_load.axial_load = [5.0, 299.0];
+    let mut range = fold;
+    range.friction = Some([0.05, 0.15]);
+    for other in [
+        more_balls,
+        less_load,
+        range,
+        CagedFold::of(gear("lin-4.1", -1.1e-6, 0.1)),
+    ] {
+        assert!(!seen.contains(&digest(other)));
+        seen.push(digest(other));
+    }
+}
+
+/// Text forms hold the words and say what they are.
+#[test]
+fn text_forms_hold_the_words() {
+    let words = STEERING.words().unwrap();
+    for text in [
+        STEERING.rust("GEAR").unwrap(),
+        STEERING.c("GEAR").unwrap(),
+        STEERING.toml().unwrap(),
+    ] {
+        let found: Vec<u32> = text
+            .split("0x")
+            .skip(1)
+            .map(|word| u32::from_str_radix(&word[..8], 16).unwrap())
+            .collect();
+        assert_eq!(found, words);
+        assert!(text.contains("certificate: caged_torque"));
+        assert!(text.contains(&format!("{:016x}", STEERING.digest)));
+    }
+}
+
+/// In steady sliding a memory has the friction of the scene; a coefficient that the block does not hold is flagged.
+#[test]
+fn a_memory_slides_as_the_scene() {
+    type Remembering<const N: usize> = FrictionModel<
+        WithMemory<FoldedScrew<N>, LoadExactElements<8>, SpeedOverTick, OneCoefficient>,
+    >;
+    fn slide<const N: usize>(
+        block: FoldedScrewConfiguration<N>,
+        friction: f32,
+    ) -> epas_friction::Outputs {
+        let mut model = Remembering::<N>::new(&WithMemoryConfiguration {
+            scene: block,
+            elements: LoadExactElements::new(0.2, 0.002, 4.0).unwrap(),
+            angle: SpeedOverTick::new(1e-3, 500.0).unwrap(),
+            reference_load: 2_000.0,
+            play: 0.0,
+            coefficient: OneCoefficient::new(friction).unwrap(),
+            temperature: TemperatureFade::new(303.15, 1.0, 1.0).unwrap(),
+            freshness: Freshness::DEFAULT,
+        })
+        .unwrap();
+        let mut outputs = None;
+        for _ in 0..50 {
+            outputs = Some(model.step(WithMemoryInputs {
+                scene: sliding(2_000.0),
+                reading: 400.0,
+                load_age: 0.0,
+                temperature: 303.15,
+                temperature_age: 0.0,
+            }));
+        }
+        outputs.unwrap()
+    }
+    let scene = One::new(&one(&STEERING)).unwrap().step(sliding(2_000.0));
+    let memory = slide(one(&STEERING), 0.1);
+    // The reversal's share at 800 times its speed is 8e-7 below 1.
+    assert!((memory.friction_torque / scene.friction_torque - 1.0).abs() < 2e-6);
+    assert_eq!(memory.faults, Faults::NONE);
+    assert_eq!(slide(one(&STEERING), 0.12).faults, Faults::BEYOND_MODEL);
+    assert_eq!(slide(range(&STEERING_RANGE), 0.12).faults, Faults::NONE);
+}
+
+/// The friction coefficient that was set is there again after ignition; one that the block does not hold is refused.
+#[test]
+fn friction_that_was_set_outlasts_ignition() {
+    let block = range(&STEERING_RANGE);
+    let mut model = Range::new(&block).unwrap();
+    model.set_friction(0.08).unwrap();
+    let mut bytes = [0; Range::STATE_BYTES];
+    model.export(&mut bytes).unwrap();
+    let mut next = Range::new(&block).unwrap();
+    next.import(&bytes).unwrap();
+    assert_eq!(next.step(sliding(900.0)), model.step(sliding(900.0)));
+    let mut single = One::new(&one(&STEERING)).unwrap();
+    let before = single.step(sliding(900.0));
+    assert!(single.import(&bytes).is_err());
+    assert_eq!(single.step(sliding(900.0)), before);
+}
+
+/// What cannot be folded is refused by name, or with its reason.
+#[test]
+fn what_cannot_be_folded_is_refused() {
+    let refused = |change: fn(&mut CagedFold)| {
+        let mut fold = CagedFold::of(gear("lin-4.1", -1e-6, 0.1));
+        change(&mut fold);
+        fold.folded().unwrap_err().to_string()
+    };
+    assert!(
+        refused(|fold| fold.configuration.branch = FrictionBranch::Rolling).contains("closed form")
+    );
+    assert!(refused(|fold| fold.configuration.friction = 0.6).contains("friction"));
+    assert!(refused(|fold| fold.configuration.loaded_balls = 0).contains("loaded_balls"));
+    assert!(refused(|fold| fold.axial_load = [300.0, 5.0]).contains("axial_load"));
+    assert!(refused(|fold| fold.axial_load = [f32::NAN, 5.0]).contains("axial_load"));
+    assert!(refused(|fold| fold.friction = Some([0.11, 0.15])).contains("friction"));
+    assert!(refused(|fold| fold.friction = Some([0.15, 0.05])).contains("friction"));
+    let error = CagedFold {
+        friction: Some([1e-4, 0.15]),
+        ..CagedFold::of(gear("lin-4.1", -1e-6, 0.1))
+    }
+    .folded();
+    assert!(matches!(error, Err(Failure::Domain(_))));
+}

@@ -1,0 +1,42 @@
+//! A folded screw as bytes: its friction coefficient.
+
+use super::{FoldedScrew, FoldedScrewConstants, FoldedScrewState};
+use crate::ranges;
+use crate::scene::stored::StoredScene;
+use crate::stored::{Fingerprint, Port, Refusal, Stored};
+
+impl<const NODES: usize> StoredScene for FoldedScrew<NODES> {
+    const KIND: u16 = 4;
+    const BALLS: u16 = 0;
+
+    /// The friction coefficient has a meaning of its own; only its range has to fit, which [`Self::complete`] sees to.
+    fn fingerprint(constants: &FoldedScrewConstants<NODES>, fingerprint: &mut Fingerprint) {
+        fingerprint.number(constants.reduced_lead);
+    }
+
+    fn complete(
+        constants: &FoldedScrewConstants<NODES>,
+        state: &mut FoldedScrewState,
+    ) -> Result<(), Refusal> {
+        let friction = state.friction.friction();
+        if constants.law.holds(friction) {
+            state.friction = constants.law.place(friction);
+            Ok(())
+        } else {
+            Err(Refusal::OutOfRange { field: "friction" })
+        }
+    }
+
+    fn forget_readings(_: &mut FoldedScrewState) {}
+}
+
+impl Stored for FoldedScrewState {
+    const BYTES: usize = 4;
+
+    fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
+        let mut friction = self.friction.friction();
+        port.number("friction", &mut friction, ranges::FRICTION_OF_A_ROW)?;
+        self.friction = self.friction.with_friction(friction);
+        Ok(())
+    }
+}
