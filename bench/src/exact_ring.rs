@@ -1,8 +1,8 @@
 //! The scene of a ball screw without cage against the exact whole screw, over the same turns of the nut.
 //!
-//! Both follow the same balls, which start at the same places. Balls meet and part in an instant, which the two need not
-//! find in the same state: so a value of the scene is compared with the span of the exact ones of its own state and the
-//! four beside it. Rolling resistance, which is added to a ball's loss and moves nothing, is left out of both. States that the scene flags ([`Faults`](epas_friction::Faults)) are counted apart.
+//! Both follow the same balls, which start at the same places. Every value of the scene is compared with the exact one of the same state, also
+//! where balls meet or part in the one and not yet in the other, and where the scene flags it
+//! ([`Faults`](epas_friction::Faults)). Rolling resistance, which is added to a ball's loss and moves nothing, is left out of both.
 
 use std::f64::consts::TAU;
 
@@ -17,9 +17,6 @@ use epas_reference::friction::ball_screw_ring::{
 };
 use epas_reference::friction::patch::Integration;
 use epas_reference::material::Elastic;
-
-/// States before and after one that count as about the same time.
-const NEAR: usize = 2;
 
 /// Part of the track that the balls fill, where a case does not say its length.
 const OCCUPATION: f64 = 0.978;
@@ -81,7 +78,7 @@ impl Case {
     };
 }
 
-/// Largest, rms and mean difference over the largest exact value.
+/// Largest, rms and mean error, each at the same state as the exact value.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Off {
     largest: f64,
@@ -92,17 +89,23 @@ pub struct Off {
 }
 
 impl Off {
-    /// A value against the exact ones of about the same time, of which `exact` is the one of the same state.
-    fn add(&mut self, found: f64, exact: f64, about: impl Iterator<Item = f64>) {
-        let (least, most) = about.fold((exact, exact), |(least, most), value| {
-            (f64::min(least, value), f64::max(most, value))
-        });
-        let off = (found - most).max(0.0) + (found - least).min(0.0);
-        self.largest = self.largest.max(off.abs());
-        self.squares += off * off;
-        self.sum += off;
+    /// An error, and what it is a part of: the largest of these counts for all.
+    fn add(&mut self, error: f64, of: f64) {
+        self.largest = self.largest.max(error.abs());
+        self.squares += error * error;
+        self.sum += error;
         self.count += 1.0;
-        self.scale = self.scale.max(exact.abs());
+        self.scale = self.scale.max(of.abs());
+    }
+
+    /// A value that may be zero, such as a force between balls: its error counts over the largest exact one of all states.
+    fn add_of_largest(&mut self, found: f64, exact: f64) {
+        self.add(found - exact, exact);
+    }
+
+    /// A value that never is: its error counts over the exact one of its own state.
+    fn add_of_own(&mut self, found: f64, exact: f64) {
+        self.add(found / exact - 1.0, 1.0);
     }
 
     /// Largest, rms and mean; no numbers where nothing was compared or every exact value is zero.
@@ -133,17 +136,18 @@ pub struct Moment {
 /// What both found.
 #[derive(Clone, Debug, Default)]
 pub struct Comparison {
-    /// Forces of all pairs, of unflagged states.
+    /// Forces of all pairs, over the largest.
     pub force: Off,
-    /// Friction torque, and its part of the grooves and of the balls.
+    /// Friction torque and its part of the grooves, over the exact torque of the same state.
     pub torque: Off,
     pub groove: Off,
+    /// Its part of the balls, over the largest.
     pub ball: Off,
-    /// Speeds of all balls against the nut.
+    /// Speeds of all balls against the nut, over the largest.
     pub speed: Off,
-    /// Difference of the number of pairs that press.
+    /// Difference of the number of pairs that press, over the largest.
     pub pairs: Off,
-    /// States compared, those that the scene flags, and those that the exact screw does not have.
+    /// States compared, those among them that the scene flags, and those that the exact screw does not have.
     pub compared: usize,
     pub flagged: usize,
     pub failed: usize,
@@ -270,49 +274,36 @@ impl<const N: usize> Pair<N> {
         }
     }
 
-    /// Takes one state of the scene in; `near` are the exact ones about it, `at` the one of the same time.
+    /// Takes one state of the scene in, with the exact one of the same time.
     fn add(
         &self,
         comparison: &mut Comparison,
         outputs: &UncagedOutputs,
-        near: &[RingState],
-        at: usize,
+        exact: &RingState,
         nut_speed: f64,
     ) {
-        let exact = &near[at];
-        let all = |value: &dyn Fn(&RingState) -> f64| near.iter().map(value).collect::<Vec<_>>();
-        let mut add = |off: fn(&mut Comparison) -> &mut Off,
-                       found: f64,
-                       value: &dyn Fn(&RingState) -> f64| {
-            off(comparison).add(found, value(exact), all(value).into_iter());
-        };
         let train = &self.model.state().circuit.train;
-        for (index, force) in train.forces().enumerate() {
-            add(|c| &mut c.force, force.into(), &|state| {
-                state.balls[index].force
-            });
+        for (force, ball) in train.forces().zip(&exact.balls) {
+            comparison.force.add_of_largest(force.into(), ball.force);
         }
-        for (index, speed) in train.speeds().enumerate() {
-            add(
-                |c| &mut c.speed,
+        for (speed, ball) in train.speeds().zip(&exact.balls) {
+            comparison.speed.add_of_largest(
                 self.against * f64::from(speed) * nut_speed.signum(),
-                &|state| state.balls[index].speed / nut_speed * self.path - self.nominal,
+                ball.speed / nut_speed * self.path - self.nominal,
             );
         }
-        add(
-            |c| &mut c.torque,
-            outputs.friction_torque.into(),
-            &RingState::torque,
-        );
-        add(|c| &mut c.groove, outputs.groove_torque.into(), &|state| {
-            state.groove_torque
-        });
-        add(|c| &mut c.ball, outputs.ball_torque.into(), &|state| {
-            state.ball_torque
-        });
-        add(|c| &mut c.pairs, outputs.contacts.into(), &|state| {
-            state.pressing() as f64
-        });
+        comparison
+            .torque
+            .add_of_own(outputs.friction_torque.into(), exact.torque());
+        comparison
+            .groove
+            .add_of_own(outputs.groove_torque.into(), exact.groove_torque);
+        comparison
+            .ball
+            .add_of_largest(outputs.ball_torque.into(), exact.ball_torque);
+        comparison
+            .pairs
+            .add_of_largest(outputs.contacts.into(), exact.pressing() as f64);
         comparison.compared += 1;
     }
 }
@@ -377,9 +368,7 @@ pub fn follow<const N: usize>(case: &Case, states: &[RingState]) -> Result<Compa
             outputs = step();
         }
         flagged |= outputs.faults.any();
-        let from = at.saturating_sub(NEAR);
-        let near = &states[from..(at + NEAR + 1).min(states.len())];
-        let solved = near.iter().all(RingState::solved);
+        let solved = state.solved();
         comparison.course.push(Moment {
             nut_angle: state.nut_angle,
             scene: [
@@ -399,9 +388,9 @@ pub fn follow<const N: usize>(case: &Case, states: &[RingState]) -> Result<Compa
         });
         comparison.flagged += usize::from(flagged);
         comparison.failed += usize::from(!solved);
-        if !flagged && solved {
+        if solved {
             comparison.largest_force = comparison.largest_force.max(state.largest_force());
-            pair.add(&mut comparison, &outputs, near, at - from, nut_speed);
+            pair.add(&mut comparison, &outputs, state, nut_speed);
         }
     }
     Ok(comparison)

@@ -158,7 +158,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let mut stdout = io::stdout().lock();
     writeln!(
         stdout,
-        "errors in per cent of the largest exact value of each screw; states without a flag"
+        "errors at the same state in per cent, flagged states in the count: torques of screw and grooves over their own exact value, the others \
+         over the largest of each screw"
     )?;
     writeln!(
         stdout,
@@ -186,7 +187,16 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         |of: fn(&Comparison) -> usize| found.iter().map(|(_, found)| of(found)).sum::<usize>();
     writeln!(
         stdout,
-        "states: {} compared, {} flagged, {} without an exact solution",
+        "friction torque within 1 % rms: {} of {} screws",
+        found
+            .iter()
+            .filter(|(_, found)| found.torque.relative()[1] <= 0.01)
+            .count(),
+        found.iter().filter(|(_, found)| found.compared > 0).count(),
+    )?;
+    writeln!(
+        stdout,
+        "states: {} compared, {} of them flagged; {} without an exact solution, not compared",
         sum(|found| found.compared),
         sum(|found| found.flagged),
         sum(|found| found.failed)

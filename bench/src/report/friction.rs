@@ -87,7 +87,7 @@ fn errors_and_costs(context: &Context, weave: &Courses) -> Result<Table, Failure
                 largest: whole_largest,
                 rms: whole_rms,
                 kind: format!(
-                    "torque over its largest: {} turns under 50 N a ball, exact whole screw",
+                    "torque, relative: {} turns under 50 N a ball, exact whole screw",
                     context.flagship.turns
                 ),
             },

@@ -112,19 +112,20 @@ fn flagship(context: &Context) -> Result<Vec<Vec<Cell>>, Failure> {
         (
             "ball screw without cage, 37 balls: step(), force",
             &found.force,
+            "of the largest",
         ),
-        ("the same, friction torque", &found.torque),
+        ("the same, friction torque", &found.torque, "relative"),
     ];
     Ok(rows
         .into_iter()
-        .map(|(name, off)| {
+        .map(|(name, off, kind)| {
             let [largest, rms, mean] = off.relative().map(Cell::power);
             vec![
                 Cell::from(name),
                 largest,
                 rms,
                 mean,
-                "of the largest".into(),
+                kind.into(),
                 time(&step.latency, 2),
                 ratio(step.latency.over_unit(), 1),
                 time(&step.throughput, 2),
