@@ -3,7 +3,7 @@
 //! All hold the same words; text forms say above them what was folded, over which domain, and how exact it is.
 
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use epas_friction::scene::FoldedScrewConfiguration;
 
@@ -51,6 +51,14 @@ impl Folded {
             Block::One(block) => of(block, self.digest),
             Block::Range(block) => of(block, self.digest),
         }
+    }
+
+    /// Version of the block's layout.
+    ///
+    /// # Errors
+    /// As [`Self::words`].
+    pub fn version(&self) -> Result<u32, Failure> {
+        Ok(self.words()?.get(1).copied().unwrap_or(0))
     }
 
     /// The block's bytes, each word with its least significant byte first: for a calibration page.
@@ -169,12 +177,18 @@ impl Folded {
 
     /// Writes [`Self::rust`] to `folder` as a file with the name in small letters, for `include!`: what a `build.rs` calls.
     ///
+    /// Into the folder of a build script it also tells cargo that the script alone decides what is folded: an edit elsewhere does not fold again.
+    ///
     /// # Errors
     /// [`Failure::File`] where it cannot be written.
-    pub fn write_rust(&self, name: &str, folder: impl AsRef<Path>) -> Result<PathBuf, Failure> {
-        let path = folder.as_ref().join(format!("{}.rs", name.to_lowercase()));
-        std::fs::write(&path, self.rust(name)?)?;
-        Ok(path)
+    pub fn write_rust(&self, name: &str, folder: impl AsRef<Path>) -> Result<(), Failure> {
+        let folder = folder.as_ref();
+        let path = folder.join(format!("{}.rs", name.to_lowercase()));
+        std::fs::write(path, self.rust(name)?)?;
+        if std::env::var_os("OUT_DIR").is_some_and(|own| folder == Path::new(&own)) {
+            println!("cargo::rerun-if-changed=build.rs");
+        }
+        Ok(())
     }
 }
 
