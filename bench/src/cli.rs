@@ -4,6 +4,7 @@ use clap::{Arg, CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 
 use crate::a2l;
 use crate::calibrate;
+use crate::design;
 use crate::eval;
 use crate::failure::Failure;
 use crate::fmu;
@@ -28,6 +29,7 @@ struct Cli {
 enum Command {
     Report(report::Arguments),
     Simulate(Box<simulate::Arguments>),
+    Design(design::Arguments),
     Calibrate(Box<calibrate::Arguments>),
     Eval(eval::Arguments),
     Target(target::Arguments),
@@ -45,6 +47,7 @@ pub fn run() -> Result<(), Failure> {
     let _working = said(command.as_ref()).map(Working::new);
     match command {
         Some(Command::Simulate(arguments)) => simulate::run(&arguments),
+        Some(Command::Design(arguments)) => design::run(&arguments),
         Some(Command::Calibrate(arguments)) => calibrate::run(&arguments),
         Some(Command::Eval(arguments)) => eval::run(&arguments),
         Some(Command::Target(arguments)) => target::run(&arguments),
@@ -74,6 +77,7 @@ fn said(command: Option<&Command>) -> Option<&'static str> {
         // A report tells its stages from the first moment on.
         Some(Command::Eval(_) | Command::Report(_)) | None => None,
         Some(Command::Simulate(_)) => Some("simulating ..."),
+        Some(Command::Design(_)) => Some("folding ..."),
         Some(Command::Calibrate(_)) => Some("fitting ..."),
         Some(Command::Target(_)) => Some(
             "building the firmware and counting its instructions: some minutes the first time ...",

@@ -1,6 +1,7 @@
 //! Designs by name or from a file.
 
 pub mod calibration;
+pub mod fold;
 pub mod loads;
 mod plausible;
 mod tables;
@@ -24,6 +25,7 @@ pub use plausible::SOURCES;
 use crate::failure::Failure;
 use crate::files::{ends, standard};
 use calibration::Calibrated;
+use fold::FoldTable;
 use loads::{LoadCase, LoadsTable};
 use tables::{
     MaterialTable, clearance, from_text, groove_size, mark, material, parsed, radius, replace,
@@ -46,6 +48,8 @@ pub struct Design {
     pub loads: Option<LoadCase>,
     /// What a measured trace has told of it, where there is one.
     pub calibrated: Option<Calibrated>,
+    /// Domain over which it is folded, where its file says it.
+    pub fold: FoldTable,
     /// Keys that its file leaves to the defaults.
     pub defaulted: Vec<&'static str>,
 }
@@ -84,6 +88,7 @@ impl Design {
             uncaged: loaded_balls.and_then(|balls| train::built_in(name, design, balls)),
             loads: loaded_balls.and_then(|balls| loads::built_in(name, balls)),
             calibrated: None,
+            fold: FoldTable::default(),
             defaulted: Vec::new(),
         }
     }
@@ -273,6 +278,7 @@ struct DesignFile {
     uncaged: Option<UncagedTable>,
     loads: Option<LoadsTable>,
     calibration: Option<Calibrated>,
+    fold: Option<FoldTable>,
 }
 
 #[derive(Deserialize)]
@@ -435,6 +441,7 @@ impl DesignFile {
             .map(Calibrated::checked)
             .transpose()
             .map_err(|message| format!("calibration: {message}"))?;
+        design.fold = self.fold.unwrap_or_default();
         Ok(design)
     }
 }

@@ -3,6 +3,7 @@
 mod answer;
 mod ball_screw_pair;
 mod ball_screw_train;
+mod caged_torque;
 mod contact_kinematics;
 mod efficiency;
 mod fields;
@@ -112,6 +113,19 @@ use lines::{Line, Lines};
 /// first one the start, where nothing is remembered), [load (list as long, over the reference load; 1)], limit_ratio
 /// ([forward, backward], over the load). Answers with torque, over the limit at the reference load, one for each angle,
 /// the first one 0. The reference also has exact: what the elements stand for; null for proportional with a load.
+///
+/// caged_torque: pitch_radius, lead, ball_radius, groove_radius, contact_angle, youngs_modulus, poisson_ratio, friction, clearance (as of
+/// ball_screw_pair), axial_load (list of up to 1000, N a ball; a positive one opposes the travel of a nut that turns forward), direction
+/// (1 forward or -1). Answers with torque, one for each load: the friction torque of one ball on the nut that has to be overcome, N m,
+/// positive in either direction, without rolling resistance.
+///
+/// Of caged_torque the reference solves the elastic balance of the ball with exact friction, from the largest load down; where it finds no
+/// answer, the list holds null. Where two torques are exact, because a contact opens later than it closes, it is that under a falling load.
+/// Under no load the torque is 0, or that of the preload.
+///
+/// in_loop of caged_torque is what a step of the scene FoldedScrew puts out, with a block folded for the request: over 5 to 300 N a ball,
+/// or the range of the list where that is wider (from 0.01 N). It is null for a clearance outside -0.02 to 0.05 ball radii, and for a
+/// design that cannot be folded. A request takes about a second.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// File with the requests; stdin without it or for -
@@ -122,7 +136,7 @@ pub struct Arguments {
 type Model = fn(Fields) -> Result<Answer, BadField>;
 
 /// Every model by its name.
-const MODELS: [(&str, Model); 11] = [
+const MODELS: [(&str, Model); 12] = [
     ("groove_curvature", groove_curvature::evaluate),
     ("efficiency", efficiency::evaluate),
     ("steady_state", steady_state::evaluate),
@@ -134,6 +148,7 @@ const MODELS: [(&str, Model); 11] = [
     ("ball_screw_train", ball_screw_train::evaluate),
     ("ball_screw_pair", ball_screw_pair::evaluate),
     ("presliding", presliding::evaluate),
+    ("caged_torque", caged_torque::evaluate),
 ];
 
 /// A line of the output.

@@ -146,9 +146,9 @@ pub fn refuse_same<'a, 'b>(
 }
 
 /// Endings that say what a file holds, without regard to case.
-const KNOWN: [&str; 22] = [
-    "a2l", "bmp", "csv", "fmu", "gif", "htm", "html", "jpeg", "jpg", "json", "mat", "md", "mf4",
-    "ods", "parquet", "pdf", "png", "rs", "svg", "toml", "xls", "xlsx",
+const KNOWN: [&str; 24] = [
+    "a2l", "bin", "bmp", "csv", "fmu", "gif", "h", "htm", "html", "jpeg", "jpg", "json", "mat",
+    "md", "mf4", "ods", "parquet", "pdf", "png", "rs", "svg", "toml", "xls", "xlsx",
 ];
 
 /// Whether a file has one of these endings, in whatever case.

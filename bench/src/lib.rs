@@ -18,6 +18,8 @@ pub mod calibrate;
 #[cfg(feature = "program")]
 mod cli;
 mod controller;
+#[cfg(feature = "program")]
+mod design;
 mod designs;
 mod document;
 mod eval;

@@ -8,7 +8,7 @@
 //! [`epas_friction::scene::FoldedScrew`], and the error of every torque that it puts out, against the exact solver, on states that were not
 //! fitted. The same inputs give the same bits.
 //!
-//! In a `build.rs`:
+//! In a `build.rs`, where `gear()` is the design; the firmware then has `include!(concat!(env!("OUT_DIR"), "/gear.rs"));`:
 //!
 //! ```no_run
 //! # use epas_design::{CagedFold, Failure};
@@ -18,6 +18,9 @@
 //!     CagedFold::of(gear()).folded()?.write_rust("GEAR", &std::env::var("OUT_DIR").unwrap())
 //! }
 //! ```
+//!
+//! The folder `example` of this package is one that does so. Cargo compiles build scripts without optimisation unless
+//! `[profile.dev.build-override] opt-level = 3` (and the same for `release`) says otherwise: the fold then takes a hundred times as long.
 //!
 //! | module | what |
 //! |---|---|

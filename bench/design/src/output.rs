@@ -53,6 +53,14 @@ impl Folded {
         }
     }
 
+    /// Version of the block's layout.
+    ///
+    /// # Errors
+    /// As [`Self::words`].
+    pub fn version(&self) -> Result<u32, Failure> {
+        Ok(self.words()?.get(1).copied().unwrap_or(0))
+    }
+
     /// The block's bytes, each word with its least significant byte first: for a calibration page.
     ///
     /// # Errors
@@ -169,11 +177,17 @@ impl Folded {
 
     /// Writes [`Self::rust`] to `folder` as a file with the name in small letters, for `include!`: what a `build.rs` calls.
     ///
+    /// Into the folder of a build script it also tells cargo that the script alone decides what is folded: an edit elsewhere does not fold again.
+    ///
     /// # Errors
     /// [`Failure::File`] where it cannot be written.
     pub fn write_rust(&self, name: &str, folder: impl AsRef<Path>) -> Result<(), Failure> {
-        let path = folder.as_ref().join(format!("{}.rs", name.to_lowercase()));
+        let folder = folder.as_ref();
+        let path = folder.join(format!("{}.rs", name.to_lowercase()));
         std::fs::write(path, self.rust(name)?)?;
+        if std::env::var_os("OUT_DIR").is_some_and(|own| folder == Path::new(&own)) {
+            println!("cargo::rerun-if-changed=build.rs");
+        }
         Ok(())
     }
 }

@@ -4,7 +4,7 @@ use epas_friction::{BallScrew, BallScrewParameters, Error, GrooveSize, Material}
 use epas_reference::ReferenceError;
 pub use epas_rows::{LARGEST_TRAIN, contact_forces, pressed, room_of_a_row};
 
-use super::fields::BadField;
+use super::fields::{BadField, in_range};
 
 /// The numbers of a ball screw in a request, SI; both grooves are alike.
 pub struct ScrewNumbers {
@@ -17,6 +17,24 @@ pub struct ScrewNumbers {
 }
 
 impl ScrewNumbers {
+    /// Refuses what is out of range.
+    pub fn check(&self) -> Result<(), BadField> {
+        in_range("pitch_radius", self.pitch_radius, 1e-4, 10.0)?;
+        in_range("lead", self.lead, 0.0, 20.0 * self.pitch_radius)?;
+        let radius = self.ball_radius;
+        in_range("ball_radius", radius, 1e-5, 0.8 * self.pitch_radius)?;
+        // A ball that fills its groove has no place of its own.
+        in_range(
+            "groove_radius",
+            self.groove_radius,
+            1.002 * radius,
+            1.999 * radius,
+        )?;
+        in_range("youngs_modulus", self.youngs_modulus, 1e6, 1e13)?;
+        in_range("poisson_ratio", self.poisson_ratio, 0.0, 0.49)?;
+        Ok(())
+    }
+
     /// The crate's design with a nominal contact angle.
     pub fn design(&self, contact_angle: f32) -> Result<BallScrew, Error> {
         let material = Material {

@@ -1,11 +1,12 @@
 //! A caged ball screw in float64 by the exact balance of one of its balls.
 
+use epas_design::drawing::drawing;
 use epas_friction::{CagedBallScrewConfiguration, Limits};
 use epas_reference::friction::ball_screw_efficiency::LoadedScrew;
 use epas_reference::friction::rolling_resistance::RollingResistance;
 use std::f64::consts::TAU;
 
-use super::reference::{Friction, drawing, efficiency};
+use super::reference::{Friction, efficiency};
 use super::samples::ScrewSample;
 use super::trace::Trace;
 use crate::failure::Failure;

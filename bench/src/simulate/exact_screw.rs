@@ -3,6 +3,7 @@
 
 use std::f64::consts::TAU;
 
+use epas_design::drawing::drawing;
 use epas_friction::{DeviationMap, LoadShare};
 use epas_reference::ReferenceError;
 use epas_reference::curvature::Groove;
@@ -13,7 +14,7 @@ use epas_reference::friction::ball_screw_ring::{
 use epas_reference::friction::patch::Integration;
 use epas_reference::friction::rolling_resistance::{RollingResistance, relative_radii};
 
-use super::reference::{Friction, drawing, efficiency};
+use super::reference::{Friction, efficiency};
 use super::samples::ScrewSample;
 use super::summary::Lines;
 use super::trace::Trace;

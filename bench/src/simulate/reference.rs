@@ -10,18 +10,14 @@
 
 use std::f64::consts::{SQRT_2, TAU};
 
-use epas_friction::{
-    BallScrewParameters, CagedBallScrewConfiguration, Clearance, FrictionBranch, GrooveSize,
-    Limits, Material,
-};
+use epas_design::drawing::drawing;
+use epas_friction::{CagedBallScrewConfiguration, Clearance, FrictionBranch, Limits};
 use epas_reference::curvature::Groove;
-use epas_reference::design::BallScrewDesign;
 use epas_reference::efficiency::Screw;
 use epas_reference::friction::ball_screw_closed::ThreePointModel;
 use epas_reference::friction::ball_screw_elastic::BallSlip;
 use epas_reference::friction::contact_law::HertzLaw;
 use epas_reference::friction::whole_screw::WholeScrew;
-use epas_reference::material::Elastic;
 
 use super::samples::ScrewSample;
 use super::trace::Trace;
@@ -112,29 +108,6 @@ pub fn whole_screw(
             }
         })
         .collect())
-}
-
-/// The numbers that the design was made from, for the reference.
-pub fn drawing(parameters: &BallScrewParameters) -> BallScrewDesign {
-    let ball_radius = f64::from(parameters.ball_radius);
-    let groove_radius = |size: GrooveSize| match size {
-        GrooveSize::Conformity(conformity) => 2.0 * f64::from(conformity) * ball_radius,
-        GrooveSize::Radius(radius) => radius.into(),
-    };
-    let elastic = |material: &Material| Elastic {
-        youngs_modulus: material.youngs_modulus.into(),
-        poisson_ratio: material.poisson_ratio.into(),
-    };
-    BallScrewDesign {
-        pitch_radius: parameters.pitch_radius.into(),
-        lead: parameters.lead.into(),
-        ball_radius,
-        screw_groove_radius: groove_radius(parameters.screw_groove),
-        nut_groove_radius: groove_radius(parameters.nut_groove),
-        contact_angle: parameters.contact_angle.into(),
-        ball: elastic(&parameters.ball_material),
-        groove: elastic(&parameters.groove_material),
-    }
 }
 
 /// Friction of one sample.

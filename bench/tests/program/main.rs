@@ -1,8 +1,10 @@
 //! The program as its users start it.
 
+mod caged_torque;
 mod calibrate;
 mod calibrate_folder;
 mod calibrated;
+mod design;
 mod eval;
 mod friction_task;
 mod loads;
@@ -69,7 +71,7 @@ fn run(arguments: &[&str], input: &str) -> Run {
 fn help_names_every_subcommand() {
     let help = run(&["--help"], "");
     assert_eq!(help.code, 0);
-    for subcommand in ["report", "simulate", "eval", "target"] {
+    for subcommand in ["report", "simulate", "design", "eval", "target"] {
         assert!(help.stdout.contains(subcommand));
         assert_eq!(run(&[subcommand, "--help"], "").code, 0);
     }

@@ -72,24 +72,8 @@ impl Request {
 
     /// Refuses what is out of range.
     pub fn check(&self) -> Result<(), BadField> {
-        in_range("pitch_radius", self.pitch_radius, 1e-4, 10.0)?;
-        in_range("lead", self.lead, 0.0, 20.0 * self.pitch_radius)?;
-        in_range(
-            "ball_radius",
-            self.ball_radius,
-            1e-5,
-            0.8 * self.pitch_radius,
-        )?;
-        // A ball that fills its groove has no place of its own.
-        in_range(
-            "groove_radius",
-            self.groove_radius,
-            1.002 * self.ball_radius,
-            1.999 * self.ball_radius,
-        )?;
+        self.numbers().check()?;
         in_range("contact_angle", self.contact_angle, 0.25, 1.3)?;
-        in_range("youngs_modulus", self.youngs_modulus, 1e6, 1e13)?;
-        in_range("poisson_ratio", self.poisson_ratio, 0.0, 0.49)?;
         in_range("friction", self.friction, 1e-3, 0.5)?;
         in_range("ball_friction", self.ball_friction, 0.0, 0.5)?;
         let radius = self.ball_radius;
@@ -159,8 +143,7 @@ impl Request {
         }
     }
 
-    /// The crate's design.
-    pub fn design(&self) -> Result<BallScrew, BadField> {
+    const fn numbers(&self) -> ScrewNumbers {
         ScrewNumbers {
             pitch_radius: self.pitch_radius,
             lead: self.lead,
@@ -169,7 +152,12 @@ impl Request {
             youngs_modulus: self.youngs_modulus,
             poisson_ratio: self.poisson_ratio,
         }
-        .design(self.contact_angle as f32)
-        .map_err(|error| BadField::from(error).renamed("axis_ratio", "groove_radius"))
+    }
+
+    /// The crate's design.
+    pub fn design(&self) -> Result<BallScrew, BadField> {
+        self.numbers()
+            .design(self.contact_angle as f32)
+            .map_err(|error| BadField::from(error).renamed("axis_ratio", "groove_radius"))
     }
 }

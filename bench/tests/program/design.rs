@@ -1,0 +1,244 @@
+//! `design`: a block in every format, its certificate, and every way to ask wrongly.
+
+use std::fs;
+use std::path::Path;
+
+use epas_friction::FrictionModel;
+use epas_friction::Inputs;
+use epas_friction::scene::{FoldedScrew, FoldedScrewConstants};
+use serde_json::Value;
+
+use super::eval::number;
+use super::{Run, run_in};
+
+/// A steering screw, without its friction coefficient.
+const DESIGN: &str = "nominal_diameter = 0.028\nlead = 0.007\nball_diameter = 3.969e-3\nconformity = 0.54\n\
+                      contact_angle = 0.7853982\nclearance = 0\nloaded_balls = 60\n";
+
+fn design(folder: &Path, arguments: &str) -> Run {
+    let all: Vec<_> = std::iter::once("design")
+        .chain(arguments.split(' '))
+        .collect();
+    run_in(folder, &all, "")
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let mut names: Vec<_> = fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    names
+}
+
+/// Words of a text form: each is written as `0x` and eight digits.
+fn words(text: &str) -> Vec<u32> {
+    text.split(|letter: char| !letter.is_ascii_alphanumeric())
+        .filter_map(|word| u32::from_str_radix(word.strip_prefix("0x")?, 16).ok())
+        .collect()
+}
+
+fn words_of_bytes(bytes: &[u8]) -> Vec<u32> {
+    bytes
+        .chunks(4)
+        .map(|word| u32::from_le_bytes(word.try_into().unwrap()))
+        .collect()
+}
+
+/// Every format holds the same words, of the same design the same bits; what they say is what `--json` says.
+#[test]
+fn every_format_is_the_same_block() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    fs::write(
+        folder.join("screw.toml"),
+        format!("friction = 0.1\n{DESIGN}"),
+    )
+    .unwrap();
+    let asked = [
+        ("screw.toml --output gear.rs", "gear.rs"),
+        ("screw.toml --output c/gear.h", "c/gear.h"),
+        ("screw.toml --output block.toml", "block.toml"),
+        ("screw.toml --output page.dat --format binary", "page.dat"),
+    ];
+    for (arguments, file) in asked {
+        let run = design(folder, arguments);
+        assert_eq!(run.code, 0, "{}", run.stderr);
+        assert!(
+            run.stdout.contains("caged_torque") && run.stdout.contains(file),
+            "{}",
+            run.stdout
+        );
+    }
+    let text = |name: &str| fs::read_to_string(folder.join(name)).unwrap();
+    let block = words_of_bytes(&fs::read(folder.join("page.dat")).unwrap());
+    let read: toml::Table = toml::from_str(&text("block.toml")).unwrap();
+    let listed: Vec<u32> = read["words"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|word| word.as_integer().unwrap() as u32)
+        .collect();
+    assert_eq!(listed, block);
+    assert_eq!(words(&text("gear.rs")), block);
+    assert_eq!(words(&text("c/gear.h")), block);
+    assert!(text("gear.rs").contains("pub static GEAR: "));
+    assert!(text("c/gear.h").contains("GEAR_BLOCK["));
+
+    let constants = FoldedScrewConstants::<1>::from_block(&listed).unwrap();
+    let mut model = FrictionModel::<FoldedScrew, _>::of(&constants);
+    let outputs = model.step(Inputs {
+        nut_speed: 50.0,
+        axial_load: 6_000.0,
+    });
+    assert!(outputs.friction_torque > 0.1 && !outputs.faults.any());
+
+    let run = design(folder, "screw.toml --json");
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    let said: Value = serde_json::from_str(&run.stdout).unwrap();
+    let keys: Vec<_> = said.as_object().unwrap().keys().cloned().collect();
+    let mut wanted = [
+        "version",
+        "digest",
+        "bytes",
+        "domain",
+        "certificate",
+        "seed",
+        "two_answers",
+        "unsolved",
+        "seconds",
+    ];
+    wanted.sort_unstable();
+    let mut keys: Vec<_> = keys.iter().map(String::as_str).collect();
+    keys.sort_unstable();
+    assert_eq!(keys, wanted);
+    assert_eq!(number(&said["version"]), f64::from(block[1]));
+    assert_eq!(number(&said["bytes"]) as usize, 4 * block.len());
+    assert_eq!(said["digest"], read["digest"].as_str().unwrap());
+    assert_eq!(
+        said["domain"]["axial_load"],
+        serde_json::json!([5.0, 300.0])
+    );
+    let friction = &said["domain"]["friction"];
+    assert!((number(&friction[0]) - 0.1).abs() < 1e-8 && friction[0] == friction[1]);
+    let figure = &said["certificate"][0];
+    assert_eq!(figure["quantity"], "caged_torque");
+    assert_eq!(figure["unit"], "relative");
+    assert!(number(&figure["states"]) >= 2_000.0 && number(&figure["flagged"]) == 0.0);
+    let (largest, rms) = (number(&figure["largest"]), number(&figure["rms"]));
+    assert!(rms < largest && largest < 0.006, "{figure}");
+    assert!(number(&figure["mean"]).abs() <= rms);
+}
+
+/// On standard output the block stands alone, and the certificate beside it; a range of coefficients has its own number of nodes.
+#[test]
+fn a_range_of_coefficients_goes_to_standard_output() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let fold = "[fold]\nfriction = [0.08, 0.12]\naxial_load = [50, 200]\nseed = 7\n";
+    fs::write(folder.join("screw.toml"), format!("{DESIGN}{fold}")).unwrap();
+    let run = design(folder, "screw.toml --format rust");
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    assert!(run.stdout.starts_with("// ") && run.stderr.contains("caged_torque"));
+    assert!(run.stdout.contains("pub static SCREW: "));
+    assert!(run.stderr.contains("seed 7"), "{}", run.stderr);
+    assert!(run.stderr.contains("50 to 200 N"), "{}", run.stderr);
+    FoldedScrewConstants::<5>::from_block(&words(&run.stdout)).unwrap();
+    assert_eq!(names(folder), ["screw.toml"]);
+}
+
+/// One coefficient of the table is the one that is folded.
+#[test]
+fn the_table_gives_the_coefficient() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let fold = "[fold]\nfriction = 0.05\naxial_load = [100, 120]\n";
+    fs::write(
+        folder.join("screw.toml"),
+        format!("friction = 0.1\n{DESIGN}{fold}"),
+    )
+    .unwrap();
+    let run = design(folder, "screw.toml --json");
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    let said: Value = serde_json::from_str(&run.stdout).unwrap();
+    let friction = number(&said["domain"]["friction"][1]);
+    assert!((friction - 0.05).abs() < 1e-8);
+}
+
+/// What cannot be folded says why, and leaves nothing.
+#[test]
+fn refusals_name_their_reason_and_leave_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    for (addition, word) in [
+        ("branch = \"rolling\"", "closed form"),
+        ("[fold]\nscrew_deviation = 0.01", "screw_deviation"),
+        ("[fold]\nnut_deviation = 0.01", "not folded yet"),
+        ("[fold]\nfriction = 0.9", "friction"),
+        ("[fold]\nfriction = [0.2, 0.3]", "0.1 (default)"),
+        ("[fold]\nfriction = [0.12, 0.08]", "friction"),
+        ("[fold]\nfriction = \"low\"", "[least, most]"),
+        ("[fold]\naxial_load = [300, 5]", "axial_load"),
+        ("[fold]\naxial_load = [0, 5]", "axial_load"),
+        ("[fold]\naxial_load = 5", "axial_load"),
+        ("[fold]\nseed = -1", "seed"),
+        ("[fold]\nloads = [1, 2]", "loads"),
+        ("conformity = 0.5", "conformity"),
+    ] {
+        let text = if addition.starts_with("conformity") {
+            DESIGN.replace("conformity = 0.54", addition)
+        } else {
+            format!("{DESIGN}{addition}\n")
+        };
+        fs::write(folder.join("screw.toml"), text).unwrap();
+        let run = design(folder, "screw.toml --output gear.rs");
+        assert_eq!(run.code, 1, "{addition}: {}", run.stderr);
+        assert!(run.stderr.contains(word), "{addition}: {}", run.stderr);
+        assert!(run.stdout.is_empty());
+        assert_eq!(names(folder), ["screw.toml"]);
+    }
+    // Simulation folds nothing: it takes the file.
+    let fold = "[fold]\nscrew_deviation = 0.01\n";
+    fs::write(folder.join("screw.toml"), format!("{DESIGN}{fold}")).unwrap();
+    let arguments = "simulate --design screw.toml --manoeuvre kerb --output kerb.csv";
+    let all: Vec<_> = arguments.split(' ').collect();
+    assert_eq!(run_in(folder, &all, "").code, 0);
+}
+
+/// A file that is there stays, and an output is not called what it is not.
+#[test]
+fn outputs_of_a_block_are_safe() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let fold = "[fold]\naxial_load = [100, 120]\n";
+    let text = format!("{DESIGN}{fold}");
+    fs::write(folder.join("screw.toml"), &text).unwrap();
+    fs::write(folder.join("gear.rs"), "mine").unwrap();
+    for (arguments, code, word) in [
+        ("screw.toml --output gear.rs", 1, "--force"),
+        ("screw.toml --output screw.toml --force", 1, "twice"),
+        ("screw.toml --output gear.csv", 1, ".bin"),
+        ("screw.toml --output gear.h --format rust", 1, ".rs"),
+        ("lin-3.3", 1, "linear"),
+        ("absent.toml", 1, "absent.toml"),
+        ("screw.toml --output gear.dat", 2, "--format"),
+        ("screw.toml --format rust --json", 2, "--output"),
+        ("screw.toml --output - --format c --json", 2, "--output"),
+        ("screw.toml --force", 2, "--output"),
+        ("screw.toml --format pdf", 2, "binary"),
+        ("33x20x6.35", 2, "simulate --list"),
+    ] {
+        let run = design(folder, arguments);
+        assert_eq!(run.code, code, "{arguments}: {}", run.stderr);
+        assert!(run.stderr.contains(word), "{arguments}: {}", run.stderr);
+        assert!(run.stdout.is_empty());
+    }
+    assert_eq!(run_in(folder, &["design"], "").code, 2);
+    assert_eq!(names(folder), ["gear.rs", "screw.toml"]);
+    assert_eq!(fs::read_to_string(folder.join("gear.rs")).unwrap(), "mine");
+    assert_eq!(fs::read_to_string(folder.join("screw.toml")).unwrap(), text);
+    let run = design(folder, "screw.toml --output gear.rs --force");
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    let block = words(&fs::read_to_string(folder.join("gear.rs")).unwrap());
+    FoldedScrewConstants::<1>::from_block(&block).unwrap();
+}
