@@ -3,7 +3,7 @@
 /// Scenes, each with an image of its own, a module of the crate that it has, and those that it leaves out.
 ///
 /// Whatever runs once is folded by the compiler: an image has of a module what its step calls.
-pub const SCENES: [(&str, &str, &[&str]); 8] = [
+pub const SCENES: [(&str, &str, &[&str]); 10] = [
     (
         "curvature",
         "curvature",
@@ -60,6 +60,46 @@ pub const SCENES: [(&str, &str, &[&str]); 8] = [
             "ball::elastic::ring",
             "kinematics",
             "law::breakaway",
+            "scene::circuit",
+            "scene::linear",
+            "scene::uncaged",
+        ],
+    ),
+    (
+        "folded_ball_screw",
+        "scene::folded",
+        &[
+            "contact",
+            "hertz",
+            "curvature",
+            "efficiency",
+            "kinematics",
+            "train",
+            "ball::elastic",
+            "ball::linear",
+            "ball::screw",
+            "law",
+            "scene::caged",
+            "scene::circuit",
+            "scene::linear",
+            "scene::uncaged",
+        ],
+    ),
+    (
+        "folded_with_memory",
+        "scene::memory",
+        &[
+            "contact",
+            "hertz",
+            "curvature",
+            "efficiency",
+            "kinematics",
+            "train",
+            "ball::elastic",
+            "ball::linear",
+            "ball::screw",
+            "law::breakaway",
+            "scene::caged",
             "scene::circuit",
             "scene::linear",
             "scene::uncaged",
