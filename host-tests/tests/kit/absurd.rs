@@ -4,7 +4,7 @@ use std::fmt::Debug;
 use std::sync::LazyLock;
 
 use super::random::Random;
-use epas_friction::ball::folded::{FrictionNode, LoadCurve, LoadLaw, PARTS};
+use epas_friction::ball::folded::{FrictionNode, LoadCurve, LoadLaw};
 use epas_friction::scene::{FoldedScrew, FoldedScrewConfiguration};
 use epas_friction::train::Train;
 use epas_friction::{
