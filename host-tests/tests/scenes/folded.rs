@@ -3,7 +3,7 @@
 use crate::kit::absurd::soak;
 use crate::kit::errors::Errors;
 
-use epas_design::{CagedFold, Figure};
+use epas_design::{CagedFold, Failure, Figure, Folded};
 use epas_friction::geometry::{FINE_LEAD_SIZES, STEERING_SIZES};
 use epas_friction::promises;
 use epas_friction::scene::FoldedScrew;
@@ -52,8 +52,7 @@ fn fold(parameters: BallScrewParameters, clearance: f32, friction: f32) -> Caged
 }
 
 /// Errors of a block's certificate: every state has an exact answer, and none is flagged.
-fn certified(fold: &CagedFold, errors: &mut Errors, line: &str) {
-    let folded = fold.folded().unwrap();
+fn certified(folded: &Folded, errors: &mut Errors, line: &str) {
     let [torque] = &folded.certificate.figures;
     let Figure {
         largest,
@@ -81,23 +80,35 @@ fn folded_step() {
         let clearance = CLEARANCES[place % CLEARANCES.len()];
         let friction = FRICTIONS[place % FRICTIONS.len()];
         let line = format!("{name}, {clearance} m, {friction}");
-        certified(&fold(parameters, clearance, friction), &mut errors, &line);
+        let folded = fold(parameters, clearance, friction).folded().unwrap();
+        certified(&folded, &mut errors, &line);
     }
     errors.assert_promised(&promises::STEP_FOLDED);
 }
 
-/// A block for a range of friction coefficients, in and between its nodes.
+/// A block for a range of friction coefficients, in and between its nodes; a range that it cannot hold to 3 % is refused.
 #[test]
 fn folded_step_between_nodes() {
     let mut errors = Errors::of("folded step, friction between nodes");
-    for (place, (name, parameters)) in designs(5).enumerate() {
+    let (mut blocks, mut refused) = (0, 0);
+    for (place, (name, parameters)) in designs(6).enumerate() {
         let clearance = CLEARANCES[place % CLEARANCES.len()];
+        let line = format!("{name}, {clearance} m");
         let range = CagedFold {
             friction: Some([0.05, 0.15]),
             ..fold(parameters, clearance, 0.1)
         };
-        certified(&range, &mut errors, &format!("{name}, {clearance} m"));
+        match range.folded() {
+            Ok(folded) => certified(&folded, &mut errors, &line),
+            Err(Failure::Domain(reason)) => {
+                refused += 1;
+                println!("{line}: {reason}");
+            }
+            Err(failure) => panic!("{line}: {failure}"),
+        }
+        blocks += 1;
     }
+    assert!(3 * refused <= blocks, "{refused} of {blocks} refused");
     errors.assert_promised(&promises::STEP_FOLDED_RANGE);
 }
 
