@@ -70,7 +70,7 @@ pub const SWAP_FOLDED: Promise = Promise {
     outside: "no constants that have been checked are refused",
     not_finite: "no constants hold such",
     tiny: "no matter",
-    cycles: 40,
+    cycles: 25,
     counted: &["swap_folded"],
     ..SET_FRICTION
 };
@@ -78,7 +78,7 @@ pub const SWAP_FOLDED: Promise = Promise {
 /// [`FrictionModel::of`](crate::FrictionModel::of) of a [`FoldedScrew`](crate::scene::FoldedScrew) whose constants stand in flash.
 pub const START_FOLDED: Promise = Promise {
     function: "FoldedScrew: of",
-    cycles: 40,
+    cycles: 25,
     counted: &["start_folded"],
     ..SWAP_FOLDED
 };
@@ -86,7 +86,7 @@ pub const START_FOLDED: Promise = Promise {
 /// The same with a memory, and a friction coefficient by speed and temperature.
 pub const START_FOLDED_LAW: Promise = Promise {
     function: "WithMemory<FoldedScrew>: of",
-    cycles: 300,
+    cycles: 290,
     counted: &["start_folded_law"],
     ..SWAP_FOLDED
 };

@@ -99,7 +99,7 @@ pub const STEP_FOLDED: Promise = Promise {
     outside: "beyond a limit: the limit, flagged; loads above the block's with its end, flagged; diameter 125 mm with play 1.5e-2",
     not_finite: "no torque, flagged",
     tiny: "no torque at standstill; without load that of the preload",
-    cycles: 265,
+    cycles: 320,
     counted: &["step_folded"],
 };
 
@@ -107,11 +107,12 @@ pub const STEP_FOLDED: Promise = Promise {
 /// ([`FrictionModel::set_friction`](crate::FrictionModel::set_friction)): the laws of both nodes.
 pub const STEP_FOLDED_RANGE: Promise = Promise {
     function: "FoldedScrew: step, friction between nodes",
+    domain: "as for one coefficient, friction 0.05 to 0.15 in one block; designs whose range is not held to 3 % are refused by the fold",
     largest: 3e-2,
     rms: 6e-3,
     mean: 1e-3,
     outside: "beyond a limit: the limit, flagged; loads and friction coefficients beyond the block's flagged",
-    cycles: 340,
+    cycles: 430,
     counted: &["step_folded_range"],
     ..STEP_FOLDED
 };
@@ -139,7 +140,7 @@ pub const STEP_FOLDED_LAW: Promise = Promise {
     function: "WithMemory<FoldedScrew>: step, coefficient by a law",
     domain: "as without memory; friction coefficient 0.05 to 0.12 by speed and temperature",
     error: "none of its own: in steady sliding that of the step between nodes",
-    cycles: 1250,
+    cycles: 1270,
     counted: &["step_folded_law"],
     ..STEP_FOLDED_MEMORY
 };
@@ -147,7 +148,7 @@ pub const STEP_FOLDED_LAW: Promise = Promise {
 /// [`FrictionModel::between`](crate::FrictionModel::between) of the same.
 pub const BETWEEN_FOLDED: Promise = Promise {
     function: "WithMemory<FoldedScrew>: between",
-    cycles: 430,
+    cycles: 410,
     counted: &["between_folded"],
     ..STEP_FOLDED_MEMORY
 };
