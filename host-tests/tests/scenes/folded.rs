@@ -108,7 +108,7 @@ fn folded_step_between_nodes() {
         }
         blocks += 1;
     }
-    assert!(3 * refused <= blocks, "{refused} of {blocks} refused");
+    assert!(2 * refused <= blocks, "{refused} of {blocks} refused");
     errors.assert_promised(&promises::STEP_FOLDED_RANGE);
 }
 
