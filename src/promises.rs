@@ -37,13 +37,18 @@ pub use setting::*;
 pub use steps::*;
 
 /// Promises of every `step()` and `between()`, and of every function that one of them calls as it stands.
-pub const STEPS: [Promise; 27] = [
+pub const STEPS: [Promise; 32] = [
     STEP_CAGED,
     STEP_CAGED_CHANGING,
     STEP_CAGED_CLOSED,
     STEP_CAGED_MEMORY,
     STEP_CAGED_LAW,
     BETWEEN,
+    STEP_FOLDED,
+    STEP_FOLDED_RANGE,
+    STEP_FOLDED_MEMORY,
+    STEP_FOLDED_LAW,
+    BETWEEN_FOLDED,
     STEP_UNCAGED,
     STEP_UNCAGED_MEMORY,
     BETWEEN_UNCAGED,
@@ -78,11 +83,15 @@ pub const PARTS: [Promise; 6] = [
 ];
 
 /// Promises of functions that no step calls, nor parts of them: firmware calls them by their names.
-pub const DIRECT: [Promise; 24] = [
+pub const DIRECT: [Promise; 28] = [
     SET_FRICTION,
     SET_CLEARANCE,
     SET_FRICTION_CAGED,
     SET_CLEARANCE_CAGED,
+    SET_FRICTION_FOLDED,
+    SWAP_FOLDED,
+    START_FOLDED,
+    START_FOLDED_LAW,
     CBRT,
     SIN_COS,
     LITERATURE_CURVATURE,

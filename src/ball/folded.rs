@@ -45,11 +45,13 @@ impl LoadCurve {
     /// The curve's value.
     #[inline(always)]
     pub(crate) const fn at(&self, octaves: f32) -> f32 {
+        // Begins are not negative: numbers not below them have bits not below theirs, and integers are compared in half the cycles.
+        let bits = octaves.to_bits().cast_signed();
         let mut part = 0;
         let mut step = PARTS / 2;
         while step > 0 {
             // The mask tells the compiler what the halving ensures: the index is one of an array.
-            if octaves >= self.starts[(part + step) % PARTS] {
+            if bits >= self.starts[(part + step) % PARTS].to_bits().cast_signed() {
                 part += step;
             }
             step /= 2;
@@ -187,28 +189,42 @@ impl<const NODES: usize> LoadLaw<NODES> {
         friction >= (1.0 - SAME_FRICTION) * least && friction <= (1.0 + SAME_FRICTION) * largest
     }
 
+    /// The [`octaves`] of the nodes' friction coefficients, for [`Self::place`].
+    pub(crate) const fn node_octaves(&self) -> [f32; NODES] {
+        let mut all = [0.0; NODES];
+        let mut number = 0;
+        while number < NODES {
+            all[number] = octaves(self.nodes[number].friction);
+            number += 1;
+        }
+        all
+    }
+
     /// The place of a friction coefficient. Beyond the outermost nodes the torque is in proportion to it.
     #[inline(always)]
-    pub(crate) const fn place(&self, friction: f32) -> FrictionPlace {
-        let mut place = FrictionPlace {
-            friction,
-            node: 0,
-            share: 0.0,
-        };
+    pub(crate) const fn place(&self, friction: f32, node_octaves: &[f32; NODES]) -> FrictionPlace {
+        let mut node = 0;
         let mut number = 1;
-        while number < NODES {
-            let (low, high) = (self.nodes[number - 1].friction, self.nodes[number].friction);
-            if friction > low {
-                place.node = (number - 1) as u32;
-                place.share = if friction < high {
-                    (octaves(friction) - octaves(low)) / (octaves(high) - octaves(low))
-                } else {
-                    1.0
-                };
+        while number + 1 < NODES {
+            if friction > self.nodes[number].friction {
+                node = number;
             }
             number += 1;
         }
-        place
+        let (least, largest) = self.friction_range();
+        let share = if NODES == 1 || friction <= least {
+            0.0
+        } else if friction < largest {
+            let [low, high] = [node_octaves[node % NODES], node_octaves[(node + 1) % NODES]];
+            (octaves(friction) - low) / (high - low)
+        } else {
+            1.0
+        };
+        FrictionPlace {
+            friction,
+            node: node as u32,
+            share,
+        }
     }
 
     /// Friction torque of a ball over its load `W`, m, whose octaves these are, within the ends; `branch` 0 under a load that opposes the
@@ -311,7 +327,10 @@ mod tests {
     #[test]
     fn friction_coefficients_lie_between_nodes() {
         let law = law().checked().unwrap();
-        let over = |friction: f32| law.torque_over_load(120.0, 0, law.place(friction)) / friction;
+        let over = |friction: f32| {
+            let place = law.place(friction, &law.node_octaves());
+            law.torque_over_load(120.0, 0, place) / friction
+        };
         assert_eq!(over(0.05), 1.0);
         assert_eq!(over(0.1), 2.0);
         assert_eq!(over(0.03), 1.0);

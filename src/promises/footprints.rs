@@ -9,7 +9,7 @@ pub const STEP_SPREAD: f64 = 1.5;
 ///
 /// Their constants stand in flash; the stack of the set-up is that of [`FrictionModel::of`](crate::FrictionModel::of), which says
 /// how long that takes.
-pub const FOOTPRINTS: [Footprint; 8] = [
+pub const FOOTPRINTS: [Footprint; 10] = [
     Footprint {
         scene: "curvature",
         flash: 2600,
@@ -41,6 +41,22 @@ pub const FOOTPRINTS: [Footprint; 8] = [
         ram: 1960,
         stack: 184,
         stack_set_up: 6300,
+    },
+    Footprint {
+        scene: "folded_ball_screw",
+        flash: 3900,
+        flash_small: 3500,
+        ram: 24,
+        stack: 64,
+        stack_set_up: 16,
+    },
+    Footprint {
+        scene: "folded_with_memory",
+        flash: 5700,
+        flash_small: 5100,
+        ram: 136,
+        stack: 160,
+        stack_set_up: 112,
     },
     Footprint {
         scene: "linear_bearing",

@@ -48,3 +48,45 @@ pub const SET_CLEARANCE_CAGED: Promise = Promise {
     counted: &["set_clearance_caged"],
     ..SET_FRICTION_CAGED
 };
+
+/// [`FrictionModel::set_friction`](crate::FrictionModel::set_friction) of a [`FoldedScrew`](crate::scene::FoldedScrew): the place
+/// between two nodes.
+pub const SET_FRICTION_FOLDED: Promise = Promise {
+    function: "FoldedScrew: set_friction",
+    domain: "friction coefficients of the block",
+    error: "none of its own: the step's",
+    tiny: "an error below the block's least",
+    cycles: 120,
+    counted: &["set_friction_folded"],
+    ..SET_FRICTION
+};
+
+/// [`FrictionModel::swap_constants`](crate::FrictionModel::swap_constants) of a [`FoldedScrew`](crate::scene::FoldedScrew) whose
+/// constants stand in flash: two references.
+pub const SWAP_FOLDED: Promise = Promise {
+    function: "FoldedScrew: swap_constants",
+    domain: "constants of any block",
+    error: "none of its own: the step's",
+    outside: "no constants that have been checked are refused",
+    not_finite: "no constants hold such",
+    tiny: "no matter",
+    cycles: 25,
+    counted: &["swap_folded"],
+    ..SET_FRICTION
+};
+
+/// [`FrictionModel::of`](crate::FrictionModel::of) of a [`FoldedScrew`](crate::scene::FoldedScrew) whose constants stand in flash.
+pub const START_FOLDED: Promise = Promise {
+    function: "FoldedScrew: of",
+    cycles: 25,
+    counted: &["start_folded"],
+    ..SWAP_FOLDED
+};
+
+/// The same with a memory, and a friction coefficient by speed and temperature.
+pub const START_FOLDED_LAW: Promise = Promise {
+    function: "WithMemory<FoldedScrew>: of",
+    cycles: 290,
+    counted: &["start_folded_law"],
+    ..SWAP_FOLDED
+};

@@ -86,6 +86,73 @@ pub const BETWEEN: Promise = Promise {
     ..STEP_CAGED_MEMORY
 };
 
+/// [`FrictionModel::step`](crate::FrictionModel::step) of a [`FoldedScrew`](crate::scene::FoldedScrew) for one friction coefficient:
+/// logarithm of the load, search among the law's parts, one cubic, and the passage through standstill with its square root. Errors are
+/// those of blocks that `epas-design` folds; each has a certificate of its own.
+pub const STEP_FOLDED: Promise = Promise {
+    function: "FoldedScrew: step",
+    domain: "diameters to 63 mm, friction 0.05 to 0.15, clearance -5 to 20 um, 5 to 300 N a ball, both signs",
+    error: "friction torque, relative",
+    largest: 6e-3,
+    rms: 2e-4,
+    mean: 1e-5,
+    outside: "beyond a limit: the limit, flagged; loads above the block's with its end, flagged; diameter 125 mm with play 1.5e-2",
+    not_finite: "no torque, flagged",
+    tiny: "no torque at standstill; without load that of the preload",
+    cycles: 320,
+    counted: &["step_folded"],
+};
+
+/// The same for a range of friction coefficients, set between two nodes
+/// ([`FrictionModel::set_friction`](crate::FrictionModel::set_friction)): the laws of both nodes.
+pub const STEP_FOLDED_RANGE: Promise = Promise {
+    function: "FoldedScrew: step, friction between nodes",
+    domain: "as for one coefficient, friction 0.05 to 0.15 in one block; designs whose range is not held to 3 % are refused by the fold",
+    largest: 3e-2,
+    rms: 6e-3,
+    mean: 1e-3,
+    outside: "beyond a limit: the limit, flagged; loads and friction coefficients beyond the block's flagged",
+    cycles: 430,
+    counted: &["step_folded_range"],
+    ..STEP_FOLDED
+};
+
+/// [`FrictionModel::step`](crate::FrictionModel::step) of a [`FoldedScrew`](crate::scene::FoldedScrew)
+/// [`WithMemory`](crate::scene::WithMemory): eight elements that turn with a speed, one friction coefficient. It is the law for both
+/// directions, and what the table has of elements, sensor and play.
+pub const STEP_FOLDED_MEMORY: Promise = Promise {
+    function: "WithMemory<FoldedScrew>: step",
+    error: "none of its own: in steady sliding that of the step without memory",
+    largest: 0.0,
+    rms: 0.0,
+    mean: 0.0,
+    outside: "beyond a limit: the limit, flagged; loads above the block's flagged; old loads fade, flagged",
+    not_finite: "the last sound inputs, friction within their limits, flagged",
+    tiny: "no turn: friction stays; without load that of the preload",
+    cycles: 800,
+    counted: &["step_folded_memory"],
+    ..STEP_FOLDED
+};
+
+/// The same with a friction coefficient by speed and temperature, at a new temperature in every tick: the laws of two nodes for both
+/// directions.
+pub const STEP_FOLDED_LAW: Promise = Promise {
+    function: "WithMemory<FoldedScrew>: step, coefficient by a law",
+    domain: "as without memory; friction coefficient 0.05 to 0.12 by speed and temperature",
+    error: "none of its own: in steady sliding that of the step between nodes",
+    cycles: 1270,
+    counted: &["step_folded_law"],
+    ..STEP_FOLDED_MEMORY
+};
+
+/// [`FrictionModel::between`](crate::FrictionModel::between) of the same.
+pub const BETWEEN_FOLDED: Promise = Promise {
+    function: "WithMemory<FoldedScrew>: between",
+    cycles: 410,
+    counted: &["between_folded"],
+    ..STEP_FOLDED_MEMORY
+};
+
 /// [`FrictionModel::step`](crate::FrictionModel::step) of an [`UncagedBallScrew`](crate::UncagedBallScrew): one
 /// [`ElasticGrooves::renew`](crate::ball::elastic::ElasticGrooves::renew), for which the deviations of both grooves at one place are
 /// looked up in integers; at a reversal or a jump of the load one

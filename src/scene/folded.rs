@@ -54,6 +54,8 @@ pub struct FoldedScrewConfiguration<const NODES: usize = 1> {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct FoldedScrewConstants<const NODES: usize = 1> {
     law: LoadLaw<NODES>,
+    /// Octaves of the nodes' friction coefficients.
+    node_octaves: [f32; NODES],
     /// Place of the configuration's friction coefficient.
     friction: FrictionPlace,
     /// 1 over the number of loaded balls; lift-off load of all balls, N.
@@ -101,8 +103,10 @@ impl<const NODES: usize> FoldedScrewConstants<NODES> {
         attempt!(in_range("friction", friction, least, largest));
         attempt!(in_range("lead", lead, 0.0, 0.2));
         let balls = attempt!(in_range("loaded_balls", loaded_balls as f32, 1.0, 1e3));
+        let node_octaves = law.node_octaves();
         Ok(Self {
-            friction: law.place(friction),
+            friction: law.place(friction, &node_octaves),
+            node_octaves,
             per_ball: 1.0 / balls,
             lift_off: balls * law.lift_off,
             law,
@@ -110,6 +114,12 @@ impl<const NODES: usize> FoldedScrewConstants<NODES> {
             reversal: attempt!(Reversal::new(reversal_speed, 1e-6, 1e3)),
             limits: attempt!(limits.checked()),
         })
+    }
+
+    /// Where a friction coefficient lies.
+    #[inline(always)]
+    const fn place(&self, friction: f32) -> FrictionPlace {
+        self.law.place(friction, &self.node_octaves)
     }
 
     /// Where a load lies.
@@ -146,11 +156,25 @@ impl<const NODES: usize> FoldedScrewConstants<NODES> {
     ) -> Outputs {
         let load_torque = axial_load * self.reduced_lead;
         let opposing = passage.way * load_torque;
+        // Both follow from the same comparison of the load's sign.
+        let (efficiency, moving) = if opposing > 0.0 {
+            (efficiency(true, opposing, full), Regime::Driving)
+        } else if full < -opposing {
+            (efficiency(false, opposing, full), Regime::BackDriving)
+        } else if opposing < 0.0 {
+            (efficiency(false, opposing, full), Regime::Locked)
+        } else {
+            (0.0, Regime::Driving)
+        };
         Outputs {
             friction_torque: passage.share * shared,
             load_torque,
-            efficiency: efficiency(opposing > 0.0, opposing, full),
-            regime: Regime::under(passage.standing, opposing, full),
+            efficiency,
+            regime: if passage.standing {
+                Regime::Standing
+            } else {
+                moving
+            },
             faults,
         }
     }
@@ -187,7 +211,20 @@ impl<const NODES: usize> Scene for FoldedScrew<NODES> {
 
     #[inline(always)]
     fn admit(constants: &FoldedScrewConstants<NODES>, inputs: Inputs) -> Admitted<Inputs> {
-        constants.limits.admit(inputs)
+        let Inputs {
+            nut_speed,
+            axial_load,
+        } = inputs;
+        let limits = &constants.limits;
+        // Limits are finite: what is within them is a number, and needs nothing else.
+        if nut_speed.abs() <= limits.nut_speed && axial_load.abs() <= limits.axial_load {
+            Admitted {
+                inputs: Some(inputs),
+                faults: Faults::NONE,
+            }
+        } else {
+            limits.admit(inputs)
+        }
     }
 
     #[inline(always)]
@@ -235,8 +272,8 @@ impl<const NODES: usize> Sliding for FoldedScrew<NODES> {
         let beyond = loaded.beyond || !law.holds(forward) || !law.holds(backward);
         let load = inputs.axial_load;
         CagedFull {
-            forward: constants.torque(&loaded, load, law.place(forward)),
-            backward: constants.torque(&loaded, -load, law.place(backward)),
+            forward: constants.torque(&loaded, load, constants.place(forward)),
+            backward: constants.torque(&loaded, -load, constants.place(backward)),
             load: loaded.whole,
             faults: Faults::NONE.with(beyond, Faults::BEYOND_MODEL),
         }
@@ -276,7 +313,7 @@ impl<const NODES: usize> ChangingFriction for FoldedScrew<NODES> {
     ) -> Result<(), Error> {
         let (least, largest) = constants.law.friction_range();
         let friction = in_range("friction", friction, least, largest)?;
-        state.friction = constants.law.place(friction);
+        state.friction = constants.place(friction);
         Ok(())
     }
 }

@@ -29,12 +29,14 @@
 //! | [`certificate`] | errors of a folded block on states that were not fitted |
 //! | [`output`] | a block as Rust, C, TOML and bytes |
 //! | [`drawing`] | a design of the crate as one of the reference |
+//! | [`gears`] | the gear of the project's own firmware |
 
 pub mod caged;
 pub mod certificate;
 pub mod curve;
 pub mod drawing;
 mod failure;
+pub mod gears;
 pub mod output;
 
 pub use caged::{CagedFold, Folded};

@@ -25,16 +25,19 @@ use epas_friction::law::motion::{
     AngleReading, CountReading, CountSensor, CountSensorParameters, NutAngle, Play, PlayState,
     SpeedOverTick, Steady, SteadyReading, WrappedAngle, WrappedAngleParameters,
 };
+use epas_friction::scene::{FoldedScrew, FoldedScrewConstants};
 use epas_friction::train::{Press, Train};
 use epas_friction::{
     BallScrew, CATALOGUE, CagedBallScrew, DeviationMap, Error, FrictionModel, Inputs,
     LinearBearingTrain, UncagedBallScrew, defaults,
 };
 
+use crate::gears::{LIN_3_6, LIN_3_6_RANGE};
 use crate::peers::{LuGre, Stribeck};
 use crate::remembering::{self, Carriage, FEWER, Gear, GearByLaw};
 use crate::scenes::{
-    BALLS, CagedByLaw, CagedMemory, ROW, SCREW_DEVIATION, TICK, caged_configuration,
+    BALLS, CagedByLaw, CagedMemory, FOLDED_BY_LAW, FOLDED_WITH_MEMORY, FoldedByLaw,
+    FoldedLawConstants, FoldedMemory, ROW, SCREW_DEVIATION, TICK, caged_configuration,
     caged_law_configuration, caged_memory_configuration, linear_configuration,
     uncaged_configuration,
 };
@@ -79,6 +82,22 @@ pub struct Contexts {
     pub caged_changing: FrictionModel<CagedBallScrew>,
     /// Caged ball screw with friction by a closed form.
     pub caged_closed: FrictionModel<CagedBallScrew>,
+    /// Folded ball screw.
+    pub folded: FrictionModel<FoldedScrew>,
+    /// The same with a friction coefficient between two nodes.
+    pub folded_range: FrictionModel<FoldedScrew<5>>,
+    /// The same, whose friction coefficient is set.
+    pub folded_set: FrictionModel<FoldedScrew<5>, &'static FoldedScrewConstants<5>>,
+    /// Folded ball screw whose block is changed.
+    pub folded_swapped: FrictionModel<FoldedScrew, &'static FoldedScrewConstants>,
+    /// Whether it is the worn one.
+    pub worn: bool,
+    /// Folded ball screw with a memory.
+    pub folded_memory: FrictionModel<FoldedMemory>,
+    /// The same with a friction coefficient by speed and temperature.
+    pub folded_law: FrictionModel<FoldedByLaw>,
+    /// The same, that starts anew.
+    pub folded_law_started: FrictionModel<FoldedByLaw, &'static FoldedLawConstants>,
     /// Deviation of contact angles along a groove.
     pub deviation: &'static DeviationMap,
     /// Balls of a ball screw in closed form.
@@ -223,6 +242,14 @@ impl Contexts {
             caged_law: FrictionModel::new(&black_box(caged_law_configuration()?))?,
             caged_changing: changing(FrictionModel::new(&black_box(caged_configuration()?))?)?,
             caged_closed: FrictionModel::new(&black_box(remembering::closed_configuration()?))?,
+            folded: FrictionModel::of(black_box(LIN_3_6)),
+            folded_range: between_nodes(FrictionModel::of(black_box(LIN_3_6_RANGE)))?,
+            folded_set: FrictionModel::of(black_box(&LIN_3_6_RANGE)),
+            folded_swapped: FrictionModel::of(black_box(&LIN_3_6)),
+            worn: false,
+            folded_memory: FrictionModel::of(black_box(FOLDED_WITH_MEMORY)),
+            folded_law: FrictionModel::of(black_box(FOLDED_BY_LAW)),
+            folded_law_started: FrictionModel::of(black_box(&FOLDED_BY_LAW)),
             deviation: &SCREW_DEVIATION,
             screw_loop: screw_row.at(10.0, 100.0).per_speed(0.5, 2.0, (1.0, 1.0)),
             screw_row,
@@ -317,6 +344,14 @@ fn changing(
     mut model: FrictionModel<CagedBallScrew>,
 ) -> Result<FrictionModel<CagedBallScrew>, Error> {
     model.set_friction(0.08)?;
+    Ok(model)
+}
+
+/// A folded ball screw whose friction coefficient is no node's.
+fn between_nodes(
+    mut model: FrictionModel<FoldedScrew<5>>,
+) -> Result<FrictionModel<FoldedScrew<5>>, Error> {
+    model.set_friction(0.11)?;
     Ok(model)
 }
 

@@ -11,6 +11,7 @@ pub mod control_loop;
 pub mod counted;
 pub mod devices;
 pub mod friction_task;
+pub mod gears;
 pub mod inputs;
 pub mod numbers;
 pub mod peers;

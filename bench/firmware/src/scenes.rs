@@ -11,7 +11,8 @@ use epas_friction::law::coefficient::{CoefficientLaw, OneCoefficient, Temperatur
 use epas_friction::law::memory::{Part, ProportionalElements, SLIP_8};
 use epas_friction::law::motion::SpeedOverTick;
 use epas_friction::scene::{
-    Freshness, WithMemory, WithMemoryConfiguration, WithMemoryConstants, WithMemoryInputs,
+    FoldedScrew, FoldedScrewConstants, Freshness, WithMemory, WithMemoryConfiguration,
+    WithMemoryConstants, WithMemoryInputs,
 };
 use epas_friction::{
     BallScrew, CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, Clearance,
@@ -21,6 +22,7 @@ use epas_friction::{
     Material, RollingResistance, UncagedBallScrew, UncagedBallScrewConfiguration, UncagedConstants,
 };
 
+use crate::gears::{LIN_3_6, LIN_3_6_RANGE};
 use crate::numbers::{linear_outputs, outputs, uncaged_outputs};
 
 /// Balls in the ball screw's circuit.
@@ -92,6 +94,16 @@ static CAGED_WITH_MEMORY: CagedMemoryConstants = folded(WithMemoryConstants::new
         folded(OneCoefficient::new(0.075)),
     )),
 ));
+/// Constants of the folded gear with a memory.
+pub static FOLDED_WITH_MEMORY: FoldedMemoryConstants = folded(WithMemoryConstants::new(
+    LIN_3_6,
+    &folded(with_memory((), folded(OneCoefficient::new(0.075)))),
+));
+/// Constants of the folded gear whose friction coefficient follows speed and temperature.
+pub static FOLDED_BY_LAW: FoldedLawConstants = folded(WithMemoryConstants::new(
+    LIN_3_6_RANGE,
+    &folded(with_memory((), folded(CoefficientLaw::new(&COEFFICIENT)))),
+));
 static UNCAGED_WITH_MEMORY: UncagedMemoryConstants = folded(WithMemoryConstants::new(
     UNCAGED,
     &folded(with_memory(
@@ -103,6 +115,16 @@ static UNCAGED_WITH_MEMORY: UncagedMemoryConstants = folded(WithMemoryConstants:
 /// Constants of scenes with memory.
 pub type CagedMemoryConstants =
     WithMemoryConstants<CagedConstants, ProportionalElements<8>, SpeedOverTick, OneCoefficient>;
+/// The same of a folded gear.
+pub type FoldedMemoryConstants = WithMemoryConstants<
+    FoldedScrewConstants,
+    ProportionalElements<8>,
+    SpeedOverTick,
+    OneCoefficient,
+>;
+/// The same with a friction coefficient by speed and temperature.
+pub type FoldedLawConstants =
+    WithMemoryConstants<FoldedScrewConstants<5>, ProportionalElements<8>, SpeedOverTick>;
 /// The same without cage.
 pub type UncagedMemoryConstants = WithMemoryConstants<
     UncagedConstants<BALLS>,
@@ -275,6 +297,48 @@ impl Run for CagedWithMemory {
 
     fn set_up() -> Result<Self::Model, Error> {
         Ok(FrictionModel::of(&CAGED_WITH_MEMORY))
+    }
+
+    fn tick(model: &mut Self::Model, nut_speed: f32, axial_load: f32, digest: &mut Digest) {
+        digest.take(&outputs(&model.step(remembered(nut_speed, axial_load))));
+    }
+}
+
+/// A ball screw with a cage, by a law that a host has folded.
+pub struct Folded;
+
+impl Run for Folded {
+    const NAME: &'static str = "folded_ball_screw";
+    type Model = FrictionModel<FoldedScrew, &'static FoldedScrewConstants>;
+
+    fn set_up() -> Result<Self::Model, Error> {
+        Ok(FrictionModel::of(&LIN_3_6))
+    }
+
+    fn tick(model: &mut Self::Model, nut_speed: f32, axial_load: f32, digest: &mut Digest) {
+        digest.take(&outputs(&model.step(Inputs {
+            nut_speed,
+            axial_load,
+        })));
+    }
+}
+
+/// The same whose friction remembers: eight elements, one friction coefficient.
+pub struct FoldedWithMemory;
+
+/// Its scene.
+pub type FoldedMemory =
+    WithMemory<FoldedScrew, ProportionalElements<8>, SpeedOverTick, OneCoefficient>;
+
+/// The same with a friction coefficient by speed and temperature.
+pub type FoldedByLaw = WithMemory<FoldedScrew<5>, ProportionalElements<8>, SpeedOverTick>;
+
+impl Run for FoldedWithMemory {
+    const NAME: &'static str = "folded_with_memory";
+    type Model = FrictionModel<FoldedMemory, &'static FoldedMemoryConstants>;
+
+    fn set_up() -> Result<Self::Model, Error> {
+        Ok(FrictionModel::of(&FOLDED_WITH_MEMORY))
     }
 
     fn tick(model: &mut Self::Model, nut_speed: f32, axial_load: f32, digest: &mut Digest) {

@@ -3,7 +3,7 @@
 /// Scenes, each with an image of its own, a module of the crate that it has, and those that it leaves out.
 ///
 /// Whatever runs once is folded by the compiler: an image has of a module what its step calls.
-pub const SCENES: [(&str, &str, &[&str]); 8] = [
+pub const SCENES: [(&str, &str, &[&str]); 10] = [
     (
         "curvature",
         "curvature",
@@ -66,6 +66,50 @@ pub const SCENES: [(&str, &str, &[&str]); 8] = [
         ],
     ),
     (
+        "folded_ball_screw",
+        "scene::folded",
+        &[
+            "contact",
+            "hertz",
+            "curvature",
+            "efficiency",
+            "kinematics",
+            "train",
+            "ball::elastic",
+            "ball::linear",
+            "ball::screw",
+            "law",
+            "scene::caged",
+            "scene::circuit",
+            "scene::linear",
+            "scene::uncaged",
+        ],
+    ),
+    (
+        "folded_with_memory",
+        "scene::memory",
+        &[
+            "contact",
+            "hertz",
+            "curvature",
+            "efficiency",
+            "kinematics",
+            "train",
+            "ball::elastic",
+            "ball::linear",
+            "ball::screw",
+            "law::breakaway",
+            "scene::caged::closed_form",
+            "scene::caged::coefficients",
+            "scene::caged::configuration",
+            "scene::caged::contacts",
+            "scene::caged::stored",
+            "scene::circuit",
+            "scene::linear",
+            "scene::uncaged",
+        ],
+    ),
+    (
         "linear_bearing",
         "train",
         &[
@@ -121,6 +165,15 @@ mod tests {
     use std::path::Path;
 
     use super::*;
+
+    /// Or their counts could not be compared.
+    #[test]
+    fn folded_and_caged_scene_have_one_gear() {
+        assert_eq!(
+            epas_design::gears::lin_3_6().unwrap(),
+            epas_firmware::scenes::caged_configuration().unwrap()
+        );
+    }
 
     /// Or nothing would be found of a module that was renamed, and a scene would seem to leave it out.
     #[test]

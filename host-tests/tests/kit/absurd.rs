@@ -4,6 +4,8 @@ use std::fmt::Debug;
 use std::sync::LazyLock;
 
 use super::random::Random;
+use epas_friction::ball::folded::{FrictionNode, LoadCurve, LoadLaw};
+use epas_friction::scene::{FoldedScrew, FoldedScrewConfiguration};
 use epas_friction::train::Train;
 use epas_friction::{
     BallScrew, BallScrewParameters, CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration,
@@ -328,24 +330,10 @@ impl Trial for CagedBallScrew {
 
     fn check(
         configuration: &CagedBallScrewConfiguration,
-        [speed, load, _]: [f32; 3],
+        sensors: [f32; 3],
         outputs: &Outputs,
     ) -> Result<(), String> {
-        let limits = &configuration.limits;
-        let lost = flags(
-            outputs.faults,
-            (speed, limits.nut_speed),
-            &[load],
-            limits.axial_load,
-        )?;
-        friction(outputs.friction_torque, limits.friction_torque, speed, lost)?;
-        finite("load_torque", outputs.load_torque)?;
-        finite("efficiency", outputs.efficiency)?;
-        if (-1e6..=1.0).contains(&outputs.efficiency) {
-            Ok(())
-        } else {
-            Err(format!("efficiency {}", outputs.efficiency))
-        }
+        screw_outputs(&configuration.limits, sensors, outputs)
     }
 
     fn check_state(_: &FrictionModel<Self>) -> Result<(), String> {
@@ -360,6 +348,109 @@ impl Trial for CagedBallScrew {
             outputs.regime as u32,
             u32::from(outputs.faults.bits()),
         ]
+    }
+}
+
+/// A curve of random numbers, from the likely to the absurd.
+fn curve(random: &mut Random) -> LoadCurve {
+    let mut start = random.within(0.0, 140.0);
+    let steepest = random.size(1e-6, 1e9);
+    LoadCurve {
+        starts: std::array::from_fn(|_| {
+            start += random.of(&[0.0, 0.1, 3.0, f32::MAX]);
+            start.min(f32::MAX)
+        }),
+        cubics: std::array::from_fn(|_| {
+            let [_, b, c, d] = std::array::from_fn(|_| random.within(-steepest, steepest));
+            [random.within(0.0, steepest), b, c, d]
+        }),
+    }
+}
+
+impl<const N: usize> Trial for FoldedScrew<N> {
+    fn name() -> String {
+        format!("folded ball screw of {N} nodes")
+    }
+
+    fn configuration(random: &mut Random) -> FoldedScrewConfiguration<N> {
+        let mut friction = random.size(1e-6, 0.02);
+        let nodes = std::array::from_fn(|_| {
+            friction *= random.of(&[1.02, 1.5, 2.0]);
+            FrictionNode {
+                friction,
+                curves: [curve(random), curve(random)],
+                shift: [random.within(-30.0, 30.0), random.within(-30.0, 30.0)],
+            }
+        });
+        let least = random.within(1.0, 254.0);
+        let law = LoadLaw {
+            nodes,
+            ends: [least, random.within(least, 254.0)],
+            lift_off: random.of(&[0.0, 1e-30, 10.0, 1e7]),
+        };
+        let (from, to) = law.friction_range();
+        FoldedScrewConfiguration {
+            friction: random.within(from, to),
+            law,
+            lead: random.of(&[0.0, 1e-9, 0.01, 0.2]),
+            loaded_balls: random.of(&[1, 7, 120, 1000]),
+            reversal_speed: random.size(1e-6, 1e3),
+            limits: limits(random),
+        }
+    }
+
+    fn sensors(
+        random: &mut Random,
+        configuration: &FoldedScrewConfiguration<N>,
+        last: [f32; 3],
+    ) -> [f32; 3] {
+        [
+            random.signal(configuration.limits.nut_speed, last[0]),
+            random.signal(configuration.limits.axial_load, last[1]),
+            0.0,
+        ]
+    }
+
+    fn inputs(sensors: [f32; 3]) -> Inputs {
+        CagedBallScrew::inputs(sensors)
+    }
+
+    fn check(
+        configuration: &FoldedScrewConfiguration<N>,
+        sensors: [f32; 3],
+        outputs: &Outputs,
+    ) -> Result<(), String> {
+        screw_outputs(&configuration.limits, sensors, outputs)
+    }
+
+    fn check_state(_: &FrictionModel<Self>) -> Result<(), String> {
+        Ok(())
+    }
+
+    fn numbers(outputs: &Outputs) -> Vec<u32> {
+        CagedBallScrew::numbers(outputs)
+    }
+}
+
+/// Outputs of a ball screw with or without a cage: finite, within their limits, with flags that say what was wrong.
+fn screw_outputs(
+    limits: &Limits,
+    [speed, load, _]: [f32; 3],
+    outputs: &Outputs,
+) -> Result<(), String> {
+    let lost = flags(
+        outputs.faults,
+        (speed, limits.nut_speed),
+        &[load],
+        limits.axial_load,
+    )?;
+    friction(outputs.friction_torque, limits.friction_torque, speed, lost)?;
+    finite("load_torque", outputs.load_torque)?;
+    finite("efficiency", outputs.efficiency)?;
+    if (-1e6..=1.0).contains(&outputs.efficiency) {
+        Ok(())
+    } else {
+        Err(format!("efficiency {}", outputs.efficiency))
     }
 }
 

@@ -58,6 +58,18 @@ impl Errors {
         self.count += 1.0;
     }
 
+    /// Adds largest, root mean square and mean error of so many cases.
+    pub fn add_figures(&mut self, figures: [f64; 3], count: f64, worst: impl FnOnce() -> String) {
+        let [largest, rms, mean] = figures;
+        if largest > self.largest {
+            self.largest = largest;
+            self.worst = worst();
+        }
+        self.squares += rms * rms * count;
+        self.sum += mean * count;
+        self.count += count;
+    }
+
     /// Adds what another thread found.
     pub fn join(&mut self, other: &Self) {
         if other.largest > self.largest {

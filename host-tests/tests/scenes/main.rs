@@ -9,6 +9,7 @@ mod caged_contacts;
 mod compensation;
 mod extreme;
 mod faults;
+mod folded;
 mod hal;
 mod laws;
 mod linear_scene;

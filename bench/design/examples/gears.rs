@@ -1,0 +1,12 @@
+//! Folds the gears of the firmware: `cargo run --release -p epas-design --example gears -- bench/firmware/src/gears`.
+
+use epas_design::{Failure, gears};
+
+fn main() -> Result<(), Failure> {
+    let folder = std::env::args().nth(1).unwrap_or_else(|| ".".into());
+    for (name, fold) in gears::firmware()? {
+        let path = fold.folded()?.write_rust(name, &folder)?;
+        println!("{}", path.display());
+    }
+    Ok(())
+}

@@ -1,0 +1,20 @@
+//! The gears that the firmware holds are those that are folded.
+
+use epas_design::gears;
+
+/// Each file in `bench/firmware/src/gears` has the bits of its fold.
+#[test]
+fn firmware_holds_what_is_folded() {
+    let files = [
+        include_str!("../../firmware/src/gears/lin_3_6.rs"),
+        include_str!("../../firmware/src/gears/lin_3_6_range.rs"),
+        include_str!("../../firmware/src/gears/lin_3_6_worn.rs"),
+    ];
+    for ((name, fold), file) in gears::firmware().unwrap().into_iter().zip(files) {
+        let folded = fold.folded().unwrap().rust(name).unwrap();
+        assert!(
+            folded == file,
+            "{name}: `cargo run --release -p epas-design --example gears -- bench/firmware/src/gears` writes another file"
+        );
+    }
+}

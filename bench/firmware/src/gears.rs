@@ -1,0 +1,9 @@
+//! Gears that `epas-design` folded, as it wrote them: `cargo run --release -p epas-design --example gears -- bench/firmware/src/gears`.
+
+mod lin_3_6;
+mod lin_3_6_range;
+mod lin_3_6_worn;
+
+pub use lin_3_6::LIN_3_6;
+pub use lin_3_6_range::LIN_3_6_RANGE;
+pub use lin_3_6_worn::LIN_3_6_WORN;
