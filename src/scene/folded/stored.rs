@@ -20,7 +20,7 @@ impl<const NODES: usize> StoredScene for FoldedScrew<NODES> {
     ) -> Result<(), Refusal> {
         let friction = state.friction.friction();
         if constants.law.holds(friction) {
-            state.friction = constants.law.place(friction);
+            state.friction = constants.place(friction);
             Ok(())
         } else {
             Err(Refusal::OutOfRange { field: "friction" })
