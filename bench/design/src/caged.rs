@@ -70,6 +70,8 @@ pub struct Folded {
 }
 
 /// A block, by its number of friction coefficients.
+// A host has room, and a block that is copied is easier to hold.
+#[allow(clippy::large_enum_variant)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Block {
     /// One friction coefficient.
