@@ -82,7 +82,7 @@ fn main() -> Result<(), Failure> {
                         }
                     }
                     Err(failure) => {
-                        println!("{name}, {:.0} um, {friction}: {failure}", 1e6 * clearance)
+                        println!("{name}, {:.0} um, {friction}: {failure}", 1e6 * clearance);
                     }
                 }
             }
