@@ -5,8 +5,7 @@ use epas_design::{Failure, gears};
 fn main() -> Result<(), Failure> {
     let folder = std::env::args().nth(1).unwrap_or_else(|| ".".into());
     for (name, fold) in gears::firmware()? {
-        let path = fold.folded()?.write_rust(name, &folder)?;
-        println!("{}", path.display());
+        fold.folded()?.write_rust(name, &folder)?;
     }
     Ok(())
 }
