@@ -44,15 +44,10 @@ impl BallScrewDesign {
     /// # Errors
     /// [`ReferenceError`] naming `screw_groove_radius` or `nut_groove_radius`.
     pub fn check_grooves(&self) -> Result<(), ReferenceError> {
-        let [least, largest] = [1.001, 2.0].map(|part| part * self.ball_radius);
-        within(
-            "screw_groove_radius",
-            self.screw_groove_radius,
-            least,
-            largest,
-        )?;
-        within("nut_groove_radius", self.nut_groove_radius, least, largest)?;
-        Ok(())
+        check_groove_radii(
+            self.ball_radius,
+            [self.screw_groove_radius, self.nut_groove_radius],
+        )
     }
 
     /// Surface of one groove, whose arc meets the ball at the nominal contact angle.
@@ -97,6 +92,20 @@ impl BallScrewDesign {
             self.ball.contact_modulus(&self.groove),
         )
     }
+}
+
+/// Refuses groove radii of screw and nut, m, beyond 1.001 to 2 ball radii.
+///
+/// # Errors
+/// [`ReferenceError`] naming `screw_groove_radius` or `nut_groove_radius`.
+pub(crate) fn check_groove_radii(
+    ball_radius: f64,
+    [screw, nut]: [f64; 2],
+) -> Result<(), ReferenceError> {
+    let [least, largest] = [1.001, 2.0].map(|part| part * ball_radius);
+    within("screw_groove_radius", screw, least, largest)?;
+    within("nut_groove_radius", nut, least, largest)?;
+    Ok(())
 }
 
 /// A linear bearing: straight grooves with circular arcs.

@@ -1,6 +1,4 @@
-//! A ball screw whose balls do not touch, by a law that was solved on a host: [`epas-design`] folds it, a step evaluates it.
-//!
-//! [`epas-design`]: https://docs.rs/epas-design
+//! A ball screw whose balls do not touch, by a law that was solved on a host: `epas-design` folds it, a step evaluates it.
 
 mod block;
 mod stored;

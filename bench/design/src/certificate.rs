@@ -1,8 +1,6 @@
 //! Errors of a folded block against the exact solver, on states that were not fitted.
 
-use epas_friction::scene::{
-    ChangingFriction, FoldedScrew, FoldedScrewConfiguration, FoldedScrewConstants,
-};
+use epas_friction::scene::{FoldedScrew, FoldedScrewConfiguration};
 use epas_friction::{FrictionModel, Inputs, Limits};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
@@ -86,14 +84,7 @@ impl Certificate {
         fold: &CagedFold,
         exact: &Exact,
         block: &FoldedScrewConfiguration<N>,
-    ) -> Result<Self, Failure>
-    where
-        FoldedScrew<N>: ChangingFriction<
-                Configuration = FoldedScrewConfiguration<N>,
-                Constants = FoldedScrewConstants<N>,
-                Inputs = Inputs,
-            >,
-    {
+    ) -> Result<Self, Failure> {
         let mut random = Pcg64::seed_from_u64(fold.seed);
         let [least, most] = fold.axial_load.map(f64::from);
         let (low, high) = block.law.friction_range();

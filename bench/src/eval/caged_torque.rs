@@ -10,11 +10,9 @@ use epas_friction::{
     CagedBallScrewConfiguration, Clearance, FrictionBranch, FrictionModel, Inputs, Limits,
     RollingResistance,
 };
-use epas_reference::design::BallScrewDesign;
 use epas_reference::friction::caged_ball::CagedBall;
 use epas_reference::friction::patch::Integration;
 use epas_reference::friction::rolling_resistance::RollingResistance as Rolling;
-use epas_reference::material::Elastic;
 use serde::Serialize;
 
 use super::answer::Answer;
@@ -128,29 +126,8 @@ impl Request {
     }
 
     fn ball(&self) -> CagedBall {
-        let ScrewNumbers {
-            pitch_radius,
-            lead,
-            ball_radius,
-            groove_radius,
-            youngs_modulus,
-            poisson_ratio,
-        } = self.numbers;
-        let material = Elastic {
-            youngs_modulus,
-            poisson_ratio,
-        };
         CagedBall {
-            design: BallScrewDesign {
-                pitch_radius,
-                lead,
-                ball_radius,
-                screw_groove_radius: groove_radius,
-                nut_groove_radius: groove_radius,
-                contact_angle: self.contact_angle,
-                ball: material,
-                groove: material,
-            },
+            design: self.numbers.exact(self.contact_angle),
             clearance: self.clearance,
             friction: self.friction,
             rolling: Rolling::NONE,

@@ -2,6 +2,8 @@
 
 use epas_friction::{BallScrew, BallScrewParameters, Error, GrooveSize, Material};
 use epas_reference::ReferenceError;
+use epas_reference::design::BallScrewDesign;
+use epas_reference::material::Elastic;
 pub use epas_rows::{LARGEST_TRAIN, contact_forces, pressed, room_of_a_row};
 
 use super::fields::{BadField, in_range};
@@ -33,6 +35,24 @@ impl ScrewNumbers {
         in_range("youngs_modulus", self.youngs_modulus, 1e6, 1e13)?;
         in_range("poisson_ratio", self.poisson_ratio, 0.0, 0.49)?;
         Ok(())
+    }
+
+    /// The reference's design with a nominal contact angle.
+    pub const fn exact(&self, contact_angle: f64) -> BallScrewDesign {
+        let material = Elastic {
+            youngs_modulus: self.youngs_modulus,
+            poisson_ratio: self.poisson_ratio,
+        };
+        BallScrewDesign {
+            pitch_radius: self.pitch_radius,
+            lead: self.lead,
+            ball_radius: self.ball_radius,
+            screw_groove_radius: self.groove_radius,
+            nut_groove_radius: self.groove_radius,
+            contact_angle,
+            ball: material,
+            groove: material,
+        }
     }
 
     /// The crate's design with a nominal contact angle.

@@ -5,6 +5,7 @@ use nalgebra::{SMatrix, Vector3};
 use super::ball_screw_ball::{Groove, ScrewContact, ScrewTrack};
 use super::contact_law::HertzLaw;
 use super::newton::Local;
+use crate::design::check_groove_radii;
 use crate::error::{ReferenceError, within};
 
 /// Grooves with their elasticity: four arcs around the ball.
@@ -34,12 +35,7 @@ impl ElasticGrooves {
     pub fn check(&self) -> Result<(), ReferenceError> {
         self.track.check()?;
         let r = self.track.ball_radius;
-        for (field, radius) in [
-            ("screw_groove_radius", self.screw_groove_radius),
-            ("nut_groove_radius", self.nut_groove_radius),
-        ] {
-            within(field, radius, 1.001 * r, 2.0 * r)?;
-        }
+        check_groove_radii(r, [self.screw_groove_radius, self.nut_groove_radius])?;
         for angle in self.arc_angles {
             within("arc_angles", angle, 0.05, 1.5)?;
         }

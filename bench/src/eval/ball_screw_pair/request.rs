@@ -1,10 +1,8 @@
 //! A request, and what the float64 reference answers.
 
 use epas_friction::BallScrew;
-use epas_reference::design::BallScrewDesign;
 use epas_reference::friction::ball_screw_row::{ElasticRow, RowBall, RowMotion};
 use epas_reference::friction::patch::Integration;
-use epas_reference::material::Elastic;
 use serde::Serialize;
 
 use crate::eval::fields::{BadField, Fields, in_range};
@@ -94,21 +92,8 @@ impl Request {
 
     /// What the float64 reference finds; nothing where it has no solution.
     pub fn reference(&self) -> Result<Row, BadField> {
-        let material = Elastic {
-            youngs_modulus: self.youngs_modulus,
-            poisson_ratio: self.poisson_ratio,
-        };
         let row = ElasticRow {
-            design: BallScrewDesign {
-                pitch_radius: self.pitch_radius,
-                lead: self.lead,
-                ball_radius: self.ball_radius,
-                screw_groove_radius: self.groove_radius,
-                nut_groove_radius: self.groove_radius,
-                contact_angle: self.contact_angle,
-                ball: material,
-                groove: material,
-            },
+            design: self.numbers().exact(self.contact_angle),
             clearance: self.clearance,
             friction: self.friction,
             ball_friction: self.ball_friction,
