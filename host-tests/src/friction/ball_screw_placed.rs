@@ -53,6 +53,17 @@ pub(crate) struct BallState {
     pub force: f64,
 }
 
+impl BallState {
+    /// The state on a straight line from `before` through this one, `share` of their distance beyond it.
+    pub fn beyond(&self, before: &Self, share: f64) -> Self {
+        Self {
+            place: self.place + (self.place - before.place) * share,
+            motion: self.motion + (self.motion - before.motion) * share,
+            force: self.force + (self.force - before.force) * share,
+        }
+    }
+}
+
 /// A solved ball.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Solved {
@@ -76,7 +87,12 @@ pub(crate) struct PlacedBall<'a> {
     /// From the neighbours.
     pub rubbing: Rubbing,
     pub integration: Integration,
+    /// Spin over which friction of a contact that sticks is smoothed, over the nut's speed: [`STICK_SPIN`], or larger on the path to it.
+    pub rest_spin: f64,
 }
+
+/// Short steps of Newton's method, after which a start is given up: near the end it takes few.
+const SHORT_STEPS: usize = 20;
 
 /// Unbalanced forces, N: x, z, axial, along the track (times path over ball radius), moments over the ball radius.
 pub(crate) type Balance = SVector<f64, 7>;
@@ -110,7 +126,7 @@ impl PlacedBall<'_> {
         let mut sum = Vector3::zeros();
         for row in rows {
             let [nx, nz] = normal(row);
-            let gradient = row.local(motion, STICK_SPIN).gradient;
+            let gradient = row.local(motion, self.rest_spin).gradient;
             let (across, along) = (
                 -self.friction * self.way * gradient.x,
                 -self.friction * self.way * gradient.y,
@@ -127,7 +143,7 @@ impl PlacedBall<'_> {
     fn balance(&self, state: &BallState) -> Option<Balance> {
         let mut all = self.given(state);
         for row in &self.rows(&state.place)? {
-            let gradient = row.local(&state.motion, STICK_SPIN).gradient;
+            let gradient = row.local(&state.motion, self.rest_spin).gradient;
             all += self.of_contact(row, row.contact.load, &gradient);
         }
         all.iter().all(|x| x.is_finite()).then_some(all)
@@ -144,7 +160,7 @@ impl PlacedBall<'_> {
         (1e-13 * loads, 1e-8 * loads)
     }
 
-    /// Damped Newton steps on all seven equations until the residual no longer falls.
+    /// Damped Newton steps on all seven equations until the residual no longer falls, or many short steps show that the start was too far.
     pub fn newton(&self, start: &BallState, drive: Drive, unit: f64) -> Option<Solved> {
         let mut state = *start;
         match drive {
@@ -152,7 +168,8 @@ impl PlacedBall<'_> {
             Drive::Speed(speed) => state.motion[0] = speed,
         }
         let mut balance = self.balance(&state)?;
-        for _ in 0..60 {
+        let mut short_steps = 0;
+        while short_steps < SHORT_STEPS {
             if balance.amax() <= self.accuracy(&state).0 {
                 break;
             }
@@ -176,6 +193,9 @@ impl PlacedBall<'_> {
                 }
             };
             let Some((there, new)) = taken else { break };
+            if fraction < 1.0 || new.norm() > 0.5 * balance.norm() {
+                short_steps += 1;
+            }
             (state, balance) = (there, new);
         }
         Some(Solved {
@@ -221,7 +241,7 @@ impl PlacedBall<'_> {
     pub fn power_in(&self, rows: &[ScrewRow], motion: &Vector4<f64>) -> f64 {
         rows.iter()
             .filter(|row| row.contact.groove.on_nut())
-            .map(|row| self.friction * row.local(motion, STICK_SPIN).gradient.dot(&row.base))
+            .map(|row| self.friction * row.local(motion, self.rest_spin).gradient.dot(&row.base))
             .sum()
     }
 }

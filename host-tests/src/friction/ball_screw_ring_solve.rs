@@ -97,6 +97,7 @@ impl<'a> Instant<'a> {
             axial_load: seat.axial_load,
             rubbing: Rubbing::default(),
             integration: self.integration,
+            rest_spin: STICK_SPIN,
         }
     }
 
@@ -437,7 +438,7 @@ impl<'a> Instant<'a> {
             power.grooves += rows
                 .iter()
                 .map(|row| {
-                    row.local(&m.state.motion, STICK_SPIN)
+                    row.local(&m.state.motion, m.ball.rest_spin)
                         .gradient
                         .dot(&row.velocity(&m.state.motion))
                 })

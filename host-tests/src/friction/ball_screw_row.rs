@@ -124,6 +124,7 @@ impl ElasticRow {
                 axial_load: ball.axial_load,
                 rubbing: Rubbing::default(),
                 integration: self.integration,
+                rest_spin: STICK_SPIN,
             })
             .collect();
         let free = balls

@@ -3,7 +3,7 @@
 use nalgebra::{Matrix2, SMatrix, Vector2};
 
 use super::ball_screw_ball::ScrewTrack;
-use super::ball_screw_placed::{BallState, PlacedBall, Rubbing, STICK_SPIN, Solved};
+use super::ball_screw_placed::{BallState, PlacedBall, Rubbing, Solved};
 use super::ball_screw_press::pressed;
 use crate::error::ReferenceError;
 
@@ -95,7 +95,7 @@ impl Pressing {
             lost += rows
                 .iter()
                 .map(|row| {
-                    row.local(motion, STICK_SPIN)
+                    row.local(motion, ball.rest_spin)
                         .gradient
                         .dot(&row.velocity(motion))
                 })

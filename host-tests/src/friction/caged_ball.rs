@@ -68,6 +68,7 @@ impl CagedBall {
                     axial_load,
                     rubbing: Rubbing::default(),
                     integration: self.integration,
+                    rest_spin: STICK_SPIN,
                 };
                 let solved = settle(&ball, Drive::Force(0.0), last.as_ref());
                 last = solved.as_ref().ok().map(|solved| solved.state);
