@@ -49,18 +49,39 @@ pub(crate) struct BallState {
     pub place: Vector3<f64>,
     /// Orbital speed and angular velocity x, y, z, over the nut's speed.
     pub motion: Vector4<f64>,
+    /// What the motion is more than `motion`: a part smaller than its last digit, which a contact at rest answers with 1e-9 of its load.
+    pub remainder: Vector4<f64>,
     /// Force of the neighbours on the ball in the direction of orbiting, N.
     pub force: f64,
 }
 
 impl BallState {
+    /// A state of given place, motion and force.
+    pub fn new(place: Vector3<f64>, motion: Vector4<f64>, force: f64) -> Self {
+        Self {
+            place,
+            motion,
+            remainder: Vector4::zeros(),
+            force,
+        }
+    }
+
+    /// Adds to the motion without rounding: the sum of two numbers and its error (Knuth, The Art of Computer Programming 2, 4.2.2).
+    fn accelerate(&mut self, change: &Vector4<f64>) {
+        let change = change + self.remainder;
+        let sum = self.motion + change;
+        let added = sum - self.motion;
+        self.remainder = (self.motion - (sum - added)) + (change - added);
+        self.motion = sum;
+    }
+
     /// The state on a straight line from `before` through this one, `share` of their distance beyond it.
     pub fn beyond(&self, before: &Self, share: f64) -> Self {
-        Self {
-            place: self.place + (self.place - before.place) * share,
-            motion: self.motion + (self.motion - before.motion) * share,
-            force: self.force + (self.force - before.force) * share,
-        }
+        Self::new(
+            self.place + (self.place - before.place) * share,
+            self.motion + (self.motion - before.motion) * share,
+            self.force + (self.force - before.force) * share,
+        )
     }
 }
 
@@ -120,6 +141,15 @@ impl PlacedBall<'_> {
             .collect()
     }
 
+    /// Contacts that carry in a state.
+    pub fn rows_of(&self, state: &BallState) -> Option<Vec<ScrewRow>> {
+        let mut rows = self.rows(&state.place)?;
+        for row in &mut rows {
+            row.remainder = row.rows * state.remainder;
+        }
+        Some(rows)
+    }
+
     /// Friction on the ball: x, z, and the part of it that the screw takes up along its axis, N.
     pub fn friction_in_plane(&self, rows: &[ScrewRow], motion: &Vector4<f64>) -> Vector3<f64> {
         let (sin_a, cos_a) = self.grooves.track.lead_angle();
@@ -142,7 +172,7 @@ impl PlacedBall<'_> {
     /// What is unbalanced.
     fn balance(&self, state: &BallState) -> Option<Balance> {
         let mut all = self.given(state);
-        for row in &self.rows(&state.place)? {
+        for row in &self.rows_of(state)? {
             let gradient = row.local(&state.motion, self.rest_spin).gradient;
             all += self.of_contact(row, row.contact.load, &gradient);
         }
@@ -165,7 +195,7 @@ impl PlacedBall<'_> {
         let mut state = *start;
         match drive {
             Drive::Force(force) => state.force = force,
-            Drive::Speed(speed) => state.motion[0] = speed,
+            Drive::Speed(speed) => (state.motion[0], state.remainder[0]) = (speed, 0.0),
         }
         let mut balance = self.balance(&state)?;
         let mut short_steps = 0;
@@ -270,10 +300,10 @@ fn moved(state: &BallState, step: &Balance, drive: Drive, unit: f64, fraction: f
     there.place -= step.fixed_rows::<3>(0) * (unit * fraction);
     let motion = step.fixed_rows::<4>(3) * fraction;
     match drive {
-        Drive::Force(_) => there.motion -= motion,
+        Drive::Force(_) => there.accelerate(&-motion),
         Drive::Speed(_) => {
             there.force -= motion[0];
-            there.motion -= Vector4::new(0.0, motion[1], motion[2], motion[3]);
+            there.accelerate(&-Vector4::new(0.0, motion[1], motion[2], motion[3]));
         }
     }
     there

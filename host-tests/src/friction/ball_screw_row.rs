@@ -278,8 +278,9 @@ impl ElasticRow {
                     place,
                     motion,
                     force,
+                    ..
                 } = solved.state;
-                let rows = ball.rows(&place).unwrap_or_default();
+                let rows = ball.rows_of(&solved.state).unwrap_or_default();
                 RowBallMotion {
                     motion: dimensional(
                         &ball.grooves.track,

@@ -90,7 +90,7 @@ impl Pressing {
         let (mut put_in, mut lost) = (0.0, self.ball_loss);
         for (ball, solved) in balls.iter().zip(&self.balls) {
             let motion = &solved.state.motion;
-            let rows = ball.rows(&solved.state.place).unwrap_or_default();
+            let rows = ball.rows_of(&solved.state).unwrap_or_default();
             put_in += ball.power_in(&rows, motion);
             lost += rows
                 .iter()

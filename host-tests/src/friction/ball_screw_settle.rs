@@ -64,10 +64,11 @@ fn by_smoothing(ball: &PlacedBall<'_>, drive: Drive, unit: f64) -> Option<BallSt
         let solved = smoothed.newton(start, drive, unit)?;
         (solved.residual <= smoothed.accuracy(&solved.state).1).then_some(solved.state)
     };
-    let mut rest_spin = WIDEST_SMOOTHING;
-    let smoothed = PlacedBall { rest_spin, ..*ball };
-    let start = Search::new(&smoothed, drive, unit).guess()?;
-    let mut here = at(rest_spin, &start)?;
+    let (mut rest_spin, mut here) = WIDE_SMOOTHING.iter().find_map(|&rest_spin| {
+        let smoothed = PlacedBall { rest_spin, ..*ball };
+        let start = Search::new(&smoothed, drive, unit).guess()?;
+        Some((rest_spin, at(rest_spin, &start)?))
+    })?;
     let mut before: Option<(f64, BallState)> = None;
     let mut factor = 0.3_f64;
     while rest_spin > ball.rest_spin {
@@ -89,8 +90,8 @@ fn by_smoothing(ball: &PlacedBall<'_>, drive: Drive, unit: f64) -> Option<BallSt
     Some(here)
 }
 
-/// Spin of smoothing over the nut's speed from which Newton's method finds a ball.
-const WIDEST_SMOOTHING: f64 = 0.1;
+/// Spins of smoothing over the nut's speed at which Newton's method finds a ball from the guess, the narrowest first.
+const WIDE_SMOOTHING: [f64; 4] = [0.1, 1.0, 10.0, 100.0];
 /// Largest factor of the spin of smoothing from one state to the next.
 const SHORTEST_STEP: f64 = 0.99;
 
@@ -163,11 +164,7 @@ impl<'a> Search<'a> {
                 (friction + next) * 0.5
             };
             if change <= 1e-9 * ball.friction * ball.axial_load.abs() {
-                let state = BallState {
-                    place: there,
-                    motion,
-                    force,
-                };
+                let state = BallState::new(there, motion, force);
                 return Some((state, answer));
             }
         }
@@ -186,11 +183,7 @@ impl<'a> Search<'a> {
         )?;
         let rows = ball.rows(&place)?;
         let (motion, force) = self.motion(&rows, &rolling(&ball.grooves.track))?;
-        Some(BallState {
-            place,
-            motion,
-            force,
-        })
+        Some(BallState::new(place, motion, force))
     }
 
     /// Sign of the push across: towards SL for SR-NL loads and NL for SL-NR loads where the nut turns forward.

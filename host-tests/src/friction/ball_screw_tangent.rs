@@ -69,7 +69,7 @@ impl PlacedBall<'_> {
     /// What is unbalanced at a state, and how it changes with the place over `unit` and with the motion. `None` where the ball has left its
     /// grooves.
     pub fn tangent(&self, state: &BallState, unit: f64) -> Option<Tangent> {
-        let rows = self.rows(&state.place)?;
+        let rows = self.rows_of(state)?;
         let cos_a = self.grooves.track.lead_angle().1;
         let mut sum = Tangent {
             balance: self.given(state),

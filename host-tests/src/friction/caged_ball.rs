@@ -104,7 +104,7 @@ impl CagedBall {
         state: &BallState,
         residual: f64,
     ) -> Result<CagedBallFriction, ReferenceError> {
-        let rows = ball.rows(&state.place).unwrap_or_default();
+        let rows = ball.rows_of(state).unwrap_or_default();
         let motion = RowBallMotion {
             motion: dimensional(
                 &ball.grooves.track,
