@@ -39,6 +39,22 @@ impl BallScrewDesign {
         (self.lead / TAU).atan2(self.pitch_radius)
     }
 
+    /// Refuses grooves that a ball does not run in as the elastic models take it: radii of 1.001 to 2 ball radii.
+    ///
+    /// # Errors
+    /// [`ReferenceError`] naming `screw_groove_radius` or `nut_groove_radius`.
+    pub fn check_grooves(&self) -> Result<(), ReferenceError> {
+        let [least, largest] = [1.001, 2.0].map(|part| part * self.ball_radius);
+        within(
+            "screw_groove_radius",
+            self.screw_groove_radius,
+            least,
+            largest,
+        )?;
+        within("nut_groove_radius", self.nut_groove_radius, least, largest)?;
+        Ok(())
+    }
+
     /// Surface of one groove, whose arc meets the ball at the nominal contact angle.
     #[must_use]
     pub fn surface(&self, groove: Groove) -> Surface {

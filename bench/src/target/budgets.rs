@@ -213,7 +213,7 @@ mod tests {
     }
 
     /// Every row of README's table, in its order.
-    const LINES: [Line; 13] = [
+    const LINES: [Line; 14] = [
         line(
             "groove curvature: literature",
             Some(promises::LITERATURE_CURVATURE),
@@ -251,7 +251,12 @@ mod tests {
             &["step_caged", "step_caged_changing"],
         ),
         line(
-            "the same with memory",
+            "caged ball screw by a folded block",
+            Some(promises::STEP_FOLDED),
+            &["step_folded", "step_folded_range"],
+        ),
+        line(
+            "the caged one with memory",
             Some(promises::MEMORY),
             &["step_caged_memory", "step_caged_law", "between_caged"],
         ),

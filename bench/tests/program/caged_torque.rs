@@ -1,5 +1,7 @@
 //! `eval` of one ball that no other ball presses.
 
+use std::f64::consts::FRAC_PI_4;
+
 use serde_json::{Value, json};
 
 use super::eval::{ask, number};
@@ -7,7 +9,7 @@ use super::eval::{ask, number};
 fn request(clearance: f64, friction: f64, axial_load: &[f64], direction: f64) -> Value {
     json!({
         "id": 1, "model": "caged_torque", "pitch_radius": 0.0165, "lead": 0.02, "ball_radius": 2.778e-3,
-        "groove_radius": 3.254e-3, "contact_angle": 0.785_398, "youngs_modulus": 2.08e11, "poisson_ratio": 0.3,
+        "groove_radius": 3.254e-3, "contact_angle": FRAC_PI_4, "youngs_modulus": 2.08e11, "poisson_ratio": 0.3,
         "friction": friction, "clearance": clearance, "axial_load": axial_load, "direction": direction,
     })
 }

@@ -203,6 +203,7 @@ impl ElasticRing {
         within("turns", self.turns, 0.01, 100.0)?;
         within("return_length", self.return_length, 0.0, 10.0)?;
         let radius = self.design.ball_radius;
+        self.design.check_grooves()?;
         within("clearance", self.clearance, -0.05 * radius, 0.2 * radius)?;
         self.screw_deviation.check("screw_deviation")?;
         self.nut_deviation.check("nut_deviation")?;

@@ -234,6 +234,7 @@ impl ElasticRow {
         }
         within("balls", self.balls.len() as f64, 1.0, 1e4)?;
         let radius = self.design.ball_radius;
+        self.design.check_grooves()?;
         within("clearance", self.clearance, -0.05 * radius, 0.2 * radius)?;
         let screw = self.design.contact(Groove::Screw)?.into();
         let nut = self.design.contact(Groove::Nut)?.into();

@@ -81,6 +81,7 @@ impl CagedBall {
     fn grooves(&self) -> Result<ElasticGrooves, ReferenceError> {
         within("friction", self.friction, 1e-3, 1.0)?;
         let radius = self.design.ball_radius;
+        self.design.check_grooves()?;
         within("clearance", self.clearance, -0.05 * radius, 0.2 * radius)?;
         self.rolling.check()?;
         let grooves = ElasticGrooves {

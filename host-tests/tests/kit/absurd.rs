@@ -387,6 +387,7 @@ impl<const N: usize> Trial for FoldedScrew<N> {
             nodes,
             ends: [least, random.within(least, 254.0)],
             lift_off: random.of(&[0.0, 1e-30, 10.0, 1e7]),
+            shifted_from: random.within(1.0, 254.0),
         };
         let (from, to) = law.friction_range();
         FoldedScrewConfiguration {

@@ -364,14 +364,32 @@ fn bad_inputs_are_named() {
     );
     assert_eq!(refused(&|r| r.balls.clear()).field(), Some("balls"));
     assert_eq!(
-        refused(&|r| r.design.nut_groove_radius *= 1.01).field(),
+        refused(&|r| r.design.nut_groove_radius *= 2.0).field(),
         Some("nut_groove_radius")
+    );
+    assert_eq!(
+        refused(&|r| r.design.screw_groove_radius = 0.5 * r.design.ball_radius).field(),
+        Some("screw_groove_radius")
     );
     assert_eq!(refused(&|r| r.nut_speed = 0.0), ReferenceError::Standstill);
     assert_eq!(
         refused(&|r| r.balls[0].axial_load = 0.0),
         ReferenceError::Undriven
     );
+}
+
+/// A wider groove of the nut has shorter contacts there and leaves those of the screw: balls rest in both, and power balances.
+#[test]
+fn grooves_have_a_radius_each() {
+    let all = golden();
+    let row = typical(&all);
+    let mut wider = row.clone();
+    wider.design.nut_groove_radius *= 1.03;
+    let [both, wider] = [row, wider].map(|row| row.solve().unwrap());
+    assert!(both.residual < 1e-6 && wider.residual < 1e-6);
+    assert!(wider.power_error.abs() < 1e-8);
+    let change = wider.free_groove_loss() / both.free_groove_loss() - 1.0;
+    assert!(change < -1e-3 && change > -0.5, "{change}");
 }
 
 /// A row over the whole range of fits, loads and deviations, of either stored design and both ways of the nut.
