@@ -7,7 +7,7 @@
 //!
 //! Source: Lin 2019, eqs. (2.11) to (2.14), (3.65) to (3.69).
 
-use nalgebra::{SMatrix, SVector, Vector3, Vector4};
+use nalgebra::{Matrix4, SMatrix, SVector, Vector3, Vector4};
 
 use super::ball_screw_ball::{Groove, ScrewRow};
 use super::ball_screw_grooves::ElasticGrooves;
@@ -64,15 +64,6 @@ impl BallState {
             remainder: Vector4::zeros(),
             force,
         }
-    }
-
-    /// Adds to the motion without rounding: the sum of two numbers and its error (Knuth, The Art of Computer Programming 2, 4.2.2).
-    fn accelerate(&mut self, change: &Vector4<f64>) {
-        let change = change + self.remainder;
-        let sum = self.motion + change;
-        let added = sum - self.motion;
-        self.remainder = (self.motion - (sum - added)) + (change - added);
-        self.motion = sum;
     }
 
     /// The state on a straight line from `before` through this one, `share` of their distance beyond it.
@@ -228,11 +219,46 @@ impl PlacedBall<'_> {
             }
             (state, balance) = (there, new);
         }
+        let state = self.trimmed(state, balance, drive, unit);
         Some(Solved {
             state,
-            residual: balance.amax(),
+            residual: self.balance(&state)?.amax(),
             stiffness: self.stiffness(&state, unit)?,
         })
+    }
+
+    /// Steps below the last digit of the motion, at the place that was found: a contact at rest answers a slip of the last digit with 1e-9 of
+    /// its load.
+    fn trimmed(
+        &self,
+        mut state: BallState,
+        mut balance: Balance,
+        drive: Drive,
+        unit: f64,
+    ) -> BallState {
+        let (rounding, accepted) = self.accuracy(&state);
+        for _ in 0..4 {
+            if !(balance.amax() > rounding && balance.amax() <= accepted) {
+                break;
+            }
+            let motion = self.driven_jacobian(&state, drive, unit).and_then(|all| {
+                let forces: Vector4<f64> = balance.fixed_rows::<4>(3).into();
+                let by_motion: Matrix4<f64> = all.fixed_view::<4, 4>(3, 3).into();
+                by_motion.lu().solve(&forces)
+            });
+            let Some(motion) = motion else { break };
+            let mut there = state;
+            there.remainder -= motion;
+            if let Drive::Speed(_) = drive {
+                there.remainder[0] = state.remainder[0];
+                there.force -= motion[0];
+            }
+            match self.balance(&there) {
+                Some(new) if new.norm() < balance.norm() => (state, balance) = (there, new),
+                _ => break,
+            }
+        }
+        state
     }
 
     /// The Jacobian by the unknowns: the column of the orbital speed makes place for that of the force where the speed is given.
@@ -300,10 +326,10 @@ fn moved(state: &BallState, step: &Balance, drive: Drive, unit: f64, fraction: f
     there.place -= step.fixed_rows::<3>(0) * (unit * fraction);
     let motion = step.fixed_rows::<4>(3) * fraction;
     match drive {
-        Drive::Force(_) => there.accelerate(&-motion),
+        Drive::Force(_) => there.motion -= motion,
         Drive::Speed(_) => {
             there.force -= motion[0];
-            there.accelerate(&-Vector4::new(0.0, motion[1], motion[2], motion[3]));
+            there.motion -= Vector4::new(0.0, motion[1], motion[2], motion[3]);
         }
     }
     there
