@@ -1,10 +1,16 @@
-//! Finds place and motion of a ball in elastic grooves from nothing: by a search that cannot miss, and Newton steps at its end.
+//! Finds place and motion of a ball in elastic grooves from nothing: by Newton's method from a guess, along a path of ever sharper friction
+//! at rest, or by a search that cannot miss.
 //!
 //! Two halves of the problem are convex. Under given friction forces the ball lies where the elastic energy is least; at a given place it
 //! moves so that it loses the least power. What couples them is, above all, one number: the sum of the friction forces across the diagonal
-//! that carries the load, which pushes the ball towards the third contact. It is bounded by Coulomb's law, and the push that the motion
-//! answers follows it continuously. So a push that answers itself lies between the bounds, and bisection finds it: with play, preload, of
-//! either sign, and where both light contacts are open and one race sticks.
+//! that carries the load, which pushes the ball towards the third contact.
+//!
+//! The guess takes this push as that of a third contact that spins with the ball. Where a race sticks, Newton's method leads from there only
+//! under friction that is smoothed over a large spin; the spin then falls to [`STICK_SPIN`](super::ball_screw_placed::STICK_SPIN).
+//!
+//! Last comes the search: the push is bounded by Coulomb's law, and the push that the motion answers follows it continuously. So a push that
+//! answers itself lies between the bounds, and bisection finds it: with play, preload, of either sign, and where both light contacts are
+//! open and one race sticks.
 
 use nalgebra::{SMatrix, Vector3, Vector4};
 
@@ -20,33 +26,34 @@ pub(crate) fn settle(
     hint: Option<&BallState>,
 ) -> Result<Solved, ReferenceError> {
     let unit = unit(ball);
-    let mut best = f64::INFINITY;
-    let mut accepted = |start: &BallState| {
-        let solved = ball.newton(start, drive, unit)?;
-        best = best.min(solved.residual);
-        (solved.residual <= ball.accuracy(&solved.state).1).then_some(solved)
-    };
-    if let Some(solved) = hint.and_then(&mut accepted) {
-        return Ok(solved);
-    }
     let search = Search::new(ball, drive, unit);
-    if let Some(solved) = search.guess().and_then(|start| accepted(&start)) {
-        return Ok(solved);
-    }
-    if let Some(solved) = by_smoothing(ball, drive, unit).and_then(|start| accepted(&start)) {
-        return Ok(solved);
-    }
-    // A coarse search and Newton's method are cheaper than a fine search.
-    for tolerance in [1e-3, 1e-10] {
-        if let Some(solved) = search
-            .bracketed(tolerance)
-            .and_then(|start| accepted(&start))
-        {
-            return Ok(solved);
+    let mut best: Option<Solved> = None;
+    let mut sharp = |start: BallState| {
+        let Some(solved) = ball.newton(&start, drive, unit) else {
+            return false;
+        };
+        if best.is_none_or(|best| solved.residual < best.residual) {
+            best = Some(solved);
         }
+        solved.residual <= SHARP * ball.accuracy(&solved.state).1
+    };
+    // The cheapest start first; a coarse search and Newton's method are cheaper than a fine search.
+    let _ = hint.copied().is_some_and(&mut sharp)
+        || search.guess().is_some_and(&mut sharp)
+        || by_smoothing(ball, drive, unit).is_some_and(&mut sharp)
+        || search.bracketed(1e-3).is_some_and(&mut sharp)
+        || search.bracketed(1e-10).is_some_and(&mut sharp);
+    match best {
+        Some(solved) if solved.residual <= ball.accuracy(&solved.state).1 => Ok(solved),
+        _ => Err(ReferenceError::unbalanced(
+            best.map_or(f64::INFINITY, |best| best.residual),
+        )),
     }
-    Err(ReferenceError::unbalanced(best))
 }
+
+/// Share of the accepted residual at which no other start is tried: where the motion is soft, as with two contacts that both slide across, a
+/// residual that is just accepted belongs to a motion that is not.
+const SHARP: f64 = 0.01;
 
 /// Scale of the displacements, m.
 pub(crate) fn unit(ball: &PlacedBall<'_>) -> f64 {
