@@ -193,6 +193,8 @@ pub(crate) struct ScrewRow {
     pub patch: Patch,
     pub rows: SMatrix<f64, 3, 4>,
     pub base: Vector3<f64>,
+    /// Velocity by a part of the motion that is smaller than its last digit.
+    pub remainder: Vector3<f64>,
     pub integration: Integration,
 }
 
@@ -232,12 +234,13 @@ impl ScrewRow {
             patch,
             rows,
             base,
+            remainder: Vector3::zeros(),
             integration: Integration::Full,
         })
     }
 
     pub fn velocity(&self, y: &Vector4<f64>) -> Vector3<f64> {
-        self.base + self.rows * y
+        self.base + self.rows * y + self.remainder
     }
 
     /// Power, gradient and Hessian by `(slip_major, slip_minor, spin)` with the spin smoothed at rest.

@@ -138,6 +138,32 @@ impl ElasticGrooves {
         sum
     }
 
+    /// Ball centre x, z and axial displacement of the screw under an axial load on the two contacts that carry it, without friction: the
+    /// ball lies on the line between their arc centres, which the load keeps as far apart as both arms with their deflections.
+    pub(crate) fn two_point_place(&self, axial_load: f64) -> Vector3<f64> {
+        let (screw, nut) = if axial_load > 0.0 { (0, 3) } else { (1, 2) };
+        let arms = self.arms([0.0; 2], 0.0);
+        let cos_a = self.track.lead_angle().1;
+        let normal = axial_load.abs() / (self.arc_angles[nut].sin() * cos_a);
+        let length = |groove: usize, law: HertzLaw| {
+            let arm = self.offset(Groove::ALL[groove]) - self.oversize;
+            f64::max(arm + law.compliance * normal.powf(2.0 / 3.0), 0.0)
+        };
+        let (on_screw, on_nut) = (length(screw, self.screw), length(nut, self.nut));
+        let across = arms[nut][0] - arms[screw][0];
+        let side = axial_load.signum();
+        let along = side
+            * ((on_screw + on_nut).powi(2) - across.powi(2))
+                .max(0.0)
+                .sqrt();
+        // From the arc centre on the nut to the one on the screw, and the ball between them.
+        let share = on_nut / (on_screw + on_nut);
+        let x = share * across - arms[nut][0];
+        let z = share * along - arms[nut][1];
+        let travel = along - arms[nut][1] + arms[screw][1];
+        Vector3::new(x, z, travel / cos_a)
+    }
+
     /// Approach of screw and nut under an axial load on the two-point pair that carries it: `(axial displacement, unit)`.
     pub(crate) fn two_point_start(&self, axial_load: f64) -> (f64, f64) {
         let angle = self.arc_angles.iter().sum::<f64>() / 4.0;

@@ -7,7 +7,7 @@
 //!
 //! Source: Lin 2019, eqs. (2.11) to (2.14), (3.65) to (3.69).
 
-use nalgebra::{SMatrix, SVector, Vector3, Vector4};
+use nalgebra::{SVector, Vector3, Vector4};
 
 use super::ball_screw_ball::{Groove, ScrewRow};
 use super::ball_screw_grooves::ElasticGrooves;
@@ -49,8 +49,31 @@ pub(crate) struct BallState {
     pub place: Vector3<f64>,
     /// Orbital speed and angular velocity x, y, z, over the nut's speed.
     pub motion: Vector4<f64>,
+    /// What the motion is more than `motion`: a part smaller than its last digit, which a contact at rest answers with 1e-9 of its load.
+    pub remainder: Vector4<f64>,
     /// Force of the neighbours on the ball in the direction of orbiting, N.
     pub force: f64,
+}
+
+impl BallState {
+    /// A state of given place, motion and force.
+    pub fn new(place: Vector3<f64>, motion: Vector4<f64>, force: f64) -> Self {
+        Self {
+            place,
+            motion,
+            remainder: Vector4::zeros(),
+            force,
+        }
+    }
+
+    /// The state on a straight line from `before` through this one, `share` of their distance beyond it.
+    pub fn beyond(&self, before: &Self, share: f64) -> Self {
+        Self::new(
+            self.place + (self.place - before.place) * share,
+            self.motion + (self.motion - before.motion) * share,
+            self.force + (self.force - before.force) * share,
+        )
+    }
 }
 
 /// A solved ball.
@@ -76,6 +99,8 @@ pub(crate) struct PlacedBall<'a> {
     /// From the neighbours.
     pub rubbing: Rubbing,
     pub integration: Integration,
+    /// Spin over which friction of a contact that sticks is smoothed, over the nut's speed: [`STICK_SPIN`], or larger on the path to it.
+    pub rest_spin: f64,
 }
 
 /// Unbalanced forces, N: x, z, axial, along the track (times path over ball radius), moments over the ball radius.
@@ -104,13 +129,22 @@ impl PlacedBall<'_> {
             .collect()
     }
 
+    /// Contacts that carry in a state.
+    pub fn rows_of(&self, state: &BallState) -> Option<Vec<ScrewRow>> {
+        let mut rows = self.rows(&state.place)?;
+        for row in &mut rows {
+            row.remainder = row.rows * state.remainder;
+        }
+        Some(rows)
+    }
+
     /// Friction on the ball: x, z, and the part of it that the screw takes up along its axis, N.
     pub fn friction_in_plane(&self, rows: &[ScrewRow], motion: &Vector4<f64>) -> Vector3<f64> {
         let (sin_a, cos_a) = self.grooves.track.lead_angle();
         let mut sum = Vector3::zeros();
         for row in rows {
             let [nx, nz] = normal(row);
-            let gradient = row.local(motion, STICK_SPIN).gradient;
+            let gradient = row.local(motion, self.rest_spin).gradient;
             let (across, along) = (
                 -self.friction * self.way * gradient.x,
                 -self.friction * self.way * gradient.y,
@@ -124,10 +158,10 @@ impl PlacedBall<'_> {
     }
 
     /// What is unbalanced.
-    fn balance(&self, state: &BallState) -> Option<Balance> {
+    pub fn balance(&self, state: &BallState) -> Option<Balance> {
         let mut all = self.given(state);
-        for row in &self.rows(&state.place)? {
-            let gradient = row.local(&state.motion, STICK_SPIN).gradient;
+        for row in &self.rows_of(state)? {
+            let gradient = row.local(&state.motion, self.rest_spin).gradient;
             all += self.of_contact(row, row.contact.load, &gradient);
         }
         all.iter().all(|x| x.is_finite()).then_some(all)
@@ -144,72 +178,6 @@ impl PlacedBall<'_> {
         (1e-13 * loads, 1e-8 * loads)
     }
 
-    /// Damped Newton steps on all seven equations until the residual no longer falls.
-    pub fn newton(&self, start: &BallState, drive: Drive, unit: f64) -> Option<Solved> {
-        let mut state = *start;
-        match drive {
-            Drive::Force(force) => state.force = force,
-            Drive::Speed(speed) => state.motion[0] = speed,
-        }
-        let mut balance = self.balance(&state)?;
-        for _ in 0..60 {
-            if balance.amax() <= self.accuracy(&state).0 {
-                break;
-            }
-            let Some(step) = self
-                .driven_jacobian(&state, drive, unit)
-                .and_then(|jacobian| jacobian.lu().solve(&balance))
-            else {
-                break;
-            };
-            let mut fraction = 1.0;
-            let taken = loop {
-                let there = moved(&state, &step, drive, unit, fraction);
-                if let Some(new) = self.balance(&there)
-                    && new.norm() < (1.0 - 1e-4 * fraction) * balance.norm()
-                {
-                    break Some((there, new));
-                }
-                fraction *= 0.5;
-                if fraction < 1e-4 {
-                    break None;
-                }
-            };
-            let Some((there, new)) = taken else { break };
-            (state, balance) = (there, new);
-        }
-        Some(Solved {
-            state,
-            residual: balance.amax(),
-            stiffness: self.stiffness(&state, unit)?,
-        })
-    }
-
-    /// The Jacobian by the unknowns: the column of the orbital speed makes place for that of the force where the speed is given.
-    fn driven_jacobian(
-        &self,
-        state: &BallState,
-        drive: Drive,
-        unit: f64,
-    ) -> Option<SMatrix<f64, 7, 7>> {
-        let mut jacobian = self.tangent(state, unit)?.jacobian;
-        if let Drive::Speed(_) = drive {
-            jacobian.column_mut(3).fill(0.0);
-            jacobian[(3, 3)] = self.path();
-        }
-        Some(jacobian)
-    }
-
-    /// Change of the force along the track with the orbital speed, all else in balance.
-    fn stiffness(&self, state: &BallState, unit: f64) -> Option<f64> {
-        let mut jacobian = self.tangent(state, unit)?.jacobian;
-        let by_speed: Balance = jacobian.column(3).into();
-        jacobian.column_mut(3).fill(0.0);
-        jacobian[(3, 3)] = self.path();
-        let change = jacobian.lu().solve(&by_speed)?;
-        Some(-change[3])
-    }
-
     /// Loads SL, SR, NL, NR at a place, N.
     pub fn loads(&self, place: &Vector3<f64>) -> [f64; 4] {
         self.grooves
@@ -221,7 +189,7 @@ impl PlacedBall<'_> {
     pub fn power_in(&self, rows: &[ScrewRow], motion: &Vector4<f64>) -> f64 {
         rows.iter()
             .filter(|row| row.contact.groove.on_nut())
-            .map(|row| self.friction * row.local(motion, STICK_SPIN).gradient.dot(&row.base))
+            .map(|row| self.friction * row.local(motion, self.rest_spin).gradient.dot(&row.base))
             .sum()
     }
 }
@@ -243,18 +211,4 @@ pub(crate) fn main_direction(grooves: &ElasticGrooves, axial_load: f64) -> [f64;
     };
     let (sx, sz) = nut.signs();
     [sx * angle.cos(), sz * angle.sin()]
-}
-
-fn moved(state: &BallState, step: &Balance, drive: Drive, unit: f64, fraction: f64) -> BallState {
-    let mut there = *state;
-    there.place -= step.fixed_rows::<3>(0) * (unit * fraction);
-    let motion = step.fixed_rows::<4>(3) * fraction;
-    match drive {
-        Drive::Force(_) => there.motion -= motion,
-        Drive::Speed(_) => {
-            there.force -= motion[0];
-            there.motion -= Vector4::new(0.0, motion[1], motion[2], motion[3]);
-        }
-    }
-    there
 }

@@ -42,9 +42,19 @@ fn by_tangents(balls: &[PlacedBall<'_>], now: &[Solved]) -> Option<Vec<Solved>> 
             .collect();
         let (wanted, _) = pool_adjacent_violators(&unforced, &compliance);
         let mut change = 0.0_f64;
-        for ((ball, solved), speed) in balls.iter().zip(&mut now).zip(&wanted) {
-            change = change.max((speed - solved.state.motion[0]).abs());
-            *solved = settle(ball, Drive::Speed(*speed), Some(&solved.state)).ok()?;
+        for (index, (ball, solved)) in balls.iter().zip(&mut now).enumerate() {
+            // A ball that presses on none has no force, to the last digit.
+            let with = |other: Option<usize>| {
+                other.and_then(|other| wanted.get(other)) == Some(&wanted[index])
+            };
+            let drive = if with(index.checked_sub(1)) || with(Some(index + 1)) {
+                Drive::Speed(wanted[index])
+            } else {
+                Drive::Force(0.0)
+            };
+            let before = solved.state.motion[0];
+            *solved = settle(ball, drive, Some(&solved.state)).ok()?;
+            change = change.max((solved.state.motion[0] - before).abs());
         }
         if change <= SETTLED {
             return Some(now);

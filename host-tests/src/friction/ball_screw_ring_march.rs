@@ -3,7 +3,7 @@
 //! Between two instants every ball moves with the speed of the last one, and with the change that this speed had before it: second order in
 //! the step. Where two balls meet, where a force that falls ends, or where a ball crosses the border of the loaded part, the step is split.
 
-use super::ball_screw_placed::{Drive, PlacedBall, Rubbing};
+use super::ball_screw_placed::{Drive, PlacedBall, Rubbing, STICK_SPIN};
 use super::ball_screw_ring::{ElasticRing, RingBall, RingSample, RingState, RingTrack};
 use super::ball_screw_ring_order::Neighbours;
 use super::ball_screw_ring_rates::{Last, Rates};
@@ -310,6 +310,7 @@ impl<'a> March<'a> {
             axial_load: if load.abs() > NO_LOAD { load } else { 1.0 },
             rubbing: Rubbing::default(),
             integration: self.ring.integration,
+            rest_spin: STICK_SPIN,
         };
         let speed = settle(&ball, Drive::Force(0.0), None)?.state.motion[0];
         self.idle = Some((speed, way, axial_load));

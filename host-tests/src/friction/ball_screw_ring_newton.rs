@@ -122,7 +122,8 @@ impl<'a> Moving<'a> {
     fn least_motion(&mut self) -> Option<()> {
         let rows = self.ball.rows(&self.state.place)?;
         let drive = Drive::Force(self.state.force);
-        (self.state.motion, _) = least_motion(&self.ball, drive, &rows, &self.state.motion)?;
+        let (motion, _) = least_motion(&self.ball, drive, &rows, &self.state.motion)?;
+        self.state = BallState::new(self.state.place, motion, self.state.force);
         self.renewed()
     }
 }

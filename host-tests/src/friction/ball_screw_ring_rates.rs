@@ -38,11 +38,11 @@ impl Last {
             .map(|(state, rate)| {
                 let state = (*state)?;
                 let Some(rate) = rate else { return Some(state) };
-                Some(BallState {
-                    place: state.place + rate.place * self.travel,
-                    motion: state.motion + rate.motion * self.travel,
-                    force: state.force + rate.force * self.travel,
-                })
+                Some(BallState::new(
+                    state.place + rate.place * self.travel,
+                    state.motion + rate.motion * self.travel,
+                    state.force + rate.force * self.travel,
+                ))
             })
             .collect();
         let forces = self
@@ -118,11 +118,11 @@ impl Rates {
 
 fn difference(now: Option<BallState>, before: Option<BallState>, travel: f64) -> Option<BallState> {
     let (now, before) = (now?, before?);
-    Some(BallState {
-        place: (now.place - before.place) / travel,
-        motion: (now.motion - before.motion) / travel,
-        force: (now.force - before.force) / travel,
-    })
+    Some(BallState::new(
+        (now.place - before.place) / travel,
+        (now.motion - before.motion) / travel,
+        (now.force - before.force) / travel,
+    ))
 }
 
 /// Balls that press on each other, in the order of the track; `forces[j]` acts between ball `j` and the next.

@@ -97,6 +97,7 @@ impl<'a> Instant<'a> {
             axial_load: seat.axial_load,
             rubbing: Rubbing::default(),
             integration: self.integration,
+            rest_spin: STICK_SPIN,
         }
     }
 
@@ -259,11 +260,11 @@ impl<'a> Instant<'a> {
                     .windows(2)
                     .map(|pair| {
                         let force = forces[self.neighbours.pair_ahead(pair[0])];
-                        let idle = BallState {
-                            place: nalgebra::Vector3::zeros(),
-                            motion: nalgebra::Vector4::zeros(),
-                            force: 0.0,
-                        };
+                        let idle = BallState::new(
+                            nalgebra::Vector3::zeros(),
+                            nalgebra::Vector4::zeros(),
+                            0.0,
+                        );
                         let state = |ball: usize| moving[ball].as_ref().map(|m| m.state);
                         match (state(pair[0]), state(pair[1])) {
                             (Some(rear), Some(front)) => self.between.slope(force, &rear, &front),
@@ -432,12 +433,12 @@ impl<'a> Instant<'a> {
             ..Power::default()
         };
         for m in moving.iter().flatten() {
-            let rows = m.ball.rows(&m.state.place).unwrap_or_default();
+            let rows = m.ball.rows_of(&m.state).unwrap_or_default();
             power.put_in += m.ball.power_in(&rows, &m.state.motion);
             power.grooves += rows
                 .iter()
                 .map(|row| {
-                    row.local(&m.state.motion, STICK_SPIN)
+                    row.local(&m.state.motion, m.ball.rest_spin)
                         .gradient
                         .dot(&row.velocity(&m.state.motion))
                 })

@@ -124,6 +124,7 @@ impl ElasticRow {
                 axial_load: ball.axial_load,
                 rubbing: Rubbing::default(),
                 integration: self.integration,
+                rest_spin: STICK_SPIN,
             })
             .collect();
         let free = balls
@@ -278,8 +279,9 @@ impl ElasticRow {
                     place,
                     motion,
                     force,
+                    ..
                 } = solved.state;
-                let rows = ball.rows(&place).unwrap_or_default();
+                let rows = ball.rows_of(&solved.state).unwrap_or_default();
                 RowBallMotion {
                     motion: dimensional(
                         &ball.grooves.track,

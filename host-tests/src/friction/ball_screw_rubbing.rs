@@ -3,7 +3,7 @@
 use nalgebra::{Matrix2, SMatrix, Vector2};
 
 use super::ball_screw_ball::ScrewTrack;
-use super::ball_screw_placed::{BallState, PlacedBall, Rubbing, STICK_SPIN, Solved};
+use super::ball_screw_placed::{BallState, PlacedBall, Rubbing, Solved};
 use super::ball_screw_press::pressed;
 use crate::error::ReferenceError;
 
@@ -90,12 +90,12 @@ impl Pressing {
         let (mut put_in, mut lost) = (0.0, self.ball_loss);
         for (ball, solved) in balls.iter().zip(&self.balls) {
             let motion = &solved.state.motion;
-            let rows = ball.rows(&solved.state.place).unwrap_or_default();
+            let rows = ball.rows_of(&solved.state).unwrap_or_default();
             put_in += ball.power_in(&rows, motion);
             lost += rows
                 .iter()
                 .map(|row| {
-                    row.local(motion, STICK_SPIN)
+                    row.local(motion, ball.rest_spin)
                         .gradient
                         .dot(&row.velocity(motion))
                 })

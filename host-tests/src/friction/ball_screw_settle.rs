@@ -1,15 +1,21 @@
-//! Finds place and motion of a ball in elastic grooves from nothing: by a search that cannot miss, and Newton steps at its end.
+//! Finds place and motion of a ball in elastic grooves from nothing: by Newton's method from a guess, along a path of ever sharper friction
+//! at rest, or by a search that cannot miss.
 //!
 //! Two halves of the problem are convex. Under given friction forces the ball lies where the elastic energy is least; at a given place it
 //! moves so that it loses the least power. What couples them is, above all, one number: the sum of the friction forces across the diagonal
-//! that carries the load, which pushes the ball towards the third contact. It is bounded by Coulomb's law, and the push that the motion
-//! answers follows it continuously. So a push that answers itself lies between the bounds, and bisection finds it: with play, preload, of
-//! either sign, and where both light contacts are open and one race sticks.
+//! that carries the load, which pushes the ball towards the third contact.
+//!
+//! The guess takes this push as that of a third contact that spins with the ball. Where a race sticks, Newton's method leads from there only
+//! under friction that is smoothed over a large spin; the spin then falls to [`STICK_SPIN`](super::ball_screw_placed::STICK_SPIN).
+//!
+//! Last comes the search: the push is bounded by Coulomb's law, and the push that the motion answers follows it continuously. So a push that
+//! answers itself lies between the bounds, and bisection finds it: with play, preload, of either sign, and where both light contacts are
+//! open and one race sticks.
 
 use nalgebra::{SMatrix, Vector3, Vector4};
 
 use super::ball_screw_ball::{ScrewRow, ball_dissipation, rolling};
-use super::ball_screw_placed::{BallState, Drive, PlacedBall, STICK_SPIN, Solved, main_direction};
+use super::ball_screw_placed::{BallState, Drive, PlacedBall, Solved, main_direction};
 use super::newton::{Local, Minimum, minimise, root_between};
 use crate::error::ReferenceError;
 
@@ -20,36 +26,81 @@ pub(crate) fn settle(
     hint: Option<&BallState>,
 ) -> Result<Solved, ReferenceError> {
     let unit = unit(ball);
-    let mut best = f64::INFINITY;
-    let mut accepted = |start: &BallState| {
-        let solved = ball.newton(start, drive, unit)?;
-        best = best.min(solved.residual);
-        (solved.residual <= ball.accuracy(&solved.state).1).then_some(solved)
-    };
-    if let Some(solved) = hint.and_then(&mut accepted) {
-        return Ok(solved);
-    }
     let search = Search::new(ball, drive, unit);
-    if let Some(solved) = search.guess().and_then(|start| accepted(&start)) {
-        return Ok(solved);
-    }
-    // A coarse search and Newton's method are cheaper than a fine search.
-    for tolerance in [1e-3, 1e-10] {
-        if let Some(solved) = search
-            .bracketed(tolerance)
-            .and_then(|start| accepted(&start))
-        {
-            return Ok(solved);
+    let mut best: Option<Solved> = None;
+    let mut sharp = |start: BallState| {
+        let Some(solved) = ball.newton(&start, drive, unit) else {
+            return false;
+        };
+        if best.is_none_or(|best| solved.residual < best.residual) {
+            best = Some(solved);
         }
+        solved.residual <= SHARP * ball.accuracy(&solved.state).1
+    };
+    // The cheapest start first; a coarse search and Newton's method are cheaper than a fine search.
+    let _ = hint.copied().is_some_and(&mut sharp)
+        || search.guess().is_some_and(&mut sharp)
+        || by_smoothing(ball, drive, unit).is_some_and(&mut sharp)
+        || search.bracketed(1e-3).is_some_and(&mut sharp)
+        || search.bracketed(1e-10).is_some_and(&mut sharp);
+    match best {
+        Some(solved) if solved.residual <= ball.accuracy(&solved.state).1 => Ok(solved),
+        _ => Err(ReferenceError::unbalanced(
+            best.map_or(f64::INFINITY, |best| best.residual),
+        )),
     }
-    Err(ReferenceError::unbalanced(best))
 }
+
+/// Share of the accepted residual at which no other start is tried: where the motion is soft, as with two contacts that both slide across, a
+/// residual that is just accepted belongs to a motion that is not.
+const SHARP: f64 = 0.01;
 
 /// Scale of the displacements, m.
 pub(crate) fn unit(ball: &PlacedBall<'_>) -> f64 {
     let (_, reach) = ball.grooves.two_point_start(ball.axial_load);
     reach.max(ball.grooves.oversize.abs())
 }
+
+/// State at the end of a path along which friction at rest becomes ever sharper.
+///
+/// Where friction of a contact that sticks is smoothed over a large spin, Newton's method leads from the guess. With the spin of smoothing
+/// the states change in proportion to it near the end, so that each is extrapolated from the two before.
+fn by_smoothing(ball: &PlacedBall<'_>, drive: Drive, unit: f64) -> Option<BallState> {
+    let at = |rest_spin: f64, start: &BallState| {
+        let smoothed = PlacedBall { rest_spin, ..*ball };
+        let solved = smoothed.newton(start, drive, unit)?;
+        (solved.residual <= smoothed.accuracy(&solved.state).1).then_some(solved.state)
+    };
+    let (mut rest_spin, mut here) = WIDE_SMOOTHING.iter().find_map(|&rest_spin| {
+        let smoothed = PlacedBall { rest_spin, ..*ball };
+        let start = Search::new(&smoothed, drive, unit).guess()?;
+        Some((rest_spin, at(rest_spin, &start)?))
+    })?;
+    let mut before: Option<(f64, BallState)> = None;
+    let mut factor = 0.3_f64;
+    while rest_spin > ball.rest_spin {
+        let next = (rest_spin * factor).max(ball.rest_spin);
+        let predicted = before.as_ref().map_or(here, |(from, state)| {
+            here.beyond(state, (next - rest_spin) / (rest_spin - from))
+        });
+        if let Some(there) = at(next, &predicted).or_else(|| at(next, &here)) {
+            before = Some((rest_spin, here));
+            (rest_spin, here) = (next, there);
+            factor = (factor * factor).max(0.1);
+        } else {
+            factor = factor.sqrt();
+            if factor > SHORTEST_STEP {
+                return None;
+            }
+        }
+    }
+    Some(here)
+}
+
+/// Spins of smoothing over the nut's speed at which Newton's method finds a ball from the guess, the narrowest first.
+const WIDE_SMOOTHING: [f64; 4] = [0.1, 1.0, 10.0, 100.0];
+/// Largest factor of the spin of smoothing from one state to the next.
+const SHORTEST_STEP: f64 = 0.99;
 
 struct Search<'a> {
     ball: &'a PlacedBall<'a>,
@@ -77,11 +128,9 @@ impl<'a> Search<'a> {
         let [rub_x, rub_z] = ball.rubbing.in_plane;
         // The screw is pushed by its load and feels the opposite of what it does to the ball.
         let force = Vector3::new(friction.x + rub_x, friction.y + rub_z, load - friction.z);
-        let start = start.copied().unwrap_or_else(|| {
-            let (travel, _) = ball.grooves.two_point_start(load);
-            let middle = 0.5 * travel * ball.grooves.track.lead_angle().1;
-            Vector3::new(0.0, middle, travel)
-        });
+        let start = start
+            .copied()
+            .unwrap_or_else(|| ball.grooves.two_point_place(load));
         let scale = load.abs() * self.unit;
         let end = minimise(start / self.unit, 1e-13 * scale, |y| {
             let mut local = ball.grooves.energy(y, self.unit);
@@ -122,11 +171,7 @@ impl<'a> Search<'a> {
                 (friction + next) * 0.5
             };
             if change <= 1e-9 * ball.friction * ball.axial_load.abs() {
-                let state = BallState {
-                    place: there,
-                    motion,
-                    force,
-                };
+                let state = BallState::new(there, motion, force);
                 return Some((state, answer));
             }
         }
@@ -145,11 +190,7 @@ impl<'a> Search<'a> {
         )?;
         let rows = ball.rows(&place)?;
         let (motion, force) = self.motion(&rows, &rolling(&ball.grooves.track))?;
-        Some(BallState {
-            place,
-            motion,
-            force,
-        })
+        Some(BallState::new(place, motion, force))
     }
 
     /// Sign of the push across: towards SL for SR-NL loads and NL for SL-NR loads where the nut turns forward.
@@ -181,21 +222,25 @@ impl<'a> Search<'a> {
     }
 }
 
-/// Least power with friction smoothed over [`STICK_SPIN`]: directly, or from coarser smoothing.
+/// Least power with friction smoothed over `rest_spin`: directly, or from coarser smoothing.
 fn sharpened<const N: usize>(
     start: nalgebra::SVector<f64, N>,
+    rest_spin: f64,
     total: f64,
     power: impl Fn(&nalgebra::SVector<f64, N>, f64) -> Local<N>,
 ) -> Minimum<N> {
     let tolerance = 1e-13 * total;
-    let direct = minimise(start, tolerance, |y| power(y, STICK_SPIN));
+    let direct = minimise(start, tolerance, |y| power(y, rest_spin));
     if direct.residual <= 1e-9 * total {
         return direct;
     }
     let mut end = direct;
-    for rest_spin in [0.1, 0.01, 1e-3, STICK_SPIN] {
-        let from = if rest_spin == 0.1 { start } else { end.point };
-        end = minimise(from, tolerance, |y| power(y, rest_spin));
+    let mut from = start;
+    for coarse in [0.1, 0.01, 1e-3, rest_spin] {
+        if coarse >= rest_spin {
+            end = minimise(from, tolerance, |y| power(y, coarse));
+            from = end.point;
+        }
     }
     end
 }
@@ -220,13 +265,13 @@ pub(crate) fn least_motion(
     };
     let (point, residual) = match drive {
         Drive::Force(_) => {
-            let end = sharpened(*start, total, power);
+            let end = sharpened(*start, ball.rest_spin, total, power);
             (end.point, end.residual)
         }
         Drive::Speed(speed) => {
             let whole = |y: &Vector3<f64>| Vector4::new(speed, y.x, y.y, y.z);
             let turn = Vector3::new(start.y, start.z, start.w);
-            let end = sharpened(turn, total, |y, rest_spin| {
+            let end = sharpened(turn, ball.rest_spin, total, |y, rest_spin| {
                 let all = power(&whole(y), rest_spin);
                 Local {
                     value: all.value,
@@ -239,7 +284,7 @@ pub(crate) fn least_motion(
     };
     let force = match drive {
         Drive::Force(force) => force,
-        Drive::Speed(_) => ball.friction * power(&point, STICK_SPIN).gradient[0] / ball.path(),
+        Drive::Speed(_) => ball.friction * power(&point, ball.rest_spin).gradient[0] / ball.path(),
     };
     (residual <= 1e-7 * total).then_some((point, force))
 }

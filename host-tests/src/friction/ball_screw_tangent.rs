@@ -10,7 +10,7 @@
 use nalgebra::{Matrix3, SMatrix, Vector3, Vector4};
 
 use super::ball_screw_ball::ScrewRow;
-use super::ball_screw_placed::{Balance, BallState, PlacedBall, STICK_SPIN, normal};
+use super::ball_screw_placed::{Balance, BallState, PlacedBall, normal};
 use super::patch::PatchVelocity;
 
 /// Unbalanced forces of a ball, and their derivatives.
@@ -31,9 +31,9 @@ struct Slope {
 }
 
 impl Slope {
-    fn of(row: &ScrewRow, motion: &Vector4<f64>) -> Self {
+    fn of(row: &ScrewRow, motion: &Vector4<f64>, rest_spin: f64) -> Self {
         let v = row.velocity(motion);
-        let spin = v.z.hypot(STICK_SPIN);
+        let spin = v.z.hypot(rest_spin);
         let share = v.z / spin;
         let here = row.patch.friction_by(
             PatchVelocity {
@@ -52,7 +52,7 @@ impl Slope {
             by_velocity[(k, 2)] *= share;
             by_velocity[(2, k)] *= share;
         }
-        by_velocity[(2, 2)] += moment * (STICK_SPIN / spin).powi(2) / spin;
+        by_velocity[(2, 2)] += moment * (rest_spin / spin).powi(2) / spin;
         Self {
             gradient: Vector3::new(across, along, moment * share),
             by_velocity,
@@ -69,7 +69,7 @@ impl PlacedBall<'_> {
     /// What is unbalanced at a state, and how it changes with the place over `unit` and with the motion. `None` where the ball has left its
     /// grooves.
     pub fn tangent(&self, state: &BallState, unit: f64) -> Option<Tangent> {
-        let rows = self.rows(&state.place)?;
+        let rows = self.rows_of(state)?;
         let cos_a = self.grooves.track.lead_angle().1;
         let mut sum = Tangent {
             balance: self.given(state),
@@ -80,7 +80,7 @@ impl PlacedBall<'_> {
             let screw = !row.contact.groove.on_nut();
             let load = row.contact.load;
             sum.loads += load;
-            let slope = Slope::of(row, &state.motion);
+            let slope = Slope::of(row, &state.motion, self.rest_spin);
             sum.balance += self.of_contact(row, load, &slope.gradient);
             let [nx, nz] = normal(row);
             // Friction turns with the normal, and so do the velocities.
@@ -198,7 +198,7 @@ impl Turned {
 #[cfg(test)]
 mod tests {
     use super::super::ball_screw_grooves::ElasticGrooves;
-    use super::super::ball_screw_placed::{BallState, Drive, PlacedBall, Rubbing};
+    use super::super::ball_screw_placed::{BallState, Drive, PlacedBall, Rubbing, STICK_SPIN};
     use super::super::ball_screw_settle::settle;
     use super::super::patch::Integration;
     use crate::curvature::Groove;
@@ -227,6 +227,7 @@ mod tests {
                 axial_load: load,
                 rubbing: Rubbing::default(),
                 integration: Integration::Full,
+                rest_spin: STICK_SPIN,
             };
             let settled = settle(&ball, Drive::Force(0.3), None).unwrap().state;
             let unit = 1e-6;

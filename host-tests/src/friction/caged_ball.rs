@@ -68,6 +68,7 @@ impl CagedBall {
                     axial_load,
                     rubbing: Rubbing::default(),
                     integration: self.integration,
+                    rest_spin: STICK_SPIN,
                 };
                 let solved = settle(&ball, Drive::Force(0.0), last.as_ref());
                 last = solved.as_ref().ok().map(|solved| solved.state);
@@ -104,7 +105,7 @@ impl CagedBall {
         state: &BallState,
         residual: f64,
     ) -> Result<CagedBallFriction, ReferenceError> {
-        let rows = ball.rows(&state.place).unwrap_or_default();
+        let rows = ball.rows_of(state).unwrap_or_default();
         let motion = RowBallMotion {
             motion: dimensional(
                 &ball.grooves.track,

@@ -55,6 +55,7 @@ mod ball_screw_ring_solve;
 pub mod ball_screw_row;
 mod ball_screw_rubbing;
 mod ball_screw_settle;
+mod ball_screw_steps;
 mod ball_screw_tangent;
 pub mod ball_screw_train;
 pub mod caged_ball;

@@ -11,6 +11,7 @@ pub mod given;
 pub mod golden;
 pub mod measured;
 pub mod objects;
+pub mod promised;
 pub mod random;
 pub mod recorded;
 pub mod remembering;

@@ -3,6 +3,7 @@
 #[path = "../kit/mod.rs"]
 mod kit;
 
+mod answers_reference;
 mod ball_screw_efficiency_reference;
 mod ball_screw_reference;
 mod ball_screw_ring_reference;
