@@ -1,6 +1,6 @@
 //! Closed-form efficiency of a ball screw, self-locking, the best contact angle, and a design procedure.
 //!
-//! [`EfficiencyGeometry`] runs at the set-up of the caged scene. The rest ([`DynamicCorrection`], the optimum, the design
+//! [`EfficiencyGeometry`] runs at the set-up of the scene by closed forms. The rest ([`DynamicCorrection`], the optimum, the design
 //! procedure) is called directly; no scene links it.
 //!
 //! Two answers stand side by side, both after Lin, Velinsky, Ravani 1994:

@@ -6,6 +6,7 @@
 //! | scene | what | outputs |
 //! |---|---|---|
 //! | [`CagedBallScrew`] | a ball screw whose balls do not touch | torque, efficiency |
+//! | [`ClosedFormScrew`] | the same by the closed forms of the papers | torque, efficiency |
 //! | [`UncagedBallScrew`] | a ball screw whose balls press on each other | torques of grooves and balls, forces between balls |
 //! | [`LinearBearingTrain`] | a linear bearing whose balls press on each other | forces |
 //! | [`scene::WithMemory`] | any of them, with friction that remembers | the same, and between two steps |
@@ -36,7 +37,7 @@
 //! | [`contact`] | friction of one contact: along the track, across it, in any direction; rolling resistance | set-up; step of both ball screws (any direction, rolling resistance); direct |
 //! | [`train`] | a row of balls that push each other: free speeds and impedances in, forces and moves out | step of both trains |
 //! | [`ball`] | one ball between its grooves: elastic (by Newton steps) in a screw, in closed form in a linear bearing | step of all three scenes |
-//! | [`efficiency`] | closed-form efficiency, self-locking; optimum and design procedure | set-up of the caged scene; direct |
+//! | [`efficiency`] | closed-form efficiency, self-locking; optimum and design procedure | set-up of the scene by closed forms; direct |
 //! | [`kinematics`] | rolling, side and spin slip of a contact, their ratios and friction power | direct |
 //! | [`law`] | friction that remembers; friction coefficient by speed and temperature | step of scenes with memory; direct |
 //! | [`defaults`] | friction coefficient, clearance, rolling resistance and lubricant where nothing is measured | set-up |
@@ -99,9 +100,10 @@ pub use geometry::{
 pub use material::Material;
 pub use model::FrictionModel;
 pub use scene::{
-    CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, CagedState, DeviationMap, Faults,
-    FrictionBranch, Harmonic, Inputs, Limits, LinearBearingConfiguration, LinearBearingTrain,
-    LinearConstants, LinearInputs, LinearLimits, LinearOutputs, Outputs, Regime, Scene,
-    UncagedBallScrew, UncagedBallScrewConfiguration, UncagedConstants, UncagedOutputs,
+    CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, CagedState, ClosedFormScrew,
+    ClosedFormScrewConfiguration, ClosedFormScrewConstants, DeviationMap, Faults, FrictionBranch,
+    Harmonic, Inputs, Limits, LinearBearingConfiguration, LinearBearingTrain, LinearConstants,
+    LinearInputs, LinearLimits, LinearOutputs, Outputs, Regime, Scene, UncagedBallScrew,
+    UncagedBallScrewConfiguration, UncagedConstants, UncagedOutputs,
 };
 pub use stored::Refusal;

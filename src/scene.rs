@@ -8,6 +8,7 @@
 //! |---|---|---|
 //! | [`CagedBallScrew`] | balls that do not touch | [`ball`](crate::ball), [`contact`](crate::contact); [`hertz`](crate::hertz) and [`efficiency`](crate::efficiency) at set-up |
 //! | [`FoldedScrew`] | the same by a law that was solved on a host | [`ball::folded`](crate::ball::folded) |
+//! | [`ClosedFormScrew`] | the same by a closed form, without a host | [`efficiency`](crate::efficiency) at set-up |
 //! | [`UncagedBallScrew`] | balls that press on each other | [`ball`](crate::ball), [`contact`](crate::contact), [`train`](crate::train); [`hertz`](crate::hertz) at set-up |
 //! | [`LinearBearingTrain`] | four-point linear bearing, balls that press on each other | [`ball`](crate::ball), [`train`](crate::train); [`contact`](crate::contact) and [`hertz`](crate::hertz) at set-up |
 //! | [`WithMemory`] | any of them, with friction that remembers | [`law`](crate::law) beside it |
@@ -19,9 +20,11 @@
 mod caged;
 mod changing;
 pub(crate) mod circuit;
+mod closed_form;
 mod contract;
 mod faults;
 mod folded;
+mod full;
 pub(crate) mod linear;
 mod memory;
 mod outputs;
@@ -32,14 +35,18 @@ mod stored;
 mod uncaged;
 
 pub use caged::{
-    CagedBallScrew, CagedBallScrewConfiguration, CagedCoefficients, CagedConstants, CagedFull,
-    CagedState, FrictionBranch,
+    CagedBallScrew, CagedBallScrewConfiguration, CagedCoefficients, CagedConstants, CagedState,
 };
 pub use changing::{ChangingClearance, ChangingFriction};
 pub use circuit::{CircuitState, DeviationMap, HIGHEST_ORDER, Harmonic, LARGEST_DEVIATION};
+pub use closed_form::{
+    ClosedFormScrew, ClosedFormScrewConfiguration, ClosedFormScrewConstants, ClosedFormScrewState,
+    FrictionBranch,
+};
 pub use contract::{Admitted, Inputs, Limits, Regime, Scene, SceneOutputs};
 pub use faults::Faults;
 pub use folded::{FoldedScrew, FoldedScrewConfiguration, FoldedScrewConstants, FoldedScrewState};
+pub use full::CagedFull;
 pub use linear::{
     LinearBearingConfiguration, LinearBearingTrain, LinearConstants, LinearFull, LinearInputs,
     LinearLimits, LinearState,

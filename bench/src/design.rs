@@ -281,7 +281,7 @@ impl Shown {
 
 /// What was folded, over which domain, and how exact it is.
 fn print(out: &mut dyn Write, design: &Design, folded: &Folded, words: usize) -> io::Result<()> {
-    let configuration = &folded.fold.configuration;
+    let gear = &folded.fold.gear;
     let (least, most) = folded.block.friction_range();
     let [from, to] = folded.fold.axial_load;
     let friction = if least < most {
@@ -293,12 +293,12 @@ fn print(out: &mut dyn Write, design: &Design, folded: &Folded, words: usize) ->
         out,
         "{}: caged, friction coefficient {}{}, clearance {} um{}, {} loaded balls{}",
         design.name,
-        configuration.friction,
+        gear.friction,
         design.mark("friction"),
         // To a nanometre: the gap is an f32.
-        (1e9 * f64::from(configuration.clearance.gap())).round() * 1e-3,
+        (1e9 * f64::from(gear.clearance.gap())).round() * 1e-3,
         design.mark("clearance"),
-        configuration.loaded_balls,
+        gear.loaded_balls,
         design.mark("loaded_balls"),
     )?;
     writeln!(

@@ -1,15 +1,15 @@
 //! A ball screw whose balls do not touch: caged, or with spacer balls.
 
-mod closed_form;
 mod coefficients;
 mod configuration;
 mod contacts;
-mod full;
 mod stored;
 
 use super::changing::{ChangingClearance, ChangingFriction};
+use super::closed_form::{ClosedForm, FrictionBranch};
 use super::contract::{Admitted, Inputs, Limits, Scene, SceneOutputs};
 use super::faults::Faults;
+use super::full::CagedFull;
 use super::outputs::Outputs;
 use super::passage::{Passage, Reversal};
 use super::sliding::{Sliding, SlidingFriction};
@@ -17,11 +17,9 @@ use crate::ball::Clearance;
 use crate::error::{Error, Range, attempt, in_range};
 use crate::law::coefficient::DirectionalCoefficient;
 use crate::ranges;
-use closed_form::ClosedForm;
 use coefficients::CoefficientLaws;
-pub use configuration::{CagedBallScrewConfiguration, FrictionBranch};
+pub use configuration::CagedBallScrewConfiguration;
 use contacts::{Contacts, ContactsState};
-pub use full::CagedFull;
 
 /// Numbers for the two kinds of law, because [`Error`] reports a number.
 const CONTACTS: f32 = 0.0;
@@ -177,11 +175,7 @@ impl Sliding for CagedBallScrew {
 
     #[inline(always)]
     fn friction(full: &CagedFull) -> SlidingFriction {
-        SlidingFriction {
-            forward: full.forward,
-            backward: full.backward,
-            load: full.load,
-        }
+        full.sliding()
     }
 
     #[inline(always)]
@@ -227,7 +221,7 @@ impl CagedConstants {
             law: match branch {
                 FrictionBranch::Contacts => Law::Contacts(attempt!(Contacts::new(configuration))),
                 FrictionBranch::Rolling | FrictionBranch::Sliding => {
-                    Law::Closed(attempt!(ClosedForm::new(configuration)))
+                    Law::Closed(attempt!(ClosedForm::new(&configuration.closed_form())))
                 }
             },
             reversal,

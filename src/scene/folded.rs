@@ -3,10 +3,10 @@
 mod block;
 mod stored;
 
-use super::caged::CagedFull;
 use super::changing::ChangingFriction;
 use super::contract::{Admitted, Inputs, Limits, Regime, Scene};
 use super::faults::Faults;
+use super::full::CagedFull;
 use super::outputs::{Outputs, efficiency};
 use super::passage::{Passage, Reversal};
 use super::sliding::{Sliding, SlidingFriction};
@@ -279,11 +279,7 @@ impl<const NODES: usize> Sliding for FoldedScrew<NODES> {
 
     #[inline(always)]
     fn friction(full: &CagedFull) -> SlidingFriction {
-        SlidingFriction {
-            forward: full.forward,
-            backward: full.backward,
-            load: full.load,
-        }
+        full.sliding()
     }
 
     #[inline(always)]

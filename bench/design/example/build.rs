@@ -1,16 +1,14 @@
 //! Folds the screw of this firmware into `gear.rs`.
 
-use epas_design::{CagedFold, Failure};
+use epas_design::{CagedDesign, CagedFold, Failure};
 use epas_friction::geometry::STEERING_SIZES;
-use epas_friction::{BallScrew, CagedBallScrewConfiguration, FrictionBranch, Limits, defaults};
+use epas_friction::{BallScrew, Limits, defaults};
 
-fn gear() -> Result<CagedBallScrewConfiguration, epas_friction::Error> {
-    Ok(CagedBallScrewConfiguration {
+fn gear() -> Result<CagedDesign, epas_friction::Error> {
+    Ok(CagedDesign {
         design: BallScrew::new(STEERING_SIZES[0].parameters())?,
         friction: 0.1,
         rolling_resistance: defaults::ROLLING_RESISTANCE,
-        rolling_tangent: 0.0,
-        branch: FrictionBranch::Contacts,
         clearance: defaults::CLEARANCE,
         loaded_balls: 40,
         reversal_speed: 2.0,

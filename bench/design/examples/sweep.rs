@@ -1,11 +1,11 @@
 //! Folds every catalogue size, steering size and published design over friction coefficients and clearances, and prints the errors of each
 //! block: `cargo run --release -p epas-design --example sweep [range] [NAME ...]`.
 
-use epas_design::{CagedFold, Failure};
+use epas_design::{CagedDesign, CagedFold, Failure};
 use epas_friction::geometry::{FINE_LEAD_SIZES, STEERING_SIZES};
 use epas_friction::{
-    BallScrew, BallScrewParameters, CATALOGUE, CagedBallScrewConfiguration, Clearance,
-    DISSERTATION_DESIGNS, Error, FrictionBranch, Limits, defaults,
+    BallScrew, BallScrewParameters, CATALOGUE, Clearance, DISSERTATION_DESIGNS, Error, Limits,
+    defaults,
 };
 
 const CLEARANCES: [f32; 7] = [-5e-6, -1e-6, 0.0, 2e-6, 5e-6, 10e-6, 20e-6];
@@ -17,12 +17,10 @@ fn fold(
     friction: f32,
 ) -> Result<CagedFold, Error> {
     let design = BallScrew::new(parameters)?;
-    Ok(CagedFold::of(CagedBallScrewConfiguration {
+    Ok(CagedFold::of(CagedDesign {
         design,
         friction,
         rolling_resistance: defaults::ROLLING_RESISTANCE,
-        rolling_tangent: 0.0,
-        branch: FrictionBranch::Contacts,
         clearance: Clearance::new(clearance)?.checked(&design)?,
         loaded_balls: 37,
         reversal_speed: 0.5,

@@ -1,10 +1,12 @@
 //! From a design to the law of one ball over its load.
 
+mod design;
+
 use std::time::Instant;
 
+use epas_friction::Range;
 use epas_friction::ball::folded::{FrictionNode, LoadLaw, octaves, shifted_part};
 use epas_friction::scene::FoldedScrewConfiguration;
-use epas_friction::{CagedBallScrewConfiguration, CagedConstants, FrictionBranch};
 use epas_reference::curvature::Groove;
 use epas_reference::design::BallScrewDesign;
 use epas_reference::friction::caged_ball::CagedBall;
@@ -17,6 +19,8 @@ use crate::Failure;
 use crate::certificate::Certificate;
 use crate::curve::{Sample, fitted};
 use crate::drawing::drawing;
+pub use design::CagedDesign;
+use design::{FRICTION, in_range};
 
 /// Loads of one ball for which a law holds where nothing else is asked, N.
 pub const AXIAL_LOAD: [f32; 2] = [5.0, 300.0];
@@ -41,14 +45,18 @@ const SHIFT: f64 = 1.5;
 /// A largest error of the torque from which on a domain is not held.
 const LARGEST_ERROR: f64 = 0.03;
 
+/// Largest axial load of a ball, N, and the least ratio of the ends of a range.
+const LARGEST_LOAD: f32 = 1e5;
+const APART: f32 = 1.1;
+
 /// States that may be left without an exact answer, as a share.
 const UNSOLVED: f64 = 0.01;
 
 /// A design to be folded.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CagedFold {
-    /// Geometry, clearance, friction coefficient, rolling resistance, balls, limits.
-    pub configuration: CagedBallScrewConfiguration,
+    /// The screw with its numbers.
+    pub gear: CagedDesign,
     /// Least and largest friction coefficient for which the law holds, where it is more than one: 1e-3 to 0.5.
     pub friction: Option<[f32; 2]>,
     /// Least and largest axial load of one ball for which the law holds, N, 0.01 to 1e5.
@@ -98,9 +106,9 @@ pub(crate) struct Exact {
 impl CagedFold {
     /// A design with the friction coefficient that it has, for loads of 5 to 300 N a ball.
     #[must_use]
-    pub const fn of(configuration: CagedBallScrewConfiguration) -> Self {
+    pub const fn of(gear: CagedDesign) -> Self {
         Self {
-            configuration,
+            gear,
             friction: None,
             axial_load: AXIAL_LOAD,
             seed: 1,
@@ -161,7 +169,7 @@ impl CagedFold {
 
     fn block_of(&self, exact: &Exact) -> Result<Block, Failure> {
         Ok(match self.friction {
-            None => Block::One(self.configured(self.law(exact, [self.configuration.friction])?)),
+            None => Block::One(self.configured(self.law(exact, [self.gear.friction])?)),
             Some([least, largest]) => {
                 let ratio = f64::from(largest) / f64::from(least);
                 let nodes = std::array::from_fn(|node| {
@@ -174,42 +182,29 @@ impl CagedFold {
     }
 
     fn check(&self) -> Result<(), Failure> {
-        let configuration = &self.configuration;
-        if configuration.branch != FrictionBranch::Contacts {
-            return Err(Failure::Domain(
-                "a closed form (branch rolling or sliding) needs no fold".into(),
-            ));
-        }
-        CagedConstants::new(configuration)?;
-        let within = |field: &str, value: f32, low: f32, high: f32| {
-            if value >= low && value <= high {
-                Ok(())
-            } else {
-                Err(Failure::Domain(format!(
-                    "{field} = {value} is out of range; allowed: {low} to {high}"
-                )))
-            }
-        };
+        self.gear.checked()?;
         let [least, most] = self.axial_load;
-        within("axial_load", least, 0.01, 1e5)?;
-        within("axial_load", most, 1.1 * least, 1e5)?;
+        in_range("axial_load", least, Range::new(0.01, LARGEST_LOAD))?;
+        in_range("axial_load", most, Range::new(APART * least, LARGEST_LOAD))?;
         if let Some([least, largest]) = self.friction {
-            within("friction", least, 1e-3, 0.5)?;
-            within("friction", largest, 1.1 * least, 0.5)?;
-            within("friction", configuration.friction, least, largest)?;
-        } else {
-            within("friction", configuration.friction, 1e-3, 0.5)?;
+            in_range("friction", least, FRICTION)?;
+            in_range(
+                "friction",
+                largest,
+                Range::new(APART * least, FRICTION.maximum),
+            )?;
+            in_range("friction", self.gear.friction, Range::new(least, largest))?;
         }
         Ok(())
     }
 
     fn exact(&self) -> Result<Exact, Failure> {
-        let CagedBallScrewConfiguration {
+        let CagedDesign {
             design,
             clearance,
             rolling_resistance,
             ..
-        } = &self.configuration;
+        } = &self.gear;
         let design = drawing(design.parameters());
         let clearance = f64::from(clearance.gap());
         let deflection =
@@ -228,14 +223,14 @@ impl CagedFold {
     }
 
     fn configured<const N: usize>(&self, law: LoadLaw<N>) -> FoldedScrewConfiguration<N> {
-        let CagedBallScrewConfiguration {
+        let CagedDesign {
             design,
             friction,
             loaded_balls,
             reversal_speed,
             limits,
             ..
-        } = self.configuration;
+        } = self.gear;
         let (least, largest) = law.friction_range();
         FoldedScrewConfiguration {
             friction: friction.clamp(least, largest),

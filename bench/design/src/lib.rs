@@ -4,16 +4,15 @@
 //! design, clearance, friction coefficient -> exact ball (epas-reference, float64) -> curves over the load -> block + certificate
 //! ```
 //!
-//! [`CagedFold`] takes a design and gives a [`Folded`] block: the constants of an
+//! [`CagedFold`] takes a [`CagedDesign`] and gives a [`Folded`] block: the constants of an
 //! [`epas_friction::scene::FoldedScrew`], and the error of every torque that it puts out, against the exact solver, on states that were not
 //! fitted. The same inputs give the same bits.
 //!
 //! In a `build.rs`, where `gear()` is the design; the firmware then has `include!(concat!(env!("OUT_DIR"), "/gear.rs"));`:
 //!
 //! ```no_run
-//! # use epas_design::{CagedFold, Failure};
-//! # use epas_friction::CagedBallScrewConfiguration;
-//! # fn gear() -> CagedBallScrewConfiguration { unimplemented!() }
+//! # use epas_design::{CagedDesign, CagedFold, Failure};
+//! # fn gear() -> CagedDesign { unimplemented!() }
 //! fn main() -> Result<(), Failure> {
 //!     CagedFold::of(gear()).folded()?.write_rust("GEAR", &std::env::var("OUT_DIR").unwrap())
 //! }
@@ -39,6 +38,6 @@ mod failure;
 pub mod gears;
 pub mod output;
 
-pub use caged::{CagedFold, Folded};
+pub use caged::{CagedDesign, CagedFold, Folded};
 pub use certificate::{Certificate, Figure};
 pub use failure::Failure;

@@ -76,8 +76,8 @@ impl Folded {
     /// What was folded, over which domain, and how exact it is: lines for the comment above a block.
     #[must_use]
     pub fn summary(&self) -> Vec<String> {
-        let configuration = &self.fold.configuration;
-        let parameters = configuration.design.parameters();
+        let gear = &self.fold.gear;
+        let parameters = gear.design.parameters();
         let (least, largest) = self.block.friction_range();
         let [from, to] = self.fold.axial_load;
         let mut lines = vec![
@@ -89,8 +89,8 @@ impl Folded {
                 parameters.lead,
                 parameters.ball_radius,
                 parameters.contact_angle,
-                configuration.clearance.gap(),
-                configuration.loaded_balls,
+                gear.clearance.gap(),
+                gear.loaded_balls,
             ),
             format!(
                 "holds for friction coefficients {least} to {largest} and axial loads of {from} to {to} N a ball, both signs"

@@ -3,7 +3,7 @@
 use std::sync::LazyLock;
 
 use epas_design::caged::{Block, NODES};
-use epas_design::{CagedFold, Failure, Folded};
+use epas_design::{CagedDesign, CagedFold, Failure, Folded};
 use epas_friction::law::coefficient::{OneCoefficient, TemperatureFade};
 use epas_friction::law::memory::LoadExactElements;
 use epas_friction::law::motion::SpeedOverTick;
@@ -12,8 +12,8 @@ use epas_friction::scene::{
     WithMemoryConfiguration, WithMemoryInputs,
 };
 use epas_friction::{
-    BallScrew, CATALOGUE, CagedBallScrewConfiguration, Clearance, DISSERTATION_DESIGNS, Faults,
-    FrictionBranch, FrictionModel, Inputs, Limits, Regime, RollingResistance,
+    BallScrew, CATALOGUE, Clearance, DISSERTATION_DESIGNS, Faults, FrictionModel, Inputs, Limits,
+    Regime, RollingResistance,
 };
 use epas_reference::friction::ball_screw_efficiency::LoadedScrew;
 
@@ -36,13 +36,11 @@ fn screw(size: &str) -> BallScrew {
     BallScrew::new(parameters).unwrap()
 }
 
-fn gear(size: &str, clearance: f32, friction: f32) -> CagedBallScrewConfiguration {
-    CagedBallScrewConfiguration {
+fn gear(size: &str, clearance: f32, friction: f32) -> CagedDesign {
+    CagedDesign {
         design: screw(size),
         friction,
         rolling_resistance: RollingResistance::STEEL,
-        rolling_tangent: 0.0,
-        branch: FrictionBranch::Contacts,
         clearance: Clearance::new(clearance).unwrap(),
         loaded_balls: 71,
         reversal_speed: 0.5,
@@ -116,13 +114,13 @@ fn blocks_hold_their_accuracy() {
 /// certificate take.
 #[test]
 fn a_step_is_the_torque_of_a_loaded_screw() {
-    let configuration = gear("lin-4.1", -1e-6, 0.1);
+    let gear = gear("lin-4.1", -1e-6, 0.1);
     let mut model = One::new(&one(&STEERING)).unwrap();
     for load_per_ball in [7.0_f32, 23.0, 24.0, 26.0, 61.0, 140.0, 299.0] {
         for side in [1.0, -1.0] {
             let axial_load = side * 71.0 * load_per_ball;
             let exact = LoadedScrew {
-                design: epas_design::drawing::drawing(configuration.design.parameters()),
+                design: epas_design::drawing::drawing(gear.design.parameters()),
                 clearance: (-1e-6_f32).into(),
                 friction: 0.1_f32.into(),
                 rolling: epas_reference::friction::rolling_resistance::RollingResistance::STEEL,
@@ -340,7 +338,7 @@ fn the_digest_is_that_of_all_inputs() {
     let fold = CagedFold::of(gear("lin-4.1", -1e-6, 0.1));
     let mut seen = vec![digest(fold)];
     let mut more_balls = fold;
-    more_balls.configuration.loaded_balls += 1;
+    more_balls.gear.loaded_balls += 1;
     let mut less_load = fold;
     less_load.axial_load = [5.0, 299.0];
     let mut range = fold;
@@ -444,10 +442,19 @@ fn what_cannot_be_folded_is_refused() {
         fold.folded().unwrap_err().to_string()
     };
     assert!(
-        refused(|fold| fold.configuration.branch = FrictionBranch::Rolling).contains("closed form")
+        refused(|fold| {
+            let gap = -0.021 * fold.gear.design.ball_radius();
+            fold.gear.clearance = Clearance::new(gap).unwrap();
+        })
+        .contains("clearance")
     );
-    assert!(refused(|fold| fold.configuration.friction = 0.6).contains("friction"));
-    assert!(refused(|fold| fold.configuration.loaded_balls = 0).contains("loaded_balls"));
+    assert!(refused(|fold| fold.gear.reversal_speed = 0.0).contains("reversal_speed"));
+    assert!(refused(|fold| fold.gear.limits.axial_load = 0.0).contains("axial_load"));
+    assert!(
+        refused(|fold| fold.gear.rolling_resistance.hysteresis_loss = 0.3).contains("hysteresis")
+    );
+    assert!(refused(|fold| fold.gear.friction = 0.6).contains("friction"));
+    assert!(refused(|fold| fold.gear.loaded_balls = 0).contains("loaded_balls"));
     assert!(refused(|fold| fold.axial_load = [300.0, 5.0]).contains("axial_load"));
     assert!(refused(|fold| fold.axial_load = [f32::NAN, 5.0]).contains("axial_load"));
     assert!(refused(|fold| fold.friction = Some([0.11, 0.15])).contains("friction"));
@@ -457,5 +464,5 @@ fn what_cannot_be_folded_is_refused() {
         ..CagedFold::of(gear("lin-4.1", -1e-6, 0.1))
     }
     .folded();
-    assert!(matches!(error, Err(Failure::Domain(_))));
+    assert!(matches!(error, Err(Failure::Field(_))));
 }

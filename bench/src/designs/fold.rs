@@ -1,6 +1,7 @@
 //! Table `[fold]` of a design file: the domain over which `design` folds it.
 
-use epas_design::CagedFold;
+use epas_design::{CagedDesign, CagedFold};
+use epas_friction::CagedBallScrewConfiguration;
 use serde::Deserialize;
 
 use super::Design;
@@ -41,12 +42,12 @@ impl FoldTable {
                 ));
             }
         }
-        let mut fold = CagedFold::of(design.configuration);
+        let mut fold = CagedFold::of(caged_design(&design.configuration));
         match self.friction {
             None => {}
-            Some(Friction::One(friction)) => fold.configuration.friction = friction,
+            Some(Friction::One(friction)) => fold.gear.friction = friction,
             Some(Friction::Range([least, most])) => {
-                let friction = fold.configuration.friction;
+                let friction = fold.gear.friction;
                 if least < most && !(least..=most).contains(&friction) {
                     return Err(format!(
                         "the design's friction = {friction}{} is not within friction = [{least}, {most}]",
@@ -59,5 +60,18 @@ impl FoldTable {
         fold.axial_load = self.axial_load.unwrap_or(fold.axial_load);
         fold.seed = self.seed.map_or(fold.seed, u64::from);
         Ok(fold)
+    }
+}
+
+/// The numbers of a caged scene as those of a fold.
+fn caged_design(configuration: &CagedBallScrewConfiguration) -> CagedDesign {
+    CagedDesign {
+        design: configuration.design,
+        friction: configuration.friction,
+        rolling_resistance: configuration.rolling_resistance,
+        clearance: configuration.clearance,
+        loaded_balls: configuration.loaded_balls,
+        reversal_speed: configuration.reversal_speed,
+        limits: configuration.limits,
     }
 }

@@ -4,12 +4,9 @@
 //! block that is folded for the request ([`epas_design`]), whose errors `design` certifies.
 
 use epas_design::caged::{AXIAL_LOAD, Block};
-use epas_design::{CagedFold, Failure};
+use epas_design::{CagedDesign, CagedFold, Failure};
 use epas_friction::scene::{FoldedScrew, FoldedScrewConfiguration};
-use epas_friction::{
-    CagedBallScrewConfiguration, Clearance, FrictionBranch, FrictionModel, Inputs, Limits,
-    RollingResistance,
-};
+use epas_friction::{Clearance, FrictionModel, Inputs, Limits, RollingResistance};
 use epas_reference::friction::caged_ball::CagedBall;
 use epas_reference::friction::patch::Integration;
 use epas_reference::friction::rolling_resistance::RollingResistance as Rolling;
@@ -152,12 +149,10 @@ impl Request {
             sizes.filter(|size| *size > 0.0)
         };
         let [least, most] = AXIAL_LOAD;
-        let mut fold = CagedFold::of(CagedBallScrewConfiguration {
+        let mut fold = CagedFold::of(CagedDesign {
             design,
             friction: self.friction as f32,
             rolling_resistance: RollingResistance::NONE,
-            rolling_tangent: 0.0,
-            branch: FrictionBranch::Contacts,
             clearance,
             loaded_balls: 1,
             // Far below the speed of the step, whose friction is full.
@@ -175,6 +170,10 @@ impl Request {
         let block = match fold.block() {
             Ok(Block::One(block)) => block,
             Ok(Block::Range(_)) | Err(Failure::Domain(_) | Failure::Reference(_)) => {
+                return Ok(NONE);
+            }
+            // Beyond what is folded, though the exact solver may have an answer.
+            Err(Failure::Field(error)) if ["friction", "axial_load"].contains(&error.field()) => {
                 return Ok(NONE);
             }
             Err(error) => return Err(BadField::request(error.to_string())),

@@ -166,15 +166,6 @@ mod tests {
 
     use super::*;
 
-    /// Or their counts could not be compared.
-    #[test]
-    fn folded_and_caged_scene_have_one_gear() {
-        assert_eq!(
-            epas_design::gears::lin_3_6().unwrap(),
-            epas_firmware::scenes::caged_configuration().unwrap()
-        );
-    }
-
     /// Or nothing would be found of a module that was renamed, and a scene would seem to leave it out.
     #[test]
     fn every_module_stands_in_the_crate() {

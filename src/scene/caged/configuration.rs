@@ -3,6 +3,7 @@
 use crate::ball::Clearance;
 use crate::contact::RollingResistance;
 use crate::geometry::BallScrew;
+use crate::scene::closed_form::{ClosedFormScrewConfiguration, FrictionBranch};
 use crate::scene::contract::Limits;
 
 /// What the engineer sets for a caged ball screw; unchecked.
@@ -32,25 +33,18 @@ pub struct CagedBallScrewConfiguration {
     pub limits: Limits,
 }
 
-/// Which state of the ball the friction torque is computed for.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum FrictionBranch {
-    /// What the contacts of a ball dissipate in its balance between elastic grooves: they spin and slip, along the track and
-    /// across it, all of them that carry; with their rolling resistance. It is the friction of an
-    /// [`UncagedBallScrew`](crate::UncagedBallScrew) whose balls do not press on each other.
-    ///
-    /// Before the first tick the friction torque is folded into a law over the load, 0.01 to 1000 N a ball, for both
-    /// directions. Where friction coefficient or clearance are set while the model runs
-    /// ([`FrictionModel::set_friction`](crate::FrictionModel::set_friction)), a ball is renewed in every tick instead.
-    #[default]
-    Contacts,
-    /// The ball rolls and slips across the groove at the screw, eq. (3) of Lin, Velinsky and Ravani 1994: a closed form, for
-    /// comparison. It leaves out spin, the third contact, clearance but for a preload, and the contacts' size: torque is in
-    /// proportion to the load, and without [`rolling_tangent`](CagedBallScrewConfiguration::rolling_tangent) hardly depends
-    /// on the lead.
-    Rolling,
-    /// The ball slides along the path at both contacts, eq. (14) and (17) of the same: a closed form for comparison, a
-    /// pessimistic bound. It leaves out that balls roll.
-    Sliding,
+impl CagedBallScrewConfiguration {
+    /// What the closed forms read of it.
+    pub(super) const fn closed_form(&self) -> ClosedFormScrewConfiguration {
+        ClosedFormScrewConfiguration {
+            design: self.design,
+            friction: self.friction,
+            rolling_tangent: self.rolling_tangent,
+            branch: self.branch,
+            clearance: self.clearance,
+            loaded_balls: self.loaded_balls,
+            reversal_speed: self.reversal_speed,
+            limits: self.limits,
+        }
+    }
 }

@@ -4,7 +4,6 @@ mod stored;
 
 use super::coefficients::CoefficientLaws;
 use super::configuration::CagedBallScrewConfiguration;
-use super::full::CagedFull;
 use crate::ball::Clearance;
 use crate::ball::elastic::constants::BallConstants;
 use crate::ball::elastic::load_law::{Grooved, LoadLaws, LoadRange};
@@ -14,6 +13,7 @@ use crate::law::coefficient::DirectionalCoefficient;
 use crate::ranges;
 use crate::scene::contract::{Inputs, Regime};
 use crate::scene::faults::Faults;
+use crate::scene::full::CagedFull;
 use crate::scene::outputs::{Outputs, efficiency};
 use crate::scene::passage::{Passage, way};
 

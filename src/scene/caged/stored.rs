@@ -1,10 +1,7 @@
 //! A caged ball screw as bytes.
 
 use super::contacts::ContactsState;
-use super::{CagedBallScrew, CagedConstants, CagedFull, CagedState, Law};
-use crate::error::Range;
-use crate::ranges;
-use crate::scene::faults::Faults;
+use super::{CagedBallScrew, CagedConstants, CagedState, Law};
 use crate::scene::stored::StoredScene;
 use crate::stored::{Fingerprint, Port, Refusal, Stored};
 
@@ -39,16 +36,5 @@ impl Stored for CagedState {
             Some(contacts) => contacts.exchange(port),
             None => Ok(()),
         }
-    }
-}
-
-impl Stored for CagedFull {
-    const BYTES: usize = 12 + Faults::BYTES;
-
-    fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
-        port.number("forward", &mut self.forward, ranges::STORED_FRICTION)?;
-        port.number("backward", &mut self.backward, ranges::STORED_FRICTION)?;
-        port.number("load", &mut self.load, Range::new(0.0, 1e13))?;
-        self.faults.exchange(port)
     }
 }

@@ -1,14 +1,14 @@
-//! Friction by the papers' closed forms, for comparison.
+//! Friction torque by a closed form.
 
-use super::configuration::{CagedBallScrewConfiguration, FrictionBranch};
-use super::full::CagedFull;
+use super::configuration::{ClosedFormScrewConfiguration, FrictionBranch};
 use crate::ball::PreloadSum;
 use crate::efficiency::{Drive, EfficiencyGeometry};
-use crate::error::{Error, attempt};
+use crate::error::{Error, Range, attempt};
 use crate::geometry::BallScrew;
 use crate::ranges;
 use crate::scene::contract::{Inputs, Regime};
 use crate::scene::faults::Faults;
+use crate::scene::full::CagedFull;
 use crate::scene::outputs::{Outputs, efficiency};
 use crate::scene::passage::{Passage, Reversal};
 
@@ -19,7 +19,7 @@ const LOCKED_RADII: f32 = 1e3;
 /// Constants of a closed form.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub(super) struct ClosedForm {
+pub(in crate::scene) struct ClosedForm {
     /// Half the friction torque per load on the flank that opposes the motion, m.
     half_drive: f32,
     /// Half the friction torque per load on the flank that assists the motion, m.
@@ -35,12 +35,14 @@ pub(super) struct ClosedForm {
 }
 
 impl ClosedForm {
-    /// Checks what the closed forms read of a configuration, and folds it.
+    /// Checks what it reads of a configuration, and folds it.
     ///
     /// # Errors
-    /// [`Error`] naming `friction`, `rolling_tangent` or `clearance`.
-    pub(super) const fn new(configuration: &CagedBallScrewConfiguration) -> Result<Self, Error> {
-        let CagedBallScrewConfiguration {
+    /// [`Error`] naming `branch`, `friction` or `clearance`.
+    pub(in crate::scene) const fn new(
+        configuration: &ClosedFormScrewConfiguration,
+    ) -> Result<Self, Error> {
+        let ClosedFormScrewConfiguration {
             ref design,
             friction,
             rolling_tangent: rolling,
@@ -50,6 +52,13 @@ impl ClosedForm {
             limits,
             ..
         } = *configuration;
+        if matches!(branch, FrictionBranch::Contacts) {
+            return Err(Error::OutOfRange {
+                field: "branch",
+                value: 0.0,
+                allowed: Range::new(1.0, 2.0),
+            });
+        }
         attempt!(ranges::FRICTION_OR_NONE.checked("friction", friction));
         let clearance = attempt!(clearance.checked(design));
         let drive = torque_per_load(design, branch, Drive::Driving, friction, rolling);
@@ -76,7 +85,7 @@ impl ClosedForm {
     /// away from the reversal, zero at standstill, smooth between, odd under reversal of speed and
     /// load together, and never of the sign that would make friction a source of power.
     #[inline(always)]
-    pub(super) fn outputs(&self, reversal: &Reversal, inputs: Inputs) -> Outputs {
+    pub(in crate::scene) fn outputs(&self, reversal: &Reversal, inputs: Inputs) -> Outputs {
         let Inputs {
             nut_speed: speed,
             axial_load: load,
@@ -97,7 +106,7 @@ impl ClosedForm {
 
     /// Full friction in both directions.
     #[inline(always)]
-    pub(super) fn both_ways(&self, load: f32) -> CagedFull {
+    pub(in crate::scene) fn both_ways(&self, load: f32) -> CagedFull {
         let sum = self.flanks.under(load);
         let of = |opposing_load| {
             if self.locks(opposing_load) {
@@ -116,7 +125,12 @@ impl ClosedForm {
 
     /// Full friction times its passage.
     #[inline(always)]
-    pub(super) fn passed(&self, load: f32, found: &CagedFull, passage: Passage) -> Outputs {
+    pub(in crate::scene) fn passed(
+        &self,
+        load: f32,
+        found: &CagedFull,
+        passage: Passage,
+    ) -> Outputs {
         let friction_torque = passage.share * found.of(passage.share);
         let opposing_load = passage.way * load;
         let full = found.of(passage.way);

@@ -1,0 +1,146 @@
+//! A ball screw whose balls do not touch, by the closed forms of the papers: from catalogue numbers alone, without a host.
+
+mod configuration;
+mod stored;
+mod torque;
+
+use super::contract::{Admitted, Inputs, Limits, Scene};
+use super::full::CagedFull;
+use super::outputs::Outputs;
+use super::passage::{Passage, Reversal};
+use super::sliding::{Sliding, SlidingFriction};
+use crate::error::{Error, Range, attempt, in_range};
+use crate::law::coefficient::DirectionalCoefficient;
+use crate::ranges;
+pub use configuration::{ClosedFormScrewConfiguration, FrictionBranch};
+pub(super) use torque::ClosedForm;
+
+/// A ball screw whose balls do not touch, by a closed form: for a first look, and for comparison.
+///
+/// Torque is in proportion to the load; spin, a third contact and the size of the contacts are left out (see [`FrictionBranch`]).
+/// The exact torque of a [`FoldedScrew`](crate::scene::FoldedScrew) differs from it by up to a factor of 2.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct ClosedFormScrew;
+
+/// Constants of a screw by a closed form.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct ClosedFormScrewConstants {
+    form: ClosedForm,
+    reversal: Reversal,
+    limits: Limits,
+}
+
+/// What a tick changes in a screw by a closed form: nothing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct ClosedFormScrewState;
+
+impl ClosedFormScrewConstants {
+    /// Checks a configuration and folds its constants: at set-up, or in a constant when firmware is compiled.
+    ///
+    /// # Errors
+    /// [`Error`] naming the field out of range.
+    pub const fn new(configuration: &ClosedFormScrewConfiguration) -> Result<Self, Error> {
+        let ClosedFormScrewConfiguration {
+            rolling_tangent,
+            loaded_balls,
+            reversal_speed,
+            limits,
+            ..
+        } = *configuration;
+        attempt!(in_range("rolling_tangent", rolling_tangent, 0.0, 0.1));
+        attempt!(in_range("loaded_balls", loaded_balls as f32, 1.0, 1e3));
+        Ok(Self {
+            reversal: attempt!(Reversal::new(reversal_speed, 1e-6, 1e3)),
+            limits: attempt!(limits.checked()),
+            form: attempt!(ClosedForm::new(configuration)),
+        })
+    }
+}
+
+impl Scene for ClosedFormScrew {
+    type Configuration = ClosedFormScrewConfiguration;
+    type Constants = ClosedFormScrewConstants;
+    type State = ClosedFormScrewState;
+    type Inputs = Inputs;
+    type Known = Inputs;
+    type Outputs = Outputs;
+
+    fn constants(
+        configuration: &ClosedFormScrewConfiguration,
+    ) -> Result<ClosedFormScrewConstants, Error> {
+        ClosedFormScrewConstants::new(configuration)
+    }
+
+    fn initial_state(_: &ClosedFormScrewConstants) -> ClosedFormScrewState {
+        ClosedFormScrewState
+    }
+
+    fn take_over(_: &ClosedFormScrewConstants, _: &mut ClosedFormScrewState) -> Result<(), Error> {
+        Ok(())
+    }
+
+    #[inline(always)]
+    fn admit(constants: &ClosedFormScrewConstants, inputs: Inputs) -> Admitted<Inputs> {
+        constants.limits.admit(inputs)
+    }
+
+    #[inline(always)]
+    fn outputs(
+        constants: &ClosedFormScrewConstants,
+        _: &mut ClosedFormScrewState,
+        inputs: Inputs,
+    ) -> Outputs {
+        constants.form.outputs(&constants.reversal, inputs)
+    }
+
+    #[inline(always)]
+    fn largest_friction(constants: &ClosedFormScrewConstants) -> f32 {
+        constants.limits.friction_torque
+    }
+}
+
+impl Sliding for ClosedFormScrew {
+    const FRICTION: Range = ranges::FRICTION_OF_A_ROW;
+
+    const COUNTS_PRELOAD: bool = true;
+
+    /// Friction is that of the configuration's coefficient.
+    type Coefficients = ();
+    type Full = CagedFull;
+
+    fn coefficients(_: &ClosedFormScrewConstants, _: f32, _: f32) {}
+
+    #[inline(always)]
+    fn full(
+        constants: &ClosedFormScrewConstants,
+        _: &mut ClosedFormScrewState,
+        _: Option<&()>,
+        inputs: Inputs,
+        _: DirectionalCoefficient,
+    ) -> CagedFull {
+        constants.form.both_ways(inputs.axial_load)
+    }
+
+    #[inline(always)]
+    fn friction(full: &CagedFull) -> SlidingFriction {
+        full.sliding()
+    }
+
+    #[inline(always)]
+    fn passed(
+        constants: &ClosedFormScrewConstants,
+        inputs: Inputs,
+        full: &CagedFull,
+        passage: Passage,
+    ) -> Outputs {
+        constants.form.passed(inputs.axial_load, full, passage)
+    }
+
+    #[inline(always)]
+    fn in_a_tick(_: &ClosedFormScrewConstants, turn: f32, measured: f32) -> (f32, f32) {
+        (turn, measured)
+    }
+}
