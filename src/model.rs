@@ -181,7 +181,7 @@ impl<S: Scene, C: Borrow<S::Constants>> FrictionModel<S, C> {
     ///
     /// Not in the middle of a step: an interrupt that steps the model has to wait. With constants in flash (`C` a reference)
     /// it is a pointer that changes. A caged ball screw renews a ball in every tick from then on, after a reset and an import as well,
-    /// until it is set up anew: see [`STEP_CAGED_CHANGING`](crate::promises::STEP_CAGED_CHANGING). Where the maps of a screw's or a
+    /// until it is set up anew: see [`SCREW_RENEWAL`](crate::promises::SCREW_RENEWAL). Where the maps of a screw's or a
     /// rail's deviations have another period, set the angle or the place anew, from which they are counted.
     ///
     /// # Errors
@@ -214,7 +214,7 @@ impl<S: ChangingFriction, C: Borrow<S::Constants>> FrictionModel<S, C> {
     /// while the model runs. [`FrictionModel::reset`] brings the configuration's back.
     ///
     /// In a caged ball screw a ball is renewed in every tick from the first call on, in the place of the law over the load: a tick
-    /// then takes the cycles of [`STEP_CAGED_CHANGING`](crate::promises::STEP_CAGED_CHANGING). After a change friction is exact
+    /// then takes the cycles of [`SCREW_RENEWAL`](crate::promises::SCREW_RENEWAL). After a change friction is exact
     /// within some ticks; until then it is flagged [`Faults::SETTLING`](crate::Faults::SETTLING). The closed forms of
     /// [`FrictionBranch`](crate::FrictionBranch) keep their friction.
     ///

@@ -37,13 +37,11 @@ pub use setting::*;
 pub use steps::*;
 
 /// Promises of every `step()` and `between()`, and of every function that one of them calls as it stands.
-pub const STEPS: [Promise; 32] = [
+pub const STEPS: [Promise; 30] = [
     STEP_CAGED,
-    STEP_CAGED_CHANGING,
-    STEP_CAGED_CLOSED,
+    STEP_CLOSED_FORM,
     STEP_CAGED_MEMORY,
     STEP_CAGED_LAW,
-    BETWEEN,
     STEP_FOLDED,
     STEP_FOLDED_RANGE,
     STEP_FOLDED_MEMORY,
@@ -83,11 +81,9 @@ pub const PARTS: [Promise; 6] = [
 ];
 
 /// Promises of functions that no step calls, nor parts of them: firmware calls them by their names.
-pub const DIRECT: [Promise; 28] = [
+pub const DIRECT: [Promise; 26] = [
     SET_FRICTION,
     SET_CLEARANCE,
-    SET_FRICTION_CAGED,
-    SET_CLEARANCE_CAGED,
     SET_FRICTION_FOLDED,
     SWAP_FOLDED,
     START_FOLDED,

@@ -9,7 +9,7 @@ pub const STEP_SPREAD: f64 = 1.5;
 ///
 /// Their constants stand in flash; the stack of the set-up is that of [`FrictionModel::of`](crate::FrictionModel::of), which says
 /// how long that takes.
-pub const FOOTPRINTS: [Footprint; 10] = [
+pub const FOOTPRINTS: [Footprint; 8] = [
     Footprint {
         scene: "curvature",
         flash: 2600,
@@ -25,22 +25,6 @@ pub const FOOTPRINTS: [Footprint; 10] = [
         ram: 16,
         stack: 16,
         stack_set_up: 16,
-    },
-    Footprint {
-        scene: "caged_ball_screw",
-        flash: 20_000,
-        flash_small: 19_000,
-        ram: 1800,
-        stack: 184,
-        stack_set_up: 6400,
-    },
-    Footprint {
-        scene: "caged_with_memory",
-        flash: 21_700,
-        flash_small: 20_400,
-        ram: 1960,
-        stack: 184,
-        stack_set_up: 6300,
     },
     Footprint {
         scene: "folded_ball_screw",

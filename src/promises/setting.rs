@@ -28,27 +28,6 @@ pub const SET_CLEARANCE: Promise = Promise {
     ..SET_FRICTION
 };
 
-/// [`FrictionModel::set_friction`](crate::FrictionModel::set_friction) of a caged ball screw: the first one turns from the law over
-/// the load to balls, by two of [`ElasticGrooves::start`](crate::ball::elastic::ElasticGrooves::start).
-pub const SET_FRICTION_CAGED: Promise = Promise {
-    function: "CagedBallScrew: set_friction, the first time",
-    domain: "friction 0.05 to 0.15",
-    error: "none of its own: the step's once the ball has settled",
-    cycles: 5500,
-    counted: &["set_friction_caged"],
-    ..SET_FRICTION
-};
-
-/// [`FrictionModel::set_clearance`](crate::FrictionModel::set_clearance) of the same.
-pub const SET_CLEARANCE_CAGED: Promise = Promise {
-    function: "CagedBallScrew: set_clearance, the first time",
-    domain: "clearance -5 to 5 um",
-    tiny: "zeros and subnormals are clearances",
-    cycles: 6900,
-    counted: &["set_clearance_caged"],
-    ..SET_FRICTION_CAGED
-};
-
 /// [`FrictionModel::set_friction`](crate::FrictionModel::set_friction) of a [`FoldedScrew`](crate::scene::FoldedScrew): the place
 /// between two nodes.
 pub const SET_FRICTION_FOLDED: Promise = Promise {

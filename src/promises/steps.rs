@@ -21,25 +21,10 @@ pub const STEP_CAGED: Promise = Promise {
     counted: &["step_caged"],
 };
 
-/// [`FrictionModel::step`](crate::FrictionModel::step) of a [`CagedBallScrew`](crate::CagedBallScrew) whose friction
-/// coefficient or clearance has been set while running: one [`ElasticGrooves::renew`](crate::ball::elastic::ElasticGrooves::renew)
-/// in the place of the law, or one [`ElasticGrooves::start`](crate::ball::elastic::ElasticGrooves::start) after a jump of the load.
-///
-/// No renewal of the counted steps is cut short; one that is solves its equations twice. Cycles are for that: the most of
-/// [`SCREW_RENEWAL`] and of [`STEP_CAGED`] together.
-pub const STEP_CAGED_CHANGING: Promise = Promise {
-    function: "CagedBallScrew: step, friction changing",
-    outside: "beyond a limit: the limit, flagged; some ticks after a jump flagged",
-    not_finite: "no torque, flagged; the ball stays as it is",
-    cycles: 6100,
-    counted: &["step_caged_changing"],
-    ..STEP_CAGED
-};
-
-/// [`FrictionModel::step`](crate::FrictionModel::step) of a [`CagedBallScrew`](crate::CagedBallScrew) whose friction is that of a
-/// closed form ([`FrictionBranch`](crate::FrictionBranch)); errors are those of computing the form.
-pub const STEP_CAGED_CLOSED: Promise = Promise {
-    function: "CagedBallScrew: step, closed form",
+/// [`FrictionModel::step`](crate::FrictionModel::step) of a [`ClosedFormScrew`](crate::ClosedFormScrew); errors are those of
+/// computing the form.
+pub const STEP_CLOSED_FORM: Promise = Promise {
+    function: "ClosedFormScrew: step",
     domain: "31 catalogue sizes and 3 designs, both closed forms, friction 0.075, to 15 kN and 200 rad/s, both signs",
     error: "friction torque of the form, relative",
     largest: 4e-7,
@@ -47,8 +32,8 @@ pub const STEP_CAGED_CLOSED: Promise = Promise {
     mean: 3e-8,
     outside: "beyond a limit: the limit, flagged; a load that no torque drives: the largest torque, flagged",
     cycles: 320,
-    counted: &["step_caged_closed"],
-    ..STEP_CAGED
+    counted: &["step_closed_form"],
+    ..STEP_FOLDED
 };
 
 /// [`FrictionModel::step`](crate::FrictionModel::step) of a [`CagedBallScrew`](crate::CagedBallScrew)
@@ -75,14 +60,6 @@ pub const STEP_CAGED_LAW: Promise = Promise {
     mean: 1e-3,
     cycles: 1250,
     counted: &["step_caged_law"],
-    ..STEP_CAGED_MEMORY
-};
-
-/// [`FrictionModel::between`](crate::FrictionModel::between) of the same.
-pub const BETWEEN: Promise = Promise {
-    function: "WithMemory<CagedBallScrew>: between",
-    cycles: 430,
-    counted: &["between_caged"],
     ..STEP_CAGED_MEMORY
 };
 

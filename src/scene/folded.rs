@@ -114,6 +114,17 @@ impl<const NODES: usize> FoldedScrewConstants<NODES> {
         })
     }
 
+    /// These constants with other limits: a block from flash, limits from a calibration page.
+    ///
+    /// # Errors
+    /// As [`Limits::checked`].
+    pub const fn with_limits(&self, limits: Limits) -> Result<Self, Error> {
+        Ok(Self {
+            limits: attempt!(limits.checked()),
+            ..*self
+        })
+    }
+
     /// Where a friction coefficient lies.
     #[inline(always)]
     const fn place(&self, friction: f32) -> FrictionPlace {

@@ -1,6 +1,8 @@
-//! The gear of the project's own firmware (`bench/firmware`), folded: Lin 2019, chapter 3.6, with 100 N of preload on each flank of the nut.
+//! The gears of the project's own firmware (`bench/firmware`), folded.
 
-use epas_friction::{BallScrew, Clearance, DISSERTATION_DESIGNS, Error, Limits, RollingResistance};
+use epas_friction::{
+    BallScrew, Clearance, DISSERTATION_DESIGNS, Error, Limits, RollingResistance, defaults,
+};
 
 use crate::{CagedDesign, CagedFold};
 
@@ -8,10 +10,10 @@ use crate::{CagedDesign, CagedFold};
 const OVERSIZE: f32 = -4.068_737e-7;
 const WORN: f32 = 2e-6;
 
-/// Friction coefficients of the gear whose coefficient changes.
+/// Friction coefficients of a gear whose coefficient changes.
 const FRICTION_RANGE: [f32; 2] = [0.05, 0.15];
 
-/// The gear with a cage.
+/// The gear of the scenes: Lin 2019, chapter 3.6, with 100 N of preload on each flank of the nut.
 ///
 /// # Errors
 /// None that is known.
@@ -32,23 +34,47 @@ pub fn lin_3_6() -> Result<CagedDesign, Error> {
     })
 }
 
-/// What the firmware has of it, each with the name of its `static`: for one friction coefficient, for a range of them, and worn, with play.
+/// The gear of the friction task: a rack-assist screw, 29 mm pitch circle, lead 7 mm.
 ///
 /// # Errors
 /// None that is known.
-pub fn firmware() -> Result<[(&'static str, CagedFold); 3], Error> {
+pub fn lin_4_1() -> Result<CagedDesign, Error> {
+    let [_, _, design] = DISSERTATION_DESIGNS;
+    Ok(CagedDesign {
+        design: BallScrew::new(design.parameters)?,
+        friction: 0.12,
+        rolling_resistance: defaults::ROLLING_RESISTANCE,
+        clearance: defaults::CLEARANCE,
+        loaded_balls: design.loaded_balls,
+        // Without a meaning where friction remembers.
+        reversal_speed: 0.2,
+        limits: Limits {
+            nut_speed: 500.0,
+            axial_load: 20_000.0,
+            friction_torque: 5.0,
+        },
+    })
+}
+
+/// What the firmware has of them, each with the name of its `static`: that of the scenes for one friction coefficient, for a range of them,
+/// and worn, with play; that of the friction task for a range.
+///
+/// # Errors
+/// None that is known.
+pub fn firmware() -> Result<[(&'static str, CagedFold); 4], Error> {
     let gear = lin_3_6()?;
     let worn = CagedDesign {
         clearance: Clearance::new(WORN)?,
         ..gear
     };
-    let range = CagedFold {
+    let range = |gear| CagedFold {
         friction: Some(FRICTION_RANGE),
         ..CagedFold::of(gear)
     };
     Ok([
         ("LIN_3_6", CagedFold::of(gear)),
-        ("LIN_3_6_RANGE", range),
+        ("LIN_3_6_RANGE", range(gear)),
         ("LIN_3_6_WORN", CagedFold::of(worn)),
+        ("LIN_4_1_RANGE", range(lin_4_1()?)),
     ])
 }

@@ -9,6 +9,7 @@ fn firmware_holds_what_is_folded() {
         include_str!("../../firmware/src/gears/lin_3_6.rs"),
         include_str!("../../firmware/src/gears/lin_3_6_range.rs"),
         include_str!("../../firmware/src/gears/lin_3_6_worn.rs"),
+        include_str!("../../firmware/src/gears/lin_4_1_range.rs"),
     ];
     for ((name, fold), file) in gears::firmware().unwrap().into_iter().zip(files) {
         let folded = fold.folded().unwrap().rust(name).unwrap();

@@ -28,7 +28,7 @@ use epas_friction::law::motion::{
 use epas_friction::scene::{FoldedScrew, FoldedScrewConstants};
 use epas_friction::train::{Press, Train};
 use epas_friction::{
-    BallScrew, CATALOGUE, CagedBallScrew, DeviationMap, Error, FrictionModel, Inputs,
+    BallScrew, CATALOGUE, ClosedFormScrew, DeviationMap, Error, FrictionModel, Inputs,
     LinearBearingTrain, UncagedBallScrew, defaults,
 };
 
@@ -36,10 +36,8 @@ use crate::gears::{LIN_3_6, LIN_3_6_RANGE};
 use crate::peers::{LuGre, Stribeck};
 use crate::remembering::{self, Carriage, FEWER, Gear, GearByLaw};
 use crate::scenes::{
-    BALLS, CagedByLaw, CagedMemory, FOLDED_BY_LAW, FOLDED_WITH_MEMORY, FoldedByLaw,
-    FoldedLawConstants, FoldedMemory, ROW, SCREW_DEVIATION, TICK, caged_configuration,
-    caged_law_configuration, caged_memory_configuration, linear_configuration,
-    uncaged_configuration,
+    BALLS, FOLDED_BY_LAW, FOLDED_WITH_MEMORY, FoldedByLaw, FoldedLawConstants, FoldedMemory, ROW,
+    SCREW_DEVIATION, TICK, closed_form_configuration, linear_configuration, uncaged_configuration,
 };
 
 /// Everything that is set up once.
@@ -72,16 +70,8 @@ pub struct Contexts {
     pub adaptation: Adaptation,
     /// Published closed form of a ball.
     pub analytic: AnalyticLinearBall,
-    /// Caged ball screw.
-    pub caged: FrictionModel<CagedBallScrew>,
-    /// The same with a memory.
-    pub caged_memory: FrictionModel<CagedMemory>,
-    /// The same with a friction coefficient by speed and temperature.
-    pub caged_law: FrictionModel<CagedByLaw>,
-    /// The same with a friction coefficient that changes.
-    pub caged_changing: FrictionModel<CagedBallScrew>,
-    /// Caged ball screw with friction by a closed form.
-    pub caged_closed: FrictionModel<CagedBallScrew>,
+    /// Ball screw by a closed form.
+    pub closed_form: FrictionModel<ClosedFormScrew>,
     /// Folded ball screw.
     pub folded: FrictionModel<FoldedScrew>,
     /// The same with a friction coefficient between two nodes.
@@ -237,11 +227,7 @@ impl Contexts {
             at_temperature: coefficient.at_temperature(300.0),
             adaptation: Adaptation::new(&black_box(adaptation_configuration()))?,
             analytic: AnalyticLinearBall::new(&linear_parameters, PUBLISHED_SLOPE)?,
-            caged: FrictionModel::new(&black_box(caged_configuration()?))?,
-            caged_memory: FrictionModel::new(&black_box(caged_memory_configuration()?))?,
-            caged_law: FrictionModel::new(&black_box(caged_law_configuration()?))?,
-            caged_changing: changing(FrictionModel::new(&black_box(caged_configuration()?))?)?,
-            caged_closed: FrictionModel::new(&black_box(remembering::closed_configuration()?))?,
+            closed_form: FrictionModel::new(&black_box(closed_form_configuration()?))?,
             folded: FrictionModel::of(black_box(LIN_3_6)),
             folded_range: between_nodes(FrictionModel::of(black_box(LIN_3_6_RANGE)))?,
             folded_set: FrictionModel::of(black_box(&LIN_3_6_RANGE)),
@@ -337,14 +323,6 @@ const fn adaptation_configuration() -> AdaptationConfiguration {
         largest_offset: 0.05,
         ..AdaptationConfiguration::every(0.01)
     }
-}
-
-/// A caged ball screw whose friction coefficient has been set.
-fn changing(
-    mut model: FrictionModel<CagedBallScrew>,
-) -> Result<FrictionModel<CagedBallScrew>, Error> {
-    model.set_friction(0.08)?;
-    Ok(model)
 }
 
 /// A folded ball screw whose friction coefficient is no node's.

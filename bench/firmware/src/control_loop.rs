@@ -5,32 +5,34 @@ use epas_friction::hal::{
     EncoderConfiguration, FaultReaction, FeedForwardConfiguration, FrictionFeedForward,
     MagneticEncoder,
 };
+use epas_friction::scene::{FoldedScrew, FoldedScrewConstants};
 use epas_friction::{
-    CagedBallScrew, Error, FrictionModel, Inputs, LinearBearingTrain, LinearInputs,
-    UncagedBallScrew,
+    Error, FrictionModel, Inputs, LinearBearingTrain, LinearInputs, UncagedBallScrew,
 };
 
 use crate::cases::Reader;
 use crate::devices::{BIT_LOST, Bridge, GEAR_RATIO, Sensor, TICK};
+use crate::gears::LIN_3_6;
 use crate::numbers::{linear_outputs, outputs, uncaged_outputs};
-use crate::scenes::{
-    BALLS, Digest, ROW, caged_configuration, linear_configuration, uncaged_configuration,
-};
+use crate::scenes::{BALLS, Digest, ROW, linear_configuration, uncaged_configuration};
 
 /// The recorded manoeuvre: how many ticks, the digest that a host found, and for each tick the nut speed,
 /// rad/s, and the axial load, N; words of 32 bits, little endian.
 pub static RECORDED: &[u8] = include_bytes!("../manoeuvre.bin");
 
+/// A gear with a cage, whose constants stand in flash.
+type Folded = FrictionModel<FoldedScrew, &'static FoldedScrewConstants>;
+
 /// What the interrupt works with.
 pub struct ControlLoop {
     /// Gear with a cage.
-    caged: FrictionModel<CagedBallScrew>,
+    caged: Folded,
     /// Gear without.
     uncaged: FrictionModel<UncagedBallScrew<BALLS>>,
     /// Bearing of the rack.
     linear: FrictionModel<LinearBearingTrain<ROW>>,
     /// The gear with a cage once more, between devices.
-    driven: FrictionModel<CagedBallScrew>,
+    driven: Folded,
     encoder: MagneticEncoder<Sensor>,
     stage: FrictionFeedForward<Bridge>,
     /// Ticks without a speed, and whether the bridge was neutral in all flagged ticks and in no other.
@@ -66,13 +68,13 @@ impl ControlLoop {
             reaction: FaultReaction::NeutralOnAnyFault,
         };
         Ok(Self {
-            driven: FrictionModel::new(&caged_configuration()?)?,
+            driven: FrictionModel::of(&LIN_3_6),
             encoder: MagneticEncoder::new(Sensor::new(inputs), &encoder)?,
             stage: FrictionFeedForward::new(Bridge::default(), &stage)?,
             blind: 0,
             safe: true,
             ticks: 0,
-            caged: FrictionModel::new(&caged_configuration()?)?,
+            caged: FrictionModel::of(&LIN_3_6),
             uncaged: FrictionModel::new(&uncaged_configuration()?)?,
             linear: FrictionModel::new(&linear_configuration()?)?,
             left,

@@ -32,15 +32,14 @@ use epas_friction::law::{Elements, SlidingLimits};
 use epas_friction::scene::{FoldedScrew, FoldedScrewConstants, WithMemoryInputs};
 use epas_friction::train::{Press, Train};
 use epas_friction::{
-    CagedBallScrew, Clearance, DeviationMap, FrictionModel, Inputs, LinearBearingTrain,
+    Clearance, ClosedFormScrew, DeviationMap, FrictionModel, Inputs, LinearBearingTrain,
     LinearInputs, LinearOutputs, LoadShare, Outputs, UncagedBallScrew, UncagedOutputs, math,
 };
 
 use crate::peers::{LuGre, Stribeck};
 use crate::remembering::{Carriage, FEWER, Gear, GearByLaw};
 use crate::scenes::{
-    BALLS, CagedByLaw, CagedMemory, EfficiencyStep, FoldedByLaw, FoldedLawConstants, FoldedMemory,
-    ROW, efficiency_step,
+    BALLS, EfficiencyStep, FoldedByLaw, FoldedLawConstants, FoldedMemory, ROW, efficiency_step,
 };
 
 /// Angles and forces of four contacts.
@@ -193,28 +192,11 @@ counted! {
         efficiency_step(screw, nut_speed, load_torque, friction)
     }
 
-    /// One tick of a caged ball screw.
-    fn count_step_caged(model: &mut FrictionModel<CagedBallScrew>, nut_speed: f32, axial_load: f32) -> Outputs {
+    /// One tick of a ball screw by a closed form.
+    fn count_step_closed_form(
+        model: &mut FrictionModel<ClosedFormScrew>, nut_speed: f32, axial_load: f32
+    ) -> Outputs {
         model.step(Inputs { nut_speed, axial_load })
-    }
-
-    /// One tick of a caged ball screw with a memory.
-    fn count_step_caged_memory(
-        model: &mut FrictionModel<CagedMemory>, inputs: &WithMemoryInputs<Inputs, f32>
-    ) -> Outputs {
-        model.step(*inputs)
-    }
-
-    /// The same with a friction coefficient by speed and temperature.
-    fn count_step_caged_law(
-        model: &mut FrictionModel<CagedByLaw>, inputs: &WithMemoryInputs<Inputs, f32>
-    ) -> Outputs {
-        model.step(*inputs)
-    }
-
-    /// Friction between two of its steps.
-    fn count_between_caged(model: &mut FrictionModel<CagedMemory>, reading: f32) -> Outputs {
-        model.between(reading)
     }
 
     /// One tick of a folded ball screw.
@@ -286,32 +268,6 @@ counted! {
         model: &mut FrictionModel<UncagedBallScrew<BALLS>>, friction: f32
     ) -> bool {
         model.set_friction(friction).is_ok()
-    }
-
-    /// One tick of a caged ball screw whose friction coefficient changes.
-    fn count_step_caged_changing(
-        model: &mut FrictionModel<CagedBallScrew>, nut_speed: f32, axial_load: f32
-    ) -> Outputs {
-        model.step(Inputs { nut_speed, axial_load })
-    }
-
-    /// One tick of a caged ball screw with friction by a closed form.
-    fn count_step_caged_closed(
-        model: &mut FrictionModel<CagedBallScrew>, nut_speed: f32, axial_load: f32
-    ) -> Outputs {
-        model.step(Inputs { nut_speed, axial_load })
-    }
-
-    /// The first new friction coefficient of a caged ball screw, which turns from its law to balls.
-    fn count_set_friction_caged(model: &mut FrictionModel<CagedBallScrew>, friction: f32) -> bool {
-        model.set_friction(friction).is_ok()
-    }
-
-    /// The first new clearance of a caged ball screw.
-    fn count_set_clearance_caged(
-        model: &mut FrictionModel<CagedBallScrew>, clearance: &Clearance
-    ) -> bool {
-        model.set_clearance(*clearance).is_ok()
     }
 
     /// A new clearance of balls that run.

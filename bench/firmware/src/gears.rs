@@ -3,7 +3,9 @@
 mod lin_3_6;
 mod lin_3_6_range;
 mod lin_3_6_worn;
+mod lin_4_1_range;
 
 pub use lin_3_6::LIN_3_6;
 pub use lin_3_6_range::LIN_3_6_RANGE;
 pub use lin_3_6_worn::LIN_3_6_WORN;
+pub use lin_4_1_range::LIN_4_1_RANGE;

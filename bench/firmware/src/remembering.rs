@@ -7,14 +7,11 @@ use epas_friction::law::memory::{Part, ProportionalElements, SLIP_8};
 use epas_friction::law::motion::{CountSensor, CountSensorParameters, SpeedOverTick};
 use epas_friction::scene::{Freshness, WithMemory, WithMemoryConfiguration, WithMemoryInputs};
 use epas_friction::{
-    CagedBallScrewConfiguration, Error, FrictionBranch, FrictionModel, Inputs,
-    LinearBearingConfiguration, LinearBearingTrain, LinearInputs, UncagedBallScrew,
-    UncagedBallScrewConfiguration,
+    Error, FrictionModel, Inputs, LinearBearingConfiguration, LinearBearingTrain, LinearInputs,
+    UncagedBallScrew, UncagedBallScrewConfiguration,
 };
 
-use crate::scenes::{
-    BALLS, ROW, TICK, caged_configuration, linear_configuration, uncaged_configuration,
-};
+use crate::scenes::{BALLS, ROW, TICK, linear_configuration, uncaged_configuration};
 
 /// Balls of the screw whose clearance is set. The cost is that of any number; with as many as elsewhere the compiler would make one
 /// function of what both setters share, and the other count would move.
@@ -44,17 +41,6 @@ fn elements(limit: f32, breakaway: f32) -> Result<ProportionalElements<8>, Error
             breakaway_angle: breakaway,
         }],
     )
-}
-
-/// The caged ball screw with friction by a closed form.
-///
-/// # Errors
-/// None.
-pub fn closed_configuration() -> Result<CagedBallScrewConfiguration, Error> {
-    Ok(CagedBallScrewConfiguration {
-        branch: FrictionBranch::Rolling,
-        ..caged_configuration()?
-    })
 }
 
 /// The gear.

@@ -15,11 +15,11 @@ use epas_friction::scene::{
     WithMemoryConstants, WithMemoryInputs,
 };
 use epas_friction::{
-    BallScrew, CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, Clearance,
-    DISSERTATION_DESIGNS, DeviationMap, Error, FrictionBranch, FrictionModel, GrooveSize, Harmonic,
-    Inputs, Limits, LinearBearing, LinearBearingConfiguration, LinearBearingParameters,
-    LinearBearingTrain, LinearConstants, LinearInputs, LinearLimits, LoadShare, LoadShares,
-    Material, RollingResistance, UncagedBallScrew, UncagedBallScrewConfiguration, UncagedConstants,
+    BallScrew, Clearance, ClosedFormScrewConfiguration, DISSERTATION_DESIGNS, DeviationMap, Error,
+    FrictionBranch, FrictionModel, GrooveSize, Harmonic, Inputs, Limits, LinearBearing,
+    LinearBearingConfiguration, LinearBearingParameters, LinearBearingTrain, LinearConstants,
+    LinearInputs, LinearLimits, LoadShare, LoadShares, Material, RollingResistance,
+    UncagedBallScrew, UncagedBallScrewConfiguration, UncagedConstants,
 };
 
 use crate::gears::{LIN_3_6, LIN_3_6_RANGE};
@@ -34,7 +34,7 @@ pub const ROW: usize = 24;
 /// Time between two ticks, s.
 pub const TICK: f32 = 1e-3;
 
-/// Oversize of the caged form's balls: with 36 of them, 100 N on each flank of the nut.
+/// Oversize of the balls of the gear with a cage: with 36 of them, 100 N on each flank of the nut.
 const OVERSIZE: Clearance = folded(Clearance::new(-4.068_737e-7));
 
 /// Two waves a turn, Lin 2019, Fig. 3.23.
@@ -72,7 +72,6 @@ const BEARING: LinearBearing = folded(LinearBearing::new(LinearBearingParameters
 
 static CURVATURE: FittedCurvature = FittedCurvature::of(&DESIGN, Groove::Screw);
 static EFFICIENCY: EfficiencyGeometry = EfficiencyGeometry::of(&DESIGN);
-static CAGED: CagedConstants = folded(CagedConstants::new(&folded(caged_configuration())));
 static LINEAR: LinearConstants<ROW> = folded(LinearConstants::new(&folded(linear_configuration())));
 static UNCAGED: UncagedConstants<BALLS> =
     folded(UncagedConstants::new(&folded(uncaged_configuration())));
@@ -87,13 +86,6 @@ macro_rules! tried {
     };
 }
 
-static CAGED_WITH_MEMORY: CagedMemoryConstants = folded(WithMemoryConstants::new(
-    CAGED,
-    &folded(with_memory(
-        folded(caged_configuration()),
-        folded(OneCoefficient::new(0.075)),
-    )),
-));
 /// Constants of the folded gear with a memory.
 pub static FOLDED_WITH_MEMORY: FoldedMemoryConstants = folded(WithMemoryConstants::new(
     LIN_3_6,
@@ -112,10 +104,7 @@ static UNCAGED_WITH_MEMORY: UncagedMemoryConstants = folded(WithMemoryConstants:
     )),
 ));
 
-/// Constants of scenes with memory.
-pub type CagedMemoryConstants =
-    WithMemoryConstants<CagedConstants, ProportionalElements<8>, SpeedOverTick, OneCoefficient>;
-/// The same of a folded gear.
+/// Constants of a folded gear with a memory.
 pub type FoldedMemoryConstants = WithMemoryConstants<
     FoldedScrewConstants,
     ProportionalElements<8>,
@@ -262,48 +251,6 @@ impl Run for Efficiency {
     }
 }
 
-/// A ball screw with a cage.
-pub struct Caged;
-
-impl Run for Caged {
-    const NAME: &'static str = "caged_ball_screw";
-    type Model = FrictionModel<CagedBallScrew, &'static CagedConstants>;
-
-    fn set_up() -> Result<Self::Model, Error> {
-        Ok(FrictionModel::of(&CAGED))
-    }
-
-    fn tick(model: &mut Self::Model, nut_speed: f32, axial_load: f32, digest: &mut Digest) {
-        digest.take(&outputs(&model.step(Inputs {
-            nut_speed,
-            axial_load,
-        })));
-    }
-}
-
-/// A ball screw with a cage whose friction remembers: eight elements, one friction coefficient.
-pub struct CagedWithMemory;
-
-/// Its scene.
-pub type CagedMemory =
-    WithMemory<CagedBallScrew, ProportionalElements<8>, SpeedOverTick, OneCoefficient>;
-
-/// The same with a friction coefficient by speed and temperature.
-pub type CagedByLaw = WithMemory<CagedBallScrew, ProportionalElements<8>, SpeedOverTick>;
-
-impl Run for CagedWithMemory {
-    const NAME: &'static str = "caged_with_memory";
-    type Model = FrictionModel<CagedMemory, &'static CagedMemoryConstants>;
-
-    fn set_up() -> Result<Self::Model, Error> {
-        Ok(FrictionModel::of(&CAGED_WITH_MEMORY))
-    }
-
-    fn tick(model: &mut Self::Model, nut_speed: f32, axial_load: f32, digest: &mut Digest) {
-        digest.take(&outputs(&model.step(remembered(nut_speed, axial_load))));
-    }
-}
-
 /// A ball screw with a cage, by a law that a host has folded.
 pub struct Folded;
 
@@ -431,43 +378,21 @@ pub const fn design() -> Result<BallScrew, Error> {
     Ok(DESIGN)
 }
 
-/// Its caged form.
+/// Its caged form by a closed form.
 ///
 /// # Errors
 /// None.
-pub const fn caged_configuration() -> Result<CagedBallScrewConfiguration, Error> {
-    Ok(CagedBallScrewConfiguration {
+pub const fn closed_form_configuration() -> Result<ClosedFormScrewConfiguration, Error> {
+    Ok(ClosedFormScrewConfiguration {
         design: DESIGN,
         friction: 0.075,
-        rolling_resistance: RollingResistance::STEEL,
         rolling_tangent: 0.0,
-        branch: FrictionBranch::Contacts,
+        branch: FrictionBranch::Rolling,
         clearance: OVERSIZE,
         loaded_balls: 36,
         reversal_speed: 0.5,
         limits: LIMITS,
     })
-}
-
-/// The caged form with a memory.
-///
-/// # Errors
-/// None.
-pub const fn caged_memory_configuration()
--> Result<<CagedMemory as epas_friction::Scene>::Configuration, Error> {
-    let caged = tried!(caged_configuration());
-    with_memory(caged, tried!(OneCoefficient::new(caged.friction)))
-}
-
-/// The same with the friction coefficient that is the default, by speed and temperature.
-///
-/// # Errors
-/// None.
-pub const fn caged_law_configuration()
--> Result<<CagedByLaw as epas_friction::Scene>::Configuration, Error> {
-    let mut caged = tried!(caged_configuration());
-    caged.friction = COEFFICIENT.boundary;
-    with_memory(caged, tried!(CoefficientLaw::new(&COEFFICIENT)))
 }
 
 /// Its form without a cage: all 37 balls under load, as in the dissertation; this takes the most cycles.

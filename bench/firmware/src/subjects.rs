@@ -13,22 +13,20 @@ use epas_friction::{Clearance, Faults, Inputs, LoadShare, Regime};
 use crate::contexts::Contexts;
 use crate::counted::{
     FourContacts, count_adaptation_update, count_ball_screw_ball, count_ball_screw_renewal,
-    count_ball_screw_row, count_ball_screw_start, count_between_caged, count_between_folded,
-    count_between_linear, count_between_train_37, count_cbrt, count_cbrt_and_squared,
-    count_cbrt_squared, count_curvature_circular_groove, count_curvature_exact,
-    count_curvature_fitted, count_curvature_literature, count_deviation_map,
-    count_efficiency_backdrive, count_efficiency_rolling, count_efficiency_sliding,
-    count_friction_coefficient, count_friction_coefficient_warming, count_friction_map,
-    count_hertz_ellipse, count_idsp_sin_cos, count_kinematics_ratios, count_kinematics_tick,
-    count_kinematics_update, count_libm_cbrtf, count_libm_cosf, count_libm_powf,
-    count_libm_sincosf, count_libm_sqrtf, count_linear_ball_analytic, count_linear_ball_speed,
-    count_lugre_step, count_memory_8, count_memory_load_exact_8, count_memory_preloaded_10,
-    count_memory_seat, count_memory_together_10, count_micromath_cos, count_micromath_powf,
-    count_micromath_sqrt, count_play, count_press_37, count_set_clearance_caged,
-    count_set_clearance_uncaged, count_set_friction_37, count_set_friction_caged,
+    count_ball_screw_row, count_ball_screw_start, count_between_folded, count_between_linear,
+    count_between_train_37, count_cbrt, count_cbrt_and_squared, count_cbrt_squared,
+    count_curvature_circular_groove, count_curvature_exact, count_curvature_fitted,
+    count_curvature_literature, count_deviation_map, count_efficiency_backdrive,
+    count_efficiency_rolling, count_efficiency_sliding, count_friction_coefficient,
+    count_friction_coefficient_warming, count_friction_map, count_hertz_ellipse,
+    count_idsp_sin_cos, count_kinematics_ratios, count_kinematics_tick, count_kinematics_update,
+    count_libm_cbrtf, count_libm_cosf, count_libm_powf, count_libm_sincosf, count_libm_sqrtf,
+    count_linear_ball_analytic, count_linear_ball_speed, count_lugre_step, count_memory_8,
+    count_memory_load_exact_8, count_memory_preloaded_10, count_memory_seat,
+    count_memory_together_10, count_micromath_cos, count_micromath_powf, count_micromath_sqrt,
+    count_play, count_press_37, count_set_clearance_uncaged, count_set_friction_37,
     count_set_friction_folded, count_sin_cos, count_sqrt, count_start_folded,
-    count_start_folded_law, count_step_caged, count_step_caged_changing, count_step_caged_closed,
-    count_step_caged_law, count_step_caged_memory, count_step_efficiency, count_step_folded,
+    count_start_folded_law, count_step_closed_form, count_step_efficiency, count_step_folded,
     count_step_folded_law, count_step_folded_memory, count_step_folded_range, count_step_linear,
     count_step_linear_memory, count_step_train_37, count_step_train_37_law,
     count_step_train_37_memory, count_step_train_37_memory_pressing, count_step_train_37_pressing,
@@ -236,37 +234,10 @@ subjects! {
             );
             [efficiency, friction_torque]
         };
-    step_caged: |spread| -> [2] tick(spread),
-        |c, [nut_speed, axial_load]| -> [4] outputs(
-            &timed!(c, count_step_caged(black_box(&mut c.caged), nut_speed, axial_load))
-        );
-    step_caged_changing: |spread| -> [2] [spread.between(-60.0, 60.0), spread.between(1000.0, 2800.0)],
+    step_closed_form: |spread| -> [2] tick(spread),
         |c, [nut_speed, axial_load]| -> [4] {
-            let model = black_box(&mut c.caged_changing);
-            outputs(&timed!(c, count_step_caged_changing(model, nut_speed, axial_load)))
-        };
-    step_caged_memory: |spread| -> [2] tick(spread),
-        |c, [nut_speed, axial_load]| -> [4] {
-            let model = black_box(&mut c.caged_memory);
-            let inputs = black_box(remembered(nut_speed, axial_load));
-            outputs(&timed!(c, count_step_caged_memory(model, &inputs)))
-        };
-    step_caged_law: |spread| -> [3] {
-            let [nut_speed, axial_load] = tick(spread);
-            [nut_speed, axial_load, spread.between(250.0, 400.0)]
-        },
-        |c, [nut_speed, axial_load, temperature]| -> [4] {
-            let model = black_box(&mut c.caged_law);
-            let inputs = black_box(WithMemoryInputs {
-                temperature,
-                ..remembered(nut_speed, axial_load)
-            });
-            outputs(&timed!(c, count_step_caged_law(model, &inputs)))
-        };
-    between_caged: |spread| -> [1] [spread.between(-60.0, 60.0)],
-        |c, [reading]| -> [4] {
-            let model = black_box(&mut c.caged_memory);
-            outputs(&timed!(c, count_between_caged(model, reading)))
+            let model = black_box(&mut c.closed_form);
+            outputs(&timed!(c, count_step_closed_form(model, nut_speed, axial_load)))
         };
     step_folded: |spread| -> [2] tick(spread),
         |c, [nut_speed, axial_load]| -> [4] outputs(
@@ -333,24 +304,6 @@ subjects! {
         |c, [friction]| -> [1] {
             let model = black_box(&mut c.set);
             let done = timed!(c, count_set_friction_37(model, friction));
-            [f32::from(u8::from(done))]
-        };
-    step_caged_closed: |spread| -> [2] tick(spread),
-        |c, [nut_speed, axial_load]| -> [4] {
-            let model = black_box(&mut c.caged_closed);
-            outputs(&timed!(c, count_step_caged_closed(model, nut_speed, axial_load)))
-        };
-    set_friction_caged: |spread| -> [1] [spread.between(0.05, 0.15)],
-        |c, [friction]| -> [1] {
-            let mut model = black_box(c.caged);
-            let done = timed!(c, count_set_friction_caged(&mut model, friction));
-            [f32::from(u8::from(done))]
-        };
-    set_clearance_caged: |spread| -> [1] [spread.between(-5e-6, 5e-6)],
-        |c, [gap]| -> [1] {
-            let mut model = black_box(c.caged);
-            let clearance = black_box(Clearance::new(gap).unwrap_or(Clearance::ZERO));
-            let done = timed!(c, count_set_clearance_caged(&mut model, &clearance));
             [f32::from(u8::from(done))]
         };
     set_clearance_uncaged: |spread| -> [1] [spread.between(-5e-6, 5e-6)],

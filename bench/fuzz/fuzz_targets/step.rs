@@ -12,7 +12,8 @@ mod absurd;
 mod random;
 
 use absurd::{Trial, accepted};
-use epas_friction::{CagedBallScrew, LinearBearingTrain, UncagedBallScrew};
+use epas_friction::scene::FoldedScrew;
+use epas_friction::{ClosedFormScrew, LinearBearingTrain, UncagedBallScrew};
 use libfuzzer_sys::fuzz_target;
 use random::Random;
 
@@ -22,7 +23,8 @@ fuzz_target!(|data: &[u8]| {
     };
     let seed = u64::from_le_bytes(*seed);
     match seed & 7 {
-        0 | 1 => run::<CagedBallScrew>(seed, signals),
+        0 => run::<ClosedFormScrew>(seed, signals),
+        1 => run::<FoldedScrew<5>>(seed, signals),
         2 => run::<UncagedBallScrew<2>>(seed, signals),
         3 => run::<UncagedBallScrew<7>>(seed, signals),
         4 => run::<UncagedBallScrew<37>>(seed, signals),

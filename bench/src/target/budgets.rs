@@ -24,14 +24,6 @@ impl Budget {
     }
 }
 
-/// Steps of which a worse one is known than those that are counted: what makes it worse, the step, and the counts that it stays
-/// below together.
-const COMPOSED: [(&str, &str, [&str; 2]); 1] = [(
-    "a renewal cut short",
-    "step_caged_changing",
-    ["ball_screw_renewal", "step_caged"],
-)];
-
 /// Every promise of a cost: cycles of each counted function, how much they differ from step to step, and
 /// the size of each scene.
 pub fn budgets(figures: &Figures) -> Vec<Budget> {
@@ -46,18 +38,6 @@ pub fn budgets(figures: &Figures) -> Vec<Budget> {
                     .map(|entry| f64::from(entry.cycles_max)),
             });
         }
-    }
-    for (what, name, parts) in COMPOSED {
-        let promise = ALL.iter().find(|promise| promise.counted.contains(&name));
-        let found: Option<u32> = parts
-            .iter()
-            .map(|part| figures.function(part).map(|entry| entry.cycles_max))
-            .sum();
-        budgets.push(Budget {
-            what: format!("{name}, {what}: cycles"),
-            most: promise.map_or(0.0, |promise| f64::from(promise.cycles)),
-            found: found.map(f64::from),
-        });
     }
     for entry in &figures.functions {
         if entry.name.starts_with("step_") {
@@ -178,11 +158,7 @@ mod tests {
             ..
         } in ALL
         {
-            let composed = COMPOSED
-                .iter()
-                .filter(|(_, name, _)| counted.contains(name))
-                .map(|(_, _, parts)| parts.iter().map(count).sum());
-            let Some(most) = counted.iter().map(count).chain(composed).max() else {
+            let Some(most) = counted.iter().map(count).max() else {
                 continue;
             };
             // Derived: numbers that are easy to read lie so close.
@@ -213,7 +189,7 @@ mod tests {
     }
 
     /// Every row of README's table, in its order.
-    const LINES: [Line; 14] = [
+    const LINES: [Line; 13] = [
         line(
             "groove curvature: literature",
             Some(promises::LITERATURE_CURVATURE),
@@ -247,18 +223,13 @@ mod tests {
         ),
         line(
             "caged ball screw",
-            Some(promises::STEP_CAGED),
-            &["step_caged", "step_caged_changing"],
-        ),
-        line(
-            "caged ball screw by a folded block",
             Some(promises::STEP_FOLDED),
             &["step_folded", "step_folded_range"],
         ),
         line(
             "the caged one with memory",
             Some(promises::MEMORY),
-            &["step_caged_memory", "step_caged_law", "between_caged"],
+            &["step_folded_memory", "step_folded_law", "between_folded"],
         ),
         line(
             "ball screw with 37 balls",

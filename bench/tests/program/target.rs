@@ -5,11 +5,13 @@ use std::path::{Path, PathBuf};
 
 use super::{run, run_with};
 
+use epas_firmware::gears::LIN_3_6;
 use epas_firmware::inputs::CASES;
-use epas_firmware::scenes::{caged_configuration, course};
+use epas_firmware::scenes::course;
 use epas_firmware::spread::Spread;
 use epas_firmware::subjects::{PEERS, SUBJECTS, WIDEST};
-use epas_friction::{CagedBallScrew, FrictionModel, Inputs};
+use epas_friction::scene::FoldedScrew;
+use epas_friction::{FrictionModel, Inputs};
 
 /// What the debug firmware sends through defmt is what the same ticks give here, number by number.
 #[test]
@@ -17,7 +19,7 @@ use epas_friction::{CagedBallScrew, FrictionModel, Inputs};
 fn the_log_of_the_firmware_decodes() {
     let log = run(&["target", "--log"], "");
     assert_eq!(log.code, 0, "{}", log.stderr);
-    let mut caged = FrictionModel::<CagedBallScrew>::new(&caged_configuration().unwrap()).unwrap();
+    let mut caged = FrictionModel::<FoldedScrew, _>::of(&LIN_3_6);
     let mut lines = log.stdout.lines();
     for tick in [100, 300, 500] {
         let (nut_speed, axial_load) = course(tick);
@@ -65,7 +67,7 @@ fn figures_are_one_object() {
         "ball_screw_ball",
         "train_37",
         "step_efficiency",
-        "step_caged",
+        "step_closed_form",
         "step_folded",
         "step_train_37",
         "libm_cosf",
@@ -81,8 +83,6 @@ fn figures_are_one_object() {
         [
             "curvature",
             "efficiency",
-            "caged_ball_screw",
-            "caged_with_memory",
             "folded_ball_screw",
             "folded_with_memory",
             "linear_bearing",

@@ -7,9 +7,9 @@ use epas_friction::law::coefficient::OneCoefficient;
 use epas_friction::law::memory::{Part, ProportionalElements, SLIP_8};
 use epas_friction::law::motion::SpeedOverTick;
 use epas_friction::scene::{Sliding, WithMemory, WithMemoryConfiguration};
-use epas_friction::{CagedBallScrew, FrictionModel, Inputs, Outputs, UncagedBallScrew};
+use epas_friction::{FrictionModel, Inputs, Outputs, UncagedBallScrew};
 
-use crate::kit::gears::{SCREW_BALLS, caged, uncaged};
+use crate::kit::gears::{CagedScrew, SCREW_BALLS, caged, uncaged};
 use crate::kit::remembering::at;
 
 const TICK: f32 = 1e-4;
@@ -84,7 +84,7 @@ where
 
 #[test]
 fn a_level_scales_sliding_friction_in_its_direction() {
-    levels_scale_sliding::<CagedBallScrew>(caged());
+    levels_scale_sliding::<CagedScrew>(caged());
     levels_scale_sliding::<UncagedBallScrew<SCREW_BALLS>>(uncaged());
 }
 
@@ -93,7 +93,7 @@ fn a_level_scales_sliding_friction_in_its_direction() {
 #[test]
 fn stiffness_stays() {
     let fall = |level: FrictionLevel| {
-        let mut model = model::<CagedBallScrew>(caged());
+        let mut model = model::<CagedScrew>(caged());
         model.set_level(level).unwrap();
         for _ in 0..200 {
             step(&mut model, 8.0);
@@ -105,7 +105,7 @@ fn stiffness_stays() {
     let (plain, scaled) = (fall(FrictionLevel::ONE), fall(LEVEL));
     // The torque itself, half as large again, is rounded. Measured: 4.1e-6 of a fall of 3.7e-3 N m.
     assert!((scaled / plain - 1.0).abs() < 1.2e-5, "{scaled} {plain}");
-    let mut model = model::<CagedBallScrew>(caged());
+    let mut model = model::<CagedScrew>(caged());
     step(&mut model, 0.0);
     let held = step(&mut model, 1.0).friction_torque;
     assert!(held > 0.0);
@@ -124,7 +124,7 @@ fn stiffness_stays() {
 
 #[test]
 fn levels_out_of_range_are_refused() {
-    let mut model = model::<CagedBallScrew>(caged());
+    let mut model = model::<CagedScrew>(caged());
     let before = model;
     for wrong in [0.09, 10.1, f32::NAN, f32::INFINITY] {
         let forward = FrictionLevel {

@@ -8,10 +8,11 @@ use crate::kit::gears;
 use crate::kit::given::ball_screw;
 use epas_friction::FrictionBranch;
 use epas_friction::ball::{GrooveFit, ScrewRow};
+use epas_friction::scene::FoldedScrewConstants;
 use epas_friction::{
-    BallScrew, BallScrewParameters, CATALOGUE, CagedBallScrewConfiguration, CagedConstants,
-    Clearance, DISSERTATION_DESIGNS, DeviationMap, Error, FrictionModel, GrooveSize, Inputs,
-    LoadShare, Range, UncagedBallScrew, UncagedBallScrewConfiguration, UncagedConstants,
+    BallScrew, BallScrewParameters, CATALOGUE, Clearance, ClosedFormScrewConfiguration,
+    ClosedFormScrewConstants, DISSERTATION_DESIGNS, DeviationMap, Error, FrictionModel, GrooveSize,
+    Inputs, LoadShare, Range, UncagedBallScrew, UncagedBallScrewConfiguration, UncagedConstants,
 };
 use epas_reference::curvature;
 use epas_reference::friction::ball_screw_grooves::ElasticGrooves;
@@ -328,18 +329,20 @@ fn what_is_refused_is_named() {
     }
 }
 
-/// Both scenes of a ball screw take what their design's balls allow, and name what they do not.
+/// Scenes of a ball screw that know its clearance take what their design's balls allow, and name what they do not.
 #[test]
 fn scenes_refuse_a_clearance_beyond_their_balls() {
-    let [caged, uncaged] = [gears::caged().design, gears::uncaged().design]
+    let own = gears::closed_form(FrictionBranch::Rolling);
+    let [closed, uncaged] = [own.design, gears::uncaged().design]
         .map(|design| Range::new(-0.02 * design.ball_radius(), 0.05 * design.ball_radius()));
     for end in [-1.0, 1.0] {
         let clearance = Clearance::new(end * 0.9e-3).unwrap();
-        let configuration = CagedBallScrewConfiguration {
-            clearance,
-            ..gears::caged()
-        };
-        refused(CagedConstants::new(&configuration), "clearance", caged);
+        let configuration = ClosedFormScrewConfiguration { clearance, ..own };
+        refused(
+            ClosedFormScrewConstants::new(&configuration),
+            "clearance",
+            closed,
+        );
         let configuration = UncagedBallScrewConfiguration {
             clearance,
             ..gears::uncaged()
@@ -351,27 +354,30 @@ fn scenes_refuse_a_clearance_beyond_their_balls() {
         );
     }
     for loaded_balls in [0, 1001, u16::MAX] {
-        let configuration = CagedBallScrewConfiguration {
+        let balls = Range::new(1.0, 1000.0);
+        let configuration = ClosedFormScrewConfiguration {
+            loaded_balls,
+            ..own
+        };
+        let closed = ClosedFormScrewConstants::new(&configuration);
+        refused(closed, "loaded_balls", balls);
+        let configuration = gears::CagedConfiguration {
             loaded_balls,
             ..gears::caged()
         };
-        refused(
-            CagedConstants::new(&configuration),
-            "loaded_balls",
-            Range::new(1.0, 1000.0),
-        );
+        let caged = FoldedScrewConstants::new(&configuration);
+        refused(caged, "loaded_balls", balls);
     }
 }
 
 /// Play changes nothing in the papers' closed forms; the number of loaded balls only counts with oversize.
 #[test]
-fn play_changes_nothing_in_the_closed_forms_of_a_caged_screw() {
+fn play_changes_nothing_in_closed_forms() {
     let folded = |gap: f32, loaded_balls| {
-        CagedConstants::new(&CagedBallScrewConfiguration {
+        ClosedFormScrewConstants::new(&ClosedFormScrewConfiguration {
             clearance: Clearance::new(gap).unwrap(),
             loaded_balls,
-            branch: FrictionBranch::Rolling,
-            ..gears::caged()
+            ..gears::closed_form(FrictionBranch::Rolling)
         })
         .unwrap()
     };

@@ -8,11 +8,12 @@ use epas_friction::ball::folded::{FrictionNode, LoadCurve, LoadLaw};
 use epas_friction::scene::{FoldedScrew, FoldedScrewConfiguration};
 use epas_friction::train::Train;
 use epas_friction::{
-    BallScrew, BallScrewParameters, CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration,
-    Clearance, DeviationMap, Faults, FrictionBranch, FrictionModel, GrooveSize, Inputs, Limits,
-    LinearBearing, LinearBearingConfiguration, LinearBearingParameters, LinearBearingTrain,
-    LinearInputs, LinearLimits, LinearOutputs, LoadShare, LoadShares, Material, Outputs, Regime,
-    RollingResistance, Scene, UncagedBallScrew, UncagedBallScrewConfiguration, UncagedOutputs,
+    BallScrew, BallScrewParameters, CATALOGUE, Clearance, ClosedFormScrew,
+    ClosedFormScrewConfiguration, DeviationMap, Faults, FrictionBranch, FrictionModel, GrooveSize,
+    Inputs, Limits, LinearBearing, LinearBearingConfiguration, LinearBearingParameters,
+    LinearBearingTrain, LinearInputs, LinearLimits, LinearOutputs, LoadShare, LoadShares, Material,
+    Outputs, Regime, RollingResistance, Scene, UncagedBallScrew, UncagedBallScrewConfiguration,
+    UncagedOutputs,
 };
 
 /// Numbers at which formulas break.
@@ -285,22 +286,17 @@ fn finite(name: &str, value: f32) -> Result<(), String> {
     }
 }
 
-impl Trial for CagedBallScrew {
+impl Trial for ClosedFormScrew {
     fn name() -> String {
-        "caged ball screw".into()
+        "ball screw by a closed form".into()
     }
 
-    fn configuration(random: &mut Random) -> CagedBallScrewConfiguration {
+    fn configuration(random: &mut Random) -> ClosedFormScrewConfiguration {
         let design = design(random);
-        CagedBallScrewConfiguration {
+        ClosedFormScrewConfiguration {
             friction: random.within(0.0, 1.0),
-            rolling_resistance: rolling_resistance(random),
             rolling_tangent: random.of(&[0.0, 0.001, 0.1]),
-            branch: random.of(&[
-                FrictionBranch::Contacts,
-                FrictionBranch::Rolling,
-                FrictionBranch::Sliding,
-            ]),
+            branch: random.of(&[FrictionBranch::Rolling, FrictionBranch::Sliding]),
             clearance: clearance(random, &design),
             loaded_balls: random.of(&[1, 7, 120, 1000]),
             design,
@@ -311,7 +307,7 @@ impl Trial for CagedBallScrew {
 
     fn sensors(
         random: &mut Random,
-        configuration: &CagedBallScrewConfiguration,
+        configuration: &ClosedFormScrewConfiguration,
         last: [f32; 3],
     ) -> [f32; 3] {
         [
@@ -329,7 +325,7 @@ impl Trial for CagedBallScrew {
     }
 
     fn check(
-        configuration: &CagedBallScrewConfiguration,
+        configuration: &ClosedFormScrewConfiguration,
         sensors: [f32; 3],
         outputs: &Outputs,
     ) -> Result<(), String> {
@@ -413,7 +409,7 @@ impl<const N: usize> Trial for FoldedScrew<N> {
     }
 
     fn inputs(sensors: [f32; 3]) -> Inputs {
-        CagedBallScrew::inputs(sensors)
+        ClosedFormScrew::inputs(sensors)
     }
 
     fn check(
@@ -429,7 +425,7 @@ impl<const N: usize> Trial for FoldedScrew<N> {
     }
 
     fn numbers(outputs: &Outputs) -> Vec<u32> {
-        CagedBallScrew::numbers(outputs)
+        ClosedFormScrew::numbers(outputs)
     }
 }
 

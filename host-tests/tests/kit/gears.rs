@@ -1,10 +1,11 @@
 //! Ordinary mechanisms, one of every scene.
 
+use epas_friction::scene::{FoldedScrew, FoldedScrewConfiguration};
 use epas_friction::{
-    BallScrew, CATALOGUE, CagedBallScrewConfiguration, Clearance, DeviationMap, FrictionBranch,
-    GrooveSize, Harmonic, Limits, LinearBearing, LinearBearingConfiguration,
-    LinearBearingParameters, LinearLimits, LoadShare, LoadShares, Material, RollingResistance,
-    UncagedBallScrewConfiguration,
+    BallScrew, CATALOGUE, Clearance, ClosedFormScrewConfiguration, DISSERTATION_DESIGNS,
+    DeviationMap, FrictionBranch, GrooveSize, Harmonic, Limits, LinearBearing,
+    LinearBearingConfiguration, LinearBearingParameters, LinearLimits, LoadShare, LoadShares,
+    Material, RollingResistance, UncagedBallScrewConfiguration,
 };
 
 use super::designs::screw;
@@ -65,15 +66,67 @@ pub fn oversize(design: &BallScrew, axial_preload: f32, loaded_balls: u16) -> Cl
     Clearance::of_preload(design, contact_force).unwrap()
 }
 
-/// 32 x 20 x 6.35, caged.
-pub fn caged() -> CagedBallScrewConfiguration {
+/// Nodes of [`CagedScrew`].
+pub const NODES: usize = 5;
+
+/// A caged screw for a range of friction coefficients.
+pub type CagedScrew = FoldedScrew<NODES>;
+
+/// Its configuration.
+pub type CagedConfiguration = FoldedScrewConfiguration<NODES>;
+
+/// Axial preload of each flank of [`caged`], N.
+pub const CAGED_PRELOAD: f32 = 350.0;
+
+/// Blocks that the firmware has: the same bits on every machine.
+mod blocks {
+    include!("../../../bench/firmware/src/gears/lin_3_6_range.rs");
+    include!("../../../bench/firmware/src/gears/lin_3_6.rs");
+    include!("../../../bench/firmware/src/gears/lin_3_6_worn.rs");
+    pub(super) const RANGE: &[u32] = &LIN_3_6_RANGE_BLOCK;
+    pub(super) const ONE: &[u32] = &LIN_3_6_BLOCK;
+    pub(super) const WORN: &[u32] = &LIN_3_6_WORN_BLOCK;
+}
+
+/// The screw of Lin 2019, chapter 3.6, caged, with 126 balls in the place of 36, and so [`CAGED_PRELOAD`]: friction coefficients of 0.05 to 0.15, 0.075
+/// at first.
+pub fn caged() -> CagedConfiguration {
+    CagedConfiguration {
+        loaded_balls: 126,
+        limits: LIMITS,
+        ..FoldedScrewConfiguration::read(blocks::RANGE).unwrap()
+    }
+}
+
+/// The same screw for a friction coefficient of 0.075 alone.
+pub fn preloaded() -> FoldedScrewConfiguration {
+    FoldedScrewConfiguration {
+        limits: LIMITS,
+        ..FoldedScrewConfiguration::read(blocks::ONE).unwrap()
+    }
+}
+
+/// The same screw with 2 um of play, for a friction coefficient of 0.075 alone.
+pub fn worn() -> FoldedScrewConfiguration {
+    FoldedScrewConfiguration {
+        limits: LIMITS,
+        ..FoldedScrewConfiguration::read(blocks::WORN).unwrap()
+    }
+}
+
+/// Their design.
+pub fn caged_design() -> BallScrew {
+    BallScrew::new(DISSERTATION_DESIGNS[1].parameters).unwrap()
+}
+
+/// 32 x 20 x 6.35 with 300 N of preload on each flank, by a closed form.
+pub fn closed_form(branch: FrictionBranch) -> ClosedFormScrewConfiguration {
     let design = CATALOGUE[15].design().unwrap();
-    CagedBallScrewConfiguration {
+    ClosedFormScrewConfiguration {
         design,
         friction: 0.075,
-        rolling_resistance: RollingResistance::STEEL,
         rolling_tangent: 0.0,
-        branch: FrictionBranch::Contacts,
+        branch,
         clearance: oversize(&design, 300.0, 41),
         loaded_balls: 41,
         reversal_speed: 0.5,

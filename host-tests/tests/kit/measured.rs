@@ -118,18 +118,12 @@ const TABLES: &[&[Measured]] = &[
     UNCAGED_SCENE,
 ];
 
-/// `scenes/caged_contacts.rs`: torques relative, efficiencies, ticks.
+/// `scenes/uncaged.rs`, `scenes/step_promises.rs`, `rig/same_scene.rs`: torques relative.
 #[rustfmt::skip]
 const CAGED: &[Measured] = &[
-    row("caged and spread balls", [2.3e-5, 2.1e-6, 1e-7], [7.5e-6, 7.0e-7, 3.1e-8]),
     row("light balls with play", [1.1e-2, 4.2e-3, 3.2e-3], [6.8e-3, 2.7e-3, 2.1e-3]),
-    row("law over the load", [1e-3, 1.2e-4, 2e-6], [5.0e-4, 7.4e-5, 1.1e-6]),
-    row("caged screw of 125 mm and exact ball", [3e-2, 5e-3, 2e-3], [2.0e-2, 3.3e-3, 1.1e-3]),
-    row("efficiency of caged screw and exact ball", [3e-3, 5e-4, 2e-4], [2e-3, 3e-4, 1e-4]),
-    row("friction after a jump", [2.4e-5, 2.6e-6, 3e-7], [7.9e-6, 8.4e-7, 7.3e-8]),
-    row("friction on a ramp", [1.2e-4, 2.1e-5, 1e-5], [8.3e-5, 1.4e-5, 6.9e-6]),
     largest("friction set in a screw without cage", 1.4e-6, 4.6e-7),
-    largest("ticks after a jump of friction", 120.0, 77.0),
+    row("rig's screw and the crate's scene", [2e-3, 7e-4, 3e-4], [1.3e-3, 4.5e-4, 1.9e-4]),
 ];
 
 /// `balls/screw_ball.rs`: orbital speeds over the nut's, the rest relative.
@@ -558,7 +552,7 @@ const STIFFNESS: &[Measured] = &[
     row("every catalogue size, spin stiffness", [1.5e-5, 1.3e-5, 1.3e-5], [1.2e-5, 1.2e-5, 1.2e-5]),
     row("every catalogue size, drift", [3.5e-6, 1.5e-6, 1.1e-6], [2.3e-6, 1.0e-6, 7.3e-7]),
     row("torque of slip and of spin over their sum", [2e-4, 4.2e-5, 5e-6], [1.3e-4, 2.8e-5, 1.4e-6]),
-    row("torque by mechanisms over that of the scene", [0.34, 0.09, 0.03], [0.32, 0.076, 0.028]),
+    row("torque by mechanisms over that of exact balls", [0.34, 0.09, 0.03], [0.32, 0.076, 0.028]),
     row("rational form of the coefficient, 20 C", [0.069, 0.04, 0.014], [0.068, 0.039, 0.013]),
     row("rational form and viscosity, -40 to -20 C", [0.058, 0.015, 0.007], [0.057, 0.014, 6.4e-3]),
 ];
@@ -574,7 +568,6 @@ const ROLLING: &[Measured] = &[
 /// `scenes/memory/coefficients.rs`: friction torque, relative.
 #[rustfmt::skip]
 const FRICTION_TORQUE: &[Measured] = &[
-    row("friction between two coefficients", [3.2e-2, 6e-3, 3e-4], [2.9e-2, 5.3e-3, 1.6e-4]),
 ];
 
 /// `law/golden.rs`: friction over the limit, by the number of elements.

@@ -12,15 +12,16 @@ use epas_friction::law::motion::{
 };
 use epas_friction::scene::{Freshness, WithMemory, WithMemoryConfiguration, WithMemoryInputs};
 use epas_friction::{
-    CagedBallScrew, CagedBallScrewConfiguration, LinearBearingConfiguration, LinearBearingTrain,
-    UncagedBallScrew, UncagedBallScrewConfiguration,
+    LinearBearingConfiguration, LinearBearingTrain, UncagedBallScrew, UncagedBallScrewConfiguration,
 };
 
-use super::gears::{LINEAR_BALLS, SCREW_BALLS, caged, linear, uncaged};
+use super::gears::{
+    CagedConfiguration, CagedScrew, LINEAR_BALLS, SCREW_BALLS, caged, linear, uncaged,
+};
 
 pub type Slip = ProportionalElements<8>;
 pub type SpinAndSeat = Together<ProportionalElements<4>, SeatElement>;
-pub type CagedByAngle = WithMemory<CagedBallScrew, Slip, WrappedAngle>;
+pub type CagedByAngle = WithMemory<CagedScrew, Slip, WrappedAngle>;
 pub type UncagedByCounts =
     WithMemory<UncagedBallScrew<SCREW_BALLS>, SpinAndSeat, Steady<CountSensor>>;
 pub type LinearBySpeed = WithMemory<
@@ -75,8 +76,7 @@ pub fn slip(limit: f32) -> Slip {
     .unwrap()
 }
 
-pub fn caged_by_angle() -> WithMemoryConfiguration<CagedBallScrewConfiguration, Slip, WrappedAngle>
-{
+pub fn caged_by_angle() -> WithMemoryConfiguration<CagedConfiguration, Slip, WrappedAngle> {
     let angle = WrappedAngle::new(WrappedAngleParameters {
         lowest: 0.0,
         period: TAU,

@@ -3,14 +3,14 @@
 use epas_friction::ball::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE};
 use epas_friction::efficiency::{Drive, EfficiencyGeometry};
 use epas_friction::{
-    BallScrew, CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, Clearance, Faults,
+    BallScrew, CATALOGUE, Clearance, ClosedFormScrew, ClosedFormScrewConfiguration, Faults,
     FrictionBranch, FrictionModel, Inputs, LinearBearingTrain, LinearInputs, LoadShare, Regime,
     UncagedBallScrew,
 };
 
 use crate::kit::gears;
 
-fn caged(configuration: &CagedBallScrewConfiguration) -> FrictionModel<CagedBallScrew> {
+fn closed_form(configuration: &ClosedFormScrewConfiguration) -> FrictionModel<ClosedFormScrew> {
     FrictionModel::new(configuration).unwrap()
 }
 
@@ -34,7 +34,7 @@ fn border(mut below: f32, mut beyond: f32, is_beyond: impl Fn(f32) -> bool) -> (
 fn at_the_reversal_speed_a_mechanism_moves() {
     let configuration = gears::caged();
     let speed = configuration.reversal_speed;
-    let mut model = caged(&configuration);
+    let mut model = FrictionModel::<gears::CagedScrew>::new(&configuration).unwrap();
     for (nut_speed, regime) in [
         (speed, Regime::Driving),
         (speed.next_down(), Regime::Standing),
@@ -82,11 +82,7 @@ fn at_the_reversal_speed_a_mechanism_moves() {
 /// Under no load a screw drives: its motor turns against friction alone.
 #[test]
 fn without_a_load_a_screw_drives() {
-    let gear = gears::caged();
-    let mut model = caged(&CagedBallScrewConfiguration {
-        clearance: gears::oversize(&gear.design, 100.0, gear.loaded_balls),
-        ..gear
-    });
+    let mut model = FrictionModel::<gears::CagedScrew>::new(&gears::caged()).unwrap();
     for nut_speed in [50.0, -50.0] {
         let outputs = model.step(Inputs {
             nut_speed,
@@ -105,14 +101,13 @@ fn back_driving_ends_where_the_efficiency_does() {
     parameters.lead = 0.1e-3;
     let design = BallScrew::new(parameters).unwrap();
     let lowered = |rolling_tangent| {
-        let configuration = CagedBallScrewConfiguration {
+        let configuration = ClosedFormScrewConfiguration {
             design,
-            branch: FrictionBranch::Rolling,
             rolling_tangent,
             clearance: Clearance::ZERO,
-            ..gears::caged()
+            ..gears::closed_form(FrictionBranch::Rolling)
         };
-        caged(&configuration).step(Inputs {
+        closed_form(&configuration).step(Inputs {
             nut_speed: -50.0,
             axial_load: 1000.0,
         })
@@ -141,13 +136,12 @@ fn a_drive_locks_at_a_thousand_pitch_radii() {
     let torque =
         |friction| geometry.sliding_torque_per_load(Drive::Driving, radius, friction) / radius;
     let driven = |friction| {
-        let configuration = CagedBallScrewConfiguration {
+        let configuration = ClosedFormScrewConfiguration {
             design,
             friction,
-            branch: FrictionBranch::Sliding,
-            ..gears::caged()
+            ..gears::closed_form(FrictionBranch::Sliding)
         };
-        caged(&configuration).step(Inputs {
+        closed_form(&configuration).step(Inputs {
             nut_speed: 50.0,
             axial_load: 1000.0,
         })
@@ -160,13 +154,12 @@ fn a_drive_locks_at_a_thousand_pitch_radii() {
     assert!(driven(locked).faults.contains(Faults::FRICTION_LIMIT));
     // Without a load nothing is locked, and the load alone lowers itself.
     let idle = |nut_speed| {
-        let configuration = CagedBallScrewConfiguration {
+        let configuration = ClosedFormScrewConfiguration {
             design,
             friction: locked,
-            branch: FrictionBranch::Sliding,
-            ..gears::caged()
+            ..gears::closed_form(FrictionBranch::Sliding)
         };
-        caged(&configuration)
+        closed_form(&configuration)
             .step(Inputs {
                 nut_speed,
                 axial_load: 0.0,

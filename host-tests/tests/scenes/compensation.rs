@@ -12,13 +12,10 @@ use epas_friction::law::motion::{CountSensor, CountSensorParameters, Steady};
 use epas_friction::scene::{
     Freshness, SceneOutputs, WithMemory, WithMemoryConfiguration, WithMemoryInputs,
 };
-use epas_friction::{
-    CagedBallScrew, CagedBallScrewConfiguration, Faults, FrictionModel, Inputs, Outputs,
-    UncagedOutputs,
-};
+use epas_friction::{Faults, FrictionModel, Inputs, Outputs, UncagedOutputs};
 use epas_reference::closed_loop::{ClosedLoop, Swing};
 
-use crate::kit::gears::caged;
+use crate::kit::gears::{CAGED_PRELOAD, CagedConfiguration, CagedScrew, caged};
 use crate::kit::random::Random;
 use crate::kit::remembering::at;
 
@@ -52,10 +49,10 @@ impl SetDutyCycle for Bridge {
     }
 }
 
-type Caged<E> = FrictionModel<WithMemory<CagedBallScrew, E, Steady<CountSensor>>>;
+type Caged<E> = FrictionModel<WithMemory<CagedScrew, E, Steady<CountSensor>>>;
 
 /// Preload of both flanks, N, as the scene counts it.
-const PRELOAD: f64 = 848.528;
+const PRELOAD: f64 = 2.0 * std::f64::consts::SQRT_2 * CAGED_PRELOAD as f64;
 
 /// A model whose elements follow the counts beyond a play, rad, at this preload over their reference.
 fn model<E: Elements + Copy>(elements: E, play: f64, load: f64) -> Caged<E> {
@@ -449,7 +446,7 @@ fn friction_by_the_speed_hums() {
     let full = full_friction();
     for (rate, reversal_speed) in [(1000, 0.5), (1000, 0.2), (10_000, 0.5), (20_000, 0.5)] {
         for breakaway in [2e-3, 10e-3] {
-            let mut model = FrictionModel::<CagedBallScrew>::new(&CagedBallScrewConfiguration {
+            let mut model = FrictionModel::<CagedScrew>::new(&CagedConfiguration {
                 reversal_speed,
                 ..scene
             })

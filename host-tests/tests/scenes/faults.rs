@@ -6,9 +6,9 @@ use crate::kit::random::Random;
 use crate::kit::{gears, recorded};
 use epas_friction::scene::{Admitted, SceneOutputs};
 use epas_friction::{
-    BallScrew, CagedBallScrew, Clearance, DeviationMap, Error, Faults, FrictionModel, Inputs,
-    LinearBearing, LinearBearingTrain, LinearInputs, Outputs, Scene, UncagedBallScrew,
-    UncagedBallScrewConfiguration, promises,
+    BallScrew, Clearance, ClosedFormScrew, DeviationMap, Error, Faults, FrictionBranch,
+    FrictionModel, Inputs, LinearBearing, LinearBearingTrain, LinearInputs, Outputs, Scene,
+    UncagedBallScrew, UncagedBallScrewConfiguration, promises,
 };
 
 const COMMAND: &str = "cargo test -p epas-reference --test scenes faults -- --nocapture";
@@ -113,7 +113,7 @@ fn suffer<S: Trial>(
 #[test]
 fn a_caged_screw_recovers_at_once() {
     let limits = gears::LIMITS;
-    suffer::<CagedBallScrew>(
+    suffer::<gears::CagedScrew>(
         &gears::caged(),
         [limits.nut_speed, limits.axial_load, 0.0],
         2,
@@ -274,9 +274,12 @@ fn recovery_takes_a_tick_and_leaves_the_missed_travel() {
         ahead.set_carriage_position(0.0);
         assert_eq!(phase(&model), phase(&ahead));
 
-        lose_the_speed::<CagedBallScrew>(&gears::caged(), [150.0, 6e3, 0.0], missed, |outputs| {
-            outputs.faults
-        });
+        lose_the_speed::<gears::CagedScrew>(
+            &gears::caged(),
+            [150.0, 6e3, 0.0],
+            missed,
+            |outputs| outputs.faults,
+        );
     }
 }
 
@@ -380,7 +383,7 @@ fn corrupted_configurations_are_refused_or_harmless() {
         screw.design = design;
         refused += u32::from(refused_or_sound::<Screw>(&screw, &mut random));
 
-        let mut caged = gears::caged();
+        let mut caged = gears::closed_form(FrictionBranch::Rolling);
         caged.design = design;
         let mut gap = caged.clearance.gap();
         let fields: [&mut f32; 4] = [
@@ -397,7 +400,7 @@ fn corrupted_configurations_are_refused_or_harmless() {
         }
         if let Ok(clearance) = Clearance::new(gap) {
             caged.clearance = clearance;
-            refused += u32::from(refused_or_sound::<CagedBallScrew>(&caged, &mut random));
+            refused += u32::from(refused_or_sound::<ClosedFormScrew>(&caged, &mut random));
         } else {
             refused += 1;
         }

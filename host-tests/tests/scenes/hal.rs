@@ -12,8 +12,8 @@ use epas_friction::hal::{
     FrictionFeedForward, MagneticEncoder,
 };
 use epas_friction::{
-    BallScrew, CagedBallScrew, CagedBallScrewConfiguration, Clearance, DISSERTATION_DESIGNS,
-    Faults, FrictionBranch, FrictionModel, Inputs, Limits, Outputs, Regime, RollingResistance,
+    BallScrew, Clearance, ClosedFormScrew, ClosedFormScrewConfiguration, DISSERTATION_DESIGNS,
+    Faults, FrictionBranch, FrictionModel, Inputs, Limits, Outputs, Regime,
 };
 
 const READ_ANGLE: u16 = 0xFFFF;
@@ -728,10 +728,9 @@ fn a_wrong_stage_configuration_is_named() {
 fn a_failed_bus_leaves_the_bridge_neutral() {
     let sensor = sensor();
     let mut encoder = MagneticEncoder::new(&sensor, &CONFIGURATION).unwrap();
-    let mut model = FrictionModel::<CagedBallScrew>::new(&CagedBallScrewConfiguration {
+    let mut model = FrictionModel::<ClosedFormScrew>::new(&ClosedFormScrewConfiguration {
         design: BallScrew::new(DISSERTATION_DESIGNS[2].parameters).unwrap(),
         friction: 0.075,
-        rolling_resistance: RollingResistance::NONE,
         rolling_tangent: 0.0,
         branch: FrictionBranch::Rolling,
         clearance: Clearance::ZERO,

@@ -4,8 +4,7 @@
 mod kit;
 
 mod borders;
-mod caged;
-mod caged_contacts;
+mod closed_form;
 mod compensation;
 mod extreme;
 mod faults;

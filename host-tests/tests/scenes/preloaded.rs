@@ -6,19 +6,20 @@ use epas_friction::law::coefficient::DirectionalCoefficient;
 use epas_friction::law::memory::PreloadedElements;
 use epas_friction::scene::Sliding;
 use epas_friction::{
-    CagedBallScrew, CagedBallScrewConfiguration, Clearance, FrictionBranch, Inputs,
+    Clearance, ClosedFormScrew, ClosedFormScrewConfiguration, FrictionBranch, Inputs,
     UncagedBallScrew,
 };
 
-use crate::kit::gears::{SCREW_BALLS, caged, oversize, uncaged};
+use crate::kit::gears::{
+    CAGED_PRELOAD, CagedScrew, SCREW_BALLS, caged, closed_form, oversize, uncaged,
+};
 
 /// Axial preload of each flank, N.
 const PRELOAD: f32 = 300.0;
 
 /// Sum of both flanks under an axial load, over that without: they share one Hertzian deflection,
 /// `F1^(2/3) + F2^(2/3) = 2 P^(2/3)` with `F1 - F2 = F`, until one of them is lost.
-fn exact_sum(load: f64) -> f64 {
-    let preload = f64::from(PRELOAD);
+fn exact_sum(load: f64, preload: f64) -> f64 {
     if load > 8.0_f64.sqrt() * preload {
         return load / (2.0 * preload);
     }
@@ -51,17 +52,17 @@ fn told<S: Sliding<Inputs = Inputs>>(configuration: &S::Configuration, axial_loa
 }
 
 /// Elements of a preloaded screw know the sum of both flanks, whatever the scene is: within the 0.84 % of its series.
-fn flanks_share<S: Sliding<Inputs = Inputs>>(configuration: &S::Configuration) {
+fn flanks_share<S: Sliding<Inputs = Inputs>>(configuration: &S::Configuration, preload: f32) {
     let alone = told::<S>(configuration, 0.0);
-    let counted = 2.0 * SQRT_2 * PRELOAD;
+    let counted = 2.0 * SQRT_2 * preload;
     // Measured: 4.2e-5.
     assert!((alone / counted - 1.0).abs() < 1e-4, "{alone} {counted}");
     let elements = PreloadedElements::new(());
     for step in 0..60_u8 {
-        let load = 0.1 * f32::from(step) * PRELOAD;
+        let load = 0.1 * f32::from(step) * preload;
         for load in [load, -load] {
             let found = f64::from(elements.shared(told::<S>(configuration, load) / alone));
-            let exact = exact_sum(load.abs().into());
+            let exact = exact_sum(load.abs().into(), preload.into());
             // Measured: 0.83 %.
             assert!(
                 (found / exact - 1.0).abs() < 0.0085,
@@ -73,38 +74,24 @@ fn flanks_share<S: Sliding<Inputs = Inputs>>(configuration: &S::Configuration) {
 
 #[test]
 fn a_caged_screw_tells_what_its_flanks_share() {
+    flanks_share::<CagedScrew>(&caged(), CAGED_PRELOAD);
     for branch in [FrictionBranch::Rolling, FrictionBranch::Sliding] {
-        flanks_share::<CagedBallScrew>(&CagedBallScrewConfiguration { branch, ..caged() });
-    }
-    // Its law over the load is folded by some thousand renewals each time: the loads are few.
-    let elements = PreloadedElements::new(());
-    let alone = told::<CagedBallScrew>(&caged(), 0.0);
-    for load in [150.0, -600.0, 848.5, 1500.0] {
-        let found = f64::from(elements.shared(told::<CagedBallScrew>(&caged(), load) / alone));
-        let exact = exact_sum(f64::from(load).abs());
-        // Measured: 0.83 % in all three tests.
-        assert!(
-            (found / exact - 1.0).abs() < 0.0085,
-            "{load}: {found} {exact}"
-        );
+        flanks_share::<ClosedFormScrew>(&closed_form(branch), PRELOAD);
     }
 }
 
-/// An oversize that presses a contact with less than a thousandth of a newton is no preload: in every scene.
+/// An oversize that presses a contact with less than a thousandth of a newton is no preload: in every scene that knows its clearance.
 #[test]
 fn a_preload_that_is_none_is_none_for_all() {
-    let design = caged().design;
-    let least = Clearance::of_preload(&design, 1e-3).unwrap();
+    let closed = closed_form(FrictionBranch::Rolling);
+    let least = Clearance::of_preload(&closed.design, 1e-3).unwrap();
     let clearance = Clearance::new(0.5 * least.gap()).unwrap();
-    assert_eq!(clearance.preload(&design), 0.0);
-    for branch in [FrictionBranch::Contacts, FrictionBranch::Rolling] {
-        let screw = CagedBallScrewConfiguration {
-            branch,
-            clearance,
-            ..caged()
-        };
-        assert_eq!(told::<CagedBallScrew>(&screw, 0.0), 0.0);
-    }
+    assert_eq!(clearance.preload(&closed.design), 0.0);
+    let screw = ClosedFormScrewConfiguration {
+        clearance,
+        ..closed
+    };
+    assert_eq!(told::<ClosedFormScrew>(&screw, 0.0), 0.0);
     let mut screw = uncaged();
     let none = told::<UncagedBallScrew<SCREW_BALLS>>(&screw, 0.0);
     screw.clearance = clearance;
@@ -120,5 +107,5 @@ fn a_screw_without_cage_tells_what_its_flanks_share() {
     // As many balls carry the preload as are in the loaded zone in the mean, which is no whole number.
     let balls = share * SCREW_BALLS as f32;
     configuration.clearance = oversize(&design, PRELOAD / balls, 1);
-    flanks_share::<UncagedBallScrew<SCREW_BALLS>>(&configuration);
+    flanks_share::<UncagedBallScrew<SCREW_BALLS>>(&configuration, PRELOAD);
 }

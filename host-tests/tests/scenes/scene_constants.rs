@@ -8,12 +8,12 @@ use epas_friction::ball::{
 };
 use epas_friction::contact::FrictionMap;
 use epas_friction::{
-    BallScrew, CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, Clearance,
-    DISSERTATION_DESIGNS, DeviationMap, Error, FrictionBranch, FrictionModel, GrooveSize, Harmonic,
-    Inputs, Limits, LinearBearing, LinearBearingConfiguration, LinearBearingParameters,
-    LinearBearingTrain, LinearConstants, LinearInputs, LinearLimits, LoadShare, LoadShares,
-    Material, Outputs, RollingResistance, Scene, UncagedBallScrew, UncagedBallScrewConfiguration,
-    UncagedConstants, UncagedOutputs,
+    BallScrew, CATALOGUE, Clearance, ClosedFormScrew, ClosedFormScrewConfiguration,
+    ClosedFormScrewConstants, DISSERTATION_DESIGNS, DeviationMap, Error, FrictionBranch,
+    FrictionModel, GrooveSize, Harmonic, Inputs, Limits, LinearBearing, LinearBearingConfiguration,
+    LinearBearingParameters, LinearBearingTrain, LinearConstants, LinearInputs, LinearLimits,
+    LoadShare, LoadShares, Material, Outputs, RollingResistance, Scene, UncagedBallScrew,
+    UncagedBallScrewConfiguration, UncagedConstants, UncagedOutputs,
 };
 
 const fn folded<T: Copy>(set_up: Result<T, Error>) -> T {
@@ -59,11 +59,10 @@ const LIMITS: Limits = Limits {
     friction_torque: 5.0,
 };
 
-const fn caged(branch: FrictionBranch, clearance: Clearance) -> CagedBallScrewConfiguration {
-    CagedBallScrewConfiguration {
+const fn closed_form(branch: FrictionBranch, clearance: Clearance) -> ClosedFormScrewConfiguration {
+    ClosedFormScrewConfiguration {
         design: folded(CATALOGUE[15].design()),
         friction: 0.075,
-        rolling_resistance: RollingResistance::NONE,
         rolling_tangent: 1e-3,
         branch,
         clearance,
@@ -128,11 +127,11 @@ const PRELOAD: GrooveFit = GrooveFit::Preload {
 const OVERSIZE: Clearance = folded(Clearance::new(-2e-6));
 const WIDE: Clearance = folded(Clearance::new(20e-6));
 
-static ROLLING: CagedConstants = folded(CagedConstants::new(&caged(
+static ROLLING: ClosedFormScrewConstants = folded(ClosedFormScrewConstants::new(&closed_form(
     FrictionBranch::Rolling,
     OVERSIZE,
 )));
-static SLIDING: CagedConstants = folded(CagedConstants::new(&caged(
+static SLIDING: ClosedFormScrewConstants = folded(ClosedFormScrewConstants::new(&closed_form(
     FrictionBranch::Sliding,
     Clearance::ZERO,
 )));
@@ -202,11 +201,15 @@ const fn nut(nut_speed: f32, axial_load: f32) -> Inputs {
 }
 
 #[test]
-fn a_folded_caged_ball_screw_is_the_one_set_up_at_run_time() {
-    same_gear::<CagedBallScrew>(&ROLLING, &caged(FrictionBranch::Rolling, OVERSIZE), nut);
-    same_gear::<CagedBallScrew>(
+fn a_folded_closed_form_is_the_one_set_up_at_run_time() {
+    same_gear::<ClosedFormScrew>(
+        &ROLLING,
+        &closed_form(FrictionBranch::Rolling, OVERSIZE),
+        nut,
+    );
+    same_gear::<ClosedFormScrew>(
         &SLIDING,
-        &caged(FrictionBranch::Sliding, Clearance::ZERO),
+        &closed_form(FrictionBranch::Sliding, Clearance::ZERO),
         nut,
     );
 }
@@ -260,10 +263,10 @@ fn a_refused_gear_names_its_field() {
             },
             ..linear()
         });
-    const SLIPPERY: Result<CagedConstants, Error> =
-        CagedConstants::new(&CagedBallScrewConfiguration {
+    const SLIPPERY: Result<ClosedFormScrewConstants, Error> =
+        ClosedFormScrewConstants::new(&ClosedFormScrewConfiguration {
             friction: -0.1,
-            ..caged(FrictionBranch::Rolling, Clearance::ZERO)
+            ..closed_form(FrictionBranch::Rolling, Clearance::ZERO)
         });
     let fields = [
         BAD.unwrap_err(),

@@ -22,10 +22,10 @@ use epas_friction::scene::{
 };
 use epas_friction::train::Train;
 use epas_friction::{
-    BallScrew, CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, Clearance,
+    BallScrew, CATALOGUE, Clearance, ClosedFormScrew, ClosedFormScrewConfiguration,
     DISSERTATION_DESIGNS, DeviationMap, FrictionBranch, FrictionModel, GrooveSize, Inputs, Limits,
     LinearBearing, LinearBearingConfiguration, LinearBearingParameters, LinearBearingTrain,
-    LinearInputs, LinearLimits, LoadShare, Material, RollingResistance, UncagedBallScrew,
+    LinearInputs, LinearLimits, LoadShare, Material, UncagedBallScrew,
     UncagedBallScrewConfiguration,
 };
 use epas_reference::design::BallScrewDesign;
@@ -43,16 +43,15 @@ use epas_reference::material::Elastic;
 /// Torque of both closed forms in all four quadrants by the reference's efficiencies, with the direction that
 /// the scene takes near a reversal.
 #[test]
-fn caged_step() {
-    let mut errors = Errors::of("caged step, closed forms");
+fn closed_form_step() {
+    let mut errors = Errors::of("step by closed forms");
     let designs = DISSERTATION_DESIGNS.map(|design| design.parameters);
     let sizes = CATALOGUE.map(|size| size.parameters());
     for parameters in designs.into_iter().chain(sizes) {
         for branch in [FrictionBranch::Rolling, FrictionBranch::Sliding] {
-            let mut model = FrictionModel::<CagedBallScrew>::new(&CagedBallScrewConfiguration {
+            let mut model = FrictionModel::<ClosedFormScrew>::new(&ClosedFormScrewConfiguration {
                 design: BallScrew::new(parameters).unwrap(),
                 friction: 0.075,
-                rolling_resistance: RollingResistance::NONE,
                 rolling_tangent: 0.0,
                 branch,
                 clearance: Clearance::ZERO,
@@ -100,7 +99,7 @@ fn caged_step() {
         }
     }
     // A dozen roundings of 2^-24, which add up at random.
-    errors.assert_promised(&promises::STEP_CAGED_CLOSED);
+    errors.assert_promised(&promises::STEP_CLOSED_FORM);
 }
 
 /// The same screw in float64; contact laws from the reference's own curvatures and elliptic integrals.

@@ -6,7 +6,7 @@ use crate::kit::measured;
 use crate::kit::random::Random;
 use crate::kit::{gears, recorded};
 use epas_friction::train::{Press, Train};
-use epas_friction::{CagedBallScrew, FrictionModel, Inputs, UncagedBallScrew, promises};
+use epas_friction::{FrictionModel, Inputs, UncagedBallScrew, promises};
 
 /// Speeds and forces of a row in contact by the max-min formula of isotonic regression, in f64.
 fn exact_row(free: &[f64], impedance: &[f64]) -> (Vec<f64>, Vec<f64>) {
@@ -216,7 +216,7 @@ fn standstill_is_smooth_at_the_least_reversal_speed() {
         let mut configuration = gears::caged();
         configuration.reversal_speed = width;
         configuration.limits.nut_speed = 1e6;
-        let mut model = FrictionModel::<CagedBallScrew>::new(&configuration).unwrap();
+        let mut model = FrictionModel::<gears::CagedScrew>::new(&configuration).unwrap();
         let mut friction = |nut_speed: f32| {
             model
                 .step(Inputs {

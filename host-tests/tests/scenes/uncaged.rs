@@ -7,9 +7,9 @@ use crate::kit::measured;
 use std::f64::consts::{FRAC_PI_4, TAU};
 
 use epas_friction::{
-    BallScrew, CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, Clearance, Faults,
-    FrictionModel, Inputs, Limits, LoadShare, LoadShares, Outputs, Regime, RollingResistance,
-    UncagedBallScrew, UncagedBallScrewConfiguration, UncagedOutputs,
+    BallScrew, CATALOGUE, Clearance, Faults, FrictionModel, Inputs, Limits, LoadShare, LoadShares,
+    Outputs, Regime, RollingResistance, UncagedBallScrew, UncagedBallScrewConfiguration,
+    UncagedOutputs,
 };
 use epas_reference::friction::ball_screw_closed::{ContactAngles, Support, speed_ratio};
 
@@ -705,22 +705,16 @@ fn a_zone_that_was_empty_is_loaded_again() {
     }
 }
 
-/// What a screw does follows from its full friction, as in a caged one, however little of it passes near the reversal.
+/// What a screw does follows from its full friction, however little of it passes near the reversal.
 #[test]
 fn the_regime_is_that_of_full_friction() {
     let mut parameters = CATALOGUE[0].parameters();
     parameters.lead = 0.07e-3;
-    let configuration = CagedBallScrewConfiguration {
-        design: BallScrew::new(parameters).unwrap(),
-        clearance: Clearance::ZERO,
-        ..gears::caged()
-    };
+    let design = BallScrew::new(parameters).unwrap();
     let uncaged = UncagedBallScrewConfiguration {
-        design: configuration.design,
-        friction: configuration.friction,
+        design,
         ..gears::even()
     };
-    let mut caged = FrictionModel::<CagedBallScrew>::new(&configuration).unwrap();
     let mut uncaged = Model::new(&uncaged).unwrap();
     let mut small = 0;
     for speed in [-0.5_f32, -0.6, -1.0, -5.0, -300.0] {
@@ -728,11 +722,58 @@ fn the_regime_is_that_of_full_friction() {
             nut_speed: speed,
             axial_load: 1000.0,
         };
-        let expected = caged.step(inputs);
         let found = (0..2000).map(|_| uncaged.step(inputs)).last().unwrap();
         small += i32::from(found.friction_torque.abs() < found.load_torque);
         assert_eq!(found.regime, Regime::Locked, "{speed}");
-        assert_eq!(expected.regime, Regime::Locked, "{speed}");
     }
     assert!((1..5).contains(&small), "{small}");
+}
+
+/// A screw of seven balls, spread so widely and so evenly that none presses.
+fn spread(friction: f32, clearance: f32) -> FrictionModel<UncagedBallScrew<7>> {
+    let design = CATALOGUE[15].design().unwrap();
+    let path = design.pitch_radius() / design.cos_lead_angle();
+    let touching = 14.0 * (design.ball_radius() / path).asin() / std::f32::consts::TAU;
+    FrictionModel::new(&UncagedBallScrewConfiguration {
+        friction,
+        clearance: Clearance::new(clearance).unwrap(),
+        turns: 3.0 * touching,
+        return_length: 0.0,
+        reversal_speed: 1e-6,
+        tick: 1e-3,
+        limits: Limits {
+            nut_speed: 50.0,
+            ..gears::LIMITS
+        },
+        ..gears::even()
+    })
+    .unwrap()
+}
+
+/// Friction and clearance that are set end where a screw ends that is set up with them.
+#[test]
+fn friction_and_clearance_change_while_running() {
+    let inputs = Inputs {
+        nut_speed: 10.0,
+        axial_load: 210.0,
+    };
+    let (mut free, mut other) = (spread(0.1, 0.0), spread(0.12, 1e-6));
+    for _ in 0..200 {
+        free.step(inputs);
+        other.step(inputs);
+    }
+    assert!(!free.step(inputs).faults.any());
+    free.set_friction(0.12).unwrap();
+    free.set_clearance(Clearance::new(1e-6).unwrap()).unwrap();
+    assert!(free.step(inputs).faults.contains(Faults::SETTLING));
+    for _ in 0..200 {
+        free.step(inputs);
+    }
+    let (found, expected) = (free.step(inputs), other.step(inputs));
+    assert!(!found.faults.any());
+    let error = f64::from(found.groove_torque) / f64::from(expected.groove_torque) - 1.0;
+    measured::assert("friction set in a screw without cage", error);
+    assert_eq!(free.set_friction(0.6).unwrap_err().field(), "friction");
+    let wide = Clearance::new(2e-3).unwrap();
+    assert_eq!(free.set_clearance(wide).unwrap_err().field(), "clearance");
 }

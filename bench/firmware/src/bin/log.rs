@@ -6,12 +6,12 @@
 use cortex_m_rt::entry;
 use defmt_semihosting as _;
 use epas_firmware::board::finish;
-use epas_firmware::scenes::{
-    BALLS, caged_configuration, course, linear_configuration, uncaged_configuration,
-};
+use epas_firmware::gears::LIN_3_6;
+use epas_firmware::scenes::{BALLS, course, linear_configuration, uncaged_configuration};
+use epas_friction::scene::FoldedScrew;
 use epas_friction::{
-    BallScrew, BallScrewParameters, CagedBallScrew, Error, FrictionModel, Inputs,
-    LinearBearingTrain, LinearInputs, UncagedBallScrew,
+    BallScrew, BallScrewParameters, Error, FrictionModel, Inputs, LinearBearingTrain, LinearInputs,
+    UncagedBallScrew,
 };
 
 #[entry]
@@ -26,8 +26,8 @@ fn main() -> ! {
 }
 
 fn log() -> Result<(), Error> {
-    let configuration = caged_configuration()?;
-    defmt::info!("configuration {}", configuration);
+    let configuration = uncaged_configuration()?;
+    defmt::info!("design {}", configuration.design);
     // What an engineer gets wrong, and what the log says of it.
     let wrong = BallScrewParameters {
         lead: -1.0,
@@ -36,8 +36,8 @@ fn log() -> Result<(), Error> {
     if let Err(error) = BallScrew::new(wrong) {
         defmt::warn!("refused: {}", error);
     }
-    let mut caged = FrictionModel::<CagedBallScrew>::new(&configuration)?;
-    let mut uncaged = FrictionModel::<UncagedBallScrew<BALLS>>::new(&uncaged_configuration()?)?;
+    let mut caged = FrictionModel::<FoldedScrew, _>::of(&LIN_3_6);
+    let mut uncaged = FrictionModel::<UncagedBallScrew<BALLS>>::new(&configuration)?;
     let mut linear = FrictionModel::<LinearBearingTrain<24>>::new(&linear_configuration()?)?;
     for tick in [100, 300, 500] {
         let (nut_speed, axial_load) = course(tick);

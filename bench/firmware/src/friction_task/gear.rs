@@ -7,14 +7,15 @@ use epas_friction::law::compensation::CompensationMargin;
 use epas_friction::law::memory::{LoadExactElements, PreloadedElements};
 use epas_friction::law::motion::{CountSensor, CountSensorParameters, Steady};
 use epas_friction::scene::{
-    Freshness, WithMemory, WithMemoryConfiguration, WithMemoryConstants, WithMemoryInputs,
+    FoldedScrew, FoldedScrewConstants, Freshness, WithMemory, WithMemoryConfiguration,
+    WithMemoryConstants, WithMemoryInputs,
 };
 use epas_friction::{
-    BallScrew, CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, DISSERTATION_DESIGNS,
-    Error, FrictionBranch, FrictionModel, Inputs, Limits, NamedDesign,
+    BallScrew, DISSERTATION_DESIGNS, Error, FrictionModel, Inputs, Limits, NamedDesign,
 };
 
 use super::page::Calibration;
+use crate::gears::LIN_4_1_RANGE;
 
 /// Elements of a preloaded screw under any load.
 pub type Elements = PreloadedElements<LoadExactElements<8>>;
@@ -22,11 +23,12 @@ pub type Elements = PreloadedElements<LoadExactElements<8>>;
 /// The encoder behind a play as wide as its noise.
 pub type Encoder = Steady<CountSensor>;
 
-/// A caged ball screw whose friction remembers, with a friction coefficient by speed and temperature.
-pub type Scene = WithMemory<CagedBallScrew, Elements, Encoder, CoefficientLaw>;
+/// A caged ball screw whose friction remembers, with a friction coefficient by speed and temperature between the nodes of its block.
+pub type Scene = WithMemory<FoldedScrew<5>, Elements, Encoder, CoefficientLaw>;
 
 /// Its constants.
-pub type Constants = WithMemoryConstants<CagedConstants, Elements, Encoder, CoefficientLaw>;
+pub type Constants =
+    WithMemoryConstants<FoldedScrewConstants<5>, Elements, Encoder, CoefficientLaw>;
 
 /// Its model.
 pub type Gear = FrictionModel<Scene>;
@@ -34,7 +36,7 @@ pub type Gear = FrictionModel<Scene>;
 /// What the scene wants to know at a tick.
 pub type GearInputs = WithMemoryInputs<Inputs, u32>;
 
-/// The gear's design: a rack-assist screw, 29 mm pitch circle, lead 7 mm.
+/// The gear's design: a rack-assist screw, 29 mm pitch circle, lead 7 mm; with the default clearance.
 pub const DESIGN: NamedDesign = DISSERTATION_DESIGNS[2];
 
 /// Counts in a turn of the encoder, which sits on the motor: 14 bits.
@@ -76,24 +78,13 @@ pub fn constants(calibration: &Calibration) -> Result<Constants, Error> {
     // Without an axial load the elements are told the load of both flanks, 2 sqrt(2) times the preload.
     let preload = defaults::CLEARANCE.axial_preload(&design, DESIGN.loaded_balls);
     let reference_load = 2.0 * core::f32::consts::SQRT_2 * preload;
-    let scene = CagedBallScrewConfiguration {
-        design,
-        friction: calibration.friction_boundary,
-        rolling_resistance: defaults::ROLLING_RESISTANCE,
-        rolling_tangent: 0.0,
-        branch: FrictionBranch::Contacts,
-        clearance: defaults::CLEARANCE,
-        loaded_balls: DESIGN.loaded_balls,
-        // Without a meaning where friction remembers.
-        reversal_speed: 0.2,
-        limits: Limits {
-            nut_speed: calibration.largest_nut_speed,
-            axial_load: calibration.largest_axial_load,
-            friction_torque: calibration.largest_friction_torque,
-        },
-    };
+    let scene = LIN_4_1_RANGE.with_limits(Limits {
+        nut_speed: calibration.largest_nut_speed,
+        axial_load: calibration.largest_axial_load,
+        friction_torque: calibration.largest_friction_torque,
+    })?;
     let configuration = WithMemoryConfiguration {
-        scene,
+        scene: (),
         elements: PreloadedElements::new(LoadExactElements::new(
             REFERENCE_FRICTION,
             calibration.breakaway_angle,
@@ -121,7 +112,7 @@ pub fn constants(calibration: &Calibration) -> Result<Constants, Error> {
             load_fade: calibration.load_fade,
         },
     };
-    WithMemoryConstants::new(CagedConstants::new(&scene)?, &configuration)
+    WithMemoryConstants::new(scene, &configuration)
 }
 
 /// How far the model's friction may be from the true one; the encoder's noise is a count.

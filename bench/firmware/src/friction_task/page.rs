@@ -14,9 +14,9 @@ table! {
         /// Friction torque about the axis of the nut that is never exceeded
         largest_friction_torque: f32, "N m", 0.1 to 20.0;
         /// Friction coefficient of ball and groove at standstill
-        friction_boundary: f32, "", 0.02 to 0.3;
+        friction_boundary: f32, "", 0.05 to 0.15;
         /// Friction coefficient of ball and groove at high speed, on a full film
-        friction_full_film: f32, "", 0.02 to 0.3;
+        friction_full_film: f32, "", 0.05 to 0.15;
         /// Nut speed at which half of the film has formed, at 293.15 K
         half_share_speed: f32, "rad/s", 0.1 to 100.0;
         /// Factor of both friction coefficients at positive speed

@@ -4,7 +4,7 @@ use epas_friction::adaptation::{Adaptation, AdaptationConfiguration, AdaptationI
 use epas_friction::law::FrictionLevel;
 use epas_friction::law::motion::{CountReading, CountSensor, NutAngle, Turn};
 use epas_friction::scene::WithMemoryInputs;
-use epas_friction::{Error, Faults, Inputs, Outputs};
+use epas_friction::{Error, Inputs, Outputs};
 
 use super::gear::{self, Gear, NO_READING};
 use super::measured::Measured;
@@ -195,12 +195,6 @@ impl SlowTask {
         if !self.measured.steps.is_multiple_of(ADAPTATION_TICKS) {
             return;
         }
-        // Balls that settle for a millisecond are no reason to learn nothing from the tick.
-        let faults = if outputs.faults == Faults::SETTLING {
-            Faults::NONE
-        } else {
-            outputs.faults
-        };
         let adapted = self.adaptation.update(&AdaptationInputs {
             observed,
             modelled: outputs.friction_torque,
@@ -208,7 +202,7 @@ impl SlowTask {
             nut_speed: self.measured.nut_speed,
             load_torque: outputs.load_torque,
             regime: outputs.regime,
-            faults,
+            faults: outputs.faults,
             saturated: false,
         });
         self.level = adapted.estimates.level();

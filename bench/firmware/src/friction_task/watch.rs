@@ -1,6 +1,6 @@
 //! The background: looks at the calibration page, checks it, and makes the model's constants of it.
 //!
-//! Constants take longer than a tick of the friction task (some 400,000 instructions), so that no interrupt makes them.
+//! No interrupt makes them: their block alone is 1.7 KiB, which is copied.
 
 use super::gear::{self, Constants};
 use super::page::{Calibration, CalibrationPage, Refused};

@@ -7,13 +7,14 @@ use epas_friction::law::motion::{WrappedAngle, WrappedAngleParameters};
 use epas_friction::scene::{StoredScene, WithMemoryConfiguration};
 use epas_friction::stored::VERSION;
 use epas_friction::{
-    BallScrew, BallScrewParameters, CagedBallScrew, CagedBallScrewConfiguration, Clearance, Faults,
-    FrictionModel, LinearBearingTrain, Material, Refusal, UncagedBallScrew,
-    UncagedBallScrewConfiguration,
+    BallScrew, BallScrewParameters, Clearance, Faults, FrictionModel, LinearBearingTrain, Material,
+    Refusal, UncagedBallScrew, UncagedBallScrewConfiguration,
 };
 
 use crate::kit::absurd::{Trial, accepted};
-use crate::kit::gears::{LINEAR_BALLS, caged, linear, linear_of_smaller_balls, uncaged};
+use crate::kit::gears::{
+    CagedConfiguration, CagedScrew, LINEAR_BALLS, caged, linear, linear_of_smaller_balls, uncaged,
+};
 use crate::kit::random::Random;
 use crate::kit::remembering::{COUNTS, CagedByAngle, UncagedByCounts, slip, with_memory};
 
@@ -36,9 +37,9 @@ fn refused<S: Kept>(model: &mut FrictionModel<S>, block: &[u8]) -> Refusal {
 
 #[test]
 fn every_flipped_bit_is_found() {
-    let (mut model, _) = driven::<CagedBallScrew>(1, 200);
-    let mut other = CagedBallScrew::model();
-    CagedBallScrew::set(&mut other);
+    let (mut model, _) = driven::<CagedScrew>(1, 200);
+    let mut other = CagedScrew::model();
+    CagedScrew::set(&mut other);
     let block = export(&other);
     for bit in 0..8 * block.len() {
         let mut flipped = block.clone();
@@ -97,7 +98,7 @@ fn blocks_of_another_length_are_refused() {
 
 #[test]
 fn foreign_and_old_blocks_are_refused() {
-    let (mut model, _) = driven::<CagedBallScrew>(1, 50);
+    let (mut model, _) = driven::<CagedScrew>(1, 50);
     let block = export(&model);
     let with = |at: usize, byte: u8| {
         let mut other = block.clone();
@@ -163,37 +164,23 @@ where
 #[test]
 fn blocks_of_other_constants_are_refused() {
     let own = caged();
-    let block = export(&CagedBallScrew::model());
-    let import = |configuration: CagedBallScrewConfiguration| {
-        FrictionModel::<CagedBallScrew>::new(&configuration)
+    let block = export(&CagedScrew::model());
+    let import = |configuration: CagedConfiguration| {
+        FrictionModel::<CagedScrew>::new(&configuration)
             .unwrap()
             .import(&block)
     };
-    for other in [
-        CagedBallScrewConfiguration {
-            design: epas_friction::CATALOGUE[14].design().unwrap(),
-            ..own
-        },
-        CagedBallScrewConfiguration {
-            friction: 0.0751,
-            ..own
-        },
-        CagedBallScrewConfiguration {
-            clearance: Clearance::ZERO,
-            ..own
-        },
-        CagedBallScrewConfiguration {
-            loaded_balls: 40,
-            ..own
-        },
-    ] {
-        assert_eq!(import(other), Err(Refusal::OtherConstants), "{other:?}");
-    }
+    let steeper = CagedConfiguration { lead: 0.021, ..own };
+    assert_eq!(import(steeper), Err(Refusal::OtherConstants));
     let mut limits = own.limits;
     limits.friction_torque = 1.0;
     for same in [
-        CagedBallScrewConfiguration { limits, ..own },
-        CagedBallScrewConfiguration {
+        CagedConfiguration { limits, ..own },
+        CagedConfiguration {
+            friction: 0.0751,
+            ..own
+        },
+        CagedConfiguration {
             reversal_speed: 0.1,
             ..own
         },
@@ -358,36 +345,22 @@ fn absurd_numbers_are_refused() {
     block[first + 9..first + 13].copy_from_slice(&ball);
     assert_eq!(field(refused(&mut model, &sealed(block))), "position");
 
-    // Every number of a caged screw's balls is none.
-    let (mut model, _) = driven::<CagedBallScrew>(1, 50);
+    // A friction coefficient that is none, or that the block does not hold.
+    let (mut model, _) = driven::<CagedScrew>(1, 50);
     let block = export(&model);
-    for (at, name) in [
-        (0, "place"),
-        (12, "turning"),
-        (24, "speed"),
-        (28, "ratio"),
-        (32, "whole"),
-        (36, "change"),
-        (84, "friction"),
-        (88, "clearance"),
-    ] {
-        for number in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1e30, -1e30] {
-            let mut block = block.clone();
-            let at = STATE_AT + at;
-            block[at..at + 4].copy_from_slice(&number.to_le_bytes());
-            assert_eq!(field(refused(&mut model, &sealed(block))), name, "{number}");
-        }
-    }
-    // A count and flags.
-    for (at, value, name) in [
-        (40, 5, "unsettled"),
-        (41, 2, "two_point"),
-        (92, 2, "changes"),
-        (93, 4, "turn"),
+    for number in [
+        f32::NAN,
+        f32::INFINITY,
+        f32::NEG_INFINITY,
+        1e30,
+        -0.1,
+        0.049,
+        0.151,
     ] {
         let mut block = block.clone();
-        block[STATE_AT + at] = value;
-        assert_eq!(field(refused(&mut model, &sealed(block))), name);
+        block[STATE_AT..STATE_AT + 4].copy_from_slice(&number.to_le_bytes());
+        let refusal = refused(&mut model, &sealed(block));
+        assert_eq!(field(refusal), "friction", "{number}");
     }
 
     // A count beyond the sensor's, and a play beyond its width, as the last state of a sensor with memory.
@@ -477,7 +450,7 @@ fn random_blocks_are_refused_or_harmless() {
         (taken, refused)
     }
     for (taken, refused) in [
-        check::<CagedBallScrew>(8),
+        check::<CagedScrew>(8),
         check::<UncagedBallScrew<2>>(30),
         check::<UncagedBallScrew<7>>(30),
         check::<UncagedBallScrew<37>>(30),

@@ -1,21 +1,19 @@
-//! The caged ball screw in the loop: energy, signs, continuity, bad input.
+//! The ball screw by a closed form in the loop: energy, signs, continuity, bad input.
 
 use crate::kit::gears::oversize;
 use crate::kit::measured;
 use epas_friction::efficiency::EfficiencyGeometry;
 use epas_friction::{
-    BallScrew, CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, Clearance,
+    BallScrew, CATALOGUE, Clearance, ClosedFormScrew, ClosedFormScrewConfiguration,
     DISSERTATION_DESIGNS, Faults, FrictionBranch, FrictionModel, Inputs, Limits, Outputs, Regime,
-    RollingResistance,
 };
 use epas_reference::efficiency::Screw;
 use proptest::prelude::*;
 
-fn configuration() -> CagedBallScrewConfiguration {
-    CagedBallScrewConfiguration {
+fn configuration() -> ClosedFormScrewConfiguration {
+    ClosedFormScrewConfiguration {
         design: BallScrew::new(DISSERTATION_DESIGNS[2].parameters).unwrap(),
         friction: 0.075,
-        rolling_resistance: RollingResistance::NONE,
         rolling_tangent: 0.0,
         branch: FrictionBranch::Rolling,
         clearance: Clearance::ZERO,
@@ -29,11 +27,11 @@ fn configuration() -> CagedBallScrewConfiguration {
     }
 }
 
-fn model(configuration: &CagedBallScrewConfiguration) -> FrictionModel<CagedBallScrew> {
+fn model(configuration: &ClosedFormScrewConfiguration) -> FrictionModel<ClosedFormScrew> {
     FrictionModel::new(configuration).unwrap()
 }
 
-fn step(model: &mut FrictionModel<CagedBallScrew>, nut_speed: f32, axial_load: f32) -> Outputs {
+fn step(model: &mut FrictionModel<ClosedFormScrew>, nut_speed: f32, axial_load: f32) -> Outputs {
     model.step(Inputs {
         nut_speed,
         axial_load,
@@ -49,7 +47,7 @@ fn torque_is_the_efficiency_of_the_reference() {
     for parameters in designs.into_iter().chain(sizes) {
         for branch in [FrictionBranch::Rolling, FrictionBranch::Sliding] {
             let design = BallScrew::new(parameters).unwrap();
-            let mut model = model(&CagedBallScrewConfiguration {
+            let mut model = model(&ClosedFormScrewConfiguration {
                 design,
                 branch,
                 ..configuration()
@@ -110,11 +108,11 @@ prop_compose! {
         preload in prop_oneof![Just(0.0_f32), 1.0..2000.0_f32],
         speed in -300.0..300.0_f32,
         load in -15_000.0..15_000.0_f32,
-    ) -> (CagedBallScrewConfiguration, f32, f32) {
+    ) -> (ClosedFormScrewConfiguration, f32, f32) {
         let branch = if sliding { FrictionBranch::Sliding } else { FrictionBranch::Rolling };
         let design = CATALOGUE[size].design().unwrap();
         let clearance = if preload > 0.0 { oversize(&design, preload, 71) } else { Clearance::ZERO };
-        let configuration = CagedBallScrewConfiguration {
+        let configuration = ClosedFormScrewConfiguration {
             design, friction, rolling_tangent, branch, clearance,
             ..configuration()
         };
@@ -181,7 +179,7 @@ proptest! {
     fn continuous_through_zero_speed((configuration, _, load) in situation()) {
         // A torque limit would cut the full torque, but not the slope at standstill.
         let limits = Limits { friction_torque: 1e6, ..configuration.limits };
-        let mut model = model(&CagedBallScrewConfiguration { limits, ..configuration });
+        let mut model = model(&ClosedFormScrewConfiguration { limits, ..configuration });
         let full = step(&mut model, 300.0, load).friction_torque.abs()
             .max(step(&mut model, -300.0, load).friction_torque.abs());
         let mut last = step(&mut model, -2.0, load).friction_torque;
@@ -250,7 +248,7 @@ fn a_locked_drive_is_said_and_bounded() {
     parameters.lead = std::f32::consts::TAU * parameters.pitch_radius * 60f32.to_radians().tan();
     let design = BallScrew::new(parameters).unwrap();
     assert!(EfficiencyGeometry::of(&design).locks(epas_friction::efficiency::Drive::Driving, 0.5));
-    let mut model = model(&CagedBallScrewConfiguration {
+    let mut model = model(&ClosedFormScrewConfiguration {
         design,
         friction: 0.5,
         branch: FrictionBranch::Sliding,
@@ -269,12 +267,6 @@ fn a_locked_drive_is_said_and_bounded() {
     // Nothing is cut where nothing is put out.
     let still = step(&mut model, 0.0, 1000.0);
     assert!(still.friction_torque == 0.0 && !still.faults.any());
-    // A closed form keeps its friction, and refuses what is none all the same.
-    for bad in [f32::NAN, 0.0, 0.6] {
-        assert_eq!(model.set_friction(bad).unwrap_err().field(), "friction");
-    }
-    model.set_friction(0.1).unwrap();
-    assert_eq!(step(&mut model, -100.0, 1000.0), lowered);
 }
 
 /// A self-locking fine lead: the load does not turn it, the motor has to push it down.
@@ -282,7 +274,7 @@ fn a_locked_drive_is_said_and_bounded() {
 fn a_self_locking_lead_is_locked_when_back_driven() {
     let mut parameters = CATALOGUE[0].parameters();
     parameters.lead = 0.1e-3;
-    let mut model = model(&CagedBallScrewConfiguration {
+    let mut model = model(&ClosedFormScrewConfiguration {
         design: BallScrew::new(parameters).unwrap(),
         friction: 0.2,
         rolling_tangent: 0.01,
@@ -301,7 +293,7 @@ fn a_self_locking_lead_is_locked_when_back_driven() {
 fn preload_is_that_of_two_hertzian_flanks() {
     let preload = 500.0_f32;
     let clearance = oversize(&configuration().design, preload, 71);
-    let mut model = model(&CagedBallScrewConfiguration {
+    let mut model = model(&ClosedFormScrewConfiguration {
         clearance,
         branch: FrictionBranch::Rolling,
         ..configuration()
@@ -334,34 +326,34 @@ fn preload_is_that_of_two_hertzian_flanks() {
 #[test]
 fn every_field_of_the_configuration_is_checked() {
     let good = configuration();
-    let field = |configuration: CagedBallScrewConfiguration| {
-        FrictionModel::<CagedBallScrew>::new(&configuration)
+    let field = |configuration: ClosedFormScrewConfiguration| {
+        FrictionModel::<ClosedFormScrew>::new(&configuration)
             .unwrap_err()
             .field()
     };
     for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -1.0, 1e30] {
         assert_eq!(
-            field(CagedBallScrewConfiguration {
+            field(ClosedFormScrewConfiguration {
                 friction: bad,
                 ..good
             }),
             "friction"
         );
         assert_eq!(
-            field(CagedBallScrewConfiguration {
+            field(ClosedFormScrewConfiguration {
                 rolling_tangent: bad,
                 ..good
             }),
             "rolling_tangent"
         );
         assert_eq!(
-            field(CagedBallScrewConfiguration {
+            field(ClosedFormScrewConfiguration {
                 reversal_speed: bad,
                 ..good
             }),
             "reversal_speed"
         );
-        let limits = |limits| field(CagedBallScrewConfiguration { limits, ..good });
+        let limits = |limits| field(ClosedFormScrewConfiguration { limits, ..good });
         assert_eq!(
             limits(Limits {
                 nut_speed: bad,
@@ -386,7 +378,7 @@ fn every_field_of_the_configuration_is_checked() {
     }
     for bad in [0.0, 1e-30] {
         assert_eq!(
-            field(CagedBallScrewConfiguration {
+            field(ClosedFormScrewConfiguration {
                 reversal_speed: bad,
                 ..good
             }),
