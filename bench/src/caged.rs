@@ -11,9 +11,9 @@ use epas_design::drawing::drawing;
 use epas_design::{CagedFold, Folded};
 use epas_friction::scene::{
     ClosedFormScrew, ClosedFormScrewConfiguration, ClosedFormScrewConstants, FoldedScrew,
-    FoldedScrewConfiguration, StoredScene,
+    FoldedScrewConfiguration, FoldedScrewConstants, StoredScene,
 };
-use epas_friction::{Error, FrictionModel, Inputs, Limits, Outputs, Refusal};
+use epas_friction::{Error, FrictionModel, Inputs, Limits, Outputs, Range, Refusal};
 use epas_reference::friction::caged_ball::CagedBall;
 use epas_reference::friction::patch::Integration;
 use epas_reference::friction::rolling_resistance::RollingResistance;
@@ -350,6 +350,29 @@ impl CagedModel {
                 Ok(())
             }
         }
+    }
+
+    /// Goes on with the block of these words, of as many friction coefficients.
+    ///
+    /// # Errors
+    /// [`Error`] naming what is wrong with the block; the model is as it was. A closed form has none.
+    pub fn swap(&mut self, words: &[u32]) -> Result<(), Error> {
+        match self {
+            Self::One(model) => {
+                model.swap_constants(FoldedScrewConstants::from_block(words)?)?;
+            }
+            Self::Range(model) => {
+                model.swap_constants(FoldedScrewConstants::from_block(words)?)?;
+            }
+            Self::ClosedForm(..) => {
+                return Err(Error::OutOfRange {
+                    field: "branch",
+                    value: 1.0,
+                    allowed: Range::new(0.0, 0.0),
+                });
+            }
+        }
+        Ok(())
     }
 
     /// Its state as a block.
