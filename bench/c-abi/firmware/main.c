@@ -3,7 +3,10 @@
 #include "board.h"
 #include "epas_test.h"
 
+#include <stddef.h>
+
 static epas_caged_t caged;
+static epas_caged_range_t caged_range;
 static epas_memory_t memory;
 static epas_screw_t screw;
 static epas_linear_t linear;
@@ -21,6 +24,7 @@ static const epas_memory_inputs_t memory_inputs = {120.0f, 8000.0f, 100u, 0.0f, 
 static const epas_linear_inputs_t linear_inputs = {0.3f, 2000.0f, 700.0f};
 
 static void set_up_caged(void) { (void)test_setup_caged(&caged); }
+static void set_up_caged_range(void) { (void)test_setup_caged_range(&caged_range); }
 static void set_up_memory(void) { (void)test_setup_memory(&memory); }
 static void set_up_screw(void) { (void)test_setup_screw(&screw); }
 static void set_up_linear(void) { (void)test_setup_linear(&linear); }
@@ -30,6 +34,8 @@ static epas_screw_outputs_t screw_outputs;
 static epas_linear_outputs_t linear_outputs;
 
 static void step_caged(void) { (void)epas_caged_step(&caged, &inputs, &outputs); }
+static void step_caged_range(void) { (void)epas_caged_range_step(&caged_range, &inputs, &outputs); }
+static void swap_caged_range(void) { (void)epas_caged_range_swap(&caged_range, &test_other_range_block, NULL); }
 static void step_memory(void) { (void)epas_memory_step(&memory, &memory_inputs, &outputs); }
 static void between_memory(void) { (void)epas_memory_between(&memory, 103u, &outputs); }
 static void step_screw(void) { (void)epas_screw_step(&screw, &inputs, &screw_outputs); }
@@ -69,10 +75,13 @@ static uint32_t stacks(void)
 
     /* Set-up happens once, outside of the control loop: no bound but that of the paint. */
     wrong += stack_within("epas_caged_init", set_up_caged, (4u * PAINTED_WORDS) - 4u);
+    wrong += stack_within("epas_caged_range_init", set_up_caged_range, (4u * PAINTED_WORDS) - 4u);
+    wrong += stack_within("epas_caged_range_swap", swap_caged_range, (4u * PAINTED_WORDS) - 4u);
     wrong += stack_within("epas_memory_init", set_up_memory, (4u * PAINTED_WORDS) - 4u);
     wrong += stack_within("epas_screw_init with its tables", set_up_screw, (4u * PAINTED_WORDS) - 4u);
     wrong += stack_within("epas_linear_init with its table", set_up_linear, (4u * PAINTED_WORDS) - 4u);
     wrong += stack_within("epas_caged_step", step_caged, STEP_STACK);
+    wrong += stack_within("epas_caged_range_step", step_caged_range, STEP_STACK);
     wrong += stack_within("epas_memory_step", step_memory, STEP_STACK);
     wrong += stack_within("epas_memory_between", between_memory, STEP_STACK);
     wrong += stack_within("epas_screw_step", step_screw, STEP_STACK);

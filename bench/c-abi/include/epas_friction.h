@@ -149,6 +149,31 @@ extern "C" {
 #define EPAS_STATE_OUT_OF_RANGE 12u
 
 /**
+ * The words are no block of a folded screw.
+ */
+#define EPAS_NOT_A_BLOCK 13u
+
+/**
+ * The block is of another version of its layout.
+ */
+#define EPAS_BLOCK_VERSION 14u
+
+/**
+ * The block has not as many words as it says, or as its scene takes.
+ */
+#define EPAS_BLOCK_LENGTH 15u
+
+/**
+ * The block has another number of friction coefficients: one for `epas_caged_t`, a range for `epas_caged_range_t` and `epas_memory_t`.
+ */
+#define EPAS_BLOCK_NODES 16u
+
+/**
+ * The block's checksum is wrong.
+ */
+#define EPAS_BLOCK_DAMAGED 17u
+
+/**
  * No field is wrong.
  */
 #define EPAS_FIELD_NONE 0u
@@ -634,6 +659,11 @@ extern "C" {
 #define EPAS_FIELD_TEMPERATURE_FADE 96u
 
 /**
+ * The words of a block.
+ */
+#define EPAS_FIELD_BLOCK 97u
+
+/**
  * Samples in a period of a deviation.
  */
 #define EPAS_DEVIATION_SAMPLES 64
@@ -662,11 +692,6 @@ extern "C" {
  * Words of eight bytes that an adaptation takes.
  */
 #define EPAS_ADAPTATION_WORDS 48
-
-/**
- * What the contacts of a ball dissipate, by its balance between elastic grooves: the one to take.
- */
-#define EPAS_BRANCH_CONTACTS 0u
 
 /**
  * The ball rolls and slips across the groove at the screw: a paper's closed form, which leaves out spin, the third contact
@@ -762,24 +787,49 @@ extern "C" {
 #define EPAS_FAULT_CALL 2147483648u
 
 /**
- * Bytes of a state of this scene, as `epas_caged_export` writes it.
+ * Bytes of a state of `epas_caged_t`, as `epas_caged_export` writes it.
  */
-#define EPAS_CAGED_STATE_BYTES 114u
+#define EPAS_CAGED_STATE_BYTES 24u
 
 /**
  * Size of `epas_caged_t` in words of eight bytes.
  */
-#define EPAS_CAGED_WORDS 270
+#define EPAS_CAGED_WORDS 52
+
+/**
+ * Bytes of a state of `epas_caged_range_t`, as `epas_caged_range_export` writes it.
+ */
+#define EPAS_CAGED_RANGE_STATE_BYTES 24u
+
+/**
+ * Size of `epas_caged_range_t` in words of eight bytes.
+ */
+#define EPAS_CAGED_RANGE_WORDS 220
+
+/**
+ * Friction coefficients of a block for a range of them.
+ */
+#define EPAS_RANGE_NODES 5
+
+/**
+ * Bytes of a state of `epas_closed_form_t`, as `epas_closed_form_export` writes it.
+ */
+#define EPAS_CLOSED_FORM_STATE_BYTES 20u
+
+/**
+ * Size of `epas_closed_form_t` in words of eight bytes.
+ */
+#define EPAS_CLOSED_FORM_WORDS 8
 
 /**
  * Bytes of a state of a screw whose friction remembers, as `epas_memory_export` writes it.
  */
-#define EPAS_MEMORY_STATE_BYTES 214u
+#define EPAS_MEMORY_STATE_BYTES 124u
 
 /**
  * Size of `epas_memory_t` in words of eight bytes.
  */
-#define EPAS_MEMORY_WORDS 686
+#define EPAS_MEMORY_WORDS 261
 
 /**
  * Balls in the circuit of `epas_screw_t`, return included. A screw with another number needs the library
@@ -817,7 +867,7 @@ extern "C" {
  * Version of the structures and functions of this header; `epas_abi_version` returns the library's. It rises
  * whenever a structure, a function or what a place holds changes.
  */
-#define EPAS_ABI_VERSION 7u
+#define EPAS_ABI_VERSION 8u
 
 /**
  * Place for the constants and the state of an adaptation; as `epas_caged_t`.
@@ -1044,6 +1094,21 @@ typedef struct epas_memory_t {
 } epas_memory_t;
 
 /**
+ * A ball screw that was folded on a host: the words that `epas-bench design` writes into a header, or those of a calibration page. They are
+ * read while a model is made or swapped, and need not stay.
+ */
+typedef struct epas_block_t {
+    /**
+     * The words.
+     */
+    const uint32_t *words;
+    /**
+     * How many there are.
+     */
+    uint32_t count;
+} epas_block_t;
+
+/**
  * An isotropic elastic material.
  */
 typedef struct epas_material_t {
@@ -1099,73 +1164,6 @@ typedef struct epas_ball_screw_t {
      */
     struct epas_material_t groove_material;
 } epas_ball_screw_t;
-
-/**
- * Bounds that a model keeps whatever comes in.
- */
-typedef struct epas_limits_t {
-    /**
-     * Largest nut speed that is believed, rad/s, 1e-3 to 1e6.
-     */
-    float nut_speed;
-    /**
-     * Largest axial load that is believed, N, 1e-3 to 1e7.
-     */
-    float axial_load;
-    /**
-     * Largest friction torque that is put out, N m, 1e-6 to 1e6.
-     */
-    float friction_torque;
-} epas_limits_t;
-
-/**
- * What the engineer sets for a ball screw whose balls do not touch: caged, or with spacer balls.
- */
-typedef struct epas_caged_configuration_t {
-    /**
-     * The design.
-     */
-    struct epas_ball_screw_t design;
-    /**
-     * Coulomb friction coefficient of ball and groove, 1e-6 to 0.5; 0 to 1 for the closed forms.
-     */
-    float friction;
-    /**
-     * Share of the elastic energy that is lost while a contact passes, 0 to 0.2; hardened steel 0.01. Closed forms know
-     * none.
-     */
-    float hysteresis_loss;
-    /**
-     * Drag of the lubricant on one contact under 100 N, N, 0 to 10; 0 for none. Closed forms know none.
-     */
-    float lubricant_drag;
-    /**
-     * Lever arm of rolling friction over `ball_radius sin(contact_angle)`, 0 to 0.1; for the closed forms alone.
-     */
-    float rolling_tangent;
-    /**
-     * Which state of the ball the torque is computed for, one of `EPAS_BRANCH_...`.
-     */
-    uint32_t branch;
-    /**
-     * Radial gap of every contact at a centred ball without load, m, play above zero, oversize below; -0.02 to
-     * 0.05 ball radii. `epas_clearance` finds it from a preload or an axial play. For the closed forms oversize presses
-     * on both flanks of the nut, and play changes nothing.
-     */
-    float clearance;
-    /**
-     * Number of balls that carry load, 1 to 1000.
-     */
-    uint32_t loaded_balls;
-    /**
-     * Nut speed over which friction changes its direction, rad/s, 1e-6 to 1e3.
-     */
-    float reversal_speed;
-    /**
-     * Bounds that are kept whatever comes in.
-     */
-    struct epas_limits_t limits;
-} epas_caged_configuration_t;
 
 /**
  * An encoder that counts turns of the nut.
@@ -1257,10 +1255,26 @@ typedef struct epas_coefficient_t {
  */
 typedef struct epas_memory_configuration_t {
     /**
-     * The screw. Its branch is `EPAS_BRANCH_CONTACTS`, its friction coefficient 1e-6 to 0.5: that of which its first
-     * motion after a reversal is computed, best the boundary coefficient. Its reversal speed has no meaning here.
+     * The screw: a block for a range of friction coefficients, which holds those of the law. Its own coefficient is that of which the first
+     * motion after a reversal is computed, best the boundary coefficient; its reversal speed has no meaning here.
      */
-    struct epas_caged_configuration_t screw;
+    struct epas_block_t block;
+    /**
+     * The design that was folded, from which the first motion after a reversal follows.
+     */
+    struct epas_ball_screw_t design;
+    /**
+     * Radial gap that was folded, m, play above zero, oversize below; -0.02 to 0.05 ball radii.
+     */
+    float clearance;
+    /**
+     * Share of the elastic energy that is lost while a contact passes, as folded, 0 to 0.2.
+     */
+    float hysteresis_loss;
+    /**
+     * Drag of the lubricant on one contact under 100 N, as folded, N, 0 to 10.
+     */
+    float lubricant_drag;
     /**
      * The nut's angle.
      */
@@ -1359,7 +1373,7 @@ typedef struct epas_outputs_t {
 } epas_outputs_t;
 
 /**
- * Place for the constants and the state of a caged ball screw. The caller provides it, in memory of
+ * Place for the constants and the state of a caged ball screw with one friction coefficient. The caller provides it, in memory of
  * static duration or any other; nothing in it is for the caller to read or write. Zero it, or leave it
  * as a static object is; then give it to `epas_caged_init`.
  */
@@ -1384,6 +1398,85 @@ typedef struct epas_inputs_t {
      */
     float axial_load;
 } epas_inputs_t;
+
+/**
+ * Place for the constants and the state of a caged ball screw whose friction coefficient changes; as `epas_caged_t`.
+ */
+typedef struct epas_caged_range_t {
+    /**
+     * Not for the caller. Its type gives the place its alignment.
+     */
+    uint64_t words[EPAS_CAGED_RANGE_WORDS];
+} epas_caged_range_t;
+
+/**
+ * Place for the constants and the state of a ball screw by a closed form; as `epas_caged_t`.
+ */
+typedef struct epas_closed_form_t {
+    /**
+     * Not for the caller. Its type gives the place its alignment.
+     */
+    uint64_t words[EPAS_CLOSED_FORM_WORDS];
+} epas_closed_form_t;
+
+/**
+ * Bounds that a model keeps whatever comes in.
+ */
+typedef struct epas_limits_t {
+    /**
+     * Largest nut speed that is believed, rad/s, 1e-3 to 1e6.
+     */
+    float nut_speed;
+    /**
+     * Largest axial load that is believed, N, 1e-3 to 1e7.
+     */
+    float axial_load;
+    /**
+     * Largest friction torque that is put out, N m, 1e-6 to 1e6.
+     */
+    float friction_torque;
+} epas_limits_t;
+
+/**
+ * What the engineer sets for a ball screw whose balls do not touch, by a closed form: from catalogue numbers, without a host, for a first
+ * look. Exact friction differs from it by up to a factor of 2.
+ */
+typedef struct epas_closed_form_configuration_t {
+    /**
+     * The design.
+     */
+    struct epas_ball_screw_t design;
+    /**
+     * Coulomb friction coefficient of ball and groove, 0 to 1.
+     */
+    float friction;
+    /**
+     * Lever arm of rolling friction over `ball_radius sin(contact_angle)`, 0 to 0.1.
+     */
+    float rolling_tangent;
+    /**
+     * Which state of the ball the torque is computed for, one of `EPAS_BRANCH_...`.
+     */
+    uint32_t branch;
+    /**
+     * Radial gap of every contact at a centred ball without load, m, play above zero, oversize below; -0.02 to
+     * 0.05 ball radii. `epas_clearance` finds it from a preload or an axial play. Oversize presses on both flanks of the nut, and
+     * play changes nothing.
+     */
+    float clearance;
+    /**
+     * Number of balls that carry load, 1 to 1000.
+     */
+    uint32_t loaded_balls;
+    /**
+     * Nut speed over which friction changes its direction, rad/s, 1e-6 to 1e3.
+     */
+    float reversal_speed;
+    /**
+     * Bounds that are kept whatever comes in.
+     */
+    struct epas_limits_t limits;
+} epas_closed_form_configuration_t;
 
 /**
  * Place for the constants and the state of a ball screw whose balls press on each other; as
@@ -1934,11 +2027,11 @@ uint32_t epas_memory_set_level(struct epas_memory_t *place,
                                struct epas_failure_t *failure);
 
 /**
- * Sets how balls fit between the grooves while the model runs; as `epas_caged_set_clearance`. The memory stays.
+ * Goes on with another block and what is set beside it; as `epas_caged_swap`. The memory stays.
  */
-uint32_t epas_memory_set_clearance(struct epas_memory_t *place,
-                                   float clearance,
-                                   struct epas_failure_t *failure);
+uint32_t epas_memory_swap(struct epas_memory_t *place,
+                          const struct epas_memory_configuration_t *configuration,
+                          struct epas_failure_t *failure);
 
 /**
  * Back to the state before the first tick.
@@ -1972,11 +2065,11 @@ uint32_t epas_memory_import_with_count(struct epas_memory_t *place,
                                        uint32_t length);
 
 /**
- * Makes a caged ball screw in the place. Set-up only. Where it fails, every step is refused until it
- * succeeds. `failure` may be NULL.
+ * Makes a caged ball screw in the place, of a block for one friction coefficient. Set-up only. Where it fails, every step is refused until
+ * it succeeds. `failure` may be NULL.
  */
 uint32_t epas_caged_init(struct epas_caged_t *place,
-                         const struct epas_caged_configuration_t *configuration,
+                         const struct epas_block_t *block,
                          struct epas_failure_t *failure);
 
 /**
@@ -1999,22 +2092,83 @@ uint32_t epas_caged_reset(struct epas_caged_t *place);
 uint32_t epas_caged_faulted_ticks(const struct epas_caged_t *place, uint32_t *ticks);
 
 /**
- * Sets the friction coefficient of ball and groove while the model runs, 1e-6 to 0.5; `epas_caged_reset` brings the
- * configuration's back. From the first call on a ball is renewed in every tick, which then takes 13 times as long (some 5,300 cycles
- * of a Cortex-M4F in the place of 400); the first call itself takes up to 6,800. Until friction is exact again, after some ticks, it is
- * flagged `EPAS_FAULT_SETTLING`. The closed forms keep their friction. Where it is refused the model goes on as it was. `failure` may
- * be NULL. In the task of the step.
+ * Goes on with another block: of a worn gear, another clearance, another lubricant. The friction coefficient is the block's. Where it is
+ * refused the model goes on as it was. `failure` may be NULL. In the task of the step; the next step takes as long as any.
  */
-uint32_t epas_caged_set_friction(struct epas_caged_t *place,
-                                 float friction,
-                                 struct epas_failure_t *failure);
+uint32_t epas_caged_swap(struct epas_caged_t *place,
+                         const struct epas_block_t *block,
+                         struct epas_failure_t *failure);
 
 /**
- * Sets how balls fit between the grooves, m, -0.02 to 0.05 ball radii; as `epas_caged_set_friction`.
+ * Makes a caged ball screw in the place, of a block for a range of friction coefficients; as `epas_caged_init`.
  */
-uint32_t epas_caged_set_clearance(struct epas_caged_t *place,
-                                  float clearance,
-                                  struct epas_failure_t *failure);
+uint32_t epas_caged_range_init(struct epas_caged_range_t *place,
+                               const struct epas_block_t *block,
+                               struct epas_failure_t *failure);
+
+/**
+ * One tick; as `epas_caged_step`.
+ */
+uint32_t epas_caged_range_step(struct epas_caged_range_t *place,
+                               const struct epas_inputs_t *inputs,
+                               struct epas_outputs_t *outputs);
+
+/**
+ * Back to the state before the first tick.
+ */
+uint32_t epas_caged_range_reset(struct epas_caged_range_t *place);
+
+/**
+ * Consecutive ticks with a fault; as `epas_caged_faulted_ticks`.
+ */
+uint32_t epas_caged_range_faulted_ticks(const struct epas_caged_range_t *place, uint32_t *ticks);
+
+/**
+ * Goes on with another block; as `epas_caged_swap`.
+ */
+uint32_t epas_caged_range_swap(struct epas_caged_range_t *place,
+                               const struct epas_block_t *block,
+                               struct epas_failure_t *failure);
+
+/**
+ * Sets the friction coefficient of ball and groove while the model runs, within the block's range; `epas_caged_range_reset` brings the
+ * block's own back. The next step takes as long as any. Where it is refused the model goes on as it was. `failure` may be NULL. In
+ * the task of the step.
+ */
+uint32_t epas_caged_range_set_friction(struct epas_caged_range_t *place,
+                                       float friction,
+                                       struct epas_failure_t *failure);
+
+/**
+ * Makes a ball screw by a closed form in the place; as `epas_caged_init`.
+ */
+uint32_t epas_closed_form_init(struct epas_closed_form_t *place,
+                               const struct epas_closed_form_configuration_t *configuration,
+                               struct epas_failure_t *failure);
+
+/**
+ * One tick; as `epas_caged_step`.
+ */
+uint32_t epas_closed_form_step(struct epas_closed_form_t *place,
+                               const struct epas_inputs_t *inputs,
+                               struct epas_outputs_t *outputs);
+
+/**
+ * Back to the state before the first tick.
+ */
+uint32_t epas_closed_form_reset(struct epas_closed_form_t *place);
+
+/**
+ * Consecutive ticks with a fault; as `epas_caged_faulted_ticks`.
+ */
+uint32_t epas_closed_form_faulted_ticks(const struct epas_closed_form_t *place, uint32_t *ticks);
+
+/**
+ * Goes on with other numbers; as `epas_caged_swap`.
+ */
+uint32_t epas_closed_form_swap(struct epas_closed_form_t *place,
+                               const struct epas_closed_form_configuration_t *configuration,
+                               struct epas_failure_t *failure);
 
 /**
  * Makes a ball screw of `EPAS_SCREW_BALLS` balls in the place. Set-up only. Where it fails, every step is
@@ -2049,7 +2203,7 @@ uint32_t epas_screw_reset(struct epas_screw_t *place);
 uint32_t epas_screw_faulted_ticks(const struct epas_screw_t *place, uint32_t *ticks);
 
 /**
- * Sets the friction coefficient of ball and groove, 1e-6 to 0.5; as `epas_caged_set_friction`. Balls take it over as their
+ * Sets the friction coefficient of ball and groove, 1e-6 to 0.5; as `epas_caged_range_set_friction`. Balls take it over as their
  * turn comes, and a tick takes no longer; where it jumps they settle, flagged `EPAS_FAULT_SETTLING`.
  */
 uint32_t epas_screw_set_friction(struct epas_screw_t *place,
@@ -2097,7 +2251,7 @@ uint32_t epas_linear_reset(struct epas_linear_t *place);
 uint32_t epas_linear_faulted_ticks(const struct epas_linear_t *place, uint32_t *ticks);
 
 /**
- * Sets the friction coefficient of ball and groove, 1e-6 to 1; as `epas_caged_set_friction`. Friction and all forces between
+ * Sets the friction coefficient of ball and groove, 1e-6 to 1; as `epas_caged_range_set_friction`. Friction and all forces between
  * balls follow it in proportion, from the next tick on, which takes no longer.
  */
 uint32_t epas_linear_set_friction(struct epas_linear_t *place,
@@ -2113,12 +2267,32 @@ uint32_t epas_caged_export(const struct epas_caged_t *place,
                            uint32_t length);
 
 /**
- * Takes the state of a block over, of the same configuration and the exact length: before the first step. A block that is
+ * Takes the state of a block over, of the same lead and the exact length: before the first step. A block that is
  * foreign, old or damaged is refused, and the model is as it was. Outside the interrupt.
  */
 uint32_t epas_caged_import(struct epas_caged_t *place,
                            const uint8_t *bytes,
                            uint32_t length);
+
+/**
+ * Writes the state as a block of `EPAS_CAGED_RANGE_STATE_BYTES` bytes; as `epas_caged_export`.
+ */
+uint32_t epas_caged_range_export(const struct epas_caged_range_t *place, uint8_t *bytes, uint32_t length);
+
+/**
+ * Takes the state of a block over; as `epas_caged_import`.
+ */
+uint32_t epas_caged_range_import(struct epas_caged_range_t *place, const uint8_t *bytes, uint32_t length);
+
+/**
+ * Writes the state as a block of `EPAS_CLOSED_FORM_STATE_BYTES` bytes; as `epas_caged_export`.
+ */
+uint32_t epas_closed_form_export(const struct epas_closed_form_t *place, uint8_t *bytes, uint32_t length);
+
+/**
+ * Takes the state of a block over; as `epas_caged_import`.
+ */
+uint32_t epas_closed_form_import(struct epas_closed_form_t *place, const uint8_t *bytes, uint32_t length);
 
 /**
  * Writes the state as a block of `EPAS_SCREW_STATE_BYTES` bytes; as `epas_caged_export`.

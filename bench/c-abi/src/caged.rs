@@ -1,63 +1,67 @@
-//! A ball screw whose balls do not touch.
+//! A ball screw whose balls do not touch, by a folded block.
 
-use epas_friction::{CagedBallScrew, CagedBallScrewConfiguration, FrictionBranch};
+use epas_friction::scene::{FoldedScrew, FoldedScrewConfiguration};
 
-use crate::design::{ball_screw, clearance, loaded_balls, rolling_resistance};
-use crate::scene::{CScene, TablePointers, Tables, limits, regime, screw_inputs};
-use crate::status::{EPAS_FIELD_BRANCH, Failure};
+use crate::scene::{CScene, TablePointers, Tables, regime, screw_inputs};
+use crate::status::{EPAS_FIELD_BLOCK, EPAS_NULL_POINTER, Failure};
 use crate::types::{
-    CagedConfiguration, CagedPlace, EPAS_BRANCH_CONTACTS, EPAS_BRANCH_ROLLING, EPAS_BRANCH_SLIDING,
-    EPAS_CAGED_STATE_BYTES, EPAS_FAULT_CALL, EPAS_REGIME_STANDING, Inputs, Outputs,
+    Block, CagedPlace, CagedRangePlace, EPAS_CAGED_RANGE_STATE_BYTES, EPAS_CAGED_STATE_BYTES,
+    EPAS_FAULT_CALL, EPAS_RANGE_NODES, EPAS_REGIME_STANDING, Inputs, Outputs,
 };
 use crate::version::mark;
 
 /// `epas_caged_t`
 pub(crate) struct Caged;
 
+/// `epas_caged_range_t`
+pub(crate) struct CagedRange;
+
+/// What a refused call puts out.
+pub(crate) const REFUSED: Outputs = Outputs {
+    friction_torque: 0.0,
+    load_torque: 0.0,
+    efficiency: 0.0,
+    regime: EPAS_REGIME_STANDING,
+    faults: EPAS_FAULT_CALL,
+};
+
+/// The configuration in a block.
+pub(crate) fn block<const N: usize>(
+    tables: &Tables,
+) -> Result<FoldedScrewConfiguration<N>, Failure> {
+    let none = || Failure::pointer(EPAS_NULL_POINTER, EPAS_FIELD_BLOCK);
+    FoldedScrewConfiguration::read(tables.block.ok_or_else(none)?).map_err(Failure::of_block)
+}
+
+/// What a screw puts out.
+#[inline]
+pub(crate) fn outputs(outputs: epas_friction::Outputs) -> Outputs {
+    Outputs {
+        friction_torque: outputs.friction_torque,
+        load_torque: outputs.load_torque,
+        efficiency: outputs.efficiency,
+        regime: regime(outputs.regime),
+        faults: u32::from(outputs.faults.bits()),
+    }
+}
+
 impl CScene for Caged {
-    type Scene = CagedBallScrew;
+    type Scene = FoldedScrew;
     type Place = CagedPlace;
-    type Configuration = CagedConfiguration;
+    type Configuration = Block;
     type Inputs = Inputs;
     type Outputs = Outputs;
 
     const MARK: u32 = mark(1);
     const STATE_BYTES: u32 = EPAS_CAGED_STATE_BYTES;
-    const REFUSED: Outputs = Outputs {
-        friction_torque: 0.0,
-        load_torque: 0.0,
-        efficiency: 0.0,
-        regime: EPAS_REGIME_STANDING,
-        faults: EPAS_FAULT_CALL,
-    };
+    const REFUSED: Outputs = REFUSED;
 
-    fn tables(_: &CagedConfiguration) -> TablePointers {
-        TablePointers::NONE
+    fn tables(block: &Block) -> TablePointers {
+        TablePointers::of_block(block)
     }
 
-    fn configure(
-        configuration: &CagedConfiguration,
-        _: Tables,
-    ) -> Result<CagedBallScrewConfiguration, Failure> {
-        Ok(CagedBallScrewConfiguration {
-            design: ball_screw(&configuration.design)?,
-            friction: configuration.friction,
-            rolling_resistance: rolling_resistance(
-                configuration.hysteresis_loss,
-                configuration.lubricant_drag,
-            ),
-            rolling_tangent: configuration.rolling_tangent,
-            branch: match configuration.branch {
-                EPAS_BRANCH_CONTACTS => FrictionBranch::Contacts,
-                EPAS_BRANCH_ROLLING => FrictionBranch::Rolling,
-                EPAS_BRANCH_SLIDING => FrictionBranch::Sliding,
-                other => return Err(Failure::count(EPAS_FIELD_BRANCH, other, 0, 2)),
-            },
-            clearance: clearance(configuration.clearance)?,
-            loaded_balls: loaded_balls(configuration.loaded_balls)?,
-            reversal_speed: configuration.reversal_speed,
-            limits: limits(&configuration.limits),
-        })
+    fn configure(_: &Block, tables: Tables) -> Result<FoldedScrewConfiguration, Failure> {
+        block(&tables)
     }
 
     #[inline]
@@ -66,13 +70,40 @@ impl CScene for Caged {
     }
 
     #[inline]
-    fn outputs(outputs: epas_friction::Outputs) -> Outputs {
-        Outputs {
-            friction_torque: outputs.friction_torque,
-            load_torque: outputs.load_torque,
-            efficiency: outputs.efficiency,
-            regime: regime(outputs.regime),
-            faults: u32::from(outputs.faults.bits()),
-        }
+    fn outputs(found: epas_friction::Outputs) -> Outputs {
+        outputs(found)
+    }
+}
+
+impl CScene for CagedRange {
+    type Scene = FoldedScrew<EPAS_RANGE_NODES>;
+    type Place = CagedRangePlace;
+    type Configuration = Block;
+    type Inputs = Inputs;
+    type Outputs = Outputs;
+
+    const MARK: u32 = mark(6);
+    const STATE_BYTES: u32 = EPAS_CAGED_RANGE_STATE_BYTES;
+    const REFUSED: Outputs = REFUSED;
+
+    fn tables(block: &Block) -> TablePointers {
+        TablePointers::of_block(block)
+    }
+
+    fn configure(
+        _: &Block,
+        tables: Tables,
+    ) -> Result<FoldedScrewConfiguration<EPAS_RANGE_NODES>, Failure> {
+        block(&tables)
+    }
+
+    #[inline]
+    fn inputs(inputs: Inputs) -> epas_friction::Inputs {
+        screw_inputs(inputs)
+    }
+
+    #[inline]
+    fn outputs(found: epas_friction::Outputs) -> Outputs {
+        outputs(found)
     }
 }

@@ -1,7 +1,7 @@
 //! `epas-friction` from C: a static library without allocator, panic or global state.
 //!
 //! `types`, `requests`, `tables`, `status` and `version` are what the header shows; `adaptation` and `memory` show and translate
-//! what follows the vehicle and the screw that remembers; `caged`, `screw`, `linear` and `one_shot` translate between them and the crate; `boundary` is the one folder with pointers: every
+//! what follows the vehicle and the screw that remembers; `caged`, `closed_form`, `screw`, `linear` and `one_shot` translate between them and the crate; `boundary` is the one folder with pointers: every
 //! exported function.
 //!
 //! # A further scene
@@ -17,6 +17,7 @@
 mod adaptation;
 mod boundary;
 mod caged;
+mod closed_form;
 mod design;
 mod linear;
 mod memory;

@@ -39,6 +39,7 @@ impl CScene for Linear {
             recirculating: configuration.carriage_deviation,
             load_shares: configuration.load_shares,
             load_share_count: configuration.load_share_count,
+            ..TablePointers::NONE
         }
     }
 

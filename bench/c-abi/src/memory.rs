@@ -1,4 +1,4 @@
-//! A caged ball screw whose friction remembers: its structures in C, and what they are in the crate.
+//! A caged ball screw, by a folded block, whose friction remembers: its structures in C, and what they are in the crate.
 
 use epas_friction::law::FrictionLevel;
 use epas_friction::law::breakaway::{
@@ -10,15 +10,17 @@ use epas_friction::law::coefficient::{
 use epas_friction::law::memory::{Hysteresis, ProportionalElements, SLIP_4, SPIN_4};
 use epas_friction::law::motion::{CountSensor, CountSensorParameters, Steady};
 use epas_friction::ranges::LOAD;
-use epas_friction::scene::{Freshness, WithMemory, WithMemoryConfiguration, WithMemoryInputs};
-use epas_friction::{CagedBallScrew, CagedBallScrewConfiguration};
+use epas_friction::scene::{
+    FoldedScrew, FoldedScrewConfiguration, Freshness, WithMemory, WithMemoryConfiguration,
+    WithMemoryInputs,
+};
 
-use crate::caged::Caged;
+use crate::caged::{REFUSED, block, outputs};
+use crate::design::{ball_screw, clearance, rolling_resistance};
 use crate::scene::{CScene, TablePointers, Tables, screw_inputs};
-use crate::status::{EPAS_FIELD_BRANCH, EPAS_FIELD_PLAY, EPAS_FIELD_REFERENCE_LOAD, Failure};
+use crate::status::{EPAS_FIELD_PLAY, EPAS_FIELD_REFERENCE_LOAD, Failure};
 use crate::types::{
-    CagedConfiguration, EPAS_BRANCH_CONTACTS, EPAS_FAULT_CALL, EPAS_MEMORY_STATE_BYTES,
-    EPAS_MEMORY_WORDS, EPAS_REGIME_STANDING, Inputs, Outputs,
+    BallScrew, Block, EPAS_MEMORY_STATE_BYTES, EPAS_MEMORY_WORDS, EPAS_RANGE_NODES, Inputs, Outputs,
 };
 use crate::version::mark;
 
@@ -76,12 +78,20 @@ pub struct Coefficient {
 }
 
 /// What the engineer sets for a caged ball screw whose friction remembers.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct MemoryConfiguration {
-    /// The screw. Its branch is `EPAS_BRANCH_CONTACTS`, its friction coefficient 1e-6 to 0.5: that of which its first
-    /// motion after a reversal is computed, best the boundary coefficient. Its reversal speed has no meaning here.
-    pub screw: CagedConfiguration,
+    /// The screw: a block for a range of friction coefficients, which holds those of the law. Its own coefficient is that of which the first
+    /// motion after a reversal is computed, best the boundary coefficient; its reversal speed has no meaning here.
+    pub block: Block,
+    /// The design that was folded, from which the first motion after a reversal follows.
+    pub design: BallScrew,
+    /// Radial gap that was folded, m, play above zero, oversize below; -0.02 to 0.05 ball radii.
+    pub clearance: f32,
+    /// Share of the elastic energy that is lost while a contact passes, as folded, 0 to 0.2.
+    pub hysteresis_loss: f32,
+    /// Drag of the lubricant on one contact under 100 N, as folded, N, 0 to 10.
+    pub lubricant_drag: f32,
     /// The nut's angle.
     pub encoder: Encoder,
     /// The friction coefficient in the loop.
@@ -139,7 +149,8 @@ const LEAST_LOAD: f32 = 0.1;
 pub(crate) struct Memory;
 
 impl CScene for Memory {
-    type Scene = WithMemory<CagedBallScrew, Elements, Steady<CountSensor>, CoefficientLaw>;
+    type Scene =
+        WithMemory<FoldedScrew<EPAS_RANGE_NODES>, Elements, Steady<CountSensor>, CoefficientLaw>;
     type Place = MemoryPlace;
     type Configuration = MemoryConfiguration;
     type Inputs = MemoryInputs;
@@ -147,16 +158,10 @@ impl CScene for Memory {
 
     const MARK: u32 = mark(5);
     const STATE_BYTES: u32 = EPAS_MEMORY_STATE_BYTES;
-    const REFUSED: Outputs = Outputs {
-        friction_torque: 0.0,
-        load_torque: 0.0,
-        efficiency: 0.0,
-        regime: EPAS_REGIME_STANDING,
-        faults: EPAS_FAULT_CALL,
-    };
+    const REFUSED: Outputs = REFUSED;
 
-    fn tables(_: &MemoryConfiguration) -> TablePointers {
-        TablePointers::NONE
+    fn tables(configuration: &MemoryConfiguration) -> TablePointers {
+        TablePointers::of_block(&configuration.block)
     }
 
     fn configure(
@@ -164,18 +169,14 @@ impl CScene for Memory {
         tables: Tables,
     ) -> Result<
         WithMemoryConfiguration<
-            CagedBallScrewConfiguration,
+            FoldedScrewConfiguration<EPAS_RANGE_NODES>,
             Elements,
             Steady<CountSensor>,
             CoefficientLaw,
         >,
         Failure,
     > {
-        if configuration.screw.branch != EPAS_BRANCH_CONTACTS {
-            let branch = configuration.screw.branch;
-            return Err(Failure::count(EPAS_FIELD_BRANCH, branch, 0, 0));
-        }
-        let scene = Caged::configure(&configuration.screw, tables)?;
+        let scene = block(&tables)?;
         let elements = elements(&scene, configuration)?;
         Ok(WithMemoryConfiguration {
             scene,
@@ -213,22 +214,19 @@ impl CScene for Memory {
     }
 
     #[inline]
-    fn outputs(outputs: epas_friction::Outputs) -> Outputs {
-        Caged::outputs(outputs)
+    fn outputs(found: epas_friction::Outputs) -> Outputs {
+        outputs(found)
     }
 }
 
 /// Elements of slip and spin that follow from the design, and from an identified breakaway angle where there is one.
 fn elements(
-    scene: &CagedBallScrewConfiguration,
+    scene: &FoldedScrewConfiguration<EPAS_RANGE_NODES>,
     configuration: &MemoryConfiguration,
 ) -> Result<Elements, Failure> {
-    let CagedBallScrewConfiguration {
-        design,
-        clearance,
-        loaded_balls,
-        ..
-    } = *scene;
+    let loaded_balls = scene.loaded_balls;
+    let design = ball_screw(&configuration.design)?;
+    let clearance = clearance(configuration.clearance)?;
     let load = configuration.reference_load;
     if !(LOAD.minimum..=LOAD.maximum).contains(&load) {
         return Err(Failure::number(EPAS_FIELD_REFERENCE_LOAD, load, LOAD));
@@ -239,7 +237,10 @@ fn elements(
         &BreakawayConfiguration {
             friction: scene.friction,
             clearance,
-            rolling_resistance: scene.rolling_resistance,
+            rolling_resistance: rolling_resistance(
+                configuration.hysteresis_loss,
+                configuration.lubricant_drag,
+            ),
             loaded_balls,
             contact_load: if contact_load > LEAST_LOAD {
                 contact_load

@@ -8,7 +8,7 @@ use epas_friction::{
 use crate::status::Failure;
 use crate::tables::{Deviation, LoadShare};
 use crate::types::{
-    EPAS_REGIME_BACK_DRIVING, EPAS_REGIME_DRIVING, EPAS_REGIME_LOCKED, EPAS_REGIME_STANDING,
+    Block, EPAS_REGIME_BACK_DRIVING, EPAS_REGIME_DRIVING, EPAS_REGIME_LOCKED, EPAS_REGIME_STANDING,
     Inputs, Limits,
 };
 
@@ -27,6 +27,9 @@ pub(crate) struct TablePointers {
     pub(crate) recirculating: *const Deviation,
     pub(crate) load_shares: *const LoadShare,
     pub(crate) load_share_count: u32,
+    /// Words of a folded screw.
+    pub(crate) block: *const u32,
+    pub(crate) block_words: u32,
 }
 
 impl TablePointers {
@@ -35,7 +38,18 @@ impl TablePointers {
         recirculating: core::ptr::null(),
         load_shares: core::ptr::null(),
         load_share_count: 0,
+        block: core::ptr::null(),
+        block_words: 0,
     };
+
+    /// Those of a scene with a block alone.
+    pub(crate) const fn of_block(block: &Block) -> Self {
+        Self {
+            block: block.words,
+            block_words: block.count,
+            ..Self::NONE
+        }
+    }
 
     #[inline(always)]
     pub(crate) const fn are_null(&self) -> bool {
@@ -48,6 +62,8 @@ pub(crate) struct Tables {
     pub(crate) passing: &'static DeviationMap,
     pub(crate) recirculating: &'static DeviationMap,
     pub(crate) load_shares: &'static [CrateLoadShare],
+    /// Words of a folded screw, where a pointer to them is given.
+    pub(crate) block: Option<&'static [u32]>,
 }
 
 impl Tables {
@@ -56,6 +72,7 @@ impl Tables {
         passing: &DeviationMap::NONE,
         recirculating: &DeviationMap::NONE,
         load_shares: &[CrateLoadShare::MEAN],
+        block: None,
     };
 }
 
@@ -108,6 +125,15 @@ pub(crate) fn model<C: CScene>(
 ) -> Result<FrictionModel<C::Scene>, Failure> {
     let configuration = C::configure(configuration, tables)?;
     FrictionModel::new(&configuration).map_err(Failure::of)
+}
+
+/// The checked and folded constants.
+pub(crate) fn constants<C: CScene>(
+    configuration: &C::Configuration,
+    tables: Tables,
+) -> Result<<C::Scene as Scene>::Constants, Failure> {
+    let configuration = C::configure(configuration, tables)?;
+    C::Scene::constants(&configuration).map_err(Failure::of)
 }
 
 /// Regime by its number.

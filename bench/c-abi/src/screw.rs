@@ -40,6 +40,7 @@ impl CScene for Screw {
             recirculating: configuration.nut_deviation,
             load_shares: configuration.load_shares,
             load_share_count: configuration.load_share_count,
+            ..TablePointers::NONE
         }
     }
 

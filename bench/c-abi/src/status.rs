@@ -31,6 +31,16 @@ pub const EPAS_STATE_DAMAGED: u32 = 10u32;
 pub const EPAS_STATE_FOREIGN: u32 = 11u32;
 /// A number of the state is none, or one that no state has.
 pub const EPAS_STATE_OUT_OF_RANGE: u32 = 12u32;
+/// The words are no block of a folded screw.
+pub const EPAS_NOT_A_BLOCK: u32 = 13u32;
+/// The block is of another version of its layout.
+pub const EPAS_BLOCK_VERSION: u32 = 14u32;
+/// The block has not as many words as it says, or as its scene takes.
+pub const EPAS_BLOCK_LENGTH: u32 = 15u32;
+/// The block has another number of friction coefficients: one for `epas_caged_t`, a range for `epas_caged_range_t` and `epas_memory_t`.
+pub const EPAS_BLOCK_NODES: u32 = 16u32;
+/// The block's checksum is wrong.
+pub const EPAS_BLOCK_DAMAGED: u32 = 17u32;
 
 /// No field is wrong.
 pub const EPAS_FIELD_NONE: u32 = 0u32;
@@ -226,10 +236,12 @@ pub const EPAS_FIELD_FALLBACK_TEMPERATURE: u32 = 94u32;
 pub const EPAS_FIELD_TEMPERATURE_HOLD: u32 = 95u32;
 /// `temperature_fade`
 pub const EPAS_FIELD_TEMPERATURE_FADE: u32 = 96u32;
+/// The words of a block.
+pub const EPAS_FIELD_BLOCK: u32 = 97u32;
 
 /// Number, name in C, and the crate's name: empty where only this layer names the field. A field to which the crate
 /// gives a name of its own in each scene has a row for each.
-const FIELDS: [(u32, &CStr, &str); 98] = [
+const FIELDS: [(u32, &CStr, &str); 99] = [
     (EPAS_FIELD_PITCH_RADIUS, c"pitch_radius", "pitch_radius"),
     (EPAS_FIELD_LEAD, c"lead", "lead"),
     (EPAS_FIELD_BALL_RADIUS, c"ball_radius", "ball_radius"),
@@ -472,9 +484,10 @@ const FIELDS: [(u32, &CStr, &str); 98] = [
         c"temperature_fade",
         "fade_time",
     ),
+    (EPAS_FIELD_BLOCK, c"block", ""),
 ];
 
-const STATUS_NAMES: [(u32, &CStr); 13] = [
+const STATUS_NAMES: [(u32, &CStr); 18] = [
     (EPAS_OK, c"ok"),
     (EPAS_NULL_POINTER, c"null pointer"),
     (EPAS_MISALIGNED, c"misaligned pointer"),
@@ -488,6 +501,14 @@ const STATUS_NAMES: [(u32, &CStr); 13] = [
     (EPAS_STATE_DAMAGED, c"damaged state"),
     (EPAS_STATE_FOREIGN, c"state of other constants"),
     (EPAS_STATE_OUT_OF_RANGE, c"state out of range"),
+    (EPAS_NOT_A_BLOCK, c"no block"),
+    (EPAS_BLOCK_VERSION, c"block of another version"),
+    (EPAS_BLOCK_LENGTH, c"wrong length of a block"),
+    (
+        EPAS_BLOCK_NODES,
+        c"block of another number of friction coefficients",
+    ),
+    (EPAS_BLOCK_DAMAGED, c"damaged block"),
 ];
 
 pub(crate) fn field_name(field: u32) -> &'static CStr {
@@ -584,6 +605,22 @@ impl Failure {
             value: error.value(),
             minimum: error.allowed().minimum,
             maximum: error.allowed().maximum,
+        }
+    }
+
+    /// What is wrong with a block: its frame, or a number in it.
+    pub(crate) fn of_block(error: Error) -> Self {
+        let status = match error.field() {
+            "magic" => EPAS_NOT_A_BLOCK,
+            "version" => EPAS_BLOCK_VERSION,
+            "words" => EPAS_BLOCK_LENGTH,
+            "nodes" => EPAS_BLOCK_NODES,
+            "checksum" => EPAS_BLOCK_DAMAGED,
+            _ => return Self::of(error),
+        };
+        Self {
+            status,
+            ..Self::at(error, EPAS_FIELD_BLOCK)
         }
     }
 

@@ -8,8 +8,6 @@ pub const EPAS_ADAPTATION_STATE_BYTES: u32 = 116u32;
 /// Words of eight bytes that an adaptation takes.
 pub const EPAS_ADAPTATION_WORDS: usize = 48;
 
-/// What the contacts of a ball dissipate, by its balance between elastic grooves: the one to take.
-pub const EPAS_BRANCH_CONTACTS: u32 = 0u32;
 /// The ball rolls and slips across the groove at the screw: a paper's closed form, which leaves out spin, the third contact
 /// and most of the lead's effect.
 pub const EPAS_BRANCH_ROLLING: u32 = 1u32;
@@ -128,42 +126,24 @@ pub struct Outputs {
     pub faults: u32,
 }
 
-/// What the engineer sets for a ball screw whose balls do not touch: caged, or with spacer balls.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// A ball screw that was folded on a host: the words that `epas-bench design` writes into a header, or those of a calibration page. They are
+/// read while a model is made or swapped, and need not stay.
+#[derive(Clone, Copy, Debug)]
 #[repr(C)]
-pub struct CagedConfiguration {
-    /// The design.
-    pub design: BallScrew,
-    /// Coulomb friction coefficient of ball and groove, 1e-6 to 0.5; 0 to 1 for the closed forms.
-    pub friction: f32,
-    /// Share of the elastic energy that is lost while a contact passes, 0 to 0.2; hardened steel 0.01. Closed forms know
-    /// none.
-    pub hysteresis_loss: f32,
-    /// Drag of the lubricant on one contact under 100 N, N, 0 to 10; 0 for none. Closed forms know none.
-    pub lubricant_drag: f32,
-    /// Lever arm of rolling friction over `ball_radius sin(contact_angle)`, 0 to 0.1; for the closed forms alone.
-    pub rolling_tangent: f32,
-    /// Which state of the ball the torque is computed for, one of `EPAS_BRANCH_...`.
-    pub branch: u32,
-    /// Radial gap of every contact at a centred ball without load, m, play above zero, oversize below; -0.02 to
-    /// 0.05 ball radii. `epas_clearance` finds it from a preload or an axial play. For the closed forms oversize presses
-    /// on both flanks of the nut, and play changes nothing.
-    pub clearance: f32,
-    /// Number of balls that carry load, 1 to 1000.
-    pub loaded_balls: u32,
-    /// Nut speed over which friction changes its direction, rad/s, 1e-6 to 1e3.
-    pub reversal_speed: f32,
-    /// Bounds that are kept whatever comes in.
-    pub limits: Limits,
+pub struct Block {
+    /// The words.
+    pub words: *const u32,
+    /// How many there are.
+    pub count: u32,
 }
 
-/// Bytes of a state of this scene, as `epas_caged_export` writes it.
-pub const EPAS_CAGED_STATE_BYTES: u32 = 114u32;
+/// Bytes of a state of `epas_caged_t`, as `epas_caged_export` writes it.
+pub const EPAS_CAGED_STATE_BYTES: u32 = 24u32;
 
 /// Size of `epas_caged_t` in words of eight bytes.
-pub const EPAS_CAGED_WORDS: usize = 270;
+pub const EPAS_CAGED_WORDS: usize = 52;
 
-/// Place for the constants and the state of a caged ball screw. The caller provides it, in memory of
+/// Place for the constants and the state of a caged ball screw with one friction coefficient. The caller provides it, in memory of
 /// static duration or any other; nothing in it is for the caller to read or write. Zero it, or leave it
 /// as a static object is; then give it to `epas_caged_init`.
 #[derive(Clone, Copy, Debug)]
@@ -173,11 +153,67 @@ pub struct CagedPlace {
     pub words: [u64; EPAS_CAGED_WORDS],
 }
 
+/// Bytes of a state of `epas_caged_range_t`, as `epas_caged_range_export` writes it.
+pub const EPAS_CAGED_RANGE_STATE_BYTES: u32 = 24u32;
+
+/// Size of `epas_caged_range_t` in words of eight bytes.
+pub const EPAS_CAGED_RANGE_WORDS: usize = 220;
+
+/// Friction coefficients of a block for a range of them.
+pub const EPAS_RANGE_NODES: usize = 5;
+
+/// Place for the constants and the state of a caged ball screw whose friction coefficient changes; as `epas_caged_t`.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct CagedRangePlace {
+    /// Not for the caller. Its type gives the place its alignment.
+    pub words: [u64; EPAS_CAGED_RANGE_WORDS],
+}
+
+/// What the engineer sets for a ball screw whose balls do not touch, by a closed form: from catalogue numbers, without a host, for a first
+/// look. Exact friction differs from it by up to a factor of 2.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+pub struct ClosedFormConfiguration {
+    /// The design.
+    pub design: BallScrew,
+    /// Coulomb friction coefficient of ball and groove, 0 to 1.
+    pub friction: f32,
+    /// Lever arm of rolling friction over `ball_radius sin(contact_angle)`, 0 to 0.1.
+    pub rolling_tangent: f32,
+    /// Which state of the ball the torque is computed for, one of `EPAS_BRANCH_...`.
+    pub branch: u32,
+    /// Radial gap of every contact at a centred ball without load, m, play above zero, oversize below; -0.02 to
+    /// 0.05 ball radii. `epas_clearance` finds it from a preload or an axial play. Oversize presses on both flanks of the nut, and
+    /// play changes nothing.
+    pub clearance: f32,
+    /// Number of balls that carry load, 1 to 1000.
+    pub loaded_balls: u32,
+    /// Nut speed over which friction changes its direction, rad/s, 1e-6 to 1e3.
+    pub reversal_speed: f32,
+    /// Bounds that are kept whatever comes in.
+    pub limits: Limits,
+}
+
+/// Bytes of a state of `epas_closed_form_t`, as `epas_closed_form_export` writes it.
+pub const EPAS_CLOSED_FORM_STATE_BYTES: u32 = 20u32;
+
+/// Size of `epas_closed_form_t` in words of eight bytes.
+pub const EPAS_CLOSED_FORM_WORDS: usize = 8;
+
+/// Place for the constants and the state of a ball screw by a closed form; as `epas_caged_t`.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct ClosedFormPlace {
+    /// Not for the caller. Its type gives the place its alignment.
+    pub words: [u64; EPAS_CLOSED_FORM_WORDS],
+}
+
 /// Bytes of a state of a screw whose friction remembers, as `epas_memory_export` writes it.
-pub const EPAS_MEMORY_STATE_BYTES: u32 = 214u32;
+pub const EPAS_MEMORY_STATE_BYTES: u32 = 124u32;
 
 /// Size of `epas_memory_t` in words of eight bytes.
-pub const EPAS_MEMORY_WORDS: usize = 686;
+pub const EPAS_MEMORY_WORDS: usize = 261;
 
 /// Balls in the circuit of `epas_screw_t`, return included. A screw with another number needs the library
 /// built with that number.

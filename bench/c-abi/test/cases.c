@@ -46,34 +46,78 @@ static uint32_t differ(const uint32_t *found, const uint32_t *stored, uint32_t c
     return differs;
 }
 
+static uint32_t screw_differs(const epas_outputs_t *outputs, const uint32_t *stored)
+{
+    uint32_t found[5];
+
+    found[0] = bits(outputs->friction_torque);
+    found[1] = bits(outputs->load_torque);
+    found[2] = bits(outputs->efficiency);
+    found[3] = outputs->regime;
+    found[4] = outputs->faults;
+    return differ(found, stored, 5u);
+}
+
+/* Worn from the middle on; anew from the first tick on. */
 uint32_t test_caged_tick(epas_caged_t *place, uint32_t tick)
 {
     const uint32_t *row = stored_caged[tick];
     const epas_inputs_t inputs = {number(row[0]), number(row[1])};
     epas_outputs_t outputs;
-    uint32_t found[5];
+    uint32_t status = EPAS_OK;
 
-    if (epas_caged_step(place, &inputs, &outputs) != EPAS_OK) {
+    if (tick == 0u) {
+        status = epas_caged_swap(place, &test_block, NULL);
+    } else if (tick == (test_ticks / 2u)) {
+        status = epas_caged_swap(place, &test_worn_block, NULL);
+    } else {
+        /* As it was. */
+    }
+    if ((status != EPAS_OK) || (epas_caged_step(place, &inputs, &outputs) != EPAS_OK)) {
         return 1u;
     }
-    found[0] = bits(outputs.friction_torque);
-    found[1] = bits(outputs.load_torque);
-    found[2] = bits(outputs.efficiency);
-    found[3] = outputs.regime;
-    found[4] = outputs.faults;
-    return differ(found, &row[2], 5u);
+    return screw_differs(&outputs, &row[2]);
+}
+
+/* The friction coefficient rises in every tick. */
+static uint32_t caged_range_tick(epas_caged_range_t *place, uint32_t tick)
+{
+    const uint32_t *row = stored_caged_range[tick];
+    const epas_inputs_t inputs = {number(row[0]), number(row[1])};
+    const float friction = 0.05f + ((float)tick * (0.1f / 256.0f));
+    epas_outputs_t outputs;
+
+    if ((epas_caged_range_set_friction(place, friction, NULL) != EPAS_OK)
+        || (epas_caged_range_step(place, &inputs, &outputs) != EPAS_OK)) {
+        return 1u;
+    }
+    return screw_differs(&outputs, &row[2]);
+}
+
+static uint32_t closed_form_tick(epas_closed_form_t *place, uint32_t tick)
+{
+    const uint32_t *row = stored_closed_form[tick];
+    const epas_inputs_t inputs = {number(row[0]), number(row[1])};
+    epas_outputs_t outputs;
+
+    if (epas_closed_form_step(place, &inputs, &outputs) != EPAS_OK) {
+        return 1u;
+    }
+    return screw_differs(&outputs, &row[2]);
 }
 
 /* What changes on the way, as in the stored case. */
 static uint32_t memory_changes(epas_memory_t *place, uint32_t tick)
 {
+    epas_memory_configuration_t configuration = test_memory_configuration;
     epas_coefficient_t law = test_memory_configuration.coefficient;
     uint32_t status = EPAS_OK;
 
     if (tick == 64u) {
         status = epas_memory_set_level(place, 1.2f, 0.9f, NULL);
     } else if (tick == 128u) {
-        status = epas_memory_set_clearance(place, -2e-6f, NULL);
+        configuration.block = test_other_range_block;
+        status = epas_memory_swap(place, &configuration, NULL);
     } else if (tick == 192u) {
         law.boundary = 0.15f;
         status = epas_memory_set_coefficient(place, &law, NULL);
@@ -174,7 +218,7 @@ static uint32_t efficiency_differs(const uint32_t *row)
 
 static uint32_t curvature_differs(const uint32_t *row)
 {
-    epas_curvature_request_t request = {.design = test_caged_configuration.design};
+    epas_curvature_request_t request = {.design = test_closed_form_configuration.design};
     epas_curvature_t answer;
     uint32_t found[4];
 
@@ -209,6 +253,8 @@ static uint32_t reported(const char *name, uint32_t cases, uint32_t differing)
 uint32_t test_cases(void)
 {
     static epas_caged_t caged;
+    static epas_caged_range_t caged_range;
+    static epas_closed_form_t closed_form;
     static epas_memory_t memory;
     static epas_screw_t screw;
     static epas_linear_t linear;
@@ -222,14 +268,27 @@ uint32_t test_cases(void)
     }
     total += reported("caged ball screw", ROWS(stored_caged), differing);
 
+    differing = (test_setup_caged_range(&caged_range) == EPAS_OK) ? 0u : 1u;
+    for (row = 0u; row < ROWS(stored_caged_range); row++) {
+        differing += caged_range_tick(&caged_range, row);
+    }
+    total += reported("the same with a friction coefficient that changes", ROWS(stored_caged_range), differing);
+
+    differing = (test_setup_closed_form(&closed_form) == EPAS_OK) ? 0u : 1u;
+    for (row = 0u; row < ROWS(stored_closed_form); row++) {
+        differing += closed_form_tick(&closed_form, row);
+    }
+    total += reported("the same by a closed form", ROWS(stored_closed_form), differing);
+
     differing = (test_setup_memory(&memory) == EPAS_OK) ? 0u : 1u;
     for (row = 0u; row < ROWS(stored_memory); row++) {
         differing += test_memory_tick(&memory, row);
     }
     total += reported("ball screw whose friction remembers", ROWS(stored_memory), differing);
 
-    /* A reset brings back what was set on the way. */
-    differing = (epas_memory_reset(&memory) == EPAS_OK) ? 0u : 1u;
+    /* A reset brings back what was set on the way, but for the block. */
+    differing = (epas_memory_swap(&memory, &test_memory_configuration, NULL) == EPAS_OK) ? 0u : 1u;
+    differing += (epas_memory_reset(&memory) == EPAS_OK) ? 0u : 1u;
     for (row = 0u; row < ROWS(stored_memory); row++) {
         differing += test_memory_tick(&memory, row);
     }

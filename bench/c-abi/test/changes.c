@@ -31,46 +31,51 @@ static float no_number(void)
     return zero / zero;
 }
 
-/* Friction is that of a model that was set up so, once what has changed has settled: within a thousandth. */
-#define SETTLED 1e-3f
-
+/* Another block and another friction coefficient are there from the next tick on, as in a model that was made so. */
 static void caged(void)
 {
     static epas_caged_t changed;
     static epas_caged_t made;
+    static epas_caged_range_t range;
     const epas_inputs_t inputs = {60.0f, 6000.0f};
-    epas_caged_configuration_t configuration = test_caged_configuration;
+    const epas_block_t none = {NULL, 0u};
     epas_outputs_t before = {0};
     epas_outputs_t found = {0};
     epas_outputs_t wanted = {0};
     epas_failure_t failure;
-    uint32_t tick;
 
     check(test_setup_caged(&changed) == EPAS_OK, "a caged screw");
-    configuration.friction = 0.11f;
-    configuration.clearance = -1e-6f;
-    check(epas_caged_init(&made, &configuration, NULL) == EPAS_OK, "another one");
+    check(epas_caged_init(&made, &test_worn_block, NULL) == EPAS_OK, "a worn one");
     (void)epas_caged_step(&changed, &inputs, &before);
-    check(epas_caged_set_friction(&changed, 0.6f, &failure) == EPAS_OUT_OF_RANGE, "a friction coefficient too large");
-    check((failure.field == EPAS_FIELD_FRICTION) && (failure.maximum == 0.5f), "and which");
-    check(epas_caged_set_clearance(&changed, 1.0f, NULL) == EPAS_OUT_OF_RANGE, "a clearance too large");
+    check(epas_caged_swap(&changed, &test_range_block, &failure) == EPAS_BLOCK_NODES, "a block of another scene");
+    check(failure.field == EPAS_FIELD_BLOCK, "and which field");
+    check(epas_caged_swap(&changed, &none, NULL) == EPAS_NULL_POINTER, "no words");
+    check(epas_caged_swap(&changed, NULL, NULL) == EPAS_NULL_POINTER, "no block");
     (void)epas_caged_step(&changed, &inputs, &found);
     check(found.friction_torque == before.friction_torque, "what was refused changes nothing");
-
-    check(epas_caged_set_friction(&changed, 0.11f, &failure) == EPAS_OK, "another friction coefficient");
+    check(epas_caged_swap(&changed, &test_worn_block, &failure) == EPAS_OK, "another block");
     check(failure.status == EPAS_OK, "and no failure");
-    check(epas_caged_set_clearance(&changed, -1e-6f, NULL) == EPAS_OK, "another clearance");
-    for (tick = 0u; tick < 300u; tick++) {
-        (void)epas_caged_step(&changed, &inputs, &found);
-        (void)epas_caged_step(&made, &inputs, &wanted);
-    }
-    check(near(found.friction_torque, wanted.friction_torque, SETTLED), "friction of a caged screw that was changed");
-    check(near(found.friction_torque, before.friction_torque, 0.2f) == 0u, "which is another one");
-    check(epas_caged_reset(&changed) == EPAS_OK, "a reset");
     (void)epas_caged_step(&changed, &inputs, &found);
-    check(found.friction_torque == before.friction_torque, "brings the configuration's back");
-    check(epas_caged_set_friction(NULL, 0.1f, NULL) == EPAS_NULL_POINTER, "no place");
+    (void)epas_caged_step(&made, &inputs, &wanted);
+    check(found.friction_torque == wanted.friction_torque, "friction of the other block in the next tick");
+    check(near(found.friction_torque, before.friction_torque, 1e-2f) == 0u, "which is another one");
+    check(epas_caged_swap(NULL, &test_block, NULL) == EPAS_NULL_POINTER, "no place");
+
+    check(test_setup_caged_range(&range) == EPAS_OK, "a range of friction coefficients");
+    (void)epas_caged_range_step(&range, &inputs, &before);
+    check(epas_caged_range_set_friction(&range, 0.6f, &failure) == EPAS_OUT_OF_RANGE, "a friction coefficient too large");
+    check((failure.field == EPAS_FIELD_FRICTION) && (failure.minimum == 0.05f) && (failure.maximum == 0.15f), "and which");
+    check(epas_caged_range_set_friction(&range, 0.11f, &failure) == EPAS_OK, "another friction coefficient");
+    (void)epas_caged_range_step(&range, &inputs, &found);
+    check(found.friction_torque > (1.2f * before.friction_torque), "more friction in the next tick");
+    check(epas_caged_range_reset(&range) == EPAS_OK, "a reset");
+    (void)epas_caged_range_step(&range, &inputs, &found);
+    check(found.friction_torque == before.friction_torque, "brings the block's back");
+    check(epas_caged_range_set_friction(NULL, 0.1f, NULL) == EPAS_NULL_POINTER, "no place");
 }
+
+/* Friction is that of a model that was set up so, once what has changed has settled: within a thousandth. */
+#define SETTLED 1e-3f
 
 /* Without deviations of the grooves: with them, where each ball presses depends on what was before. */
 static void screw(void)
@@ -172,9 +177,13 @@ static void memory(void)
     check(epas_memory_init(&place, &wrong, &failure) == EPAS_OUT_OF_RANGE, "a play below zero");
     check(failure.field == EPAS_FIELD_PLAY, "and which field");
     wrong = test_memory_configuration;
-    wrong.screw.branch = EPAS_BRANCH_SLIDING;
-    check(epas_memory_init(&place, &wrong, &failure) == EPAS_OUT_OF_RANGE, "a closed form");
-    check(failure.field == EPAS_FIELD_BRANCH, "and which field");
+    wrong.block = test_block;
+    check(epas_memory_init(&place, &wrong, &failure) == EPAS_BLOCK_LENGTH, "a block for one friction coefficient");
+    check(failure.field == EPAS_FIELD_BLOCK, "and which field");
+    wrong = test_memory_configuration;
+    wrong.clearance = no_number();
+    check(epas_memory_init(&place, &wrong, &failure) == EPAS_NOT_FINITE, "no clearance");
+    check(failure.field == EPAS_FIELD_CLEARANCE, "and which field");
     wrong = test_memory_configuration;
     wrong.coefficient.oil.pour_point = 400.0f;
     check(epas_memory_init(&place, &wrong, &failure) == EPAS_OUT_OF_RANGE, "no pour point");
@@ -223,7 +232,8 @@ static void memory(void)
     check(epas_memory_set_coefficient(&place, &law, &failure) == EPAS_OUT_OF_RANGE, "a law without friction");
     check(failure.field == EPAS_FIELD_FULL_FILM, "and which field");
     check(epas_memory_set_coefficient(&place, NULL, NULL) == EPAS_NULL_POINTER, "no law");
-    check(epas_memory_set_clearance(&place, no_number(), NULL) == EPAS_NOT_FINITE, "no clearance");
+    check(epas_memory_swap(&place, &wrong, &failure) == EPAS_OUT_OF_RANGE, "a swap without a load");
+    check(failure.field == EPAS_FIELD_REFERENCE_LOAD, "and which field");
 
     check(epas_memory_export(&place, block, sizeof block - 1u) == EPAS_STATE_LENGTH, "no room");
     check(epas_memory_export(&place, block, sizeof block) == EPAS_OK, "export");
@@ -259,7 +269,7 @@ static void adapted(void)
     static const epas_adaptation_configuration_t configuration = {
         .tick = 0.01f, .forgetting_time = 2.0f, .filter_time = 0.02f, .noise = 2e-3f,
         .level_deviation = 0.3f, .least_level = 0.4f, .largest_level = 2.5f,
-        .largest_torque = 10.0f, .largest_speed = 500.0f, .least_speed = 0.2f, .least_friction = 5e-3f,
+        .largest_torque = 40.0f, .largest_speed = 500.0f, .least_speed = 0.2f, .least_friction = 5e-3f,
         .average_time = 4.0f, .fall = 0.25f, .rise = 0.25f, .hysteresis = 0.1f,
     };
     epas_memory_inputs_t inputs = {0.0f, 5000.0f, 1000u, 0.0f, 293.15f, 0.0f};

@@ -9,8 +9,8 @@ float friction_step(float nut_speed, float axial_load);
 #define LARGEST_STEP 0.1f
 #define HOLD_TICKS 10u
 
-/* A step is a difference of torques below 2 N m, each rounded once. */
-#define ROUNDING 2.4e-7f
+/* A step is a difference of torques below 4 N m, each rounded once. */
+#define ROUNDING 4.8e-7f
 
 static uint32_t wrong;
 static float last;
@@ -77,7 +77,7 @@ static void without_a_load(void)
         torque = faded;
     }
     expect((uint32_t)((torque > (0.36f * sound)) && (torque < (0.37f * sound))), "the fade has another pace");
-    for (count = 0u; count < 20u; count++) {
+    for (count = 0u; count < 40u; count++) {
         torque = tick(30.0f, 15000.0f);
     }
     expect((uint32_t)(torque == sound), "the torque does not come back");
@@ -90,10 +90,13 @@ uint32_t test_reaction(void)
     wrong = 0u;
     last = 0.0f;
     friction_init();
-    for (count = 0u; count < 20u; count++) {
+    for (count = 0u; count < 40u; count++) {
         (void)tick(30.0f, 15000.0f);
     }
     beyond_the_limit();
+    for (count = 0u; count < 40u; count++) {
+        (void)tick(30.0f, 15000.0f);
+    }
     without_a_load();
     test_put((wrong == 0u) ? "the example's torque never jumps\n" : "the example's torque is wrong\n");
     return wrong;

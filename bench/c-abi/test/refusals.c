@@ -50,10 +50,10 @@ static void pointers(void)
     epas_failure_t failure;
     uint32_t ticks;
 
-    check(epas_caged_init(NULL, &test_caged_configuration, &failure) == EPAS_NULL_POINTER, "no place");
+    check(epas_caged_init(NULL, &test_block, &failure) == EPAS_NULL_POINTER, "no place");
     check(failure.status == EPAS_NULL_POINTER, "no place, said");
     check(epas_caged_init(&caged, NULL, NULL) == EPAS_NULL_POINTER, "no configuration");
-    check(epas_caged_init((epas_caged_t *)(void *)((uint8_t *)&caged + 4), &test_caged_configuration, NULL)
+    check(epas_caged_init((epas_caged_t *)(void *)((uint8_t *)&caged + 4), &test_block, NULL)
               == EPAS_MISALIGNED,
           "misaligned place");
 
@@ -89,7 +89,7 @@ static void inputs(void)
     static epas_linear_t linear;
     const epas_inputs_t bad = {not_a_number(), 1000.0f};
     const epas_inputs_t beyond = {600.0f, 30000.0f};
-    const epas_inputs_t at_limit = {500.0f, 20000.0f};
+    const epas_inputs_t at_limit = {100.0f, 20000.0f};
     const epas_linear_inputs_t bad_load = {0.5f, 1000.0f, not_a_number()};
     epas_outputs_t outputs;
     epas_outputs_t of_limit;
@@ -167,77 +167,127 @@ static void states(void)
     check(same_text(epas_status_name(EPAS_STATE_DAMAGED), "damaged state"), "name of a state's status");
 }
 
-static void caged_fields(void)
+/* A block that is none, or not whole, is refused with a status of its own; the place holds no model then. */
+static void blocks(void)
 {
     static epas_caged_t place;
+    static epas_caged_range_t range;
+    static uint32_t words[600];
     const epas_inputs_t sound = {10.0f, 1000.0f};
-    epas_caged_configuration_t wrong = test_caged_configuration;
+    epas_block_t block = {words, 0u};
+    epas_outputs_t outputs;
+    epas_failure_t failure;
+    uint32_t status;
+    uint32_t word;
+
+    (void)test_setup_caged(&place);
+    for (word = 0u; word < test_block.count; word++) {
+        words[word] = test_block.words[word];
+    }
+    block.count = test_block.count;
+    check(epas_caged_init(&place, &block, &failure) == EPAS_OK, "words that were copied");
+    words[0] ^= 1u;
+    status = epas_caged_init(&place, &block, &failure);
+    check_failure(status, &failure, EPAS_NOT_A_BLOCK, EPAS_FIELD_BLOCK, "block");
+    check(epas_caged_step(&place, &sound, &outputs) == EPAS_NOT_INITIALISED, "a place whose block was refused holds no model");
+    words[0] ^= 1u;
+    words[1]++;
+    status = epas_caged_init(&place, &block, &failure);
+    check_failure(status, &failure, EPAS_BLOCK_VERSION, EPAS_FIELD_BLOCK, "block");
+    words[1]--;
+    words[3] = 2u;
+    status = epas_caged_init(&place, &block, &failure);
+    check_failure(status, &failure, EPAS_BLOCK_NODES, EPAS_FIELD_BLOCK, "block");
+    words[3] = 1u;
+    words[20] ^= 1u;
+    status = epas_caged_init(&place, &block, &failure);
+    check_failure(status, &failure, EPAS_BLOCK_DAMAGED, EPAS_FIELD_BLOCK, "block");
+    words[20] ^= 1u;
+    block.count--;
+    status = epas_caged_init(&place, &block, &failure);
+    check_failure(status, &failure, EPAS_BLOCK_LENGTH, EPAS_FIELD_BLOCK, "block");
+    block.words = NULL;
+    status = epas_caged_init(&place, &block, &failure);
+    check_failure(status, &failure, EPAS_NULL_POINTER, EPAS_FIELD_BLOCK, "block");
+    block.words = (const uint32_t *)(const void *)((const uint8_t *)words + 2);
+    status = epas_caged_init(&place, &block, &failure);
+    check_failure(status, &failure, EPAS_MISALIGNED, EPAS_FIELD_BLOCK, "block");
+    status = epas_caged_range_init(&range, &test_block, &failure);
+    check_failure(status, &failure, EPAS_BLOCK_LENGTH, EPAS_FIELD_BLOCK, "block");
+    check(same_text(epas_status_name(EPAS_BLOCK_DAMAGED), "damaged block"), "name of a block's status");
+}
+
+static void closed_form_fields(void)
+{
+    static epas_closed_form_t place;
+    const epas_inputs_t sound = {10.0f, 1000.0f};
+    epas_closed_form_configuration_t wrong = test_closed_form_configuration;
     epas_outputs_t outputs;
     epas_failure_t failure;
     uint32_t status;
 
-    (void)test_setup_caged(&place);
+    (void)test_setup_closed_form(&place);
     wrong.design.lead = -1.0f;
-    status = epas_caged_init(&place, &wrong, &failure);
+    status = epas_closed_form_init(&place, &wrong, &failure);
     check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_LEAD, "lead");
     check((failure.value == -1.0f) && (failure.minimum == 0.0f) && (failure.maximum == 0.2f),
           "value and range of the lead");
-    check(epas_caged_step(&place, &sound, &outputs) == EPAS_NOT_INITIALISED,
+    check(epas_closed_form_step(&place, &sound, &outputs) == EPAS_NOT_INITIALISED,
           "a place whose configuration was refused holds no model");
 
-    wrong = test_caged_configuration;
+    wrong = test_closed_form_configuration;
     wrong.friction = not_a_number();
-    status = epas_caged_init(&place, &wrong, &failure);
+    status = epas_closed_form_init(&place, &wrong, &failure);
     check_failure(status, &failure, EPAS_NOT_FINITE, EPAS_FIELD_FRICTION, "friction");
 
-    wrong = test_caged_configuration;
+    wrong = test_closed_form_configuration;
     wrong.design.nut_conformity = 0.4f;
-    status = epas_caged_init(&place, &wrong, &failure);
+    status = epas_closed_form_init(&place, &wrong, &failure);
     check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_NUT_CONFORMITY, "nut_conformity");
 
     wrong.design.screw_conformity = 0.4f;
-    status = epas_caged_init(&place, &wrong, &failure);
+    status = epas_closed_form_init(&place, &wrong, &failure);
     check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_SCREW_CONFORMITY, "screw_conformity");
 
-    wrong = test_caged_configuration;
+    wrong = test_closed_form_configuration;
     wrong.design.ball_radius = 12e-3f;
     wrong.design.screw_conformity = 1.0f;
     wrong.design.nut_conformity = 1.0f;
     wrong.design.contact_angle = 1.5f;
-    status = epas_caged_init(&place, &wrong, &failure);
+    status = epas_closed_form_init(&place, &wrong, &failure);
     check_failure(status, &failure, EPAS_FOLDED_GROOVE, EPAS_FIELD_SCREW_CONFORMITY, "screw_conformity");
     check((failure.value == 1.0f) && (failure.maximum > 0.5f) && (failure.maximum < 1.0f),
           "the conformity that would fit");
 
-    wrong = test_caged_configuration;
+    wrong = test_closed_form_configuration;
     wrong.design.groove_material.youngs_modulus = 210.0f;
-    status = epas_caged_init(&place, &wrong, &failure);
+    status = epas_closed_form_init(&place, &wrong, &failure);
     check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_GROOVE_YOUNGS_MODULUS,
                   "groove_material.youngs_modulus");
 
     wrong.design.ball_material.youngs_modulus = 210.0f;
-    status = epas_caged_init(&place, &wrong, &failure);
+    status = epas_closed_form_init(&place, &wrong, &failure);
     check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_BALL_YOUNGS_MODULUS,
                   "ball_material.youngs_modulus");
 
-    wrong = test_caged_configuration;
+    wrong = test_closed_form_configuration;
     wrong.loaded_balls = 0u;
-    status = epas_caged_init(&place, &wrong, &failure);
+    status = epas_closed_form_init(&place, &wrong, &failure);
     check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_LOADED_BALLS, "loaded_balls");
 
-    wrong = test_caged_configuration;
+    wrong = test_closed_form_configuration;
     wrong.branch = 3u;
-    status = epas_caged_init(&place, &wrong, &failure);
+    status = epas_closed_form_init(&place, &wrong, &failure);
     check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_BRANCH, "branch");
-    check((failure.value == 3.0f) && (failure.maximum == 2.0f), "value and range of the branch");
+    check((failure.value == 3.0f) && (failure.minimum == 1.0f) && (failure.maximum == 2.0f), "value and range of the branch");
 
-    wrong = test_caged_configuration;
+    wrong = test_closed_form_configuration;
     wrong.limits.friction_torque = 0.0f;
-    status = epas_caged_init(&place, &wrong, &failure);
+    status = epas_closed_form_init(&place, &wrong, &failure);
     check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_LIMIT_FRICTION_TORQUE,
                   "limits.friction_torque");
 
-    status = epas_caged_init(&place, &test_caged_configuration, &failure);
+    status = epas_closed_form_init(&place, &test_closed_form_configuration, &failure);
     check_failure(status, &failure, EPAS_OK, EPAS_FIELD_NONE, "");
 }
 
@@ -324,10 +374,10 @@ static void tables_and_requests(void)
     float samples[EPAS_DEVIATION_SAMPLES] = {0.0f};
     epas_efficiency_request_t request = {0.1f, 0.8f, 0.2f, 1.5f, 0.0f};
     epas_efficiency_t efficiency;
-    epas_curvature_request_t curvature_request = {.design = test_caged_configuration.design};
+    epas_curvature_request_t curvature_request = {.design = test_closed_form_configuration.design};
     epas_curvature_t curvature;
     epas_clearance_request_t clearance_request = {
-        .design = test_caged_configuration.design,
+        .design = test_closed_form_configuration.design,
         .given = EPAS_GIVEN_PRELOAD,
         .value = 50.0f,
         .loaded_balls = 70u,
@@ -485,7 +535,8 @@ uint32_t test_refusals(void)
     pointers();
     inputs();
     states();
-    caged_fields();
+    blocks();
+    closed_form_fields();
     train_fields();
     tables_and_requests();
     adaptation();

@@ -1,40 +1,53 @@
-/* The scenes, set up as a user would: constant configurations, places of static duration. */
+/* The scenes, set up as a user would: constant blocks and configurations, places of static duration. */
 #include "epas_test.h"
 
 #include <stddef.h>
 
+#include "gears.h"
+
 #define STEEL {210e9f, 0.28f, 7800.0f}
 
-/* The rack-assist gear of Lin 2019, chapter 4. */
-#define GEAR \
+/* The gear of Lin 2019, chapter 3.6, with 100 N on each flank of the nut. */
+#define DESIGN \
     { \
-        .design = { \
-            .pitch_radius = 14.5e-3f, \
-            .lead = 7e-3f, \
-            .ball_radius = 2e-3f, \
-            .screw_conformity = 0.54f, \
-            .nut_conformity = 0.54f, \
-            .contact_angle = 0.785398163f, \
-            .ball_material = STEEL, \
-            .groove_material = STEEL, \
-        }, \
-        .friction = 0.075f, \
-        .hysteresis_loss = 0.01f, \
-        .lubricant_drag = 0.006f, \
-        .rolling_tangent = 0.0f, \
-        .branch = EPAS_BRANCH_CONTACTS, \
-        .clearance = -2.653692e-7f, \
-        .loaded_balls = 70u, \
-        .reversal_speed = 0.5f, \
-        .limits = {.nut_speed = 500.0f, .axial_load = 20000.0f, .friction_torque = 2.0f}, \
+        .pitch_radius = 16.5e-3f, \
+        .lead = 20e-3f, \
+        .ball_radius = 2.778e-3f, \
+        .screw_conformity = 0.56f, \
+        .nut_conformity = 0.56f, \
+        .contact_angle = 0.785398163f, \
+        .ball_material = STEEL, \
+        .groove_material = STEEL, \
     }
+#define OVERSIZE (-4.068737e-7f)
 
-/* 100 N on each flank of the nut. */
-const epas_caged_configuration_t test_caged_configuration = GEAR;
+/* A folded gear. */
+#define BLOCK(words) {(words), (uint32_t)(sizeof(words) / sizeof((words)[0]))}
+
+const epas_block_t test_block = BLOCK(LIN_3_6_BLOCK);
+const epas_block_t test_worn_block = BLOCK(LIN_3_6_WORN_BLOCK);
+const epas_block_t test_range_block = BLOCK(LIN_3_6_RANGE_BLOCK);
+const epas_block_t test_other_range_block = BLOCK(LIN_4_1_RANGE_BLOCK);
+
+/* The same gear by a closed form. */
+const epas_closed_form_configuration_t test_closed_form_configuration = {
+    .design = DESIGN,
+    .friction = 0.075f,
+    .rolling_tangent = 1e-3f,
+    .branch = EPAS_BRANCH_ROLLING,
+    .clearance = OVERSIZE,
+    .loaded_balls = 36u,
+    .reversal_speed = 0.5f,
+    .limits = {.nut_speed = 100.0f, .axial_load = 20000.0f, .friction_torque = 20.0f},
+};
 
 /* The same gear with a memory, behind an encoder of 14 bits on its motor and a belt of ratio 2.5. */
 const epas_memory_configuration_t test_memory_configuration = {
-    .screw = GEAR,
+    .block = BLOCK(LIN_3_6_RANGE_BLOCK),
+    .design = DESIGN,
+    .clearance = OVERSIZE,
+    .hysteresis_loss = 0.01f,
+    .lubricant_drag = 0.0f,
     .encoder = {.period = 16384u, .turn_per_count = 1.533981e-4f, .largest_turn = 1.2f, .play = 1e-4f},
     .coefficient = {
         .boundary = 0.12f,
@@ -119,7 +132,17 @@ epas_linear_configuration_t test_linear_configuration = {
 
 uint32_t test_setup_caged(epas_caged_t *place)
 {
-    return epas_caged_init(place, &test_caged_configuration, NULL);
+    return epas_caged_init(place, &test_block, NULL);
+}
+
+uint32_t test_setup_caged_range(epas_caged_range_t *place)
+{
+    return epas_caged_range_init(place, &test_range_block, NULL);
+}
+
+uint32_t test_setup_closed_form(epas_closed_form_t *place)
+{
+    return epas_closed_form_init(place, &test_closed_form_configuration, NULL);
 }
 
 uint32_t test_setup_memory(epas_memory_t *place)

@@ -7,9 +7,10 @@ use epas_friction::curvature::{CircularGrooveCurvature, GothicArch, LiteratureCu
 use epas_friction::efficiency::{Drive, EfficiencyGeometry};
 use epas_friction::geometry::{ContactAngle, Groove};
 use epas_friction::law::FrictionLevel;
-use epas_friction::scene::WithMemoryInputs;
-use epas_friction::{CATALOGUE, Clearance, Error, Inputs, LinearInputs, Regime};
+use epas_friction::scene::{FoldedScrewConstants, Scene, WithMemoryInputs};
+use epas_friction::{CATALOGUE, Error, FrictionModel, Inputs, LinearInputs, Outputs, Regime};
 
+use crate::gears;
 use crate::outcome::Outcome;
 use crate::places::{says, with_comma};
 use crate::setups;
@@ -75,25 +76,33 @@ const fn regime(regime: Regime) -> u32 {
     }
 }
 
-fn caged() -> Result<Vec<Vec<u32>>, Error> {
-    let mut model = setups::caged()?;
-    let mut numbers = Numbers(0x1994_2019);
+/// Ticks of a screw that does not remember, with its nut's largest speed and load; something may change on the way.
+fn ticks<S>(
+    mut model: FrictionModel<S>,
+    start: u32,
+    change: impl Fn(&mut FrictionModel<S>, u32) -> Result<(), Error>,
+) -> Result<Vec<Vec<u32>>, Error>
+where
+    S: Scene<Inputs = Inputs, Outputs = Outputs>,
+{
+    let mut numbers = Numbers(start);
     let mut speed = Wander {
         value: 0.0,
-        bound: 500.0,
+        bound: 100.0,
     };
     let mut load = Wander {
         value: 0.0,
         bound: 20_000.0,
     };
-    Ok((0..TICKS)
+    (0..TICKS)
         .map(|tick| {
+            change(&mut model, tick)?;
             let inputs = Inputs {
                 nut_speed: speed.next(&mut numbers, tick, 0),
                 axial_load: load.next(&mut numbers, tick, 30),
             };
             let outputs = model.step(inputs);
-            vec![
+            Ok(vec![
                 inputs.nut_speed.to_bits(),
                 inputs.axial_load.to_bits(),
                 outputs.friction_torque.to_bits(),
@@ -101,15 +110,36 @@ fn caged() -> Result<Vec<Vec<u32>>, Error> {
                 outputs.efficiency.to_bits(),
                 regime(outputs.regime),
                 outputs.faults.bits().into(),
-            ]
+            ])
         })
-        .collect())
+        .collect()
+}
+
+/// Worn from the middle on.
+fn caged() -> Result<Vec<Vec<u32>>, Error> {
+    ticks(setups::caged()?, 0x1994_2019, |model, tick| {
+        if tick == TICKS / 2 {
+            model.swap_constants(FoldedScrewConstants::from_block(gears::LIN_3_6_WORN)?)?;
+        }
+        Ok(())
+    })
+}
+
+/// Its friction coefficient rises in every tick.
+fn caged_range() -> Result<Vec<Vec<u32>>, Error> {
+    ticks(setups::caged_range()?, 0x2026_0033, |model, tick| {
+        model.set_friction(0.05 + tick as f32 * (0.1 / 256.0))
+    })
+}
+
+fn closed_form() -> Result<Vec<Vec<u32>>, Error> {
+    ticks(setups::closed_form()?, 0x1994_0003, |_, _| Ok(()))
 }
 
 /// A count that no encoder of the case gives.
 const NO_COUNT: u32 = 16_384;
 
-/// Reversals within the breakaway angle and beyond, with readings between two ticks; level, clearance and the coefficient's
+/// Reversals within the breakaway angle and beyond, with readings between two ticks; level, block and the coefficient's
 /// law change on the way, and some readings, loads and temperatures are none, or old.
 fn memory() -> Result<Vec<Vec<u32>>, Error> {
     let mut model = setups::memory()?;
@@ -127,7 +157,9 @@ fn memory() -> Result<Vec<Vec<u32>>, Error> {
                     forward: 1.2,
                     backward: 0.9,
                 })?,
-                128 => model.set_clearance(Clearance::new(-2e-6)?)?,
+                128 => {
+                    model.swap_constants(setups::swapped()?)?;
+                }
                 192 => model.set_coefficient(setups::law(0.15)?)?,
                 _ => {}
             }
@@ -345,6 +377,18 @@ pub fn generated() -> Outcome<String> {
         "stored_caged",
         "nut_speed, axial_load; friction_torque, load_torque, efficiency, regime, faults",
         &caged()?,
+    )?;
+    table(
+        &mut text,
+        "stored_caged_range",
+        "nut_speed, axial_load; friction_torque, load_torque, efficiency, regime, faults",
+        &caged_range()?,
+    )?;
+    table(
+        &mut text,
+        "stored_closed_form",
+        "nut_speed, axial_load; friction_torque, load_torque, efficiency, regime, faults",
+        &closed_form()?,
     )?;
     table(
         &mut text,

@@ -19,7 +19,10 @@ pub fn check(root: &Path) -> Outcome<()> {
             .arg(format!("-std={standard}"))
             .args(WARNINGS)
             .arg("-I")
-            .arg(&include);
+            .arg(&include)
+            // The README's gear.
+            .arg("-I")
+            .arg(root.join("test"));
         command
     };
 

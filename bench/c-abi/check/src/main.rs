@@ -8,6 +8,7 @@
 //! ```
 
 mod cases;
+mod gears;
 mod header;
 mod host;
 mod outcome;
@@ -49,6 +50,8 @@ fn run(root: &Path, write: bool, host_only: bool) -> Outcome<()> {
     places::check(root, write)?;
     let header = header::generated(root)?;
     up_to_date(root, "include/epas_friction.h", &header, write)?;
+    up_to_date(root, "test/gears.h", &gears::of_tests()?, write)?;
+    up_to_date(root, "test/gear.h", &gears::of_example()?, write)?;
     let stored = cases::generated()?;
     up_to_date(root, "test/stored.h", &stored, write)?;
     cases::told(root, &stored)?;

@@ -4,13 +4,13 @@ use std::fs;
 use std::path::Path;
 
 use epas_friction::adaptation::Adaptation;
-use epas_friction::scene::Scene;
+use epas_friction::scene::{FoldedScrew, Scene};
 use epas_friction::{
-    CagedBallScrew, DeviationMap, FrictionModel, LinearBearingTrain, LoadShare, UncagedBallScrew,
+    ClosedFormScrew, DeviationMap, FrictionModel, LinearBearingTrain, LoadShare, UncagedBallScrew,
 };
 
 use crate::outcome::Outcome;
-use crate::setups::Remembering;
+use crate::setups::{NODES, Remembering};
 
 /// As the library keeps a model.
 #[repr(C)]
@@ -28,12 +28,18 @@ const fn words<S: Scene>() -> usize {
 }
 
 /// The constants of `types.rs` with what they have to be, and the README's line of each.
-fn needed() -> [(&'static str, &'static str, usize); 5] {
+fn needed() -> [(&'static str, &'static str, usize); 7] {
     [
+        ("EPAS_CAGED_WORDS", "`epas_caged_t`", words::<FoldedScrew>()),
         (
-            "EPAS_CAGED_WORDS",
-            "`epas_caged_t`",
-            words::<CagedBallScrew>(),
+            "EPAS_CAGED_RANGE_WORDS",
+            "`epas_caged_range_t`",
+            words::<FoldedScrew<NODES>>(),
+        ),
+        (
+            "EPAS_CLOSED_FORM_WORDS",
+            "`epas_closed_form_t`",
+            words::<ClosedFormScrew>(),
         ),
         (
             "EPAS_MEMORY_WORDS",

@@ -6,55 +6,78 @@ use epas_friction::law::coefficient::{
 };
 use epas_friction::law::memory::{Hysteresis, ProportionalElements, SLIP_4, SPIN_4};
 use epas_friction::law::motion::{CountSensor, CountSensorParameters, Steady};
-use epas_friction::scene::{Freshness, WithMemory, WithMemoryConfiguration};
+use epas_friction::scene::{
+    FoldedScrew, FoldedScrewConfiguration, Freshness, Scene, WithMemory, WithMemoryConfiguration,
+};
 use epas_friction::{
-    BallScrew, BallScrewParameters, CagedBallScrew, CagedBallScrewConfiguration, Clearance,
+    BallScrew, BallScrewParameters, Clearance, ClosedFormScrew, ClosedFormScrewConfiguration,
     DeviationMap, Error, FrictionBranch, FrictionModel, GrooveSize, Harmonic, Limits,
     LinearBearing, LinearBearingConfiguration, LinearBearingParameters, LinearBearingTrain,
     LinearLimits, LoadShare, LoadShares, Material, RollingResistance, UncagedBallScrew,
     UncagedBallScrewConfiguration,
 };
 
-/// The rack-assist gear of Lin 2019, chapter 4.
-fn gear() -> Result<CagedBallScrewConfiguration, Error> {
-    Ok(CagedBallScrewConfiguration {
-        design: BallScrew::new(BallScrewParameters {
-            pitch_radius: 14.5e-3,
-            lead: 7e-3,
-            ball_radius: 2e-3,
-            screw_groove: GrooveSize::Conformity(0.54),
-            nut_groove: GrooveSize::Conformity(0.54),
-            contact_angle: std::f32::consts::FRAC_PI_4,
-            ball_material: Material::STEEL,
-            groove_material: Material::STEEL,
-        })?,
+use crate::gears;
+
+/// The gear of Lin 2019, chapter 3.6, with 100 N on each flank, by its block.
+pub fn caged() -> Result<FrictionModel<FoldedScrew>, Error> {
+    FrictionModel::new(&FoldedScrewConfiguration::read(gears::LIN_3_6)?)
+}
+
+/// The same for a range of friction coefficients.
+pub fn caged_range() -> Result<FrictionModel<FoldedScrew<NODES>>, Error> {
+    FrictionModel::new(&FoldedScrewConfiguration::read(gears::LIN_3_6_RANGE)?)
+}
+
+/// Its catalogue numbers.
+fn design() -> Result<BallScrew, Error> {
+    BallScrew::new(BallScrewParameters {
+        pitch_radius: 16.5e-3,
+        lead: 20e-3,
+        ball_radius: 2.778e-3,
+        screw_groove: GrooveSize::Conformity(0.56),
+        nut_groove: GrooveSize::Conformity(0.56),
+        contact_angle: std::f32::consts::FRAC_PI_4,
+        ball_material: Material::STEEL,
+        groove_material: Material::STEEL,
+    })
+}
+
+/// Its gap: 100 N on each flank, m.
+const OVERSIZE: f32 = -4.068_737e-7;
+
+/// The same gear by a closed form.
+pub fn closed_form() -> Result<FrictionModel<ClosedFormScrew>, Error> {
+    FrictionModel::new(&ClosedFormScrewConfiguration {
+        design: design()?,
         friction: 0.075,
-        rolling_resistance: RollingResistance {
-            hysteresis_loss: 0.01,
-            lubricant_drag: 0.006,
-        },
-        rolling_tangent: 0.0,
-        branch: FrictionBranch::Contacts,
-        // 100 N on each flank.
-        clearance: Clearance::new(-2.653_692e-7)?,
-        loaded_balls: 70,
+        rolling_tangent: 1e-3,
+        branch: FrictionBranch::Rolling,
+        clearance: Clearance::new(OVERSIZE)?,
+        loaded_balls: 36,
         reversal_speed: 0.5,
         limits: Limits {
-            nut_speed: 500.0,
+            nut_speed: 100.0,
             axial_load: 20_000.0,
-            friction_torque: 2.0,
+            friction_torque: 20.0,
         },
     })
 }
 
-/// The rack-assist gear.
-pub fn caged() -> Result<FrictionModel<CagedBallScrew>, Error> {
-    FrictionModel::<CagedBallScrew>::new(&gear()?)
-}
+/// Friction coefficients of a block for a range of them.
+pub const NODES: usize = 5;
 
 /// The same gear with a memory, behind an encoder of 14 bits on its motor.
 pub type Remembering =
-    WithMemory<CagedBallScrew, ProportionalElements<8>, Steady<CountSensor>, CoefficientLaw>;
+    WithMemory<FoldedScrew<NODES>, ProportionalElements<8>, Steady<CountSensor>, CoefficientLaw>;
+
+/// What is set for it.
+type RememberingConfiguration = WithMemoryConfiguration<
+    FoldedScrewConfiguration<NODES>,
+    ProportionalElements<8>,
+    Steady<CountSensor>,
+    CoefficientLaw,
+>;
 
 /// Turn of the nut for a count: a belt of ratio 2.5.
 pub const TURN_PER_COUNT: f32 = 1.533_981e-4;
@@ -78,21 +101,29 @@ pub fn law(boundary: f32) -> Result<CoefficientLaw, Error> {
     })
 }
 
-/// The rack-assist gear whose friction remembers.
+/// The gear whose friction remembers.
 pub fn memory() -> Result<FrictionModel<Remembering>, Error> {
-    let scene = gear()?;
+    FrictionModel::<Remembering>::new(&remembering(gears::LIN_3_6_RANGE)?)
+}
+
+/// What the gear goes on with: another block.
+pub fn swapped() -> Result<<Remembering as Scene>::Constants, Error> {
+    Remembering::constants(&remembering(gears::LIN_4_1_RANGE)?)
+}
+
+/// A gear with a memory, of this block.
+fn remembering(block: &[u32]) -> Result<RememberingConfiguration, Error> {
+    let scene = FoldedScrewConfiguration::read(block)?;
+    let (design, clearance) = (design()?, Clearance::new(OVERSIZE)?);
+    let loaded_balls = scene.loaded_balls;
     let breakaway = Breakaway::of(
-        &scene.design,
+        &design,
         &BreakawayConfiguration {
             friction: scene.friction,
-            clearance: scene.clearance,
-            rolling_resistance: scene.rolling_resistance,
-            loaded_balls: scene.loaded_balls,
-            contact_load: ScrewContacts::of(&scene.design).preloaded(
-                5_000.0,
-                scene.loaded_balls,
-                scene.clearance,
-            ),
+            clearance,
+            rolling_resistance: RollingResistance::STEEL,
+            loaded_balls,
+            contact_load: ScrewContacts::of(&design).preloaded(5_000.0, loaded_balls, clearance),
         },
     )?;
     let elements: ProportionalElements<8> = breakaway.elements(&Tables {
@@ -105,11 +136,11 @@ pub fn memory() -> Result<FrictionModel<Remembering>, Error> {
         turn_per_count: TURN_PER_COUNT,
         largest_turn: 1.2,
     })?;
-    FrictionModel::<Remembering>::new(&WithMemoryConfiguration {
+    Ok(WithMemoryConfiguration {
         scene,
         elements,
         angle: Steady::new(counts, 1e-4)?,
-        reference_load: 5_000.0,
+        reference_load: 1.0,
         play: elements.breakaway(),
         coefficient: law(0.12)?,
         temperature: TemperatureFade::new(313.15, 10.0, 60.0)?,

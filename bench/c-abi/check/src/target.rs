@@ -22,11 +22,23 @@ const MACHINES: [(&str, &str); 2] = [
 ];
 
 /// What a user links of the library, by its functions.
-const PARTS: [(&str, &[&str]); 8] = [
+const PARTS: [(&str, &[&str]); 10] = [
     ("epas_clearance", &["epas_clearance"]),
     ("epas_efficiency", &["epas_efficiency"]),
     ("epas_curvature", &["epas_curvature"]),
     ("epas_caged", &["epas_caged_init", "epas_caged_step"]),
+    (
+        "epas_caged_range",
+        &[
+            "epas_caged_range_init",
+            "epas_caged_range_step",
+            "epas_caged_range_set_friction",
+        ],
+    ),
+    (
+        "epas_closed_form",
+        &["epas_closed_form_init", "epas_closed_form_step"],
+    ),
     (
         "epas_memory",
         &[
@@ -50,16 +62,30 @@ const PARTS: [(&str, &[&str]); 8] = [
             "epas_caged_step",
             "epas_caged_reset",
             "epas_caged_faulted_ticks",
-            "epas_caged_set_friction",
-            "epas_caged_set_clearance",
+            "epas_caged_swap",
             "epas_caged_export",
             "epas_caged_import",
+            "epas_caged_range_init",
+            "epas_caged_range_step",
+            "epas_caged_range_reset",
+            "epas_caged_range_faulted_ticks",
+            "epas_caged_range_swap",
+            "epas_caged_range_set_friction",
+            "epas_caged_range_export",
+            "epas_caged_range_import",
+            "epas_closed_form_init",
+            "epas_closed_form_step",
+            "epas_closed_form_reset",
+            "epas_closed_form_faulted_ticks",
+            "epas_closed_form_swap",
+            "epas_closed_form_export",
+            "epas_closed_form_import",
             "epas_memory_init",
             "epas_memory_step",
             "epas_memory_between",
             "epas_memory_set_coefficient",
             "epas_memory_set_level",
-            "epas_memory_set_clearance",
+            "epas_memory_swap",
             "epas_memory_reset",
             "epas_memory_faulted_ticks",
             "epas_memory_export",

@@ -1,8 +1,6 @@
 //! The exported functions of the ball screw whose friction remembers.
 
-use epas_friction::Clearance;
-
-use super::models::{change, export, faulted_ticks, import, init, placed, reset, step};
+use super::models::{change, export, faulted_ticks, import, init, placed, reset, step, swap};
 use super::pointers::{bare, read, report, usable};
 use crate::memory::{
     Coefficient, Memory, MemoryConfiguration, MemoryInputs, MemoryPlace, coefficient, level,
@@ -88,20 +86,14 @@ pub unsafe extern "C" fn epas_memory_set_level(
     }
 }
 
-/// Sets how balls fit between the grooves while the model runs; as `epas_caged_set_clearance`. The memory stays.
+/// Goes on with another block and what is set beside it; as `epas_caged_swap`. The memory stays.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn epas_memory_set_clearance(
+pub unsafe extern "C" fn epas_memory_swap(
     place: *mut MemoryPlace,
-    clearance: f32,
+    configuration: *const MemoryConfiguration,
     failure: *mut Failure,
 ) -> u32 {
-    unsafe {
-        change::<Memory>(
-            place,
-            |model| model.set_clearance(Clearance::new(clearance)?),
-            failure,
-        )
-    }
+    unsafe { swap::<Memory>(place, configuration, failure) }
 }
 
 /// Back to the state before the first tick.

@@ -4,7 +4,7 @@ use epas_friction::{Error, FrictionModel};
 
 use super::pointers::{bare, read, report, usable};
 use super::tables::tables;
-use crate::scene::{CScene, Placed, model};
+use crate::scene::{CScene, Placed, constants, model};
 use crate::status::{EPAS_NOT_INITIALISED, EPAS_OK, Failure, refused};
 
 /// The crate's model of a scene.
@@ -75,6 +75,25 @@ pub(super) unsafe fn change<C: CScene>(
     let outcome = unsafe { placed::<C>(place) }
         .map_err(bare)
         .and_then(|placed| how(&mut placed.model).map_err(Failure::of));
+    unsafe { report(outcome, failure) }
+}
+
+/// Goes on with the constants of another configuration; where it is refused the model goes on as it was.
+pub(super) unsafe fn swap<C: CScene>(
+    place: *mut C::Place,
+    configuration: *const C::Configuration,
+    failure: *mut Failure,
+) -> u32 {
+    let outcome = unsafe { placed::<C>(place) }
+        .map_err(bare)
+        .and_then(|placed| {
+            usable(configuration).map_err(bare)?;
+            let configuration = unsafe { &*configuration };
+            let tables = unsafe { tables(&C::tables(configuration)) }?;
+            let constants = constants::<C>(configuration, tables)?;
+            let swapped = placed.model.swap_constants(constants);
+            swapped.map(drop).map_err(Failure::of)
+        });
     unsafe { report(outcome, failure) }
 }
 

@@ -2,25 +2,27 @@
 
 use epas_friction::Clearance;
 
-use super::models::{change, export, faulted_ticks, import, init, placed, reset, step};
-use crate::caged::Caged;
+use super::models::{change, export, faulted_ticks, import, init, placed, reset, step, swap};
+use crate::caged::{Caged, CagedRange};
+use crate::closed_form::ClosedForm;
 use crate::linear::Linear;
 use crate::screw::Screw;
 use crate::status::{EPAS_OK, Failure};
 use crate::types::{
-    CagedConfiguration, CagedPlace, Inputs, LinearConfiguration, LinearInputs, LinearOutputs,
-    LinearPlace, Outputs, ScrewConfiguration, ScrewOutputs, ScrewPlace,
+    Block, CagedPlace, CagedRangePlace, ClosedFormConfiguration, ClosedFormPlace, Inputs,
+    LinearConfiguration, LinearInputs, LinearOutputs, LinearPlace, Outputs, ScrewConfiguration,
+    ScrewOutputs, ScrewPlace,
 };
 
-/// Makes a caged ball screw in the place. Set-up only. Where it fails, every step is refused until it
-/// succeeds. `failure` may be NULL.
+/// Makes a caged ball screw in the place, of a block for one friction coefficient. Set-up only. Where it fails, every step is refused until
+/// it succeeds. `failure` may be NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn epas_caged_init(
     place: *mut CagedPlace,
-    configuration: *const CagedConfiguration,
+    block: *const Block,
     failure: *mut Failure,
 ) -> u32 {
-    unsafe { init::<Caged>(place, configuration, failure) }
+    unsafe { init::<Caged>(place, block, failure) }
 }
 
 /// One tick: bounded time, finite outputs whatever the inputs are. Where the call is refused the outputs are
@@ -50,34 +52,117 @@ pub unsafe extern "C" fn epas_caged_faulted_ticks(
     unsafe { faulted_ticks::<Caged>(place, ticks) }
 }
 
-/// Sets the friction coefficient of ball and groove while the model runs, 1e-6 to 0.5; `epas_caged_reset` brings the
-/// configuration's back. From the first call on a ball is renewed in every tick, which then takes 13 times as long (some 5,300 cycles
-/// of a Cortex-M4F in the place of 400); the first call itself takes up to 6,800. Until friction is exact again, after some ticks, it is
-/// flagged `EPAS_FAULT_SETTLING`. The closed forms keep their friction. Where it is refused the model goes on as it was. `failure` may
-/// be NULL. In the task of the step.
+/// Goes on with another block: of a worn gear, another clearance, another lubricant. The friction coefficient is the block's. Where it is
+/// refused the model goes on as it was. `failure` may be NULL. In the task of the step; the next step takes as long as any.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn epas_caged_set_friction(
+pub unsafe extern "C" fn epas_caged_swap(
     place: *mut CagedPlace,
+    block: *const Block,
+    failure: *mut Failure,
+) -> u32 {
+    unsafe { swap::<Caged>(place, block, failure) }
+}
+
+/// Makes a caged ball screw in the place, of a block for a range of friction coefficients; as `epas_caged_init`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn epas_caged_range_init(
+    place: *mut CagedRangePlace,
+    block: *const Block,
+    failure: *mut Failure,
+) -> u32 {
+    unsafe { init::<CagedRange>(place, block, failure) }
+}
+
+/// One tick; as `epas_caged_step`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn epas_caged_range_step(
+    place: *mut CagedRangePlace,
+    inputs: *const Inputs,
+    outputs: *mut Outputs,
+) -> u32 {
+    unsafe { step::<CagedRange>(place, inputs, outputs) }
+}
+
+/// Back to the state before the first tick.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn epas_caged_range_reset(place: *mut CagedRangePlace) -> u32 {
+    unsafe { reset::<CagedRange>(place) }
+}
+
+/// Consecutive ticks with a fault; as `epas_caged_faulted_ticks`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn epas_caged_range_faulted_ticks(
+    place: *const CagedRangePlace,
+    ticks: *mut u32,
+) -> u32 {
+    unsafe { faulted_ticks::<CagedRange>(place, ticks) }
+}
+
+/// Goes on with another block; as `epas_caged_swap`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn epas_caged_range_swap(
+    place: *mut CagedRangePlace,
+    block: *const Block,
+    failure: *mut Failure,
+) -> u32 {
+    unsafe { swap::<CagedRange>(place, block, failure) }
+}
+
+/// Sets the friction coefficient of ball and groove while the model runs, within the block's range; `epas_caged_range_reset` brings the
+/// block's own back. The next step takes as long as any. Where it is refused the model goes on as it was. `failure` may be NULL. In
+/// the task of the step.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn epas_caged_range_set_friction(
+    place: *mut CagedRangePlace,
     friction: f32,
     failure: *mut Failure,
 ) -> u32 {
-    unsafe { change::<Caged>(place, |model| model.set_friction(friction), failure) }
+    unsafe { change::<CagedRange>(place, |model| model.set_friction(friction), failure) }
 }
 
-/// Sets how balls fit between the grooves, m, -0.02 to 0.05 ball radii; as `epas_caged_set_friction`.
+/// Makes a ball screw by a closed form in the place; as `epas_caged_init`.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn epas_caged_set_clearance(
-    place: *mut CagedPlace,
-    clearance: f32,
+pub unsafe extern "C" fn epas_closed_form_init(
+    place: *mut ClosedFormPlace,
+    configuration: *const ClosedFormConfiguration,
     failure: *mut Failure,
 ) -> u32 {
-    unsafe {
-        change::<Caged>(
-            place,
-            |model| model.set_clearance(Clearance::new(clearance)?),
-            failure,
-        )
-    }
+    unsafe { init::<ClosedForm>(place, configuration, failure) }
+}
+
+/// One tick; as `epas_caged_step`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn epas_closed_form_step(
+    place: *mut ClosedFormPlace,
+    inputs: *const Inputs,
+    outputs: *mut Outputs,
+) -> u32 {
+    unsafe { step::<ClosedForm>(place, inputs, outputs) }
+}
+
+/// Back to the state before the first tick.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn epas_closed_form_reset(place: *mut ClosedFormPlace) -> u32 {
+    unsafe { reset::<ClosedForm>(place) }
+}
+
+/// Consecutive ticks with a fault; as `epas_caged_faulted_ticks`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn epas_closed_form_faulted_ticks(
+    place: *const ClosedFormPlace,
+    ticks: *mut u32,
+) -> u32 {
+    unsafe { faulted_ticks::<ClosedForm>(place, ticks) }
+}
+
+/// Goes on with other numbers; as `epas_caged_swap`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn epas_closed_form_swap(
+    place: *mut ClosedFormPlace,
+    configuration: *const ClosedFormConfiguration,
+    failure: *mut Failure,
+) -> u32 {
+    unsafe { swap::<ClosedForm>(place, configuration, failure) }
 }
 
 /// Makes a ball screw of `EPAS_SCREW_BALLS` balls in the place. Set-up only. Where it fails, every step is
@@ -130,7 +215,7 @@ pub unsafe extern "C" fn epas_screw_faulted_ticks(
     unsafe { faulted_ticks::<Screw>(place, ticks) }
 }
 
-/// Sets the friction coefficient of ball and groove, 1e-6 to 0.5; as `epas_caged_set_friction`. Balls take it over as their
+/// Sets the friction coefficient of ball and groove, 1e-6 to 0.5; as `epas_caged_range_set_friction`. Balls take it over as their
 /// turn comes, and a tick takes no longer; where it jumps they settle, flagged `EPAS_FAULT_SETTLING`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn epas_screw_set_friction(
@@ -210,7 +295,7 @@ pub unsafe extern "C" fn epas_linear_faulted_ticks(
     unsafe { faulted_ticks::<Linear>(place, ticks) }
 }
 
-/// Sets the friction coefficient of ball and groove, 1e-6 to 1; as `epas_caged_set_friction`. Friction and all forces between
+/// Sets the friction coefficient of ball and groove, 1e-6 to 1; as `epas_caged_range_set_friction`. Friction and all forces between
 /// balls follow it in proportion, from the next tick on, which takes no longer.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn epas_linear_set_friction(
@@ -232,7 +317,7 @@ pub unsafe extern "C" fn epas_caged_export(
     unsafe { export::<Caged>(place, bytes, length) }
 }
 
-/// Takes the state of a block over, of the same configuration and the exact length: before the first step. A block that is
+/// Takes the state of a block over, of the same lead and the exact length: before the first step. A block that is
 /// foreign, old or damaged is refused, and the model is as it was. Outside the interrupt.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn epas_caged_import(
@@ -241,6 +326,46 @@ pub unsafe extern "C" fn epas_caged_import(
     length: u32,
 ) -> u32 {
     unsafe { import::<Caged>(place, bytes, length) }
+}
+
+/// Writes the state as a block of `EPAS_CAGED_RANGE_STATE_BYTES` bytes; as `epas_caged_export`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn epas_caged_range_export(
+    place: *const CagedRangePlace,
+    bytes: *mut u8,
+    length: u32,
+) -> u32 {
+    unsafe { export::<CagedRange>(place, bytes, length) }
+}
+
+/// Takes the state of a block over; as `epas_caged_import`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn epas_caged_range_import(
+    place: *mut CagedRangePlace,
+    bytes: *const u8,
+    length: u32,
+) -> u32 {
+    unsafe { import::<CagedRange>(place, bytes, length) }
+}
+
+/// Writes the state as a block of `EPAS_CLOSED_FORM_STATE_BYTES` bytes; as `epas_caged_export`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn epas_closed_form_export(
+    place: *const ClosedFormPlace,
+    bytes: *mut u8,
+    length: u32,
+) -> u32 {
+    unsafe { export::<ClosedForm>(place, bytes, length) }
+}
+
+/// Takes the state of a block over; as `epas_caged_import`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn epas_closed_form_import(
+    place: *mut ClosedFormPlace,
+    bytes: *const u8,
+    length: u32,
+) -> u32 {
+    unsafe { import::<ClosedForm>(place, bytes, length) }
 }
 
 /// Writes the state as a block of `EPAS_SCREW_STATE_BYTES` bytes; as `epas_caged_export`.

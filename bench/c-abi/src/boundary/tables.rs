@@ -7,8 +7,9 @@ use epas_friction::{DeviationMap, LoadShare as CrateLoadShare};
 use super::pointers::{bare, report, usable};
 use crate::scene::{TablePointers, Tables};
 use crate::status::{
-    EPAS_FIELD_LOAD_SHARE_COUNT, EPAS_FIELD_LOAD_SHARES, EPAS_FIELD_PASSING_DEVIATION,
-    EPAS_FIELD_RECIRCULATING_DEVIATION, EPAS_NOT_INITIALISED, Failure,
+    EPAS_FIELD_BLOCK, EPAS_FIELD_LOAD_SHARE_COUNT, EPAS_FIELD_LOAD_SHARES,
+    EPAS_FIELD_PASSING_DEVIATION, EPAS_FIELD_RECIRCULATING_DEVIATION, EPAS_NOT_INITIALISED,
+    Failure,
 };
 use crate::tables::{
     Deviation, EPAS_DEVIATION_SAMPLES, EPAS_LARGEST_HARMONIC_COUNT, EPAS_LARGEST_SHARE_COUNT,
@@ -153,7 +154,10 @@ fn share_count(count: u32) -> Result<usize, Failure> {
 #[inline(always)]
 pub(super) unsafe fn tables(pointers: &TablePointers) -> Result<Tables, Failure> {
     if pointers.are_null() {
-        Ok(Tables::NONE)
+        Ok(Tables {
+            block: unsafe { block(pointers) }?,
+            ..Tables::NONE
+        })
     } else {
         unsafe { pointed_tables(pointers) }
     }
@@ -167,5 +171,18 @@ unsafe fn pointed_tables(pointers: &TablePointers) -> Result<Tables, Failure> {
             deviation(pointers.recirculating, EPAS_FIELD_RECIRCULATING_DEVIATION)
         }?,
         load_shares: unsafe { load_shares(pointers.load_shares, pointers.load_share_count) }?,
+        block: None,
     })
+}
+
+/// The words of a block, where there is a pointer to them.
+#[inline(always)]
+unsafe fn block(pointers: &TablePointers) -> Result<Option<&'static [u32]>, Failure> {
+    if pointers.block.is_null() {
+        return Ok(None);
+    }
+    usable(pointers.block).map_err(|status| Failure::pointer(status, EPAS_FIELD_BLOCK))?;
+    Ok(Some(unsafe {
+        core::slice::from_raw_parts(pointers.block, pointers.block_words as usize)
+    }))
 }
