@@ -6,8 +6,7 @@
 //!
 //! | | what it is | links |
 //! |---|---|---|
-//! | [`CagedBallScrew`] | balls that do not touch | [`ball`](crate::ball), [`contact`](crate::contact); [`hertz`](crate::hertz) and [`efficiency`](crate::efficiency) at set-up |
-//! | [`FoldedScrew`] | the same by a law that was solved on a host | [`ball::folded`](crate::ball::folded) |
+//! | [`FoldedScrew`] | balls that do not touch, by a law that was solved on a host | [`ball::folded`](crate::ball::folded) |
 //! | [`ClosedFormScrew`] | the same by a closed form, without a host | [`efficiency`](crate::efficiency) at set-up |
 //! | [`UncagedBallScrew`] | balls that press on each other | [`ball`](crate::ball), [`contact`](crate::contact), [`train`](crate::train); [`hertz`](crate::hertz) at set-up |
 //! | [`LinearBearingTrain`] | four-point linear bearing, balls that press on each other | [`ball`](crate::ball), [`train`](crate::train); [`contact`](crate::contact) and [`hertz`](crate::hertz) at set-up |
@@ -17,7 +16,6 @@
 //! screw, forces of a bearing), and the circuit that both trains share: loaded zone, phase of the passing groove,
 //! deviation maps, load shares.
 
-mod caged;
 mod changing;
 pub(crate) mod circuit;
 mod closed_form;
@@ -34,9 +32,6 @@ mod sliding;
 mod stored;
 mod uncaged;
 
-pub use caged::{
-    CagedBallScrew, CagedBallScrewConfiguration, CagedCoefficients, CagedConstants, CagedState,
-};
 pub use changing::{ChangingClearance, ChangingFriction};
 pub use circuit::{CircuitState, DeviationMap, HIGHEST_ORDER, Harmonic, LARGEST_DEVIATION};
 pub use closed_form::{

@@ -5,22 +5,6 @@
 
 use super::promise::Promise;
 
-/// [`FrictionModel::step`](crate::FrictionModel::step) of a [`CagedBallScrew`](crate::CagedBallScrew): the law of a ball's
-/// friction over its load (`LoadLaws::at`), and the passage through standstill with its square root.
-pub const STEP_CAGED: Promise = Promise {
-    function: "CagedBallScrew: step",
-    domain: "diameters to 63 mm, friction 0.05 to 0.15, clearance -5 to 5 um, 5 to 300 N a ball, both signs",
-    error: "friction torque, relative",
-    largest: 1.2e-2,
-    rms: 2.5e-3,
-    mean: 8e-4,
-    outside: "beyond a limit: the limit, flagged; balls in two contacts flagged; diameter 125 mm 2e-2",
-    not_finite: "no torque, flagged",
-    tiny: "no torque at standstill; without load that of the preload",
-    cycles: 415,
-    counted: &["step_caged"],
-};
-
 /// [`FrictionModel::step`](crate::FrictionModel::step) of a [`ClosedFormScrew`](crate::ClosedFormScrew); errors are those of
 /// computing the form.
 pub const STEP_CLOSED_FORM: Promise = Promise {
@@ -34,33 +18,6 @@ pub const STEP_CLOSED_FORM: Promise = Promise {
     cycles: 320,
     counted: &["step_closed_form"],
     ..STEP_FOLDED
-};
-
-/// [`FrictionModel::step`](crate::FrictionModel::step) of a [`CagedBallScrew`](crate::CagedBallScrew)
-/// [`WithMemory`](crate::scene::WithMemory): eight elements that turn with a speed, one friction coefficient. It is the law over
-/// the load for both directions, and what the table has of elements, sensor and play.
-pub const STEP_CAGED_MEMORY: Promise = Promise {
-    function: "WithMemory<CagedBallScrew>: step",
-    outside: "beyond a limit: the limit, flagged; balls in two contacts flagged; old loads fade, flagged",
-    not_finite: "the last sound inputs, friction within their limits, flagged",
-    tiny: "no turn: friction stays; without load that of the preload",
-    cycles: 900,
-    counted: &["step_caged_memory"],
-    ..STEP_CAGED
-};
-
-/// The same with a friction coefficient by speed and temperature: that of both directions
-/// ([`both`](crate::law::coefficient::CoefficientAtTemperature::both)), at a new temperature in every tick, and laws over the load
-/// for two more coefficients.
-pub const STEP_CAGED_LAW: Promise = Promise {
-    function: "WithMemory<CagedBallScrew>: step, coefficient by a law",
-    domain: "as without memory; friction coefficient 0.05 to 0.12 by speed and temperature",
-    largest: 3.2e-2,
-    rms: 6e-3,
-    mean: 1e-3,
-    cycles: 1250,
-    counted: &["step_caged_law"],
-    ..STEP_CAGED_MEMORY
 };
 
 /// [`FrictionModel::step`](crate::FrictionModel::step) of a [`FoldedScrew`](crate::scene::FoldedScrew) for one friction coefficient:

@@ -13,7 +13,7 @@ use crate::error::{Error, Range, attempt, in_range};
 use crate::law::coefficient::DirectionalCoefficient;
 use crate::ranges;
 pub use configuration::{ClosedFormScrewConfiguration, FrictionBranch};
-pub(super) use torque::ClosedForm;
+use torque::ClosedForm;
 
 /// A ball screw whose balls do not touch, by a closed form: for a first look, and for comparison.
 ///
@@ -107,17 +107,12 @@ impl Sliding for ClosedFormScrew {
 
     const COUNTS_PRELOAD: bool = true;
 
-    /// Friction is that of the configuration's coefficient.
-    type Coefficients = ();
     type Full = CagedFull;
-
-    fn coefficients(_: &ClosedFormScrewConstants, _: f32, _: f32) {}
 
     #[inline(always)]
     fn full(
         constants: &ClosedFormScrewConstants,
         _: &mut ClosedFormScrewState,
-        _: Option<&()>,
         inputs: Inputs,
         _: DirectionalCoefficient,
     ) -> CagedFull {

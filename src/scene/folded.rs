@@ -261,17 +261,12 @@ impl<const NODES: usize> Sliding for FoldedScrew<NODES> {
 
     const COUNTS_PRELOAD: bool = true;
 
-    /// The block holds the nodes.
-    type Coefficients = ();
     type Full = CagedFull;
-
-    fn coefficients(_: &FoldedScrewConstants<NODES>, _: f32, _: f32) {}
 
     #[inline(always)]
     fn full(
         constants: &FoldedScrewConstants<NODES>,
         _: &mut FoldedScrewState,
-        _: Option<&()>,
         inputs: Inputs,
         friction: DirectionalCoefficient,
     ) -> CagedFull {
