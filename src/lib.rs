@@ -5,7 +5,7 @@
 //!
 //! | scene | what | outputs |
 //! |---|---|---|
-//! | [`FoldedScrew`] | a ball screw whose balls do not touch, by a block of constants from a host | torque, efficiency |
+//! | [`CagedBallScrew`] | a ball screw whose balls do not touch, by a block of constants from a host | torque, efficiency |
 //! | [`ClosedFormScrew`] | the same by the closed forms of the papers | torque, efficiency |
 //! | [`UncagedBallScrew`] | a ball screw whose balls press on each other | torques of grooves and balls, forces between balls |
 //! | [`LinearBearingTrain`] | a linear bearing whose balls press on each other | forces |
@@ -100,8 +100,8 @@ pub use geometry::{
 pub use material::Material;
 pub use model::FrictionModel;
 pub use scene::{
-    ClosedFormScrew, ClosedFormScrewConfiguration, ClosedFormScrewConstants, DeviationMap, Faults,
-    FoldedScrew, FoldedScrewConfiguration, FoldedScrewConstants, FoldedScrewState, FrictionBranch,
+    CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, CagedState, ClosedFormScrew,
+    ClosedFormScrewConfiguration, ClosedFormScrewConstants, DeviationMap, Faults, FrictionBranch,
     Harmonic, Inputs, Limits, LinearBearingConfiguration, LinearBearingTrain, LinearConstants,
     LinearInputs, LinearLimits, LinearOutputs, Outputs, Regime, Scene, UncagedBallScrew,
     UncagedBallScrewConfiguration, UncagedConstants, UncagedOutputs,

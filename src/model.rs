@@ -16,10 +16,10 @@ use crate::scene::{
 ///
 /// ```
 /// # mod gear { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/bench/firmware/src/gears/lin_3_6.rs")); }
-/// use epas_friction::{FoldedScrew, FrictionModel, Inputs, Regime};
+/// use epas_friction::{CagedBallScrew, FrictionModel, Inputs, Regime};
 /// use gear::LIN_3_6; // a `static` that `epas-bench design` has written
 ///
-/// let mut model = FrictionModel::<FoldedScrew, _>::of(&LIN_3_6);
+/// let mut model = FrictionModel::<CagedBallScrew, _>::of(&LIN_3_6);
 ///
 /// // in the interrupt
 /// let outputs = model.step(Inputs { nut_speed: 40.0, axial_load: 3_000.0 });

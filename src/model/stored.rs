@@ -26,9 +26,9 @@ impl<S: StoredScene, C: Borrow<S::Constants>> FrictionModel<S, C> {
     ///
     /// ```
     /// # mod gear { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/bench/firmware/src/gears/lin_3_6_range.rs")); }
-    /// # use epas_friction::{FoldedScrew, FoldedScrewConstants, FrictionModel, Inputs};
+    /// # use epas_friction::{CagedBallScrew, CagedConstants, FrictionModel, Inputs};
     /// # use gear::LIN_3_6_RANGE;
-    /// type Screw = FrictionModel<FoldedScrew<5>, &'static FoldedScrewConstants<5>>;
+    /// type Screw = FrictionModel<CagedBallScrew<5>, &'static CagedConstants<5>>;
     ///
     /// // What the non-volatile memory keeps.
     /// let mut kept = [0xFF; Screw::STATE_BYTES];

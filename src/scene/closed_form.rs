@@ -18,7 +18,7 @@ use torque::ClosedForm;
 /// A ball screw whose balls do not touch, by a closed form: for a first look, and for comparison.
 ///
 /// Torque is in proportion to the load; spin, a third contact and the size of the contacts are left out (see [`FrictionBranch`]).
-/// The exact torque of a [`FoldedScrew`](crate::scene::FoldedScrew) differs from it by up to a factor of 2.
+/// The exact torque of a [`CagedBallScrew`](crate::scene::CagedBallScrew) differs from it by up to a factor of 2.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ClosedFormScrew;

@@ -21,10 +21,10 @@ use crate::scene::contract::Inputs;
 /// ```
 /// use epas_friction::law::coefficient::{CoefficientLaw, OneCoefficient};
 /// # use epas_friction::law::{memory::ProportionalElements, motion::SpeedOverTick};
-/// # use epas_friction::{FoldedScrew, LinearBearingTrain, Scene, scene::WithMemory};
+/// # use epas_friction::{CagedBallScrew, LinearBearingTrain, Scene, scene::WithMemory};
 /// # fn is_a_scene<S: Scene>() {}
 /// is_a_scene::<WithMemory<LinearBearingTrain<12>, ProportionalElements<8>, SpeedOverTick, OneCoefficient>>();
-/// is_a_scene::<WithMemory<FoldedScrew, ProportionalElements<8>, SpeedOverTick, CoefficientLaw>>();
+/// is_a_scene::<WithMemory<CagedBallScrew, ProportionalElements<8>, SpeedOverTick, CoefficientLaw>>();
 /// ```
 pub trait CoefficientFor<I>: CoefficientModel {}
 

@@ -1,23 +1,20 @@
-//! A folded screw as bytes: its friction coefficient.
+//! A caged screw as bytes: its friction coefficient.
 
-use super::{FoldedScrew, FoldedScrewConstants, FoldedScrewState};
+use super::{CagedBallScrew, CagedConstants, CagedState};
 use crate::ranges;
 use crate::scene::stored::StoredScene;
 use crate::stored::{Fingerprint, Port, Refusal, Stored};
 
-impl<const NODES: usize> StoredScene for FoldedScrew<NODES> {
+impl<const NODES: usize> StoredScene for CagedBallScrew<NODES> {
     const KIND: u16 = 4;
     const BALLS: u16 = 0;
 
     /// The friction coefficient has a meaning of its own; only its range has to fit, which [`Self::complete`] sees to.
-    fn fingerprint(constants: &FoldedScrewConstants<NODES>, fingerprint: &mut Fingerprint) {
+    fn fingerprint(constants: &CagedConstants<NODES>, fingerprint: &mut Fingerprint) {
         fingerprint.number(constants.reduced_lead);
     }
 
-    fn complete(
-        constants: &FoldedScrewConstants<NODES>,
-        state: &mut FoldedScrewState,
-    ) -> Result<(), Refusal> {
+    fn complete(constants: &CagedConstants<NODES>, state: &mut CagedState) -> Result<(), Refusal> {
         let friction = state.friction.friction();
         if constants.law.holds(friction) {
             state.friction = constants.place(friction);
@@ -27,10 +24,10 @@ impl<const NODES: usize> StoredScene for FoldedScrew<NODES> {
         }
     }
 
-    fn forget_readings(_: &mut FoldedScrewState) {}
+    fn forget_readings(_: &mut CagedState) {}
 }
 
-impl Stored for FoldedScrewState {
+impl Stored for CagedState {
     const BYTES: usize = 4;
 
     fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {

@@ -1,6 +1,7 @@
 //! A ball screw whose balls do not touch, by a law that was solved on a host: `epas-design` folds it, a step evaluates it.
 
 mod block;
+mod configuration;
 mod stored;
 
 use super::changing::ChangingFriction;
@@ -14,6 +15,7 @@ use crate::ball::folded::{FrictionPlace, LoadLaw, octaves};
 use crate::error::{Error, Range, attempt, in_range};
 use crate::law::coefficient::DirectionalCoefficient;
 use crate::ranges;
+pub use configuration::CagedBallScrewConfiguration;
 
 /// A ball screw whose balls do not touch (caged, or with spacer balls), by the folded law of one ball, for `NODES` friction coefficients.
 ///
@@ -26,31 +28,12 @@ use crate::ranges;
 /// beyond its nodes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct FoldedScrew<const NODES: usize = 1>;
+pub struct CagedBallScrew<const NODES: usize = 1>;
 
-/// What the engineer sets for a folded screw; unchecked.
+/// Constants of a caged screw: a block that has been checked.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct FoldedScrewConfiguration<const NODES: usize = 1> {
-    /// Law of one ball.
-    pub law: LoadLaw<NODES>,
-    /// Friction coefficient of ball and groove before [`FrictionModel::set_friction`](crate::FrictionModel::set_friction), within the
-    /// law's nodes.
-    pub friction: f32,
-    /// Advance of the nut per turn, m, 0 to 0.2.
-    pub lead: f32,
-    /// Number of balls that carry load, 1 to 1000.
-    pub loaded_balls: u16,
-    /// Nut speed over which friction changes its direction, rad/s, 1e-6 to 1e3: at this speed it has 71 % of its full value.
-    pub reversal_speed: f32,
-    /// Bounds that are kept whatever comes in.
-    pub limits: Limits,
-}
-
-/// Constants of a folded screw: a block that has been checked.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct FoldedScrewConstants<const NODES: usize = 1> {
+pub struct CagedConstants<const NODES: usize = 1> {
     law: LoadLaw<NODES>,
     /// Octaves of the nodes' friction coefficients.
     node_octaves: [f32; NODES],
@@ -65,10 +48,10 @@ pub struct FoldedScrewConstants<const NODES: usize = 1> {
     limits: Limits,
 }
 
-/// What of a folded screw can be set while it runs.
+/// What of a caged screw can be set while it runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct FoldedScrewState {
+pub struct CagedState {
     friction: FrictionPlace,
 }
 
@@ -82,13 +65,13 @@ struct Loaded {
     beyond: bool,
 }
 
-impl<const NODES: usize> FoldedScrewConstants<NODES> {
+impl<const NODES: usize> CagedConstants<NODES> {
     /// Checks a configuration and folds its constants: at set-up, or in a constant when firmware is compiled.
     ///
     /// # Errors
     /// [`Error`] naming the field out of range.
-    pub const fn new(configuration: &FoldedScrewConfiguration<NODES>) -> Result<Self, Error> {
-        let FoldedScrewConfiguration {
+    pub const fn new(configuration: &CagedBallScrewConfiguration<NODES>) -> Result<Self, Error> {
+        let CagedBallScrewConfiguration {
             law,
             friction,
             lead,
@@ -189,57 +172,41 @@ impl<const NODES: usize> FoldedScrewConstants<NODES> {
     }
 }
 
-impl<const NODES: usize> Scene for FoldedScrew<NODES> {
-    type Configuration = FoldedScrewConfiguration<NODES>;
-    type Constants = FoldedScrewConstants<NODES>;
-    type State = FoldedScrewState;
+impl<const NODES: usize> Scene for CagedBallScrew<NODES> {
+    type Configuration = CagedBallScrewConfiguration<NODES>;
+    type Constants = CagedConstants<NODES>;
+    type State = CagedState;
     type Inputs = Inputs;
     type Known = Inputs;
     type Outputs = Outputs;
 
     fn constants(
-        configuration: &FoldedScrewConfiguration<NODES>,
-    ) -> Result<FoldedScrewConstants<NODES>, Error> {
-        FoldedScrewConstants::new(configuration)
+        configuration: &CagedBallScrewConfiguration<NODES>,
+    ) -> Result<CagedConstants<NODES>, Error> {
+        CagedConstants::new(configuration)
     }
 
-    fn initial_state(constants: &FoldedScrewConstants<NODES>) -> FoldedScrewState {
-        FoldedScrewState {
+    fn initial_state(constants: &CagedConstants<NODES>) -> CagedState {
+        CagedState {
             friction: constants.friction,
         }
     }
 
     /// The friction coefficient is that of the new constants.
-    fn take_over(
-        constants: &FoldedScrewConstants<NODES>,
-        state: &mut FoldedScrewState,
-    ) -> Result<(), Error> {
+    fn take_over(constants: &CagedConstants<NODES>, state: &mut CagedState) -> Result<(), Error> {
         state.friction = constants.friction;
         Ok(())
     }
 
     #[inline(always)]
-    fn admit(constants: &FoldedScrewConstants<NODES>, inputs: Inputs) -> Admitted<Inputs> {
-        let Inputs {
-            nut_speed,
-            axial_load,
-        } = inputs;
-        let limits = &constants.limits;
-        // Limits are finite: what is within them is a number, and needs nothing else.
-        if nut_speed.abs() <= limits.nut_speed && axial_load.abs() <= limits.axial_load {
-            Admitted {
-                inputs: Some(inputs),
-                faults: Faults::NONE,
-            }
-        } else {
-            limits.admit(inputs)
-        }
+    fn admit(constants: &CagedConstants<NODES>, inputs: Inputs) -> Admitted<Inputs> {
+        constants.limits.admit(inputs)
     }
 
     #[inline(always)]
     fn outputs(
-        constants: &FoldedScrewConstants<NODES>,
-        state: &mut FoldedScrewState,
+        constants: &CagedConstants<NODES>,
+        state: &mut CagedState,
         inputs: Inputs,
     ) -> Outputs {
         let passage = constants.reversal.passage(inputs.nut_speed);
@@ -251,12 +218,12 @@ impl<const NODES: usize> Scene for FoldedScrew<NODES> {
     }
 
     #[inline(always)]
-    fn largest_friction(constants: &FoldedScrewConstants<NODES>) -> f32 {
+    fn largest_friction(constants: &CagedConstants<NODES>) -> f32 {
         constants.limits.friction_torque
     }
 }
 
-impl<const NODES: usize> Sliding for FoldedScrew<NODES> {
+impl<const NODES: usize> Sliding for CagedBallScrew<NODES> {
     const FRICTION: Range = ranges::FRICTION_OF_A_ROW;
 
     const COUNTS_PRELOAD: bool = true;
@@ -265,8 +232,8 @@ impl<const NODES: usize> Sliding for FoldedScrew<NODES> {
 
     #[inline(always)]
     fn full(
-        constants: &FoldedScrewConstants<NODES>,
-        _: &mut FoldedScrewState,
+        constants: &CagedConstants<NODES>,
+        _: &mut CagedState,
         inputs: Inputs,
         friction: DirectionalCoefficient,
     ) -> CagedFull {
@@ -290,7 +257,7 @@ impl<const NODES: usize> Sliding for FoldedScrew<NODES> {
 
     #[inline(always)]
     fn passed(
-        constants: &FoldedScrewConstants<NODES>,
+        constants: &CagedConstants<NODES>,
         inputs: Inputs,
         full: &CagedFull,
         passage: Passage,
@@ -300,15 +267,15 @@ impl<const NODES: usize> Sliding for FoldedScrew<NODES> {
     }
 
     #[inline(always)]
-    fn in_a_tick(_: &FoldedScrewConstants<NODES>, turn: f32, measured: f32) -> (f32, f32) {
+    fn in_a_tick(_: &CagedConstants<NODES>, turn: f32, measured: f32) -> (f32, f32) {
         (turn, measured)
     }
 }
 
-impl<const NODES: usize> ChangingFriction for FoldedScrew<NODES> {
+impl<const NODES: usize> ChangingFriction for CagedBallScrew<NODES> {
     fn set_friction(
-        constants: &FoldedScrewConstants<NODES>,
-        state: &mut FoldedScrewState,
+        constants: &CagedConstants<NODES>,
+        state: &mut CagedState,
         friction: f32,
     ) -> Result<(), Error> {
         let (least, largest) = constants.law.friction_range();

@@ -1,0 +1,23 @@
+//! What the engineer sets for a caged screw.
+
+use crate::ball::folded::LoadLaw;
+use crate::scene::contract::Limits;
+
+/// What the engineer sets for a caged screw; unchecked.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct CagedBallScrewConfiguration<const NODES: usize = 1> {
+    /// Law of one ball.
+    pub law: LoadLaw<NODES>,
+    /// Friction coefficient of ball and groove before [`FrictionModel::set_friction`](crate::FrictionModel::set_friction), within the
+    /// law's nodes.
+    pub friction: f32,
+    /// Advance of the nut per turn, m, 0 to 0.2.
+    pub lead: f32,
+    /// Number of balls that carry load, 1 to 1000.
+    pub loaded_balls: u16,
+    /// Nut speed over which friction changes its direction, rad/s, 1e-6 to 1e3: at this speed it has 71 % of its full value.
+    pub reversal_speed: f32,
+    /// Bounds that are kept whatever comes in.
+    pub limits: Limits,
+}
