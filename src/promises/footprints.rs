@@ -68,10 +68,10 @@ pub const FOOTPRINTS: [Footprint; 8] = [
     },
     Footprint {
         scene: "everything",
-        flash: 37_400,
-        flash_small: 33_800,
-        ram: 5400,
+        flash: 32_000,
+        flash_small: 29_000,
+        ram: 3600,
         stack: 1200,
-        stack_set_up: 6400,
+        stack_set_up: 3800,
     },
 ];

@@ -15,7 +15,7 @@ pub const STEP_CLOSED_FORM: Promise = Promise {
     rms: 1.4e-7,
     mean: 3e-8,
     outside: "beyond a limit: the limit, flagged; a load that no torque drives: the largest torque, flagged",
-    cycles: 320,
+    cycles: 260,
     counted: &["step_closed_form"],
     ..STEP_CAGED
 };
@@ -105,7 +105,7 @@ pub const STEP_UNCAGED: Promise = Promise {
     outside: "beyond a limit: the limit, flagged; balls in two contacts flagged, if for long until all have passed the return",
     not_finite: "no torque, flagged; balls stay where they are",
     tiny: "no torque at standstill; loads to 1e-3 N a ball as 1e-3 N",
-    cycles: 14_200,
+    cycles: 14_100,
     counted: &["step_train_37", "step_train_37_pressing"],
 };
 
@@ -118,7 +118,7 @@ pub const STEP_UNCAGED_MEMORY: Promise = Promise {
     outside: "beyond a limit: the limit, flagged; balls in two contacts flagged, if for long until all have passed the return; old loads fade, flagged",
     not_finite: "the last sound inputs, friction within their limits, flagged",
     tiny: "no turn: friction stays; loads to 1e-3 N a ball as 1e-3 N",
-    cycles: 14_700,
+    cycles: 14_600,
     counted: &[
         "step_train_37_memory",
         "step_train_37_memory_pressing",

@@ -5,4 +5,4 @@
 
 use epas_firmware::scenes::{Caged, Curvature, Efficiency, Linear, Uncaged};
 
-epas_firmware::image!(Caged, Curvature, Efficiency, Linear, Uncaged);
+epas_firmware::image!(Curvature, Efficiency, Caged, Linear, Uncaged);
