@@ -3,17 +3,16 @@
 use std::collections::BTreeMap;
 use std::io::{self, IsTerminal as _, Write};
 use std::path::PathBuf;
-use std::sync::Mutex;
 
 use clap::ValueEnum as _;
 use clap::error::ErrorKind;
 use epas_design::{Certificate, Figure, Folded};
 use serde::Serialize;
 
+use crate::caged::certified;
 use crate::designs::{Design, DesignSource};
 use crate::failure::Failure;
 use crate::files::{Existing, Pending, ends, refuse_ending, refuse_same, standard, told};
-use crate::progress::Progress;
 
 /// Folds a design: solves it once, here, into the constants that firmware evaluates.
 ///
@@ -148,18 +147,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         .fold
         .fold(&design)
         .map_err(|message| failure(format!("fold: {message}")))?;
-    let progress = Progress::new("folding", PARTS);
-    let done = Mutex::new(0);
-    let folded = fold
-        .folded_with(&|share| {
-            let part = (share * PARTS as f64) as u64;
-            if let Ok(mut done) = done.lock() {
-                progress.steps(part.saturating_sub(*done));
-                *done = part.max(*done);
-            }
-        })
-        .map_err(|error| failure(error.to_string()))?;
-    drop(progress);
+    let folded = certified(&fold).map_err(|error| error.of(&design.name))?;
     let failed = |error: epas_design::Failure| failure(error.to_string());
     let words = folded.words().map_err(failed)?.len();
     if let Some(target) = &target {
@@ -189,9 +177,6 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     next(&mut out, target.as_ref(), words, folded.block.nodes())?;
     Ok(())
 }
-
-/// Parts of the work that are told.
-const PARTS: usize = 1_000;
 
 /// The block in its file, whole or not at all.
 fn write(target: &Target, block: &[u8]) -> Result<(), Failure> {

@@ -12,10 +12,11 @@ use std::f32::consts::TAU;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
+use epas_design::CagedDesign;
 use epas_friction::geometry::{FINE_LEAD_SIZES, STEERING_SIZES};
 use epas_friction::{
-    BallScrew, BallScrewParameters, CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration,
-    Clearance, DISSERTATION_DESIGNS, FrictionBranch, FrictionModel, GrooveSize, Limits,
+    BallScrew, BallScrewParameters, CATALOGUE, Clearance, ClosedFormScrewConfiguration,
+    ClosedFormScrewConstants, DISSERTATION_DESIGNS, Error, FrictionBranch, GrooveSize, Limits,
     RollingResistance, defaults,
 };
 use serde::Deserialize;
@@ -38,8 +39,12 @@ use train::{LinearDesign, UncagedDesign, UncagedTable};
 pub struct Design {
     /// Name, for headings and file names.
     pub name: String,
-    /// Configuration of the in-loop model.
-    pub configuration: CagedBallScrewConfiguration,
+    /// Its numbers with a cage.
+    pub caged: CagedDesign,
+    /// Which closed form its friction follows, in the place of the contacts.
+    pub branch: Option<FrictionBranch>,
+    /// Lever arm of rolling friction of the closed forms.
+    pub rolling_tangent: f32,
     /// Number of balls that share the load, where it is known.
     pub loaded_balls: Option<u16>,
     /// Its balls where they press on each other, where they are known.
@@ -73,17 +78,17 @@ impl Design {
     fn built_in(name: &str, design: BallScrew, loaded_balls: Option<u16>) -> Self {
         Self {
             name: name.into(),
-            configuration: CagedBallScrewConfiguration {
+            caged: CagedDesign {
                 design,
                 friction: defaults::FRICTION,
                 rolling_resistance: ROLLING_RESISTANCE,
-                rolling_tangent: 0.0,
-                branch: FrictionBranch::Contacts,
                 clearance: defaults::CLEARANCE,
                 loaded_balls: loaded_balls.unwrap_or_else(|| usual_balls(&design)),
                 reversal_speed: REVERSAL_SPEED,
                 limits: LIMITS,
             },
+            branch: None,
+            rolling_tangent: 0.0,
             loaded_balls,
             uncaged: loaded_balls.and_then(|balls| train::built_in(name, design, balls)),
             loads: loaded_balls.and_then(|balls| loads::built_in(name, balls)),
@@ -100,7 +105,48 @@ impl Design {
 
     /// The geometry.
     pub fn screw(&self) -> &BallScrew {
-        &self.configuration.design
+        &self.caged.design
+    }
+
+    /// The closed form that its friction follows, where it does not follow the contacts.
+    pub fn closed_form(&self) -> Option<ClosedFormScrewConfiguration> {
+        self.branch.map(|branch| self.in_closed_form(branch))
+    }
+
+    /// Its friction by a closed form.
+    pub fn in_closed_form(&self, branch: FrictionBranch) -> ClosedFormScrewConfiguration {
+        let CagedDesign {
+            design,
+            friction,
+            clearance,
+            loaded_balls,
+            reversal_speed,
+            limits,
+            ..
+        } = self.caged;
+        ClosedFormScrewConfiguration {
+            design,
+            friction,
+            rolling_tangent: self.rolling_tangent,
+            branch,
+            clearance,
+            loaded_balls,
+            reversal_speed,
+            limits,
+        }
+    }
+
+    /// Refuses numbers out of range.
+    ///
+    /// # Errors
+    /// [`Error`] naming the field.
+    pub fn check(&self) -> Result<(), Error> {
+        let branch = self.branch.unwrap_or(FrictionBranch::Rolling);
+        if self.branch.is_none() {
+            self.caged.checked()?;
+        }
+        self.caged.rolling_resistance.checked()?;
+        ClosedFormScrewConstants::new(&self.in_closed_form(branch)).map(drop)
     }
 }
 
@@ -205,9 +251,9 @@ impl DesignSource {
                 let mut design = Design::built_in(name, screw, *loaded_balls);
                 let mut ours = FINE_LEAD_SIZES.iter().chain(&STEERING_SIZES);
                 if !ours.any(|size| size.name == *name) {
-                    design.configuration.friction = PAPERS_FRICTION;
-                    design.configuration.clearance = PAPERS_CLEARANCE;
-                    design.configuration.reversal_speed = PAPERS_REVERSAL_SPEED;
+                    design.caged.friction = PAPERS_FRICTION;
+                    design.caged.clearance = PAPERS_CLEARANCE;
+                    design.caged.reversal_speed = PAPERS_REVERSAL_SPEED;
                 }
                 Ok(design)
             }
@@ -386,34 +432,29 @@ impl DesignFile {
         .into_iter()
         .filter_map(|(key, there)| (!there).then_some(key))
         .collect();
-        let configuration = &mut design.configuration;
-        replace(&mut configuration.friction, self.friction);
-        let rolling = &mut configuration.rolling_resistance;
+        let caged = &mut design.caged;
+        replace(&mut caged.friction, self.friction);
+        let rolling = &mut caged.rolling_resistance;
         replace(&mut rolling.hysteresis_loss, self.hysteresis_loss);
         replace(&mut rolling.lubricant_drag, self.lubricant_drag);
-        replace(&mut configuration.rolling_tangent, self.rolling_tangent);
-        configuration.clearance = clearance;
-        replace(&mut configuration.reversal_speed, self.reversal_speed);
-        configuration.branch = match self.branch {
-            None | Some(BranchName::Contacts) => FrictionBranch::Contacts,
-            Some(BranchName::Rolling) => FrictionBranch::Rolling,
-            Some(BranchName::Sliding) => FrictionBranch::Sliding,
+        replace(&mut design.rolling_tangent, self.rolling_tangent);
+        caged.clearance = clearance;
+        replace(&mut caged.reversal_speed, self.reversal_speed);
+        design.branch = match self.branch {
+            None | Some(BranchName::Contacts) => None,
+            Some(BranchName::Rolling) => Some(FrictionBranch::Rolling),
+            Some(BranchName::Sliding) => Some(FrictionBranch::Sliding),
         };
         if let Some(limits) = self.limits {
-            replace(&mut configuration.limits.nut_speed, limits.nut_speed);
-            replace(&mut configuration.limits.axial_load, limits.axial_load);
-            replace(
-                &mut configuration.limits.friction_torque,
-                limits.friction_torque,
-            );
+            replace(&mut caged.limits.nut_speed, limits.nut_speed);
+            replace(&mut caged.limits.axial_load, limits.axial_load);
+            replace(&mut caged.limits.friction_torque, limits.friction_torque);
         }
-        FrictionModel::<CagedBallScrew>::new(configuration).map_err(|error| {
-            match error.field() {
-                "nut_speed" | "axial_load" | "friction_torque" => format!("limits: {error}"),
-                _ => error.to_string(),
-            }
+        design.check().map_err(|error| match error.field() {
+            "nut_speed" | "axial_load" | "friction_torque" => format!("limits: {error}"),
+            _ => error.to_string(),
         })?;
-        let configuration = *configuration;
+        let caged = design.caged;
         design.uncaged = self
             .uncaged
             .map(|table| {
@@ -421,9 +462,9 @@ impl DesignFile {
                     .design(
                         screw,
                         clearance,
-                        (configuration.friction, configuration.rolling_resistance),
-                        configuration.reversal_speed,
-                        configuration.limits,
+                        (caged.friction, caged.rolling_resistance),
+                        caged.reversal_speed,
+                        caged.limits,
                     )
                     .map_err(|message| format!("uncaged: {message}"))
             })

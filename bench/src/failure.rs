@@ -84,3 +84,15 @@ impl From<ReferenceError> for Failure {
         Self::Data(error.to_string())
     }
 }
+
+impl From<epas_friction::Error> for Failure {
+    fn from(error: epas_friction::Error) -> Self {
+        Self::Data(error.to_string())
+    }
+}
+
+impl From<epas_design::Failure> for Failure {
+    fn from(failure: epas_design::Failure) -> Self {
+        Self::Data(failure.to_string())
+    }
+}

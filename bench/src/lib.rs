@@ -14,6 +14,8 @@ mod aside;
 #[doc(hidden)]
 pub mod bindings;
 #[doc(hidden)]
+pub mod caged;
+#[doc(hidden)]
 pub mod calibrate;
 #[cfg(feature = "program")]
 mod cli;

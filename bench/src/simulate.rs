@@ -335,8 +335,8 @@ fn list() -> Result<(), Failure> {
             1e3 * parameters.pitch_radius,
             1e3 * parameters.lead,
             1e3 * parameters.ball_radius,
-            design.configuration.friction,
-            1e6 * design.configuration.clearance.gap(),
+            design.caged.friction,
+            1e6 * design.caged.clearance.gap(),
         )?;
         if let Some(balls) = loaded_balls {
             write!(stdout, ", {balls} loaded balls")?;

@@ -133,19 +133,19 @@ impl Design {
     /// Coulomb friction coefficient of ball and groove.
     #[getter]
     fn friction(&self) -> f32 {
-        self.inner.configuration.friction
+        self.inner.caged.friction
     }
 
     /// Radial gap of every contact at the centred ball, m; play above 0, oversize below.
     #[getter]
     fn clearance(&self) -> f32 {
-        self.inner.configuration.clearance.gap()
+        self.inner.caged.clearance.gap()
     }
 
     /// Number of balls that share the load; a usual one where the design does not say it.
     #[getter]
     fn loaded_balls(&self) -> u16 {
-        self.inner.configuration.loaded_balls
+        self.inner.caged.loaded_balls
     }
 
     /// Number of balls in the circuit, where the design says it.

@@ -50,7 +50,7 @@ mod _native {
         reference_simulate_uncaged, simulate_caged, simulate_linear, simulate_uncaged,
     };
     #[pymodule_export]
-    use crate::scenes::caged::CagedBallScrew;
+    use crate::scenes::caged::{CagedBallScrew, fold_design};
     #[pymodule_export]
     use crate::scenes::remembering::CagedBallScrewWithMemory;
     #[pymodule_export]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import pathlib
+import re
 import subprocess
 from typing import Any
 
@@ -152,7 +153,7 @@ def test_memory_between_steps() -> None:
 
 def test_friction_is_set_while_it_runs() -> None:
     design = ef.Design.built_in("lin-3.6")
-    for screw in [ef.UncagedBallScrew(design), ef.CagedBallScrew(design)]:
+    for screw in [ef.UncagedBallScrew(design), ef.CagedBallScrew(design, friction_range=(0.02, 0.12))]:
         before = screw.run(np.full(2000, 5.0), 1500.0).friction_torque[-1]
         screw.set_friction(0.02)
         after = screw.run(np.full(2000, 5.0), 1500.0).friction_torque[-1]
@@ -165,3 +166,45 @@ def test_friction_is_set_while_it_runs() -> None:
     before = linear.run(np.full(500, 0.1), 1000.0).friction_force[-1]
     linear.set_friction(0.05)
     assert linear.run(np.full(1, 0.1), 1000.0).friction_force[-1] == pytest.approx(0.5 * before, rel=0.02)
+
+
+def with_play(design: ef.Design, folder: pathlib.Path) -> ef.Design:
+    """The same with play."""
+    file = folder / "worn.toml"
+    file.write_text(re.sub("clearance = .*", "clearance = 5e-6", design.toml()))
+    return ef.Design.read(file)
+
+
+def test_a_block_is_the_screw(tmp_path: pathlib.Path) -> None:
+    design = ef.Design.built_in("lin-4.1")
+    folded = ef.fold_design(design)
+    assert 0.0 < folded.rms < folded.largest < 0.006 and abs(folded.mean) < folded.rms
+    assert folded.states == 2048 and folded.flagged == 0.0 and folded.axial_load == (5.0, 300.0)
+    speed, load = np.linspace(-40.0, 40.0, 201), np.linspace(-9000.0, 9000.0, 201)
+    by_block = ef.CagedBallScrew.from_block(folded.block)
+    torque = ef.CagedBallScrew(design).run(speed, load).friction_torque
+    np.testing.assert_array_equal(by_block.run(speed, load).friction_torque, torque)
+    # A block of a screw with play takes its place while it runs, and less friction comes of it.
+    worn = ef.fold_design(with_play(design, tmp_path))
+    by_block.swap_block(worn.block)
+    np.testing.assert_array_less(np.abs(by_block.run(speed[1:90], load[1:90]).friction_torque), np.abs(torque[1:90]))
+    # What is no block is refused, and the model goes on.
+    before = by_block.run(speed, load).friction_torque
+    damaged = bytearray(worn.block)
+    damaged[100] ^= 1
+    for wrong, field in [(bytes(damaged), "checksum"), (worn.block[:-4], "words"), (worn.block[1:], "block"), (b"none", "words")]:
+        for take in [ef.CagedBallScrew.from_block, by_block.swap_block]:
+            with pytest.raises(ef.Error) as error:
+                take(wrong)
+            assert error.value.field == field
+    np.testing.assert_array_equal(by_block.run(speed, load).friction_torque, before)
+
+
+def test_a_range_that_no_block_holds_is_refused() -> None:
+    design = ef.Design.built_in("lin-4.1")
+    with pytest.raises(ef.Error) as error:
+        ef.CagedBallScrew(design, friction_range=(0.2, 0.3))
+    assert error.value.field == "friction"
+    with pytest.raises(ef.Error) as error:
+        ef.CagedBallScrew(design).set_friction(0.2)
+    assert error.value.field == "friction"

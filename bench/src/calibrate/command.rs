@@ -332,7 +332,7 @@ fn whole_folder(
     let mut settings = format!(
         "{} {:?} {:?} {:?} {:?} {:?}",
         env!("CARGO_PKG_VERSION"),
-        design.map(|design| (&design.configuration, &design.calibrated)),
+        design.map(|design| (&design.caged, design.branch, &design.calibrated)),
         arguments.ratio,
         arguments.estimate,
         arguments.fix,

@@ -3,11 +3,10 @@
 //! | module | what |
 //! |---|---|
 //! | [`quantities`] | everything that has a value: names, units, bounds |
-//! | [`friction`] | friction along the trace by the crate's caged scene with memory |
-//! | [`folded`] | that scene with its laws over the load folded before, and kept |
+//! | [`friction`] | friction along the trace: the exact ball behind the memory of the crate |
+//! | [`exact`] | the exact ball on a grid of coefficients and preloads, solved where a fit comes near |
 //! | [`recent`] | what was made last |
 //! | [`problem`] | the whole torque as a separable problem |
-//! | [`refined`] | what the scene's laws leave out between their coefficients |
 //! | [`systematic`] | errors of the sensors and of the model in the intervals |
 //! | [`hints`] | what a trace lacks, in sentences |
 //! | [`evidence`] | what the trace excites |
@@ -20,7 +19,7 @@
 pub mod blocks;
 pub mod choice;
 pub mod evidence;
-pub mod folded;
+pub mod exact;
 pub mod friction;
 pub mod hints;
 #[cfg(test)]
@@ -28,7 +27,6 @@ mod hostile_tests;
 pub mod problem;
 pub mod quantities;
 pub mod recent;
-pub mod refined;
 pub mod rivals;
 pub mod scores;
 pub mod systematic;
@@ -79,8 +77,7 @@ pub struct Request {
 }
 
 impl Default for Request {
-    /// Everything that the trace can tell. Differences of the fit take steps of a hundredth: the scene rounds to f32, and its laws settle
-    /// to 3e-6 of the friction.
+    /// Everything that the trace can tell. Differences of the fit take steps of a hundredth: the memory rounds to f32.
     fn default() -> Self {
         Self {
             wanted: Wanted::default(),
@@ -291,7 +288,7 @@ fn plausible(design: &Design, evidence: &Evidence) -> Result<(), Failure> {
             "a travel of {travel:.3} m with balls at {speed:.1} m/s is none of this screw: is the angle in degrees (nut_position_deg), or the motor's with a ratio (--ratio)?"
         )));
     }
-    let pressed = design.configuration.clearance.gap() < 0.0;
+    let pressed = design.caged.clearance.gap() < 0.0;
     if !pressed && evidence.load.is_some() && evidence.largest_load() == 0.0 {
         return Err(Failure::Data(
             "the load is 0 N throughout, and the design has no preload: nothing presses the balls; is the load's sensor dead?".into(),

@@ -1,7 +1,6 @@
 //! Table `[fold]` of a design file: the domain over which `design` folds it.
 
-use epas_design::{CagedDesign, CagedFold};
-use epas_friction::CagedBallScrewConfiguration;
+use epas_design::CagedFold;
 use serde::Deserialize;
 
 use super::Design;
@@ -31,6 +30,9 @@ impl FoldTable {
     /// # Errors
     /// What of it cannot be folded.
     pub fn fold(&self, design: &Design) -> Result<CagedFold, String> {
+        if design.branch.is_some() {
+            return Err("a closed form (branch = \"rolling\" or \"sliding\") needs no fold".into());
+        }
         for (key, there) in [
             ("screw_deviation", self.screw_deviation.is_some()),
             ("nut_deviation", self.nut_deviation.is_some()),
@@ -42,7 +44,7 @@ impl FoldTable {
                 ));
             }
         }
-        let mut fold = CagedFold::of(caged_design(&design.configuration));
+        let mut fold = CagedFold::of(design.caged);
         match self.friction {
             None => {}
             Some(Friction::One(friction)) => fold.gear.friction = friction,
@@ -60,18 +62,5 @@ impl FoldTable {
         fold.axial_load = self.axial_load.unwrap_or(fold.axial_load);
         fold.seed = self.seed.map_or(fold.seed, u64::from);
         Ok(fold)
-    }
-}
-
-/// The numbers of a caged scene as those of a fold.
-fn caged_design(configuration: &CagedBallScrewConfiguration) -> CagedDesign {
-    CagedDesign {
-        design: configuration.design,
-        friction: configuration.friction,
-        rolling_resistance: configuration.rolling_resistance,
-        clearance: configuration.clearance,
-        loaded_balls: configuration.loaded_balls,
-        reversal_speed: configuration.reversal_speed,
-        limits: configuration.limits,
     }
 }

@@ -6,7 +6,7 @@ fn every_built_in_design_is_valid_and_found_by_its_name() {
     for (name, ..) in built_in() {
         let design = name.parse::<DesignSource>().unwrap().load().unwrap();
         assert_eq!(design.name, name);
-        FrictionModel::<CagedBallScrew>::new(&design.configuration).unwrap();
+        design.check().unwrap();
     }
     assert!("33x20x6.35".parse::<DesignSource>().is_err());
 }
@@ -23,13 +23,13 @@ fn a_design_file_equals_the_built_in_design() {
     let built_in = |name: &str| name.parse::<DesignSource>().unwrap().load().unwrap();
     let papers = "friction = 0.075\nclearance = 0\nreversal_speed = 0.5\n";
     let file = parse(&format!("{GOOD}{papers}")).unwrap();
-    assert_eq!(file.configuration, built_in("32x20x6.35").configuration);
+    assert_eq!(file.caged, built_in("32x20x6.35").caged);
     assert_eq!(file.defaulted, ["loaded_balls"]);
     // What a file leaves out is what the sizes of no paper have.
     let file = parse(&GOOD.replace("0.02\n", "0.01\n")).unwrap();
-    assert_eq!(file.configuration, built_in("32x10x6.35").configuration);
-    assert_eq!(file.configuration.friction, defaults::FRICTION);
-    assert_eq!(file.configuration.clearance, defaults::CLEARANCE);
+    assert_eq!(file.caged, built_in("32x10x6.35").caged);
+    assert_eq!(file.caged.friction, defaults::FRICTION);
+    assert_eq!(file.caged.clearance, defaults::CLEARANCE);
     assert_eq!(
         file.defaulted,
         ["friction", "clearance", "reversal_speed", "loaded_balls"]

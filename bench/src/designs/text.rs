@@ -2,29 +2,28 @@
 
 use std::fmt::Write as _;
 
-use epas_friction::{CagedBallScrewConfiguration, FrictionBranch, GrooveSize, Material};
+use epas_design::CagedDesign;
+use epas_friction::{FrictionBranch, GrooveSize, Material};
 
 use super::Design;
 
 /// The text of a design file that is read as this design: for one that has no file, a built-in one. Its row of balls and its
 /// supports go by its name.
 pub fn text(design: &Design) -> String {
-    let CagedBallScrewConfiguration {
+    let CagedDesign {
         design: screw,
         friction,
         rolling_resistance,
-        rolling_tangent,
-        branch,
         clearance,
         loaded_balls,
         reversal_speed,
         limits,
-    } = &design.configuration;
+    } = &design.caged;
     let parameters = screw.parameters();
-    let branch = match branch {
-        FrictionBranch::Contacts => "contacts",
-        FrictionBranch::Rolling => "rolling",
-        FrictionBranch::Sliding => "sliding",
+    let branch = match design.branch {
+        None => "contacts",
+        Some(FrictionBranch::Sliding) => "sliding",
+        Some(_) => "rolling",
     };
     let mut text = format!("name = {:?}\n", design.name);
     for (key, value) in [
@@ -35,7 +34,7 @@ pub fn text(design: &Design) -> String {
         ("friction", *friction),
         ("hysteresis_loss", rolling_resistance.hysteresis_loss),
         ("lubricant_drag", rolling_resistance.lubricant_drag),
-        ("rolling_tangent", *rolling_tangent),
+        ("rolling_tangent", design.rolling_tangent),
         ("clearance", clearance.gap()),
         ("reversal_speed", *reversal_speed),
     ] {
@@ -87,7 +86,7 @@ mod tests {
         for (name, ..) in built_in() {
             let design = name.parse::<DesignSource>().unwrap().load().unwrap();
             let again = read(&text(&design), "other").unwrap();
-            assert_eq!(again.configuration, design.configuration, "{name}");
+            assert_eq!(again.caged, design.caged, "{name}");
             assert_eq!(again.name, name);
         }
     }

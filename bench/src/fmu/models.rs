@@ -1,11 +1,12 @@
 //! Models of a unit, of a design whose numbers have been changed.
 
-use epas_friction::{CagedBallScrew, Error, FrictionModel, LinearBearingTrain, UncagedBallScrew};
+use epas_friction::{Error, FrictionModel, LinearBearingTrain, UncagedBallScrew};
 
 use super::parameters::Values;
 use super::rows::Row;
 use super::running::{ByAngle, Moving, Running};
 use super::scene::SceneName;
+use crate::caged::CagedScene;
 use crate::designs::Design;
 use crate::designs::train::LinearDesign;
 use crate::failure::Failure;
@@ -20,8 +21,9 @@ use crate::simulate::uncaged::Uncaged;
 /// # Errors
 /// The parameter that is wrong, its value and what is allowed.
 pub fn caged(design: &Design) -> Result<Box<dyn Running>, String> {
-    let model = FrictionModel::<CagedBallScrew>::new(&design.configuration);
-    Ok(Box::new(model.map_err(said)?))
+    design.check().map_err(said)?;
+    let scene = CagedScene::of(design).map_err(|failure| refused(&failure))?;
+    Ok(Box::new(scene.model().map_err(said)?))
 }
 
 /// The same with friction that remembers.
@@ -35,6 +37,13 @@ pub fn caged_with_memory(design: &Design, values: &Values<'_>) -> Result<Box<dyn
 
 fn said(error: Error) -> String {
     error.to_string()
+}
+
+fn refused(failure: &Failure) -> String {
+    match failure {
+        Failure::Data(message) => message.clone(),
+        _ => "the model cannot be made".into(),
+    }
 }
 
 fn mean_load(values: &Values<'_>) -> Result<f32, String> {
@@ -58,11 +67,10 @@ where
     U: Use<Made = Box<dyn Running>>,
 {
     // A wrong number of the design is told under its own name, whatever a law or elements make of it.
-    FrictionModel::<CagedBallScrew>::new(&design.configuration).map_err(said)?;
+    design.check().map_err(said)?;
     match remembering(design, load, angle, then) {
         Ok((running, _)) => Ok(running),
-        Err(Failure::Data(message)) => Err(message),
-        Err(_) => Err("the model cannot be made".into()),
+        Err(failure) => Err(refused(&failure)),
     }
 }
 

@@ -2,9 +2,9 @@
 
 use std::f64::consts::{PI, TAU};
 
-use epas_friction::scene::StoredScene;
-use epas_friction::{CagedBallScrew, FrictionModel, Inputs, Outputs, Refusal, Regime};
+use epas_friction::{Inputs, Outputs, Refusal, Regime};
 
+use crate::caged::CagedModel;
 use crate::mechanism::Mechanism;
 use crate::simulate::memory;
 use crate::simulate::nut::{Nut, STEPS};
@@ -109,23 +109,13 @@ pub fn parted<const N: usize>(state: &[u8]) -> Result<([f64; N], &[u8]), String>
     Ok((numbers, rest))
 }
 
-/// The state of a model of the crate as a block.
-fn exported<S: StoredScene>(model: &FrictionModel<S>) -> Result<Vec<u8>, String> {
-    let mut block = vec![0; FrictionModel::<S>::STATE_BYTES];
-    model.export(&mut block).map_err(text)?;
-    Ok(block)
-}
-
-impl Running for FrictionModel<CagedBallScrew> {
+impl Running for CagedModel {
     fn step(&mut self, moment: &Moment<'_>) -> Result<Vec<f64>, String> {
-        Ok(screw_outputs(&FrictionModel::step(
-            self,
-            screw_inputs(moment),
-        )))
+        Ok(screw_outputs(&Self::step(self, screw_inputs(moment))))
     }
 
     fn save(&self) -> Result<Vec<u8>, String> {
-        exported(self)
+        self.export().map_err(text)
     }
 
     fn load(&mut self, state: &[u8]) -> Result<(), String> {

@@ -2,11 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use epas_friction::promises::{Promise, STEP_CAGED, STEP_CAGED_LAW, STEP_CAGED_MEMORY};
-use epas_friction::{
-    CagedBallScrew, CagedBallScrewConfiguration, Error, FrictionBranch, FrictionModel, Inputs,
-    Outputs, RollingResistance,
-};
+use epas_design::CagedDesign;
+use epas_friction::promises::{Promise, STEP_FOLDED, STEP_FOLDED_RANGE};
+use epas_friction::{Error, FrictionBranch, Inputs, Outputs, RollingResistance};
 
 use super::caged_exact::ExactCaged;
 use super::manoeuvre::Manoeuvre;
@@ -19,6 +17,7 @@ use super::scene::Scene;
 use super::screw::{self, ScrewSummary};
 use super::summary::Lines;
 use super::trace::{SceneSample, Temperature, Trace};
+use crate::caged::CagedScene;
 use crate::designs::Design;
 use crate::designs::calibration::Calibrated;
 use crate::failure::Failure;
@@ -41,17 +40,18 @@ enum Reference {
 }
 
 impl Reference {
-    /// The exact ball of the contacts' friction, or a closed form: that of the configuration, or of rolling balls.
+    /// The exact ball of the contacts' friction, or a closed form: that of the design, or of rolling balls.
     fn new(
         model: ReferenceModel,
-        configuration: &CagedBallScrewConfiguration,
+        design: &Design,
         trace: &Trace<ScrewSample>,
     ) -> Result<Self, Failure> {
-        Ok(match (configuration.branch, model) {
-            (FrictionBranch::Contacts, ReferenceModel::Exact) => {
-                Self::Exact(ExactCaged::new(configuration, trace)?)
+        Ok(match (design.branch, model) {
+            (None, ReferenceModel::Exact) => Self::Exact(ExactCaged::new(&design.caged, trace)?),
+            (branch, _) => {
+                let branch = branch.unwrap_or(FrictionBranch::Rolling);
+                Self::ClosedForm(CagedReference::new(&design.in_closed_form(branch))?)
             }
-            _ => Self::ClosedForm(CagedReference::new(configuration)?),
         })
     }
 
@@ -85,8 +85,7 @@ impl Caged {
             let angle = memory::angle().map_err(refused)?;
             return remembering(&self.design, memory::mean_load(trace), angle, Boxed);
         }
-        let model = FrictionModel::<CagedBallScrew>::new(&self.design.configuration);
-        let mut model = model.map_err(refused)?;
+        let mut model = CagedScene::of(&self.design)?.model().map_err(refused)?;
         let plain = Box::new(move |inputs, _, _| model.step(inputs));
         let mut lines = Lines::default();
         let calibrated = self.design.calibrated.as_ref();
@@ -106,10 +105,9 @@ impl Caged {
         reference: Option<ReferenceModel>,
         done: &dyn Fn(),
     ) -> Result<(Vec<CagedRow>, Lines), Failure> {
-        let configuration = &self.design.configuration;
         let (mut model, lines) = self.model(trace)?;
         let reference = reference
-            .map(|model| Reference::new(model, configuration, trace))
+            .map(|model| Reference::new(model, &self.design, trace))
             .transpose()?;
         let mut angle = 0.0;
         let mut last = trace.samples.first().copied();
@@ -175,13 +173,13 @@ impl Scene for Caged {
     }
 
     fn reference_name(&self, model: ReferenceModel) -> String {
-        let form = match (self.design.configuration.branch, model) {
-            (FrictionBranch::Contacts, ReferenceModel::Exact) => "one ball in elastic balance",
-            (FrictionBranch::Contacts, ReferenceModel::ClosedForm) => {
+        let form = match (self.design.branch, model) {
+            (None, ReferenceModel::Exact) => "one ball in elastic balance",
+            (None, ReferenceModel::ClosedForm) => {
                 "a rolling ball in closed form, another model than the design's friction of contacts"
             }
-            (FrictionBranch::Rolling, _) => "the design's closed form, a rolling ball",
-            (FrictionBranch::Sliding, _) => "the design's closed form, a sliding ball",
+            (Some(FrictionBranch::Sliding), _) => "the design's closed form, a sliding ball",
+            (Some(_), _) => "the design's closed form, a rolling ball",
         };
         let without = match (self.memory, &self.design.calibrated) {
             (false, _) => "",
@@ -225,13 +223,13 @@ impl Scene for Caged {
         for row in rows {
             summary.add(&row.sample, &row.outputs, row.reference.as_ref());
         }
-        let CagedBallScrewConfiguration {
+        let CagedDesign {
             friction,
             clearance,
             loaded_balls,
             reversal_speed,
             ..
-        } = self.design.configuration;
+        } = self.design.caged;
         let mut settings = screw::settings(&self.design, friction, clearance);
         if !self.memory {
             let speed = screw::reversal_speed(&self.design, reversal_speed);
@@ -262,12 +260,9 @@ impl Scene for Caged {
 impl Caged {
     /// What the error of this scene is, where it is promised.
     fn promise(&self) -> Option<Promise> {
-        match (self.design.configuration.branch, self.memory) {
-            (FrictionBranch::Contacts, true) if self.design.calibrated.is_some() => {
-                Some(STEP_CAGED_LAW)
-            }
-            (FrictionBranch::Contacts, true) => Some(STEP_CAGED_MEMORY),
-            (FrictionBranch::Contacts, false) => Some(STEP_CAGED),
+        match (self.design.branch, self.memory) {
+            (None, true) if self.design.calibrated.is_some() => Some(STEP_FOLDED_RANGE),
+            (None, _) => Some(STEP_FOLDED),
             _ => None,
         }
     }
@@ -299,12 +294,12 @@ impl Caged {
         trace: &Trace<ScrewSample>,
         rows: &[CagedRow],
     ) -> Result<Vec<Moment>, Failure> {
-        let configuration = &self.design.configuration;
-        let resists = configuration.rolling_resistance != RollingResistance::NONE;
-        let slips = (resists && configuration.branch == FrictionBranch::Contacts)
+        let caged = &self.design.caged;
+        let resists = caged.rolling_resistance != RollingResistance::NONE;
+        let slips = (resists && self.design.branch.is_none())
             .then(|| {
                 let mut design = self.design.clone();
-                design.configuration.rolling_resistance = RollingResistance::NONE;
+                design.caged.rolling_resistance = RollingResistance::NONE;
                 let slipping = Self {
                     design,
                     memory: self.memory,
@@ -315,7 +310,7 @@ impl Caged {
             .transpose()?;
         let promise = self.promise();
         let reduced_lead = f64::from(self.design.screw().lead()) / TAU;
-        let largest_load = LARGEST_BALL_LOAD * f64::from(configuration.loaded_balls);
+        let largest_load = LARGEST_BALL_LOAD * f64::from(caged.loaded_balls);
         let moment = |(index, row): (usize, &CagedRow)| {
             let friction = f64::from(row.outputs.friction_torque);
             let load = row.sample.axial_load;

@@ -1,7 +1,8 @@
 //! A caged ball screw in float64 by the exact balance of one of its balls.
 
+use epas_design::CagedDesign;
 use epas_design::drawing::drawing;
-use epas_friction::{CagedBallScrewConfiguration, Limits};
+use epas_friction::Limits;
 use epas_reference::friction::ball_screw_efficiency::LoadedScrew;
 use epas_reference::friction::rolling_resistance::RollingResistance;
 use std::f64::consts::TAU;
@@ -27,29 +28,26 @@ pub struct ExactCaged {
 }
 
 impl ExactCaged {
-    /// The scene of a configuration that the in-loop model has accepted, for the loads of a trace.
-    pub fn new(
-        configuration: &CagedBallScrewConfiguration,
-        trace: &Trace<ScrewSample>,
-    ) -> Result<Self, Failure> {
+    /// That of a design, for the loads of a trace.
+    pub fn new(caged: &CagedDesign, trace: &Trace<ScrewSample>) -> Result<Self, Failure> {
         let largest = trace
             .samples
             .iter()
             .map(|sample| sample.axial_load.abs())
             .fold(1.0, f64::max)
-            .min(configuration.limits.axial_load.into());
-        let resistance = configuration.rolling_resistance;
+            .min(caged.limits.axial_load.into());
+        let resistance = caged.rolling_resistance;
         let law = |side: f64| {
             let screws: Vec<LoadedScrew> = (0..LOADS)
                 .map(|number| LoadedScrew {
-                    design: drawing(configuration.design.parameters()),
-                    clearance: configuration.clearance.gap().into(),
-                    friction: configuration.friction.into(),
+                    design: drawing(caged.design.parameters()),
+                    clearance: caged.clearance.gap().into(),
+                    friction: caged.friction.into(),
                     rolling: RollingResistance {
                         hysteresis_loss: resistance.hysteresis_loss.into(),
                         lubricant_drag: resistance.lubricant_drag.into(),
                     },
-                    balls: configuration.loaded_balls.into(),
+                    balls: caged.loaded_balls.into(),
                     axial_load: side
                         * largest
                         * SPAN.powf(f64::from(number) / f64::from(LOADS - 1) - 1.0),
@@ -67,10 +65,10 @@ impl ExactCaged {
         };
         Ok(Self {
             laws: [law(1.0)?, law(-1.0)?],
-            preloaded: configuration.clearance.gap() < 0.0,
-            reduced_lead: f64::from(configuration.design.lead()) / TAU,
-            reversal_speed: configuration.reversal_speed.into(),
-            limits: configuration.limits,
+            preloaded: caged.clearance.gap() < 0.0,
+            reduced_lead: f64::from(caged.design.lead()) / TAU,
+            reversal_speed: caged.reversal_speed.into(),
+            limits: caged.limits,
         })
     }
 

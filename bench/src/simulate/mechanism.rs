@@ -8,7 +8,8 @@ use std::f64::consts::{PI, TAU};
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
-use epas_friction::{CagedBallScrewConfiguration, Outputs};
+use epas_design::CagedDesign;
+use epas_friction::Outputs;
 
 use super::memory;
 use super::nut::{Nut, STEPS};
@@ -205,11 +206,11 @@ pub fn run(
         pending.finish()?;
     }
     let mut stdout = files::told(outputs.iter().flatten());
-    let CagedBallScrewConfiguration {
+    let CagedDesign {
         friction,
         clearance,
         ..
-    } = design.configuration;
+    } = design.caged;
     let mut settings = Lines::default();
     settings.add("design", design.name.clone());
     settings.append(screw::settings(design, friction, clearance));

@@ -11,7 +11,7 @@
 use std::f64::consts::{SQRT_2, TAU};
 
 use epas_design::drawing::drawing;
-use epas_friction::{CagedBallScrewConfiguration, Clearance, FrictionBranch, Limits};
+use epas_friction::{Clearance, ClosedFormScrewConfiguration, FrictionBranch, Limits};
 use epas_reference::curvature::Groove;
 use epas_reference::efficiency::Screw;
 use epas_reference::friction::ball_screw_closed::ThreePointModel;
@@ -133,7 +133,7 @@ pub fn efficiency(load_torque: f64, friction_torque: f64) -> f64 {
 
 /// Axial load on each flank of the nut without a load, N: oversized balls press on all four contacts, whose deflections in
 /// screw and nut are twice the oversize together.
-fn flank_preload(configuration: &CagedBallScrewConfiguration) -> Result<f64, Failure> {
+fn flank_preload(configuration: &ClosedFormScrewConfiguration) -> Result<f64, Failure> {
     let oversize = (-f64::from(configuration.clearance.gap())).max(0.0);
     let drawing = drawing(configuration.design.parameters());
     let mut deflection = 0.0;
@@ -162,8 +162,8 @@ pub struct CagedReference {
 }
 
 impl CagedReference {
-    /// The scene of a configuration that the in-loop model has accepted.
-    pub fn new(configuration: &CagedBallScrewConfiguration) -> Result<Self, Failure> {
+    /// That of a configuration that the in-loop model has accepted.
+    pub fn new(configuration: &ClosedFormScrewConfiguration) -> Result<Self, Failure> {
         let design = configuration.design.parameters();
         let pitch_radius = f64::from(design.pitch_radius);
         let reduced_lead = f64::from(design.lead) / TAU;
@@ -181,7 +181,8 @@ impl CagedReference {
         };
         let (drive, backdrive) = match configuration.branch {
             // Back-driving is driving with every friction turned round, and input and output changed.
-            FrictionBranch::Rolling | FrictionBranch::Contacts => {
+            FrictionBranch::Sliding => (screw.sliding_drive(), screw.sliding_backdrive()),
+            _ => {
                 let turned = Screw {
                     friction: -screw.friction,
                     rolling_tangent: -screw.rolling_tangent,
@@ -189,7 +190,6 @@ impl CagedReference {
                 };
                 (screw.rolling_screw(), 1.0 / turned.rolling_screw())
             }
-            FrictionBranch::Sliding => (screw.sliding_drive(), screw.sliding_backdrive()),
         };
         Ok(Self {
             drive: (drive > 0.0).then(|| reduced_lead * (1.0 - drive) / drive),

@@ -1,18 +1,22 @@
 //! A caged screw with memory: by its design alone, or as a measured trace has told it, with breakaway angle, friction coefficient by
 //! speed and direction, and backlash.
 
+use epas_design::CagedDesign;
+use epas_design::caged::NODES;
 use epas_friction::law::Elements;
 use epas_friction::law::coefficient::CoefficientLaw;
 use epas_friction::law::memory::Hysteresis;
 use epas_friction::law::motion::{NutAngle, Steady};
-use epas_friction::scene::{CoefficientFor, WithMemory, WithMemoryConfiguration, WithMemoryInputs};
-use epas_friction::stored::{Fingerprinted, Stored};
-use epas_friction::{
-    CagedBallScrew, CagedBallScrewConfiguration, Error, FrictionModel, Inputs, Outputs, Refusal,
+use epas_friction::scene::{
+    ClosedFormScrew, CoefficientFor, FoldedScrew, Sliding, StoredScene, WithMemory,
+    WithMemoryConfiguration, WithMemoryInputs,
 };
+use epas_friction::stored::{Fingerprinted, Stored};
+use epas_friction::{Error, FrictionModel, Inputs, Outputs, Refusal, Scene};
 
 use super::memory::{self, Remembered};
 use super::summary::Lines;
+use crate::caged::CagedScene;
 use crate::calibrate::outputs::firmware::{ELEMENTS, ElementsNumbers, Numbers};
 use crate::designs::Design;
 use crate::designs::calibration::ElementsName;
@@ -47,8 +51,30 @@ pub trait Remembers: Clone + Send + Sync {
     fn faulted_ticks(&self) -> u32;
 }
 
-impl<E, A, L> Remembers for FrictionModel<WithMemory<CagedBallScrew, E, A, L>>
+/// A screw whose balls do not touch, that a memory is put around: by a folded block or a closed form.
+pub trait CagedScrew:
+    StoredScene
+    + Sliding<
+        Inputs = Inputs,
+        Outputs = Outputs,
+        Constants: Copy + Send + Sync,
+        State: Send + Sync,
+        Full: Stored + Default + Send + Sync,
+        Coefficients: Send + Sync,
+    > + Copy
+    + Send
+    + Sync
+    + 'static
+{
+}
+
+impl<const N: usize> CagedScrew for FoldedScrew<N> {}
+
+impl CagedScrew for ClosedFormScrew {}
+
+impl<S, E, A, L> Remembers for FrictionModel<WithMemory<S, E, A, L>>
 where
+    S: CagedScrew,
     E: Elements<State: Stored> + Fingerprinted + Copy,
     A: Sensor,
     L: CoefficientFor<Inputs>,
@@ -111,17 +137,20 @@ pub trait Use {
     fn with(self, screw: impl Remembers + 'static) -> Self::Made;
 }
 
-/// A design with a sensor.
-struct Built<'a, A> {
+/// A design with a sensor and a mean size of the load, N.
+struct Wanted<'a, A> {
     design: &'a Design,
+    mean_load: f32,
     angle: A,
 }
 
 /// Builds the screw of a design for a sensor and a mean size of the load, N, and does something with it; what the summary tells of
 /// it beside that.
 ///
+/// The screw is folded for the friction coefficients that its calibration has.
+///
 /// # Errors
-/// What the crate refuses.
+/// What the crate refuses, or cannot be folded.
 pub fn remembering<A, U>(
     design: &Design,
     mean_load: f32,
@@ -132,86 +161,133 @@ where
     A: Sensor,
     U: Use,
 {
-    let refused = |error: Error| Failure::Data(format!("{}: {error}", design.name));
-    let configuration = &design.configuration;
-    let by_design = || by_design(configuration, mean_load).map_err(refused);
-    let Some(calibrated) = &design.calibrated else {
-        let remembered = by_design()?;
-        let whole =
-            memory::configuration(*configuration, &remembered, angle, configuration.friction);
-        let model = whole.and_then(|whole| FrictionModel::new(&whole));
-        return Ok((then.with(model.map_err(refused)?), remembered.lines));
-    };
-    let numbers = Numbers::of(design)?;
-    let backlash = calibrated.backlash.unwrap_or(0.0);
-    let built = Built {
+    let wanted = Wanted {
         design,
-        angle: Steady::new(angle, 0.5 * backlash).map_err(refused)?,
+        mean_load,
+        angle,
     };
-    let law = match &numbers.law {
+    match scene(design)? {
+        CagedScene::One(block) => wanted.around::<FoldedScrew, _>(block, then),
+        CagedScene::Range(block) => wanted.around::<FoldedScrew<NODES>, _>(block, then),
+        CagedScene::ClosedForm(form) => wanted.around::<ClosedFormScrew, _>(form, then),
+    }
+}
+
+/// What a memory is put around: a scene for the friction coefficients of the design's calibration.
+///
+/// # Errors
+/// What the crate refuses, or cannot be folded.
+pub fn scene(design: &Design) -> Result<CagedScene, Failure> {
+    let own = (design.caged.friction, design.caged.friction);
+    let coefficients = match &design.calibrated {
+        Some(_) => law(design, &Numbers::of(design)?)
+            .map_err(|error| refused(design, &error))?
+            .extremes(),
+        None => own,
+    };
+    CagedScene::with_coefficients(design, coefficients)
+}
+
+/// The friction coefficient of a calibrated design.
+fn law(design: &Design, numbers: &Numbers) -> Result<CoefficientLaw, Error> {
+    match &numbers.law {
         Some(law) => law.law(),
-        None => CoefficientLaw::constant(configuration.friction),
-    }
-    .map_err(refused)?;
-    match &numbers.elements {
-        None => {
-            let remembered = by_design()?;
-            let elements = (remembered.elements, remembered.reference_load);
-            Ok((
-                built.with(elements, law, then).map_err(refused)?,
-                remembered.lines,
-            ))
-        }
-        Some(told) => {
-            let made = match told.kind {
-                ElementsName::Proportional => told
-                    .proportional()
-                    .and_then(|elements| built.with((elements, told.load), law, then)),
-                ElementsName::LoadExact => told
-                    .load_exact()
-                    .and_then(|elements| built.with((elements, told.load), law, then)),
-                ElementsName::Preloaded => told
-                    .preloaded()
-                    .and_then(|elements| built.with((elements, told.load), law, then)),
-            };
-            Ok((made.map_err(refused)?, lines(told)))
-        }
+        None => CoefficientLaw::constant(design.caged.friction),
     }
 }
 
-impl<A: Sensor> Built<'_, A> {
-    fn with<E: Hysteresis + Elements<State: Stored> + Fingerprinted + Copy + 'static, U: Use>(
+fn refused(design: &Design, error: &Error) -> Failure {
+    Failure::Data(format!("{}: {error}", design.name))
+}
+
+impl<A: Sensor> Wanted<'_, A> {
+    fn around<S: CagedScrew, U: Use>(
         &self,
-        elements: (E, f32),
-        law: CoefficientLaw,
+        scene: S::Configuration,
         then: U,
-    ) -> Result<U::Made, Error>
+    ) -> Result<(U::Made, Lines), Failure>
     where
-        FrictionModel<WithMemory<CagedBallScrew, E, A, CoefficientLaw>>: Clone + Send + Sync,
+        S::Configuration: Copy,
     {
-        let whole: WithMemoryConfiguration<CagedBallScrewConfiguration, E, A, CoefficientLaw> =
-            memory::with_coefficient(self.design.configuration, elements, self.angle, law);
-        Ok(
-            then.with(FrictionModel::<WithMemory<CagedBallScrew, E, A, _>>::new(
-                &whole,
-            )?),
-        )
+        let Self {
+            design,
+            mean_load,
+            angle,
+        } = *self;
+        let refused = |error: Error| refused(design, &error);
+        let by_design = || by_design(&design.caged, mean_load).map_err(refused);
+        let Some(calibrated) = &design.calibrated else {
+            let remembered = by_design()?;
+            let whole = memory::configuration(scene, &remembered, angle, design.caged.friction);
+            let model =
+                whole.and_then(|whole| FrictionModel::<WithMemory<S, _, _, _>>::new(&whole));
+            return Ok((then.with(model.map_err(refused)?), remembered.lines));
+        };
+        let numbers = Numbers::of(design)?;
+        let backlash = calibrated.backlash.unwrap_or(0.0);
+        let built = Built {
+            scene,
+            angle: Steady::new(angle, 0.5 * backlash).map_err(refused)?,
+            law: law(design, &numbers).map_err(refused)?,
+        };
+        match &numbers.elements {
+            None => {
+                let remembered = by_design()?;
+                let elements = (remembered.elements, remembered.reference_load);
+                Ok((
+                    built.with::<S, _, _>(elements, then).map_err(refused)?,
+                    remembered.lines,
+                ))
+            }
+            Some(told) => {
+                let made = match told.kind {
+                    ElementsName::Proportional => told
+                        .proportional()
+                        .and_then(|elements| built.with::<S, _, _>((elements, told.load), then)),
+                    ElementsName::LoadExact => told
+                        .load_exact()
+                        .and_then(|elements| built.with::<S, _, _>((elements, told.load), then)),
+                    ElementsName::Preloaded => told
+                        .preloaded()
+                        .and_then(|elements| built.with::<S, _, _>((elements, told.load), then)),
+                };
+                Ok((made.map_err(refused)?, lines(told)))
+            }
+        }
     }
 }
 
-/// Elements of a configuration's design under a load, N.
-fn by_design(
-    configuration: &CagedBallScrewConfiguration,
-    mean_load: f32,
-) -> Result<Remembered, Error> {
-    let CagedBallScrewConfiguration {
+/// A scene with a sensor and a friction coefficient.
+struct Built<C, A> {
+    scene: C,
+    angle: A,
+    law: CoefficientLaw,
+}
+
+impl<C: Copy, A: Sensor> Built<C, A> {
+    fn with<S, E, U>(&self, elements: (E, f32), then: U) -> Result<U::Made, Error>
+    where
+        S: CagedScrew + Scene<Configuration = C>,
+        E: Hysteresis + Elements<State: Stored> + Fingerprinted + Copy + 'static,
+        U: Use,
+        FrictionModel<WithMemory<S, E, A, CoefficientLaw>>: Clone + Send + Sync,
+    {
+        let whole: WithMemoryConfiguration<C, E, A, CoefficientLaw> =
+            memory::with_coefficient(self.scene, elements, self.angle, self.law);
+        Ok(then.with(FrictionModel::<WithMemory<S, E, A, _>>::new(&whole)?))
+    }
+}
+
+/// Elements of a design under a load, N.
+fn by_design(caged: &CagedDesign, mean_load: f32) -> Result<Remembered, Error> {
+    let CagedDesign {
         ref design,
         friction,
         clearance,
         rolling_resistance,
         loaded_balls,
         ..
-    } = *configuration;
+    } = *caged;
     memory::Screw {
         design,
         friction,

@@ -3,6 +3,8 @@
 use std::f32::consts::{PI, TAU};
 use std::hint::black_box;
 
+use epas_design::caged::Block;
+use epas_design::{CagedDesign, CagedFold};
 use epas_friction::curvature::{
     CircularGrooveCurvature, FittedCurvature, GothicArch, LiteratureCurvature,
 };
@@ -13,10 +15,11 @@ use epas_friction::law::breakaway::{Breakaway, BreakawayConfiguration, ScrewCont
 use epas_friction::law::coefficient::OneCoefficient;
 use epas_friction::law::memory::{ProportionalElements, SLIP_4, SPIN_4};
 use epas_friction::law::motion::{WrappedAngle, WrappedAngleParameters};
-use epas_friction::scene::{WithMemory, WithMemoryConfiguration, WithMemoryInputs};
+use epas_friction::scene::{
+    FoldedScrew, FoldedScrewConfiguration, WithMemory, WithMemoryConfiguration, WithMemoryInputs,
+};
 use epas_friction::{
-    BallScrew, CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, Clearance, FrictionBranch,
-    FrictionModel, Inputs, Limits, RollingResistance, math,
+    BallScrew, CATALOGUE, Clearance, FrictionModel, Inputs, Limits, RollingResistance, math,
 };
 use epas_reference::curvature as reference;
 use epas_reference::published::TABLE_A1;
@@ -26,6 +29,7 @@ use super::kernels::{libm, micromath, own};
 use super::measure::{Measure, Ratio};
 use super::race::{Mode, Race};
 use super::trains::trains;
+use crate::caged::block;
 use crate::failure::Failure;
 use crate::progress::Progress;
 
@@ -178,12 +182,10 @@ fn ellipses(race: &mut Race, list: &mut List, design: &BallScrew) {
 }
 
 fn caged_step(race: &mut Race, list: &mut List, design: BallScrew) -> Result<(), Failure> {
-    let configuration = CagedBallScrewConfiguration {
+    let caged = CagedDesign {
         design,
         friction: 0.075,
         rolling_resistance: RollingResistance::STEEL,
-        rolling_tangent: 0.0,
-        branch: FrictionBranch::Contacts,
         clearance: black_box(Clearance::new(-1e-6).map_err(refused)?),
         loaded_balls: 40,
         reversal_speed: 0.5,
@@ -193,8 +195,12 @@ fn caged_step(race: &mut Race, list: &mut List, design: BallScrew) -> Result<(),
             friction_torque: 10.0,
         },
     };
-    let mut model = FrictionModel::<CagedBallScrew>::new(&configuration).map_err(refused)?;
-    let mut remembering = remembering(configuration).map_err(refused)?;
+    let Block::One(folded) = block(&CagedFold::of(caged))? else {
+        return Err(Failure::Data("one friction coefficient is one node".into()));
+    };
+    let folded = black_box(folded);
+    let mut model = FrictionModel::<FoldedScrew>::new(&folded).map_err(refused)?;
+    let mut remembering = remembering(&caged, folded).map_err(refused)?;
     let mut angle = 0.0;
     Group::new(
         race,
@@ -219,21 +225,21 @@ fn caged_step(race: &mut Race, list: &mut List, design: BallScrew) -> Result<(),
     Ok(())
 }
 
-type Remembering =
-    WithMemory<CagedBallScrew, ProportionalElements<8>, WrappedAngle, OneCoefficient>;
+type Remembering = WithMemory<FoldedScrew, ProportionalElements<8>, WrappedAngle, OneCoefficient>;
 
 /// A caged screw with elements for 1 kN.
 fn remembering(
-    screw: CagedBallScrewConfiguration,
+    caged: &CagedDesign,
+    folded: FoldedScrewConfiguration,
 ) -> Result<FrictionModel<Remembering>, epas_friction::Error> {
-    let CagedBallScrewConfiguration {
+    let CagedDesign {
         design,
         friction,
         clearance,
         rolling_resistance,
         loaded_balls,
         ..
-    } = screw;
+    } = *caged;
     let contact_load = ScrewContacts::of(&design).preloaded(1000.0, loaded_balls, clearance);
     let breakaway = Breakaway::of(
         &design,
@@ -256,7 +262,7 @@ fn remembering(
         largest_turn: PI,
     })?;
     FrictionModel::new(&WithMemoryConfiguration::new(
-        screw, friction, elements, sensor, 1000.0,
+        folded, friction, elements, sensor, 1000.0,
     )?)
 }
 

@@ -1,4 +1,4 @@
-//! What a calibration writes is what a simulation runs and what firmware folds.
+//! What a calibration writes is what a simulation runs and what firmware evaluates.
 
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write as _;
@@ -7,8 +7,10 @@ use std::fs;
 use epas_friction::law::coefficient::CoefficientLaw;
 use epas_friction::law::memory::ProportionalElements;
 use epas_friction::law::motion::{Steady, WrappedAngle, WrappedAngleParameters};
-use epas_friction::scene::{WithMemory, WithMemoryConstants, WithMemoryInputs};
-use epas_friction::{CagedBallScrew, CagedConstants, FrictionModel, Inputs};
+use epas_friction::scene::{
+    FoldedScrew, FoldedScrewConstants, WithMemory, WithMemoryConstants, WithMemoryInputs,
+};
+use epas_friction::{FrictionModel, Inputs};
 use tempfile::tempdir;
 
 use super::run_in;
@@ -57,13 +59,20 @@ const SENSOR: Sensor = {
     }
 };
 
-/// Folded by the compiler: it stands in flash.
-static GEAR: WithMemoryConstants<CagedConstants, ProportionalElements<8>, Sensor, CoefficientLaw> =
-    constants::with_memory(SENSOR);
+/// Friction coefficients of the block.
+const NODES: usize = 5;
+
+/// It stands in flash.
+static GEAR: WithMemoryConstants<
+    FoldedScrewConstants<NODES>,
+    ProportionalElements<8>,
+    Sensor,
+    CoefficientLaw,
+> = constants::with_memory(SENSOR);
 
 /// Both are the same arithmetic on the same numbers.
 #[test]
-fn a_simulation_runs_what_firmware_folds() {
+fn a_simulation_runs_what_firmware_evaluates() {
     let folder = tempdir().unwrap();
     let samples: Vec<[f64; 3]> = (0..2000)
         .map(|tick| {
@@ -106,7 +115,7 @@ fn a_simulation_runs_what_firmware_folds() {
         "{said}"
     );
 
-    type Gear = WithMemory<CagedBallScrew, ProportionalElements<8>, Sensor, CoefficientLaw>;
+    type Gear = WithMemory<FoldedScrew<NODES>, ProportionalElements<8>, Sensor, CoefficientLaw>;
     let mut model = FrictionModel::<Gear, &WithMemoryConstants<_, _, _, _>>::of(&GEAR);
     let out = fs::read_to_string(folder.path().join("out.csv")).unwrap();
     let mut rows = out.lines();

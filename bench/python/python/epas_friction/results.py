@@ -75,6 +75,33 @@ class Ellipse:
 
 
 @dataclass(frozen=True)
+class FoldedDesign:
+    """A ball screw folded into the constants that firmware evaluates, with the errors of its friction torque.
+
+    Attributes:
+        block: the constants, for :meth:`CagedBallScrew.from_block` and a calibration page.
+        digest: of everything that was folded.
+        friction: least and largest friction coefficient for which it holds.
+        axial_load: least and largest axial load of a ball for which it holds, N.
+        largest: largest relative error against the exact solver.
+        rms: its root mean square.
+        mean: its mean, with its sign.
+        states: states that were compared, none of them fitted.
+        flagged: share of the states that a step flags.
+    """
+
+    block: bytes
+    digest: str
+    friction: tuple[float, float]
+    axial_load: tuple[float, float]
+    largest: float
+    rms: float
+    mean: float
+    states: int
+    flagged: float
+
+
+@dataclass(frozen=True)
 class Efficiency:
     """Closed-form efficiencies of Lin, Velinsky and Ravani 1994; negative where the direction is locked.
 

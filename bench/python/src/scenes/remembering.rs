@@ -54,7 +54,7 @@ impl Use for Boxed {
 /// A ball screw whose balls do not touch and whose friction remembers: it passes through a reversal with the nut's angle.
 ///
 /// Eight elements that stick and slip, by the design under a load; or, where the design has a calibration, as the measured
-/// trace has told them, with the friction coefficient by speed and direction.
+/// trace has told them, with the friction coefficient by speed and direction. It is solved when it is made, as :class:`CagedBallScrew`.
 ///
 /// Args:
 ///     design: its geometry and what stands beside it.
@@ -77,7 +77,8 @@ impl CagedBallScrewWithMemory {
             return Err(refused(py, error));
         }
         let angle = bindings::angle().map_err(|error| refused(py, error))?;
-        let (model, _) = remembering(&design.inner, reference_load, angle, Boxed)
+        let (model, _) = py
+            .detach(|| remembering(&design.inner, reference_load, angle, Boxed))
             .map_err(|failure| refused(py, failure))?;
         Ok(Self { model })
     }

@@ -1,7 +1,7 @@
-use epas_friction::{
-    CagedBallScrew, CagedBallScrewConfiguration, Faults, FrictionBranch, FrictionModel, Inputs,
-    Limits, RollingResistance,
-};
+use epas_design::caged::Block;
+use epas_design::{CagedDesign, CagedFold};
+use epas_friction::scene::FoldedScrew;
+use epas_friction::{Faults, FrictionModel, Inputs, Limits, RollingResistance};
 
 use super::*;
 
@@ -18,23 +18,23 @@ const SCREW: Design = Design {
 /// The caged scene's friction torque and efficiency.
 fn scene(design: &Design, duty: &Duty) -> (f32, f32) {
     let screw = screw(design).unwrap();
-    let mut model: FrictionModel<CagedBallScrew> =
-        FrictionModel::new(&CagedBallScrewConfiguration {
-            design: screw,
-            friction: duty.friction,
-            rolling_resistance: RollingResistance::NONE,
-            rolling_tangent: 0.0,
-            branch: FrictionBranch::Contacts,
-            clearance: clearance(&screw, design.preload).unwrap(),
-            loaded_balls: duty.loaded_balls(&screw),
-            reversal_speed: 1e-6,
-            limits: Limits {
-                nut_speed: 100.0,
-                axial_load: 2e4,
-                friction_torque: 100.0,
-            },
-        })
-        .unwrap();
+    let fold = CagedFold::of(CagedDesign {
+        design: screw,
+        friction: duty.friction,
+        rolling_resistance: RollingResistance::NONE,
+        clearance: clearance(&screw, design.preload).unwrap(),
+        loaded_balls: duty.loaded_balls(&screw),
+        reversal_speed: 1e-6,
+        limits: Limits {
+            nut_speed: 100.0,
+            axial_load: 2e4,
+            friction_torque: 100.0,
+        },
+    });
+    let Block::One(block) = fold.block().unwrap() else {
+        panic!("one friction coefficient is one node");
+    };
+    let mut model = FrictionModel::<FoldedScrew>::new(&block).unwrap();
     let inputs = Inputs {
         nut_speed: 6.0,
         axial_load: duty.axial_load,

@@ -36,10 +36,10 @@ const STEP: f64 = 1e-3;
 
 /// What the mechanism can do: a rack of 75 mm to each side.
 fn reach(design: &Design) -> Reach {
-    let load = 2.8e3_f64.min(0.9 * f64::from(design.configuration.limits.axial_load));
+    let load = 2.8e3_f64.min(0.9 * f64::from(design.caged.limits.axial_load));
     Reach {
         angle: 0.075 / f64::from(design.screw().lead()) * std::f64::consts::TAU,
-        speed: 45.0_f64.min(0.9 * f64::from(design.configuration.limits.nut_speed)),
+        speed: 45.0_f64.min(0.9 * f64::from(design.caged.limits.nut_speed)),
         load,
         temperature: [293.15, 333.15],
         travel: 2e-3,

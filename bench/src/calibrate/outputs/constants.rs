@@ -1,10 +1,11 @@
-//! A calibrated design as Rust constants for firmware: pasted into a `no_std` crate they are folded by the compiler, and stand in
-//! flash.
+//! A calibrated design as Rust constants for firmware: the block that it is folded into, its memory and its friction coefficient. Pasted into a
+//! `no_std` crate they are checked by the compiler, and stand in flash.
 
 use std::fmt::Write as _;
 
-use epas_friction::{CagedBallScrewConfiguration, FrictionBranch, GrooveSize, Material};
+use epas_design::Folded;
 
+use crate::caged::{certified, fold_for};
 use crate::calibrate::outputs::firmware::{ElementsNumbers, Numbers};
 use crate::calibrate::page::shown::one_line;
 use crate::designs::Design;
@@ -14,19 +15,27 @@ use crate::failure::Failure;
 /// Constants of a design, to be pasted.
 ///
 /// # Errors
-/// What the crate refuses of the design.
+/// What the crate refuses of the design, or what of it cannot be folded.
 pub fn text(design: &Design, trace: &str) -> Result<String, Failure> {
     let numbers = Numbers::of(design)?;
+    let friction = design.caged.friction;
+    let coefficients = match &numbers.law {
+        Some(law) => law.law()?.extremes(),
+        None => (friction, friction),
+    };
+    let fold = fold_for(design, coefficients)
+        .map_err(|message| Failure::Data(format!("{}: {message}", design.name)))?;
+    let folded = certified(&fold).map_err(|failure| failure.of(&design.name))?;
     let mut text = format!(
         "// Ball screw {}, calibrated by trace {}.\n//\n\
-         // For a crate that depends on `epas-friction`. Everything is checked and folded when it is compiled: a number out\n\
-         // of range stops the compiler.\n\n",
+         // For a crate that depends on `epas-friction`. Everything is checked when it is compiled: a number out of range\n\
+         // stops the compiler.\n\n",
         one_line(&design.name),
         one_line(trace)
     );
     text += &imports(&numbers);
     text += SOUND;
-    text += &screw(&design.configuration);
+    text += &screw(&folded)?;
     if let Some(law) = &numbers.law {
         let _ = write!(
             text,
@@ -50,10 +59,10 @@ pub fn text(design: &Design, trace: &str) -> Result<String, Failure> {
         let _ = write!(
             text,
             "\n/// One friction coefficient at every speed and temperature.\n\
-             pub const COEFFICIENT: OneCoefficient = sound(OneCoefficient::new(SCREW.friction));\n"
+             pub const COEFFICIENT: OneCoefficient = sound(OneCoefficient::new({friction:?}));\n"
         );
     }
-    text += &memory(&numbers);
+    text += &memory(&numbers, folded.block.nodes());
     text += &rig(design);
     Ok(text)
 }
@@ -94,102 +103,45 @@ fn imports(numbers: &Numbers) -> String {
                 "use epas_friction::law::memory::{LoadExactElements, PreloadedElements};\n"
             }
         };
-        text += "use epas_friction::scene::{Freshness, WithMemoryConfiguration, WithMemoryConstants};\n";
+        text += "use epas_friction::scene::{\n    FoldedScrewConstants, Freshness, WithMemoryConfiguration, WithMemoryConstants,\n};\n";
+    } else {
+        text += "use epas_friction::scene::FoldedScrewConstants;\n";
     }
-    text + "use epas_friction::{\n    BallScrew, BallScrewParameters, CagedBallScrewConfiguration, CagedConstants, Clearance, Error,\n    \
-            FrictionBranch, GrooveSize, Limits, Material, RollingResistance,\n};\n"
+    text + "use epas_friction::Error;\n"
 }
 
-fn groove(groove: GrooveSize) -> String {
-    match groove {
-        GrooveSize::Conformity(conformity) => format!("GrooveSize::Conformity({conformity:?})"),
-        GrooveSize::Radius(radius) => format!("GrooveSize::Radius({radius:?})"),
+/// Words in a line.
+const IN_A_LINE: usize = 6;
+
+/// The block of the screw, and the constants of the scene without memory.
+fn screw(folded: &Folded) -> Result<String, Failure> {
+    let words = folded.words()?;
+    let (count, nodes) = (words.len(), folded.block.nodes());
+    let mut text = String::from("\n");
+    for line in folded.summary() {
+        let _ = writeln!(text, "// {line}");
     }
-}
-
-fn material(material: &Material) -> String {
-    let Material {
-        youngs_modulus,
-        poisson_ratio,
-        density,
-    } = material;
-    format!(
-        "Material {{\n        youngs_modulus: {youngs_modulus:?},\n        poisson_ratio: {poisson_ratio:?},\n        \
-         density: {density:?},\n    }}"
-    )
-}
-
-/// Geometry, friction and fit, and the constants of the scene without memory.
-fn screw(configuration: &CagedBallScrewConfiguration) -> String {
-    let parameters = configuration.design.parameters();
-    let branch = match configuration.branch {
-        FrictionBranch::Contacts => "Contacts",
-        FrictionBranch::Rolling => "Rolling",
-        FrictionBranch::Sliding => "Sliding",
-    };
-    let limits = configuration.limits;
-    let rolling = configuration.rolling_resistance;
-    format!(
-        "
-/// Dimensions, m and rad, and materials.
-#[allow(clippy::approx_constant)] // an angle as the design file has it
-pub const DESIGN: BallScrew = sound(BallScrew::new(BallScrewParameters {{
-    pitch_radius: {:?},
-    lead: {:?},
-    ball_radius: {:?},
-    screw_groove: {},
-    nut_groove: {},
-    contact_angle: {:?},
-    ball_material: {},
-    groove_material: {},
-}}));
-
-/// The screw without memory.
-pub const SCREW: CagedBallScrewConfiguration = CagedBallScrewConfiguration {{
-    design: DESIGN,
-    friction: {:?},
-    rolling_resistance: RollingResistance {{
-        hysteresis_loss: {:?},
-        lubricant_drag: {:?},
-    }},
-    rolling_tangent: {:?},
-    branch: FrictionBranch::{branch},
-    clearance: sound(Clearance::new({:?})),
-    loaded_balls: {},
-    reversal_speed: {:?},
-    limits: Limits {{
-        nut_speed: {:?},
-        axial_load: {:?},
-        friction_torque: {:?},
-    }},
-}};
-
-/// Its constants: for a `static` that stands in flash.
-pub const SCREW_CONSTANTS: CagedConstants = sound(CagedConstants::new(&SCREW));
-",
-        parameters.pitch_radius,
-        parameters.lead,
-        parameters.ball_radius,
-        groove(parameters.screw_groove),
-        groove(parameters.nut_groove),
-        parameters.contact_angle,
-        material(&parameters.ball_material),
-        material(&parameters.groove_material),
-        configuration.friction,
-        rolling.hysteresis_loss,
-        rolling.lubricant_drag,
-        configuration.rolling_tangent,
-        configuration.clearance.gap(),
-        configuration.loaded_balls,
-        configuration.reversal_speed,
-        limits.nut_speed,
-        limits.axial_load,
-        limits.friction_torque,
-    )
+    let _ = write!(
+        text,
+        "#[rustfmt::skip]\nconst SCREW_BLOCK: [u32; {count}] = [\n"
+    );
+    for line in words.chunks(IN_A_LINE) {
+        text.push_str("   ");
+        for word in line {
+            let _ = write!(text, " 0x{word:08x},");
+        }
+        text.push('\n');
+    }
+    let _ = write!(
+        text,
+        "];\n\n/// The screw without memory: for a `static` that stands in flash.\n\
+         pub const SCREW: FoldedScrewConstants<{nodes}> = sound(FoldedScrewConstants::from_block(&SCREW_BLOCK));\n"
+    );
+    Ok(text)
 }
 
 /// Elements, and the constants of the scene with them.
-fn memory(numbers: &Numbers) -> String {
+fn memory(numbers: &Numbers, nodes: usize) -> String {
     let Some(memory) = &numbers.elements else {
         return String::new();
     };
@@ -231,15 +183,15 @@ pub const ELEMENTS: {kind} = {made};
 /// The screw with memory, for a sensor of the nut's angle: for a `static` that stands in flash.
 ///
 /// ```text
-/// static GEAR: WithMemoryConstants<CagedConstants, {kind}, CountSensor, {law}> = with_memory(SENSOR);
+/// static GEAR: WithMemoryConstants<FoldedScrewConstants<{nodes}>, {kind}, CountSensor, {law}> = with_memory(SENSOR);
 /// ```
 pub const fn with_memory<A: Copy>(
     angle: A,
-) -> WithMemoryConstants<CagedConstants, {kind}, A, {law}> {{
+) -> WithMemoryConstants<FoldedScrewConstants<{nodes}>, {kind}, A, {law}> {{
     sound(WithMemoryConstants::new(
-        SCREW_CONSTANTS,
+        SCREW,
         &WithMemoryConfiguration {{
-            scene: SCREW,
+            scene: (),
             elements: ELEMENTS,
             angle,
             reference_load: {load:?},
@@ -350,7 +302,7 @@ harmonics = [{ order = 1, cosine = 1.5e-3, sine = -1e-3 }, { order = 2, sine = 8
         super::text(&read(text, "design").unwrap(), "weave").unwrap()
     }
 
-    /// The program's tests compile the stored text, and fold it.
+    /// The program's tests compile the stored text, and run it.
     #[test]
     fn the_stored_constants_are_what_is_written() {
         let stored = include_str!("../../../tests/program/calibrated_constants.rs");

@@ -1,10 +1,11 @@
 //! What firmware takes of a calibrated design, as plain numbers: the law of the friction coefficient and the elements.
 
+use epas_design::CagedDesign;
 use epas_friction::law::coefficient::{CoefficientLaw, CoefficientParameters, Viscosity};
 use epas_friction::law::memory::{
     Hysteresis, LoadExactElements, Part, PreloadedElements, ProportionalElements, SLIP_8,
 };
-use epas_friction::{CagedBallScrewConfiguration, Error, defaults};
+use epas_friction::{Error, defaults};
 
 use crate::calibrate::screw::friction::{ElementsKind, Screw};
 use crate::calibrate::screw::quantities::Values;
@@ -101,19 +102,19 @@ impl Numbers {
     pub fn of(design: &Design) -> Result<Self, Failure> {
         let refused =
             |error: Error| Failure::Data(format!("{}: calibration: {error}", design.name));
-        let configuration = &design.configuration;
+        let caged = &design.caged;
         let calibrated = design.calibrated.clone().unwrap_or_default();
         let law = calibrated
             .has_law()
-            .then(|| LawNumbers::of(configuration.friction, &calibrated));
+            .then(|| LawNumbers::of(caged.friction, &calibrated));
         if let Some(law) = &law {
             law.law().map_err(refused)?;
         }
         let elements = calibrated
             .breakaway_angle
-            .map(|breakaway_angle| ElementsNumbers::of(configuration, &calibrated, breakaway_angle))
+            .map(|breakaway_angle| ElementsNumbers::of(caged, &calibrated, breakaway_angle))
             .transpose()
-            .map_err(refused)?;
+            .map_err(|failure| failure.of("calibration").of(&design.name))?;
         Ok(Self {
             law,
             elements,
@@ -170,13 +171,13 @@ impl LawNumbers {
 
 impl ElementsNumbers {
     fn of(
-        configuration: &CagedBallScrewConfiguration,
+        caged: &CagedDesign,
         calibrated: &Calibrated,
         breakaway_angle: f32,
-    ) -> Result<Self, Error> {
+    ) -> Result<Self, Failure> {
         let kind = calibrated.elements.unwrap_or(ElementsName::Proportional);
         let screw = Screw {
-            configuration: *configuration,
+            caged: *caged,
             elements: match kind {
                 ElementsName::Proportional => ElementsKind::Proportional,
                 ElementsName::LoadExact => ElementsKind::LoadExact,
@@ -187,9 +188,9 @@ impl ElementsNumbers {
             reference_load: calibrated.reference_load.unwrap_or(0.0).into(),
             largest_load: calibrated.largest_load.unwrap_or(0.0).into(),
         };
-        let rolling = &configuration.rolling_resistance;
+        let rolling = &caged.rolling_resistance;
         let reference = screw.reference(&Values {
-            friction: configuration.friction.into(),
+            friction: caged.friction.into(),
             hysteresis_loss: rolling.hysteresis_loss.into(),
             lubricant_drag: rolling.lubricant_drag.into(),
             ..NOTHING
@@ -277,7 +278,7 @@ mod tests {
             let design = read(&format!("{text}{lines}"), "design").unwrap();
             let numbers = Numbers::of(&design).unwrap();
             let screw = Screw {
-                configuration: design.configuration,
+                caged: design.caged,
                 elements,
                 preloaded: true,
                 reference_temperature: 303.0,

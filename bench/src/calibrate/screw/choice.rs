@@ -194,14 +194,14 @@ fn begin(
     evidence: &Evidence,
     wanted: &Wanted,
 ) -> Result<(Screw, Values), Failure> {
-    let configuration = design.configuration;
+    let caged = design.caged;
     let set = |name: &str| {
         let mut pairs = wanted.fix.iter();
         pairs
             .find(|(fixed, _)| fixed == name)
             .map(|(_, value)| *value)
     };
-    let gap = configuration.clearance.gap();
+    let gap = caged.clearance.gap();
     let asked = |list: &Vec<String>| list.iter().any(|name| name == "preload");
     let asked = wanted.estimate.as_ref().is_some_and(asked) || set("preload").is_some();
     let preloaded =
@@ -213,7 +213,7 @@ fn begin(
         ));
     }
     let mut screw = Screw {
-        configuration,
+        caged,
         elements: ElementsKind::LoadExact,
         preloaded,
         reference_temperature: set(REFERENCE_TEMPERATURE)
@@ -221,7 +221,7 @@ fn begin(
         reference_load: 0.0,
         largest_load: evidence.largest_load(),
     };
-    let own = f64::from(configuration.clearance.preload(&configuration.design));
+    let own = f64::from(caged.clearance.preload(&caged.design));
     let preload = if own > 0.0 {
         own
     } else {
@@ -229,13 +229,13 @@ fn begin(
     };
     let coefficient = &defaults::COEFFICIENT;
     let mut values = Values {
-        friction: configuration.friction.into(),
+        friction: caged.friction.into(),
         full_film_ratio: f64::from(coefficient.full_film / coefficient.boundary),
         half_share_speed: coefficient.half_share_speed.into(),
         viscosity_pole: coefficient.viscosity.pole().into(),
         direction_asymmetry: 0.0,
-        hysteresis_loss: configuration.rolling_resistance.hysteresis_loss.into(),
-        lubricant_drag: configuration.rolling_resistance.lubricant_drag.into(),
+        hysteresis_loss: caged.rolling_resistance.hysteresis_loss.into(),
+        lubricant_drag: caged.rolling_resistance.lubricant_drag.into(),
         preload: set("preload").unwrap_or(preload),
         breakaway_angle: 1e-3,
         backlash: 0.0,
@@ -319,7 +319,7 @@ fn parameter(
         "hysteresis_loss" => HYSTERESIS_LOSS,
         "lubricant_drag" => LUBRICANT_DRAG,
         "preload" => {
-            let design = &screw.configuration.design;
+            let design = &screw.caged.design;
             let tightest = Clearance::new(TIGHTEST * design.ball_radius())
                 .map_err(|error| Failure::Data(error.to_string()))?;
             let hardest = f64::from(tightest.preload(design));
@@ -342,9 +342,9 @@ fn parameter(
 impl Screw {
     /// Axial force of a flank over the preload of a contact.
     pub fn axial_per_contact(&self) -> f64 {
-        let design = &self.configuration.design;
+        let design = &self.caged.design;
         let slope = design.contact_angle().sin * design.cos_lead_angle();
-        f64::from(self.configuration.loaded_balls) * f64::from(slope)
+        f64::from(self.caged.loaded_balls) * f64::from(slope)
     }
 
     /// Axial preload of each flank, N.

@@ -1,10 +1,14 @@
-//! Friction of a screw along a trace by what the firmware runs: the crate's caged scene with memory.
+//! Friction of a screw along a trace: the exact ball of the reference, behind the memory that the firmware runs.
 //!
-//! One formula, in one place: values of a calibration become a configuration here, and nowhere else.
+//! One formula, in one place: values of a calibration become a design here, and nowhere else. Firmware evaluates a block that is folded for
+//! that design, whose certificate says how far it is from the exact ball.
 
 use std::f32::consts::{PI, TAU};
+use std::sync::Arc;
 
+use epas_design::CagedDesign;
 use epas_friction::law::Elements;
+use epas_friction::law::coefficient::DirectionalCoefficient;
 use epas_friction::law::coefficient::{
     CoefficientLaw, CoefficientParameters, TemperatureFade, Viscosity,
 };
@@ -13,16 +17,16 @@ use epas_friction::law::memory::{
 };
 use epas_friction::law::motion::{Steady, WrappedAngle, WrappedAngleParameters};
 use epas_friction::scene::{
-    CagedBallScrew, CagedBallScrewConfiguration, Freshness, FrictionBranch, Inputs,
-    SlidingFriction, WithMemory, WithMemoryConfiguration, WithMemoryInputs,
+    Freshness, Inputs, SlidingFriction, WithMemory, WithMemoryConfiguration, WithMemoryInputs,
 };
 use epas_friction::{Clearance, Error, FrictionModel, RollingResistance};
 
-use super::folded::{Folded, FoldedBallScrew, FoldedBetween, Folds};
+use super::exact::{ExactLaw, ExactScrew, Grid};
 use super::quantities::Values;
 use crate::calibrate::signals::Motion;
 use crate::calibrate::signals::filter::ZeroPhase;
 use crate::calibrate::trace::Trace;
+use crate::failure::Failure;
 
 /// Elements of every calibrated memory.
 pub const ELEMENTS: usize = 8;
@@ -31,10 +35,10 @@ pub const ELEMENTS: usize = 8;
 pub type Sensor = Steady<WrappedAngle>;
 
 /// A scene with such a memory.
-pub type Remembering<E> = WithMemory<FoldedBallScrew, E, Sensor, CoefficientLaw>;
+pub type Remembering<'a, E> = WithMemory<ExactScrew<'a>, E, Sensor, CoefficientLaw>;
 
 /// What is set for it.
-pub type Configuration<E> = WithMemoryConfiguration<FoldedBetween, E, Sensor, CoefficientLaw>;
+pub type Configuration<'a, E> = WithMemoryConfiguration<&'a ExactLaw, E, Sensor, CoefficientLaw>;
 
 /// Distance of the second point of a viscosity from the reference temperature, K.
 const SECOND: f32 = 60.0;
@@ -60,7 +64,7 @@ pub enum ElementsKind {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Screw {
     /// Its design; friction, fit and rolling resistance are replaced.
-    pub configuration: CagedBallScrewConfiguration,
+    pub caged: CagedDesign,
     /// How elements follow the load.
     pub elements: ElementsKind,
     /// Whether the fit is that of the preload; else it is the design's own.
@@ -89,22 +93,22 @@ impl Screw {
     ///
     /// # Errors
     /// [`Error`] naming a value out of range.
-    pub fn scene(&self, values: &Values) -> Result<CagedBallScrewConfiguration, Error> {
-        let design = self.configuration.design;
-        Ok(CagedBallScrewConfiguration {
+    pub fn scene(&self, values: &Values) -> Result<CagedDesign, Error> {
+        let design = self.caged.design;
+        CagedDesign {
             friction: values.friction as f32,
             rolling_resistance: RollingResistance {
                 hysteresis_loss: values.hysteresis_loss as f32,
                 lubricant_drag: values.lubricant_drag as f32,
             },
-            branch: FrictionBranch::Contacts,
             clearance: if self.preloaded {
                 Clearance::of_preload(&design, values.preload as f32)?
             } else {
-                self.configuration.clearance
+                self.caged.clearance
             },
-            ..self.configuration
-        })
+            ..self.caged
+        }
+        .checked()
     }
 
     /// Law of the friction coefficient. Churned lubricant counts as a torque of its own.
@@ -140,18 +144,33 @@ impl Screw {
         )
     }
 
+    /// The exact ball, solved for what a fit asks for, from these values on.
+    ///
+    /// # Errors
+    /// A value out of range.
+    pub fn grid(&self, values: &Values) -> Result<Arc<Grid>, Failure> {
+        let largest = self.largest_load.max(self.reference_load);
+        Ok(Grid::of(&self.scene(values)?, largest)?)
+    }
+
     /// Gross sliding at the reference load.
     ///
     /// # Errors
-    /// As [`Self::scene`].
-    pub fn reference(&self, values: &Values) -> Result<Reference, Error> {
-        let folded = Folded::new(&self.scene(values)?)?;
-        Ok(self.reference_of(&folded, values))
+    /// A value out of range.
+    pub fn reference(&self, values: &Values) -> Result<Reference, Failure> {
+        let friction = values.friction as f32;
+        let grid = self.grid(values)?;
+        let law = grid.law(&self.scene(values)?, (friction, friction))?;
+        Ok(self.reference_of(&law, values))
     }
 
-    /// The same by laws that are folded.
-    fn reference_of(&self, folded: &Folded, values: &Values) -> Reference {
-        let limits = |load: f64| folded.limits(load as f32, values.friction as f32);
+    /// The same by a law that there is.
+    fn reference_of(&self, law: &ExactLaw, values: &Values) -> Reference {
+        let friction = DirectionalCoefficient {
+            forward: values.friction as f32,
+            backward: values.friction as f32,
+        };
+        let limits = |load: f64| law.friction(load as f32, friction);
         let largest = limits(self.largest_load);
         let SlidingFriction {
             forward,
@@ -226,13 +245,13 @@ impl Screw {
     ///
     /// # Errors
     /// [`Error`] naming a value out of range.
-    pub fn configuration<E: Elements + Hysteresis + Copy>(
+    pub fn configuration<'a, E: Elements + Hysteresis + Copy>(
         &self,
         values: &Values,
         reference: &Reference,
         elements: E,
-        folds: &Folds,
-    ) -> Result<Configuration<E>, Error> {
+        law: &'a ExactLaw,
+    ) -> Result<Configuration<'a, E>, Error> {
         let coefficient = CoefficientLaw::new(&self.coefficient(values))?;
         let angle = WrappedAngle::new(WrappedAngleParameters {
             lowest: -PI,
@@ -240,7 +259,7 @@ impl Screw {
             largest_turn: PI,
         })?;
         Ok(WithMemoryConfiguration {
-            scene: folds.between(&self.scene(values)?, coefficient.extremes())?,
+            scene: law,
             elements,
             angle: Steady::new(angle, 0.5 * values.backlash as f32)?,
             reference_load: reference.load,
@@ -251,31 +270,63 @@ impl Screw {
         })
     }
 
-    /// Friction torque at every sample, N m, by laws that are folded where they are not kept.
+    /// The law of these values: for all friction coefficients that they take.
     ///
     /// # Errors
-    /// [`Error`] naming a value out of range.
+    /// A value out of range.
+    pub fn law(&self, values: &Values, grid: &Grid) -> Result<ExactLaw, Failure> {
+        let (least, largest) = CoefficientLaw::new(&self.coefficient(values))?.extremes();
+        let own = values.friction as f32;
+        let coefficients = (least.min(own), largest.max(own));
+        Ok(grid.law(&self.scene(values)?, coefficients)?)
+    }
+
+    /// Friction torque at every sample, N m, by the exact ball.
+    ///
+    /// # Errors
+    /// A value out of range.
     pub fn friction(
         &self,
         values: &Values,
         course: &Course,
-        folds: &Folds,
-    ) -> Result<Vec<f64>, Error> {
-        let reference = self.reference_of(&folds.own(&self.scene(values)?)?, values);
-        match self.elements {
+        grid: &Grid,
+    ) -> Result<Vec<f64>, Failure> {
+        let law = &self.law(values, grid)?;
+        let reference = self.reference_of(law, values);
+        let friction = match self.elements {
             ElementsKind::Proportional => {
                 let elements = self.proportional(values, &reference)?;
-                course.friction(&self.configuration(values, &reference, elements, folds)?)
+                course.friction(&self.configuration(values, &reference, elements, law)?)
             }
             ElementsKind::Preloaded => {
                 let elements = self.preloaded(values, &reference)?;
-                course.friction(&self.configuration(values, &reference, elements, folds)?)
+                course.friction(&self.configuration(values, &reference, elements, law)?)
             }
             ElementsKind::LoadExact => {
                 let elements = self.load_exact(values, &reference)?;
-                course.friction(&self.configuration(values, &reference, elements, folds)?)
+                course.friction(&self.configuration(values, &reference, elements, law)?)
             }
-        }
+        };
+        Ok(friction?)
+    }
+
+    /// Friction torque at every sample, N m, without memory: with one coefficient, over a reversal speed, rad/s.
+    ///
+    /// # Errors
+    /// A value out of range.
+    pub fn friction_by_speed(
+        &self,
+        values: &Values,
+        course: &Course,
+        grid: &Grid,
+        reversal_speed: f32,
+    ) -> Result<Vec<f64>, Failure> {
+        let friction = values.friction as f32;
+        let law = grid.law(&self.scene(values)?, (friction, friction))?;
+        let inputs = course.inputs().iter();
+        Ok(inputs
+            .map(|inputs| law.by_speed(inputs.scene, friction, reversal_speed))
+            .collect())
     }
 }
 
@@ -325,23 +376,15 @@ impl Course {
         &self.inputs
     }
 
-    /// Friction torque of a scene without memory at every sample, N m.
-    pub fn friction_by_speed(&self, model: &mut FrictionModel<CagedBallScrew>) -> Vec<f64> {
-        self.inputs
-            .iter()
-            .map(|inputs| model.step(inputs.scene).friction_torque.into())
-            .collect()
-    }
-
     /// Friction torque of a scene with memory at every sample, N m.
     ///
     /// # Errors
     /// [`Error`] naming what is out of range in the configuration.
     pub fn friction<E: Elements + Copy>(
         &self,
-        configuration: &Configuration<E>,
+        configuration: &Configuration<'_, E>,
     ) -> Result<Vec<f64>, Error> {
-        let mut model = FrictionModel::<Remembering<E>>::new(configuration)?;
+        let mut model = FrictionModel::<Remembering<'_, E>>::new(configuration)?;
         Ok(self
             .inputs
             .iter()

@@ -5,16 +5,15 @@
 //!       + friction(angle, w, F, T; q) + (S/S_ref) sum_k (c_k cos k theta + s_k sin k theta)
 //! ```
 //!
-//! Both sides pass through the same filter; so does every column, and the friction that the scene puts out at every sample of the
+//! Both sides pass through the same filter; so does every column, and the friction at every sample of the
 //! trace. `S` is the sum of both flanks' loads.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use super::folded::Folds;
+use super::exact::Grid;
 use super::friction::{Course, Screw};
 use super::quantities::{Factor, Linear, Nonlinear, Values};
-use super::refined::correction;
 use super::waves::{Waves, flank_sum};
 use crate::calibrate::fit::problem::{Evaluation, LinearParameter, Parameter, Separable};
 use crate::calibrate::signals::filter::ZeroPhase;
@@ -39,9 +38,8 @@ pub struct ScrewProblem<'a> {
     set: Vec<(&'static Linear, Column)>,
     target: Vec<f64>,
     waves: Waves,
-    folds: Arc<Folds>,
-    /// Factor of the friction at every sample; none where it is as the scene gives it.
-    correction: Option<Vec<f64>>,
+    /// The exact ball.
+    grid: Arc<Grid>,
 }
 
 /// What a linear quantity multiplies.
@@ -78,7 +76,7 @@ impl<'a> ScrewProblem<'a> {
     /// Filters what can be filtered once.
     ///
     /// # Errors
-    /// A start, or a trace, that the crate's scene refuses.
+    /// A start, or a trace, that is refused.
     pub fn new(
         screw: Screw,
         (trace, motion, rows): (&'a Trace, &'a Motion, &'a Rows),
@@ -87,6 +85,7 @@ impl<'a> ScrewProblem<'a> {
         choice: Choice,
     ) -> Result<Self, Failure> {
         let course = Course::of(trace, motion, Some(smoothing), screw.reference_temperature);
+        let grid = screw.grid(&values)?;
         let mut problem = Self {
             screw,
             trace,
@@ -101,8 +100,7 @@ impl<'a> ScrewProblem<'a> {
             set: Vec::new(),
             target: rows.of(&trace.effort),
             waves: Waves::default(),
-            folds: Arc::default(),
-            correction: None,
+            grid,
         };
         let free = |name: &str| problem.nonlinear.iter().any(|(p, _)| p.name == name);
         let moves = |factor: Factor| match factor {
@@ -126,10 +124,9 @@ impl<'a> ScrewProblem<'a> {
             .map(column)
             .collect();
         (problem.linear, problem.set) = (linear, set);
-        let friction = problem
+        problem
             .screw
-            .friction(&values, &problem.course, &problem.folds);
-        friction.map_err(|error| Failure::Data(error.to_string()))?;
+            .friction(&values, &problem.course, &problem.grid)?;
         Ok(problem)
     }
 
@@ -151,34 +148,28 @@ impl<'a> ScrewProblem<'a> {
         values
     }
 
-    /// Friction at every sample, N m; no numbers where the scene refuses the values.
+    /// Friction at every sample, N m; no numbers where the exact ball refuses the values.
     pub fn friction(&self, values: &Values) -> Vec<f64> {
-        let Ok(mut friction) = self.screw.friction(values, &self.course, &self.folds) else {
-            return vec![f64::NAN; self.trace.len()];
-        };
-        if let Some(factors) = &self.correction {
-            for (friction, factor) in friction.iter_mut().zip(factors) {
-                *friction *= factor;
-            }
-        }
-        friction
+        let friction = self.screw.friction(values, &self.course, &self.grid);
+        friction.unwrap_or_else(|_| vec![f64::NAN; self.trace.len()])
     }
 
-    /// The same problem from a start near its answer, with the friction corrected there ([`super::refined`]).
+    /// The same problem from a start near its answer, whose preload is one at which the exact ball is solved.
     ///
     /// # Errors
-    /// Values that the crate's scene refuses.
+    /// Values that are refused.
     pub fn refined(mut self, values: &Values) -> Result<Self, Failure> {
-        self.correction = None;
-        let friction = self.friction(values);
-        let factors = correction(&self.screw, values, &self.course, &friction)
-            .map_err(|error| Failure::Data(error.to_string()))?;
-        self.correction = Some(factors);
+        self.grid = self.screw.grid(values)?;
         let known = self.parameters.iter_mut().zip(&self.nonlinear);
         for (parameter, (_, of)) in known {
             parameter.start = of.value(values).max(parameter.low).min(parameter.high);
         }
         Ok(self)
+    }
+
+    /// The exact ball.
+    pub const fn grid(&self) -> &Arc<Grid> {
+        &self.grid
     }
 
     /// What the model is told at every sample.
@@ -251,7 +242,7 @@ impl<'a> ScrewProblem<'a> {
             Factor::Viscosity => self.viscous(values),
             Factor::One => vec![1.0; position.len()],
             Factor::Load => {
-                let reduced_lead = f64::from(self.screw.configuration.design.lead()) / TAU;
+                let reduced_lead = f64::from(self.screw.caged.design.lead()) / TAU;
                 match &self.trace.load {
                     Some(load) => load.iter().map(|load| reduced_lead * load).collect(),
                     None => vec![0.0; position.len()],
@@ -300,8 +291,7 @@ impl<'a> ScrewProblem<'a> {
             set: Vec::new(),
             target: Vec::new(),
             waves: Waves::default(),
-            folds: Arc::clone(&self.folds),
-            correction: self.correction.clone(),
+            grid: Arc::clone(&self.grid),
         };
         other.whole(other.friction(values), values)
     }

@@ -1,10 +1,11 @@
-//! Other models of friction on a screw: laws of the literature times the load that both flanks share, and the crate's scene without memory.
+//! Other models of friction on a screw: laws of the literature times the load that both flanks share, and the exact ball without memory.
 //!
 //! Everything beside the friction is the same as in [`super::problem`]. The load's share has the preload as a parameter: with a large one
 //! the friction does not follow the load at all, so that a law may choose.
 
-use epas_friction::{CagedBallScrew, FrictionModel};
+use std::sync::Arc;
 
+use super::exact::Grid;
 use super::friction::{Course, Screw};
 use super::problem::Beside;
 use super::quantities::Values;
@@ -13,6 +14,7 @@ use crate::calibrate::fit::problem::{Evaluation, LinearParameter, Parameter, Sca
 use crate::calibrate::laws::{Law, Scales};
 use crate::calibrate::signals::{Motion, Rows};
 use crate::calibrate::trace::Trace;
+use crate::failure::Failure;
 
 /// A law of the literature on a screw.
 pub struct Rival<'a> {
@@ -138,10 +140,11 @@ impl Separable for Rival<'_> {
     }
 }
 
-/// The crate's scene without memory: friction by the speed alone, with one coefficient.
+/// The screw without memory: friction by the speed alone, with one coefficient.
 pub struct WithoutMemory<'a> {
     screw: Screw,
     values: Values,
+    grid: Arc<Grid>,
     course: &'a Course,
     rows: &'a Rows,
     beside: &'a Beside,
@@ -152,11 +155,11 @@ pub struct WithoutMemory<'a> {
 const REVERSAL_SPEEDS: [f64; 3] = [1e-3, 0.2, 50.0];
 
 impl<'a> WithoutMemory<'a> {
-    /// The scene of a screw, with the bounds of what is estimated of it.
+    /// That of a screw, with the bounds of what is estimated of it.
     pub fn new(
         screw: Screw,
         values: Values,
-        estimated: &[Parameter],
+        (estimated, grid): (&[Parameter], &Arc<Grid>),
         (course, rows, beside): (&'a Course, &'a Rows, &'a Beside),
     ) -> Self {
         let [low, start, high] = REVERSAL_SPEEDS;
@@ -175,6 +178,7 @@ impl<'a> WithoutMemory<'a> {
         Self {
             screw,
             values,
+            grid: Arc::clone(grid),
             course,
             rows,
             beside,
@@ -182,17 +186,17 @@ impl<'a> WithoutMemory<'a> {
         }
     }
 
-    fn friction(&self, nonlinear: &[f64]) -> Result<Vec<f64>, epas_friction::Error> {
-        let (mut screw, mut values) = (self.screw, self.values);
+    fn friction(&self, nonlinear: &[f64]) -> Result<Vec<f64>, Failure> {
+        let (mut reversal_speed, mut values) = (self.screw.caged.reversal_speed, self.values);
         for (parameter, value) in self.nonlinear.iter().zip(nonlinear) {
             match parameter.name {
                 "friction" => values.friction = *value,
                 "preload" => values.preload = *value,
-                _ => screw.configuration.reversal_speed = *value as f32,
+                _ => reversal_speed = *value as f32,
             }
         }
-        let mut model = FrictionModel::<CagedBallScrew>::new(&screw.scene(&values)?)?;
-        Ok(self.course.friction_by_speed(&mut model))
+        self.screw
+            .friction_by_speed(&values, self.course, &self.grid, reversal_speed)
     }
 }
 

@@ -85,13 +85,14 @@ pub fn scores(
     }
     let estimated = problem.nonlinear();
     let course = (problem.course(), rows, &beside);
+    let estimated = (estimated, problem.grid());
     let without = WithoutMemory::new(*screw, *values, estimated, course);
     let unseen = other.as_ref().map(|(problem, (_, _, rows), beside)| {
         let course = (problem.course(), *rows, beside);
         WithoutMemory::new(*screw, *values, estimated, course)
     });
     let unseen = unseen.as_ref().map(|scene| scene as &dyn Separable);
-    let cost = Cost::Counted(&["step_caged"]);
+    let cost = Cost::Counted(&["step_folded"]);
     scores.add(
         WITHOUT_MEMORY,
         score(WITHOUT_MEMORY, (&without, unseen), &rivals, cost),

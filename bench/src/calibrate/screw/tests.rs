@@ -23,8 +23,8 @@ use crate::designs::{Design, DesignSource};
 fn design() -> Design {
     let source: DesignSource = "lin-4.1".parse().unwrap();
     let mut design = source.load().unwrap();
-    let screw = design.configuration.design;
-    design.configuration.clearance = Clearance::of_preload(&screw, 20.0).unwrap();
+    let screw = design.caged.design;
+    design.caged.clearance = Clearance::of_preload(&screw, 20.0).unwrap();
     design
 }
 

@@ -31,7 +31,7 @@ impl Common {
                 limits: row.limits,
             };
         }
-        let caged = &design.configuration;
+        let caged = &design.caged;
         Self {
             friction: caged.friction,
             rolling_resistance: caged.rolling_resistance,
@@ -162,18 +162,17 @@ fn geometry(l: &mut Vec<Variable>, screw: &BallScrewParameters) {
 
 /// What only a screw without ball-to-ball friction has.
 fn caged(l: &mut Vec<Variable>, design: &Design) {
-    let configuration = &design.configuration;
     single(
         l,
         "rolling_tangent",
         None,
         "lever arm of rolling friction over ball_radius sin(contact_angle), 0 to 0.1; for the closed forms alone",
-        configuration.rolling_tangent,
+        design.rolling_tangent,
     );
-    let branch = match configuration.branch {
-        FrictionBranch::Contacts => 0.0,
-        FrictionBranch::Rolling => 1.0,
-        FrictionBranch::Sliding => 2.0,
+    let branch = match design.branch {
+        None => 0.0,
+        Some(FrictionBranch::Sliding) => 2.0,
+        Some(_) => 1.0,
     };
     l.push(parameter(
         Kind::Choice(Choice::Branch),
@@ -187,7 +186,7 @@ fn caged(l: &mut Vec<Variable>, design: &Design) {
         "loaded_balls",
         None,
         "balls that carry load, 1 to 1000",
-        configuration.loaded_balls.into(),
+        design.caged.loaded_balls.into(),
     ));
 }
 
@@ -217,42 +216,41 @@ pub fn changed_screw(
         .and_then(|clearance| clearance.checked(&screw))
         .map_err(|error| error.to_string())?;
     let mut changed = design.clone();
-    let configuration = &mut changed.configuration;
-    configuration.design = screw;
-    configuration.friction = values.single("friction");
-    configuration.rolling_resistance.hysteresis_loss = values.single("hysteresis_loss");
-    configuration.rolling_resistance.lubricant_drag = values.single("lubricant_drag");
-    configuration.clearance = clearance;
-    configuration.reversal_speed = values.single("reversal_speed");
-    configuration.limits.nut_speed = values.single("limits.nut_speed");
-    configuration.limits.axial_load = values.single("limits.axial_load");
-    configuration.limits.friction_torque = values.single("limits.friction_torque");
+    let caged = &mut changed.caged;
+    caged.design = screw;
+    caged.friction = values.single("friction");
+    caged.rolling_resistance.hysteresis_loss = values.single("hysteresis_loss");
+    caged.rolling_resistance.lubricant_drag = values.single("lubricant_drag");
+    caged.clearance = clearance;
+    caged.reversal_speed = values.single("reversal_speed");
+    caged.limits.nut_speed = values.single("limits.nut_speed");
+    caged.limits.axial_load = values.single("limits.axial_load");
+    caged.limits.friction_torque = values.single("limits.friction_torque");
     if scene.has_row() {
         changed_row(&mut changed, values);
     } else {
-        let configuration = &mut changed.configuration;
-        configuration.rolling_tangent = values.single("rolling_tangent");
-        configuration.branch = match values.within("branch", 0.0, 2.0)? {
-            1.0 => FrictionBranch::Rolling,
-            2.0 => FrictionBranch::Sliding,
-            _ => FrictionBranch::Contacts,
+        changed.rolling_tangent = values.single("rolling_tangent");
+        changed.branch = match values.within("branch", 0.0, 2.0)? {
+            1.0 => Some(FrictionBranch::Rolling),
+            2.0 => Some(FrictionBranch::Sliding),
+            _ => None,
         };
-        configuration.loaded_balls = values.within("loaded_balls", 1.0, 1000.0)? as u16;
+        changed.caged.loaded_balls = values.within("loaded_balls", 1.0, 1000.0)? as u16;
     }
     Ok(changed)
 }
 
 /// The numbers of its row of balls.
 fn changed_row(design: &mut Design, values: &Values<'_>) {
-    let configuration = design.configuration;
+    let caged = design.caged;
     if let Some(train) = &mut design.uncaged {
         let row = &mut train.configuration;
-        row.design = configuration.design;
-        row.friction = configuration.friction;
-        row.rolling_resistance = configuration.rolling_resistance;
-        row.clearance = configuration.clearance;
-        row.reversal_speed = configuration.reversal_speed;
-        row.limits = configuration.limits;
+        row.design = caged.design;
+        row.friction = caged.friction;
+        row.rolling_resistance = caged.rolling_resistance;
+        row.clearance = caged.clearance;
+        row.reversal_speed = caged.reversal_speed;
+        row.limits = caged.limits;
         row.ball_friction = values.single("ball_friction");
         row.turns = values.single("turns");
         row.return_length = values.single("return_length");

@@ -9,7 +9,6 @@ use rayon::prelude::*;
 use super::panel::PANEL;
 use crate::calibrate::fit::separable::FitSettings;
 use crate::calibrate::screw::choice::Wanted;
-use crate::calibrate::screw::folded::Folds;
 use crate::calibrate::screw::friction::{Course, ElementsKind};
 use crate::calibrate::screw::{Request, calibrate};
 use crate::document::{Block, Cell, Figure, Table};
@@ -156,10 +155,8 @@ fn calibrated(gear: &Gear, wanted: Wanted, fit: FitSettings) -> Result<Vec<f64>,
     let found = calibrate(&gear.trace, &gear.design, &request)?;
     let (trace, motion) = &gear.in_loop;
     let course = Course::of(trace, motion, None, found.screw.reference_temperature);
-    let friction = found
-        .screw
-        .friction(&found.values, &course, &Folds::default());
-    friction.map_err(|error| Failure::Data(error.to_string()))
+    let grid = found.screw.grid(&found.values)?;
+    found.screw.friction(&found.values, &course, &grid)
 }
 
 fn table_rows(physics: &str, tried: &[Tried]) -> Vec<Vec<Cell>> {

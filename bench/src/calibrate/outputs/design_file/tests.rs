@@ -89,12 +89,12 @@ fn only_calibrated_numbers_change() {
 fn what_is_written_is_read_as_what_was_calibrated() {
     let Written { text, design, .. } = written(USERS, (&whole(), None), "weave").unwrap();
     let again = read(&text, "other").unwrap();
-    assert_eq!(again.configuration, design.configuration);
+    assert_eq!(again.caged, design.caged);
     assert_eq!(again.calibrated, design.calibrated);
-    assert_eq!(again.configuration.friction, 0.1152);
-    let screw = &again.configuration.design;
+    assert_eq!(again.caged.friction, 0.1152);
+    let screw = &again.caged.design;
     // Of a preload that is turned into a gap and back: two powers, each of some roundings of 6e-8.
-    let preload = again.configuration.clearance.preload(screw);
+    let preload = again.caged.clearance.preload(screw);
     assert!((preload - 17.0).abs() < 17.0 * 1e-5, "{preload}");
     let calibrated = again.calibrated.unwrap();
     assert_eq!(
@@ -122,7 +122,7 @@ fn what_is_written_is_read_as_what_was_calibrated() {
 fn circumstances_of_a_screw_stand_beside_its_numbers() {
     let design = read(USERS, "design").unwrap();
     let screw = Screw {
-        configuration: design.configuration,
+        caged: design.caged,
         elements: ElementsKind::LoadExact,
         preloaded: true,
         reference_temperature: 300.0,

@@ -2,13 +2,13 @@
 
 use std::f64::consts::TAU;
 
-use epas_friction::{
-    CagedBallScrew, CagedBallScrewConfiguration, Clearance, FrictionModel, Inputs,
-};
+use epas_design::CagedDesign;
+use epas_friction::{Clearance, Inputs};
 
 use super::gear::Gear;
 use crate::calibrate::fit::problem::{Evaluation, LinearParameter, Parameter, Scale, Separable};
 use crate::calibrate::fit::separable::{FitSettings, fit};
+use crate::calibrate::screw::exact::Grid;
 use crate::calibrate::signals::Motion;
 use crate::calibrate::trace::Trace;
 use crate::failure::Failure;
@@ -16,10 +16,13 @@ use crate::failure::Failure;
 /// Nut speed over which friction changes its direction in the model of today, rad/s.
 const REVERSAL_SPEED: f32 = 0.2;
 
+/// Force of a contact without a load at which a fit begins, N.
+const FIRST_PRELOAD: f32 = 10.0;
+
 /// A model with its parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rival {
-    /// The crate's caged screw without memory: friction turns with the speed; coefficient and preload are fitted.
+    /// This crate's caged screw without memory: friction turns with the speed; coefficient and preload are fitted.
     BySpeed,
     /// LuGre times the sum of both flanks' loads, as tyre models have it: stiffness, friction at rest and in motion, Stribeck's speed are
     /// fitted; the preload is given.
@@ -82,8 +85,7 @@ impl Rival {
                 let speeds = vec![1e3 * f64::from(REVERSAL_SPEED); loads.len()];
                 let preload = screw.contact_force(screw.axial_preload);
                 let values = [gear.parameters.boundary, preload];
-                let mut torques = by_speed(&gear.design.configuration, values, &speeds, &loads)
-                    .map_err(|error| Failure::Data(error.to_string()))?;
+                let mut torques = by_speed(&gear.design.caged, values, &speeds, &loads)?;
                 let without = torques.pop().unwrap_or(1.0);
                 Ok(torques.iter().map(|torque| torque / without).collect())
             }
@@ -101,7 +103,7 @@ impl Rival {
             (Self::BySpeed, [friction, preload]) => {
                 let load = trace.load.as_deref().unwrap_or(&[]);
                 let values = [*friction, *preload];
-                by_speed(&gear.design.configuration, values, &motion.speed, load)
+                by_speed(&gear.design.caged, values, &motion.speed, load)
                     .unwrap_or_else(|_| vec![f64::NAN; trace.len()])
             }
             (_, [stiffness, in_motion, at_rest, stribeck]) => {
@@ -147,25 +149,31 @@ struct Course<'a> {
 
 /// Friction of the screw without memory, N m.
 fn by_speed(
-    configuration: &CagedBallScrewConfiguration,
+    caged: &CagedDesign,
     [friction, preload]: [f64; 2],
     speeds: &[f64],
     load: &[f64],
-) -> Result<Vec<f64>, epas_friction::Error> {
-    let mut model = FrictionModel::<CagedBallScrew>::new(&CagedBallScrewConfiguration {
-        friction: friction as f32,
-        clearance: Clearance::of_preload(&configuration.design, preload as f32)?,
-        reversal_speed: REVERSAL_SPEED,
-        ..*configuration
-    })?;
+) -> Result<Vec<f64>, Failure> {
+    let with = |preload: f32| {
+        Ok::<_, Failure>(CagedDesign {
+            clearance: Clearance::of_preload(&caged.design, preload)?,
+            ..*caged
+        })
+    };
+    let largest = load
+        .iter()
+        .fold(0.0, |most: f64, load| most.max(load.abs()));
+    let grid = Grid::of(&with(FIRST_PRELOAD)?, largest)?;
+    let friction = friction as f32;
+    let law = grid.law(&with(preload as f32)?, (friction, friction))?;
     let moments = speeds.iter().zip(load);
     Ok(moments
         .map(|(speed, load)| {
-            let outputs = model.step(Inputs {
+            let inputs = Inputs {
                 nut_speed: *speed as f32,
                 axial_load: *load as f32,
-            });
-            outputs.friction_torque.into()
+            };
+            law.by_speed(inputs, friction, REVERSAL_SPEED)
         })
         .collect())
 }
@@ -190,7 +198,7 @@ impl<'a> Fitted<'a> {
             ..
         } = gear;
         let target = rows.of(&trace.effort);
-        let reduced_lead = f64::from(gear.design.configuration.design.lead()) / TAU;
+        let reduced_lead = f64::from(gear.design.caged.design.lead()) / TAU;
         let load: Vec<f64> = trace
             .load
             .iter()

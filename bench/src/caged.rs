@@ -1,0 +1,398 @@
+//! A caged screw that runs on this machine: by a block that is folded from its design, or by a closed form.
+//!
+//! Folding takes half a second for one friction coefficient and two for a range of them. A block is folded once and kept by what it was folded
+//! from, so that a program that runs a design twice waits once.
+
+use std::collections::HashMap;
+use std::sync::{LazyLock, Mutex, PoisonError};
+
+use epas_design::caged::{Block, NODES};
+use epas_design::drawing::drawing;
+use epas_design::{CagedFold, Folded};
+use epas_friction::scene::{
+    ClosedFormScrew, ClosedFormScrewConfiguration, ClosedFormScrewConstants, FoldedScrew,
+    FoldedScrewConfiguration, FoldedScrewConstants, StoredScene,
+};
+use epas_friction::{Error, FrictionModel, Inputs, Limits, Outputs, Range, Refusal};
+use epas_reference::friction::caged_ball::CagedBall;
+use epas_reference::friction::patch::Integration;
+use epas_reference::friction::rolling_resistance::RollingResistance;
+use rayon::prelude::*;
+
+use crate::designs::Design;
+use crate::failure::Failure;
+use crate::progress::Progress;
+
+/// Blocks that were folded, by the digest of their inputs.
+static FOLDED: LazyLock<Mutex<HashMap<u64, Block>>> = LazyLock::new(Mutex::default);
+
+/// Most blocks that are kept: a study folds thousands of designs once.
+const KEPT: usize = 256;
+
+/// Ratio of two friction coefficients that count as one, and the least ratio of the ends of a range.
+const ONE: f32 = 1.001;
+const APART: f32 = 1.11;
+
+/// Error of a range between its nodes from which on it is refused, and loads of each sign at which that is looked at.
+const LARGEST_ERROR: f64 = 0.03;
+const LOADS: u32 = 48;
+
+/// Parts of the work that are told.
+const PARTS: usize = 1_000;
+
+/// The block of a design, folded where it is not kept.
+///
+/// # Errors
+/// What cannot be folded, with the reason.
+pub fn block(fold: &CagedFold) -> Result<Block, Failure> {
+    let digest = fold.digest();
+    let kept = || FOLDED.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(block) = kept().get(&digest) {
+        return Ok(*block);
+    }
+    // Not locked: others go on meanwhile.
+    let block = fold.block()?;
+    if let Block::Range(range) = &block {
+        check_range(fold, range)?;
+    }
+    keep(digest, block);
+    Ok(block)
+}
+
+/// The block of a design with its certificate, told while it is made; kept as any other block.
+///
+/// # Errors
+/// What cannot be folded, with the reason.
+pub fn certified(fold: &CagedFold) -> Result<Folded, Failure> {
+    let progress = Progress::new("folding", PARTS);
+    let done = Mutex::new(0);
+    let folded = fold.folded_with(&|share| {
+        let part = (share * PARTS as f64) as u64;
+        if let Ok(mut done) = done.lock() {
+            progress.steps(part.saturating_sub(*done));
+            *done = part.max(*done);
+        }
+    })?;
+    keep(folded.digest, folded.block);
+    Ok(folded)
+}
+
+/// Keeps a block that was folded before from inputs with this digest.
+pub fn keep(digest: u64, block: Block) {
+    let mut kept = FOLDED.lock().unwrap_or_else(PoisonError::into_inner);
+    if kept.len() >= KEPT {
+        kept.clear();
+    }
+    kept.insert(digest, block);
+}
+
+/// Refuses a range that is far from the exact ball midway between two of its nodes.
+fn check_range(fold: &CagedFold, block: &FoldedScrewConfiguration<NODES>) -> Result<(), Failure> {
+    let gear = &fold.gear;
+    let [least, most] = fold.axial_load.map(f64::from);
+    let middles = block.law.nodes.windows(2).filter_map(|pair| match pair {
+        [low, high] => Some((low.friction * high.friction).sqrt()),
+        _ => None,
+    });
+    let asked: Vec<(f32, f64)> = middles
+        .flat_map(|friction| [(friction, 1.0), (friction, -1.0)])
+        .collect();
+    let worst = asked
+        .par_iter()
+        .map(|&(friction, side)| {
+            let ball = CagedBall {
+                design: drawing(gear.design.parameters()),
+                clearance: gear.clearance.gap().into(),
+                friction: friction.into(),
+                rolling: RollingResistance {
+                    hysteresis_loss: gear.rolling_resistance.hysteresis_loss.into(),
+                    lubricant_drag: gear.rolling_resistance.lubricant_drag.into(),
+                },
+                integration: Integration::Full,
+            };
+            let load = |step: u32| most * (least / most).powf(f64::from(step) / f64::from(LOADS));
+            let loads: Vec<f64> = (0..=LOADS).map(|step| side * load(step)).collect();
+            let mut model = FrictionModel::<FoldedScrew<NODES>>::new(&FoldedScrewConfiguration {
+                loaded_balls: 1,
+                reversal_speed: 1e-6,
+                limits: Limits {
+                    nut_speed: 10.0,
+                    axial_load: 1e7,
+                    friction_torque: 1e6,
+                },
+                ..*block
+            })?;
+            model.set_friction(friction)?;
+            let found = ball.along(&loads)?.into_iter().flatten().map(|exact| {
+                let inputs = Inputs {
+                    nut_speed: 1.0,
+                    axial_load: exact.axial_load as f32,
+                };
+                let error = f64::from(model.step(inputs).friction_torque) / exact.torque - 1.0;
+                (error.abs(), exact.axial_load.abs(), friction)
+            });
+            Ok(found.fold(
+                (0.0, 0.0, 0.0),
+                |worst, one| if one.0 > worst.0 { one } else { worst },
+            ))
+        })
+        .collect::<Result<Vec<_>, Failure>>()?;
+    let worst = worst
+        .into_iter()
+        .max_by(|one, other| one.0.total_cmp(&other.0));
+    match worst {
+        Some((error, load, friction)) if error > LARGEST_ERROR => {
+            let (low, high) = block.law.friction_range();
+            Err(Failure::Data(format!(
+                "friction coefficients from {low} to {high} cannot be folded into one block: its torque is {:.1} % off at {load:.1} N a ball, \
+                 friction coefficient {friction:.4}; narrow the range, or the loads (axial_load in the table [fold])",
+                100.0 * error
+            )))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// What runs of a caged screw.
+#[expect(
+    clippy::large_enum_variant,
+    reason = "a host has room, and a program has few of them"
+)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum CagedScene {
+    /// A folded block for one friction coefficient.
+    One(FoldedScrewConfiguration<1>),
+    /// One for a range of friction coefficients.
+    Range(FoldedScrewConfiguration<NODES>),
+    /// A closed form.
+    ClosedForm(ClosedFormScrewConfiguration),
+}
+
+impl From<Block> for CagedScene {
+    fn from(block: Block) -> Self {
+        match block {
+            Block::One(block) => Self::One(block),
+            Block::Range(block) => Self::Range(block),
+        }
+    }
+}
+
+impl CagedScene {
+    /// That of a design with its own friction coefficient, as its table `[fold]` says it.
+    ///
+    /// # Errors
+    /// What cannot be folded, with the reason.
+    pub fn of(design: &Design) -> Result<Self, Failure> {
+        let friction = design.caged.friction;
+        Self::with_coefficients(design, (friction, friction))
+    }
+
+    /// That of a design for friction coefficients between two.
+    ///
+    /// # Errors
+    /// What cannot be folded, with the reason.
+    pub fn with_coefficients(design: &Design, coefficients: (f32, f32)) -> Result<Self, Failure> {
+        let named = |message: String| Failure::Data(format!("{}: {message}", design.name));
+        if let Some(closed) = design.closed_form() {
+            return Ok(Self::ClosedForm(closed));
+        }
+        let fold = fold_for(design, coefficients).map_err(named)?;
+        match block(&fold) {
+            Ok(block) => Ok(block.into()),
+            Err(failure) => Err(failure.of(&design.name)),
+        }
+    }
+
+    /// That of a block's words.
+    ///
+    /// # Errors
+    /// [`Error`] naming what is wrong with the block.
+    pub fn read(words: &[u32]) -> Result<Self, Error> {
+        const RANGE: u32 = NODES as u32;
+        match words.get(3) {
+            Some(&RANGE) => Ok(Self::Range(FoldedScrewConfiguration::read(words)?)),
+            // One that says another number of nodes is refused as this one.
+            _ => Ok(Self::One(FoldedScrewConfiguration::read(words)?)),
+        }
+    }
+
+    /// A model of it.
+    ///
+    /// # Errors
+    /// [`Error`] naming a number out of range.
+    pub fn model(&self) -> Result<CagedModel, Error> {
+        Ok(match self {
+            Self::One(block) => CagedModel::One(FrictionModel::new(block)?),
+            Self::Range(block) => CagedModel::Range(FrictionModel::new(block)?),
+            Self::ClosedForm(form) => CagedModel::ClosedForm(FrictionModel::new(form)?, *form),
+        })
+    }
+}
+
+/// The words of a design's block for friction coefficients between two, with the digest of their inputs; none of a closed form.
+///
+/// # Errors
+/// What cannot be folded, with the reason.
+pub fn words(design: &Design, coefficients: (f32, f32)) -> Result<Option<Vec<u32>>, Failure> {
+    fn of<const N: usize>(
+        block: &FoldedScrewConfiguration<N>,
+        digest: u64,
+    ) -> Result<Vec<u32>, Error> {
+        let mut words = vec![0; FoldedScrewConfiguration::<N>::WORDS];
+        block.write(digest, &mut words)?;
+        Ok(words)
+    }
+    if design.branch.is_some() {
+        return Ok(None);
+    }
+    let fold = fold_for(design, coefficients).map_err(Failure::Data)?;
+    let digest = fold.digest();
+    Ok(Some(match block(&fold)? {
+        Block::One(block) => of(&block, digest)?,
+        Block::Range(block) => of(&block, digest)?,
+    }))
+}
+
+/// Keeps the block of these words: what was folded from the same inputs is not folded again.
+///
+/// # Errors
+/// [`Error`] naming what is wrong with the block.
+pub fn keep_words(words: &[u32]) -> Result<(), Error> {
+    let block = match CagedScene::read(words)? {
+        CagedScene::One(block) => Block::One(block),
+        CagedScene::Range(block) => Block::Range(block),
+        CagedScene::ClosedForm(_) => return Ok(()),
+    };
+    if let [_, _, _, _, low, high, ..] = words {
+        keep(u64::from(*high) << 32 | u64::from(*low), block);
+    }
+    Ok(())
+}
+
+/// What is folded of a design for friction coefficients between two.
+///
+/// # Errors
+/// Coefficients that the table `[fold]` does not hold; what else of the table cannot be folded.
+pub fn fold_for(design: &Design, (least, largest): (f32, f32)) -> Result<CagedFold, String> {
+    let mut fold = design
+        .fold
+        .fold(design)
+        .map_err(|message| format!("fold: {message}"))?;
+    fold.gear.friction = design.caged.friction;
+    match fold.friction {
+        Some([low, high]) if least * ONE < low || largest > high * ONE => Err(format!(
+            "fold: the friction coefficient runs from {least} to {largest}, and friction = [{low}, {high}] does not hold that; widen it"
+        )),
+        None if largest > least * ONE => {
+            // What is folded for a law is at least a tenth wide.
+            let wider = (APART * least / largest).max(1.0).sqrt();
+            fold.friction = Some([least / wider, (largest * wider).min(0.5)]);
+            Ok(fold)
+        }
+        _ => Ok(fold),
+    }
+}
+
+/// A caged screw that runs.
+#[expect(
+    clippy::large_enum_variant,
+    reason = "a host has room, and a program has few of them"
+)]
+#[derive(Clone, Copy, Debug)]
+pub enum CagedModel {
+    /// By a folded block for one friction coefficient.
+    One(FrictionModel<FoldedScrew>),
+    /// By one for a range of friction coefficients.
+    Range(FrictionModel<FoldedScrew<NODES>>),
+    /// By a closed form, with what was set for it.
+    ClosedForm(FrictionModel<ClosedFormScrew>, ClosedFormScrewConfiguration),
+}
+
+/// Does the same with whichever model it is.
+macro_rules! each {
+    ($model:expr, $of:ident => $does:expr) => {
+        match $model {
+            CagedModel::One($of) => $does,
+            CagedModel::Range($of) => $does,
+            CagedModel::ClosedForm($of, _) => $does,
+        }
+    };
+}
+
+impl CagedModel {
+    /// One tick.
+    pub fn step(&mut self, inputs: Inputs) -> Outputs {
+        each!(self, model => model.step(inputs))
+    }
+
+    /// Back to the state before the first tick.
+    pub fn reset(&mut self) {
+        each!(self, model => model.reset());
+    }
+
+    /// Consecutive ticks with a fault.
+    pub fn faulted_ticks(&self) -> u32 {
+        each!(self, model => model.faulted_ticks())
+    }
+
+    /// Sets the friction coefficient: of a block within its range, of a closed form any.
+    ///
+    /// # Errors
+    /// [`Error`] naming `friction`; the model is as it was.
+    pub fn set_friction(&mut self, friction: f32) -> Result<(), Error> {
+        match self {
+            Self::One(model) => model.set_friction(friction),
+            Self::Range(model) => model.set_friction(friction),
+            Self::ClosedForm(model, form) => {
+                let changed = ClosedFormScrewConfiguration { friction, ..*form };
+                model.swap_constants(ClosedFormScrewConstants::new(&changed)?)?;
+                *form = changed;
+                Ok(())
+            }
+        }
+    }
+
+    /// Goes on with the block of these words, of as many friction coefficients.
+    ///
+    /// # Errors
+    /// [`Error`] naming what is wrong with the block; the model is as it was. A closed form has none.
+    pub fn swap(&mut self, words: &[u32]) -> Result<(), Error> {
+        match self {
+            Self::One(model) => {
+                model.swap_constants(FoldedScrewConstants::from_block(words)?)?;
+            }
+            Self::Range(model) => {
+                model.swap_constants(FoldedScrewConstants::from_block(words)?)?;
+            }
+            Self::ClosedForm(..) => {
+                return Err(Error::OutOfRange {
+                    field: "branch",
+                    value: 1.0,
+                    allowed: Range::new(0.0, 0.0),
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// Its state as a block.
+    ///
+    /// # Errors
+    /// What the crate refuses.
+    pub fn export(&self) -> Result<Vec<u8>, Refusal> {
+        fn of<S: StoredScene>(model: &FrictionModel<S>) -> Result<Vec<u8>, Refusal> {
+            let mut block = vec![0; FrictionModel::<S>::STATE_BYTES];
+            model.export(&mut block)?;
+            Ok(block)
+        }
+        each!(self, model => of(model))
+    }
+
+    /// Takes the state of a block over.
+    ///
+    /// # Errors
+    /// What the crate refuses; the state is as it was.
+    pub fn import(&mut self, block: &[u8]) -> Result<(), Refusal> {
+        each!(self, model => model.import(block))
+    }
+}
