@@ -9,12 +9,12 @@
 //!
 //! ```
 //! use embedded_hal::{pwm::SetDutyCycle, spi::SpiDevice};
-//! use epas_friction::{CagedBallScrew, FrictionModel, Inputs};
+//! use epas_friction::{CagedBallScrew, CagedConstants, FrictionModel, Inputs};
 //! use epas_friction::hal::{FrictionFeedForward, MagneticEncoder};
 //!
 //! fn tick<SPI: SpiDevice, PWM: SetDutyCycle>(
 //!     encoder: &mut MagneticEncoder<SPI>,
-//!     model: &mut FrictionModel<CagedBallScrew>,
+//!     model: &mut FrictionModel<CagedBallScrew, &'static CagedConstants>,
 //!     stage: &mut FrictionFeedForward<PWM>,
 //!     axial_load: f32,
 //!     turning: bool,

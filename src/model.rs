@@ -15,55 +15,42 @@ use crate::scene::{
 /// Friction of one scene: configured once, stepped in the interrupt.
 ///
 /// ```
-/// use epas_friction::{
-///     CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, Clearance, FrictionBranch, FrictionModel,
-///     Inputs, Limits, Regime, RollingResistance,
-/// };
+/// # mod gear { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/bench/firmware/src/gears/lin_3_6.rs")); }
+/// use epas_friction::{CagedBallScrew, FrictionModel, Inputs, Regime};
+/// use gear::LIN_3_6; // a `static` that `epas-bench design` has written
 ///
-/// let mut model = FrictionModel::<CagedBallScrew>::new(&CagedBallScrewConfiguration {
-///     design: CATALOGUE[15].design()?, // 32 x 20 x 6.35
-///     friction: 0.1,
-///     rolling_resistance: RollingResistance::STEEL,
-///     rolling_tangent: 0.0,
-///     branch: FrictionBranch::Contacts,
-///     clearance: Clearance::ZERO,
-///     loaded_balls: 40,
-///     reversal_speed: 0.5,
-///     limits: Limits { nut_speed: 500.0, axial_load: 20_000.0, friction_torque: 5.0 },
-/// })?;
+/// let mut model = FrictionModel::<CagedBallScrew, _>::of(&LIN_3_6);
 ///
 /// // in the interrupt
 /// let outputs = model.step(Inputs { nut_speed: 40.0, axial_load: 3_000.0 });
 /// assert_eq!(outputs.regime, Regime::Driving);
 /// assert!(outputs.friction_torque > 0.0 && outputs.efficiency > 0.9);
-/// # Ok::<(), epas_friction::Error>(())
 /// ```
 ///
-/// A design that is known when the firmware is compiled can be folded then. Its constants stay in flash, the model keeps a
-/// reference to them beside its state, nothing of what checks and folds them is linked, and a field out of range is an error
-/// of the compiler (what [`FrictionModel::of`] does remains):
+/// Every other scene is set up from its design: at run time by [`FrictionModel::new`], or by the compiler. Constants that the compiler has
+/// folded stay in flash, the model keeps a reference to them beside its state, nothing of what checks and folds them is linked, and a field
+/// out of range is an error of the compiler (what [`FrictionModel::of`] does remains):
 ///
 /// ```
 /// use epas_friction::{
-///     CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, Clearance, Error,
-///     FrictionBranch, FrictionModel, Limits, RollingResistance,
+///     CATALOGUE, Clearance, ClosedFormScrew, ClosedFormScrewConfiguration, ClosedFormScrewConstants, Error,
+///     FrictionBranch, FrictionModel, Limits,
 /// };
 ///
-/// static GEAR: CagedConstants = match gear() {
+/// static GEAR: ClosedFormScrewConstants = match gear() {
 ///     Ok(constants) => constants,
 ///     Err(_) => panic!("a field is out of range"),
 /// };
 ///
-/// const fn gear() -> Result<CagedConstants, Error> {
-///     CagedConstants::new(&CagedBallScrewConfiguration {
-///         design: match CATALOGUE[15].design() {
+/// const fn gear() -> Result<ClosedFormScrewConstants, Error> {
+///     ClosedFormScrewConstants::new(&ClosedFormScrewConfiguration {
+///         design: match CATALOGUE[15].design() { // 32 x 20 x 6.35
 ///             Ok(design) => design,
 ///             Err(error) => return Err(error),
 ///         },
 ///         friction: 0.1,
-///         rolling_resistance: RollingResistance::STEEL,
 ///         rolling_tangent: 0.0,
-///         branch: FrictionBranch::Contacts,
+///         branch: FrictionBranch::Rolling,
 ///         clearance: Clearance::ZERO,
 ///         loaded_balls: 40,
 ///         reversal_speed: 0.5,
@@ -71,7 +58,7 @@ use crate::scene::{
 ///     })
 /// }
 ///
-/// let model = FrictionModel::<CagedBallScrew, _>::of(&GEAR);
+/// let model = FrictionModel::<ClosedFormScrew, _>::of(&GEAR);
 /// assert_eq!(model.faulted_ticks(), 0);
 /// ```
 ///
@@ -79,23 +66,21 @@ use crate::scene::{
 ///
 /// ```compile_fail,E0080
 /// # use epas_friction::{
-/// #     CATALOGUE, CagedBallScrewConfiguration, CagedConstants, Clearance, Error, FrictionBranch,
-/// #     Limits,
+/// #     CATALOGUE, Clearance, ClosedFormScrewConfiguration, ClosedFormScrewConstants, Error, FrictionBranch, Limits,
 /// # };
-/// # static GEAR: CagedConstants = match gear() {
+/// # static GEAR: ClosedFormScrewConstants = match gear() {
 /// #     Ok(constants) => constants,
 /// #     Err(_) => panic!("a field is out of range"),
 /// # };
-/// # const fn gear() -> Result<CagedConstants, Error> {
-/// #     CagedConstants::new(&CagedBallScrewConfiguration {
+/// # const fn gear() -> Result<ClosedFormScrewConstants, Error> {
+/// #     ClosedFormScrewConstants::new(&ClosedFormScrewConfiguration {
 /// #         design: match CATALOGUE[15].design() {
 /// #             Ok(design) => design,
 /// #             Err(error) => return Err(error),
 /// #         },
 ///         friction: 7.5,
-/// #         rolling_resistance: RollingResistance::STEEL,
 /// #         rolling_tangent: 0.0,
-/// #         branch: FrictionBranch::Contacts,
+/// #         branch: FrictionBranch::Rolling,
 /// #         clearance: Clearance::ZERO,
 /// #         loaded_balls: 40,
 /// #         reversal_speed: 0.5,
@@ -123,13 +108,8 @@ impl<S: Scene> FrictionModel<S> {
 impl<S: Scene, C: Borrow<S::Constants>> FrictionModel<S, C> {
     /// A model of constants that are folded already, or of a reference to them. Set-up only: it makes the first state.
     ///
-    /// A ball screw without cage settles one ball, which takes 16 renewals. A caged one by the friction of its contacts
-    /// ([`FrictionBranch::Contacts`](crate::FrictionBranch::Contacts)) folds laws over the load: some 3,000 renewals in
-    /// half of the catalogue's screws, with friction 0.05 to 0.15 and gaps of -5 to 5 um, up to 25,000 where balls with play do not
-    /// rest, and three times as many with a coefficient by speed and temperature. With the 5,000 cycles of a renewal
-    /// ([`SCREW_RENEWAL`](crate::promises::SCREW_RENEWAL)) this is a tenth of a second at 168 MHz, at most 0.8 s without such a
-    /// coefficient. It is not counted on the target. The stack that it takes stands in [`FOOTPRINTS`](crate::promises::FOOTPRINTS). Other
-    /// scenes begin at once.
+    /// A ball screw without cage settles one ball, which takes 16 renewals of some 5,000 cycles
+    /// ([`SCREW_RENEWAL`](crate::promises::SCREW_RENEWAL)). Other scenes begin at once.
     pub fn of(constants: C) -> Self {
         let state = S::initial_state(constants.borrow());
         Self {
@@ -180,8 +160,8 @@ impl<S: Scene, C: Borrow<S::Constants>> FrictionModel<S, C> {
     /// What has to settle is flagged [`Faults::SETTLING`](crate::Faults::SETTLING).
     ///
     /// Not in the middle of a step: an interrupt that steps the model has to wait. With constants in flash (`C` a reference)
-    /// it is a pointer that changes. A caged ball screw renews a ball in every tick from then on, after a reset and an import as well,
-    /// until it is set up anew: see [`SCREW_RENEWAL`](crate::promises::SCREW_RENEWAL). Where the maps of a screw's or a
+    /// it is a pointer that changes. A caged ball screw has the friction of its new block from the next step on: this is how its clearance
+    /// changes; a friction coefficient that was set is that of the new block again. Where the maps of a screw's or a
     /// rail's deviations have another period, set the angle or the place anew, from which they are counted.
     ///
     /// # Errors
@@ -213,10 +193,7 @@ impl<S: ChangingFriction, C: Borrow<S::Constants>> FrictionModel<S, C> {
     /// Sets the friction coefficient of ball and groove, 1e-6 to 0.5 (to 1 of a linear bearing): where temperature or wear change it
     /// while the model runs. [`FrictionModel::reset`] brings the configuration's back.
     ///
-    /// In a caged ball screw a ball is renewed in every tick from the first call on, in the place of the law over the load: a tick
-    /// then takes the cycles of [`SCREW_RENEWAL`](crate::promises::SCREW_RENEWAL). After a change friction is exact
-    /// within some ticks; until then it is flagged [`Faults::SETTLING`](crate::Faults::SETTLING). The closed forms of
-    /// [`FrictionBranch`](crate::FrictionBranch) keep their friction.
+    /// In a caged ball screw it lies within the nodes of the block, and counts from the next step on.
     ///
     /// In a ball screw without cage balls take it over as their turn comes; where it jumps they settle, flagged the same.
     ///
@@ -230,8 +207,9 @@ impl<S: ChangingFriction, C: Borrow<S::Constants>> FrictionModel<S, C> {
 }
 
 impl<S: ChangingClearance, C: Borrow<S::Constants>> FrictionModel<S, C> {
-    /// Sets how balls fit between the grooves, -0.02 to 0.05 ball radii, with the cost and the flag of
-    /// [`FrictionModel::set_friction`]; a memory stays. The closed forms of [`FrictionBranch`](crate::FrictionBranch) keep theirs.
+    /// Sets how balls fit between the grooves of a ball screw without cage, -0.02 to 0.05 ball radii, with the cost and the flag of
+    /// [`FrictionModel::set_friction`]; a memory stays. A caged screw's clearance changes with its block
+    /// ([`FrictionModel::swap_constants`]).
     ///
     /// # Errors
     /// [`Error`] naming `clearance`; the model goes on as it was.

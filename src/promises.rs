@@ -7,7 +7,7 @@
 //! those, the promise names it and has its cycles. Constants that nobody reads take no place in a firmware's image.
 //!
 //! The table has what can be called, from firmware or from a program of its own that counts it. A step is inlined, and what
-//! only a step calls is inlined into it: `LoadLaws::at` (law of friction over the load), `Train::intake` and `Intake::press`
+//! only a step calls is inlined into it: `LoadLaw::torque_over_load` (friction of a caged ball over its load), `Train::intake` and `Intake::press`
 //! (speeds of balls in, forces between them out), `LoadedZone::at` (deviations and load of a ball by its place),
 //! `AnalyticLinearBall::closed_form` and `GrooveFriction::at` (ball and groove of a linear bearing), `LoopSlipMap::at` (friction
 //! of a contact), [`both`](crate::law::coefficient::CoefficientAtTemperature::both) (friction coefficient of both directions).
@@ -37,16 +37,13 @@ pub use setting::*;
 pub use steps::*;
 
 /// Promises of every `step()` and `between()`, and of every function that one of them calls as it stands.
-pub const STEPS: [Promise; 30] = [
-    STEP_CAGED,
+pub const STEPS: [Promise; 27] = [
     STEP_CLOSED_FORM,
+    STEP_CAGED,
+    STEP_CAGED_RANGE,
     STEP_CAGED_MEMORY,
     STEP_CAGED_LAW,
-    STEP_FOLDED,
-    STEP_FOLDED_RANGE,
-    STEP_FOLDED_MEMORY,
-    STEP_FOLDED_LAW,
-    BETWEEN_FOLDED,
+    BETWEEN_CAGED,
     STEP_UNCAGED,
     STEP_UNCAGED_MEMORY,
     BETWEEN_UNCAGED,
@@ -84,10 +81,10 @@ pub const PARTS: [Promise; 6] = [
 pub const DIRECT: [Promise; 26] = [
     SET_FRICTION,
     SET_CLEARANCE,
-    SET_FRICTION_FOLDED,
-    SWAP_FOLDED,
-    START_FOLDED,
-    START_FOLDED_LAW,
+    SET_FRICTION_CAGED,
+    SWAP_CAGED,
+    START_CAGED,
+    START_CAGED_LAW,
     CBRT,
     SIN_COS,
     LITERATURE_CURVATURE,

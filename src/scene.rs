@@ -6,8 +6,7 @@
 //!
 //! | | what it is | links |
 //! |---|---|---|
-//! | [`CagedBallScrew`] | balls that do not touch | [`ball`](crate::ball), [`contact`](crate::contact); [`hertz`](crate::hertz) and [`efficiency`](crate::efficiency) at set-up |
-//! | [`FoldedScrew`] | the same by a law that was solved on a host | [`ball::folded`](crate::ball::folded) |
+//! | [`CagedBallScrew`] | balls that do not touch, by a law that was solved on a host | [`ball::folded`](crate::ball::folded) |
 //! | [`ClosedFormScrew`] | the same by a closed form, without a host | [`efficiency`](crate::efficiency) at set-up |
 //! | [`UncagedBallScrew`] | balls that press on each other | [`ball`](crate::ball), [`contact`](crate::contact), [`train`](crate::train); [`hertz`](crate::hertz) at set-up |
 //! | [`LinearBearingTrain`] | four-point linear bearing, balls that press on each other | [`ball`](crate::ball), [`train`](crate::train); [`contact`](crate::contact) and [`hertz`](crate::hertz) at set-up |
@@ -23,7 +22,6 @@ pub(crate) mod circuit;
 mod closed_form;
 mod contract;
 mod faults;
-mod folded;
 mod full;
 pub(crate) mod linear;
 mod memory;
@@ -34,9 +32,7 @@ mod sliding;
 mod stored;
 mod uncaged;
 
-pub use caged::{
-    CagedBallScrew, CagedBallScrewConfiguration, CagedCoefficients, CagedConstants, CagedState,
-};
+pub use caged::{CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, CagedState};
 pub use changing::{ChangingClearance, ChangingFriction};
 pub use circuit::{CircuitState, DeviationMap, HIGHEST_ORDER, Harmonic, LARGEST_DEVIATION};
 pub use closed_form::{
@@ -45,7 +41,6 @@ pub use closed_form::{
 };
 pub use contract::{Admitted, Inputs, Limits, Regime, Scene, SceneOutputs};
 pub use faults::Faults;
-pub use folded::{FoldedScrew, FoldedScrewConfiguration, FoldedScrewConstants, FoldedScrewState};
 pub use full::CagedFull;
 pub use linear::{
     LinearBearingConfiguration, LinearBearingTrain, LinearConstants, LinearFull, LinearInputs,

@@ -10,8 +10,8 @@ use epas_design::caged::{Block, NODES};
 use epas_design::drawing::drawing;
 use epas_design::{CagedFold, Folded};
 use epas_friction::scene::{
-    ClosedFormScrew, ClosedFormScrewConfiguration, ClosedFormScrewConstants, FoldedScrew,
-    FoldedScrewConfiguration, FoldedScrewConstants, StoredScene,
+    CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, ClosedFormScrew,
+    ClosedFormScrewConfiguration, ClosedFormScrewConstants, StoredScene,
 };
 use epas_friction::{Error, FrictionModel, Inputs, Limits, Outputs, Range, Refusal};
 use epas_reference::friction::caged_ball::CagedBall;
@@ -87,7 +87,10 @@ pub fn keep(digest: u64, block: Block) {
 }
 
 /// Refuses a range that is far from the exact ball midway between two of its nodes.
-fn check_range(fold: &CagedFold, block: &FoldedScrewConfiguration<NODES>) -> Result<(), Failure> {
+fn check_range(
+    fold: &CagedFold,
+    block: &CagedBallScrewConfiguration<NODES>,
+) -> Result<(), Failure> {
     let gear = &fold.gear;
     let [least, most] = fold.axial_load.map(f64::from);
     let middles = block.law.nodes.windows(2).filter_map(|pair| match pair {
@@ -112,16 +115,17 @@ fn check_range(fold: &CagedFold, block: &FoldedScrewConfiguration<NODES>) -> Res
             };
             let load = |step: u32| most * (least / most).powf(f64::from(step) / f64::from(LOADS));
             let loads: Vec<f64> = (0..=LOADS).map(|step| side * load(step)).collect();
-            let mut model = FrictionModel::<FoldedScrew<NODES>>::new(&FoldedScrewConfiguration {
-                loaded_balls: 1,
-                reversal_speed: 1e-6,
-                limits: Limits {
-                    nut_speed: 10.0,
-                    axial_load: 1e7,
-                    friction_torque: 1e6,
-                },
-                ..*block
-            })?;
+            let mut model =
+                FrictionModel::<CagedBallScrew<NODES>>::new(&CagedBallScrewConfiguration {
+                    loaded_balls: 1,
+                    reversal_speed: 1e-6,
+                    limits: Limits {
+                        nut_speed: 10.0,
+                        axial_load: 1e7,
+                        friction_torque: 1e6,
+                    },
+                    ..*block
+                })?;
             model.set_friction(friction)?;
             let found = ball.along(&loads)?.into_iter().flatten().map(|exact| {
                 let inputs = Inputs {
@@ -161,9 +165,9 @@ fn check_range(fold: &CagedFold, block: &FoldedScrewConfiguration<NODES>) -> Res
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum CagedScene {
     /// A folded block for one friction coefficient.
-    One(FoldedScrewConfiguration<1>),
+    One(CagedBallScrewConfiguration<1>),
     /// One for a range of friction coefficients.
-    Range(FoldedScrewConfiguration<NODES>),
+    Range(CagedBallScrewConfiguration<NODES>),
     /// A closed form.
     ClosedForm(ClosedFormScrewConfiguration),
 }
@@ -210,9 +214,9 @@ impl CagedScene {
     pub fn read(words: &[u32]) -> Result<Self, Error> {
         const RANGE: u32 = NODES as u32;
         match words.get(3) {
-            Some(&RANGE) => Ok(Self::Range(FoldedScrewConfiguration::read(words)?)),
+            Some(&RANGE) => Ok(Self::Range(CagedBallScrewConfiguration::read(words)?)),
             // One that says another number of nodes is refused as this one.
-            _ => Ok(Self::One(FoldedScrewConfiguration::read(words)?)),
+            _ => Ok(Self::One(CagedBallScrewConfiguration::read(words)?)),
         }
     }
 
@@ -235,10 +239,10 @@ impl CagedScene {
 /// What cannot be folded, with the reason.
 pub fn words(design: &Design, coefficients: (f32, f32)) -> Result<Option<Vec<u32>>, Failure> {
     fn of<const N: usize>(
-        block: &FoldedScrewConfiguration<N>,
+        block: &CagedBallScrewConfiguration<N>,
         digest: u64,
     ) -> Result<Vec<u32>, Error> {
-        let mut words = vec![0; FoldedScrewConfiguration::<N>::WORDS];
+        let mut words = vec![0; CagedBallScrewConfiguration::<N>::WORDS];
         block.write(digest, &mut words)?;
         Ok(words)
     }
@@ -301,9 +305,9 @@ pub fn fold_for(design: &Design, (least, largest): (f32, f32)) -> Result<CagedFo
 #[derive(Clone, Copy, Debug)]
 pub enum CagedModel {
     /// By a folded block for one friction coefficient.
-    One(FrictionModel<FoldedScrew>),
+    One(FrictionModel<CagedBallScrew>),
     /// By one for a range of friction coefficients.
-    Range(FrictionModel<FoldedScrew<NODES>>),
+    Range(FrictionModel<CagedBallScrew<NODES>>),
     /// By a closed form, with what was set for it.
     ClosedForm(FrictionModel<ClosedFormScrew>, ClosedFormScrewConfiguration),
 }
@@ -359,10 +363,10 @@ impl CagedModel {
     pub fn swap(&mut self, words: &[u32]) -> Result<(), Error> {
         match self {
             Self::One(model) => {
-                model.swap_constants(FoldedScrewConstants::from_block(words)?)?;
+                model.swap_constants(CagedConstants::from_block(words)?)?;
             }
             Self::Range(model) => {
-                model.swap_constants(FoldedScrewConstants::from_block(words)?)?;
+                model.swap_constants(CagedConstants::from_block(words)?)?;
             }
             Self::ClosedForm(..) => {
                 return Err(Error::OutOfRange {

@@ -17,7 +17,7 @@ use crate::files::{Existing, Pending, ends, refuse_ending, refuse_same, standard
 /// Folds a design: solves it once, here, into the constants that firmware evaluates.
 ///
 /// The exact balance of a ball is solved in float64 at hundreds of loads. What comes out is a block of constants for the scene
-/// FoldedScrew, and a certificate: the errors of its friction torque against the exact solver, at 2048 states that were not fitted.
+/// CagedBallScrew, and a certificate: the errors of its friction torque against the exact solver, at 2048 states that were not fitted.
 /// The same design gives the same block, bit for bit.
 ///
 /// The certificate is printed. --output also writes the block, in the format that the file's ending names: .rs (Rust), .h (C), .toml, or
@@ -351,8 +351,8 @@ fn next(
     nodes: usize,
 ) -> io::Result<()> {
     let scene = match nodes {
-        1 => "FoldedScrew".to_owned(),
-        nodes => format!("FoldedScrew<{nodes}>"),
+        1 => "CagedBallScrew".to_owned(),
+        nodes => format!("CagedBallScrew<{nodes}>"),
     };
     let Some(Target { format, path, .. }) = target.filter(|target| !standard(&target.path)) else {
         if target.is_none() {
@@ -373,11 +373,11 @@ fn next(
         ),
         Format::C => writeln!(
             out,
-            "    #include \"{file}\"    /* {name}_BLOCK, {words} words: what FoldedScrewConstants::<{nodes}>::from_block takes */"
+            "    #include \"{file}\"    /* {name}_BLOCK, {words} words: what CagedConstants::<{nodes}>::from_block takes */"
         ),
         Format::Toml | Format::Binary => writeln!(
             out,
-            "    let constants = FoldedScrewConstants::<{nodes}>::from_block(&words)?;    // {words} words\n    \
+            "    let constants = CagedConstants::<{nodes}>::from_block(&words)?;    // {words} words\n    \
              let mut model = FrictionModel::<{scene}, _>::of(&constants);"
         ),
     }

@@ -15,7 +15,7 @@ use crate::kit::remembering::{
     linear_by_speed, uncaged_by_counts,
 };
 use epas_friction::ball::{GrooveFit, ScrewRow};
-use epas_friction::scene::{ChangingClearance, ChangingFriction, FoldedScrew, Scene};
+use epas_friction::scene::{CagedBallScrew, ChangingClearance, ChangingFriction, Scene};
 use epas_friction::{
     Clearance, ClosedFormScrew, ClosedFormScrewConfiguration, FrictionBranch, FrictionModel,
     Inputs, LinearBearingTrain, LinearInputs, LoadShare, LoadShares, RollingResistance,
@@ -330,7 +330,7 @@ fn slow_courses_give_the_stored_bits() {
         screw,
         |model, leg| model.set_friction(0.07 + 0.003 * leg as f32).unwrap(),
     ));
-    hashes.push(course::<FoldedScrew>(&gears::worn(), screw, |_, _| ()));
+    hashes.push(course::<CagedBallScrew>(&gears::worn(), screw, |_, _| ()));
     let linear = [2.0, 10_000.0, 10_000.0];
     hashes.push(course::<LinearBearingTrain<{ gears::LINEAR_BALLS }>>(
         &gears::linear(),

@@ -16,8 +16,8 @@
 //! Source: Lin 2019, contact directions and loads (2.11)-(2.14), slip and spin (3.65)-(3.68), balance of a ball (3.69), with
 //! neighbours (3.75). Errors and cost: [`SCREW_RENEWAL`](crate::promises::SCREW_RENEWAL).
 //!
-//! Constants that were chosen and not derived say what they were chosen from; those of a ring and of laws over the load stand
-//! in `ring::chosen` and `load_law::chosen`. `host-tests/tests/generators/elastic_balls.rs` shows what they do.
+//! Constants that were chosen and not derived say what they were chosen from; those of a ring stand in `ring::chosen`.
+//! `host-tests/tests/generators/elastic_balls.rs` shows what they do.
 //!
 //! | file | what | runs in |
 //! |---|---|---|
@@ -26,8 +26,6 @@
 //! | `contact` | one contact: load, friction, and what it adds to the equations | every renewal |
 //! | `equations` | the seven equations of a ball and their solution | every renewal |
 //! | `law` | what a ball does between two renewals | every tick |
-//! | `load_law` | friction of a nominal ball over the load | start; every tick |
-//! | `nominal` | a ball that stands for all that are alike | start; every tick |
 //! | `renewal` | one Newton step of place and motion together | every renewal |
 //! | `resistance` | rolling resistance of all contacts | every renewal |
 //! | `ring` | balls that are renewed in turn | every tick |
@@ -39,8 +37,6 @@ mod contact;
 mod equations;
 mod grooves;
 pub(crate) mod law;
-pub(crate) mod load_law;
-pub(crate) mod nominal;
 mod renewal;
 mod resistance;
 pub(crate) mod ring;

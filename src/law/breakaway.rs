@@ -12,7 +12,7 @@
 //! |---|---|
 //! | compliance and torsion of a contact | theory of elasticity (Mindlin 1949; Galin's theorem), checked by quadrature and a boundary-element grid |
 //! | slip and spin share a contact's friction | limit surface of Coulomb friction: exact for gross sliding, its path before that within 5 % |
-//! | friction of all mechanisms together | derived here; half of 120 cases within 5 % of the caged screw's own, which finds loads and motion of every ball, the worst 33 % |
+//! | friction of all mechanisms together | derived here; half of 120 cases within 5 % of that of exact balls, which find their loads and motion, the worst 33 % |
 //! | angle of slip across, with two contacts in series | derived here from rolling kinematics; no published screw to check with |
 //! | drift of the ball to its seat ([`Seat`]) | derived here; no published screw to check with |
 //! | spin of a ball with a third contact ([`Rolling`]) | derived here from the balance of its moments in gross sliding; before that each mechanism is scaled by itself |

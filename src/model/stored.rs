@@ -20,32 +20,21 @@ impl<S: StoredScene, C: Borrow<S::Constants>> FrictionModel<S, C> {
     ///
     /// | counted on a Cortex-M4F | block, bytes | export, instructions | import | stack, bytes | flash of both |
     /// |---|---|---|---|---|---|
-    /// | caged | 114 | 2,200 | 5,200 | 1,900 | 4 KiB |
     /// | 37 balls | 1,794 | 28,000 | 32,000 | 2,700 | 8 KiB |
     ///
+    /// A caged ball screw's block has 24 bytes, with a memory of eight elements 116.
+    ///
     /// ```
-    /// # use epas_friction::{
-    /// #     CATALOGUE, CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, Clearance, Error,
-    /// #     FrictionBranch, FrictionModel, Inputs, Limits, RollingResistance,
-    /// # };
-    /// # let configuration = CagedBallScrewConfiguration {
-    /// #     design: CATALOGUE[15].design().unwrap(),
-    /// #     friction: 0.1,
-    /// #     rolling_resistance: RollingResistance::STEEL,
-    /// #     rolling_tangent: 0.0,
-    /// #     branch: FrictionBranch::Contacts,
-    /// #     clearance: Clearance::ZERO,
-    /// #     loaded_balls: 40,
-    /// #     reversal_speed: 0.5,
-    /// #     limits: Limits { nut_speed: 500.0, axial_load: 20_000.0, friction_torque: 5.0 },
-    /// # };
-    /// type Screw = FrictionModel<CagedBallScrew>;
+    /// # mod gear { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/bench/firmware/src/gears/lin_3_6_range.rs")); }
+    /// # use epas_friction::{CagedBallScrew, CagedConstants, FrictionModel, Inputs};
+    /// # use gear::LIN_3_6_RANGE;
+    /// type Screw = FrictionModel<CagedBallScrew<5>, &'static CagedConstants<5>>;
     ///
     /// // What the non-volatile memory keeps.
     /// let mut kept = [0xFF; Screw::STATE_BYTES];
     ///
     /// // Ignition on: whatever is wrong with the block, the model runs on from its first state.
-    /// let mut model = Screw::new(&configuration)?;
+    /// let mut model = Screw::of(&LIN_3_6_RANGE);
     /// if let Err(refusal) = model.import(&kept) {
     ///     println!("friction starts anew: {refusal}"); // a diagnostic message
     /// }
@@ -56,7 +45,7 @@ impl<S: StoredScene, C: Borrow<S::Constants>> FrictionModel<S, C> {
     /// model.export(&mut kept).expect("the block is large enough");
     ///
     /// // Ignition on: the friction that was set is there again.
-    /// let mut next = Screw::new(&configuration)?;
+    /// let mut next = Screw::of(&LIN_3_6_RANGE);
     /// assert_eq!(next.import(&kept), Ok(()));
     /// # let inputs = Inputs { nut_speed: 40.0, axial_load: 3_000.0 };
     /// # assert_eq!(model.step(inputs), next.step(inputs));
@@ -73,8 +62,7 @@ impl<S: StoredScene, C: Borrow<S::Constants>> FrictionModel<S, C> {
     }
 
     /// Takes over the state of a block that a model of the same constants exported: when the ignition goes on, before the first
-    /// step. From then on steps give the same bits as those of the model that was exported (not so a caged ball screw whose constants
-    /// have been swapped, which goes on to renew its balls).
+    /// step. From then on steps give the same bits as those of the model that was exported.
     ///
     /// Memory and balls are as they were. An angle sensor begins anew: the first reading is no turn, whatever the nut did while the
     /// power was off. If somebody turned the wheel then, the true friction has forgotten more than the model; after a turn of

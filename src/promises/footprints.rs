@@ -27,7 +27,7 @@ pub const FOOTPRINTS: [Footprint; 8] = [
         stack_set_up: 16,
     },
     Footprint {
-        scene: "folded_ball_screw",
+        scene: "caged_ball_screw",
         flash: 3900,
         flash_small: 3500,
         ram: 24,
@@ -35,7 +35,7 @@ pub const FOOTPRINTS: [Footprint; 8] = [
         stack_set_up: 16,
     },
     Footprint {
-        scene: "folded_with_memory",
+        scene: "caged_with_memory",
         flash: 5700,
         flash_small: 5100,
         ram: 136,
@@ -68,10 +68,10 @@ pub const FOOTPRINTS: [Footprint; 8] = [
     },
     Footprint {
         scene: "everything",
-        flash: 37_400,
-        flash_small: 33_800,
-        ram: 5400,
+        flash: 32_000,
+        flash_small: 29_000,
+        ram: 3600,
         stack: 1200,
-        stack_set_up: 6400,
+        stack_set_up: 3800,
     },
 ];

@@ -28,44 +28,44 @@ pub const SET_CLEARANCE: Promise = Promise {
     ..SET_FRICTION
 };
 
-/// [`FrictionModel::set_friction`](crate::FrictionModel::set_friction) of a [`FoldedScrew`](crate::scene::FoldedScrew): the place
+/// [`FrictionModel::set_friction`](crate::FrictionModel::set_friction) of a [`CagedBallScrew`](crate::scene::CagedBallScrew): the place
 /// between two nodes.
-pub const SET_FRICTION_FOLDED: Promise = Promise {
-    function: "FoldedScrew: set_friction",
+pub const SET_FRICTION_CAGED: Promise = Promise {
+    function: "CagedBallScrew: set_friction",
     domain: "friction coefficients of the block",
     error: "none of its own: the step's",
     tiny: "an error below the block's least",
     cycles: 120,
-    counted: &["set_friction_folded"],
+    counted: &["set_friction_caged"],
     ..SET_FRICTION
 };
 
-/// [`FrictionModel::swap_constants`](crate::FrictionModel::swap_constants) of a [`FoldedScrew`](crate::scene::FoldedScrew) whose
+/// [`FrictionModel::swap_constants`](crate::FrictionModel::swap_constants) of a [`CagedBallScrew`](crate::scene::CagedBallScrew) whose
 /// constants stand in flash: two references.
-pub const SWAP_FOLDED: Promise = Promise {
-    function: "FoldedScrew: swap_constants",
+pub const SWAP_CAGED: Promise = Promise {
+    function: "CagedBallScrew: swap_constants",
     domain: "constants of any block",
     error: "none of its own: the step's",
     outside: "no constants that have been checked are refused",
     not_finite: "no constants hold such",
     tiny: "no matter",
     cycles: 25,
-    counted: &["swap_folded"],
+    counted: &["swap_caged"],
     ..SET_FRICTION
 };
 
-/// [`FrictionModel::of`](crate::FrictionModel::of) of a [`FoldedScrew`](crate::scene::FoldedScrew) whose constants stand in flash.
-pub const START_FOLDED: Promise = Promise {
-    function: "FoldedScrew: of",
+/// [`FrictionModel::of`](crate::FrictionModel::of) of a [`CagedBallScrew`](crate::scene::CagedBallScrew) whose constants stand in flash.
+pub const START_CAGED: Promise = Promise {
+    function: "CagedBallScrew: of",
     cycles: 25,
-    counted: &["start_folded"],
-    ..SWAP_FOLDED
+    counted: &["start_caged"],
+    ..SWAP_CAGED
 };
 
 /// The same with a memory, and a friction coefficient by speed and temperature.
-pub const START_FOLDED_LAW: Promise = Promise {
-    function: "WithMemory<FoldedScrew>: of",
+pub const START_CAGED_LAW: Promise = Promise {
+    function: "WithMemory<CagedBallScrew>: of",
     cycles: 290,
-    counted: &["start_folded_law"],
-    ..SWAP_FOLDED
+    counted: &["start_caged_law"],
+    ..SWAP_CAGED
 };

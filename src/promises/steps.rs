@@ -5,22 +5,6 @@
 
 use super::promise::Promise;
 
-/// [`FrictionModel::step`](crate::FrictionModel::step) of a [`CagedBallScrew`](crate::CagedBallScrew): the law of a ball's
-/// friction over its load (`LoadLaws::at`), and the passage through standstill with its square root.
-pub const STEP_CAGED: Promise = Promise {
-    function: "CagedBallScrew: step",
-    domain: "diameters to 63 mm, friction 0.05 to 0.15, clearance -5 to 5 um, 5 to 300 N a ball, both signs",
-    error: "friction torque, relative",
-    largest: 1.2e-2,
-    rms: 2.5e-3,
-    mean: 8e-4,
-    outside: "beyond a limit: the limit, flagged; balls in two contacts flagged; diameter 125 mm 2e-2",
-    not_finite: "no torque, flagged",
-    tiny: "no torque at standstill; without load that of the preload",
-    cycles: 415,
-    counted: &["step_caged"],
-};
-
 /// [`FrictionModel::step`](crate::FrictionModel::step) of a [`ClosedFormScrew`](crate::ClosedFormScrew); errors are those of
 /// computing the form.
 pub const STEP_CLOSED_FORM: Promise = Promise {
@@ -31,43 +15,16 @@ pub const STEP_CLOSED_FORM: Promise = Promise {
     rms: 1.4e-7,
     mean: 3e-8,
     outside: "beyond a limit: the limit, flagged; a load that no torque drives: the largest torque, flagged",
-    cycles: 320,
+    cycles: 260,
     counted: &["step_closed_form"],
-    ..STEP_FOLDED
-};
-
-/// [`FrictionModel::step`](crate::FrictionModel::step) of a [`CagedBallScrew`](crate::CagedBallScrew)
-/// [`WithMemory`](crate::scene::WithMemory): eight elements that turn with a speed, one friction coefficient. It is the law over
-/// the load for both directions, and what the table has of elements, sensor and play.
-pub const STEP_CAGED_MEMORY: Promise = Promise {
-    function: "WithMemory<CagedBallScrew>: step",
-    outside: "beyond a limit: the limit, flagged; balls in two contacts flagged; old loads fade, flagged",
-    not_finite: "the last sound inputs, friction within their limits, flagged",
-    tiny: "no turn: friction stays; without load that of the preload",
-    cycles: 900,
-    counted: &["step_caged_memory"],
     ..STEP_CAGED
 };
 
-/// The same with a friction coefficient by speed and temperature: that of both directions
-/// ([`both`](crate::law::coefficient::CoefficientAtTemperature::both)), at a new temperature in every tick, and laws over the load
-/// for two more coefficients.
-pub const STEP_CAGED_LAW: Promise = Promise {
-    function: "WithMemory<CagedBallScrew>: step, coefficient by a law",
-    domain: "as without memory; friction coefficient 0.05 to 0.12 by speed and temperature",
-    largest: 3.2e-2,
-    rms: 6e-3,
-    mean: 1e-3,
-    cycles: 1250,
-    counted: &["step_caged_law"],
-    ..STEP_CAGED_MEMORY
-};
-
-/// [`FrictionModel::step`](crate::FrictionModel::step) of a [`FoldedScrew`](crate::scene::FoldedScrew) for one friction coefficient:
+/// [`FrictionModel::step`](crate::FrictionModel::step) of a [`CagedBallScrew`](crate::scene::CagedBallScrew) for one friction coefficient:
 /// logarithm of the load, search among the law's parts, one cubic, and the passage through standstill with its square root. Errors are
 /// those of blocks that `epas-design` folds; each has a certificate of its own.
-pub const STEP_FOLDED: Promise = Promise {
-    function: "FoldedScrew: step",
+pub const STEP_CAGED: Promise = Promise {
+    function: "CagedBallScrew: step",
     domain: "diameters to 63 mm, friction 0.05 to 0.15, clearance -5 to 20 um, 5 to 300 N a ball, both signs",
     error: "friction torque, relative",
     largest: 6e-3,
@@ -77,28 +34,28 @@ pub const STEP_FOLDED: Promise = Promise {
     not_finite: "no torque, flagged",
     tiny: "no torque at standstill; without load that of the preload",
     cycles: 320,
-    counted: &["step_folded"],
+    counted: &["step_caged"],
 };
 
 /// The same for a range of friction coefficients, set between two nodes
 /// ([`FrictionModel::set_friction`](crate::FrictionModel::set_friction)): the laws of both nodes.
-pub const STEP_FOLDED_RANGE: Promise = Promise {
-    function: "FoldedScrew: step, friction between nodes",
+pub const STEP_CAGED_RANGE: Promise = Promise {
+    function: "CagedBallScrew: step, friction between nodes",
     domain: "as for one coefficient, friction 0.05 to 0.15 in one block; designs whose range is not held to 3 % are refused by the fold",
     largest: 3e-2,
     rms: 6e-3,
     mean: 1e-3,
     outside: "beyond a limit: the limit, flagged; loads and friction coefficients beyond the block's flagged",
     cycles: 430,
-    counted: &["step_folded_range"],
-    ..STEP_FOLDED
+    counted: &["step_caged_range"],
+    ..STEP_CAGED
 };
 
-/// [`FrictionModel::step`](crate::FrictionModel::step) of a [`FoldedScrew`](crate::scene::FoldedScrew)
+/// [`FrictionModel::step`](crate::FrictionModel::step) of a [`CagedBallScrew`](crate::scene::CagedBallScrew)
 /// [`WithMemory`](crate::scene::WithMemory): eight elements that turn with a speed, one friction coefficient. It is the law for both
 /// directions, and what the table has of elements, sensor and play.
-pub const STEP_FOLDED_MEMORY: Promise = Promise {
-    function: "WithMemory<FoldedScrew>: step",
+pub const STEP_CAGED_MEMORY: Promise = Promise {
+    function: "WithMemory<CagedBallScrew>: step",
     error: "none of its own: in steady sliding that of the step without memory",
     largest: 0.0,
     rms: 0.0,
@@ -107,27 +64,27 @@ pub const STEP_FOLDED_MEMORY: Promise = Promise {
     not_finite: "the last sound inputs, friction within their limits, flagged",
     tiny: "no turn: friction stays; without load that of the preload",
     cycles: 800,
-    counted: &["step_folded_memory"],
-    ..STEP_FOLDED
+    counted: &["step_caged_memory"],
+    ..STEP_CAGED
 };
 
 /// The same with a friction coefficient by speed and temperature, at a new temperature in every tick: the laws of two nodes for both
 /// directions.
-pub const STEP_FOLDED_LAW: Promise = Promise {
-    function: "WithMemory<FoldedScrew>: step, coefficient by a law",
+pub const STEP_CAGED_LAW: Promise = Promise {
+    function: "WithMemory<CagedBallScrew>: step, coefficient by a law",
     domain: "as without memory; friction coefficient 0.05 to 0.12 by speed and temperature",
     error: "none of its own: in steady sliding that of the step between nodes",
     cycles: 1270,
-    counted: &["step_folded_law"],
-    ..STEP_FOLDED_MEMORY
+    counted: &["step_caged_law"],
+    ..STEP_CAGED_MEMORY
 };
 
 /// [`FrictionModel::between`](crate::FrictionModel::between) of the same.
-pub const BETWEEN_FOLDED: Promise = Promise {
-    function: "WithMemory<FoldedScrew>: between",
+pub const BETWEEN_CAGED: Promise = Promise {
+    function: "WithMemory<CagedBallScrew>: between",
     cycles: 410,
-    counted: &["between_folded"],
-    ..STEP_FOLDED_MEMORY
+    counted: &["between_caged"],
+    ..STEP_CAGED_MEMORY
 };
 
 /// [`FrictionModel::step`](crate::FrictionModel::step) of an [`UncagedBallScrew`](crate::UncagedBallScrew): one
@@ -148,7 +105,7 @@ pub const STEP_UNCAGED: Promise = Promise {
     outside: "beyond a limit: the limit, flagged; balls in two contacts flagged, if for long until all have passed the return",
     not_finite: "no torque, flagged; balls stay where they are",
     tiny: "no torque at standstill; loads to 1e-3 N a ball as 1e-3 N",
-    cycles: 14_200,
+    cycles: 14_100,
     counted: &["step_train_37", "step_train_37_pressing"],
 };
 
@@ -161,7 +118,7 @@ pub const STEP_UNCAGED_MEMORY: Promise = Promise {
     outside: "beyond a limit: the limit, flagged; balls in two contacts flagged, if for long until all have passed the return; old loads fade, flagged",
     not_finite: "the last sound inputs, friction within their limits, flagged",
     tiny: "no turn: friction stays; loads to 1e-3 N a ball as 1e-3 N",
-    cycles: 14_700,
+    cycles: 14_600,
     counted: &[
         "step_train_37_memory",
         "step_train_37_memory_pressing",

@@ -1,175 +1,252 @@
-//! A ball screw whose balls do not touch: caged, or with spacer balls.
+//! A ball screw whose balls do not touch, by a law that was solved on a host: `epas-design` folds it, a step evaluates it.
 
-mod coefficients;
+mod block;
 mod configuration;
-mod contacts;
 mod stored;
 
-use super::changing::{ChangingClearance, ChangingFriction};
-use super::closed_form::{ClosedForm, FrictionBranch};
-use super::contract::{Admitted, Inputs, Limits, Scene, SceneOutputs};
+use super::changing::ChangingFriction;
+use super::contract::{Admitted, Inputs, Limits, Regime, Scene};
 use super::faults::Faults;
 use super::full::CagedFull;
-use super::outputs::Outputs;
+use super::outputs::{Outputs, efficiency};
 use super::passage::{Passage, Reversal};
 use super::sliding::{Sliding, SlidingFriction};
-use crate::ball::Clearance;
+use crate::ball::folded::{FrictionPlace, LoadLaw, octaves};
 use crate::error::{Error, Range, attempt, in_range};
 use crate::law::coefficient::DirectionalCoefficient;
 use crate::ranges;
-use coefficients::CoefficientLaws;
 pub use configuration::CagedBallScrewConfiguration;
-use contacts::{Contacts, ContactsState};
 
-/// Numbers for the two kinds of law, because [`Error`] reports a number.
-const CONTACTS: f32 = 0.0;
-const CLOSED: f32 = 1.0;
-
-/// A caged ball screw: friction from the grooves alone.
+/// A ball screw whose balls do not touch (caged, or with spacer balls), by the folded law of one ball, for `NODES` friction coefficients.
 ///
-/// Without a preload there is no friction without a load; with one, that of the preload.
+/// It starts at once, a step takes the same cycles whatever was set, and nothing settles. Its constants are a block that `epas-design`
+/// writes on a host, with a certificate of its errors: as Rust, C, TOML or bytes. Clearance changes by another block
+/// ([`FrictionModel::swap_constants`](crate::FrictionModel::swap_constants)), the friction coefficient within the block's nodes
+/// ([`FrictionModel::set_friction`](crate::FrictionModel::set_friction)).
+///
+/// A load above the block's largest is computed with the law's end and flagged [`Faults::BEYOND_MODEL`], as is a friction coefficient
+/// beyond its nodes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct CagedBallScrew;
+pub struct CagedBallScrew<const NODES: usize = 1>;
 
-/// Constants of a caged ball screw.
+/// Constants of a caged screw: a block that has been checked.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct CagedConstants {
-    law: Law,
+pub struct CagedConstants<const NODES: usize = 1> {
+    law: LoadLaw<NODES>,
+    /// Octaves of the nodes' friction coefficients.
+    node_octaves: [f32; NODES],
+    /// Place of the configuration's friction coefficient.
+    friction: FrictionPlace,
+    /// 1 over the number of loaded balls; lift-off load of all balls, N.
+    per_ball: f32,
+    lift_off: f32,
+    /// Torque per axial load without friction, `lead / 2 pi`, m.
+    reduced_lead: f32,
     reversal: Reversal,
     limits: Limits,
 }
 
-/// Where friction comes from.
-#[expect(
-    clippy::large_enum_variant,
-    reason = "without a heap there is no box; constants stand in flash"
-)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-enum Law {
-    Contacts(Contacts),
-    Closed(ClosedForm),
-}
-
-/// What a tick reads and changes in a caged ball screw: laws over the load, and balls that are renewed; nothing for a closed
-/// form.
+/// What of a caged screw can be set while it runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct CagedState {
-    contacts: Option<ContactsState>,
+    friction: FrictionPlace,
 }
 
-impl Scene for CagedBallScrew {
-    type Configuration = CagedBallScrewConfiguration;
-    type Constants = CagedConstants;
+/// A load in the law.
+#[derive(Clone, Copy)]
+struct Loaded {
+    /// Octaves of a ball's load, lift-off counted, within the law's ends.
+    octaves: f32,
+    /// Load of all balls, lift-off counted, N.
+    whole: f32,
+    beyond: bool,
+}
+
+impl<const NODES: usize> CagedConstants<NODES> {
+    /// Checks a configuration and folds its constants: at set-up, or in a constant when firmware is compiled.
+    ///
+    /// # Errors
+    /// [`Error`] naming the field out of range.
+    pub const fn new(configuration: &CagedBallScrewConfiguration<NODES>) -> Result<Self, Error> {
+        let CagedBallScrewConfiguration {
+            law,
+            friction,
+            lead,
+            loaded_balls,
+            reversal_speed,
+            limits,
+        } = *configuration;
+        let law = attempt!(law.checked());
+        let (least, largest) = law.friction_range();
+        attempt!(in_range("friction", friction, least, largest));
+        attempt!(in_range("lead", lead, 0.0, 0.2));
+        let balls = attempt!(in_range("loaded_balls", loaded_balls as f32, 1.0, 1e3));
+        let node_octaves = law.node_octaves();
+        Ok(Self {
+            friction: law.place(friction, &node_octaves),
+            node_octaves,
+            per_ball: 1.0 / balls,
+            lift_off: balls * law.lift_off,
+            law,
+            reduced_lead: lead / core::f32::consts::TAU,
+            reversal: attempt!(Reversal::new(reversal_speed, 1e-6, 1e3)),
+            limits: attempt!(limits.checked()),
+        })
+    }
+
+    /// These constants with other limits: a block from flash, limits from a calibration page.
+    ///
+    /// # Errors
+    /// As [`Limits::checked`].
+    pub const fn with_limits(&self, limits: Limits) -> Result<Self, Error> {
+        Ok(Self {
+            limits: attempt!(limits.checked()),
+            ..*self
+        })
+    }
+
+    /// Where a friction coefficient lies.
+    #[inline(always)]
+    const fn place(&self, friction: f32) -> FrictionPlace {
+        self.law.place(friction, &self.node_octaves)
+    }
+
+    /// Where a load lies.
+    #[inline(always)]
+    fn loaded(&self, axial_load: f32) -> Loaded {
+        let [least, most] = self.law.ends;
+        let whole = axial_load.abs() + self.lift_off;
+        let octaves = octaves(whole * self.per_ball);
+        let beyond = octaves > most;
+        let octaves = if beyond { most } else { octaves };
+        Loaded {
+            octaves: if octaves > least { octaves } else { least },
+            whole,
+            beyond,
+        }
+    }
+
+    /// Friction torque of all balls, N m, not negative, under a load that opposes a motion in this direction where `opposing` is not below 0.
+    #[inline(always)]
+    fn torque(&self, loaded: &Loaded, opposing: f32, place: FrictionPlace) -> f32 {
+        let branch = usize::from(opposing < 0.0);
+        let per_load = self.law.torque_over_load(loaded.octaves, branch, place);
+        loaded.whole * per_load
+    }
+
+    /// What a motion puts out whose full friction is `full`, in the direction of motion and in that of the share.
+    #[inline(always)]
+    fn put_out(
+        &self,
+        axial_load: f32,
+        [full, shared]: [f32; 2],
+        passage: Passage,
+        faults: Faults,
+    ) -> Outputs {
+        let load_torque = axial_load * self.reduced_lead;
+        let opposing = passage.way * load_torque;
+        // Both follow from the same comparison of the load's sign.
+        let (efficiency, moving) = if opposing > 0.0 {
+            (efficiency(true, opposing, full), Regime::Driving)
+        } else if full < -opposing {
+            (efficiency(false, opposing, full), Regime::BackDriving)
+        } else if opposing < 0.0 {
+            (efficiency(false, opposing, full), Regime::Locked)
+        } else {
+            (0.0, Regime::Driving)
+        };
+        Outputs {
+            friction_torque: passage.share * shared,
+            load_torque,
+            efficiency,
+            regime: if passage.standing {
+                Regime::Standing
+            } else {
+                moving
+            },
+            faults,
+        }
+    }
+}
+
+impl<const NODES: usize> Scene for CagedBallScrew<NODES> {
+    type Configuration = CagedBallScrewConfiguration<NODES>;
+    type Constants = CagedConstants<NODES>;
     type State = CagedState;
     type Inputs = Inputs;
     type Known = Inputs;
     type Outputs = Outputs;
 
-    fn constants(configuration: &CagedBallScrewConfiguration) -> Result<CagedConstants, Error> {
+    fn constants(
+        configuration: &CagedBallScrewConfiguration<NODES>,
+    ) -> Result<CagedConstants<NODES>, Error> {
         CagedConstants::new(configuration)
     }
 
-    fn initial_state(constants: &CagedConstants) -> CagedState {
+    fn initial_state(constants: &CagedConstants<NODES>) -> CagedState {
         CagedState {
-            contacts: match &constants.law {
-                Law::Contacts(contacts) => Some(contacts.initial_state()),
-                Law::Closed(_) => None,
-            },
+            friction: constants.friction,
         }
     }
 
-    fn reset(constants: &CagedConstants, state: &mut CagedState) {
-        if let (Law::Contacts(contacts), Some(state)) = (&constants.law, &mut state.contacts) {
-            contacts.reset(state);
-        }
-    }
-
-    fn take_over(constants: &CagedConstants, state: &mut CagedState) -> Result<(), Error> {
-        match (&constants.law, &mut state.contacts) {
-            (Law::Contacts(contacts), Some(state)) => {
-                contacts.take_over(state);
-                Ok(())
-            }
-            (Law::Closed(_), None) => Ok(()),
-            (Law::Contacts(_), None) => in_range("branch", CONTACTS, CLOSED, CLOSED).map(|_| ()),
-            (Law::Closed(_), Some(_)) => in_range("branch", CLOSED, CONTACTS, CONTACTS).map(|_| ()),
-        }
+    /// The friction coefficient is that of the new constants.
+    fn take_over(constants: &CagedConstants<NODES>, state: &mut CagedState) -> Result<(), Error> {
+        state.friction = constants.friction;
+        Ok(())
     }
 
     #[inline(always)]
-    fn admit(constants: &CagedConstants, inputs: Inputs) -> Admitted<Inputs> {
+    fn admit(constants: &CagedConstants<NODES>, inputs: Inputs) -> Admitted<Inputs> {
         constants.limits.admit(inputs)
     }
 
     #[inline(always)]
-    fn outputs(constants: &CagedConstants, state: &mut CagedState, inputs: Inputs) -> Outputs {
-        let reversal = &constants.reversal;
-        match (&constants.law, &mut state.contacts) {
-            (Law::Contacts(contacts), Some(state)) => {
-                let passage = reversal.passage(inputs.nut_speed);
-                let full = contacts.one_way(state, inputs, passage.way);
-                contacts.passed(inputs.axial_load, &full, passage)
-            }
-            (Law::Closed(closed), _) => closed.outputs(reversal, inputs),
-            (Law::Contacts(_), None) => Outputs::SAFE,
-        }
+    fn outputs(
+        constants: &CagedConstants<NODES>,
+        state: &mut CagedState,
+        inputs: Inputs,
+    ) -> Outputs {
+        let passage = constants.reversal.passage(inputs.nut_speed);
+        let loaded = constants.loaded(inputs.axial_load);
+        let opposing = passage.way * inputs.axial_load;
+        let full = constants.torque(&loaded, opposing, state.friction);
+        let faults = Faults::NONE.with(loaded.beyond, Faults::BEYOND_MODEL);
+        constants.put_out(inputs.axial_load, [full, full], passage, faults)
     }
 
     #[inline(always)]
-    fn largest_friction(constants: &CagedConstants) -> f32 {
+    fn largest_friction(constants: &CagedConstants<NODES>) -> f32 {
         constants.limits.friction_torque
     }
 }
 
-/// Laws for two friction coefficients beside the configuration's; none where the coefficient does not change, or friction is
-/// that of a closed form.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct CagedCoefficients {
-    laws: Option<CoefficientLaws>,
-}
-
-impl Sliding for CagedBallScrew {
+impl<const NODES: usize> Sliding for CagedBallScrew<NODES> {
     const FRICTION: Range = ranges::FRICTION_OF_A_ROW;
 
     const COUNTS_PRELOAD: bool = true;
 
-    type Coefficients = CagedCoefficients;
     type Full = CagedFull;
-
-    fn coefficients(constants: &CagedConstants, least: f32, largest: f32) -> CagedCoefficients {
-        let Law::Contacts(contacts) = &constants.law else {
-            return CagedCoefficients { laws: None };
-        };
-        CagedCoefficients {
-            laws: contacts.laws_between(least, largest),
-        }
-    }
 
     #[inline(always)]
     fn full(
-        constants: &CagedConstants,
-        state: &mut CagedState,
-        coefficients: Option<&CagedCoefficients>,
+        constants: &CagedConstants<NODES>,
+        _: &mut CagedState,
         inputs: Inputs,
         friction: DirectionalCoefficient,
     ) -> CagedFull {
-        match (&constants.law, &mut state.contacts) {
-            (Law::Contacts(contacts), Some(state)) => {
-                let laws = coefficients.and_then(|known| known.laws.as_ref());
-                contacts.both_ways(state, laws, inputs, friction)
-            }
-            (Law::Closed(closed), _) => closed.both_ways(inputs.axial_load),
-            (Law::Contacts(_), None) => CagedFull {
-                forward: 0.0,
-                backward: 0.0,
-                load: 0.0,
-                faults: Faults::NONE,
-            },
+        let DirectionalCoefficient { forward, backward } = friction;
+        let law = &constants.law;
+        let loaded = constants.loaded(inputs.axial_load);
+        let beyond = loaded.beyond || !law.holds(forward) || !law.holds(backward);
+        let load = inputs.axial_load;
+        CagedFull {
+            forward: constants.torque(&loaded, load, constants.place(forward)),
+            backward: constants.torque(&loaded, -load, constants.place(backward)),
+            load: loaded.whole,
+            faults: Faults::NONE.with(beyond, Faults::BEYOND_MODEL),
         }
     }
 
@@ -180,80 +257,30 @@ impl Sliding for CagedBallScrew {
 
     #[inline(always)]
     fn passed(
-        constants: &CagedConstants,
+        constants: &CagedConstants<NODES>,
         inputs: Inputs,
         full: &CagedFull,
         passage: Passage,
     ) -> Outputs {
-        match &constants.law {
-            Law::Contacts(contacts) => contacts.passed(inputs.axial_load, full, passage),
-            Law::Closed(closed) => closed.passed(inputs.axial_load, full, passage),
-        }
+        let torques = [full.of(passage.way), full.of(passage.share)];
+        constants.put_out(inputs.axial_load, torques, passage, full.faults)
     }
 
     #[inline(always)]
-    fn in_a_tick(_: &CagedConstants, turn: f32, measured: f32) -> (f32, f32) {
+    fn in_a_tick(_: &CagedConstants<NODES>, turn: f32, measured: f32) -> (f32, f32) {
         (turn, measured)
     }
 }
 
-impl CagedConstants {
-    /// Checks a configuration and folds its constants: at set-up, or in a constant when firmware is compiled (see
-    /// [`FrictionModel`](crate::FrictionModel)).
-    ///
-    /// # Errors
-    /// [`Error`] naming the field out of range.
-    pub const fn new(configuration: &CagedBallScrewConfiguration) -> Result<Self, Error> {
-        let CagedBallScrewConfiguration {
-            branch,
-            rolling_tangent,
-            loaded_balls,
-            reversal_speed,
-            limits,
-            ..
-        } = *configuration;
-        attempt!(configuration.rolling_resistance.checked());
-        attempt!(in_range("rolling_tangent", rolling_tangent, 0.0, 0.1));
-        attempt!(in_range("loaded_balls", loaded_balls as f32, 1.0, 1e3));
-        let reversal = attempt!(Reversal::new(reversal_speed, 1e-6, 1e3));
-        let limits = attempt!(limits.checked());
-        Ok(Self {
-            law: match branch {
-                FrictionBranch::Contacts => Law::Contacts(attempt!(Contacts::new(configuration))),
-                FrictionBranch::Rolling | FrictionBranch::Sliding => {
-                    Law::Closed(attempt!(ClosedForm::new(&configuration.closed_form())))
-                }
-            },
-            reversal,
-            limits,
-        })
-    }
-}
-
-impl ChangingFriction for CagedBallScrew {
+impl<const NODES: usize> ChangingFriction for CagedBallScrew<NODES> {
     fn set_friction(
-        constants: &CagedConstants,
+        constants: &CagedConstants<NODES>,
         state: &mut CagedState,
         friction: f32,
     ) -> Result<(), Error> {
-        match (&constants.law, &mut state.contacts) {
-            (Law::Contacts(contacts), Some(state)) => contacts.set_friction(state, friction),
-            _ => ranges::FRICTION_OF_A_ROW
-                .checked("friction", friction)
-                .map(|_| ()),
-        }
-    }
-}
-
-impl ChangingClearance for CagedBallScrew {
-    fn set_clearance(
-        constants: &CagedConstants,
-        state: &mut CagedState,
-        clearance: Clearance,
-    ) -> Result<(), Error> {
-        match (&constants.law, &mut state.contacts) {
-            (Law::Contacts(contacts), Some(state)) => contacts.set_clearance(state, clearance),
-            _ => Ok(()),
-        }
+        let (least, largest) = constants.law.friction_range();
+        let friction = in_range("friction", friction, least, largest)?;
+        state.friction = constants.place(friction);
+        Ok(())
     }
 }

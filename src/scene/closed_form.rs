@@ -13,12 +13,12 @@ use crate::error::{Error, Range, attempt, in_range};
 use crate::law::coefficient::DirectionalCoefficient;
 use crate::ranges;
 pub use configuration::{ClosedFormScrewConfiguration, FrictionBranch};
-pub(super) use torque::ClosedForm;
+use torque::ClosedForm;
 
 /// A ball screw whose balls do not touch, by a closed form: for a first look, and for comparison.
 ///
 /// Torque is in proportion to the load; spin, a third contact and the size of the contacts are left out (see [`FrictionBranch`]).
-/// The exact torque of a [`FoldedScrew`](crate::scene::FoldedScrew) differs from it by up to a factor of 2.
+/// The exact torque of a [`CagedBallScrew`](crate::scene::CagedBallScrew) differs from it by up to a factor of 2.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ClosedFormScrew;
@@ -107,17 +107,12 @@ impl Sliding for ClosedFormScrew {
 
     const COUNTS_PRELOAD: bool = true;
 
-    /// Friction is that of the configuration's coefficient.
-    type Coefficients = ();
     type Full = CagedFull;
-
-    fn coefficients(_: &ClosedFormScrewConstants, _: f32, _: f32) {}
 
     #[inline(always)]
     fn full(
         constants: &ClosedFormScrewConstants,
         _: &mut ClosedFormScrewState,
-        _: Option<&()>,
         inputs: Inputs,
         _: DirectionalCoefficient,
     ) -> CagedFull {

@@ -165,6 +165,13 @@ impl Limits {
             nut_speed,
             axial_load,
         } = inputs;
+        // Limits are finite: what is within them is a number, and needs nothing else.
+        if nut_speed.abs() <= self.nut_speed && axial_load.abs() <= self.axial_load {
+            return Admitted {
+                inputs: Some(inputs),
+                faults: Faults::NONE,
+            };
+        }
         if nut_speed.is_finite() && axial_load.is_finite() {
             Admitted {
                 inputs: Some(Inputs {

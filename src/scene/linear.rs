@@ -144,17 +144,12 @@ impl<const N: usize> Sliding for LinearBearingTrain<N> {
 
     const COUNTS_PRELOAD: bool = false;
 
-    /// Friction and all forces between balls are in proportion to the friction coefficient.
-    type Coefficients = ();
     type Full = LinearFull;
-
-    fn coefficients(_: &LinearConstants<N>, _: f32, _: f32) {}
 
     #[inline(always)]
     fn full(
         constants: &LinearConstants<N>,
         state: &mut LinearState<N>,
-        _: Option<&()>,
         inputs: LinearInputs,
         friction: DirectionalCoefficient,
     ) -> LinearFull {

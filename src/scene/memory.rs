@@ -80,8 +80,6 @@ pub struct WithMemoryState<
 > {
     /// State of the scene without memory.
     pub scene: S::State,
-    /// What the scene folded for coefficients other than the configuration's.
-    coefficients: L::Kept<S::Coefficients>,
     /// What the scene keeps from tick to tick beside that.
     pub remembered: Remembered<S, E, A, L>,
 }
@@ -114,12 +112,8 @@ where
                 "elements of a preloaded screw in a scene whose load does not tell its preload"
             );
         }
-        let WithMemoryConstants {
-            scene, coefficient, ..
-        } = constants;
         WithMemoryState {
-            scene: S::initial_state(scene),
-            coefficients: coefficient.keep(|least, largest| S::coefficients(scene, least, largest)),
+            scene: S::initial_state(&constants.scene),
             remembered: Remembered::nothing(
                 constants.coefficient,
                 constants.temperature.fallback(),
@@ -200,7 +194,6 @@ where
         let full = S::full(
             &constants.scene,
             &mut state.scene,
-            L::kept(&state.coefficients),
             inputs.with(speed, factor),
             L::both(&remembered.at_temperature, measured).within(S::FRICTION.maximum),
         );

@@ -40,20 +40,14 @@ pub trait Sliding: Scene<Known = <Self as Scene>::Inputs, Inputs: Motion> {
     /// Range of the friction coefficients of ball and groove that the scene takes.
     const FRICTION: Range;
 
-    /// What is folded before the first tick for friction coefficients other than the configuration's.
-    type Coefficients: Copy + core::fmt::Debug + PartialEq;
     /// Full friction in a tick, in both directions, with what else the tick found.
     type Full: Copy + core::fmt::Debug + PartialEq;
 
-    /// Folds it for coefficients from `least` to `largest`.
-    fn coefficients(constants: &Self::Constants, least: f32, largest: f32) -> Self::Coefficients;
-
-    /// Full friction under a friction coefficient of ball and groove in each direction; moves the balls on by a tick. Where nothing
-    /// was folded for other coefficients, friction is in proportion to the coefficient. A speed of 0 counts as forward.
+    /// Full friction under a friction coefficient of ball and groove in each direction; moves the balls on by a tick. A speed of 0 counts as
+    /// forward.
     fn full(
         constants: &Self::Constants,
         state: &mut Self::State,
-        coefficients: Option<&Self::Coefficients>,
         inputs: Self::Inputs,
         friction: DirectionalCoefficient,
     ) -> Self::Full;

@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use epas_friction::Range;
 use epas_friction::ball::folded::{FrictionNode, LoadLaw, octaves, shifted_part};
-use epas_friction::scene::FoldedScrewConfiguration;
+use epas_friction::scene::CagedBallScrewConfiguration;
 use epas_reference::curvature::Groove;
 use epas_reference::design::BallScrewDesign;
 use epas_reference::friction::caged_ball::CagedBall;
@@ -88,9 +88,9 @@ pub struct Folded {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Block {
     /// One friction coefficient.
-    One(FoldedScrewConfiguration<1>),
+    One(CagedBallScrewConfiguration<1>),
     /// A range of them.
-    Range(FoldedScrewConfiguration<NODES>),
+    Range(CagedBallScrewConfiguration<NODES>),
 }
 
 /// The exact ball of a design.
@@ -222,7 +222,7 @@ impl CagedFold {
         })
     }
 
-    fn configured<const N: usize>(&self, law: LoadLaw<N>) -> FoldedScrewConfiguration<N> {
+    fn configured<const N: usize>(&self, law: LoadLaw<N>) -> CagedBallScrewConfiguration<N> {
         let CagedDesign {
             design,
             friction,
@@ -232,7 +232,7 @@ impl CagedFold {
             ..
         } = self.gear;
         let (least, largest) = law.friction_range();
-        FoldedScrewConfiguration {
+        CagedBallScrewConfiguration {
             friction: friction.clamp(least, largest),
             lead: design.lead(),
             loaded_balls,

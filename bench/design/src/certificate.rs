@@ -1,6 +1,6 @@
 //! Errors of a folded block against the exact solver, on states that were not fitted.
 
-use epas_friction::scene::{FoldedScrew, FoldedScrewConfiguration};
+use epas_friction::scene::{CagedBallScrew, CagedBallScrewConfiguration};
 use epas_friction::{FrictionModel, Inputs, Limits};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
@@ -83,7 +83,7 @@ impl Certificate {
     pub(crate) fn of<const N: usize>(
         fold: &CagedFold,
         exact: &Exact,
-        block: &FoldedScrewConfiguration<N>,
+        block: &CagedBallScrewConfiguration<N>,
     ) -> Result<Self, Failure> {
         let mut random = Pcg64::seed_from_u64(fold.seed);
         let [least, most] = fold.axial_load.map(f64::from);
@@ -137,13 +137,13 @@ impl Certificate {
 /// What `step()` puts out under these loads, against the exact torque; and how many of these there are not.
 fn errors<const N: usize>(
     exact: &Exact,
-    block: &FoldedScrewConfiguration<N>,
+    block: &CagedBallScrewConfiguration<N>,
     friction: f32,
     side: f64,
     loads: &[f64],
 ) -> Result<(Vec<Found>, usize), Failure> {
     // One ball, and full friction at the speed.
-    let mut model = FrictionModel::<FoldedScrew<N>>::new(&FoldedScrewConfiguration {
+    let mut model = FrictionModel::<CagedBallScrew<N>>::new(&CagedBallScrewConfiguration {
         loaded_balls: 1,
         reversal_speed: 1e-6,
         limits: Limits {

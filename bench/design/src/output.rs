@@ -5,7 +5,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use epas_friction::scene::FoldedScrewConfiguration;
+use epas_friction::scene::CagedBallScrewConfiguration;
 
 use crate::caged::{Block, NODES};
 use crate::{Failure, Folded};
@@ -40,10 +40,10 @@ impl Folded {
     /// None that is known.
     pub fn words(&self) -> Result<Vec<u32>, Failure> {
         fn of<const N: usize>(
-            block: &FoldedScrewConfiguration<N>,
+            block: &CagedBallScrewConfiguration<N>,
             digest: u64,
         ) -> Result<Vec<u32>, Failure> {
-            let mut words = vec![0; FoldedScrewConfiguration::<N>::WORDS];
+            let mut words = vec![0; CagedBallScrewConfiguration::<N>::WORDS];
             block.write(digest, &mut words)?;
             Ok(words)
         }
@@ -125,9 +125,9 @@ impl Folded {
         }
         let _ = write!(
             text,
-            "\n/// A folded ball screw: `FrictionModel::<FoldedScrew<{nodes}>, _>::of(&{name})`.\n\
-             pub static {name}: epas_friction::scene::FoldedScrewConstants<{nodes}> =\n    \
-             match epas_friction::scene::FoldedScrewConstants::from_block(&{name}_BLOCK) {{\n        \
+            "\n/// A caged ball screw: `FrictionModel::<CagedBallScrew<{nodes}>, _>::of(&{name})`.\n\
+             pub static {name}: epas_friction::scene::CagedConstants<{nodes}> =\n    \
+             match epas_friction::scene::CagedConstants::from_block(&{name}_BLOCK) {{\n        \
              Ok(constants) => constants,\n        \
              Err(_) => panic!(\"the block is damaged, or of another version of epas-friction\"),\n    }};\n\n\
              #[rustfmt::skip]\nconst {name}_BLOCK: [u32; {}] = [\n",

@@ -1,4 +1,4 @@
-//! Folded screws: how exact they are, what a block holds, and what a model of one does.
+//! Caged screws: how exact they are, what a block holds, and what a model of one does.
 
 use std::sync::LazyLock;
 
@@ -8,7 +8,7 @@ use epas_friction::law::coefficient::{OneCoefficient, TemperatureFade};
 use epas_friction::law::memory::LoadExactElements;
 use epas_friction::law::motion::SpeedOverTick;
 use epas_friction::scene::{
-    FoldedScrew, FoldedScrewConfiguration, FoldedScrewConstants, Freshness, WithMemory,
+    CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, Freshness, WithMemory,
     WithMemoryConfiguration, WithMemoryInputs,
 };
 use epas_friction::{
@@ -17,8 +17,8 @@ use epas_friction::{
 };
 use epas_reference::friction::ball_screw_efficiency::LoadedScrew;
 
-type One = FrictionModel<FoldedScrew>;
-type Range = FrictionModel<FoldedScrew<NODES>>;
+type One = FrictionModel<CagedBallScrew>;
+type Range = FrictionModel<CagedBallScrew<NODES>>;
 
 const LIMITS: Limits = Limits {
     nut_speed: 500.0,
@@ -67,14 +67,14 @@ static STEERING_RANGE: LazyLock<Folded> = LazyLock::new(|| {
     .unwrap()
 });
 
-fn one(folded: &Folded) -> FoldedScrewConfiguration {
+fn one(folded: &Folded) -> CagedBallScrewConfiguration {
     match folded.block {
         Block::One(block) => block,
         Block::Range(_) => panic!("a block for one friction coefficient"),
     }
 }
 
-fn range(folded: &Folded) -> FoldedScrewConfiguration<NODES> {
+fn range(folded: &Folded) -> CagedBallScrewConfiguration<NODES> {
     match folded.block {
         Block::Range(block) => block,
         Block::One(_) => panic!("a block for a range of friction coefficients"),
@@ -261,14 +261,14 @@ fn friction_is_set_within_the_nodes() {
 fn swapped_constants_count_at_once() {
     let worn = folded("lin-4.1", 2e-6, 0.1);
     let [first, second] =
-        [&STEERING, &worn].map(|folded| FoldedScrewConstants::new(&one(folded)).unwrap());
-    let mut model = FrictionModel::<FoldedScrew, _>::of(&first);
+        [&STEERING, &worn].map(|folded| CagedConstants::new(&one(folded)).unwrap());
+    let mut model = FrictionModel::<CagedBallScrew, _>::of(&first);
     let before = model.step(sliding(1_000.0));
     model.swap_constants(&second).unwrap();
     let after = model.step(sliding(1_000.0));
     assert_eq!(
         after,
-        FrictionModel::<FoldedScrew, _>::of(&second).step(sliding(1_000.0))
+        FrictionModel::<CagedBallScrew, _>::of(&second).step(sliding(1_000.0))
     );
     assert!((before.friction_torque / after.friction_torque - 1.0).abs() > 0.05);
 }
@@ -279,12 +279,12 @@ fn a_block_is_read_as_it_was_written() {
     let again = folded("lin-4.1", -1e-6, 0.1);
     let words = STEERING.words().unwrap();
     assert_eq!(words, again.words().unwrap());
-    assert_eq!(FoldedScrewConfiguration::read(&words), Ok(one(&STEERING)));
-    let constants = FoldedScrewConstants::<1>::from_block(&words).unwrap();
     assert_eq!(
-        constants,
-        FoldedScrewConstants::new(&one(&STEERING)).unwrap()
+        CagedBallScrewConfiguration::read(&words),
+        Ok(one(&STEERING))
     );
+    let constants = CagedConstants::<1>::from_block(&words).unwrap();
+    assert_eq!(constants, CagedConstants::new(&one(&STEERING)).unwrap());
     let bytes = STEERING.bytes().unwrap();
     let of_bytes: Vec<u32> = bytes
         .chunks_exact(4)
@@ -294,7 +294,7 @@ fn a_block_is_read_as_it_was_written() {
     for number in 0..words.len() {
         let mut damaged = words.clone();
         damaged[number] ^= 1 << (number % 32);
-        let field = FoldedScrewConstants::<1>::from_block(&damaged)
+        let field = CagedConstants::<1>::from_block(&damaged)
             .unwrap_err()
             .field();
         let expected = match number {
@@ -306,18 +306,16 @@ fn a_block_is_read_as_it_was_written() {
         };
         assert_eq!(field, expected, "{number}");
     }
-    let short = FoldedScrewConstants::<1>::from_block(&words[1..]).unwrap_err();
+    let short = CagedConstants::<1>::from_block(&words[1..]).unwrap_err();
     assert_eq!(short.field(), "words");
-    let nodes = FoldedScrewConstants::<NODES>::from_block(&STEERING.words().unwrap()).unwrap_err();
+    let nodes = CagedConstants::<NODES>::from_block(&STEERING.words().unwrap()).unwrap_err();
     assert_eq!(nodes.field(), "words");
     let range = STEERING_RANGE.words().unwrap();
     assert_eq!(
-        FoldedScrewConstants::<1>::from_block(&range)
-            .unwrap_err()
-            .field(),
+        CagedConstants::<1>::from_block(&range).unwrap_err().field(),
         "nodes"
     );
-    assert!(FoldedScrewConstants::<NODES>::from_block(&range).is_ok());
+    assert!(CagedConstants::<NODES>::from_block(&range).is_ok());
     // Another seed draws other states and folds the same law.
     let other = CagedFold {
         seed: 2,
@@ -378,10 +376,10 @@ fn text_forms_hold_the_words() {
 #[test]
 fn a_memory_slides_as_the_scene() {
     type Remembering<const N: usize> = FrictionModel<
-        WithMemory<FoldedScrew<N>, LoadExactElements<8>, SpeedOverTick, OneCoefficient>,
+        WithMemory<CagedBallScrew<N>, LoadExactElements<8>, SpeedOverTick, OneCoefficient>,
     >;
     fn slide<const N: usize>(
-        block: FoldedScrewConfiguration<N>,
+        block: CagedBallScrewConfiguration<N>,
         friction: f32,
     ) -> epas_friction::Outputs {
         let mut model = Remembering::<N>::new(&WithMemoryConfiguration {

@@ -25,7 +25,7 @@ use epas_friction::law::motion::{
     AngleReading, CountReading, CountSensor, CountSensorParameters, NutAngle, Play, PlayState,
     SpeedOverTick, Steady, SteadyReading, WrappedAngle, WrappedAngleParameters,
 };
-use epas_friction::scene::{FoldedScrew, FoldedScrewConstants};
+use epas_friction::scene::{CagedBallScrew, CagedConstants};
 use epas_friction::train::{Press, Train};
 use epas_friction::{
     BallScrew, CATALOGUE, ClosedFormScrew, DeviationMap, Error, FrictionModel, Inputs,
@@ -36,7 +36,7 @@ use crate::gears::{LIN_3_6, LIN_3_6_RANGE};
 use crate::peers::{LuGre, Stribeck};
 use crate::remembering::{self, Carriage, FEWER, Gear, GearByLaw};
 use crate::scenes::{
-    BALLS, FOLDED_BY_LAW, FOLDED_WITH_MEMORY, FoldedByLaw, FoldedLawConstants, FoldedMemory, ROW,
+    BALLS, CAGED_BY_LAW, CAGED_WITH_MEMORY, CagedByLaw, CagedLawConstants, CagedMemory, ROW,
     SCREW_DEVIATION, TICK, closed_form_configuration, linear_configuration, uncaged_configuration,
 };
 
@@ -72,22 +72,22 @@ pub struct Contexts {
     pub analytic: AnalyticLinearBall,
     /// Ball screw by a closed form.
     pub closed_form: FrictionModel<ClosedFormScrew>,
-    /// Folded ball screw.
-    pub folded: FrictionModel<FoldedScrew>,
+    /// Caged ball screw.
+    pub caged: FrictionModel<CagedBallScrew>,
     /// The same with a friction coefficient between two nodes.
-    pub folded_range: FrictionModel<FoldedScrew<5>>,
+    pub caged_range: FrictionModel<CagedBallScrew<5>>,
     /// The same, whose friction coefficient is set.
-    pub folded_set: FrictionModel<FoldedScrew<5>, &'static FoldedScrewConstants<5>>,
-    /// Folded ball screw whose block is changed.
-    pub folded_swapped: FrictionModel<FoldedScrew, &'static FoldedScrewConstants>,
+    pub caged_set: FrictionModel<CagedBallScrew<5>, &'static CagedConstants<5>>,
+    /// Caged ball screw whose block is changed.
+    pub caged_swapped: FrictionModel<CagedBallScrew, &'static CagedConstants>,
     /// Whether it is the worn one.
     pub worn: bool,
-    /// Folded ball screw with a memory.
-    pub folded_memory: FrictionModel<FoldedMemory>,
+    /// Caged ball screw with a memory.
+    pub caged_memory: FrictionModel<CagedMemory>,
     /// The same with a friction coefficient by speed and temperature.
-    pub folded_law: FrictionModel<FoldedByLaw>,
+    pub caged_law: FrictionModel<CagedByLaw>,
     /// The same, that starts anew.
-    pub folded_law_started: FrictionModel<FoldedByLaw, &'static FoldedLawConstants>,
+    pub caged_law_started: FrictionModel<CagedByLaw, &'static CagedLawConstants>,
     /// Deviation of contact angles along a groove.
     pub deviation: &'static DeviationMap,
     /// Balls of a ball screw in closed form.
@@ -228,14 +228,14 @@ impl Contexts {
             adaptation: Adaptation::new(&black_box(adaptation_configuration()))?,
             analytic: AnalyticLinearBall::new(&linear_parameters, PUBLISHED_SLOPE)?,
             closed_form: FrictionModel::new(&black_box(closed_form_configuration()?))?,
-            folded: FrictionModel::of(black_box(LIN_3_6)),
-            folded_range: between_nodes(FrictionModel::of(black_box(LIN_3_6_RANGE)))?,
-            folded_set: FrictionModel::of(black_box(&LIN_3_6_RANGE)),
-            folded_swapped: FrictionModel::of(black_box(&LIN_3_6)),
+            caged: FrictionModel::of(black_box(LIN_3_6)),
+            caged_range: between_nodes(FrictionModel::of(black_box(LIN_3_6_RANGE)))?,
+            caged_set: FrictionModel::of(black_box(&LIN_3_6_RANGE)),
+            caged_swapped: FrictionModel::of(black_box(&LIN_3_6)),
             worn: false,
-            folded_memory: FrictionModel::of(black_box(FOLDED_WITH_MEMORY)),
-            folded_law: FrictionModel::of(black_box(FOLDED_BY_LAW)),
-            folded_law_started: FrictionModel::of(black_box(&FOLDED_BY_LAW)),
+            caged_memory: FrictionModel::of(black_box(CAGED_WITH_MEMORY)),
+            caged_law: FrictionModel::of(black_box(CAGED_BY_LAW)),
+            caged_law_started: FrictionModel::of(black_box(&CAGED_BY_LAW)),
             deviation: &SCREW_DEVIATION,
             screw_loop: screw_row.at(10.0, 100.0).per_speed(0.5, 2.0, (1.0, 1.0)),
             screw_row,
@@ -325,10 +325,10 @@ const fn adaptation_configuration() -> AdaptationConfiguration {
     }
 }
 
-/// A folded ball screw whose friction coefficient is no node's.
+/// A caged ball screw whose friction coefficient is no node's.
 fn between_nodes(
-    mut model: FrictionModel<FoldedScrew<5>>,
-) -> Result<FrictionModel<FoldedScrew<5>>, Error> {
+    mut model: FrictionModel<CagedBallScrew<5>>,
+) -> Result<FrictionModel<CagedBallScrew<5>>, Error> {
     model.set_friction(0.11)?;
     Ok(model)
 }

@@ -5,7 +5,7 @@ use epas_friction::hal::{
     EncoderConfiguration, FaultReaction, FeedForwardConfiguration, FrictionFeedForward,
     MagneticEncoder,
 };
-use epas_friction::scene::{FoldedScrew, FoldedScrewConstants};
+use epas_friction::scene::{CagedBallScrew, CagedConstants};
 use epas_friction::{
     Error, FrictionModel, Inputs, LinearBearingTrain, LinearInputs, UncagedBallScrew,
 };
@@ -21,18 +21,18 @@ use crate::scenes::{BALLS, Digest, ROW, linear_configuration, uncaged_configurat
 pub static RECORDED: &[u8] = include_bytes!("../manoeuvre.bin");
 
 /// A gear with a cage, whose constants stand in flash.
-type Folded = FrictionModel<FoldedScrew, &'static FoldedScrewConstants>;
+type Caged = FrictionModel<CagedBallScrew, &'static CagedConstants>;
 
 /// What the interrupt works with.
 pub struct ControlLoop {
     /// Gear with a cage.
-    caged: Folded,
+    caged: Caged,
     /// Gear without.
     uncaged: FrictionModel<UncagedBallScrew<BALLS>>,
     /// Bearing of the rack.
     linear: FrictionModel<LinearBearingTrain<ROW>>,
     /// The gear with a cage once more, between devices.
-    driven: Folded,
+    driven: Caged,
     encoder: MagneticEncoder<Sensor>,
     stage: FrictionFeedForward<Bridge>,
     /// Ticks without a speed, and whether the bridge was neutral in all flagged ticks and in no other.

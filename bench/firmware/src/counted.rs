@@ -29,7 +29,7 @@ use epas_friction::law::motion::{
     SteadyReading, WrappedAngle,
 };
 use epas_friction::law::{Elements, SlidingLimits};
-use epas_friction::scene::{FoldedScrew, FoldedScrewConstants, WithMemoryInputs};
+use epas_friction::scene::{CagedBallScrew, CagedConstants, WithMemoryInputs};
 use epas_friction::train::{Press, Train};
 use epas_friction::{
     Clearance, ClosedFormScrew, DeviationMap, FrictionModel, Inputs, LinearBearingTrain,
@@ -39,7 +39,7 @@ use epas_friction::{
 use crate::peers::{LuGre, Stribeck};
 use crate::remembering::{Carriage, FEWER, Gear, GearByLaw};
 use crate::scenes::{
-    BALLS, EfficiencyStep, FoldedByLaw, FoldedLawConstants, FoldedMemory, ROW, efficiency_step,
+    BALLS, CagedByLaw, CagedLawConstants, CagedMemory, EfficiencyStep, ROW, efficiency_step,
 };
 
 /// Angles and forces of four contacts.
@@ -199,66 +199,66 @@ counted! {
         model.step(Inputs { nut_speed, axial_load })
     }
 
-    /// One tick of a folded ball screw.
-    fn count_step_folded(
-        model: &mut FrictionModel<FoldedScrew>, nut_speed: f32, axial_load: f32
+    /// One tick of a caged ball screw.
+    fn count_step_caged(
+        model: &mut FrictionModel<CagedBallScrew>, nut_speed: f32, axial_load: f32
     ) -> Outputs {
         model.step(Inputs { nut_speed, axial_load })
     }
 
-    /// One tick of a folded ball screw whose friction coefficient lies between two nodes.
-    fn count_step_folded_range(
-        model: &mut FrictionModel<FoldedScrew<5>>, nut_speed: f32, axial_load: f32
+    /// One tick of a caged ball screw whose friction coefficient lies between two nodes.
+    fn count_step_caged_range(
+        model: &mut FrictionModel<CagedBallScrew<5>>, nut_speed: f32, axial_load: f32
     ) -> Outputs {
         model.step(Inputs { nut_speed, axial_load })
     }
 
-    /// One tick of a folded ball screw with a memory.
-    fn count_step_folded_memory(
-        model: &mut FrictionModel<FoldedMemory>, inputs: &WithMemoryInputs<Inputs, f32>
+    /// One tick of a caged ball screw with a memory.
+    fn count_step_caged_memory(
+        model: &mut FrictionModel<CagedMemory>, inputs: &WithMemoryInputs<Inputs, f32>
     ) -> Outputs {
         model.step(*inputs)
     }
 
     /// The same with a friction coefficient by speed and temperature.
-    fn count_step_folded_law(
-        model: &mut FrictionModel<FoldedByLaw>, inputs: &WithMemoryInputs<Inputs, f32>
+    fn count_step_caged_law(
+        model: &mut FrictionModel<CagedByLaw>, inputs: &WithMemoryInputs<Inputs, f32>
     ) -> Outputs {
         model.step(*inputs)
     }
 
-    /// Friction between two steps of a folded ball screw.
-    fn count_between_folded(
-        model: &mut FrictionModel<FoldedMemory>, reading: f32
+    /// Friction between two steps of a caged ball screw.
+    fn count_between_caged(
+        model: &mut FrictionModel<CagedMemory>, reading: f32
     ) -> Outputs {
         model.between(reading)
     }
 
-    /// A new friction coefficient of a folded ball screw.
-    fn count_set_friction_folded(
-        model: &mut FrictionModel<FoldedScrew<5>, &'static FoldedScrewConstants<5>>, friction: f32
+    /// A new friction coefficient of a caged ball screw.
+    fn count_set_friction_caged(
+        model: &mut FrictionModel<CagedBallScrew<5>, &'static CagedConstants<5>>, friction: f32
     ) -> bool {
         model.set_friction(friction).is_ok()
     }
 
-    /// Another block of a folded ball screw, as for another clearance.
-    fn count_swap_folded(
-        model: &mut FrictionModel<FoldedScrew, &'static FoldedScrewConstants>, constants: &'static FoldedScrewConstants
+    /// Another block of a caged ball screw, as for another clearance.
+    fn count_swap_caged(
+        model: &mut FrictionModel<CagedBallScrew, &'static CagedConstants>, constants: &'static CagedConstants
     ) -> bool {
         model.swap_constants(constants).is_ok()
     }
 
-    /// A folded ball screw from its constants to its first tick.
-    fn count_start_folded(
-        model: &mut FrictionModel<FoldedScrew<5>, &'static FoldedScrewConstants<5>>,
-        constants: &'static FoldedScrewConstants<5>
+    /// A caged ball screw from its constants to its first tick.
+    fn count_start_caged(
+        model: &mut FrictionModel<CagedBallScrew<5>, &'static CagedConstants<5>>,
+        constants: &'static CagedConstants<5>
     ) -> () {
         *model = FrictionModel::of(constants);
     }
 
     /// The same with a memory, and a friction coefficient by speed and temperature.
-    fn count_start_folded_law(
-        model: &mut FrictionModel<FoldedByLaw, &'static FoldedLawConstants>, constants: &'static FoldedLawConstants
+    fn count_start_caged_law(
+        model: &mut FrictionModel<CagedByLaw, &'static CagedLawConstants>, constants: &'static CagedLawConstants
     ) -> () {
         *model = FrictionModel::of(constants);
     }

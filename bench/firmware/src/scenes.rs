@@ -11,7 +11,7 @@ use epas_friction::law::coefficient::{CoefficientLaw, OneCoefficient, Temperatur
 use epas_friction::law::memory::{Part, ProportionalElements, SLIP_8};
 use epas_friction::law::motion::SpeedOverTick;
 use epas_friction::scene::{
-    FoldedScrew, FoldedScrewConstants, Freshness, WithMemory, WithMemoryConfiguration,
+    CagedBallScrew, CagedConstants, Freshness, WithMemory, WithMemoryConfiguration,
     WithMemoryConstants, WithMemoryInputs,
 };
 use epas_friction::{
@@ -86,13 +86,13 @@ macro_rules! tried {
     };
 }
 
-/// Constants of the folded gear with a memory.
-pub static FOLDED_WITH_MEMORY: FoldedMemoryConstants = folded(WithMemoryConstants::new(
+/// Constants of the caged gear with a memory.
+pub static CAGED_WITH_MEMORY: CagedMemoryConstants = folded(WithMemoryConstants::new(
     LIN_3_6,
     &folded(with_memory((), folded(OneCoefficient::new(0.075)))),
 ));
-/// Constants of the folded gear whose friction coefficient follows speed and temperature.
-pub static FOLDED_BY_LAW: FoldedLawConstants = folded(WithMemoryConstants::new(
+/// Constants of the caged gear whose friction coefficient follows speed and temperature.
+pub static CAGED_BY_LAW: CagedLawConstants = folded(WithMemoryConstants::new(
     LIN_3_6_RANGE,
     &folded(with_memory((), folded(CoefficientLaw::new(&COEFFICIENT)))),
 ));
@@ -104,16 +104,12 @@ static UNCAGED_WITH_MEMORY: UncagedMemoryConstants = folded(WithMemoryConstants:
     )),
 ));
 
-/// Constants of a folded gear with a memory.
-pub type FoldedMemoryConstants = WithMemoryConstants<
-    FoldedScrewConstants,
-    ProportionalElements<8>,
-    SpeedOverTick,
-    OneCoefficient,
->;
+/// Constants of a caged gear with a memory.
+pub type CagedMemoryConstants =
+    WithMemoryConstants<CagedConstants, ProportionalElements<8>, SpeedOverTick, OneCoefficient>;
 /// The same with a friction coefficient by speed and temperature.
-pub type FoldedLawConstants =
-    WithMemoryConstants<FoldedScrewConstants<5>, ProportionalElements<8>, SpeedOverTick>;
+pub type CagedLawConstants =
+    WithMemoryConstants<CagedConstants<5>, ProportionalElements<8>, SpeedOverTick>;
 /// The same without cage.
 pub type UncagedMemoryConstants = WithMemoryConstants<
     UncagedConstants<BALLS>,
@@ -252,11 +248,11 @@ impl Run for Efficiency {
 }
 
 /// A ball screw with a cage, by a law that a host has folded.
-pub struct Folded;
+pub struct Caged;
 
-impl Run for Folded {
-    const NAME: &'static str = "folded_ball_screw";
-    type Model = FrictionModel<FoldedScrew, &'static FoldedScrewConstants>;
+impl Run for Caged {
+    const NAME: &'static str = "caged_ball_screw";
+    type Model = FrictionModel<CagedBallScrew, &'static CagedConstants>;
 
     fn set_up() -> Result<Self::Model, Error> {
         Ok(FrictionModel::of(&LIN_3_6))
@@ -271,21 +267,21 @@ impl Run for Folded {
 }
 
 /// The same whose friction remembers: eight elements, one friction coefficient.
-pub struct FoldedWithMemory;
+pub struct CagedWithMemory;
 
 /// Its scene.
-pub type FoldedMemory =
-    WithMemory<FoldedScrew, ProportionalElements<8>, SpeedOverTick, OneCoefficient>;
+pub type CagedMemory =
+    WithMemory<CagedBallScrew, ProportionalElements<8>, SpeedOverTick, OneCoefficient>;
 
 /// The same with a friction coefficient by speed and temperature.
-pub type FoldedByLaw = WithMemory<FoldedScrew<5>, ProportionalElements<8>, SpeedOverTick>;
+pub type CagedByLaw = WithMemory<CagedBallScrew<5>, ProportionalElements<8>, SpeedOverTick>;
 
-impl Run for FoldedWithMemory {
-    const NAME: &'static str = "folded_with_memory";
-    type Model = FrictionModel<FoldedMemory, &'static FoldedMemoryConstants>;
+impl Run for CagedWithMemory {
+    const NAME: &'static str = "caged_with_memory";
+    type Model = FrictionModel<CagedMemory, &'static CagedMemoryConstants>;
 
     fn set_up() -> Result<Self::Model, Error> {
-        Ok(FrictionModel::of(&FOLDED_WITH_MEMORY))
+        Ok(FrictionModel::of(&CAGED_WITH_MEMORY))
     }
 
     fn tick(model: &mut Self::Model, nut_speed: f32, axial_load: f32, digest: &mut Digest) {

@@ -13,7 +13,7 @@ use epas_friction::{Clearance, Faults, Inputs, LoadShare, Regime};
 use crate::contexts::Contexts;
 use crate::counted::{
     FourContacts, count_adaptation_update, count_ball_screw_ball, count_ball_screw_renewal,
-    count_ball_screw_row, count_ball_screw_start, count_between_folded, count_between_linear,
+    count_ball_screw_row, count_ball_screw_start, count_between_caged, count_between_linear,
     count_between_train_37, count_cbrt, count_cbrt_and_squared, count_cbrt_squared,
     count_curvature_circular_groove, count_curvature_exact, count_curvature_fitted,
     count_curvature_literature, count_deviation_map, count_efficiency_backdrive,
@@ -25,13 +25,13 @@ use crate::counted::{
     count_memory_load_exact_8, count_memory_preloaded_10, count_memory_seat,
     count_memory_together_10, count_micromath_cos, count_micromath_powf, count_micromath_sqrt,
     count_play, count_press_37, count_set_clearance_uncaged, count_set_friction_37,
-    count_set_friction_folded, count_sin_cos, count_sqrt, count_start_folded,
-    count_start_folded_law, count_step_closed_form, count_step_efficiency, count_step_folded,
-    count_step_folded_law, count_step_folded_memory, count_step_folded_range, count_step_linear,
-    count_step_linear_memory, count_step_train_37, count_step_train_37_law,
-    count_step_train_37_memory, count_step_train_37_memory_pressing, count_step_train_37_pressing,
-    count_stribeck_curve, count_swap_folded, count_train_37, count_turn_of_angles,
-    count_turn_of_counts, count_turn_of_speed, count_turn_steady,
+    count_set_friction_caged, count_sin_cos, count_sqrt, count_start_caged, count_start_caged_law,
+    count_step_caged, count_step_caged_law, count_step_caged_memory, count_step_caged_range,
+    count_step_closed_form, count_step_efficiency, count_step_linear, count_step_linear_memory,
+    count_step_train_37, count_step_train_37_law, count_step_train_37_memory,
+    count_step_train_37_memory_pressing, count_step_train_37_pressing, count_stribeck_curve,
+    count_swap_caged, count_train_37, count_turn_of_angles, count_turn_of_counts,
+    count_turn_of_speed, count_turn_steady,
 };
 use crate::gears::{LIN_3_6, LIN_3_6_RANGE, LIN_3_6_WORN};
 use crate::inputs::{
@@ -42,7 +42,7 @@ use crate::numbers::{
     adapted, all, linear_outputs, motion, outputs, screw_ball, two, uncaged_outputs,
 };
 use crate::remembering::{carriage_inputs, counted_inputs, counted_on};
-use crate::scenes::{BALLS, EfficiencyStep, FOLDED_BY_LAW, TICK, remembered};
+use crate::scenes::{BALLS, CAGED_BY_LAW, EfficiencyStep, TICK, remembered};
 use crate::spread::Spread;
 
 /// Most inputs and most outputs that a function has.
@@ -239,65 +239,65 @@ subjects! {
             let model = black_box(&mut c.closed_form);
             outputs(&timed!(c, count_step_closed_form(model, nut_speed, axial_load)))
         };
-    step_folded: |spread| -> [2] tick(spread),
+    step_caged: |spread| -> [2] tick(spread),
         |c, [nut_speed, axial_load]| -> [4] outputs(
-            &timed!(c, count_step_folded(black_box(&mut c.folded), nut_speed, axial_load))
+            &timed!(c, count_step_caged(black_box(&mut c.caged), nut_speed, axial_load))
         );
-    step_folded_range: |spread| -> [2] tick(spread),
+    step_caged_range: |spread| -> [2] tick(spread),
         |c, [nut_speed, axial_load]| -> [4] {
-            let model = black_box(&mut c.folded_range);
-            outputs(&timed!(c, count_step_folded_range(model, nut_speed, axial_load)))
+            let model = black_box(&mut c.caged_range);
+            outputs(&timed!(c, count_step_caged_range(model, nut_speed, axial_load)))
         };
-    step_folded_memory: |spread| -> [2] tick(spread),
+    step_caged_memory: |spread| -> [2] tick(spread),
         |c, [nut_speed, axial_load]| -> [4] {
-            let model = black_box(&mut c.folded_memory);
+            let model = black_box(&mut c.caged_memory);
             let inputs = black_box(remembered(nut_speed, axial_load));
-            outputs(&timed!(c, count_step_folded_memory(model, &inputs)))
+            outputs(&timed!(c, count_step_caged_memory(model, &inputs)))
         };
-    step_folded_law: |spread| -> [3] {
+    step_caged_law: |spread| -> [3] {
             let [nut_speed, axial_load] = tick(spread);
             [nut_speed, axial_load, spread.between(250.0, 400.0)]
         },
         |c, [nut_speed, axial_load, temperature]| -> [4] {
-            let model = black_box(&mut c.folded_law);
+            let model = black_box(&mut c.caged_law);
             let inputs = black_box(WithMemoryInputs {
                 temperature,
                 ..remembered(nut_speed, axial_load)
             });
-            outputs(&timed!(c, count_step_folded_law(model, &inputs)))
+            outputs(&timed!(c, count_step_caged_law(model, &inputs)))
         };
-    between_folded: |spread| -> [1] [spread.between(-60.0, 60.0)],
+    between_caged: |spread| -> [1] [spread.between(-60.0, 60.0)],
         |c, [reading]| -> [4] {
-            let model = black_box(&mut c.folded_memory);
-            outputs(&timed!(c, count_between_folded(model, reading)))
+            let model = black_box(&mut c.caged_memory);
+            outputs(&timed!(c, count_between_caged(model, reading)))
         };
-    set_friction_folded: |spread| -> [3] {
+    set_friction_caged: |spread| -> [3] {
             let [nut_speed, axial_load] = tick(spread);
             [nut_speed, axial_load, spread.between(0.05, 0.15)]
         },
         |c, [nut_speed, axial_load, friction]| -> [4] {
-            let model = black_box(&mut c.folded_set);
-            let _ = timed!(c, count_set_friction_folded(model, friction));
+            let model = black_box(&mut c.caged_set);
+            let _ = timed!(c, count_set_friction_caged(model, friction));
             outputs(&model.step(Inputs { nut_speed, axial_load }))
         };
-    swap_folded: |spread| -> [2] tick(spread),
+    swap_caged: |spread| -> [2] tick(spread),
         |c, [nut_speed, axial_load]| -> [4] {
             c.worn = !c.worn;
-            let model = black_box(&mut c.folded_swapped);
+            let model = black_box(&mut c.caged_swapped);
             let constants = black_box(if c.worn { &LIN_3_6_WORN } else { &LIN_3_6 });
-            let _ = timed!(c, count_swap_folded(model, constants));
+            let _ = timed!(c, count_swap_caged(model, constants));
             outputs(&model.step(Inputs { nut_speed, axial_load }))
         };
-    start_folded: |spread| -> [2] tick(spread),
+    start_caged: |spread| -> [2] tick(spread),
         |c, [nut_speed, axial_load]| -> [4] {
-            let model = black_box(&mut c.folded_set);
-            timed!(c, count_start_folded(model, black_box(&LIN_3_6_RANGE)));
+            let model = black_box(&mut c.caged_set);
+            timed!(c, count_start_caged(model, black_box(&LIN_3_6_RANGE)));
             outputs(&model.step(Inputs { nut_speed, axial_load }))
         };
-    start_folded_law: |spread| -> [2] tick(spread),
+    start_caged_law: |spread| -> [2] tick(spread),
         |c, [nut_speed, axial_load]| -> [4] {
-            let model = black_box(&mut c.folded_law_started);
-            timed!(c, count_start_folded_law(model, black_box(&FOLDED_BY_LAW)));
+            let model = black_box(&mut c.caged_law_started);
+            timed!(c, count_start_caged_law(model, black_box(&CAGED_BY_LAW)));
             outputs(&model.step(remembered(nut_speed, axial_load)))
         };
     set_friction_37: |spread| -> [1] [spread.between(0.05, 0.15)],

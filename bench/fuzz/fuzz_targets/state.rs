@@ -14,7 +14,7 @@ mod random;
 use std::fmt::Debug;
 
 use absurd::{Trial, accepted};
-use epas_friction::scene::{FoldedScrew, StoredScene};
+use epas_friction::scene::{CagedBallScrew, StoredScene};
 use epas_friction::stored::crc32;
 use epas_friction::{ClosedFormScrew, FrictionModel, LinearBearingTrain, UncagedBallScrew};
 use libfuzzer_sys::fuzz_target;
@@ -31,7 +31,7 @@ fuzz_target!(|data: &[u8]| {
     let seed = u64::from_le_bytes(*seed);
     match seed & 7 {
         0 => run::<ClosedFormScrew>(seed, bytes),
-        1 => run::<FoldedScrew<5>>(seed, bytes),
+        1 => run::<CagedBallScrew<5>>(seed, bytes),
         2 => run::<UncagedBallScrew<2>>(seed, bytes),
         3 => run::<UncagedBallScrew<7>>(seed, bytes),
         4 => run::<UncagedBallScrew<37>>(seed, bytes),

@@ -12,7 +12,7 @@ mod absurd;
 mod random;
 
 use absurd::{Trial, accepted};
-use epas_friction::scene::FoldedScrew;
+use epas_friction::scene::CagedBallScrew;
 use epas_friction::{ClosedFormScrew, LinearBearingTrain, UncagedBallScrew};
 use libfuzzer_sys::fuzz_target;
 use random::Random;
@@ -24,7 +24,7 @@ fuzz_target!(|data: &[u8]| {
     let seed = u64::from_le_bytes(*seed);
     match seed & 7 {
         0 => run::<ClosedFormScrew>(seed, signals),
-        1 => run::<FoldedScrew<5>>(seed, signals),
+        1 => run::<CagedBallScrew<5>>(seed, signals),
         2 => run::<UncagedBallScrew<2>>(seed, signals),
         3 => run::<UncagedBallScrew<7>>(seed, signals),
         4 => run::<UncagedBallScrew<37>>(seed, signals),

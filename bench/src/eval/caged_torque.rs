@@ -1,11 +1,11 @@
 //! `caged_torque`: friction torque of one ball that no other ball presses, over its axial load.
 //!
-//! The reference solves its elastic balance with Coulomb friction, from the largest load down; in the loop runs the scene `FoldedScrew` with a
+//! The reference solves its elastic balance with Coulomb friction, from the largest load down; in the loop runs the scene `CagedBallScrew` with a
 //! block that is folded for the request ([`epas_design`]), whose errors `design` certifies.
 
 use epas_design::caged::{AXIAL_LOAD, Block};
 use epas_design::{CagedDesign, CagedFold, Failure};
-use epas_friction::scene::{FoldedScrew, FoldedScrewConfiguration};
+use epas_friction::scene::{CagedBallScrew, CagedBallScrewConfiguration};
 use epas_friction::{Clearance, FrictionModel, Inputs, Limits, RollingResistance};
 use epas_reference::friction::caged_ball::CagedBall;
 use epas_reference::friction::patch::Integration;
@@ -181,8 +181,8 @@ impl Request {
         self.stepped(&block)
     }
 
-    fn stepped(&self, block: &FoldedScrewConfiguration) -> Result<Torques, BadField> {
-        let mut model = FrictionModel::<FoldedScrew>::new(block)?;
+    fn stepped(&self, block: &CagedBallScrewConfiguration) -> Result<Torques, BadField> {
+        let mut model = FrictionModel::<CagedBallScrew>::new(block)?;
         let torque = self.axial_load.iter().map(|&load| {
             let outputs = model.step(Inputs {
                 nut_speed: self.direction as f32,

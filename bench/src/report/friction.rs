@@ -1,6 +1,6 @@
 //! Friction of the whole screw, first of all: what the scenes that firmware runs say over a manoeuvre, their error and their cost.
 
-use epas_friction::promises::{Promise, STEP_FOLDED, STEP_UNCAGED};
+use epas_friction::promises::{Promise, STEP_CAGED, STEP_UNCAGED};
 
 use super::context::Context;
 use super::statistics::Errors;
@@ -65,9 +65,9 @@ fn errors_and_costs(context: &Context, weave: &Courses) -> Result<Table, Failure
         Row {
             scene: "balls in a cage",
             found: against_exact(&weave.caged),
-            promise: STEP_FOLDED,
+            promise: STEP_CAGED,
             time: "step_caged",
-            counted: "step_folded",
+            counted: "step_caged",
         },
         Row {
             scene: "balls in a cage, with memory",
@@ -77,9 +77,9 @@ fn errors_and_costs(context: &Context, weave: &Courses) -> Result<Table, Failure
                 kind: "torque over that of sliding: elements, random strokes, exact hysteresis"
                     .into(),
             },
-            promise: STEP_FOLDED,
+            promise: STEP_CAGED,
             time: "step_caged_memory",
-            counted: "step_folded_memory",
+            counted: "step_caged_memory",
         },
         Row {
             scene: "37 balls that press on each other",

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use epas_design::CagedDesign;
-use epas_friction::promises::{Promise, STEP_FOLDED, STEP_FOLDED_RANGE};
+use epas_friction::promises::{Promise, STEP_CAGED, STEP_CAGED_RANGE};
 use epas_friction::{Error, FrictionBranch, Inputs, Outputs, RollingResistance};
 
 use super::caged_exact::ExactCaged;
@@ -261,8 +261,8 @@ impl Caged {
     /// What the error of this scene is, where it is promised.
     fn promise(&self) -> Option<Promise> {
         match (self.design.branch, self.memory) {
-            (None, true) if self.design.calibrated.is_some() => Some(STEP_FOLDED_RANGE),
-            (None, _) => Some(STEP_FOLDED),
+            (None, true) if self.design.calibrated.is_some() => Some(STEP_CAGED_RANGE),
+            (None, _) => Some(STEP_CAGED),
             _ => None,
         }
     }

@@ -182,7 +182,7 @@ impl CagedReference {
         let (drive, backdrive) = match configuration.branch {
             // Back-driving is driving with every friction turned round, and input and output changed.
             FrictionBranch::Sliding => (screw.sliding_drive(), screw.sliding_backdrive()),
-            _ => {
+            FrictionBranch::Rolling => {
                 let turned = Screw {
                     friction: -screw.friction,
                     rolling_tangent: -screw.rolling_tangent,

@@ -8,7 +8,7 @@ use epas_friction::law::coefficient::CoefficientLaw;
 use epas_friction::law::memory::Hysteresis;
 use epas_friction::law::motion::{NutAngle, Steady};
 use epas_friction::scene::{
-    ClosedFormScrew, CoefficientFor, FoldedScrew, Sliding, StoredScene, WithMemory,
+    CagedBallScrew, ClosedFormScrew, CoefficientFor, Sliding, StoredScene, WithMemory,
     WithMemoryConfiguration, WithMemoryInputs,
 };
 use epas_friction::stored::{Fingerprinted, Stored};
@@ -60,7 +60,6 @@ pub trait CagedScrew:
         Constants: Copy + Send + Sync,
         State: Send + Sync,
         Full: Stored + Default + Send + Sync,
-        Coefficients: Send + Sync,
     > + Copy
     + Send
     + Sync
@@ -68,7 +67,7 @@ pub trait CagedScrew:
 {
 }
 
-impl<const N: usize> CagedScrew for FoldedScrew<N> {}
+impl<const N: usize> CagedScrew for CagedBallScrew<N> {}
 
 impl CagedScrew for ClosedFormScrew {}
 
@@ -167,8 +166,8 @@ where
         angle,
     };
     match scene(design)? {
-        CagedScene::One(block) => wanted.around::<FoldedScrew, _>(block, then),
-        CagedScene::Range(block) => wanted.around::<FoldedScrew<NODES>, _>(block, then),
+        CagedScene::One(block) => wanted.around::<CagedBallScrew, _>(block, then),
+        CagedScene::Range(block) => wanted.around::<CagedBallScrew<NODES>, _>(block, then),
         CagedScene::ClosedForm(form) => wanted.around::<ClosedFormScrew, _>(form, then),
     }
 }

@@ -223,13 +223,13 @@ mod tests {
         ),
         line(
             "caged ball screw",
-            Some(promises::STEP_FOLDED),
-            &["step_folded", "step_folded_range"],
+            Some(promises::STEP_CAGED),
+            &["step_caged", "step_caged_range"],
         ),
         line(
             "the caged one with memory",
             Some(promises::MEMORY),
-            &["step_folded_memory", "step_folded_law", "between_folded"],
+            &["step_caged_memory", "step_caged_law", "between_caged"],
         ),
         line(
             "ball screw with 37 balls",

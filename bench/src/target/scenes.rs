@@ -32,8 +32,8 @@ pub const SCENES: [(&str, &str, &[&str]); 8] = [
         ],
     ),
     (
-        "folded_ball_screw",
-        "scene::folded",
+        "caged_ball_screw",
+        "scene::caged",
         &[
             "contact",
             "hertz",
@@ -52,7 +52,7 @@ pub const SCENES: [(&str, &str, &[&str]); 8] = [
         ],
     ),
     (
-        "folded_with_memory",
+        "caged_with_memory",
         "scene::memory",
         &[
             "contact",

@@ -16,7 +16,8 @@ use epas_friction::law::coefficient::OneCoefficient;
 use epas_friction::law::memory::{ProportionalElements, SLIP_4, SPIN_4};
 use epas_friction::law::motion::{WrappedAngle, WrappedAngleParameters};
 use epas_friction::scene::{
-    FoldedScrew, FoldedScrewConfiguration, WithMemory, WithMemoryConfiguration, WithMemoryInputs,
+    CagedBallScrew, CagedBallScrewConfiguration, WithMemory, WithMemoryConfiguration,
+    WithMemoryInputs,
 };
 use epas_friction::{
     BallScrew, CATALOGUE, Clearance, FrictionModel, Inputs, Limits, RollingResistance, math,
@@ -199,8 +200,8 @@ fn caged_step(race: &mut Race, list: &mut List, design: BallScrew) -> Result<(),
         return Err(Failure::Data("one friction coefficient is one node".into()));
     };
     let folded = black_box(folded);
-    let mut model = FrictionModel::<FoldedScrew>::new(&folded).map_err(refused)?;
-    let mut remembering = remembering(&caged, folded).map_err(refused)?;
+    let mut model = FrictionModel::<CagedBallScrew>::new(&folded).map_err(refused)?;
+    let mut remembering = remembering(&caged, &folded).map_err(refused)?;
     let mut angle = 0.0;
     Group::new(
         race,
@@ -225,12 +226,13 @@ fn caged_step(race: &mut Race, list: &mut List, design: BallScrew) -> Result<(),
     Ok(())
 }
 
-type Remembering = WithMemory<FoldedScrew, ProportionalElements<8>, WrappedAngle, OneCoefficient>;
+type Remembering =
+    WithMemory<CagedBallScrew, ProportionalElements<8>, WrappedAngle, OneCoefficient>;
 
 /// A caged screw with elements for 1 kN.
 fn remembering(
     caged: &CagedDesign,
-    folded: FoldedScrewConfiguration,
+    folded: &CagedBallScrewConfiguration,
 ) -> Result<FrictionModel<Remembering>, epas_friction::Error> {
     let CagedDesign {
         design,
@@ -262,7 +264,7 @@ fn remembering(
         largest_turn: PI,
     })?;
     FrictionModel::new(&WithMemoryConfiguration::new(
-        folded, friction, elements, sensor, 1000.0,
+        *folded, friction, elements, sensor, 1000.0,
     )?)
 }
 

@@ -8,7 +8,7 @@ use epas_friction::law::coefficient::CoefficientLaw;
 use epas_friction::law::memory::ProportionalElements;
 use epas_friction::law::motion::{Steady, WrappedAngle, WrappedAngleParameters};
 use epas_friction::scene::{
-    FoldedScrew, FoldedScrewConstants, WithMemory, WithMemoryConstants, WithMemoryInputs,
+    CagedBallScrew, CagedConstants, WithMemory, WithMemoryConstants, WithMemoryInputs,
 };
 use epas_friction::{FrictionModel, Inputs};
 use tempfile::tempdir;
@@ -64,7 +64,7 @@ const NODES: usize = 5;
 
 /// It stands in flash.
 static GEAR: WithMemoryConstants<
-    FoldedScrewConstants<NODES>,
+    CagedConstants<NODES>,
     ProportionalElements<8>,
     Sensor,
     CoefficientLaw,
@@ -115,7 +115,7 @@ fn a_simulation_runs_what_firmware_evaluates() {
         "{said}"
     );
 
-    type Gear = WithMemory<FoldedScrew<NODES>, ProportionalElements<8>, Sensor, CoefficientLaw>;
+    type Gear = WithMemory<CagedBallScrew<NODES>, ProportionalElements<8>, Sensor, CoefficientLaw>;
     let mut model = FrictionModel::<Gear, &WithMemoryConstants<_, _, _, _>>::of(&GEAR);
     let out = fs::read_to_string(folder.path().join("out.csv")).unwrap();
     let mut rows = out.lines();

@@ -8,7 +8,7 @@ use epas_friction::law::coefficient::{
 };
 use epas_friction::law::memory::{Part, ProportionalElements, SLIP_8};
 use epas_friction::scene::{
-    FoldedScrewConstants, Freshness, WithMemoryConfiguration, WithMemoryConstants,
+    CagedConstants, Freshness, WithMemoryConfiguration, WithMemoryConstants,
 };
 use epas_friction::Error;
 
@@ -103,7 +103,7 @@ const SCREW_BLOCK: [u32; 433] = [
 ];
 
 /// The screw without memory: for a `static` that stands in flash.
-pub const SCREW: FoldedScrewConstants<5> = sound(FoldedScrewConstants::from_block(&SCREW_BLOCK));
+pub const SCREW: CagedConstants<5> = sound(CagedConstants::from_block(&SCREW_BLOCK));
 
 /// Friction coefficient by speed, temperature and direction.
 pub const COEFFICIENT: CoefficientLaw = sound(CoefficientLaw::new(&CoefficientParameters {
@@ -130,11 +130,11 @@ pub const ELEMENTS: ProportionalElements<8> = sound(ProportionalElements::new(
 /// The screw with memory, for a sensor of the nut's angle: for a `static` that stands in flash.
 ///
 /// ```text
-/// static GEAR: WithMemoryConstants<FoldedScrewConstants<5>, ProportionalElements<8>, CountSensor, CoefficientLaw> = with_memory(SENSOR);
+/// static GEAR: WithMemoryConstants<CagedConstants<5>, ProportionalElements<8>, CountSensor, CoefficientLaw> = with_memory(SENSOR);
 /// ```
 pub const fn with_memory<A: Copy>(
     angle: A,
-) -> WithMemoryConstants<FoldedScrewConstants<5>, ProportionalElements<8>, A, CoefficientLaw> {
+) -> WithMemoryConstants<CagedConstants<5>, ProportionalElements<8>, A, CoefficientLaw> {
     sound(WithMemoryConstants::new(
         SCREW,
         &WithMemoryConfiguration {

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use epas_friction::FrictionModel;
 use epas_friction::Inputs;
-use epas_friction::scene::{FoldedScrew, FoldedScrewConstants};
+use epas_friction::scene::{CagedBallScrew, CagedConstants};
 use serde_json::Value;
 
 use super::eval::number;
@@ -85,8 +85,8 @@ fn every_format_is_the_same_block() {
     assert!(text("gear.rs").contains("pub static GEAR: "));
     assert!(text("c/gear.h").contains("GEAR_BLOCK["));
 
-    let constants = FoldedScrewConstants::<1>::from_block(&listed).unwrap();
-    let mut model = FrictionModel::<FoldedScrew, _>::of(&constants);
+    let constants = CagedConstants::<1>::from_block(&listed).unwrap();
+    let mut model = FrictionModel::<CagedBallScrew, _>::of(&constants);
     let outputs = model.step(Inputs {
         nut_speed: 50.0,
         axial_load: 6_000.0,
@@ -143,7 +143,7 @@ fn a_range_of_coefficients_goes_to_standard_output() {
     assert!(run.stdout.contains("pub static SCREW: "));
     assert!(run.stderr.contains("seed 7"), "{}", run.stderr);
     assert!(run.stderr.contains("50 to 200 N"), "{}", run.stderr);
-    FoldedScrewConstants::<5>::from_block(&words(&run.stdout)).unwrap();
+    CagedConstants::<5>::from_block(&words(&run.stdout)).unwrap();
     assert_eq!(names(folder), ["screw.toml"]);
 }
 
@@ -240,5 +240,5 @@ fn outputs_of_a_block_are_safe() {
     let run = design(folder, "screw.toml --output gear.rs --force");
     assert_eq!(run.code, 0, "{}", run.stderr);
     let block = words(&fs::read_to_string(folder.join("gear.rs")).unwrap());
-    FoldedScrewConstants::<1>::from_block(&block).unwrap();
+    CagedConstants::<1>::from_block(&block).unwrap();
 }

@@ -10,7 +10,7 @@ use epas_firmware::inputs::CASES;
 use epas_firmware::scenes::course;
 use epas_firmware::spread::Spread;
 use epas_firmware::subjects::{PEERS, SUBJECTS, WIDEST};
-use epas_friction::scene::FoldedScrew;
+use epas_friction::scene::CagedBallScrew;
 use epas_friction::{FrictionModel, Inputs};
 
 /// What the debug firmware sends through defmt is what the same ticks give here, number by number.
@@ -19,7 +19,7 @@ use epas_friction::{FrictionModel, Inputs};
 fn the_log_of_the_firmware_decodes() {
     let log = run(&["target", "--log"], "");
     assert_eq!(log.code, 0, "{}", log.stderr);
-    let mut caged = FrictionModel::<FoldedScrew, _>::of(&LIN_3_6);
+    let mut caged = FrictionModel::<CagedBallScrew, _>::of(&LIN_3_6);
     let mut lines = log.stdout.lines();
     for tick in [100, 300, 500] {
         let (nut_speed, axial_load) = course(tick);
@@ -68,7 +68,7 @@ fn figures_are_one_object() {
         "train_37",
         "step_efficiency",
         "step_closed_form",
-        "step_folded",
+        "step_caged",
         "step_train_37",
         "libm_cosf",
         "micromath_powf",
@@ -83,8 +83,8 @@ fn figures_are_one_object() {
         [
             "curvature",
             "efficiency",
-            "folded_ball_screw",
-            "folded_with_memory",
+            "caged_ball_screw",
+            "caged_with_memory",
             "linear_bearing",
             "ball_screw_37",
             "ball_screw_37_with_memory",

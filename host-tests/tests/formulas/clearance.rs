@@ -8,7 +8,7 @@ use crate::kit::gears;
 use crate::kit::given::ball_screw;
 use epas_friction::FrictionBranch;
 use epas_friction::ball::{GrooveFit, ScrewRow};
-use epas_friction::scene::FoldedScrewConstants;
+use epas_friction::scene::CagedConstants;
 use epas_friction::{
     BallScrew, BallScrewParameters, CATALOGUE, Clearance, ClosedFormScrewConfiguration,
     ClosedFormScrewConstants, DISSERTATION_DESIGNS, DeviationMap, Error, FrictionModel, GrooveSize,
@@ -365,7 +365,7 @@ fn scenes_refuse_a_clearance_beyond_their_balls() {
             loaded_balls,
             ..gears::caged()
         };
-        let caged = FoldedScrewConstants::new(&configuration);
+        let caged = CagedConstants::new(&configuration);
         refused(caged, "loaded_balls", balls);
     }
 }

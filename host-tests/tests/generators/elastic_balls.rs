@@ -17,7 +17,7 @@ use crate::kit::random::Random;
 use epas_design::caged::Block;
 use epas_design::{CagedDesign, CagedFold};
 use epas_friction::ball::elastic::{BallInputs, ElasticGrooves, Settled};
-use epas_friction::scene::FoldedScrew;
+use epas_friction::scene::CagedBallScrew;
 use epas_friction::{
     BallScrew, BallScrewParameters, CATALOGUE, Clearance, DISSERTATION_DESIGNS, DeviationMap,
     FrictionModel, GrooveSize, Inputs, Limits, LoadShares, Material, RollingResistance,
@@ -265,7 +265,7 @@ impl Screw {
     }
 
     /// The same screw with a cage, by a block: what a ring of balls that do not press follows.
-    fn caged(&self) -> FrictionModel<FoldedScrew> {
+    fn caged(&self) -> FrictionModel<CagedBallScrew> {
         let fold = CagedFold {
             axial_load: [1.0, 9000.0],
             ..CagedFold::of(CagedDesign {
@@ -382,7 +382,7 @@ const SPEED: f32 = 10.0;
 /// Errors of a model's friction torque over that of the law, from a tick on; where the load passes through zero, over that of the
 /// screw's whole load.
 fn follow(
-    (screw, exact): (&Screw, &mut FrictionModel<FoldedScrew>),
+    (screw, exact): (&Screw, &mut FrictionModel<CagedBallScrew>),
     (course, clock): (Course, &Clock),
     ticks: std::ops::Range<u16>,
     step: &mut dyn FnMut(Inputs) -> (f32, bool),
@@ -414,7 +414,11 @@ fn follow(
 }
 
 /// A ring whose balls are alike and do not press, on a course of its load.
-fn loads((screw, exact): (&Screw, &mut FrictionModel<FoldedScrew>), course: Course, off: &mut Off) {
+fn loads(
+    (screw, exact): (&Screw, &mut FrictionModel<CagedBallScrew>),
+    course: Course,
+    off: &mut Off,
+) {
     let even = Screw {
         waves: [&DeviationMap::NONE; 2],
         filled: 0.4,

@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 
 use super::random::Random;
 use epas_friction::ball::folded::{FrictionNode, LoadCurve, LoadLaw};
-use epas_friction::scene::{FoldedScrew, FoldedScrewConfiguration};
+use epas_friction::scene::{CagedBallScrew, CagedBallScrewConfiguration};
 use epas_friction::train::Train;
 use epas_friction::{
     BallScrew, BallScrewParameters, CATALOGUE, Clearance, ClosedFormScrew,
@@ -363,12 +363,12 @@ fn curve(random: &mut Random) -> LoadCurve {
     }
 }
 
-impl<const N: usize> Trial for FoldedScrew<N> {
+impl<const N: usize> Trial for CagedBallScrew<N> {
     fn name() -> String {
-        format!("folded ball screw of {N} nodes")
+        format!("caged ball screw of {N} nodes")
     }
 
-    fn configuration(random: &mut Random) -> FoldedScrewConfiguration<N> {
+    fn configuration(random: &mut Random) -> CagedBallScrewConfiguration<N> {
         let mut friction = random.size(1e-6, 0.02);
         let nodes = std::array::from_fn(|_| {
             friction *= random.of(&[1.02, 1.5, 2.0]);
@@ -386,7 +386,7 @@ impl<const N: usize> Trial for FoldedScrew<N> {
             shifted_from: random.within(1.0, 254.0),
         };
         let (from, to) = law.friction_range();
-        FoldedScrewConfiguration {
+        CagedBallScrewConfiguration {
             friction: random.within(from, to),
             law,
             lead: random.of(&[0.0, 1e-9, 0.01, 0.2]),
@@ -398,7 +398,7 @@ impl<const N: usize> Trial for FoldedScrew<N> {
 
     fn sensors(
         random: &mut Random,
-        configuration: &FoldedScrewConfiguration<N>,
+        configuration: &CagedBallScrewConfiguration<N>,
         last: [f32; 3],
     ) -> [f32; 3] {
         [
@@ -413,7 +413,7 @@ impl<const N: usize> Trial for FoldedScrew<N> {
     }
 
     fn check(
-        configuration: &FoldedScrewConfiguration<N>,
+        configuration: &CagedBallScrewConfiguration<N>,
         sensors: [f32; 3],
         outputs: &Outputs,
     ) -> Result<(), String> {

@@ -1,6 +1,6 @@
 //! Ordinary mechanisms, one of every scene.
 
-use epas_friction::scene::{FoldedScrew, FoldedScrewConfiguration};
+use epas_friction::scene::{CagedBallScrew, CagedBallScrewConfiguration};
 use epas_friction::{
     BallScrew, CATALOGUE, Clearance, ClosedFormScrewConfiguration, DISSERTATION_DESIGNS,
     DeviationMap, FrictionBranch, GrooveSize, Harmonic, Limits, LinearBearing,
@@ -70,10 +70,10 @@ pub fn oversize(design: &BallScrew, axial_preload: f32, loaded_balls: u16) -> Cl
 pub const NODES: usize = 5;
 
 /// A caged screw for a range of friction coefficients.
-pub type CagedScrew = FoldedScrew<NODES>;
+pub type CagedScrew = CagedBallScrew<NODES>;
 
 /// Its configuration.
-pub type CagedConfiguration = FoldedScrewConfiguration<NODES>;
+pub type CagedConfiguration = CagedBallScrewConfiguration<NODES>;
 
 /// Axial preload of each flank of [`caged`], N.
 pub const CAGED_PRELOAD: f32 = 350.0;
@@ -94,23 +94,23 @@ pub fn caged() -> CagedConfiguration {
     CagedConfiguration {
         loaded_balls: 126,
         limits: LIMITS,
-        ..FoldedScrewConfiguration::read(blocks::RANGE).unwrap()
+        ..CagedBallScrewConfiguration::read(blocks::RANGE).unwrap()
     }
 }
 
 /// The same screw for a friction coefficient of 0.075 alone.
-pub fn preloaded() -> FoldedScrewConfiguration {
-    FoldedScrewConfiguration {
+pub fn preloaded() -> CagedBallScrewConfiguration {
+    CagedBallScrewConfiguration {
         limits: LIMITS,
-        ..FoldedScrewConfiguration::read(blocks::ONE).unwrap()
+        ..CagedBallScrewConfiguration::read(blocks::ONE).unwrap()
     }
 }
 
 /// The same screw with 2 um of play, for a friction coefficient of 0.075 alone.
-pub fn worn() -> FoldedScrewConfiguration {
-    FoldedScrewConfiguration {
+pub fn worn() -> CagedBallScrewConfiguration {
+    CagedBallScrewConfiguration {
         limits: LIMITS,
-        ..FoldedScrewConfiguration::read(blocks::WORN).unwrap()
+        ..CagedBallScrewConfiguration::read(blocks::WORN).unwrap()
     }
 }
 

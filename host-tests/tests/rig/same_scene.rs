@@ -9,7 +9,7 @@ use epas_friction::law::coefficient::{
 use epas_friction::law::memory::LoadExactElements;
 use epas_friction::law::motion::SpeedOverTick;
 use epas_friction::scene::{
-    FoldedScrew, FoldedScrewConfiguration, Freshness, WithMemory, WithMemoryConfiguration,
+    CagedBallScrew, CagedBallScrewConfiguration, Freshness, WithMemory, WithMemoryConfiguration,
 };
 use epas_friction::{
     BallScrew, Clearance, DISSERTATION_DESIGNS, FrictionModel, Inputs, Limits, RollingResistance,
@@ -22,7 +22,7 @@ use crate::kit::errors::Errors;
 use crate::kit::remembering::at;
 
 type Remembering =
-    FrictionModel<WithMemory<FoldedScrew<NODES>, LoadExactElements<8>, SpeedOverTick>>;
+    FrictionModel<WithMemory<CagedBallScrew<NODES>, LoadExactElements<8>, SpeedOverTick>>;
 
 const TICK: f32 = 1e-3;
 
@@ -103,7 +103,7 @@ fn sliding_is_that_of_the_scene() {
             let Block::One(block) = fold.block().unwrap() else {
                 unreachable!("one friction coefficient");
             };
-            let mut model = FrictionModel::<FoldedScrew>::new(&block).unwrap();
+            let mut model = FrictionModel::<CagedBallScrew>::new(&block).unwrap();
             for load in loads(&parameters) {
                 let limits = sliding.limits(&State { load, ..state });
                 for (way, exact) in [(1.0, limits.forward), (-1.0, limits.backward)] {
@@ -155,13 +155,14 @@ fn sliding_with_a_law_is_that_of_the_scene() {
             }
         }
     }
-    errors.assert_promised(&promises::STEP_FOLDED_RANGE);
+    errors.assert_promised(&promises::STEP_CAGED_RANGE);
 }
 
 /// The scene of the rig's screw with the rig's law of the coefficient.
 fn remembering(
     parameters: &Parameters,
-) -> WithMemoryConfiguration<FoldedScrewConfiguration<NODES>, LoadExactElements<8>, SpeedOverTick> {
+) -> WithMemoryConfiguration<CagedBallScrewConfiguration<NODES>, LoadExactElements<8>, SpeedOverTick>
+{
     let Coefficient::Rational {
         half_share_speed,
         reference_temperature,

@@ -64,7 +64,6 @@ fn torque_is_the_efficiency_of_the_reference() {
             let (drive, backdrive) = match branch {
                 FrictionBranch::Rolling => (screw.rolling_screw(), screw.rolling_backdrive()),
                 FrictionBranch::Sliding => (screw.sliding_drive(), screw.sliding_backdrive()),
-                FrictionBranch::Contacts => unreachable!("no closed form"),
             };
             let arm = lead / std::f64::consts::TAU;
             for (speed, load) in [(100.0, 900.0), (-100.0, -900.0)] {

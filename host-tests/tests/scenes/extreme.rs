@@ -3,7 +3,7 @@
 use crate::kit::absurd::soak;
 use crate::kit::random::Random;
 use crate::kit::{absurd, objects, recorded};
-use epas_friction::scene::FoldedScrew;
+use epas_friction::scene::CagedBallScrew;
 use epas_friction::{ClosedFormScrew, LinearBearingTrain, UncagedBallScrew};
 
 const COMMAND: &str =
@@ -12,9 +12,9 @@ const COMMAND: &str =
 /// Every scene, from one ball to 64.
 fn all_scenes(seed: u64, models: u64, ticks: u64) -> u64 {
     soak::<ClosedFormScrew>(seed, 2 * models, ticks)
-        + soak::<FoldedScrew<1>>(seed, 2 * models, ticks)
-        + soak::<FoldedScrew<2>>(seed, 2 * models, ticks)
-        + soak::<FoldedScrew<5>>(seed, 2 * models, ticks)
+        + soak::<CagedBallScrew<1>>(seed, 2 * models, ticks)
+        + soak::<CagedBallScrew<2>>(seed, 2 * models, ticks)
+        + soak::<CagedBallScrew<5>>(seed, 2 * models, ticks)
         + soak::<UncagedBallScrew<1>>(seed, models, ticks)
         + soak::<UncagedBallScrew<2>>(seed, models, ticks)
         + soak::<UncagedBallScrew<3>>(seed, models, ticks)

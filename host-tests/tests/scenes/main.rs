@@ -4,11 +4,11 @@
 mod kit;
 
 mod borders;
+mod caged;
 mod closed_form;
 mod compensation;
 mod extreme;
 mod faults;
-mod folded;
 mod hal;
 mod laws;
 mod linear_scene;

@@ -16,7 +16,8 @@ use epas_friction::law::motion::{
 };
 use epas_friction::law::{Elements, SlidingLimits};
 use epas_friction::scene::{
-    FoldedScrew, Freshness, Motion, Sliding, WithMemory, WithMemoryConfiguration, WithMemoryInputs,
+    CagedBallScrew, Freshness, Motion, Sliding, WithMemory, WithMemoryConfiguration,
+    WithMemoryInputs,
 };
 use epas_friction::{
     ClosedFormScrew, Faults, FrictionBranch, FrictionModel, Inputs, LinearBearingTrain,
@@ -650,7 +651,8 @@ fn without_a_load_a_nut_that_turns_does_not_stand() {
     let scene = worn();
     let configuration = with_memory(scene, slip(0.5, BREAKAWAY), angle_sensor(), scene.friction);
     let mut model =
-        FrictionModel::<WithMemory<FoldedScrew, Slip, WrappedAngle>>::new(&configuration).unwrap();
+        FrictionModel::<WithMemory<CagedBallScrew, Slip, WrappedAngle>>::new(&configuration)
+            .unwrap();
     for (angle, regime) in [
         (0.0, Regime::Standing),
         (0.1, Regime::Driving),

@@ -76,7 +76,6 @@ fn closed_form_step() {
             let (drive, backdrive) = match branch {
                 FrictionBranch::Rolling => (screw.rolling_screw(), screw.rolling_backdrive()),
                 FrictionBranch::Sliding => (screw.sliding_drive(), screw.sliding_backdrive()),
-                FrictionBranch::Contacts => unreachable!("no closed form"),
             };
             // Torque per load in both directions of power.
             let (drive, backdrive) = (arm * (1.0 / drive - 1.0), arm * (1.0 - backdrive));

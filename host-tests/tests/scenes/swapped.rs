@@ -5,7 +5,7 @@ use epas_friction::law::coefficient::{OneCoefficient, TemperatureFade};
 use epas_friction::law::motion::WrappedAngle;
 use epas_friction::law::motion::{CountSensor, CountSensorParameters, Steady};
 use epas_friction::scene::{
-    FoldedScrew, FoldedScrewConfiguration, Freshness, WithMemory, WithMemoryConfiguration,
+    CagedBallScrew, CagedBallScrewConfiguration, Freshness, WithMemory, WithMemoryConfiguration,
 };
 use epas_friction::{
     ClosedFormScrew, FrictionBranch, FrictionModel, Inputs, LinearBearingConfiguration,
@@ -135,10 +135,10 @@ fn a_bearing_takes_the_friction_of_its_new_constants() {
 /// Another clearance under a memory is another block: the memory stays, and friction of sliding is that of the new screw.
 #[test]
 fn a_clearance_is_swapped_under_a_memory() {
-    type Scene = WithMemory<FoldedScrew, Slip, WrappedAngle, OneCoefficient>;
+    type Scene = WithMemory<CagedBallScrew, Slip, WrappedAngle, OneCoefficient>;
     let angle = caged_by_angle().angle;
     let coefficient = OneCoefficient::new(worn().friction).unwrap();
-    let of = |scene: FoldedScrewConfiguration| {
+    let of = |scene: CagedBallScrewConfiguration| {
         let configuration = WithMemoryConfiguration {
             scene,
             elements: slip(0.05),

@@ -144,7 +144,7 @@ impl Held {
 /// as large where it just fits, and some hundred times with play. So it should be identified where it matters
 /// ([`Breakaway::with_slip_angle`]), and this be its default.
 ///
-/// Torque in gross sliding, against the caged screw by its contacts, five screws, 10 to 200 N a ball, clearances -5 to 20 um: rms
+/// Torque in gross sliding, against exact balls, five screws, 10 to 200 N a ball, clearances -5 to 20 um: rms
 /// 8 %, largest 33 % (where the third contact just closes). Up to gross sliding slip and spin are scaled each from its own
 /// mechanism, not solved jointly (derived; no published screw to check with). Wipers, the nut's return and the belt add stiffness
 /// and friction of their own.

@@ -12,8 +12,6 @@ use crate::ranges;
 pub trait CoefficientModel: Copy + Debug + PartialEq {
     /// The coefficient at one temperature.
     type At: Copy + Debug + PartialEq;
-    /// What a scene keeps for coefficients other than its own; nothing where the coefficient does not change.
-    type Kept<T: Copy + Debug + PartialEq>: Copy + Debug + PartialEq;
 
     /// Least and largest coefficient that it gives, in either direction.
     fn extremes(&self) -> (f32, f32);
@@ -26,12 +24,6 @@ pub trait CoefficientModel: Copy + Debug + PartialEq {
 
     /// Torque of churned lubricant, N m, at a speed, rad/s.
     fn churning_torque(at: &Self::At, speed: f32) -> f32;
-
-    /// Keeps what `fold` makes for coefficients from the least to the largest, where the coefficient changes.
-    fn keep<T: Copy + Debug + PartialEq>(&self, fold: impl FnOnce(f32, f32) -> T) -> Self::Kept<T>;
-
-    /// What was kept, where the coefficient changes.
-    fn kept<T: Copy + Debug + PartialEq>(kept: &Self::Kept<T>) -> Option<&T>;
 }
 
 /// One friction coefficient at every speed and temperature, in both directions; no churning.
@@ -54,7 +46,6 @@ impl OneCoefficient {
 
 impl CoefficientModel for OneCoefficient {
     type At = Self;
-    type Kept<T: Copy + Debug + PartialEq> = ();
 
     fn extremes(&self) -> (f32, f32) {
         (self.friction, self.friction)
@@ -77,18 +68,10 @@ impl CoefficientModel for OneCoefficient {
     fn churning_torque(_: &Self, _: f32) -> f32 {
         0.0
     }
-
-    fn keep<T: Copy + Debug + PartialEq>(&self, _: impl FnOnce(f32, f32) -> T) {}
-
-    #[inline(always)]
-    fn kept<T: Copy + Debug + PartialEq>((): &()) -> Option<&T> {
-        None
-    }
 }
 
 impl CoefficientModel for CoefficientLaw {
     type At = CoefficientAtTemperature;
-    type Kept<T: Copy + Debug + PartialEq> = T;
 
     fn extremes(&self) -> (f32, f32) {
         Self::extremes(self)
@@ -107,15 +90,5 @@ impl CoefficientModel for CoefficientLaw {
     #[inline(always)]
     fn churning_torque(at: &CoefficientAtTemperature, speed: f32) -> f32 {
         at.churning_torque(speed)
-    }
-
-    fn keep<T: Copy + Debug + PartialEq>(&self, fold: impl FnOnce(f32, f32) -> T) -> T {
-        let (least, largest) = self.extremes();
-        fold(least, largest)
-    }
-
-    #[inline(always)]
-    fn kept<T: Copy + Debug + PartialEq>(kept: &T) -> Option<&T> {
-        Some(kept)
     }
 }

@@ -1,40 +1,39 @@
-//! A caged ball screw as bytes.
+//! A caged screw as bytes: its friction coefficient.
 
-use super::contacts::ContactsState;
-use super::{CagedBallScrew, CagedConstants, CagedState, Law};
+use super::{CagedBallScrew, CagedConstants, CagedState};
+use crate::ranges;
 use crate::scene::stored::StoredScene;
 use crate::stored::{Fingerprint, Port, Refusal, Stored};
 
-impl StoredScene for CagedBallScrew {
-    const KIND: u16 = 1;
+impl<const NODES: usize> StoredScene for CagedBallScrew<NODES> {
+    const KIND: u16 = 4;
     const BALLS: u16 = 0;
 
-    fn fingerprint(constants: &CagedConstants, fingerprint: &mut Fingerprint) {
-        match &constants.law {
-            Law::Contacts(contacts) => contacts.fingerprint(fingerprint),
-            // Nothing of its constants is in the state.
-            Law::Closed(_) => fingerprint.count(0),
-        }
+    /// The friction coefficient has a meaning of its own; only its range has to fit, which [`Self::complete`] sees to.
+    fn fingerprint(constants: &CagedConstants<NODES>, fingerprint: &mut Fingerprint) {
+        fingerprint.number(constants.reduced_lead);
     }
 
-    fn complete(constants: &CagedConstants, state: &mut CagedState) -> Result<(), Refusal> {
-        match (&constants.law, &mut state.contacts) {
-            (Law::Contacts(contacts), Some(state)) => contacts.complete(state),
-            _ => Ok(()),
+    fn complete(constants: &CagedConstants<NODES>, state: &mut CagedState) -> Result<(), Refusal> {
+        let friction = state.friction.friction();
+        if constants.law.holds(friction) {
+            state.friction = constants.place(friction);
+            Ok(())
+        } else {
+            Err(Refusal::OutOfRange { field: "friction" })
         }
     }
 
     fn forget_readings(_: &mut CagedState) {}
 }
 
-/// Nothing of a closed form.
 impl Stored for CagedState {
-    const BYTES: usize = ContactsState::BYTES;
+    const BYTES: usize = 4;
 
     fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
-        match &mut self.contacts {
-            Some(contacts) => contacts.exchange(port),
-            None => Ok(()),
-        }
+        let mut friction = self.friction.friction();
+        port.number("friction", &mut friction, ranges::FRICTION_OF_A_ROW)?;
+        self.friction = self.friction.with_friction(friction);
+        Ok(())
     }
 }

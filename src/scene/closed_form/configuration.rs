@@ -28,13 +28,9 @@ pub struct ClosedFormScrewConfiguration {
 }
 
 /// Which state of the ball the friction torque is computed for.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum FrictionBranch {
-    /// What the contacts of a ball dissipate in its balance between elastic grooves: for a [`CagedBallScrew`](crate::CagedBallScrew)
-    /// alone; a closed form refuses it.
-    #[default]
-    Contacts,
     /// The ball rolls and slips across the groove at the screw, eq. (3) of Lin, Velinsky and Ravani 1994. It leaves out spin, the
     /// third contact, clearance but for a preload, and the contacts' size: torque is in proportion to the load, and without
     /// [`rolling_tangent`](ClosedFormScrewConfiguration::rolling_tangent) hardly depends on the lead.

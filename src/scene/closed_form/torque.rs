@@ -3,7 +3,7 @@
 use super::configuration::{ClosedFormScrewConfiguration, FrictionBranch};
 use crate::ball::PreloadSum;
 use crate::efficiency::{Drive, EfficiencyGeometry};
-use crate::error::{Error, Range, attempt};
+use crate::error::{Error, attempt};
 use crate::geometry::BallScrew;
 use crate::ranges;
 use crate::scene::contract::{Inputs, Regime};
@@ -19,7 +19,7 @@ const LOCKED_RADII: f32 = 1e3;
 /// Constants of a closed form.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub(in crate::scene) struct ClosedForm {
+pub(super) struct ClosedForm {
     /// Half the friction torque per load on the flank that opposes the motion, m.
     half_drive: f32,
     /// Half the friction torque per load on the flank that assists the motion, m.
@@ -38,10 +38,8 @@ impl ClosedForm {
     /// Checks what it reads of a configuration, and folds it.
     ///
     /// # Errors
-    /// [`Error`] naming `branch`, `friction` or `clearance`.
-    pub(in crate::scene) const fn new(
-        configuration: &ClosedFormScrewConfiguration,
-    ) -> Result<Self, Error> {
+    /// [`Error`] naming `friction` or `clearance`.
+    pub(super) const fn new(configuration: &ClosedFormScrewConfiguration) -> Result<Self, Error> {
         let ClosedFormScrewConfiguration {
             ref design,
             friction,
@@ -52,13 +50,6 @@ impl ClosedForm {
             limits,
             ..
         } = *configuration;
-        if matches!(branch, FrictionBranch::Contacts) {
-            return Err(Error::OutOfRange {
-                field: "branch",
-                value: 0.0,
-                allowed: Range::new(1.0, 2.0),
-            });
-        }
         attempt!(ranges::FRICTION_OR_NONE.checked("friction", friction));
         let clearance = attempt!(clearance.checked(design));
         let drive = torque_per_load(design, branch, Drive::Driving, friction, rolling);
@@ -85,7 +76,7 @@ impl ClosedForm {
     /// away from the reversal, zero at standstill, smooth between, odd under reversal of speed and
     /// load together, and never of the sign that would make friction a source of power.
     #[inline(always)]
-    pub(in crate::scene) fn outputs(&self, reversal: &Reversal, inputs: Inputs) -> Outputs {
+    pub(super) fn outputs(&self, reversal: &Reversal, inputs: Inputs) -> Outputs {
         let Inputs {
             nut_speed: speed,
             axial_load: load,
@@ -106,7 +97,7 @@ impl ClosedForm {
 
     /// Full friction in both directions.
     #[inline(always)]
-    pub(in crate::scene) fn both_ways(&self, load: f32) -> CagedFull {
+    pub(super) fn both_ways(&self, load: f32) -> CagedFull {
         let sum = self.flanks.under(load);
         let of = |opposing_load| {
             if self.locks(opposing_load) {
@@ -125,12 +116,7 @@ impl ClosedForm {
 
     /// Full friction times its passage.
     #[inline(always)]
-    pub(in crate::scene) fn passed(
-        &self,
-        load: f32,
-        found: &CagedFull,
-        passage: Passage,
-    ) -> Outputs {
+    pub(super) fn passed(&self, load: f32, found: &CagedFull, passage: Passage) -> Outputs {
         let friction_torque = passage.share * found.of(passage.share);
         let opposing_load = passage.way * load;
         let full = found.of(passage.way);
@@ -198,7 +184,7 @@ const fn torque_per_load(
     let radius = design.pitch_radius();
     match branch {
         FrictionBranch::Sliding => geometry.sliding_torque_per_load(drive, radius, friction),
-        FrictionBranch::Rolling | FrictionBranch::Contacts => {
+        FrictionBranch::Rolling => {
             geometry.rolling_torque_per_load(drive, radius, friction, rolling)
         }
     }

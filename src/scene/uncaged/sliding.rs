@@ -16,17 +16,12 @@ impl<const N: usize> Sliding for UncagedBallScrew<N> {
 
     const COUNTS_PRELOAD: bool = true;
 
-    /// Balls take a friction coefficient over as their turn comes.
-    type Coefficients = ();
     type Full = UncagedFull;
-
-    fn coefficients(_: &UncagedConstants<N>, _: f32, _: f32) {}
 
     #[inline(always)]
     fn full(
         constants: &UncagedConstants<N>,
         state: &mut UncagedState<N>,
-        _: Option<&()>,
         inputs: Inputs,
         friction: DirectionalCoefficient,
     ) -> UncagedFull {

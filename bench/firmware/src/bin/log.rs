@@ -8,7 +8,7 @@ use defmt_semihosting as _;
 use epas_firmware::board::finish;
 use epas_firmware::gears::LIN_3_6;
 use epas_firmware::scenes::{BALLS, course, linear_configuration, uncaged_configuration};
-use epas_friction::scene::FoldedScrew;
+use epas_friction::scene::CagedBallScrew;
 use epas_friction::{
     BallScrew, BallScrewParameters, Error, FrictionModel, Inputs, LinearBearingTrain, LinearInputs,
     UncagedBallScrew,
@@ -36,7 +36,7 @@ fn log() -> Result<(), Error> {
     if let Err(error) = BallScrew::new(wrong) {
         defmt::warn!("refused: {}", error);
     }
-    let mut caged = FrictionModel::<FoldedScrew, _>::of(&LIN_3_6);
+    let mut caged = FrictionModel::<CagedBallScrew, _>::of(&LIN_3_6);
     let mut uncaged = FrictionModel::<UncagedBallScrew<BALLS>>::new(&configuration)?;
     let mut linear = FrictionModel::<LinearBearingTrain<24>>::new(&linear_configuration()?)?;
     for tick in [100, 300, 500] {

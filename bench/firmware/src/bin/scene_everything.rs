@@ -3,6 +3,6 @@
 #![no_std]
 #![no_main]
 
-use epas_firmware::scenes::{Curvature, Efficiency, Folded, Linear, Uncaged};
+use epas_firmware::scenes::{Caged, Curvature, Efficiency, Linear, Uncaged};
 
-epas_firmware::image!(Curvature, Efficiency, Folded, Linear, Uncaged);
+epas_firmware::image!(Curvature, Efficiency, Caged, Linear, Uncaged);

@@ -7,7 +7,7 @@ use epas_friction::law::compensation::CompensationMargin;
 use epas_friction::law::memory::{LoadExactElements, PreloadedElements};
 use epas_friction::law::motion::{CountSensor, CountSensorParameters, Steady};
 use epas_friction::scene::{
-    FoldedScrew, FoldedScrewConstants, Freshness, WithMemory, WithMemoryConfiguration,
+    CagedBallScrew, CagedConstants, Freshness, WithMemory, WithMemoryConfiguration,
     WithMemoryConstants, WithMemoryInputs,
 };
 use epas_friction::{
@@ -24,11 +24,10 @@ pub type Elements = PreloadedElements<LoadExactElements<8>>;
 pub type Encoder = Steady<CountSensor>;
 
 /// A caged ball screw whose friction remembers, with a friction coefficient by speed and temperature between the nodes of its block.
-pub type Scene = WithMemory<FoldedScrew<5>, Elements, Encoder, CoefficientLaw>;
+pub type Scene = WithMemory<CagedBallScrew<5>, Elements, Encoder, CoefficientLaw>;
 
 /// Its constants.
-pub type Constants =
-    WithMemoryConstants<FoldedScrewConstants<5>, Elements, Encoder, CoefficientLaw>;
+pub type Constants = WithMemoryConstants<CagedConstants<5>, Elements, Encoder, CoefficientLaw>;
 
 /// Its model.
 pub type Gear = FrictionModel<Scene>;

@@ -4,9 +4,9 @@
 // holds for friction coefficients 0.075 to 0.075 and axial loads of 5 to 300 N a ball, both signs
 // certificate: caged_torque, relative error on 2048 states that were not fitted (seed 1): largest 4.63e-5, rms 1.41e-5, mean -1.0e-6; flagged 0.00 %
 
-/// A folded ball screw: `FrictionModel::<FoldedScrew<1>, _>::of(&LIN_3_6_WORN)`.
-pub static LIN_3_6_WORN: epas_friction::scene::FoldedScrewConstants<1> =
-    match epas_friction::scene::FoldedScrewConstants::from_block(&LIN_3_6_WORN_BLOCK) {
+/// A caged ball screw: `FrictionModel::<CagedBallScrew<1>, _>::of(&LIN_3_6_WORN)`.
+pub static LIN_3_6_WORN: epas_friction::scene::CagedConstants<1> =
+    match epas_friction::scene::CagedConstants::from_block(&LIN_3_6_WORN_BLOCK) {
         Ok(constants) => constants,
         Err(_) => panic!("the block is damaged, or of another version of epas-friction"),
     };

@@ -4,9 +4,9 @@
 // holds for friction coefficients 0.05 to 0.15 and axial loads of 5 to 300 N a ball, both signs
 // certificate: caged_torque, relative error on 2048 states that were not fitted (seed 1): largest 1.92e-2, rms 3.42e-3, mean 4.0e-4; flagged 0.00 %
 
-/// A folded ball screw: `FrictionModel::<FoldedScrew<5>, _>::of(&LIN_4_1_RANGE)`.
-pub static LIN_4_1_RANGE: epas_friction::scene::FoldedScrewConstants<5> =
-    match epas_friction::scene::FoldedScrewConstants::from_block(&LIN_4_1_RANGE_BLOCK) {
+/// A caged ball screw: `FrictionModel::<CagedBallScrew<5>, _>::of(&LIN_4_1_RANGE)`.
+pub static LIN_4_1_RANGE: epas_friction::scene::CagedConstants<5> =
+    match epas_friction::scene::CagedConstants::from_block(&LIN_4_1_RANGE_BLOCK) {
         Ok(constants) => constants,
         Err(_) => panic!("the block is damaged, or of another version of epas-friction"),
     };

@@ -1,6 +1,6 @@
 use epas_design::caged::Block;
 use epas_design::{CagedDesign, CagedFold};
-use epas_friction::scene::FoldedScrew;
+use epas_friction::scene::CagedBallScrew;
 use epas_friction::{Faults, FrictionModel, Inputs, Limits, RollingResistance};
 
 use super::*;
@@ -34,7 +34,7 @@ fn scene(design: &Design, duty: &Duty) -> (f32, f32) {
     let Block::One(block) = fold.block().unwrap() else {
         panic!("one friction coefficient is one node");
     };
-    let mut model = FrictionModel::<FoldedScrew>::new(&block).unwrap();
+    let mut model = FrictionModel::<CagedBallScrew>::new(&block).unwrap();
     let inputs = Inputs {
         nut_speed: 6.0,
         axial_load: duty.axial_load,

@@ -103,9 +103,9 @@ fn imports(numbers: &Numbers) -> String {
                 "use epas_friction::law::memory::{LoadExactElements, PreloadedElements};\n"
             }
         };
-        text += "use epas_friction::scene::{\n    FoldedScrewConstants, Freshness, WithMemoryConfiguration, WithMemoryConstants,\n};\n";
+        text += "use epas_friction::scene::{\n    CagedConstants, Freshness, WithMemoryConfiguration, WithMemoryConstants,\n};\n";
     } else {
-        text += "use epas_friction::scene::FoldedScrewConstants;\n";
+        text += "use epas_friction::scene::CagedConstants;\n";
     }
     text + "use epas_friction::Error;\n"
 }
@@ -135,7 +135,7 @@ fn screw(folded: &Folded) -> Result<String, Failure> {
     let _ = write!(
         text,
         "];\n\n/// The screw without memory: for a `static` that stands in flash.\n\
-         pub const SCREW: FoldedScrewConstants<{nodes}> = sound(FoldedScrewConstants::from_block(&SCREW_BLOCK));\n"
+         pub const SCREW: CagedConstants<{nodes}> = sound(CagedConstants::from_block(&SCREW_BLOCK));\n"
     );
     Ok(text)
 }
@@ -183,11 +183,11 @@ pub const ELEMENTS: {kind} = {made};
 /// The screw with memory, for a sensor of the nut's angle: for a `static` that stands in flash.
 ///
 /// ```text
-/// static GEAR: WithMemoryConstants<FoldedScrewConstants<{nodes}>, {kind}, CountSensor, {law}> = with_memory(SENSOR);
+/// static GEAR: WithMemoryConstants<CagedConstants<{nodes}>, {kind}, CountSensor, {law}> = with_memory(SENSOR);
 /// ```
 pub const fn with_memory<A: Copy>(
     angle: A,
-) -> WithMemoryConstants<FoldedScrewConstants<{nodes}>, {kind}, A, {law}> {{
+) -> WithMemoryConstants<CagedConstants<{nodes}>, {kind}, A, {law}> {{
     sound(WithMemoryConstants::new(
         SCREW,
         &WithMemoryConfiguration {{

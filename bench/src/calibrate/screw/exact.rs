@@ -512,15 +512,11 @@ impl<'a> Sliding for ExactScrew<'a> {
 
     const COUNTS_PRELOAD: bool = true;
 
-    type Coefficients = ();
     type Full = SlidingFriction;
-
-    fn coefficients(_: &&'a ExactLaw, _: f32, _: f32) {}
 
     fn full(
         law: &&'a ExactLaw,
         (): &mut (),
-        _: Option<&()>,
         inputs: Inputs,
         friction: DirectionalCoefficient,
     ) -> SlidingFriction {

@@ -92,7 +92,7 @@ pub fn scores(
         WithoutMemory::new(*screw, *values, estimated, course)
     });
     let unseen = unseen.as_ref().map(|scene| scene as &dyn Separable);
-    let cost = Cost::Counted(&["step_folded"]);
+    let cost = Cost::Counted(&["step_caged"]);
     scores.add(
         WITHOUT_MEMORY,
         score(WITHOUT_MEMORY, (&without, unseen), &rivals, cost),

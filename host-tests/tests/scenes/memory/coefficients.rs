@@ -133,7 +133,7 @@ fn full_friction_is_what_passes_in_its_direction() {
         for tick in 0..4000 {
             let way = if tick < 2000 { 1.0 } else { -1.0 };
             let inputs = load.with(way * speed, 1.0);
-            let full = S::full(&constants, &mut state, None, inputs, coefficients);
+            let full = S::full(&constants, &mut state, inputs, coefficients);
             let friction = S::friction(&full);
             let [[groove, ball], [groove_back, ball_back]] = [1.0, -1.0].map(|share| {
                 let standing = false;
@@ -201,7 +201,7 @@ fn balls_far_behind_their_coefficient_are_flagged() {
     let flagged = |after: f32| {
         let mut state = Uncaged::initial_state(&constants);
         let mut settles = |friction: f32| {
-            let full = Uncaged::full(&constants, &mut state, None, inputs, both_ways(friction));
+            let full = Uncaged::full(&constants, &mut state, inputs, both_ways(friction));
             let way = 1.0;
             let passage = Passage {
                 share: way,
@@ -234,13 +234,7 @@ fn full_friction<S: Sliding<Inputs = Inputs>>(
     let constants = S::constants(configuration).unwrap();
     let mut state = S::initial_state(&constants);
     let friction = both_ways(0.075);
-    S::friction(&S::full(
-        &constants,
-        &mut state,
-        None,
-        screw(5.0, load),
-        friction,
-    ))
+    S::friction(&S::full(&constants, &mut state, screw(5.0, load), friction))
 }
 
 /// Backward under a load is forward under the opposite one, by a block and by both closed forms; a load that opposes the motion makes

@@ -3,6 +3,6 @@
 #![no_std]
 #![no_main]
 
-use epas_firmware::scenes::Folded;
+use epas_firmware::scenes::Caged;
 
-epas_firmware::image!(Folded);
+epas_firmware::image!(Caged);

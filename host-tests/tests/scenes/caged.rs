@@ -1,4 +1,4 @@
-//! What a folded screw promises: certificates of blocks that `epas-design` folds, each of 2,048 states that were not fitted; and laws that
+//! What a caged screw promises: certificates of blocks that `epas-design` folds, each of 2,048 states that were not fitted; and laws that
 //! hold for all of them.
 
 use crate::kit::errors::Errors;
@@ -8,7 +8,7 @@ use epas_design::caged::Block;
 use epas_design::{CagedDesign, CagedFold, Failure, Figure, Folded};
 use epas_friction::geometry::{FINE_LEAD_SIZES, STEERING_SIZES};
 use epas_friction::promises;
-use epas_friction::scene::{FoldedScrew, FoldedScrewConfiguration};
+use epas_friction::scene::{CagedBallScrew, CagedBallScrewConfiguration};
 use epas_friction::{
     BallScrew, BallScrewParameters, CATALOGUE, Clearance, DISSERTATION_DESIGNS, FrictionModel,
     Inputs, Limits, Outputs, Regime, defaults,
@@ -83,7 +83,7 @@ fn folded_step() {
         let folded = fold(parameters, clearance, friction).folded().unwrap();
         certified(&folded, &mut errors, &line);
     }
-    errors.assert_promised(&promises::STEP_FOLDED);
+    errors.assert_promised(&promises::STEP_CAGED);
 }
 
 /// A block for a range of friction coefficients, in and between its nodes; a range that it cannot hold to 3 % is refused.
@@ -109,11 +109,11 @@ fn folded_step_between_nodes() {
         blocks += 1;
     }
     assert!(2 * refused <= blocks, "{refused} of {blocks} refused");
-    errors.assert_promised(&promises::STEP_FOLDED_RANGE);
+    errors.assert_promised(&promises::STEP_CAGED_RANGE);
 }
 
 /// Screws of all leads, with preload, without, and with play; loads to 300 N a ball.
-static SCREWS: LazyLock<Vec<FoldedScrewConfiguration>> = LazyLock::new(|| {
+static SCREWS: LazyLock<Vec<CagedBallScrewConfiguration>> = LazyLock::new(|| {
     let sizes = [10_usize, 15, 22, 30].map(|size| CATALOGUE[size].parameters());
     let steering = [DISSERTATION_DESIGNS[2].parameters];
     sizes
@@ -129,9 +129,9 @@ static SCREWS: LazyLock<Vec<FoldedScrewConfiguration>> = LazyLock::new(|| {
 });
 
 /// The block of a fold for one friction coefficient.
-fn one(fold: &CagedFold) -> FoldedScrewConfiguration {
+fn one(fold: &CagedFold) -> CagedBallScrewConfiguration {
     match fold.block().unwrap() {
-        Block::One(block) => FoldedScrewConfiguration {
+        Block::One(block) => CagedBallScrewConfiguration {
             reversal_speed: 1e-6,
             ..block
         },
@@ -139,7 +139,7 @@ fn one(fold: &CagedFold) -> FoldedScrewConfiguration {
     }
 }
 
-fn step(model: &mut FrictionModel<FoldedScrew>, nut_speed: f32, load_per_ball: f32) -> Outputs {
+fn step(model: &mut FrictionModel<CagedBallScrew>, nut_speed: f32, load_per_ball: f32) -> Outputs {
     model.step(Inputs {
         nut_speed,
         axial_load: 37.0 * load_per_ball,
@@ -195,7 +195,7 @@ fn without_a_load_friction_is_that_of_the_preload() {
 #[test]
 fn friction_is_continuous() {
     for screw in SCREWS.iter() {
-        let mut model = FrictionModel::new(&FoldedScrewConfiguration {
+        let mut model = FrictionModel::new(&CagedBallScrewConfiguration {
             reversal_speed: 0.2,
             ..*screw
         })

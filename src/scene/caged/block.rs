@@ -1,4 +1,4 @@
-//! A folded screw as a block of words: layout, version, checksum.
+//! A caged screw as a block of words: layout, version, checksum.
 //!
 //! | words | what |
 //! |---|---|
@@ -14,7 +14,7 @@
 //!
 //! Numbers are the bits of an `f32`.
 
-use super::{FoldedScrewConfiguration, FoldedScrewConstants};
+use super::{CagedBallScrewConfiguration, CagedConstants};
 use crate::ball::folded::{FrictionNode, LoadCurve, LoadLaw, PARTS};
 use crate::error::{Error, Range, attempt, in_range};
 use crate::scene::contract::Limits;
@@ -31,7 +31,7 @@ const HEADER: usize = 6;
 const COMMON: usize = 11;
 const NODE: usize = 3 + 2 * 5 * PARTS;
 
-impl<const NODES: usize> FoldedScrewConfiguration<NODES> {
+impl<const NODES: usize> CagedBallScrewConfiguration<NODES> {
     /// Words of its block.
     pub const WORDS: usize = HEADER + COMMON + NODES * NODE + 1;
 
@@ -144,14 +144,14 @@ impl<const NODES: usize> FoldedScrewConfiguration<NODES> {
     }
 }
 
-impl<const NODES: usize> FoldedScrewConstants<NODES> {
+impl<const NODES: usize> CagedConstants<NODES> {
     /// Constants of a block that `epas-design` wrote: in a constant when firmware is compiled, or of a calibration page.
     ///
     /// # Errors
     /// [`Error`] naming `magic`, `version`, `nodes`, `words` or `checksum` of a block that is none, or what
-    /// [`FoldedScrewConstants::new`] refuses.
+    /// [`CagedConstants::new`] refuses.
     pub const fn from_block(words: &[u32]) -> Result<Self, Error> {
-        let configuration = attempt!(FoldedScrewConfiguration::read(words));
+        let configuration = attempt!(CagedBallScrewConfiguration::read(words));
         Self::new(&configuration)
     }
 }

@@ -1,8 +1,0 @@
-//! The scene alone: its flash, its memory, its stack.
-
-#![no_std]
-#![no_main]
-
-use epas_firmware::scenes::FoldedWithMemory;
-
-epas_firmware::image!(FoldedWithMemory);
