@@ -1,6 +1,6 @@
 //! A ball screw whose balls do not touch, by a folded block.
 
-use epas_friction::scene::{FoldedScrew, FoldedScrewConfiguration};
+use epas_friction::scene::{CagedBallScrew, CagedBallScrewConfiguration};
 
 use crate::scene::{CScene, TablePointers, Tables, regime, screw_inputs};
 use crate::status::{EPAS_FIELD_BLOCK, EPAS_NULL_POINTER, Failure};
@@ -28,9 +28,9 @@ pub(crate) const REFUSED: Outputs = Outputs {
 /// The configuration in a block.
 pub(crate) fn block<const N: usize>(
     tables: &Tables,
-) -> Result<FoldedScrewConfiguration<N>, Failure> {
+) -> Result<CagedBallScrewConfiguration<N>, Failure> {
     let none = || Failure::pointer(EPAS_NULL_POINTER, EPAS_FIELD_BLOCK);
-    FoldedScrewConfiguration::read(tables.block.ok_or_else(none)?).map_err(Failure::of_block)
+    CagedBallScrewConfiguration::read(tables.block.ok_or_else(none)?).map_err(Failure::of_block)
 }
 
 /// What a screw puts out.
@@ -46,7 +46,7 @@ pub(crate) fn outputs(outputs: epas_friction::Outputs) -> Outputs {
 }
 
 impl CScene for Caged {
-    type Scene = FoldedScrew;
+    type Scene = CagedBallScrew;
     type Place = CagedPlace;
     type Configuration = Block;
     type Inputs = Inputs;
@@ -60,7 +60,7 @@ impl CScene for Caged {
         TablePointers::of_block(block)
     }
 
-    fn configure(_: &Block, tables: Tables) -> Result<FoldedScrewConfiguration, Failure> {
+    fn configure(_: &Block, tables: Tables) -> Result<CagedBallScrewConfiguration, Failure> {
         block(&tables)
     }
 
@@ -76,7 +76,7 @@ impl CScene for Caged {
 }
 
 impl CScene for CagedRange {
-    type Scene = FoldedScrew<EPAS_RANGE_NODES>;
+    type Scene = CagedBallScrew<EPAS_RANGE_NODES>;
     type Place = CagedRangePlace;
     type Configuration = Block;
     type Inputs = Inputs;
@@ -93,7 +93,7 @@ impl CScene for CagedRange {
     fn configure(
         _: &Block,
         tables: Tables,
-    ) -> Result<FoldedScrewConfiguration<EPAS_RANGE_NODES>, Failure> {
+    ) -> Result<CagedBallScrewConfiguration<EPAS_RANGE_NODES>, Failure> {
         block(&tables)
     }
 

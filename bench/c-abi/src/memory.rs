@@ -11,7 +11,7 @@ use epas_friction::law::memory::{Hysteresis, ProportionalElements, SLIP_4, SPIN_
 use epas_friction::law::motion::{CountSensor, CountSensorParameters, Steady};
 use epas_friction::ranges::LOAD;
 use epas_friction::scene::{
-    FoldedScrew, FoldedScrewConfiguration, Freshness, WithMemory, WithMemoryConfiguration,
+    CagedBallScrew, CagedBallScrewConfiguration, Freshness, WithMemory, WithMemoryConfiguration,
     WithMemoryInputs,
 };
 
@@ -150,7 +150,7 @@ pub(crate) struct Memory;
 
 impl CScene for Memory {
     type Scene =
-        WithMemory<FoldedScrew<EPAS_RANGE_NODES>, Elements, Steady<CountSensor>, CoefficientLaw>;
+        WithMemory<CagedBallScrew<EPAS_RANGE_NODES>, Elements, Steady<CountSensor>, CoefficientLaw>;
     type Place = MemoryPlace;
     type Configuration = MemoryConfiguration;
     type Inputs = MemoryInputs;
@@ -169,7 +169,7 @@ impl CScene for Memory {
         tables: Tables,
     ) -> Result<
         WithMemoryConfiguration<
-            FoldedScrewConfiguration<EPAS_RANGE_NODES>,
+            CagedBallScrewConfiguration<EPAS_RANGE_NODES>,
             Elements,
             Steady<CountSensor>,
             CoefficientLaw,
@@ -221,7 +221,7 @@ impl CScene for Memory {
 
 /// Elements of slip and spin that follow from the design, and from an identified breakaway angle where there is one.
 fn elements(
-    scene: &FoldedScrewConfiguration<EPAS_RANGE_NODES>,
+    scene: &CagedBallScrewConfiguration<EPAS_RANGE_NODES>,
     configuration: &MemoryConfiguration,
 ) -> Result<Elements, Failure> {
     let loaded_balls = scene.loaded_balls;

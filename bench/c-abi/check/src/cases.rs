@@ -7,7 +7,7 @@ use epas_friction::curvature::{CircularGrooveCurvature, GothicArch, LiteratureCu
 use epas_friction::efficiency::{Drive, EfficiencyGeometry};
 use epas_friction::geometry::{ContactAngle, Groove};
 use epas_friction::law::FrictionLevel;
-use epas_friction::scene::{FoldedScrewConstants, Scene, WithMemoryInputs};
+use epas_friction::scene::{CagedConstants, Scene, WithMemoryInputs};
 use epas_friction::{CATALOGUE, Error, FrictionModel, Inputs, LinearInputs, Outputs, Regime};
 
 use crate::gears;
@@ -119,7 +119,7 @@ where
 fn caged() -> Result<Vec<Vec<u32>>, Error> {
     ticks(setups::caged()?, 0x1994_2019, |model, tick| {
         if tick == TICKS / 2 {
-            model.swap_constants(FoldedScrewConstants::from_block(gears::LIN_3_6_WORN)?)?;
+            model.swap_constants(CagedConstants::from_block(gears::LIN_3_6_WORN)?)?;
         }
         Ok(())
     })

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use epas_friction::adaptation::Adaptation;
-use epas_friction::scene::{FoldedScrew, Scene};
+use epas_friction::scene::{CagedBallScrew, Scene};
 use epas_friction::{
     ClosedFormScrew, DeviationMap, FrictionModel, LinearBearingTrain, LoadShare, UncagedBallScrew,
 };
@@ -30,11 +30,15 @@ const fn words<S: Scene>() -> usize {
 /// The constants of `types.rs` with what they have to be, and the README's line of each.
 fn needed() -> [(&'static str, &'static str, usize); 7] {
     [
-        ("EPAS_CAGED_WORDS", "`epas_caged_t`", words::<FoldedScrew>()),
+        (
+            "EPAS_CAGED_WORDS",
+            "`epas_caged_t`",
+            words::<CagedBallScrew>(),
+        ),
         (
             "EPAS_CAGED_RANGE_WORDS",
             "`epas_caged_range_t`",
-            words::<FoldedScrew<NODES>>(),
+            words::<CagedBallScrew<NODES>>(),
         ),
         (
             "EPAS_CLOSED_FORM_WORDS",

@@ -7,7 +7,8 @@ use epas_friction::law::coefficient::{
 use epas_friction::law::memory::{Hysteresis, ProportionalElements, SLIP_4, SPIN_4};
 use epas_friction::law::motion::{CountSensor, CountSensorParameters, Steady};
 use epas_friction::scene::{
-    FoldedScrew, FoldedScrewConfiguration, Freshness, Scene, WithMemory, WithMemoryConfiguration,
+    CagedBallScrew, CagedBallScrewConfiguration, Freshness, Scene, WithMemory,
+    WithMemoryConfiguration,
 };
 use epas_friction::{
     BallScrew, BallScrewParameters, Clearance, ClosedFormScrew, ClosedFormScrewConfiguration,
@@ -20,13 +21,13 @@ use epas_friction::{
 use crate::gears;
 
 /// The gear of Lin 2019, chapter 3.6, with 100 N on each flank, by its block.
-pub fn caged() -> Result<FrictionModel<FoldedScrew>, Error> {
-    FrictionModel::new(&FoldedScrewConfiguration::read(gears::LIN_3_6)?)
+pub fn caged() -> Result<FrictionModel<CagedBallScrew>, Error> {
+    FrictionModel::new(&CagedBallScrewConfiguration::read(gears::LIN_3_6)?)
 }
 
 /// The same for a range of friction coefficients.
-pub fn caged_range() -> Result<FrictionModel<FoldedScrew<NODES>>, Error> {
-    FrictionModel::new(&FoldedScrewConfiguration::read(gears::LIN_3_6_RANGE)?)
+pub fn caged_range() -> Result<FrictionModel<CagedBallScrew<NODES>>, Error> {
+    FrictionModel::new(&CagedBallScrewConfiguration::read(gears::LIN_3_6_RANGE)?)
 }
 
 /// Its catalogue numbers.
@@ -69,11 +70,11 @@ pub const NODES: usize = 5;
 
 /// The same gear with a memory, behind an encoder of 14 bits on its motor.
 pub type Remembering =
-    WithMemory<FoldedScrew<NODES>, ProportionalElements<8>, Steady<CountSensor>, CoefficientLaw>;
+    WithMemory<CagedBallScrew<NODES>, ProportionalElements<8>, Steady<CountSensor>, CoefficientLaw>;
 
 /// What is set for it.
 type RememberingConfiguration = WithMemoryConfiguration<
-    FoldedScrewConfiguration<NODES>,
+    CagedBallScrewConfiguration<NODES>,
     ProportionalElements<8>,
     Steady<CountSensor>,
     CoefficientLaw,
@@ -113,7 +114,7 @@ pub fn swapped() -> Result<<Remembering as Scene>::Constants, Error> {
 
 /// A gear with a memory, of this block.
 fn remembering(block: &[u32]) -> Result<RememberingConfiguration, Error> {
-    let scene = FoldedScrewConfiguration::read(block)?;
+    let scene = CagedBallScrewConfiguration::read(block)?;
     let (design, clearance) = (design()?, Clearance::new(OVERSIZE)?);
     let loaded_balls = scene.loaded_balls;
     let breakaway = Breakaway::of(
