@@ -7,11 +7,13 @@ use super::parameters::{Values, changed_bearing, changed_screw, of_bearing, of_s
 use super::running::Running;
 use super::scene::SceneName;
 use super::variables::{Causality, Kind, TIME, Variable, inputs, outputs, parameter};
+use crate::caged::{keep_words, words};
 use crate::designs::train::LinearDesign;
 use crate::designs::{self, Design, DesignSource};
 use crate::failure::Failure;
 use crate::simulate::linear::Linear;
 use crate::simulate::nut::Nut;
+use crate::simulate::remembering::coefficients;
 
 /// Mean size of the load, N, where a design does not say one.
 const MEAN_LOAD: f32 = 1000.0;
@@ -43,6 +45,8 @@ pub struct Stored {
     pub tick: Option<f64>,
     /// Text of the design file; none for a built-in design.
     pub text: Option<String>,
+    /// Words of the block that was folded from it; none for a scene or a design that has no block.
+    pub block: Option<Vec<u32>>,
 }
 
 /// A scene with a design.
@@ -75,7 +79,8 @@ impl Unit {
             }
         };
         let tick = longest_tick(scene, &source).map_err(failure)?;
-        Self::of(scene, source, text, tick).map_err(failure)
+        let block = block(scene, &source)?;
+        Self::of(scene, source, (text, block), tick).map_err(failure)
     }
 
     /// The unit that is stored.
@@ -105,7 +110,12 @@ impl Unit {
                 }
             }
         };
-        let unit = Self::of(*scene, source, text.clone(), stored.tick)?;
+        if let Some(words) = &stored.block {
+            // A model with the numbers that the unit starts with needs no fold.
+            keep_words(words).map_err(|error| format!("the unit's block: {error}"))?;
+        }
+        let kept = (text.clone(), stored.block.clone());
+        let unit = Self::of(*scene, source, kept, stored.tick)?;
         if unit.stored == *stored {
             Ok(unit)
         } else {
@@ -116,7 +126,7 @@ impl Unit {
     fn of(
         scene: SceneName,
         source: Source,
-        text: Option<String>,
+        (text, block): (Option<String>, Option<Vec<u32>>),
         tick: Option<f64>,
     ) -> Result<Self, String> {
         let (design, balls) = match &source {
@@ -146,6 +156,7 @@ impl Unit {
                 balls,
                 tick,
                 text,
+                block,
             },
             variables,
             source,
@@ -222,6 +233,22 @@ impl Unit {
                 models::linear::<N>(changed_bearing(design, &values)?, scene, &values)
             }
         }
+    }
+}
+
+/// The words of the block of a screw without a row of balls, folded for the friction coefficients that its scene takes.
+fn block(scene: SceneName, source: &Source) -> Result<Option<Vec<u32>>, Failure> {
+    match source {
+        Source::Screw(design) if !scene.has_row() => {
+            let own = (design.caged.friction, design.caged.friction);
+            let coefficients = if scene.has_memory() {
+                coefficients(design)?
+            } else {
+                own
+            };
+            words(design, coefficients).map_err(|failure| failure.of(&design.name))
+        }
+        _ => Ok(None),
     }
 }
 

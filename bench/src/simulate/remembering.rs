@@ -17,7 +17,7 @@ use epas_friction::{Error, FrictionModel, Inputs, Outputs, Refusal, Scene};
 use super::memory::{self, Remembered};
 use super::summary::Lines;
 use crate::caged::CagedScene;
-use crate::calibrate::outputs::firmware::{ELEMENTS, ElementsNumbers, Numbers};
+use crate::calibrate::outputs::firmware::{ELEMENTS, ElementsNumbers, LawNumbers, Numbers};
 use crate::designs::Design;
 use crate::designs::calibration::ElementsName;
 use crate::failure::Failure;
@@ -177,14 +177,24 @@ where
 /// # Errors
 /// What the crate refuses, or cannot be folded.
 pub fn scene(design: &Design) -> Result<CagedScene, Failure> {
-    let own = (design.caged.friction, design.caged.friction);
-    let coefficients = match &design.calibrated {
-        Some(_) => law(design, &Numbers::of(design)?)
-            .map_err(|error| refused(design, &error))?
-            .extremes(),
-        None => own,
-    };
-    CagedScene::with_coefficients(design, coefficients)
+    CagedScene::with_coefficients(design, coefficients(design)?)
+}
+
+/// Least and largest friction coefficient of a design with its calibration.
+///
+/// # Errors
+/// What the crate refuses.
+pub fn coefficients(design: &Design) -> Result<(f32, f32), Failure> {
+    let friction = design.caged.friction;
+    let law = design.calibrated.as_ref().and_then(|calibrated| {
+        calibrated
+            .has_law()
+            .then(|| LawNumbers::of(friction, calibrated).law())
+    });
+    match law {
+        Some(law) => Ok(law.map_err(|error| refused(design, &error))?.extremes()),
+        None => Ok((friction, friction)),
+    }
 }
 
 /// The friction coefficient of a calibrated design.

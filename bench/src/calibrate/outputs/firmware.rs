@@ -126,7 +126,8 @@ impl Numbers {
 }
 
 impl LawNumbers {
-    fn of(friction: f32, calibrated: &Calibrated) -> Self {
+    /// Those of a calibration, with the friction coefficient at standstill.
+    pub fn of(friction: f32, calibrated: &Calibrated) -> Self {
         let reference = calibrated
             .reference_temperature
             .unwrap_or(REFERENCE_TEMPERATURE);
