@@ -76,14 +76,14 @@ fn said(command: Option<&Command>) -> Option<&'static str> {
     match command {
         // A report tells its stages from the first moment on.
         Some(Command::Eval(_) | Command::Report(_)) | None => None,
-        Some(Command::Simulate(_)) => Some("simulating ..."),
+        Some(Command::Simulate(_)) => Some("solving the design and simulating ..."),
         Some(Command::Design(_)) => Some("folding ..."),
         Some(Command::Calibrate(_)) => Some("fitting ..."),
         Some(Command::Target(_)) => Some(
             "building the firmware and counting its instructions: some minutes the first time ...",
         ),
         Some(Command::Screws(_)) => Some("computing whole screws ..."),
-        Some(Command::Fmu(_)) => Some("building the unit's library ..."),
+        Some(Command::Fmu(_)) => Some("solving the design and building the unit's library ..."),
         Some(Command::A2l(_)) => Some("reading the image ..."),
     }
 }

@@ -27,7 +27,6 @@ use zip::write::SimpleFileOptions;
 use crate::designs::DesignSource;
 use crate::failure::Failure;
 use crate::files::{Existing, Pending, refuse_ending, refuse_same, told};
-use crate::progress::Working;
 use description::{Version, description};
 pub use library::mark;
 pub use running::{Moment, Running};
@@ -115,10 +114,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     refuse_ending("a unit", Some(output), &["fmu"])?;
     existing.check(output)?;
     refuse_same([design.file()], std::iter::once(output))?;
-    let unit = {
-        let _folding = Working::new("the design is solved and folded");
-        Unit::new(scene, design)?
-    };
+    let unit = Unit::new(scene, design)?;
     let place = library::place(arguments.fmi)?;
     let library = library::build(unit.stored.balls)?;
     let file = packed(&unit, arguments.fmi, &place, &library)?;
