@@ -30,9 +30,6 @@ impl FoldTable {
     /// # Errors
     /// What of it cannot be folded.
     pub fn fold(&self, design: &Design) -> Result<CagedFold, String> {
-        if design.branch.is_some() {
-            return Err("a closed form (branch = \"rolling\" or \"sliding\") needs no fold".into());
-        }
         for (key, there) in [
             ("screw_deviation", self.screw_deviation.is_some()),
             ("nut_deviation", self.nut_deviation.is_some()),
@@ -43,6 +40,17 @@ impl FoldTable {
                      with a cage"
                 ));
             }
+        }
+        self.caged(design)
+    }
+
+    /// The same with a cage, which knows no deviations.
+    ///
+    /// # Errors
+    /// What of it cannot be folded.
+    pub fn caged(&self, design: &Design) -> Result<CagedFold, String> {
+        if design.branch.is_some() {
+            return Err("a closed form (branch = \"rolling\" or \"sliding\") needs no fold".into());
         }
         let mut fold = CagedFold::of(design.caged);
         match self.friction {
