@@ -25,14 +25,11 @@ enum Friction {
 }
 
 impl FoldTable {
-    /// The design with the domain of this table.
+    /// Refuses deviations, which a caged screw's balls do not feel: whoever asks for a block of them means another one.
     ///
     /// # Errors
-    /// What of it cannot be folded.
-    pub fn fold(&self, design: &Design) -> Result<CagedFold, String> {
-        if design.branch.is_some() {
-            return Err("a closed form (branch = \"rolling\" or \"sliding\") needs no fold".into());
-        }
+    /// The key that stands there.
+    pub fn check_deviations(&self) -> Result<(), String> {
         for (key, there) in [
             ("screw_deviation", self.screw_deviation.is_some()),
             ("nut_deviation", self.nut_deviation.is_some()),
@@ -43,6 +40,17 @@ impl FoldTable {
                      with a cage"
                 ));
             }
+        }
+        Ok(())
+    }
+
+    /// The design with the domain of this table.
+    ///
+    /// # Errors
+    /// What of it cannot be folded.
+    pub fn fold(&self, design: &Design) -> Result<CagedFold, String> {
+        if design.branch.is_some() {
+            return Err("a closed form (branch = \"rolling\" or \"sliding\") needs no fold".into());
         }
         let mut fold = CagedFold::of(design.caged);
         match self.friction {
