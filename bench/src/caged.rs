@@ -280,7 +280,7 @@ pub fn keep_words(words: &[u32]) -> Result<(), Error> {
 pub fn fold_for(design: &Design, (least, largest): (f32, f32)) -> Result<CagedFold, String> {
     let mut fold = design
         .fold
-        .caged(design)
+        .fold(design)
         .map_err(|message| format!("fold: {message}"))?;
     fold.gear.friction = design.caged.friction;
     match fold.friction {

@@ -25,11 +25,11 @@ enum Friction {
 }
 
 impl FoldTable {
-    /// The design with the domain of this table.
+    /// Refuses deviations, which a caged screw's balls do not feel: whoever asks for a block of them means another one.
     ///
     /// # Errors
-    /// What of it cannot be folded.
-    pub fn fold(&self, design: &Design) -> Result<CagedFold, String> {
+    /// The key that stands there.
+    pub fn check_deviations(&self) -> Result<(), String> {
         for (key, there) in [
             ("screw_deviation", self.screw_deviation.is_some()),
             ("nut_deviation", self.nut_deviation.is_some()),
@@ -41,14 +41,14 @@ impl FoldTable {
                 ));
             }
         }
-        self.caged(design)
+        Ok(())
     }
 
-    /// The same with a cage, which knows no deviations.
+    /// The design with the domain of this table.
     ///
     /// # Errors
     /// What of it cannot be folded.
-    pub fn caged(&self, design: &Design) -> Result<CagedFold, String> {
+    pub fn fold(&self, design: &Design) -> Result<CagedFold, String> {
         if design.branch.is_some() {
             return Err("a closed form (branch = \"rolling\" or \"sliding\") needs no fold".into());
         }

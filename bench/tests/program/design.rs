@@ -197,7 +197,7 @@ fn refusals_name_their_reason_and_leave_nothing() {
         assert!(run.stdout.is_empty());
         assert_eq!(names(folder), ["screw.toml"]);
     }
-    // A simulation of the screw with its cage needs no law of balls that press.
+    // Simulation with a cage takes the file: its balls feel no deviations.
     let fold = "[fold]\nscrew_deviation = 0.01\n";
     fs::write(folder.join("screw.toml"), format!("{DESIGN}{fold}")).unwrap();
     let arguments = "simulate --design screw.toml --manoeuvre kerb --output kerb.csv";
