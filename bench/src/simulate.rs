@@ -78,6 +78,10 @@ use trace::Temperature;
 /// load_shares (a list along the loaded track) and negative_load_shares (as long a list, for loads below
 /// zero; load_shares serves both signs without it).
 ///
+/// A screw with a cage is solved first, within two seconds, and what runs is the block that `design` writes for it: a table [fold]
+/// (`design --help` names its keys) says its loads of a ball, 5 to 300 N without, above which outputs are flagged; where [calibration] makes
+/// the friction coefficient change, the block is one for its range, or the range is refused with the reason.
+///
 /// A table [calibration] holds what `calibrate` has told of the screw beyond these; for --scene caged with --memory it gives
 /// full_film_ratio and half_share_speed (rad/s) with reference_temperature and viscosity_pole (K), direction_asymmetry,
 /// breakaway_angle (rad) at reference_load (N), elements ("proportional", or with largest_load, N, "load_exact" or "preloaded"), backlash
