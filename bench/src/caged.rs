@@ -400,3 +400,96 @@ impl CagedModel {
         each!(self, model => model.import(block))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::designs::read;
+
+    const DESIGN: &str = "nominal_diameter = 0.029\nlead = 0.007\nball_diameter = 4e-3\nconformity = 0.54\n\
+                          contact_angle = 0.7853982\nloaded_balls = 71\n";
+
+    fn design(more: &str) -> Design {
+        read(&format!("{DESIGN}{more}"), "gear").unwrap()
+    }
+
+    /// One coefficient is folded alone; a law's range at least a tenth wide, or the table's where that holds it.
+    #[test]
+    fn a_fold_holds_what_is_asked_for() {
+        let plain = design("");
+        assert_eq!(fold_for(&plain, (0.1, 0.1)).unwrap().friction, None);
+        assert_eq!(
+            fold_for(&plain, (0.06, 0.12)).unwrap().friction,
+            Some([0.06, 0.12])
+        );
+        let Some([least, largest]) = fold_for(&plain, (0.099, 0.101)).unwrap().friction else {
+            panic!("a range has two ends");
+        };
+        assert!(least < 0.099 && largest > 0.101 && largest > 1.1 * least);
+        let table = design("[fold]\nfriction = [0.05, 0.15]\naxial_load = [5, 400]\n");
+        let fold = fold_for(&table, (0.06, 0.12)).unwrap();
+        assert_eq!(fold.friction, Some([0.05, 0.15]));
+        assert_eq!(fold.axial_load, [5.0, 400.0]);
+        let refused = fold_for(&table, (0.04, 0.12)).unwrap_err();
+        assert!(
+            refused.contains("0.04") && refused.contains("widen"),
+            "{refused}"
+        );
+    }
+
+    /// Words are the block, and a block that is kept is not folded again.
+    #[test]
+    fn words_are_the_block() {
+        let design = design("");
+        let own = (design.caged.friction, design.caged.friction);
+        let words = words(&design, own).unwrap().unwrap();
+        assert_eq!(
+            CagedScene::read(&words).unwrap(),
+            CagedScene::of(&design).unwrap()
+        );
+        keep_words(&words).unwrap();
+        let mut other = words.clone();
+        *other.last_mut().unwrap() ^= 1;
+        assert_eq!(keep_words(&other).unwrap_err().field(), "checksum");
+        // The model goes on with a block, and not with words that are none.
+        let mut model = CagedScene::of(&design).unwrap().model().unwrap();
+        let inputs = Inputs {
+            nut_speed: 10.0,
+            axial_load: 3000.0,
+        };
+        let torque = model.step(inputs).friction_torque;
+        assert_eq!(model.swap(&other).unwrap_err().field(), "checksum");
+        model.swap(&words).unwrap();
+        assert_eq!(model.step(inputs).friction_torque, torque);
+        assert_eq!(model.set_friction(0.2).unwrap_err().field(), "friction");
+    }
+
+    /// With play contacts open at loads that move with the coefficient: one block does not hold a factor of three.
+    #[test]
+    fn a_range_that_is_far_off_is_refused() {
+        let refused = CagedScene::with_coefficients(&design("clearance = 1e-5\n"), (0.05, 0.15));
+        let Err(Failure::Data(message)) = refused else {
+            panic!("{refused:?}");
+        };
+        assert!(
+            message.contains("narrow the range") && message.contains("N a ball"),
+            "{message}"
+        );
+    }
+
+    /// A closed form has no block, and any coefficient.
+    #[test]
+    fn a_closed_form_is_not_folded() {
+        let design = design("branch = \"sliding\"\n");
+        assert_eq!(words(&design, (0.1, 0.1)).unwrap(), None);
+        let mut model = CagedScene::of(&design).unwrap().model().unwrap();
+        let inputs = Inputs {
+            nut_speed: 1e3,
+            axial_load: 3000.0,
+        };
+        let before = model.step(inputs).friction_torque;
+        model.set_friction(0.2).unwrap();
+        assert!(model.step(inputs).friction_torque > 1.5 * before);
+        assert_eq!(model.swap(&[]).unwrap_err().field(), "branch");
+    }
+}
