@@ -24,6 +24,7 @@ mod screw;
 mod shown;
 mod summary;
 mod targets;
+mod tick;
 mod trace;
 mod train;
 mod train_picture;
@@ -77,6 +78,10 @@ use trace::Temperature;
 /// screw_deviation and nut_deviation (lists of { order, cosine, sine }, over deviation_turns turns),
 /// load_shares (a list along the loaded track) and negative_load_shares (as long a list, for loads below
 /// zero; load_shares serves both signs without it).
+///
+/// A screw with a cage is solved first, within two seconds, and what runs is the block that `design` writes for it: a table [fold]
+/// (`design --help` names its keys) says its loads of a ball, 5 to 300 N without, above which outputs are flagged; where [calibration] makes
+/// the friction coefficient change, the block is one for its range, or the range is refused with the reason.
 ///
 /// A table [calibration] holds what `calibrate` has told of the screw beyond these; for --scene caged with --memory it gives
 /// full_film_ratio and half_share_speed (rad/s) with reference_temperature and viscosity_pole (K), direction_asymmetry,
@@ -165,6 +170,10 @@ pub struct Arguments {
     /// load, in place of the reversal speed
     #[arg(long)]
     memory: bool,
+    /// Time between two steps of the model, s, as of firmware at that rate, whatever the trace's is: between its samples the trace is
+    /// interpolated linearly
+    #[arg(long, value_name = "SECONDS", value_parser = tick::tick, conflicts_with_all = ["mechanism", "loads"])]
+    tick: Option<f64>,
     #[command(flatten)]
     mechanism: mechanism::MechanismArguments,
     /// Replace files that exist
@@ -244,6 +253,11 @@ fn simulate<S: Scene>(scene: &S, arguments: &Arguments, existing: Existing) -> R
         (None, None) => return Err(Failure::Data("there is no trace".into())),
     };
 
+    let (trace, temperature) = match arguments.tick {
+        Some(tick) => tick::resampled(&trace, &temperature, tick)?,
+        None => (trace, temperature),
+    };
+
     let asked = [&arguments.output, &arguments.plot];
     let [output, plot] = targets(asked, &trace.name, scene.name());
     for path in output.iter().chain(&plot) {
@@ -295,6 +309,9 @@ fn simulate<S: Scene>(scene: &S, arguments: &Arguments, existing: Existing) -> R
 
     let mut stdout = files::told(output.iter().chain(&plot));
     let mut summary = scene.summary(&trace, &rows);
+    if let Some(tick) = arguments.tick {
+        summary.add("tick", format!("{tick} s, of --tick"));
+    }
     if let Some(model) = arguments.reference {
         let from = format!("; f64 is {}", scene.reference_name(model));
         summary.amend(screw::DIFFERENCE, &from);

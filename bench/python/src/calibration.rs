@@ -130,7 +130,7 @@ fn within(py: Python<'_>, field: &str, value: Option<f64>, range: (f64, f64)) ->
 /// ``carriage_`` or plain); ``motor_torque`` or ``motor_force``; and where there are any ``reference_position``,
 /// ``axial_load``, ``temperature``. Units are SI; others stand in the name: ``nut_position_deg``, ``temperature_C``.
 ///
-/// With a design the model is the one that firmware runs. Without one a mass or an inertia with load-free friction is
+/// With a design the model is the exact ball of what firmware runs. Without one a mass or an inertia with load-free friction is
 /// fitted, and models of friction are compared on what was not fitted.
 ///
 /// Args:

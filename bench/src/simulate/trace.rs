@@ -24,6 +24,29 @@ pub trait Sample: Copy {
     /// The numbers in the order of the columns, for a table.
     fn record(&self) -> Vec<String>;
 
+    /// A moment between two, each of its numbers by this function of theirs.
+    #[must_use]
+    fn between(low: &Self, high: &Self, of: &dyn Fn(f64, f64) -> f64) -> Self {
+        let numbers = |sample: &Self| -> Vec<f64> {
+            let record = sample.record();
+            // A number that is written reads back as the same one.
+            record
+                .iter()
+                .map(|text| text.parse().unwrap_or(f64::NAN))
+                .collect()
+        };
+        let (low, high) = (numbers(low), numbers(high));
+        let read = Self::read(|name| {
+            let place = Self::COLUMNS.iter().position(|column| *column == name);
+            let pair = place.and_then(|place| Some((*low.get(place)?, *high.get(place)?)));
+            Ok::<_, std::convert::Infallible>(pair.map_or(f64::NAN, |(low, high)| of(low, high)))
+        });
+        match read {
+            Ok(sample) => sample,
+            Err(never) => match never {},
+        }
+    }
+
     /// Time, s.
     fn time(&self) -> f64;
 

@@ -43,6 +43,7 @@ __all__ = [
     "ellipse",
     "eval_json",
     "fitted_curvature",
+    "fold_design",
     "friction_map",
     "groove_curvature",
     "literature_curvature",
