@@ -1,26 +1,22 @@
 //! From a design to the law of one ball over its load.
 
 mod design;
+mod exact;
 
 use std::time::Instant;
 
 use epas_friction::Range;
 use epas_friction::ball::folded::{FrictionNode, LoadLaw, octaves, shifted_part};
 use epas_friction::scene::CagedBallScrewConfiguration;
-use epas_reference::curvature::Groove;
-use epas_reference::design::BallScrewDesign;
-use epas_reference::friction::caged_ball::CagedBall;
-use epas_reference::friction::patch::Integration;
-use epas_reference::friction::rolling_resistance::RollingResistance;
 use rayon::prelude::*;
 use sha2::{Digest, Sha256};
 
 use crate::Failure;
 use crate::certificate::Certificate;
 use crate::curve::{Sample, fitted};
-use crate::drawing::drawing;
 pub use design::CagedDesign;
 use design::{FRICTION, in_range};
+pub(crate) use exact::Exact;
 
 /// Loads of one ball for which a law holds where nothing else is asked, N.
 pub const AXIAL_LOAD: [f32; 2] = [5.0, 300.0];
@@ -35,9 +31,8 @@ const LOADS_BELOW: usize = 80;
 /// One in so many loads is solved between two nodes, to align them.
 const SPARSE: usize = 4;
 
-/// How far below the least load a curve is fitted, as a factor, and the weight of its errors there: a torque that small matters less.
+/// How far below the least load a curve is fitted, as a factor.
 const BELOW: f64 = 100.0;
-const WEIGHT_BELOW: f64 = 0.25;
 
 /// How far above the largest load a node among several is fitted, octaves: as far as its regimes are shifted.
 const SHIFT: f64 = 1.5;
@@ -48,9 +43,6 @@ const LARGEST_ERROR: f64 = 0.03;
 /// Largest axial load of a ball, N, and the least ratio of the ends of a range.
 const LARGEST_LOAD: f32 = 1e5;
 const APART: f32 = 1.1;
-
-/// States that may be left without an exact answer, as a share.
-const UNSOLVED: f64 = 0.01;
 
 /// A design to be folded.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -93,16 +85,6 @@ pub enum Block {
     Range(CagedBallScrewConfiguration<NODES>),
 }
 
-/// The exact ball of a design.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Exact {
-    design: BallScrewDesign,
-    clearance: f64,
-    rolling: RollingResistance,
-    /// Axial load of a ball at which the unloaded side lifts off, N.
-    pub lift_off: f64,
-}
-
 impl CagedFold {
     /// A design with the friction coefficient that it has, for loads of 5 to 300 N a ball.
     #[must_use]
@@ -130,7 +112,7 @@ impl CagedFold {
     pub fn folded_with(&self, progress: &(dyn Fn(f64) + Sync)) -> Result<Folded, Failure> {
         let begun = Instant::now();
         self.check()?;
-        let exact = self.exact()?;
+        let exact = Exact::of(&self.gear)?;
         progress(0.0);
         let block = self.block_of(&exact)?;
         progress(0.5);
@@ -164,7 +146,7 @@ impl CagedFold {
     /// As [`Self::folded`], but for a domain that only the certificate would refuse.
     pub fn block(&self) -> Result<Block, Failure> {
         self.check()?;
-        self.block_of(&self.exact()?)
+        self.block_of(&Exact::of(&self.gear)?)
     }
 
     fn block_of(&self, exact: &Exact) -> Result<Block, Failure> {
@@ -196,30 +178,6 @@ impl CagedFold {
             in_range("friction", self.gear.friction, Range::new(least, largest))?;
         }
         Ok(())
-    }
-
-    fn exact(&self) -> Result<Exact, Failure> {
-        let CagedDesign {
-            design,
-            clearance,
-            rolling_resistance,
-            ..
-        } = &self.gear;
-        let design = drawing(design.parameters());
-        let clearance = f64::from(clearance.gap());
-        let deflection =
-            design.contact(Groove::Screw)?.deflection + design.contact(Groove::Nut)?.deflection;
-        let preload = (-2.0 * clearance / deflection).max(0.0).powf(1.5);
-        let per_normal = design.contact_angle.sin() * design.lead_angle().cos();
-        Ok(Exact {
-            design,
-            clearance,
-            rolling: RollingResistance {
-                hysteresis_loss: rolling_resistance.hysteresis_loss.into(),
-                lubricant_drag: rolling_resistance.lubricant_drag.into(),
-            },
-            lift_off: 8f64.sqrt() * preload * per_normal,
-        })
     }
 
     fn configured<const N: usize>(&self, law: LoadLaw<N>) -> CagedBallScrewConfiguration<N> {
@@ -297,55 +255,6 @@ impl CagedFold {
             .iter()
             .take(8)
             .fold(0, |digest, &byte| digest << 8 | u64::from(byte))
-    }
-}
-
-impl Exact {
-    /// The ball with a friction coefficient.
-    pub fn ball(&self, friction: f32) -> CagedBall {
-        CagedBall {
-            design: self.design,
-            clearance: self.clearance,
-            friction: friction.into(),
-            rolling: self.rolling,
-            integration: Integration::Full,
-        }
-    }
-
-    /// Torque over load and friction coefficient under falling loads, at rising octaves; loads without an answer are left out.
-    fn samples(
-        &self,
-        friction: f32,
-        side: f64,
-        loads: &[f64],
-        least: f64,
-    ) -> Result<Vec<Sample>, Failure> {
-        let signed: Vec<f64> = loads.iter().map(|load| side * load).collect();
-        let solved = self.ball(friction).along(&signed)?;
-        let unsolved = solved.iter().filter(|found| found.is_err()).count();
-        if unsolved as f64 > UNSOLVED * loads.len() as f64 {
-            return Err(Failure::Domain(format!(
-                "the exact balance of a ball is not found under {unsolved} of {} loads, friction coefficient {friction}",
-                loads.len()
-            )));
-        }
-        let mut samples: Vec<Sample> = solved
-            .into_iter()
-            .flatten()
-            .map(|found| {
-                let load = found.axial_load.abs();
-                let whole = load + self.lift_off;
-                Sample {
-                    // What the step computes of it.
-                    at: octaves(whole as f32).into(),
-                    value: found.torque / (whole * f64::from(friction)),
-                    weight: if load < least { WEIGHT_BELOW } else { 1.0 },
-                }
-            })
-            .collect();
-        samples.reverse();
-        samples.dedup_by(|later, earlier| later.at <= earlier.at);
-        Ok(samples)
     }
 }
 
