@@ -1,0 +1,106 @@
+//! The exact ball of a design, at the loads from which a curve is fitted.
+
+use epas_friction::ball::folded::octaves;
+use epas_reference::curvature::Groove;
+use epas_reference::design::BallScrewDesign;
+use epas_reference::friction::caged_ball::CagedBall;
+use epas_reference::friction::patch::Integration;
+use epas_reference::friction::rolling_resistance::RollingResistance;
+
+use super::design::CagedDesign;
+use crate::Failure;
+use crate::curve::Sample;
+use crate::drawing::drawing;
+
+/// Weight of a curve's errors below the least load: a torque that small matters less.
+const WEIGHT_BELOW: f64 = 0.25;
+
+/// States that may be left without an exact answer, as a share.
+const UNSOLVED: f64 = 0.01;
+
+/// The exact ball of a design.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Exact {
+    design: BallScrewDesign,
+    clearance: f64,
+    rolling: RollingResistance,
+    /// Axial load of a ball at which the unloaded side lifts off, N.
+    pub lift_off: f64,
+}
+
+impl Exact {
+    /// The exact ball of a gear.
+    ///
+    /// # Errors
+    /// [`Failure::Reference`] where a groove describes no contact.
+    pub fn of(gear: &CagedDesign) -> Result<Self, Failure> {
+        let CagedDesign {
+            design,
+            clearance,
+            rolling_resistance,
+            ..
+        } = gear;
+        let design = drawing(design.parameters());
+        let clearance = f64::from(clearance.gap());
+        let deflection =
+            design.contact(Groove::Screw)?.deflection + design.contact(Groove::Nut)?.deflection;
+        let preload = (-2.0 * clearance / deflection).max(0.0).powf(1.5);
+        let per_normal = design.contact_angle.sin() * design.lead_angle().cos();
+        Ok(Self {
+            design,
+            clearance,
+            rolling: RollingResistance {
+                hysteresis_loss: rolling_resistance.hysteresis_loss.into(),
+                lubricant_drag: rolling_resistance.lubricant_drag.into(),
+            },
+            lift_off: 8f64.sqrt() * preload * per_normal,
+        })
+    }
+
+    /// The ball with a friction coefficient.
+    pub fn ball(&self, friction: f32) -> CagedBall {
+        CagedBall {
+            design: self.design,
+            clearance: self.clearance,
+            friction: friction.into(),
+            rolling: self.rolling,
+            integration: Integration::Full,
+        }
+    }
+
+    /// Torque over load and friction coefficient under falling loads, at rising octaves; loads without an answer are left out.
+    pub fn samples(
+        &self,
+        friction: f32,
+        side: f64,
+        loads: &[f64],
+        least: f64,
+    ) -> Result<Vec<Sample>, Failure> {
+        let signed: Vec<f64> = loads.iter().map(|load| side * load).collect();
+        let solved = self.ball(friction).along(&signed)?;
+        let unsolved = solved.iter().filter(|found| found.is_err()).count();
+        if unsolved as f64 > UNSOLVED * loads.len() as f64 {
+            return Err(Failure::Domain(format!(
+                "the exact balance of a ball is not found under {unsolved} of {} loads, friction coefficient {friction}",
+                loads.len()
+            )));
+        }
+        let mut samples: Vec<Sample> = solved
+            .into_iter()
+            .flatten()
+            .map(|found| {
+                let load = found.axial_load.abs();
+                let whole = load + self.lift_off;
+                Sample {
+                    // What the step computes of it.
+                    at: octaves(whole as f32).into(),
+                    value: found.torque / (whole * f64::from(friction)),
+                    weight: if load < least { WEIGHT_BELOW } else { 1.0 },
+                }
+            })
+            .collect();
+        samples.reverse();
+        samples.dedup_by(|later, earlier| later.at <= earlier.at);
+        Ok(samples)
+    }
+}
