@@ -15,7 +15,24 @@ use crate::scene::{
 /// Friction of one scene: configured once, stepped in the interrupt.
 ///
 /// ```
-/// # mod gear { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/bench/firmware/src/gears/lin_3_6.rs")); }
+/// # mod gear { // a law in proportion to the load, for a short example
+/// #     use epas_friction::ball::folded::{FrictionNode, LoadCurve, LoadLaw, PARTS};
+/// #     use epas_friction::{CagedBallScrewConfiguration, CagedConstants, Limits};
+/// #     const fn node(friction: f32) -> FrictionNode {
+/// #         let mut starts = [f32::MAX; PARTS];
+/// #         starts[0] = 120.0;
+/// #         let curve = LoadCurve { starts, cubics: [[2e-3, 0.0, 0.0, 0.0]; PARTS] };
+/// #         FrictionNode { friction, curves: [curve; 2], shift: [0.0; 2] }
+/// #     }
+/// #     pub static LIN_3_6: CagedConstants<1> = match CagedConstants::new(&CagedBallScrewConfiguration {
+/// #         law: LoadLaw { nodes: [node(0.1)], ends: [120.0, 136.0], lift_off: 0.0, shifted_from: 1.0 },
+/// #         friction: 0.1, lead: 0.02, loaded_balls: 36, reversal_speed: 0.5,
+/// #         limits: Limits { nut_speed: 100.0, axial_load: 20_000.0, friction_torque: 20.0 },
+/// #     }) {
+/// #         Ok(constants) => constants,
+/// #         Err(_) => panic!("a field is out of range"),
+/// #     };
+/// # }
 /// use epas_friction::{CagedBallScrew, FrictionModel, Inputs, Regime};
 /// use gear::LIN_3_6; // a `static` that `epas-bench design` has written
 ///

@@ -25,10 +25,27 @@ impl<S: StoredScene, C: Borrow<S::Constants>> FrictionModel<S, C> {
     /// A caged ball screw's block has 24 bytes, with a memory of eight elements 116.
     ///
     /// ```
-    /// # mod gear { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/bench/firmware/src/gears/lin_3_6_range.rs")); }
+    /// # mod gear { // a law in proportion to the load, for a short example
+    /// #     use epas_friction::ball::folded::{FrictionNode, LoadCurve, LoadLaw, PARTS};
+    /// #     use epas_friction::{CagedBallScrewConfiguration, CagedConstants, Limits};
+    /// #     const fn node(friction: f32) -> FrictionNode {
+    /// #         let mut starts = [f32::MAX; PARTS];
+    /// #         starts[0] = 120.0;
+    /// #         let curve = LoadCurve { starts, cubics: [[2e-3, 0.0, 0.0, 0.0]; PARTS] };
+    /// #         FrictionNode { friction, curves: [curve; 2], shift: [0.0; 2] }
+    /// #     }
+    /// #     pub static LIN_3_6_RANGE: CagedConstants<2> = match CagedConstants::new(&CagedBallScrewConfiguration {
+    /// #         law: LoadLaw { nodes: [node(0.05), node(0.15)], ends: [120.0, 136.0], lift_off: 0.0, shifted_from: 1.0 },
+    /// #         friction: 0.05, lead: 0.02, loaded_balls: 36, reversal_speed: 0.5,
+    /// #         limits: Limits { nut_speed: 100.0, axial_load: 20_000.0, friction_torque: 20.0 },
+    /// #     }) {
+    /// #         Ok(constants) => constants,
+    /// #         Err(_) => panic!("a field is out of range"),
+    /// #     };
+    /// # }
     /// # use epas_friction::{CagedBallScrew, CagedConstants, FrictionModel, Inputs};
     /// # use gear::LIN_3_6_RANGE;
-    /// type Screw = FrictionModel<CagedBallScrew<5>, &'static CagedConstants<5>>;
+    /// type Screw = FrictionModel<CagedBallScrew<2>, &'static CagedConstants<2>>;
     ///
     /// // What the non-volatile memory keeps.
     /// let mut kept = [0xFF; Screw::STATE_BYTES];
