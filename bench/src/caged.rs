@@ -7,16 +7,13 @@ use std::collections::HashMap;
 use std::sync::{LazyLock, Mutex, PoisonError};
 
 use epas_design::caged::{Block, NODES};
-use epas_design::drawing::drawing;
+use epas_design::certificate::one_ball;
 use epas_design::{CagedFold, Folded};
 use epas_friction::scene::{
     CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, ClosedFormScrew,
     ClosedFormScrewConfiguration, ClosedFormScrewConstants, StoredScene,
 };
-use epas_friction::{Error, FrictionModel, Inputs, Limits, Outputs, Range, Refusal};
-use epas_reference::friction::caged_ball::CagedBall;
-use epas_reference::friction::patch::Integration;
-use epas_reference::friction::rolling_resistance::RollingResistance;
+use epas_friction::{Error, FrictionModel, Inputs, Outputs, Range, Refusal};
 use rayon::prelude::*;
 
 use crate::designs::Design;
@@ -103,30 +100,10 @@ fn check_range(
     let worst = asked
         .par_iter()
         .map(|&(friction, side)| {
-            let ball = CagedBall {
-                design: drawing(gear.design.parameters()),
-                clearance: gear.clearance.gap().into(),
-                friction: friction.into(),
-                rolling: RollingResistance {
-                    hysteresis_loss: gear.rolling_resistance.hysteresis_loss.into(),
-                    lubricant_drag: gear.rolling_resistance.lubricant_drag.into(),
-                },
-                integration: Integration::Full,
-            };
+            let ball = gear.exact_ball(friction);
             let load = |step: u32| most * (least / most).powf(f64::from(step) / f64::from(LOADS));
             let loads: Vec<f64> = (0..=LOADS).map(|step| side * load(step)).collect();
-            let mut model =
-                FrictionModel::<CagedBallScrew<NODES>>::new(&CagedBallScrewConfiguration {
-                    loaded_balls: 1,
-                    reversal_speed: 1e-6,
-                    limits: Limits {
-                        nut_speed: 10.0,
-                        axial_load: 1e7,
-                        friction_torque: 1e6,
-                    },
-                    ..*block
-                })?;
-            model.set_friction(friction)?;
+            let mut model = one_ball(block, friction)?;
             let found = ball.along(&loads)?.into_iter().flatten().map(|exact| {
                 let inputs = Inputs {
                     nut_speed: 1.0,
@@ -238,23 +215,11 @@ impl CagedScene {
 /// # Errors
 /// What cannot be folded, with the reason.
 pub fn words(design: &Design, coefficients: (f32, f32)) -> Result<Option<Vec<u32>>, Failure> {
-    fn of<const N: usize>(
-        block: &CagedBallScrewConfiguration<N>,
-        digest: u64,
-    ) -> Result<Vec<u32>, Error> {
-        let mut words = vec![0; CagedBallScrewConfiguration::<N>::WORDS];
-        block.write(digest, &mut words)?;
-        Ok(words)
-    }
     if design.branch.is_some() {
         return Ok(None);
     }
     let fold = fold_for(design, coefficients).map_err(Failure::Data)?;
-    let digest = fold.digest();
-    Ok(Some(match block(&fold)? {
-        Block::One(block) => of(&block, digest)?,
-        Block::Range(block) => of(&block, digest)?,
-    }))
+    Ok(Some(block(&fold)?.words(fold.digest())?))
 }
 
 /// Keeps the block of these words: what was folded from the same inputs is not folded again.

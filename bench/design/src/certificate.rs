@@ -134,16 +134,15 @@ impl Certificate {
     }
 }
 
-/// What `step()` puts out under these loads, against the exact torque; and how many of these there are not.
-fn errors<const N: usize>(
-    exact: &Exact,
+/// A model of one ball of a block with a friction coefficient, whose friction is full at any speed.
+///
+/// # Errors
+/// [`Failure`] naming a number out of range.
+pub fn one_ball<const N: usize>(
     block: &CagedBallScrewConfiguration<N>,
     friction: f32,
-    side: f64,
-    loads: &[f64],
-) -> Result<(Vec<Found>, usize), Failure> {
-    // One ball, and full friction at the speed.
-    let mut model = FrictionModel::<CagedBallScrew<N>>::new(&CagedBallScrewConfiguration {
+) -> Result<FrictionModel<CagedBallScrew<N>>, Failure> {
+    let mut model = FrictionModel::new(&CagedBallScrewConfiguration {
         loaded_balls: 1,
         reversal_speed: 1e-6,
         limits: Limits {
@@ -154,6 +153,18 @@ fn errors<const N: usize>(
         ..*block
     })?;
     model.set_friction(friction)?;
+    Ok(model)
+}
+
+/// What `step()` puts out under these loads, against the exact torque; and how many of these there are not.
+fn errors<const N: usize>(
+    exact: &Exact,
+    block: &CagedBallScrewConfiguration<N>,
+    friction: f32,
+    side: f64,
+    loads: &[f64],
+) -> Result<(Vec<Found>, usize), Failure> {
+    let mut model = one_ball(block, friction)?;
     let ball = exact.ball(friction);
     let signed: Vec<f64> = loads.iter().map(|load| side * load).collect();
     let falling = ball.along(&signed)?;

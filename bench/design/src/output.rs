@@ -31,14 +31,12 @@ impl Block {
             Self::Range(block) => block.law.friction_range(),
         }
     }
-}
 
-impl Folded {
-    /// The block's words.
+    /// Its words, with the digest of what it was folded from.
     ///
     /// # Errors
     /// None that is known.
-    pub fn words(&self) -> Result<Vec<u32>, Failure> {
+    pub fn words(&self, digest: u64) -> Result<Vec<u32>, Failure> {
         fn of<const N: usize>(
             block: &CagedBallScrewConfiguration<N>,
             digest: u64,
@@ -47,10 +45,20 @@ impl Folded {
             block.write(digest, &mut words)?;
             Ok(words)
         }
-        match &self.block {
-            Block::One(block) => of(block, self.digest),
-            Block::Range(block) => of(block, self.digest),
+        match self {
+            Self::One(block) => of(block, digest),
+            Self::Range(block) => of(block, digest),
         }
+    }
+}
+
+impl Folded {
+    /// The block's words.
+    ///
+    /// # Errors
+    /// None that is known.
+    pub fn words(&self) -> Result<Vec<u32>, Failure> {
+        self.block.words(self.digest)
     }
 
     /// Version of the block's layout.

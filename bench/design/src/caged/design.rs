@@ -2,6 +2,11 @@
 
 use epas_friction::ranges::ROLLING_CONTACT_ANGLE;
 use epas_friction::{BallScrew, Clearance, Error, Limits, Range, RollingResistance};
+use epas_reference::friction::caged_ball::CagedBall;
+use epas_reference::friction::patch::Integration;
+use epas_reference::friction::rolling_resistance::RollingResistance as ExactResistance;
+
+use crate::drawing::drawing;
 
 /// Range of the reversal speed, rad/s.
 const REVERSAL_SPEED: Range = Range::new(1e-6, 1e3);
@@ -48,6 +53,23 @@ impl CagedDesign {
             limits: self.limits.checked()?,
             ..self
         })
+    }
+}
+
+impl CagedDesign {
+    /// The exact ball of it, with a friction coefficient.
+    #[must_use]
+    pub fn exact_ball(&self, friction: f32) -> CagedBall {
+        CagedBall {
+            design: drawing(self.design.parameters()),
+            clearance: self.clearance.gap().into(),
+            friction: friction.into(),
+            rolling: ExactResistance {
+                hysteresis_loss: self.rolling_resistance.hysteresis_loss.into(),
+                lubricant_drag: self.rolling_resistance.lubricant_drag.into(),
+            },
+            integration: Integration::Full,
+        }
     }
 }
 

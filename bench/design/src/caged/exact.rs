@@ -2,15 +2,11 @@
 
 use epas_friction::ball::folded::octaves;
 use epas_reference::curvature::Groove;
-use epas_reference::design::BallScrewDesign;
 use epas_reference::friction::caged_ball::CagedBall;
-use epas_reference::friction::patch::Integration;
-use epas_reference::friction::rolling_resistance::RollingResistance;
 
 use super::design::CagedDesign;
 use crate::Failure;
 use crate::curve::Sample;
-use crate::drawing::drawing;
 
 /// Weight of a curve's errors below the least load: a torque that small matters less.
 const WEIGHT_BELOW: f64 = 0.25;
@@ -21,9 +17,8 @@ const UNSOLVED: f64 = 0.01;
 /// The exact ball of a design.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Exact {
-    design: BallScrewDesign,
-    clearance: f64,
-    rolling: RollingResistance,
+    /// The ball, whatever its friction coefficient.
+    ball: CagedBall,
     /// Axial load of a ball at which the unloaded side lifts off, N.
     pub lift_off: f64,
 }
@@ -34,37 +29,23 @@ impl Exact {
     /// # Errors
     /// [`Failure::Reference`] where a groove describes no contact.
     pub fn of(gear: &CagedDesign) -> Result<Self, Failure> {
-        let CagedDesign {
-            design,
-            clearance,
-            rolling_resistance,
-            ..
-        } = gear;
-        let design = drawing(design.parameters());
-        let clearance = f64::from(clearance.gap());
+        let ball = gear.exact_ball(gear.friction);
+        let design = &ball.design;
         let deflection =
             design.contact(Groove::Screw)?.deflection + design.contact(Groove::Nut)?.deflection;
-        let preload = (-2.0 * clearance / deflection).max(0.0).powf(1.5);
+        let preload = (-2.0 * ball.clearance / deflection).max(0.0).powf(1.5);
         let per_normal = design.contact_angle.sin() * design.lead_angle().cos();
         Ok(Self {
-            design,
-            clearance,
-            rolling: RollingResistance {
-                hysteresis_loss: rolling_resistance.hysteresis_loss.into(),
-                lubricant_drag: rolling_resistance.lubricant_drag.into(),
-            },
             lift_off: 8f64.sqrt() * preload * per_normal,
+            ball,
         })
     }
 
     /// The ball with a friction coefficient.
     pub fn ball(&self, friction: f32) -> CagedBall {
         CagedBall {
-            design: self.design,
-            clearance: self.clearance,
             friction: friction.into(),
-            rolling: self.rolling,
-            integration: Integration::Full,
+            ..self.ball
         }
     }
 

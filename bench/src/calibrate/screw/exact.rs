@@ -571,16 +571,7 @@ mod tests {
     fn errors(caged: &CagedDesign, grid: &Grid, random: &mut Pcg64) -> [f64; 2] {
         let friction = random.random_range(0.03..0.15);
         let law = grid.law(caged, (friction, friction)).unwrap();
-        let ball = CagedBall {
-            design: grid.design,
-            clearance: caged.clearance.gap().into(),
-            friction: f64::from(friction),
-            rolling: RollingResistance {
-                hysteresis_loss: caged.rolling_resistance.hysteresis_loss.into(),
-                lubricant_drag: caged.rolling_resistance.lubricant_drag.into(),
-            },
-            integration: Integration::Full,
-        };
+        let ball = caged.exact_ball(friction);
         let both = DirectionalCoefficient {
             forward: friction,
             backward: friction,
