@@ -6,12 +6,14 @@ mod debugger;
 mod figures;
 mod image;
 mod log;
+mod longest;
 mod measure;
 mod scenes;
 mod stored;
 mod text;
 mod tools;
 mod trace;
+mod watch;
 
 use std::io::{self, Write as _};
 
@@ -47,6 +49,9 @@ pub struct Arguments {
     /// Print the log of the debug firmware, sent through defmt and decoded, and do nothing else
     #[arg(long, conflicts_with_all = ["gate", "store", "json", "store_cases"])]
     log: bool,
+    /// Print the longest path of every function beside the stored counts, from the image alone, and do nothing else
+    #[arg(long, conflicts_with_all = ["gate", "store", "json", "store_cases", "log"])]
+    longest: bool,
 }
 
 /// Figures for a report, measured where that is possible.
@@ -92,6 +97,11 @@ impl TargetFigures {
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.store_cases {
         return stored::write_cases();
+    }
+    if arguments.longest {
+        let text = text::longest(&measure::longest_paths()?, &stored::figures()?);
+        io::stdout().lock().write_all(text.as_bytes())?;
+        return Ok(());
     }
     if arguments.log {
         io::stdout().lock().write_all(log::log()?.as_bytes())?;

@@ -19,25 +19,53 @@ pub fn text(figures: &Figures) -> String {
 fn functions(figures: &Figures) -> String {
     let mut text = String::from(
         "Cortex-M4F, cycles by Arm's table (a model, no wait states), each call from its first instruction\n\
-         to its return; `small` is what is built for size\n\n",
+         to its return; `longest` is the longest path in the image, whatever the inputs;\n\
+         `small` is what is built for size\n\n",
     );
     let _ = writeln!(
         text,
-        "{:26}{:>8}{:>8}{:>10}{:>8}{:>8}{:>12}",
-        "function", "instr.", "most", "cycles", "most", "small", "M7 instr."
+        "{:30}{:>8}{:>8}{:>10}{:>8}{:>9}{:>8}{:>12}",
+        "function", "instr.", "most", "cycles", "most", "longest", "small", "M7 instr."
     );
     for entry in &figures.functions {
         let _ = writeln!(
             text,
-            "{:26}{:>8}{:>8}{:>10}{:>8}{:>8}{:>12}",
+            "{:30}{:>8}{:>8}{:>10}{:>8}{:>9}{:>8}{:>12}",
             entry.name,
             entry.instructions_min,
             entry.instructions_max,
             entry.cycles_min,
             entry.cycles_max,
+            cycles(entry.longest),
             entry.cycles_max_small,
             entry.instructions_max_cortex_m7
         );
+    }
+    for entry in &figures.functions {
+        if let Some(why) = &entry.no_longest {
+            let _ = writeln!(text, "no longest path of {}: {why}", entry.name);
+        }
+    }
+    text
+}
+
+fn cycles(cycles: Option<u32>) -> String {
+    cycles.map_or_else(|| "none".into(), |cycles| cycles.to_string())
+}
+
+/// Longest paths beside the stored counts.
+pub fn longest(paths: &[(&str, Result<u32, String>)], stored: &Figures) -> String {
+    let mut text = format!(
+        "{:30}{:>9}{:>9}\n",
+        "function, cycles", "counted", "longest"
+    );
+    for (name, longest) in paths {
+        let counted = stored.function(name).map(|entry| entry.cycles_max);
+        let longest = match longest {
+            Ok(cycles) => format!("{cycles:>9}"),
+            Err(why) => format!("  none: {why}"),
+        };
+        let _ = writeln!(text, "{name:30}{:>9}{longest}", cycles(counted));
     }
     text
 }
