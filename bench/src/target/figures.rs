@@ -199,4 +199,36 @@ mod tests {
         figures.broken_limits.push("turns of a loop".into());
         assert!(figures.require().is_err());
     }
+
+    /// README prints what is stored.
+    #[test]
+    fn readme_says_how_long_the_longest_paths_are() {
+        let figures = stored::figures().unwrap();
+        let of = |name: &str| {
+            let entry = figures.function(name).unwrap();
+            let longest = entry.longest.unwrap();
+            (longest, f64::from(longest) / f64::from(entry.cycles_max))
+        };
+        let readme = include_str!("../../../README.md").replace('\n', " ");
+        let caged = figures.functions.iter().map(|entry| entry.name.as_str());
+        let caged = caged.filter(|name| name.starts_with("step_caged") || *name == "between_caged");
+        let most = caged.map(|name| of(name).1).fold(0.0, f64::max);
+        let (balls, linear) = (of("step_train_37_pressing"), of("step_linear"));
+        let thousands = |cycles: u32| format!("{},{:03}", cycles / 1000, cycles % 1000);
+        for said in [
+            format!("caged steps at most {most:.2} times"),
+            format!(
+                "37 balls {} cycles ({:.1} times)",
+                thousands(balls.0),
+                balls.1
+            ),
+            format!(
+                "linear bearing {} ({:.1} times)",
+                thousands(linear.0),
+                linear.1
+            ),
+        ] {
+            assert!(readme.contains(&said), "{said}");
+        }
+    }
 }
