@@ -49,7 +49,8 @@ pub struct Arguments {
     /// Print the log of the debug firmware, sent through defmt and decoded, and do nothing else
     #[arg(long, conflicts_with_all = ["gate", "store", "json", "store_cases"])]
     log: bool,
-    /// Print the longest path of every function beside the stored counts, from the image alone, and do nothing else
+    /// Print the longest path of every function beside its counts, from one image, and do nothing else; fail where a count
+    /// exceeds what the path rests on
     #[arg(long, conflicts_with_all = ["gate", "store", "json", "store_cases", "log"])]
     longest: bool,
 }
@@ -99,9 +100,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         return stored::write_cases();
     }
     if arguments.longest {
-        let text = text::longest(&measure::longest_paths()?, &stored::figures()?);
-        io::stdout().lock().write_all(text.as_bytes())?;
-        return Ok(());
+        return print_longest();
     }
     if arguments.log {
         io::stdout().lock().write_all(log::log()?.as_bytes())?;
@@ -125,6 +124,24 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         stored::gate(&figures)?;
     }
     Ok(())
+}
+
+/// Longest paths beside counts; fails where a count is above one, or exceeds a bound.
+fn print_longest() -> Result<(), Failure> {
+    tools::check()?;
+    let (paths, mut beyond) = measure::longest_paths()?;
+    io::stdout()
+        .lock()
+        .write_all(text::longest(&paths).as_bytes())?;
+    for path in &paths {
+        if path.longest.as_ref().is_ok_and(|&most| path.counted > most) {
+            beyond.push(format!("{}: counted above the longest path", path.name));
+        }
+    }
+    if beyond.is_empty() {
+        return Ok(());
+    }
+    Err(Failure::Data(beyond.join("\n")))
 }
 
 #[cfg(test)]

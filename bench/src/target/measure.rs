@@ -187,15 +187,27 @@ fn bounded(path: &Path) -> Result<(Vec<Result<u32, String>>, Counts), Failure> {
     Ok((paths, counted.count(Core::M4, path, watches)?))
 }
 
-/// Longest paths of all counted functions, from an image alone.
-pub fn longest_paths() -> Result<Vec<(&'static str, Result<u32, String>)>, Failure> {
+/// Longest paths of all counted functions beside what is counted in the same image, and what counts have exceeded.
+pub fn longest_paths() -> Result<(Vec<Beside>, Vec<String>), Failure> {
     let path = built(&["count"], "release")?.0.join("count");
-    let counted = Counted::of(&path)?;
-    let longest = longest(&path, &counted.addresses)?;
-    let of_each = counted.places.iter();
-    Ok(of_each
-        .map(|&(name, place, _)| (name, longest[place].cycles.clone()))
-        .collect())
+    let (paths, counts) = bounded(&path)?;
+    let calls = counts.calls.into_iter().zip(paths);
+    let beside = calls.map(|((name, calls), longest)| Beside {
+        name,
+        counted: calls.ranges().map_or(0, |[_, (_, most)]| most),
+        longest,
+    });
+    Ok((beside.collect(), counts.broken))
+}
+
+/// Most cycles of a function over the inputs, and on its longest path.
+pub struct Beside {
+    /// Its name.
+    pub name: &'static str,
+    /// Most cycles over the inputs.
+    pub counted: u32,
+    /// Cycles on the longest path, or why there is none.
+    pub longest: Result<u32, String>,
 }
 
 /// Functions of an image that are counted.

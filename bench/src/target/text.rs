@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use super::budgets::budgets;
 use super::figures::Figures;
+use super::measure::Beside;
 
 /// Everything as text.
 pub fn text(figures: &Figures) -> String {
@@ -53,19 +54,26 @@ fn cycles(cycles: Option<u32>) -> String {
     cycles.map_or_else(|| "none".into(), |cycles| cycles.to_string())
 }
 
-/// Longest paths beside the stored counts.
-pub fn longest(paths: &[(&str, Result<u32, String>)], stored: &Figures) -> String {
+/// Longest paths beside counts over inputs.
+pub fn longest(paths: &[Beside]) -> String {
     let mut text = format!(
-        "{:30}{:>9}{:>9}\n",
-        "function, cycles", "counted", "longest"
+        "{:30}{:>9}{:>9}{:>8}\n",
+        "function, cycles", "counted", "longest", "ratio"
     );
-    for (name, longest) in paths {
-        let counted = stored.function(name).map(|entry| entry.cycles_max);
+    for Beside {
+        name,
+        counted,
+        longest,
+    } in paths
+    {
         let longest = match longest {
-            Ok(cycles) => format!("{cycles:>9}"),
+            Ok(cycles) => {
+                let ratio = f64::from(*cycles) / f64::from(*counted);
+                format!("{cycles:>9}{ratio:>8.3}")
+            }
             Err(why) => format!("  none: {why}"),
         };
-        let _ = writeln!(text, "{name:30}{:>9}{longest}", cycles(counted));
+        let _ = writeln!(text, "{name:30}{counted:>9}{longest}");
     }
     text
 }
