@@ -127,10 +127,16 @@ mod tests {
                 let needed = impedance[j] * (speeds[j] - free[j]) + grip * (behind + forces[j]);
                 // Roundings of the forces, 1e-6 of the largest, and of the speeds, 1e-8 of up to 0.1 times 1000 N.
                 let left = (push - needed).abs();
-                assert!(left <= 1e-5 * largest + 2e-5, "{round} {j}: {push} {needed}");
+                assert!(
+                    left <= 1e-5 * largest + 2e-5,
+                    "{round} {j}: {push} {needed}"
+                );
                 let parts = speeds[(j + 1) % BALLS] - speeds[j] + room[j];
                 assert!(forces[j] >= 0.0 && parts > -1e-7, "{round} {j}: {parts}");
-                assert!(forces[j] <= 1e-6 * largest || parts < 1e-7, "{round} {j}: {parts}");
+                assert!(
+                    forces[j] <= 1e-6 * largest || parts < 1e-7,
+                    "{round} {j}: {parts}"
+                );
                 pressing += usize::from(forces[j] > 0.0);
             }
         }
