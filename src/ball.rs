@@ -5,6 +5,7 @@
 //! | [`AnalyticLinearBall`] | ball of a linear bearing, the published closed form (Lin 2019, eqs. (3.43), (3.51)) | `LinearBearingTrain` |
 //! | [`elastic`] | ball of a ball screw in elastic grooves, renewed by Newton steps of place and motion (Lin 2019, eqs. (2.11)-(2.14), (3.65)-(3.69)) | `UncagedBallScrew` |
 //! | [`folded`] | law of one ball over its load, solved on a host: torque by one cubic | `CagedBallScrew` |
+//! | [`pressed`] | law of one ball that its neighbours press on, solved on a host: free speed, impedance and torque by polynomials | `PressedScrew` |
 //! | [`ScrewRow`], [`ScrewTick`] | balls of a ball screw under one load in closed form, for comparison | set-up of `UncagedBallScrew`: the range of speeds; direct |
 //! | [`LoadShare`], [`LoadShares`] | a ball's share of the load; along the track, for both signs of it | `UncagedBallScrew`, `LinearBearingTrain` |
 //! | [`Clearance`] | how balls fit between the grooves | set-up of `ClosedFormScrew` and `UncagedBallScrew` |
@@ -16,6 +17,7 @@ pub mod folded;
 mod linear;
 mod loads;
 pub(crate) mod preload;
+pub mod pressed;
 mod screw;
 pub(crate) mod two_point;
 

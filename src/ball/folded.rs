@@ -120,6 +120,23 @@ pub struct LoadLaw<const NODES: usize> {
     pub shifted_from: f32,
 }
 
+/// Whether a friction coefficient is within the least and the largest of some, but for roundings.
+#[inline(always)]
+pub(crate) const fn holds((least, largest): (f32, f32), friction: f32) -> bool {
+    friction >= (1.0 - SAME_FRICTION) * least && friction <= (1.0 + SAME_FRICTION) * largest
+}
+
+/// The [`octaves`] of friction coefficients.
+pub(crate) const fn node_octaves<const NODES: usize>(frictions: &[f32; NODES]) -> [f32; NODES] {
+    let mut all = [0.0; NODES];
+    let mut number = 0;
+    while number < NODES {
+        all[number] = octaves(frictions[number]);
+        number += 1;
+    }
+    all
+}
+
 /// A friction coefficient between the nodes of a law.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -135,6 +152,48 @@ impl FrictionPlace {
     #[must_use]
     pub const fn friction(&self) -> f32 {
         self.friction
+    }
+
+    /// The place of a friction coefficient among those of nodes, rising, with these octaves.
+    #[inline(always)]
+    pub(crate) const fn among<const NODES: usize>(
+        frictions: &[f32; NODES],
+        octaves_of: &[f32; NODES],
+        friction: f32,
+    ) -> Self {
+        let mut node = 0;
+        let mut number = 1;
+        while number + 1 < NODES {
+            if friction > frictions[number] {
+                node = number;
+            }
+            number += 1;
+        }
+        let share = if NODES == 1 || friction <= frictions[0] {
+            0.0
+        } else if friction < frictions[NODES - 1] {
+            let [low, high] = [octaves_of[node % NODES], octaves_of[(node + 1) % NODES]];
+            (octaves(friction) - low) / (high - low)
+        } else {
+            1.0
+        };
+        Self {
+            friction,
+            node: node as u32,
+            share,
+        }
+    }
+
+    /// The node below it.
+    #[inline(always)]
+    pub(crate) const fn node(&self) -> usize {
+        self.node as usize
+    }
+
+    /// Its share of the way to the next node.
+    #[inline(always)]
+    pub(crate) const fn share(&self) -> f32 {
+        self.share
     }
 
     /// The same place for another friction coefficient, until [`LoadLaw::place`] has found its own.
@@ -185,46 +244,29 @@ impl<const NODES: usize> LoadLaw<NODES> {
     /// Whether a friction coefficient is one of those that the law is folded for.
     #[inline(always)]
     pub(crate) const fn holds(&self, friction: f32) -> bool {
-        let (least, largest) = self.friction_range();
-        friction >= (1.0 - SAME_FRICTION) * least && friction <= (1.0 + SAME_FRICTION) * largest
+        holds(self.friction_range(), friction)
     }
 
-    /// The [`octaves`] of the nodes' friction coefficients, for [`Self::place`].
-    pub(crate) const fn node_octaves(&self) -> [f32; NODES] {
+    /// Friction coefficients of the nodes.
+    const fn frictions(&self) -> [f32; NODES] {
         let mut all = [0.0; NODES];
         let mut number = 0;
         while number < NODES {
-            all[number] = octaves(self.nodes[number].friction);
+            all[number] = self.nodes[number].friction;
             number += 1;
         }
         all
     }
 
+    /// The [`octaves`] of the nodes' friction coefficients, for [`Self::place`].
+    pub(crate) const fn node_octaves(&self) -> [f32; NODES] {
+        node_octaves(&self.frictions())
+    }
+
     /// The place of a friction coefficient. Beyond the outermost nodes the torque is in proportion to it.
     #[inline(always)]
     pub(crate) const fn place(&self, friction: f32, node_octaves: &[f32; NODES]) -> FrictionPlace {
-        let mut node = 0;
-        let mut number = 1;
-        while number + 1 < NODES {
-            if friction > self.nodes[number].friction {
-                node = number;
-            }
-            number += 1;
-        }
-        let (least, largest) = self.friction_range();
-        let share = if NODES == 1 || friction <= least {
-            0.0
-        } else if friction < largest {
-            let [low, high] = [node_octaves[node % NODES], node_octaves[(node + 1) % NODES]];
-            (octaves(friction) - low) / (high - low)
-        } else {
-            1.0
-        };
-        FrictionPlace {
-            friction,
-            node: node as u32,
-            share,
-        }
+        FrictionPlace::among(&self.frictions(), node_octaves, friction)
     }
 
     /// Friction torque of a ball over its load `W`, m, whose octaves these are, within the ends; `branch` 0 under a load that opposes the
