@@ -98,7 +98,7 @@ pub struct BallNode {
 /// `F_0` of its preload; between two friction coefficients linear in their octaves. Below the first knot and above the last one impedance and
 /// torque are in proportion to `W`.
 ///
-/// Accuracy: that of the block's certificate. Cost: part of [`STEP_PRESSED`](crate::promises::STEP_PRESSED).
+/// Accuracy: that of the block's certificate. Cost: a step of [`PressedScrew`](crate::scene::PressedScrew) evaluates it for every ball.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct BallLaw<const NODES: usize> {
@@ -128,7 +128,11 @@ impl BallNumbers {
     fn towards(&self, others: &Self, share: f32) -> Self {
         #[inline(always)]
         fn all<const M: usize>(from: &[f32; M], to: &[f32; M], share: f32) -> [f32; M] {
-            core::array::from_fn(|at| from[at] + share * (to[at] - from[at]))
+            let mut all = *from;
+            for (number, to) in all.iter_mut().zip(to) {
+                *number += share * (to - *number);
+            }
+            all
         }
         let one = |from: f32, to: f32| from + share * (to - from);
         Self {

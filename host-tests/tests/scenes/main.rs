@@ -16,6 +16,7 @@ mod memory;
 mod noise;
 mod phases;
 mod preloaded;
+mod pressed;
 mod promises;
 mod scene_constants;
 mod step_promises;
