@@ -44,8 +44,8 @@ pub const FOOTPRINTS: [Footprint; 8] = [
     },
     Footprint {
         scene: "linear_bearing",
-        flash: 8000,
-        flash_small: 7800,
+        flash: 8400,
+        flash_small: 8000,
         ram: 720,
         stack: 272,
         stack_set_up: 32,

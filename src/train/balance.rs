@@ -87,7 +87,12 @@ impl<const RUBBED: bool> Balancing<RUBBED> {
     /// Takes a ball's part out of the correction and what then is left of it out of the ball's force.
     #[inline(always)]
     fn relieve(&mut self, ball: &mut Ball) {
-        self.correction = self.correction * self.grip.passed(ball) - self.rate * ball.impedance();
+        let passed = if RUBBED {
+            self.correction * self.grip.passed(ball)
+        } else {
+            self.correction
+        };
+        self.correction = passed - self.rate * ball.impedance();
         ball.set_force(not_negative(ball.force() - self.correction));
     }
 }

@@ -13,7 +13,7 @@ const FORCES: Range = Range::new(0.0, 1e12);
 /// | `speed` | free speed | free speed | actual speed |
 /// | `slack` | slack | slack | rear ball of a cluster: the cluster's remainder |
 /// | `force` | - | front ball: push; rear ball: inner slack | force on the ball in front |
-/// | `of_cluster` | - | front ball: impedance; rear ball: tail | rear ball: impedance, as its rear ball weighs it |
+/// | `of_cluster` | - | front ball: impedance; rear ball: the same, or where balls rub the tail | rear ball: impedance, as it weighs it |
 /// | `others` | - | count over the cluster | the same |
 ///
 /// A dash is what the last tick left, which nothing reads. Only the methods here touch the fields, each under the
@@ -195,15 +195,19 @@ impl Ball {
         self.force = force;
     }
 
-    /// Leaves in a rear ball what rounding made of the force that pushes it, exactly zero; and the cluster's impedance as the rear ball
-    /// weighs it.
+    /// Leaves in a rear ball what rounding made of the force that pushes it, exactly zero.
     #[inline(always)]
-    pub(super) fn leave_remainder(&mut self, remainder: f32, impedance: f32) {
+    pub(super) fn leave_remainder(&mut self, remainder: f32) {
         self.slack = remainder;
+    }
+
+    /// Leaves in a rear ball the cluster's impedance, as it weighs it.
+    #[inline(always)]
+    pub(super) fn leave_remainder_impedance(&mut self, impedance: f32) {
         self.of_cluster = impedance;
     }
 
-    /// The impedance that [`Ball::leave_remainder`] left.
+    /// The cluster's impedance, as its rear ball weighs it.
     #[inline(always)]
     pub(super) fn remainder_impedance(&self) -> f32 {
         self.of_cluster

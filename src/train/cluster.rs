@@ -108,7 +108,7 @@ impl Cluster {
                 push: front_ball.push(),
                 impedance: front_ball.cluster_impedance(),
                 inner_slack: rear_ball.inner_slack(),
-                tail: rear_ball.tail(),
+                tail: if RUBBED { rear_ball.tail() } else { 1.0 },
             },
             _ => Self::single(front_ball, grip),
         }
@@ -116,9 +116,16 @@ impl Cluster {
 
     /// Leaves the cluster of `others` and one more balls in its two end balls. Of a single ball both ends are one.
     #[inline(always)]
-    pub(super) fn leave(&self, balls: &mut [Ball], rear: usize, front: usize, others: usize) {
+    pub(super) fn leave<const RUBBED: bool>(
+        &self,
+        balls: &mut [Ball],
+        rear: usize,
+        front: usize,
+        others: usize,
+    ) {
         if let Some(ball) = balls.get_mut(rear) {
-            ball.set_rear(others, self.tail, self.inner_slack);
+            let of_cluster = if RUBBED { self.tail } else { self.impedance };
+            ball.set_rear(others, of_cluster, self.inner_slack);
         }
         if let Some(ball) = balls.get_mut(front) {
             ball.set_front(others, self.impedance, self.push);

@@ -74,6 +74,27 @@ impl Grip<true> {
 }
 
 impl<const RUBBED: bool> Grip<RUBBED> {
+    /// The same of a train whose balls rub; none where they do not.
+    #[inline(always)]
+    pub(super) const fn rubbing(self) -> Option<Grip<true>> {
+        let Self {
+            passed,
+            per_passed,
+            per_growth,
+            growth,
+        } = self;
+        if RUBBED {
+            Some(Grip {
+                passed,
+                per_passed,
+                per_growth,
+                growth,
+            })
+        } else {
+            None
+        }
+    }
+
     /// Part of the force behind a ball that the ball in front feels.
     #[inline(always)]
     pub(super) fn passed(&self, ball: &Ball) -> f32 {

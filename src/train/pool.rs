@@ -66,7 +66,7 @@ fn grow<const RUBBED: bool>(balls: &mut [Ball], mut front: usize, grip: Grip<RUB
         front = next;
     }
     let rear = behind.len();
-    cluster.leave(balls, rear, front, front - rear);
+    cluster.leave::<RUBBED>(balls, rear, front, front - rear);
     rear
 }
 
@@ -83,7 +83,7 @@ fn close<const RUBBED: bool>(balls: &mut [Ball], grip: Grip<RUBBED>) -> usize {
     if closing.front != last {
         closing
             .cluster
-            .leave(balls, closing.rear, closing.front, closing.others);
+            .leave::<RUBBED>(balls, closing.rear, closing.front, closing.others);
     }
     closing.front
 }

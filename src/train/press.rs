@@ -4,6 +4,7 @@ use super::ball::Ball;
 use super::grip::Grip;
 use super::motion::Motion;
 use super::pool::pool;
+use super::rubbing::settle_rubbing;
 use super::settle::{Pressing, settle};
 
 /// Largest free speed that counts, a relative deviation: that of a ball that stands, or runs twice as fast as a nominal one.
@@ -217,7 +218,10 @@ impl<const N: usize> Press<N> {
         grip: Grip<RUBBED>,
     ) -> Pressing {
         let foremost = self.foremost();
-        settle(&mut self.balls, foremost, motion, grip)
+        match grip.rubbing() {
+            Some(grip) => settle_rubbing(&mut self.balls, foremost, motion, grip),
+            None => settle(&mut self.balls, foremost, motion),
+        }
     }
 }
 

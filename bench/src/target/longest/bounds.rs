@@ -128,7 +128,7 @@ pub const LOOPS: &[Row] = &[
         Bound::Takes(&[Total::TakenIn]),
     ),
     row(
-        "epas_friction::train::intake::Intake::press",
+        "epas_friction::train::intake::Intake::press_rubbing",
         Bound::Takes(&[Total::TakenIn]),
     ),
     // "Why joining is exact", `epas_friction::train`: the walk passes each ball once, and every way around `grow` or `close`
@@ -259,7 +259,7 @@ pub fn balls_in(name: &str) -> Option<u32> {
     })
 }
 
-/// The name of a function without lengths of arrays and brackets.
+/// The name of a function without lengths of arrays, other constants and brackets.
 pub fn plain(name: &str) -> String {
     let mut plain = String::with_capacity(name.len());
     let mut rest = name;
@@ -267,14 +267,22 @@ pub fn plain(name: &str) -> String {
         plain.push_str(&rest[..open]);
         rest = &rest[open + 1..];
         if let Some((length, after)) = rest.split_once('>')
-            && !length.is_empty()
-            && length.bytes().all(|byte| byte.is_ascii_digit())
+            && is_constant(length)
         {
             rest = after;
+            if plain.ends_with("::") {
+                plain.truncate(plain.len() - 2);
+            }
         }
     }
     plain.push_str(rest);
     plain.replace('>', "")
+}
+
+/// Whether an argument of a function is a constant: a length, or a choice.
+fn is_constant(argument: &str) -> bool {
+    let digits = argument.bytes().all(|byte| byte.is_ascii_digit());
+    !argument.is_empty() && digits || matches!(argument, "true" | "false")
 }
 
 #[cfg(test)]
@@ -291,8 +299,12 @@ mod tests {
             None
         );
         assert_eq!(
-            plain("epas_friction::train::pool::pool"),
+            plain("epas_friction::train::pool::pool::<false>"),
             "epas_friction::train::pool::pool"
+        );
+        assert_eq!(
+            plain("<epas_friction::train::settle::Settling<false>>::row"),
+            "epas_friction::train::settle::Settling::row"
         );
     }
 }
