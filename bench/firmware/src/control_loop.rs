@@ -5,10 +5,9 @@ use epas_friction::hal::{
     EncoderConfiguration, FaultReaction, FeedForwardConfiguration, FrictionFeedForward,
     MagneticEncoder,
 };
+use epas_friction::scene::PressedScrew;
 use epas_friction::scene::{CagedBallScrew, CagedConstants};
-use epas_friction::{
-    Error, FrictionModel, Inputs, LinearBearingTrain, LinearInputs, UncagedBallScrew,
-};
+use epas_friction::{Error, FrictionModel, Inputs, LinearBearingTrain, LinearInputs};
 
 use crate::cases::Reader;
 use crate::devices::{BIT_LOST, Bridge, GEAR_RATIO, Sensor, TICK};
@@ -28,7 +27,7 @@ pub struct ControlLoop {
     /// Gear with a cage.
     caged: Caged,
     /// Gear without.
-    uncaged: FrictionModel<UncagedBallScrew<BALLS>>,
+    uncaged: FrictionModel<PressedScrew<BALLS>>,
     /// Bearing of the rack.
     linear: FrictionModel<LinearBearingTrain<ROW>>,
     /// The gear with a cage once more, between devices.
