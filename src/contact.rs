@@ -21,7 +21,6 @@ mod across;
 mod along;
 mod integrals;
 mod rolling;
-pub(crate) mod slip_map;
 
 pub(crate) use across::{Across, AcrossTable, slip_and_spin};
 pub use along::{FrictionMap, NormalizedFriction, SMALLEST_AXIS_RATIO};

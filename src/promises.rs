@@ -45,6 +45,8 @@ pub const STEPS: [Promise; 27] = [
     STEP_CAGED_LAW,
     BETWEEN_CAGED,
     STEP_UNCAGED,
+    STEP_UNCAGED_RANGE,
+    STEP_UNCAGED_SHARES,
     STEP_UNCAGED_MEMORY,
     BETWEEN_UNCAGED,
     STEP_LINEAR,
@@ -53,8 +55,6 @@ pub const STEPS: [Promise; 27] = [
     SQRT,
     CBRT_SQUARED,
     CBRT_AND_SQUARED,
-    SCREW_RENEWAL,
-    SCREW_START,
     MEMORY,
     MEMORY_LOAD_EXACT,
     MEMORY_PRELOADED,
@@ -80,7 +80,7 @@ pub const PARTS: [Promise; 6] = [
 /// Promises of functions that no step calls, nor parts of them: firmware calls them by their names.
 pub const DIRECT: [Promise; 26] = [
     SET_FRICTION,
-    SET_CLEARANCE,
+    START_UNCAGED,
     SET_FRICTION_CAGED,
     SWAP_CAGED,
     START_CAGED,

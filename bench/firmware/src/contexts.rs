@@ -24,7 +24,7 @@ use epas_friction::law::motion::{
     AngleReading, CountReading, CountSensor, CountSensorParameters, NutAngle, Play, PlayState,
     SpeedOverTick, Steady, SteadyReading, WrappedAngle, WrappedAngleParameters,
 };
-use epas_friction::scene::{CagedBallScrew, CagedConstants, PressedConstants, PressedScrew};
+use epas_friction::scene::{CagedBallScrew, CagedConstants, UncagedConstants, UncagedBallScrew};
 use epas_friction::train::{Press, Train};
 use epas_friction::{
     BallScrew, CATALOGUE, ClosedFormScrew, DeviationMap, Error, FrictionModel, Inputs,
@@ -99,17 +99,17 @@ pub struct Contexts {
     /// Forces between balls and their positions.
     pub train: Train<BALLS>,
     /// Ball screw without cage.
-    pub uncaged: FrictionModel<PressedScrew<BALLS>>,
+    pub uncaged: FrictionModel<UncagedBallScrew<BALLS>>,
     /// The same with loads of their own for the balls.
-    pub uncaged_shares: FrictionModel<PressedScrew<BALLS>>,
+    pub uncaged_shares: FrictionModel<UncagedBallScrew<BALLS>>,
     /// The same for a range of friction coefficients, between two of them.
-    pub uncaged_range: FrictionModel<PressedScrew<BALLS, 3>>,
+    pub uncaged_range: FrictionModel<UncagedBallScrew<BALLS, 3>>,
     /// The same, whose friction coefficient is set.
-    pub set: FrictionModel<PressedScrew<BALLS, 3>>,
+    pub set: FrictionModel<UncagedBallScrew<BALLS, 3>>,
     /// The same, that starts anew.
-    pub uncaged_started: FrictionModel<PressedScrew<BALLS>, &'static PressedConstants<BALLS>>,
+    pub uncaged_started: FrictionModel<UncagedBallScrew<BALLS>, &'static UncagedConstants<BALLS>>,
     /// The same after turns under a falling load: most balls press on each other.
-    pub pressing: FrictionModel<PressedScrew<BALLS>>,
+    pub pressing: FrictionModel<UncagedBallScrew<BALLS>>,
     /// Ball screw without cage, with a memory and an encoder.
     pub gear: FrictionModel<Gear>,
     /// Its encoder's count.
@@ -341,7 +341,7 @@ fn between_nodes(
 }
 
 /// A ball screw that has turned with its load falling.
-fn pressing(mut model: FrictionModel<PressedScrew<BALLS>>) -> FrictionModel<PressedScrew<BALLS>> {
+fn pressing(mut model: FrictionModel<UncagedBallScrew<BALLS>>) -> FrictionModel<UncagedBallScrew<BALLS>> {
     for tick in 0..200_u8 {
         let _ = model.step(Inputs {
             nut_speed: 40.0,

@@ -5,7 +5,7 @@ use epas_friction::hal::{
     EncoderConfiguration, FaultReaction, FeedForwardConfiguration, FrictionFeedForward,
     MagneticEncoder,
 };
-use epas_friction::scene::PressedScrew;
+use epas_friction::scene::UncagedBallScrew;
 use epas_friction::scene::{CagedBallScrew, CagedConstants};
 use epas_friction::{Error, FrictionModel, Inputs, LinearBearingTrain, LinearInputs};
 
@@ -27,7 +27,7 @@ pub struct ControlLoop {
     /// Gear with a cage.
     caged: Caged,
     /// Gear without.
-    uncaged: FrictionModel<PressedScrew<BALLS>>,
+    uncaged: FrictionModel<UncagedBallScrew<BALLS>>,
     /// Bearing of the rack.
     linear: FrictionModel<LinearBearingTrain<ROW>>,
     /// The gear with a cage once more, between devices.

@@ -29,7 +29,7 @@ use epas_friction::law::motion::{
 };
 use epas_friction::law::{Elements, SlidingLimits};
 use epas_friction::scene::{
-    CagedBallScrew, CagedConstants, PressedConstants, PressedScrew, WithMemoryInputs,
+    CagedBallScrew, CagedConstants, UncagedConstants, UncagedBallScrew, WithMemoryInputs,
 };
 use epas_friction::train::{Press, Train};
 use epas_friction::{
@@ -266,15 +266,15 @@ counted! {
 
     /// A new friction coefficient of 37 balls that run.
     fn count_set_friction_37(
-        model: &mut FrictionModel<PressedScrew<BALLS, 3>>, friction: f32
+        model: &mut FrictionModel<UncagedBallScrew<BALLS, 3>>, friction: f32
     ) -> bool {
         model.set_friction(friction).is_ok()
     }
 
     /// A ball screw without cage from its constants to its first tick.
     fn count_start_37(
-        model: &mut FrictionModel<PressedScrew<BALLS>, &'static PressedConstants<BALLS>>,
-        constants: &'static PressedConstants<BALLS>
+        model: &mut FrictionModel<UncagedBallScrew<BALLS>, &'static UncagedConstants<BALLS>>,
+        constants: &'static UncagedConstants<BALLS>
     ) -> () {
         *model = FrictionModel::of(constants);
     }
@@ -375,28 +375,28 @@ counted! {
 
     /// One tick of a ball screw with 37 balls without cage.
     fn count_step_train_37(
-        model: &mut FrictionModel<PressedScrew<BALLS>>, nut_speed: f32, axial_load: f32
+        model: &mut FrictionModel<UncagedBallScrew<BALLS>>, nut_speed: f32, axial_load: f32
     ) -> UncagedOutputs {
         model.step(Inputs { nut_speed, axial_load })
     }
 
     /// The same, where most balls press on each other.
     fn count_step_train_37_pressing(
-        model: &mut FrictionModel<PressedScrew<BALLS>>, nut_speed: f32, axial_load: f32
+        model: &mut FrictionModel<UncagedBallScrew<BALLS>>, nut_speed: f32, axial_load: f32
     ) -> UncagedOutputs {
         model.step(Inputs { nut_speed, axial_load })
     }
 
     /// The same with loads of their own for the balls.
     fn count_step_train_37_shares(
-        model: &mut FrictionModel<PressedScrew<BALLS>>, nut_speed: f32, axial_load: f32
+        model: &mut FrictionModel<UncagedBallScrew<BALLS>>, nut_speed: f32, axial_load: f32
     ) -> UncagedOutputs {
         model.step(Inputs { nut_speed, axial_load })
     }
 
     /// The same with a friction coefficient between two nodes.
     fn count_step_train_37_range(
-        model: &mut FrictionModel<PressedScrew<BALLS, 3>>, nut_speed: f32, axial_load: f32
+        model: &mut FrictionModel<UncagedBallScrew<BALLS, 3>>, nut_speed: f32, axial_load: f32
     ) -> UncagedOutputs {
         model.step(Inputs { nut_speed, axial_load })
     }

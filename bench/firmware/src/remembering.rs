@@ -6,7 +6,7 @@ use epas_friction::law::coefficient::{CoefficientLaw, OneCoefficient, Temperatur
 use epas_friction::law::memory::{Part, ProportionalElements, SLIP_8};
 use epas_friction::law::motion::{CountSensor, CountSensorParameters, SpeedOverTick};
 use epas_friction::scene::{
-    Freshness, PressedScrew, PressedScrewConfiguration, WithMemory, WithMemoryConfiguration,
+    Freshness, UncagedBallScrew, UncagedBallScrewConfiguration, WithMemory, WithMemoryConfiguration,
     WithMemoryInputs,
 };
 use epas_friction::{
@@ -22,10 +22,10 @@ pub const COUNTS: u32 = 1 << 14;
 
 /// A ball screw with 37 balls, without cage, with an encoder and one friction coefficient.
 pub type Gear =
-    WithMemory<PressedScrew<BALLS>, ProportionalElements<8>, CountSensor, OneCoefficient>;
+    WithMemory<UncagedBallScrew<BALLS>, ProportionalElements<8>, CountSensor, OneCoefficient>;
 
 /// The same with a friction coefficient by speed and temperature.
-pub type GearByLaw = WithMemory<PressedScrew<BALLS, 3>, ProportionalElements<8>, CountSensor>;
+pub type GearByLaw = WithMemory<UncagedBallScrew<BALLS, 3>, ProportionalElements<8>, CountSensor>;
 
 /// A linear bearing with one friction coefficient.
 pub type Carriage =
@@ -49,7 +49,7 @@ fn elements(limit: f32, breakaway: f32) -> Result<ProportionalElements<8>, Error
 /// None.
 pub fn gear_configuration() -> Result<
     WithMemoryConfiguration<
-        PressedScrewConfiguration,
+        UncagedBallScrewConfiguration,
         ProportionalElements<8>,
         CountSensor,
         OneCoefficient,
@@ -66,7 +66,7 @@ pub fn gear_configuration() -> Result<
 /// # Errors
 /// None.
 pub fn gear_law_configuration() -> Result<
-    WithMemoryConfiguration<PressedScrewConfiguration<3>, ProportionalElements<8>, CountSensor>,
+    WithMemoryConfiguration<UncagedBallScrewConfiguration<3>, ProportionalElements<8>, CountSensor>,
     Error,
 > {
     gear(

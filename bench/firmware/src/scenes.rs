@@ -11,8 +11,8 @@ use epas_friction::law::coefficient::{CoefficientLaw, OneCoefficient, Temperatur
 use epas_friction::law::memory::{Part, ProportionalElements, SLIP_8};
 use epas_friction::law::motion::SpeedOverTick;
 use epas_friction::scene::{
-    CagedBallScrew, CagedConstants, Freshness, PressedConstants, PressedScrew,
-    PressedScrewConfiguration, WithMemory, WithMemoryConfiguration, WithMemoryConstants,
+    CagedBallScrew, CagedConstants, Freshness, UncagedConstants, UncagedBallScrew,
+    UncagedBallScrewConfiguration, WithMemory, WithMemoryConfiguration, WithMemoryConstants,
     WithMemoryInputs,
 };
 use epas_friction::{
@@ -74,8 +74,8 @@ static CURVATURE: FittedCurvature = FittedCurvature::of(&DESIGN, Groove::Screw);
 static EFFICIENCY: EfficiencyGeometry = EfficiencyGeometry::of(&DESIGN);
 static LINEAR: LinearConstants<ROW> = folded(LinearConstants::new(&folded(linear_configuration())));
 /// Constants of the screw without a cage.
-pub static UNCAGED: PressedConstants<BALLS> =
-    folded(PressedConstants::new(&folded(uncaged_configuration())));
+pub static UNCAGED: UncagedConstants<BALLS> =
+    folded(UncagedConstants::new(&folded(uncaged_configuration())));
 
 /// `?` of a constant function.
 macro_rules! tried {
@@ -113,7 +113,7 @@ pub type CagedLawConstants =
     WithMemoryConstants<CagedConstants<5>, ProportionalElements<8>, SpeedOverTick>;
 /// The same without cage.
 pub type UncagedMemoryConstants = WithMemoryConstants<
-    PressedConstants<BALLS>,
+    UncagedConstants<BALLS>,
     ProportionalElements<8>,
     SpeedOverTick,
     OneCoefficient,
@@ -295,7 +295,7 @@ pub struct UncagedWithMemory;
 
 /// Its scene.
 pub type UncagedMemory =
-    WithMemory<PressedScrew<BALLS>, ProportionalElements<8>, SpeedOverTick, OneCoefficient>;
+    WithMemory<UncagedBallScrew<BALLS>, ProportionalElements<8>, SpeedOverTick, OneCoefficient>;
 
 impl Run for UncagedWithMemory {
     const NAME: &'static str = "ball_screw_37_with_memory";
@@ -352,7 +352,7 @@ pub struct Uncaged;
 
 impl Run for Uncaged {
     const NAME: &'static str = "ball_screw_37";
-    type Model = FrictionModel<PressedScrew<BALLS>, &'static PressedConstants<BALLS>>;
+    type Model = FrictionModel<UncagedBallScrew<BALLS>, &'static UncagedConstants<BALLS>>;
 
     fn set_up() -> Result<Self::Model, Error> {
         Ok(FrictionModel::of(&UNCAGED))
@@ -396,8 +396,8 @@ pub const fn closed_form_configuration() -> Result<ClosedFormScrewConfiguration,
 ///
 /// # Errors
 /// None.
-pub const fn uncaged_configuration() -> Result<PressedScrewConfiguration, Error> {
-    Ok(PressedScrewConfiguration {
+pub const fn uncaged_configuration() -> Result<UncagedBallScrewConfiguration, Error> {
+    Ok(UncagedBallScrewConfiguration {
         folded: &LIN_3_6_BALL,
         ball_friction: 0.1,
         turns: 2.0,
@@ -425,9 +425,9 @@ static SHARES: [LoadShare; 8] = [
 ///
 /// # Errors
 /// None.
-pub const fn uncaged_shares_configuration() -> Result<PressedScrewConfiguration, Error> {
+pub const fn uncaged_shares_configuration() -> Result<UncagedBallScrewConfiguration, Error> {
     let even = folded(uncaged_configuration());
-    Ok(PressedScrewConfiguration {
+    Ok(UncagedBallScrewConfiguration {
         load_shares: LoadShares::same(&SHARES),
         ..even
     })
@@ -437,9 +437,9 @@ pub const fn uncaged_shares_configuration() -> Result<PressedScrewConfiguration,
 ///
 /// # Errors
 /// None.
-pub const fn uncaged_range_configuration() -> Result<PressedScrewConfiguration<3>, Error> {
+pub const fn uncaged_range_configuration() -> Result<UncagedBallScrewConfiguration<3>, Error> {
     let even = folded(uncaged_configuration());
-    Ok(PressedScrewConfiguration {
+    Ok(UncagedBallScrewConfiguration {
         folded: &LIN_3_6_BALL_RANGE,
         ball_friction: even.ball_friction,
         turns: even.turns,

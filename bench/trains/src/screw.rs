@@ -1,6 +1,6 @@
 //! A ball screw whose balls press on each other.
 
-use epas_friction::scene::{FoldedBall, PressedScrew, PressedScrewConfiguration};
+use epas_friction::scene::{FoldedBall, UncagedBallScrew, UncagedBallScrewConfiguration};
 use epas_friction::{DeviationMap, FrictionModel, Inputs, LoadShares, UncagedOutputs};
 
 use crate::balls::{Built, Configuration};
@@ -20,7 +20,7 @@ pub enum Folded {
     Range(&'static FoldedBall<NODES>),
 }
 
-/// What is set for a screw beside what a host has folded of its ball: see [`PressedScrewConfiguration`].
+/// What is set for a screw beside what a host has folded of its ball: see [`UncagedBallScrewConfiguration`].
 #[derive(Clone, Copy, Debug)]
 pub struct ScrewConfiguration {
     /// What a host has folded.
@@ -46,8 +46,8 @@ impl ScrewConfiguration {
     const fn with<const N: usize>(
         &self,
         folded: &'static FoldedBall<N>,
-    ) -> PressedScrewConfiguration<N> {
-        PressedScrewConfiguration {
+    ) -> UncagedBallScrewConfiguration<N> {
+        UncagedBallScrewConfiguration {
             folded,
             ball_friction: self.ball_friction,
             turns: self.turns,
@@ -61,7 +61,7 @@ impl ScrewConfiguration {
 }
 
 /// A screw for a range of friction coefficients.
-type RangeScrew<const N: usize> = PressedScrew<N, NODES>;
+type RangeScrew<const N: usize> = UncagedBallScrew<N, NODES>;
 
 /// A ball screw with so many balls, 1 to 64.
 ///
@@ -74,7 +74,7 @@ pub fn screw(
     match configuration {
         Configuration::Plain(plain) => match plain.folded {
             Folded::One(folded) => {
-                with_balls!(plain, PressedScrew, balls, &plain.with(folded))
+                with_balls!(plain, UncagedBallScrew, balls, &plain.with(folded))
             }
             Folded::Range(folded) => {
                 with_balls!(plain, RangeScrew, balls, &plain.with(folded))
@@ -83,7 +83,7 @@ pub fn screw(
         Configuration::Remembering(whole) => match whole.scene.folded {
             Folded::One(folded) => {
                 let scene = whole.scene.with(folded);
-                with_balls!(remembering, PressedScrew, balls, &around(whole, scene))
+                with_balls!(remembering, UncagedBallScrew, balls, &around(whole, scene))
             }
             Folded::Range(folded) => {
                 let scene = whole.scene.with(folded);
@@ -117,7 +117,7 @@ fn around<A, B>(whole: &RememberingConfiguration<A>, scene: B) -> RememberingCon
     }
 }
 
-impl<const N: usize, const K: usize> Row for PressedScrew<N, K> {
+impl<const N: usize, const K: usize> Row for UncagedBallScrew<N, K> {
     fn pressing(state: &Self::State) -> u64 {
         pressing(&state.circuit.train)
     }

@@ -5,7 +5,7 @@ use super::fit::GrooveFit;
 use super::raceway::cube_root;
 use super::speeds::Speeds;
 use super::tick::{Mean, ScrewTick, limited};
-use crate::ball::loads::{LoadShare, loaded};
+use crate::ball::loads::loaded;
 use crate::error::{Error, attempt, in_range};
 use crate::geometry::BallScrew;
 use crate::ranges;
@@ -259,41 +259,6 @@ impl ScrewRow {
             },
         )
     }
-
-    /// Largest deviation of a ball's speed, m per unit of nut speed, that contact angles make which deviate by up
-    /// to this much: at the corners of the deviations, where it is largest, in both directions of load and motion,
-    /// and with one loaded diagonal alone: a preload on the other one makes it smaller. For set-up.
-    pub(crate) const fn fastest_deviation(&self, on_screw: f32, in_nut: f32) -> f32 {
-        const ONE_DIAGONAL: Mean = Mean {
-            gain: 1.0,
-            compliance: 0.0,
-            compliance_rolling: 0.0,
-            torque: 0.0,
-            torque_rolling: 0.0,
-            main_load: 0.0,
-            third_load: 0.0,
-        };
-        let mut fastest = 0.0;
-        // Each bit stands for one sign.
-        let mut signs = 0;
-        while signs < 16 {
-            let side = signed(1.0, signs & 1);
-            let turned = if self.play {
-                self.speeds.in_two_points(side)
-            } else {
-                self.speeds.in_more_points(side, signs & 2 == 0)
-            };
-            let ball = ScrewTick::new(&self.speeds, turned, &ONE_DIAGONAL).ball(
-                signed(on_screw, signs & 4),
-                signed(in_nut, signs & 8),
-                &LoadShare::MEAN,
-            );
-            let size = ball.speed_deviation.abs();
-            fastest = if size > fastest { size } else { fastest };
-            signs += 1;
-        }
-        fastest
-    }
 }
 
 /// Spin of a nominal ball in the contacts with the screw and with the nut, over the nut's speed.
@@ -318,11 +283,6 @@ fn counted(axial_load: f32) -> f32 {
     } else {
         SMALLEST_LOAD
     }
-}
-
-/// `value` with the sign that a bit stands for.
-const fn signed(value: f32, bit: u8) -> f32 {
-    if bit == 0 { value } else { -value }
 }
 
 #[cfg(test)]

@@ -11,7 +11,7 @@ use epas_firmware::scenes::{BALLS, course, linear_configuration, uncaged_configu
 use epas_friction::scene::CagedBallScrew;
 use epas_friction::{
     BallScrew, BallScrewParameters, Error, FrictionModel, Inputs, LinearBearingTrain, LinearInputs,
-    PressedScrew,
+    UncagedBallScrew,
 };
 
 #[entry]
@@ -37,7 +37,7 @@ fn log() -> Result<(), Error> {
         defmt::warn!("refused: {}", error);
     }
     let mut caged = FrictionModel::<CagedBallScrew, _>::of(&LIN_3_6);
-    let mut uncaged = FrictionModel::<PressedScrew<BALLS>>::new(&configuration)?;
+    let mut uncaged = FrictionModel::<UncagedBallScrew<BALLS>>::new(&configuration)?;
     let mut linear = FrictionModel::<LinearBearingTrain<24>>::new(&linear_configuration()?)?;
     for tick in [100, 300, 500] {
         let (nut_speed, axial_load) = course(tick);
