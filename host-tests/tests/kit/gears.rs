@@ -1,14 +1,14 @@
 //! Ordinary mechanisms, one of every scene.
 
-use epas_friction::scene::{CagedBallScrew, CagedBallScrewConfiguration};
+use core::f32::consts::TAU;
+
+use epas_friction::scene::{CagedBallScrew, CagedBallScrewConfiguration, FoldedBall};
 use epas_friction::{
     BallScrew, CATALOGUE, Clearance, ClosedFormScrewConfiguration, DISSERTATION_DESIGNS,
     DeviationMap, FrictionBranch, GrooveSize, Harmonic, Limits, LinearBearing,
     LinearBearingConfiguration, LinearBearingParameters, LinearLimits, LoadShare, LoadShares,
-    Material, RollingResistance, UncagedBallScrewConfiguration,
+    Material, UncagedBallScrew, UncagedBallScrewConfiguration,
 };
-
-use super::designs::screw;
 
 /// Balls of [`uncaged`], and of [`full`].
 pub const SCREW_BALLS: usize = 37;
@@ -83,6 +83,8 @@ mod blocks {
     include!("../../../bench/firmware/src/gears/lin_3_6_range.rs");
     include!("../../../bench/firmware/src/gears/lin_3_6.rs");
     include!("../../../bench/firmware/src/gears/lin_3_6_worn.rs");
+    include!("../../../bench/firmware/src/gears/lin_3_6_ball.rs");
+    include!("../../../bench/firmware/src/gears/lin_3_6_ball_range.rs");
     pub(super) const RANGE: &[u32] = &LIN_3_6_RANGE_BLOCK;
     pub(super) const ONE: &[u32] = &LIN_3_6_BLOCK;
     pub(super) const WORN: &[u32] = &LIN_3_6_WORN_BLOCK;
@@ -134,27 +136,82 @@ pub fn closed_form(branch: FrictionBranch) -> ClosedFormScrewConfiguration {
     }
 }
 
-/// 32 x 20 x 6.35 with two and a half turns of 37 balls and a return.
-pub fn uncaged() -> UncagedBallScrewConfiguration {
+/// Nodes of [`UncagedScrew`].
+pub const BALL_NODES: usize = 3;
+
+/// A screw without cage for a range of friction coefficients.
+pub type UncagedScrew<const N: usize> = UncagedBallScrew<N, BALL_NODES>;
+
+/// Its configuration.
+pub type UncagedConfiguration = UncagedBallScrewConfiguration<BALL_NODES>;
+
+/// The ball of the screw of Lin 2019, Table 3.6, that its neighbours press on, as the firmware has it: for one friction coefficient, and for a
+/// range of them.
+pub static BALL: FoldedBall = FoldedBall {
+    limits: LIMITS,
+    ..blocks::LIN_3_6_BALL
+};
+pub static BALL_RANGE: FoldedBall<BALL_NODES> = FoldedBall {
+    limits: LIMITS,
+    ..blocks::LIN_3_6_BALL_RANGE
+};
+
+/// A folded ball with other numbers, for as long as the program runs.
+pub fn changed<const NODES: usize>(
+    folded: &FoldedBall<NODES>,
+    change: impl FnOnce(&mut FoldedBall<NODES>),
+) -> &'static FoldedBall<NODES> {
+    let mut folded = *folded;
+    change(&mut folded);
+    Box::leak(Box::new(folded))
+}
+
+/// Two waves a turn as large as the folded ball takes, Lin 2019, Fig. 3.23.
+static BALL_SCREW_MAP: DeviationMap = match DeviationMap::from_harmonics(
+    1,
+    &[Harmonic {
+        order: 2,
+        cosine: 0.0,
+        sine: BALL_RANGE.law.deviations[0],
+    }],
+) {
+    Ok(map) => map,
+    Err(_) => panic!("a deviation is too large"),
+};
+
+static BALL_NUT_MAP: DeviationMap = match DeviationMap::from_harmonics(
+    1,
+    &[Harmonic {
+        order: 3,
+        cosine: 0.4 * BALL_RANGE.law.deviations[1],
+        sine: 0.8 * BALL_RANGE.law.deviations[1],
+    }],
+) {
+    Ok(map) => map,
+    Err(_) => panic!("a deviation is too large"),
+};
+
+/// Two waves a turn on the screw, as a share of the largest deviation that the folded ball of one friction coefficient takes.
+pub fn screw_wave(share: f32) -> &'static DeviationMap {
+    wave(1, 2, 0.0, share * BALL.law.deviations[0])
+}
+
+/// That ball with two and a half turns of 37 balls and a return.
+pub fn uncaged() -> UncagedConfiguration {
     UncagedBallScrewConfiguration {
-        design: CATALOGUE[15].design().unwrap(),
-        friction: 0.075,
+        folded: &BALL_RANGE,
         ball_friction: 0.1,
-        rolling_resistance: RollingResistance::STEEL,
-        clearance: Clearance::ZERO,
         turns: 2.5,
         return_length: 0.01,
-        screw_deviation: &SCREW_MAP,
-        nut_deviation: &NUT_MAP,
+        screw_deviation: &BALL_SCREW_MAP,
+        nut_deviation: &BALL_NUT_MAP,
         load_shares: LoadShares::EVEN,
-        reversal_speed: 0.5,
         tick: 1e-4,
-        limits: LIMITS,
     }
 }
 
 /// [`uncaged`] with grooves that do not deviate.
-pub fn even() -> UncagedBallScrewConfiguration {
+pub fn even() -> UncagedConfiguration {
     UncagedBallScrewConfiguration {
         screw_deviation: &DeviationMap::NONE,
         nut_deviation: &DeviationMap::NONE,
@@ -163,41 +220,43 @@ pub fn even() -> UncagedBallScrewConfiguration {
 }
 
 /// Balls that nearly fill the track of [`uncaged`].
-pub const CROWD: usize = 41;
+pub const CROWD: usize = 48;
 
 /// [`uncaged`] with ticks long enough for a [`CROWD`] to close up.
-pub fn crowded() -> UncagedBallScrewConfiguration {
+pub fn crowded() -> UncagedConfiguration {
     UncagedBallScrewConfiguration {
+        folded: changed(&BALL_RANGE, |folded| folded.limits.nut_speed = 100.0),
         tick: 5e-4,
-        limits: Limits {
-            nut_speed: 100.0,
-            ..LIMITS
-        },
         ..uncaged()
     }
 }
 
-/// The screw of Lin 2019, Tables 2.1 and 3.6, whose two turns 37 balls fill, with a wave on its screw.
+/// The screw of Lin 2019, Table 3.6, whose two turns 37 balls fill, with a wave on its screw.
 pub fn full(screw_deviation: &'static DeviationMap, tick: f32) -> UncagedBallScrewConfiguration {
     UncagedBallScrewConfiguration {
-        design: screw(),
-        friction: 0.1,
+        folded: changed(&BALL, |folded| {
+            folded.reversal_speed = 1e-3;
+            folded.limits = Limits {
+                nut_speed: 300.0,
+                axial_load: 20_000.0,
+                friction_torque: 10.0,
+            };
+        }),
         ball_friction: 0.1,
-        rolling_resistance: RollingResistance::NONE,
-        clearance: Clearance::ZERO,
         turns: 2.0,
         return_length: 0.0,
         screw_deviation,
         nut_deviation: &DeviationMap::NONE,
         load_shares: LoadShares::EVEN,
-        reversal_speed: 1e-3,
         tick,
-        limits: Limits {
-            nut_speed: 300.0,
-            axial_load: 20_000.0,
-            friction_torque: 10.0,
-        },
     }
+}
+
+/// Length of the loaded track of a screw without cage, m.
+pub fn loaded_length<const NODES: usize>(
+    configuration: &UncagedBallScrewConfiguration<NODES>,
+) -> f32 {
+    configuration.turns * TAU * configuration.folded.path_radius
 }
 
 /// Balls of 10 mm, Lin 2019, Table 3.3.

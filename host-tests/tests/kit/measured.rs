@@ -109,7 +109,6 @@ const TABLES: &[&[Measured]] = &[
     ROLLING,
     FRICTION_TORQUE,
     LOOPS,
-    ELASTIC_BALL,
     RING_REFERENCE,
     ROW_REFERENCE,
     LINEAR_MIRRORED,
@@ -118,11 +117,9 @@ const TABLES: &[&[Measured]] = &[
     UNCAGED_SCENE,
 ];
 
-/// `scenes/uncaged.rs`, `scenes/step_promises.rs`, `rig/same_scene.rs`: torques relative.
+/// `rig/same_scene.rs`: torques relative.
 #[rustfmt::skip]
 const CAGED: &[Measured] = &[
-    row("light balls with play", [1.1e-2, 4.2e-3, 3.2e-3], [6.8e-3, 2.7e-3, 2.1e-3]),
-    largest("friction set in a screw without cage", 1.4e-6, 4.6e-7),
     row("rig's screw and the crate's scene", [2e-3, 7e-4, 3e-4], [1.3e-3, 4.5e-4, 1.9e-4]),
 ];
 
@@ -581,29 +578,6 @@ const LOOPS: &[Measured] = &[
     row("random loops, spin6", [5.2e-2, 1.2e-2, 2e-3], [5.1e-2, 1.1e-2, 1.1e-3]),
     row("random loops, spin8", [3.1e-2, 6.8e-3, 1e-3], [3.0e-2, 6.6e-3, 3.5e-4]),
     row("random loops, spin10", [2.3e-2, 4.8e-3, 3e-4], [2.2e-2, 4.6e-3, 6.7e-5]),
-];
-
-/// `balls/elastic_ball.rs`: speeds over the span of free speeds or relative, torques and compliances relative, loads over the axial
-/// load.
-#[rustfmt::skip]
-const ELASTIC_BALL: &[Measured] = &[
-    row("stored elastic balls, speed", [2.7e-5, 4e-6, 1e-6], [1.8e-5, 2.7e-6, 4.3e-7]),
-    row("stored elastic balls, torque", [5e-4, 1e-4, 2e-5], [3.3e-4, 6.7e-5, 9.0e-6]),
-    row("stored elastic balls, loads over axial load", [6.5e-5, 1.2e-5, 3e-6], [4.3e-5, 7.6e-6, 1.5e-6]),
-    row("stored elastic balls, compliance", [3.6e-2, 5.4e-3, 5e-4], [2.4e-2, 3.6e-3, 1.8e-4]),
-    row("stored pressing pairs, force between them", [2.8e-2, 5e-3, 1e-3], [1.9e-2, 3.3e-3, 5.2e-4]),
-    row("stored pressing pairs, torque", [1.7e-3, 2.1e-4, 4e-5], [1.1e-3, 1.4e-4, 2.3e-5]),
-    row("elastic balls, in three points: torque", [3.6e-2, 4e-3, 1.1e-3], [2.4e-2, 2.7e-3, 7.0e-4]),
-    row("elastic balls, in three points: loads", [8e-3, 4.7e-4, 9e-5], [5.4e-3, 3.1e-4, 5.4e-5]),
-    row("elastic balls, in two points: speed", [0.24, 0.13, 5e-2], [0.16, 8.6e-2, 2.0e-2]),
-    row("elastic balls, in two points: torque", [2.8e-4, 1.4e-4, 9.8e-5], [1.8e-4, 9.1e-5, 6.4e-5]),
-    row("elastic balls, in two points: loads", [3.6e-6, 1e-6, 6e-7], [1.2e-6, 4.9e-7, 2.6e-7]),
-    row("elastic balls, in three points with play: speed", [4.7e-2, 1.1e-2, 1e-3], [3.1e-2, 6.8e-3, 7.5e-5]),
-    row("elastic balls, in three points with play: torque", [1.1e-2, 2.7e-3, 1.1e-3], [6.9e-3, 1.8e-3, 7.0e-4]),
-    row("elastic balls, in three points with play: loads", [1.3e-3, 1.7e-4, 6e-5], [8.5e-4, 1.1e-4, 3.3e-5]),
-    row("elastic balls, in two points with play: speed", [0.94, 0.2, 6e-2], [0.63, 0.12, 2.6e-2]),
-    row("elastic balls, in two points with play: torque", [5.4e-3, 1e-3, 2e-4], [3.6e-3, 4.5e-4, 2.3e-5]),
-    row("elastic balls, in two points with play: loads", [4e-5, 6e-6, 2e-6], [2.1e-5, 2.3e-6, 6.1e-7]),
 ];
 
 /// `reference/ball_screw_ring_reference.rs`, relative where no unit is given.

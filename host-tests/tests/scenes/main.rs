@@ -23,4 +23,3 @@ mod stiff;
 mod stored;
 mod swapped;
 mod two_point_rolling;
-mod uncaged;
