@@ -8,8 +8,8 @@ use core::borrow::Borrow;
 use crate::ball::Clearance;
 use crate::error::Error;
 use crate::scene::{
-    ChangingClearance, ChangingFriction, Faults, LinearBearingTrain, LinearConstants, Scene,
-    SceneOutputs, UncagedBallScrew, UncagedConstants,
+    ChangingClearance, ChangingFriction, Faults, LinearBearingTrain, LinearConstants,
+    PressedConstants, PressedScrew, Scene, SceneOutputs, UncagedBallScrew, UncagedConstants,
 };
 
 /// Friction of one scene: configured once, stepped in the interrupt.
@@ -236,6 +236,20 @@ impl<S: ChangingClearance, C: Borrow<S::Constants>> FrictionModel<S, C> {
 }
 
 impl<const N: usize, C: Borrow<UncagedConstants<N>>> FrictionModel<UncagedBallScrew<N>, C> {
+    /// Sets the angle of the nut against the screw, rad, from which the screw's deviations are counted:
+    /// once after start-up, and again whenever an absolute sensor has it; between, the model integrates
+    /// the speed. Ticks without a valid speed are missing in that sum, one beyond its limit counts with the
+    /// limit. An angle that is NaN, or beyond 8e6 periods of the map, counts as 0.
+    pub fn set_nut_angle(&mut self, angle: f32) {
+        self.constants
+            .borrow()
+            .set_nut_angle(&mut self.state, angle);
+    }
+}
+
+impl<const N: usize, const NODES: usize, C: Borrow<PressedConstants<N, NODES>>>
+    FrictionModel<PressedScrew<N, NODES>, C>
+{
     /// Sets the angle of the nut against the screw, rad, from which the screw's deviations are counted:
     /// once after start-up, and again whenever an absolute sensor has it; between, the model integrates
     /// the speed. Ticks without a valid speed are missing in that sum, one beyond its limit counts with the

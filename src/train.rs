@@ -61,6 +61,11 @@
 //! but the force between them would be zero but for rounding, and a contact counted that carries nothing; a ring of
 //! equal balls would be found to press all around.
 //!
+//! # Where balls rub on each other
+//!
+//! Friction of its neighbours makes a ball need more or less net push, in proportion to their forces (`grip`). Each force then is that of balls
+//! that do not rub, times a factor from ball to ball; impedances weighed by the same factors leave all that stands above as it is.
+//!
 //! # Rounding
 //!
 //! Sums hold differences from free speeds, not speeds, so that what is small keeps its digits. Forces that rounding
@@ -71,6 +76,7 @@
 mod balance;
 mod ball;
 mod cluster;
+mod grip;
 mod intake;
 mod motion;
 mod pool;
@@ -81,6 +87,8 @@ mod settle;
 mod stored;
 mod track;
 
+pub(crate) use grip::{Grip, LARGEST_GRIP};
+pub(crate) use intake::Intake;
 pub use positions::{BallContact, Train};
 pub use press::{IMPEDANCE_RANGE, LARGEST_FREE_SPEED, Press};
 pub use track::LARGEST_TRAVEL;

@@ -133,6 +133,26 @@ impl LoadShares {
         }
     }
 
+    /// The heaviest share of both tables.
+    pub(crate) const fn heaviest(&self) -> LoadShare {
+        let (_, positive) = LoadShare::extremes(self.positive);
+        let (_, negative) = LoadShare::extremes(self.negative);
+        if negative.share > positive.share {
+            negative
+        } else {
+            positive
+        }
+    }
+
+    /// Whether every ball carries the mean load.
+    pub(crate) const fn are_even(&self) -> bool {
+        let [(a, b), (c, d)] = [
+            LoadShare::extremes(self.positive),
+            LoadShare::extremes(self.negative),
+        ];
+        a.share == 1.0 && b.share == 1.0 && c.share == 1.0 && d.share == 1.0
+    }
+
     /// The tables, checked.
     pub(crate) const fn checked(self) -> Result<Self, Error> {
         let entries = self.positive.len() as f32;

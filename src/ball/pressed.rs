@@ -4,7 +4,7 @@
 //! deviations of the two grooves at its place. Nothing is solved, and no ball has a state of its own but its place.
 
 use super::folded::{FrictionPlace, holds, node_octaves};
-use crate::error::{Error, attempt, in_range};
+use crate::error::{Error, Range, attempt, in_range};
 use crate::ranges;
 use crate::train::{IMPEDANCE_RANGE, LARGEST_FREE_SPEED};
 
@@ -14,8 +14,11 @@ pub const KNOTS: usize = 32;
 /// Powers of the two deviations: `1, s, n, s^2, s n, n^2`.
 pub const POWERS: usize = 6;
 
-/// Largest impedance over load that counts.
-const STIFFEST: f32 = 1e3;
+/// Least and largest impedance over `mu W` that count.
+const IMPEDANCES: Range = Range::new(0.01, 1e3);
+
+/// Least and largest `mu W` that count, N.
+const SLIDING_LOADS: [f32; 2] = [1e-6, 5e5];
 
 /// Largest torque over load, m, and its change with the speed, that count.
 const LARGEST_ARM: f32 = 1.0;
@@ -63,6 +66,18 @@ pub struct BallKnot {
     pub per_width: f32,
     /// What a ball does.
     pub numbers: BallNumbers,
+}
+
+impl BallKnot {
+    /// [`Self::per_width`] of a knot with this load, N, and that of the next one.
+    #[must_use]
+    pub const fn per_width(load: f32, next: f32) -> f32 {
+        if next > load {
+            1.0 / (next - load)
+        } else {
+            0.0
+        }
+    }
 }
 
 /// The knots for one friction coefficient.
@@ -158,15 +173,42 @@ impl BallNumbers {
             LARGEST_FREE_SPEED
         ));
         let least = self.impedance[0] - sum_of_sizes(&self.impedance, 1);
-        attempt!(in_range("impedance", least, 1e-3, STIFFEST));
+        attempt!(IMPEDANCES.checked("impedance", least));
         let most = sum_of_sizes(&self.impedance, 0);
-        attempt!(in_range("impedance", most, 1e-3, STIFFEST));
+        attempt!(IMPEDANCES.checked("impedance", most));
         let torque = sum_of_sizes(&self.torque, 0);
         attempt!(in_range("torque", torque, 0.0, LARGEST_ARM));
         attempt!(in_range("slope", self.slope, -LARGEST_ARM, LARGEST_ARM));
         attempt!(in_range("grip", self.grip, -LARGEST_GRIP, LARGEST_GRIP));
         attempt!(in_range("rubbing", self.rubbing, 0.0, LARGEST_ARM));
         Ok(self)
+    }
+}
+
+impl FreeMotion {
+    /// This motion, and a share of the way to another.
+    #[inline(always)]
+    fn towards(self, other: Self, share: f32) -> Self {
+        let one = |from: f32, to: f32| from + share * (to - from);
+        Self {
+            speed: one(self.speed, other.speed),
+            impedance: one(self.impedance, other.impedance),
+            torque: one(self.torque, other.torque),
+        }
+    }
+}
+
+/// Friction coefficient times load, N, within what keeps impedances within those of a train.
+#[inline(always)]
+fn sliding_load(friction: FrictionPlace, load: f32) -> f32 {
+    let [least, most] = SLIDING_LOADS;
+    let sliding = friction.friction() * load;
+    if sliding > most {
+        most
+    } else if sliding > least {
+        sliding
+    } else {
+        least
     }
 }
 
@@ -216,6 +258,16 @@ impl BallNode {
             knot,
             share: if share > 0.0 { share } else { 0.0 },
         }
+    }
+
+    /// What a ball does under a load, over `mu W`.
+    #[inline(always)]
+    fn motion(&self, branch: usize, load: f32, deviations: [f32; 2]) -> FreeMotion {
+        let knots = &self.branches[branch & 1];
+        let KnotPlace { knot, share } = self.place(branch, load);
+        let [below, above] =
+            [knot, knot + 1].map(|knot| knots[knot % KNOTS].numbers.at(deviations));
+        below.towards(above, share)
     }
 
     /// Numbers at a place.
@@ -342,18 +394,72 @@ impl<const NODES: usize> BallLaw<NODES> {
             let others = above.numbers(branch, above.place(branch, load));
             numbers.towards(&others, friction.share())
         };
-        numbers.under(friction.friction() * load)
+        numbers.under(sliding_load(friction, load))
     }
 
-    /// Whether the forces between balls are held under a load `W`, N, that is one of those for which the law was folded.
+    /// What a ball does under a load `W`, N, with deviations of both grooves, each over its largest: [`BallNumbers::at`] of [`Self::numbers`],
+    /// of fewer operations.
+    #[inline(always)]
+    #[must_use]
+    pub fn at(
+        &self,
+        load: f32,
+        branch: usize,
+        friction: FrictionPlace,
+        deviations: [f32; 2],
+    ) -> FreeMotion {
+        let below = &self.nodes[friction.node() % NODES];
+        let motion = below.motion(branch, load, deviations);
+        let motion = if NODES == 1 {
+            motion
+        } else {
+            let above = &self.nodes[(friction.node() + 1) % NODES];
+            motion.towards(above.motion(branch, load, deviations), friction.share())
+        };
+        let load = sliding_load(friction, load);
+        FreeMotion {
+            speed: motion.speed,
+            impedance: motion.impedance * load,
+            torque: motion.torque * load,
+        }
+    }
+
+    /// Whether a load `W`, N, is not above the largest for which the law was folded.
+    #[inline(always)]
+    #[must_use]
+    pub fn holds_load(&self, load: f32) -> bool {
+        load <= self.nodes[0].branches[0][KNOTS - 1].load
+    }
+
+    /// Largest grip of a ball, of any load, at least 0.01.
+    #[must_use]
+    pub const fn largest_grip(&self) -> f32 {
+        let mut largest = 0.01;
+        let mut number = 0;
+        while number < NODES * 2 * KNOTS {
+            let knot =
+                &self.nodes[number / (2 * KNOTS)].branches[number / KNOTS % 2][number % KNOTS];
+            let grip = knot.numbers.grip.abs();
+            if grip > largest {
+                largest = grip;
+            }
+            number += 1;
+        }
+        largest
+    }
+
+    /// Whether the forces between balls are held under a load `W`, N.
     #[inline(always)]
     #[must_use]
     pub fn holds_forces(&self, load: f32, branch: usize, friction: FrictionPlace) -> bool {
         let node = &self.nodes[friction.node() % NODES];
         let KnotPlace { knot, .. } = node.place(branch, load);
-        let last = node.branches[branch & 1][KNOTS - 1].load;
-        node.unheld[branch & 1] >> (knot % KNOTS) & 1 == 0 && load <= last
+        node.unheld[branch & 1] >> (knot % KNOTS) & 1 == 0
     }
 }
 
-const _: () = assert!(STIFFEST * 0.5 * 1e7 <= 5e9 && IMPEDANCE_RANGE.1 >= 1e9);
+/// A train takes what a ball may have, with what friction between balls makes of it: a factor of 0.77 to 1.43.
+const _: () = assert!(
+    0.77 * IMPEDANCES.minimum * SLIDING_LOADS[0] >= IMPEDANCE_RANGE.0
+        && 1.43 * IMPEDANCES.maximum * SLIDING_LOADS[1] <= IMPEDANCE_RANGE.1
+);

@@ -1,7 +1,6 @@
 //! A ball screw without cage: its balls press on each other.
 
 mod configuration;
-mod full;
 mod sliding;
 mod stored;
 
@@ -13,6 +12,7 @@ use super::contract::{Admitted, Inputs, Limits, Scene};
 use super::faults::Faults;
 use super::outputs::UncagedOutputs;
 use super::passage::Reversal;
+use super::pressed::UncagedFull;
 use super::row::RowFull;
 use crate::ball::elastic::constants::BallConstants;
 use crate::ball::elastic::law::{Neighbour, Neighbours, RingConstants, RingLoad};
@@ -22,7 +22,6 @@ use crate::error::{Error, attempt};
 use crate::ranges;
 
 pub use configuration::UncagedBallScrewConfiguration;
-pub use full::UncagedFull;
 
 /// Balls that are renewed in a tick: each renewal takes up to 5,600 cycles of a Cortex-M4F, beside 4,500 of the row of 37. With
 /// one, a ball's turn comes every `N + 1` ticks, and speeds are right as long as the nut turns by no more than 0.12 rad in them.

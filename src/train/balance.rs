@@ -1,6 +1,7 @@
 //! Takes the remainder of rounding out of the forces of a cluster.
 
 use super::ball::Ball;
+use super::grip::Grip;
 use super::ring::Rows;
 
 /// Part of the largest force that rounding may leave of the sum of a cluster's net pushes before it is taken out:
@@ -14,8 +15,14 @@ pub(super) const ROUNDING: f32 = 1e-6;
 /// cluster's remainder, and a walk forwards meets it first.
 #[cold]
 #[inline(never)]
-pub(super) fn balance(balls: &mut [Ball], foremost: usize, least: f32) {
+pub(super) fn balance<const RUBBED: bool>(
+    balls: &mut [Ball],
+    foremost: usize,
+    least: f32,
+    grip: Grip<RUBBED>,
+) {
     let mut balancing = Balancing {
+        grip,
         least,
         ahead: 0,
         rate: 0.0,
@@ -27,7 +34,8 @@ pub(super) fn balance(balls: &mut [Ball], foremost: usize, least: f32) {
 }
 
 /// A walk forwards over the balls.
-struct Balancing {
+struct Balancing<const RUBBED: bool> {
+    grip: Grip<RUBBED>,
     least: f32,
     /// Balls still to come of the cluster to which the last ball belongs.
     ahead: usize,
@@ -37,7 +45,7 @@ struct Balancing {
     correction: f32,
 }
 
-impl Balancing {
+impl<const RUBBED: bool> Balancing<RUBBED> {
     /// Balances a row. The walk through it may begin within a cluster whose rear ball stood in the row before.
     #[inline(always)]
     fn row(&mut self, row: &mut [Ball]) {
@@ -72,14 +80,14 @@ impl Balancing {
         } else {
             0.0
         };
-        self.rate = self.correction / ball.cluster_impedance();
+        self.rate = self.correction / ball.remainder_impedance();
         self.relieve(ball);
     }
 
     /// Takes a ball's part out of the correction and what then is left of it out of the ball's force.
     #[inline(always)]
     fn relieve(&mut self, ball: &mut Ball) {
-        self.correction -= self.rate * ball.impedance();
+        self.correction = self.correction * self.grip.passed(ball) - self.rate * ball.impedance();
         ball.set_force(not_negative(ball.force() - self.correction));
     }
 }

@@ -13,7 +13,8 @@ const FORCES: Range = Range::new(0.0, 1e12);
 /// | `speed` | free speed | free speed | actual speed |
 /// | `slack` | slack | slack | rear ball of a cluster: the cluster's remainder |
 /// | `force` | - | front ball: push; rear ball: inner slack | force on the ball in front |
-/// | `cluster_impedance`, `others` | - | sum and count over the cluster | the same |
+/// | `of_cluster` | - | front ball: impedance; rear ball: tail | rear ball: impedance, as its rear ball weighs it |
+/// | `others` | - | count over the cluster | the same |
 ///
 /// A dash is what the last tick left, which nothing reads. Only the methods here touch the fields, each under the
 /// name that its phase gives it; the other files read methods alone.
@@ -24,12 +25,14 @@ pub(super) struct Ball {
     impedance: f32,
     slack: f32,
     force: f32,
-    cluster_impedance: f32,
+    of_cluster: f32,
     /// Place on the track, as a part of its length in units of 2^-32.
     position: u32,
     /// Sixteenths of a unit beyond the position, 0 to 15.
     sixteenths: u8,
     others: u8,
+    /// Whether its neighbours rub on it: a ball without load turns as they make it.
+    rubs: bool,
 }
 
 const _: () = assert!(size_of::<Ball>() == 28);
@@ -42,10 +45,11 @@ impl Ball {
         impedance: 1.0,
         slack: 0.0,
         force: 0.0,
-        cluster_impedance: 0.0,
+        of_cluster: 0.0,
         position: 0,
         sixteenths: 0,
         others: 0,
+        rubs: false,
     };
 
     /// Free speed, impedance and [`slack`](Self::slack).
@@ -54,6 +58,18 @@ impl Ball {
         self.speed = free_speed;
         self.impedance = impedance;
         self.slack = slack;
+    }
+
+    /// Says whether neighbours rub on it.
+    #[inline(always)]
+    pub(super) fn set_rubs(&mut self, rubs: bool) {
+        self.rubs = rubs;
+    }
+
+    /// Whether neighbours rub on it.
+    #[inline(always)]
+    pub(super) fn rubs(&self) -> bool {
+        self.rubs
     }
 
     /// Puts in the slack alone, where the ball in front was not known when the ball was taken in.
@@ -101,9 +117,9 @@ impl Ball {
 
     /// Makes the ball the rear one of a cluster with `others` more balls.
     #[inline(always)]
-    pub(super) fn set_rear(&mut self, others: usize, impedance: f32, inner_slack: f32) {
+    pub(super) fn set_rear(&mut self, others: usize, tail: f32, inner_slack: f32) {
         self.force = inner_slack;
-        self.cluster_impedance = impedance;
+        self.of_cluster = tail;
         self.others = others as u8;
     }
 
@@ -111,7 +127,7 @@ impl Ball {
     #[inline(always)]
     pub(super) fn set_front(&mut self, others: usize, impedance: f32, push: f32) {
         self.force = push;
-        self.cluster_impedance = impedance;
+        self.of_cluster = impedance;
         self.others = others as u8;
     }
 
@@ -121,10 +137,16 @@ impl Ball {
         usize::from(self.others)
     }
 
-    /// Sum of the impedances of the cluster of which this is the rear or the front ball, two balls or more.
+    /// Impedance of the cluster of which this is the front ball, two balls or more.
     #[inline(always)]
     pub(super) fn cluster_impedance(&self) -> f32 {
-        self.cluster_impedance
+        self.of_cluster
+    }
+
+    /// Tail of the cluster of which this is the rear ball, two balls or more.
+    #[inline(always)]
+    pub(super) fn tail(&self) -> f32 {
+        self.of_cluster
     }
 
     /// Push of the cluster of which this is the front ball, two balls or more.
@@ -173,10 +195,18 @@ impl Ball {
         self.force = force;
     }
 
-    /// Leaves in a rear ball what rounding made of the sum of all net pushes on its cluster, exactly zero.
+    /// Leaves in a rear ball what rounding made of the force that pushes it, exactly zero; and the cluster's impedance as the rear ball
+    /// weighs it.
     #[inline(always)]
-    pub(super) fn leave_remainder(&mut self, remainder: f32) {
+    pub(super) fn leave_remainder(&mut self, remainder: f32, impedance: f32) {
         self.slack = remainder;
+        self.of_cluster = impedance;
+    }
+
+    /// The impedance that [`Ball::leave_remainder`] left.
+    #[inline(always)]
+    pub(super) fn remainder_impedance(&self) -> f32 {
+        self.of_cluster
     }
 
     /// What [`Ball::leave_remainder`] left.

@@ -1,6 +1,7 @@
 //! The algebra of clusters: what a cluster is known by, when it runs into the next, what the two are as one.
 
 use super::ball::Ball;
+use super::grip::Grip;
 
 /// Balls that move as one: they touch, or close their last distance within the tick.
 ///
@@ -19,6 +20,8 @@ use super::ball::Ball;
 ///
 /// All speeds count from a ball's own free speed: sums hold what drives the balls together, and not the size of the
 /// speeds, whose rounding would exceed it.
+///
+/// Where balls rub, each impedance in these sums is weighed by the product of what the balls ahead of it in the cluster pass on ([`Grip`]).
 #[derive(Clone, Copy)]
 pub(super) struct Cluster {
     /// Force with which the balls behind would push a front ball that kept its free speed.
@@ -27,16 +30,19 @@ pub(super) struct Cluster {
     pub(super) impedance: f32,
     /// Sum of the slacks between the balls, from the rear ball to the front ball: `S` of the rear ball.
     pub(super) inner_slack: f32,
+    /// Product of what its balls pass on: the weight of the ball behind. 1 where none rubs.
+    pub(super) tail: f32,
 }
 
 impl Cluster {
     /// A ball alone.
     #[inline(always)]
-    pub(super) fn single(ball: &Ball) -> Self {
+    pub(super) fn single<const RUBBED: bool>(ball: &Ball, grip: Grip<RUBBED>) -> Self {
         Self {
             push: 0.0,
             impedance: ball.impedance(),
             inner_slack: 0.0,
+            tail: grip.passed(ball),
         }
     }
 
@@ -52,13 +58,21 @@ impl Cluster {
 
     /// With the ball behind, which has run into it.
     #[inline(always)]
-    pub(super) fn grown(&self, behind: &Ball) -> Self {
+    pub(super) fn grown<const RUBBED: bool>(&self, behind: &Ball, grip: Grip<RUBBED>) -> Self {
         let slack = behind.slack() + self.inner_slack;
+        let impedance = self.weighed::<RUBBED>(behind.impedance());
         Self {
-            push: self.push - slack * behind.impedance(),
-            impedance: self.impedance + behind.impedance(),
+            push: self.push - slack * impedance,
+            impedance: self.impedance + impedance,
             inner_slack: slack,
+            tail: self.weighed::<RUBBED>(grip.passed(behind)),
         }
+    }
+
+    /// A number of what is behind, as the front ball weighs it.
+    #[inline(always)]
+    fn weighed<const RUBBED: bool>(&self, number: f32) -> f32 {
+        if RUBBED { self.tail * number } else { number }
     }
 
     /// This cluster and the one ahead as one, where this one, with the slack of its front ball, runs into that;
@@ -67,14 +81,15 @@ impl Cluster {
     /// Seen from the front ball ahead, each ball of this cluster has a slack larger by that between the two and the
     /// inner one ahead. What pushes then is compared by `push / impedance` of the two, crosswise multiplied.
     #[inline(always)]
-    pub(super) fn joined(&self, slack: f32, ahead: &Self) -> Option<Self> {
+    pub(super) fn joined<const RUBBED: bool>(&self, slack: f32, ahead: &Self) -> Option<Self> {
         let slack = slack + ahead.inner_slack;
         let push = self.push - slack * self.impedance;
         if push * ahead.impedance > ahead.push * self.impedance {
             Some(Self {
-                push: push + ahead.push,
-                impedance: self.impedance + ahead.impedance,
+                push: ahead.weighed::<RUBBED>(push) + ahead.push,
+                impedance: ahead.weighed::<RUBBED>(self.impedance) + ahead.impedance,
                 inner_slack: self.inner_slack + slack,
+                tail: ahead.weighed::<RUBBED>(self.tail),
             })
         } else {
             None
@@ -83,9 +98,9 @@ impl Cluster {
 
     /// The cluster with this front ball.
     #[inline(always)]
-    pub(super) fn at(balls: &[Ball], front: usize) -> Self {
+    pub(super) fn at<const RUBBED: bool>(balls: &[Ball], front: usize, grip: Grip<RUBBED>) -> Self {
         let Some(front_ball) = balls.get(front) else {
-            return Self::single(&Ball::IDLE);
+            return Self::single(&Ball::IDLE, grip);
         };
         let others = front_ball.others();
         match balls.get(front.wrapping_sub(others)) {
@@ -93,8 +108,9 @@ impl Cluster {
                 push: front_ball.push(),
                 impedance: front_ball.cluster_impedance(),
                 inner_slack: rear_ball.inner_slack(),
+                tail: rear_ball.tail(),
             },
-            _ => Self::single(front_ball),
+            _ => Self::single(front_ball, grip),
         }
     }
 
@@ -102,7 +118,7 @@ impl Cluster {
     #[inline(always)]
     pub(super) fn leave(&self, balls: &mut [Ball], rear: usize, front: usize, others: usize) {
         if let Some(ball) = balls.get_mut(rear) {
-            ball.set_rear(others, self.impedance, self.inner_slack);
+            ball.set_rear(others, self.tail, self.inner_slack);
         }
         if let Some(ball) = balls.get_mut(front) {
             ball.set_front(others, self.impedance, self.push);

@@ -3,6 +3,7 @@
 use core::mem::ManuallyDrop;
 
 use super::ball::Ball;
+use super::grip::Grip;
 use super::motion::{Motion, SIXTEENTHS};
 use super::positions::Train;
 use super::press::{IMPEDANCE_RANGE, InputCheck};
@@ -63,7 +64,7 @@ impl<const N: usize> Train<N> {
             check.add(speed, impedance);
             ahead.take_in(ball, speed, impedance);
         }
-        self.finish(travel, &ahead, check.passed());
+        self.finish(travel, &ahead, check.passed(), Grip::NONE);
         check.passed()
     }
 
@@ -94,11 +95,17 @@ impl<const N: usize> Train<N> {
 
     /// Joins, settles and moves the balls; where some input does not count, all move at the nominal speed.
     #[inline(always)]
-    fn finish(&mut self, travel: f32, ahead: &Ahead, valid: bool) -> Pressing {
+    fn finish<const RUBBED: bool>(
+        &mut self,
+        travel: f32,
+        ahead: &Ahead,
+        valid: bool,
+        grip: Grip<RUBBED>,
+    ) -> Pressing {
         self.complete(&ahead.rooms);
         let motion = self.motion(travel);
-        self.press.join(valid);
-        self.press.settle(motion)
+        self.press.join(valid, grip);
+        self.press.settle(motion, grip)
     }
 
     /// Puts in the two slacks that a walk from the front backwards cannot know: that of the last ball, because the ball in
@@ -149,11 +156,17 @@ impl<const N: usize> Intake<'_, N> {
 
     /// Which balls press on each other, and how hard; moves all balls. Balls that have not come are taken as dropped.
     #[inline(always)]
-    pub(crate) fn press(mut self) -> Pressing {
+    pub(crate) fn press(self) -> Pressing {
+        self.press_rubbing(Grip::NONE)
+    }
+
+    /// The same for balls that rub on each other.
+    #[inline(always)]
+    pub(crate) fn press_rubbing<const RUBBED: bool>(mut self, grip: Grip<RUBBED>) -> Pressing {
         while let Some(ball) = self.next_ball() {
             drop(ball);
         }
-        self.train.finish(self.travel, &self.ahead, true)
+        self.train.finish(self.travel, &self.ahead, true, grip)
     }
 }
 
@@ -182,6 +195,13 @@ impl FreeBall<'_> {
         let mut answered = ManuallyDrop::new(self);
         let Self { ball, ahead } = &mut *answered;
         ahead.take_in(ball, speed, impedance);
+    }
+
+    /// The same of a train whose balls rub on each other, with whether neighbours rub on this one.
+    #[inline(always)]
+    pub(crate) fn put_rubbing(self, speed: f32, impedance: f32, rubs: bool) {
+        self.ball.set_rubs(rubs);
+        self.put(speed, impedance);
     }
 }
 

@@ -2,19 +2,20 @@
 
 use super::ball::Ball;
 use super::cluster::Cluster;
+use super::grip::Grip;
 
 /// Joins balls to clusters and leaves these in their front and rear balls; gives the index of a ball that presses
 /// on none.
 ///
 /// Balls are taken in, with their slacks. Joins may come in any order: none of them opens another one's contact.
 #[inline(never)]
-pub(super) fn pool(balls: &mut [Ball]) -> usize {
+pub(super) fn pool<const RUBBED: bool>(balls: &mut [Ball], grip: Grip<RUBBED>) -> usize {
     // Balls that belong to no cluster yet.
     let mut open = balls.len();
     while let Some(front) = balls.get_mut(..open).and_then(next_front) {
-        open = grow(balls, front);
+        open = grow(balls, front, grip);
     }
-    close(balls)
+    close(balls, grip)
 }
 
 /// From the last of these balls backwards, the first one into which the one behind runs. Balls in front of it stand
@@ -37,17 +38,19 @@ fn next_front(balls: &mut [Ball]) -> Option<usize> {
 /// Leaves the cluster that grows from the ball `front`, backwards and forwards in turn; gives the number of balls
 /// behind it.
 #[inline(always)]
-fn grow(balls: &mut [Ball], mut front: usize) -> usize {
+fn grow<const RUBBED: bool>(balls: &mut [Ball], mut front: usize, grip: Grip<RUBBED>) -> usize {
     let mut behind = balls.get(..front).unwrap_or_default();
     let mut cluster = balls
         .get(front)
-        .map_or(Cluster::single(&Ball::IDLE), Cluster::single);
+        .map_or(Cluster::single(&Ball::IDLE, grip), |ball| {
+            Cluster::single(ball, grip)
+        });
     loop {
         while let [further @ .., ball] = behind {
             if !cluster.reached_by(ball.slack()) {
                 break;
             }
-            cluster = cluster.grown(ball);
+            cluster = cluster.grown(ball, grip);
             behind = further;
         }
         // What the cluster runs into slows it down, and the ball behind may run into it after all.
@@ -55,7 +58,8 @@ fn grow(balls: &mut [Ball], mut front: usize) -> usize {
             break;
         }
         let next = front + 1 + others(balls, front + 1);
-        let Some(longer) = cluster.joined(slack(balls, front), &Cluster::at(balls, next)) else {
+        let ahead = Cluster::at(balls, next, grip);
+        let Some(longer) = cluster.joined::<RUBBED>(slack(balls, front), &ahead) else {
             break;
         };
         cluster = longer;
@@ -69,11 +73,13 @@ fn grow(balls: &mut [Ball], mut front: usize) -> usize {
 /// Joins across the place where the ring closes: the last cluster has the first one in front. Gives the index of a
 /// ball that presses on none.
 #[inline(always)]
-fn close(balls: &mut [Ball]) -> usize {
+fn close<const RUBBED: bool>(balls: &mut [Ball], grip: Grip<RUBBED>) -> usize {
     let last = balls.len().wrapping_sub(1);
-    let mut closing = Closing::new(balls, last);
+    let mut closing = Closing::new(balls, last, grip);
     // Each turn but the last makes one cluster of two.
-    while !closing.is_ring() && (closing.joins_ahead(balls) || closing.joins_behind(balls)) {}
+    while !closing.is_ring()
+        && (closing.joins_ahead(balls, grip) || closing.joins_behind(balls, grip))
+    {}
     if closing.front != last {
         closing
             .cluster
@@ -95,10 +101,10 @@ struct Closing {
 
 impl Closing {
     #[inline(always)]
-    fn new(balls: &[Ball], last: usize) -> Self {
+    fn new<const RUBBED: bool>(balls: &[Ball], last: usize, grip: Grip<RUBBED>) -> Self {
         let others = others(balls, last);
         Self {
-            cluster: Cluster::at(balls, last),
+            cluster: Cluster::at(balls, last, grip),
             last,
             rear: last.wrapping_sub(others),
             front: last,
@@ -124,14 +130,12 @@ impl Closing {
 
     /// Joins the cluster ahead where this one runs into it.
     #[inline(always)]
-    fn joins_ahead(&mut self, balls: &[Ball]) -> bool {
+    fn joins_ahead<const RUBBED: bool>(&mut self, balls: &[Ball], grip: Grip<RUBBED>) -> bool {
         let slack = slack(balls, self.front);
         let ahead = self.ahead();
         let beyond = others(balls, ahead);
-        let Some(joined) = self
-            .cluster
-            .joined(slack, &Cluster::at(balls, ahead + beyond))
-        else {
+        let cluster_ahead = Cluster::at(balls, ahead + beyond, grip);
+        let Some(joined) = self.cluster.joined::<RUBBED>(slack, &cluster_ahead) else {
             return false;
         };
         self.cluster = joined;
@@ -143,7 +147,7 @@ impl Closing {
     /// Joins the cluster behind where that runs into this one. As long as this one has not grown ahead, pooling has
     /// found already that it does not.
     #[inline(always)]
-    fn joins_behind(&mut self, balls: &[Ball]) -> bool {
+    fn joins_behind<const RUBBED: bool>(&mut self, balls: &[Ball], grip: Grip<RUBBED>) -> bool {
         if self.front == self.last {
             return false;
         }
@@ -151,7 +155,8 @@ impl Closing {
         let Some(ball) = balls.get(front) else {
             return false;
         };
-        let Some(joined) = Cluster::at(balls, front).joined(ball.slack(), &self.cluster) else {
+        let behind = Cluster::at(balls, front, grip);
+        let Some(joined) = behind.joined::<RUBBED>(ball.slack(), &self.cluster) else {
             return false;
         };
         let beyond = 1 + ball.others();

@@ -1,6 +1,7 @@
 //! Which balls of a train press on each other, and how hard: one exact pass, without iteration.
 
 use super::ball::Ball;
+use super::grip::Grip;
 use super::motion::Motion;
 use super::pool::pool;
 use super::settle::{Pressing, settle};
@@ -147,16 +148,51 @@ impl<const N: usize> Press<N> {
             ball.take_in(speed, impedance, room + (ahead - speed));
             ahead = speed;
         }
-        self.join(check.passed());
-        self.settle(Motion::NONE);
+        self.join(check.passed(), Grip::NONE);
+        self.settle(Motion::NONE, Grip::NONE);
+        check.passed()
+    }
+
+    /// The same for balls that rub on each other: friction between balls changes the net push that a ball needs,
+    ///
+    /// ```text
+    /// F_(j-1) - F_j = (v_j - u_j)/Y_j + r (F_(j-1) + F_j)
+    /// ```
+    ///
+    /// with `grip` for `r`, the grip of a ball ([`BallNumbers::grip`](crate::ball::pressed::BallNumbers)) times the friction coefficient between balls, at
+    /// most 0.3 in size. Forces and cost as in [`Self::solve`].
+    pub fn solve_rubbing(
+        &mut self,
+        free: &[f32; N],
+        impedance: &[f32; N],
+        room: &[f32; N],
+        grip: f32,
+    ) -> bool {
+        let grip = Grip::new(grip);
+        let mut check = InputCheck::default();
+        let mut ahead = free.first().copied().unwrap_or(0.0);
+        let inputs = free.iter().zip(impedance).zip(room);
+        for (ball, ((&speed, &impedance), &room)) in self.balls.iter_mut().zip(inputs).rev() {
+            check.add(speed, impedance);
+            let room = if room < 0.0 { 0.0 } else { room };
+            ball.take_in(
+                speed,
+                impedance * grip.of_impedance(),
+                room + (ahead - speed),
+            );
+            ball.set_rubs(true);
+            ahead = speed;
+        }
+        self.join(check.passed(), grip);
+        self.settle(Motion::NONE, grip);
         check.passed()
     }
 
     /// Joins balls to clusters, or leaves all at the nominal speed where not all that was taken in counts.
     #[inline(always)]
-    pub(super) fn join(&mut self, valid: bool) {
+    pub(super) fn join<const RUBBED: bool>(&mut self, valid: bool, grip: Grip<RUBBED>) {
         if valid {
-            self.foremost = pool(&mut self.balls) as u8;
+            self.foremost = pool(&mut self.balls, grip) as u8;
         } else {
             self.let_go();
         }
@@ -175,9 +211,13 @@ impl<const N: usize> Press<N> {
 
     /// Speeds and forces of the clusters, and where the balls go.
     #[inline(always)]
-    pub(super) fn settle(&mut self, motion: Motion) -> Pressing {
+    pub(super) fn settle<const RUBBED: bool>(
+        &mut self,
+        motion: Motion,
+        grip: Grip<RUBBED>,
+    ) -> Pressing {
         let foremost = self.foremost();
-        settle(&mut self.balls, foremost, motion)
+        settle(&mut self.balls, foremost, motion, grip)
     }
 }
 

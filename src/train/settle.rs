@@ -2,6 +2,7 @@
 
 use super::balance::{ROUNDING, balance, not_negative_bits};
 use super::ball::Ball;
+use super::grip::Grip;
 use super::motion::Motion;
 use super::ring::Rows;
 
@@ -12,20 +13,32 @@ pub(crate) struct Pressing {
     pub(crate) contacts: u8,
     /// Largest force, in the unit of speed times impedance.
     pub(crate) largest: f32,
-    /// Sum of the forces, in the same unit.
+    /// Sum of the forces of the pairs that rub, in the same unit: of all pairs of a train whose balls do not rub.
     pub(crate) force: f32,
+    /// Sums over the balls, where they rub: of the square of the speed's change by the neighbours, times what was taken in as impedance; and of
+    /// the change of the balls that rub.
+    pub(crate) work: f32,
+    pub(crate) change: f32,
 }
 
 /// Gives each ball its speed and its force, and moves it, from the foremost ball backwards.
 #[inline(never)]
-pub(super) fn settle(balls: &mut [Ball], foremost: usize, motion: Motion) -> Pressing {
+pub(super) fn settle<const RUBBED: bool>(
+    balls: &mut [Ball],
+    foremost: usize,
+    motion: Motion,
+    grip: Grip<RUBBED>,
+) -> Pressing {
     let mut settling = Settling {
         motion,
         // Nothing is near in front of the foremost one.
         limit: balls.get(foremost).map_or(0, |ball| motion.far_ahead(ball)),
+        grip,
         behind: 0,
         change: 0.0,
         force: 0.0,
+        impedance: 0.0,
+        ahead_rubs: false,
         sums: Sums::default(),
     };
     for row in Rows::backwards(balls, foremost) {
@@ -37,30 +50,37 @@ pub(super) fn settle(balls: &mut [Ball], foremost: usize, motion: Motion) -> Pre
     // large force. It hardly changes what the forces add up to.
     let least = ROUNDING * largest;
     if sums.remainder > least {
-        balance(balls, foremost, least);
+        balance(balls, foremost, least, grip);
     }
     Pressing {
         contacts: sums.contacts as u8,
         largest,
         force: sums.force,
+        work: sums.work,
+        change: sums.change,
     }
 }
 
 /// A walk backwards over the balls.
-struct Settling {
+struct Settling<const RUBBED: bool> {
     motion: Motion,
+    grip: Grip<RUBBED>,
     /// Where the next ball touches the one in front.
     limit: u32,
     /// Balls still to come of the cluster to which the last ball belongs.
     behind: usize,
     /// Actual speed of the last ball less its free speed, in a cluster.
     change: f32,
-    /// Net push that the balls of the cluster take so far, from its front ball on: the force of the next ball.
+    /// Force with which the next ball presses.
     force: f32,
+    /// Impedance of the cluster, as the last ball weighs it.
+    impedance: f32,
+    /// Whether the last ball rubs.
+    ahead_rubs: bool,
     sums: Sums,
 }
 
-impl Settling {
+impl<const RUBBED: bool> Settling<RUBBED> {
     /// Settles a row. The walk through it may begin within a cluster whose front ball stood in the row before.
     #[inline(always)]
     fn row(&mut self, row: &mut [Ball]) {
@@ -94,8 +114,10 @@ impl Settling {
     #[inline(always)]
     fn front(&mut self, ball: &mut Ball) {
         self.behind = ball.others();
-        self.change = ball.push() / ball.cluster_impedance();
-        self.force = self.change * ball.impedance();
+        self.impedance = ball.cluster_impedance();
+        self.change = ball.push() / self.impedance;
+        self.force = 0.0;
+        self.pass_on(ball);
         ball.settle(ball.free_speed() + self.change, 0.0);
         self.limit = self.motion.advance(ball, self.limit);
     }
@@ -108,13 +130,31 @@ impl Settling {
         let speed = ball.free_speed() + self.change;
         ball.set_position(self.limit);
         self.limit = self.motion.touching(self.limit);
-        ball.settle(speed, self.sums.add(self.force));
-        self.force += self.change * ball.impedance();
+        let counted = !RUBBED || self.ahead_rubs && ball.rubs();
+        let force = self.sums.add(self.force, counted);
+        self.pass_on(ball);
+        ball.settle(speed, force);
         self.behind -= 1;
         if self.behind == 0 {
             // Nothing pushes the rear ball.
-            ball.leave_remainder(self.force);
+            ball.leave_remainder(self.force, self.impedance);
             self.sums.keep_remainder(self.force);
+        }
+    }
+
+    /// From the force of a ball on the one in front to that of the ball behind on it.
+    #[inline(always)]
+    fn pass_on(&mut self, ball: &Ball) {
+        let push = self.change * ball.impedance();
+        if RUBBED {
+            let per_passed = self.grip.per_passed(ball);
+            self.sums.work += self.change * push;
+            self.ahead_rubs = ball.rubs();
+            self.sums.change += if self.ahead_rubs { self.change } else { 0.0 };
+            self.force = (self.force + push) * per_passed;
+            self.impedance *= per_passed;
+        } else {
+            self.force += push;
         }
     }
 }
@@ -126,16 +166,18 @@ struct Sums {
     /// Bits of the largest force.
     largest: i32,
     force: f32,
+    work: f32,
+    change: f32,
     /// Largest remainder of a cluster, without sign.
     remainder: f32,
 }
 
 impl Sums {
-    /// Adds a contact; gives its force, zero where rounding has made it a little less.
+    /// Adds a contact, whose force may count in their sum; gives the force, zero where rounding has made it a little less.
     #[inline(always)]
-    fn add(&mut self, force: f32) -> f32 {
+    fn add(&mut self, force: f32, counted: bool) -> f32 {
         let bits = not_negative_bits(force);
-        self.force += force;
+        self.force += if counted { force } else { 0.0 };
         self.largest = if bits > self.largest {
             bits
         } else {

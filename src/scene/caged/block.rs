@@ -16,9 +16,9 @@
 
 use super::{CagedBallScrewConfiguration, CagedConstants};
 use crate::ball::folded::{FrictionNode, LoadCurve, LoadLaw, PARTS};
-use crate::error::{Error, Range, attempt, in_range};
+use crate::error::{Error, attempt};
 use crate::scene::contract::Limits;
-use crate::stored::crc32_of_words;
+use crate::scene::words::{HEADER, Layout, float, floats};
 
 /// First word of a block: `EPAS` as bytes, least significant first.
 const MAGIC: u32 = 0x5341_5045;
@@ -26,8 +26,7 @@ const MAGIC: u32 = 0x5341_5045;
 /// Version of the layout.
 const VERSION: u32 = 1;
 
-/// Words before the numbers, numbers that do not depend on the nodes, and words of a node.
-const HEADER: usize = 6;
+/// Numbers that do not depend on the nodes, and words of a node.
 const COMMON: usize = 11;
 const NODE: usize = 3 + 2 * 5 * PARTS;
 
@@ -35,28 +34,19 @@ impl<const NODES: usize> CagedBallScrewConfiguration<NODES> {
     /// Words of its block.
     pub const WORDS: usize = HEADER + COMMON + NODES * NODE + 1;
 
+    const LAYOUT: Layout = Layout {
+        magic: MAGIC,
+        version: VERSION,
+        words: Self::WORDS,
+        nodes: NODES,
+    };
+
     /// Reads a block that `epas-design` wrote; for constants too. Its numbers are not checked, but for the checksum over them.
     ///
     /// # Errors
     /// [`Error`] naming `magic`, `version`, `nodes`, `words` (how many there are) or `checksum` (0 for one that is wrong).
     pub const fn read(words: &[u32]) -> Result<Self, Error> {
-        let length = Self::WORDS as f32;
-        let Some((words, _)) = words.split_at_checked(Self::WORDS) else {
-            return Err(Error::OutOfRange {
-                field: "words",
-                value: words.len() as f32,
-                allowed: Range::new(length, f32::MAX),
-            });
-        };
-        attempt!(is("magic", word(words, 0), MAGIC));
-        attempt!(is("version", word(words, 1), VERSION));
-        attempt!(is("nodes", word(words, 3), NODES as u32));
-        attempt!(is("words", word(words, 2), Self::WORDS as u32));
-        let sound = match words.split_last() {
-            Some((checksum, counted)) => crc32_of_words(counted) == *checksum,
-            None => false,
-        };
-        attempt!(in_range("checksum", sound as u8 as f32, 1.0, 1.0));
+        attempt!(Self::LAYOUT.check(words));
         let mut nodes = [NO_NODE; NODES];
         let mut number = 0;
         while number < NODES {
@@ -65,7 +55,7 @@ impl<const NODES: usize> CagedBallScrewConfiguration<NODES> {
             nodes[number] = FrictionNode {
                 friction: float(words, at),
                 curves: [curve(words, at + 1), curve(words, at + 1 + 5 * PARTS)],
-                shift: [float(words, shift), float(words, shift + 1)],
+                shift: floats(words, shift),
             };
             number += 1;
         }
@@ -73,7 +63,7 @@ impl<const NODES: usize> CagedBallScrewConfiguration<NODES> {
             law: LoadLaw {
                 nodes,
                 lift_off: float(words, HEADER + 7),
-                ends: [float(words, HEADER + 8), float(words, HEADER + 9)],
+                ends: floats(words, HEADER + 8),
                 shifted_from: float(words, HEADER + 10),
             },
             friction: float(words, HEADER),
@@ -93,18 +83,6 @@ impl<const NODES: usize> CagedBallScrewConfiguration<NODES> {
     /// # Errors
     /// [`Error`] naming `words`, where there are fewer than [`Self::WORDS`].
     pub fn write(&self, digest: u64, words: &mut [u32]) -> Result<(), Error> {
-        let count = words.len() as f32;
-        let Some(block) = words.get_mut(..Self::WORDS) else {
-            return in_range("words", count, Self::WORDS as f32, f32::MAX).map(|_| ());
-        };
-        let header = [
-            MAGIC,
-            VERSION,
-            Self::WORDS as u32,
-            NODES as u32,
-            digest as u32,
-            (digest >> 32) as u32,
-        ];
         let [least, most] = self.law.ends;
         let common = [
             self.friction,
@@ -133,14 +111,7 @@ impl<const NODES: usize> CagedBallScrewConfiguration<NODES> {
         let numbers = common
             .into_iter()
             .chain(self.law.nodes.iter().flat_map(of_node));
-        let all = header.into_iter().chain(numbers.map(f32::to_bits));
-        for (word, value) in block.iter_mut().zip(all) {
-            *word = value;
-        }
-        if let Some((checksum, counted)) = block.split_last_mut() {
-            *checksum = crc32_of_words(counted);
-        }
-        Ok(())
+        Self::LAYOUT.write(digest, numbers.map(f32::to_bits), words)
     }
 }
 
@@ -167,41 +138,14 @@ const NO_NODE: FrictionNode = FrictionNode {
     shift: [0.0; 2],
 };
 
-/// The word at a place; 0 beyond the last, where a block whose length has been checked has none.
-const fn word(words: &[u32], at: usize) -> u32 {
-    if at < words.len() { words[at] } else { 0 }
-}
-
-/// The number in a word.
-const fn float(words: &[u32], at: usize) -> f32 {
-    f32::from_bits(word(words, at))
-}
-
 /// The curve that begins at a word.
 const fn curve(words: &[u32], at: usize) -> LoadCurve {
     let mut curve = NO_CURVE;
+    curve.starts = floats(words, at);
     let mut part = 0;
     while part < PARTS {
-        curve.starts[part] = float(words, at + part);
-        let mut power = 0;
-        while power < 4 {
-            curve.cubics[part][power] = float(words, at + PARTS + 4 * part + power);
-            power += 1;
-        }
+        curve.cubics[part] = floats(words, at + PARTS + 4 * part);
         part += 1;
     }
     curve
-}
-
-/// Refuses a word that is not the expected one, though an `f32` may not tell them apart.
-const fn is(field: &'static str, word: u32, expected: u32) -> Result<(), Error> {
-    if word == expected {
-        Ok(())
-    } else {
-        Err(Error::OutOfRange {
-            field,
-            value: word as f32,
-            allowed: Range::new(expected as f32, expected as f32),
-        })
-    }
 }

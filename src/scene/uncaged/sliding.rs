@@ -1,6 +1,5 @@
 //! Full friction of a ball screw without cage, as a memory needs it.
 
-use super::full::UncagedFull;
 use super::{UncagedBallScrew, UncagedConstants, UncagedState};
 use crate::error::Range;
 use crate::law::coefficient::DirectionalCoefficient;
@@ -9,6 +8,7 @@ use crate::scene::contract::Inputs;
 use crate::scene::faults::bounded;
 use crate::scene::outputs::UncagedOutputs;
 use crate::scene::passage::Passage;
+use crate::scene::pressed::UncagedFull;
 use crate::scene::sliding::{Sliding, SlidingFriction};
 
 impl<const N: usize> Sliding for UncagedBallScrew<N> {

@@ -1,9 +1,7 @@
 //! A ball screw without cage as bytes.
 
-use super::{Ring, UncagedBallScrew, UncagedConstants, UncagedFull, UncagedState};
+use super::{Ring, UncagedBallScrew, UncagedConstants, UncagedState};
 use crate::scene::circuit::CircuitState;
-use crate::scene::faults::Faults;
-use crate::scene::row::RowFull;
 use crate::scene::stored::StoredScene;
 use crate::stored::{Fingerprint, Port, Refusal, Stored};
 
@@ -34,14 +32,5 @@ impl<const N: usize> Stored for UncagedState<N> {
     fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
         self.circuit.exchange(port)?;
         self.ring.exchange(port)
-    }
-}
-
-impl Stored for UncagedFull {
-    const BYTES: usize = RowFull::BYTES + Faults::BYTES;
-
-    fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
-        self.row.exchange(port)?;
-        self.faults.exchange(port)
     }
 }

@@ -10,14 +10,14 @@ use crate::scene::row::RowFull;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct UncagedFull {
     /// Its parts. `load`: the axial load, preload counted, N.
-    pub(super) row: RowFull,
-    pub(super) faults: Faults,
+    pub(in crate::scene) row: RowFull,
+    pub(in crate::scene) faults: Faults,
 }
 
 impl UncagedFull {
     /// The outputs under a load that is held by this torque, N m.
     #[inline(always)]
-    pub(super) fn passed(&self, load_torque: f32, passage: Passage) -> UncagedOutputs {
+    pub(in crate::scene) fn passed(&self, load_torque: f32, passage: Passage) -> UncagedOutputs {
         let (groove_torque, ball_torque) = self.row.passed(passage);
         UncagedOutputs {
             friction_torque: groove_torque + ball_torque,

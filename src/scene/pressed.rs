@@ -1,0 +1,245 @@
+//! A ball screw whose balls press on each other, by a law of one ball that was solved on a host: `epas-design` folds it, a step evaluates it for
+//! every ball.
+
+mod block;
+mod configuration;
+mod full;
+mod sliding;
+mod stored;
+mod tick;
+
+use core::f32::consts::TAU;
+
+use super::changing::ChangingFriction;
+use super::circuit::{Circuit, CircuitState, per_loaded_ball};
+use super::contract::{Admitted, Inputs, Limits, Scene};
+use super::outputs::UncagedOutputs;
+use super::passage::Reversal;
+use crate::ball::LoadShare;
+use crate::ball::folded::{FrictionPlace, node_octaves};
+use crate::ball::pressed::BallLaw;
+use crate::error::{Error, attempt, in_range};
+use crate::ranges;
+use crate::train::LARGEST_GRIP;
+
+pub use configuration::{FoldedBall, PressedScrewConfiguration};
+pub use full::UncagedFull;
+
+/// A ball screw without cage, with `N` balls in one circuit: friction of the grooves and between balls, by the folded law of one ball, for
+/// `NODES` friction coefficients.
+///
+/// Every ball is evaluated in every tick, at its place, under the load of this tick: nothing settles after a start, a reversal or a step of the
+/// load. What is kept from tick to tick is where the balls are, the phase of the screw's deviations and the friction coefficient.
+///
+/// A tick whose speed or load is no number is flagged in that tick, puts out no torque, and leaves the state as
+/// it is; the next sound tick is unflagged. Balls, and the phase of the screw's deviations, then stand behind by
+/// the travel of the missed ticks, and friction is that of this position: sound, but that of an earlier angle.
+/// [`FrictionModel::set_nut_angle`](crate::FrictionModel::set_nut_angle) brings the phase back; the balls, whose places no sensor knows, stay behind.
+///
+/// [`Faults::BEYOND_MODEL`](crate::Faults::BEYOND_MODEL) stands in each tick whose load or friction coefficient is beyond those for which the law
+/// was folded, or under whose load the block does not hold the forces between balls; the torque is held there all the same where the block's
+/// certificate says so.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct PressedScrew<const N: usize, const NODES: usize = 1>;
+
+/// What a tick changes in a ball screw without cage.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct PressedState<const N: usize> {
+    /// Where the balls are, and how they press.
+    pub circuit: CircuitState<N>,
+    friction: FrictionPlace,
+}
+
+/// Constants of a ball screw without cage, with `N` balls.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct PressedConstants<const N: usize, const NODES: usize = 1> {
+    law: &'static BallLaw<NODES>,
+    /// Octaves of the nodes' friction coefficients.
+    node_octaves: [f32; NODES],
+    /// Place of the configuration's friction coefficient.
+    friction: FrictionPlace,
+    circuit: Circuit,
+    /// Friction coefficient of ball and ball.
+    ball_friction: f32,
+    /// Deviations of one unit of the maps of screw and nut, over the law's largest.
+    units: [f32; 2],
+    /// Nominal speed of a ball against the nut, m per unit of nut speed, halved.
+    half_speed: f32,
+    /// Load of the ball that carries most over the mean one.
+    heaviest: f32,
+    /// Whether all balls carry the same load.
+    even: bool,
+    /// Time between two ticks, s, and 1 / it.
+    tick: f32,
+    per_tick: f32,
+    /// 1 / number of loaded balls, and their number.
+    per_ball: f32,
+    balls: f32,
+    /// Torque per axial load without friction, `lead / 2 pi`, m.
+    reduced_lead: f32,
+    reversal: Reversal,
+    limits: Limits,
+}
+
+impl<const N: usize, const NODES: usize> Scene for PressedScrew<N, NODES> {
+    type Configuration = PressedScrewConfiguration<NODES>;
+    type Constants = PressedConstants<N, NODES>;
+    type State = PressedState<N>;
+    type Inputs = Inputs;
+    type Known = Inputs;
+    type Outputs = UncagedOutputs;
+
+    fn constants(
+        configuration: &PressedScrewConfiguration<NODES>,
+    ) -> Result<PressedConstants<N, NODES>, Error> {
+        PressedConstants::new(configuration)
+    }
+
+    fn initial_state(constants: &PressedConstants<N, NODES>) -> PressedState<N> {
+        PressedState {
+            circuit: CircuitState::new(&constants.circuit),
+            friction: constants.friction,
+        }
+    }
+
+    /// Balls stay where they are; the friction coefficient is that of the new constants.
+    fn take_over(
+        constants: &PressedConstants<N, NODES>,
+        state: &mut PressedState<N>,
+    ) -> Result<(), Error> {
+        state.circuit.is_on(&constants.circuit)?;
+        state.friction = constants.friction;
+        Ok(())
+    }
+
+    #[inline(always)]
+    fn admit(constants: &PressedConstants<N, NODES>, inputs: Inputs) -> Admitted<Inputs> {
+        constants.limits.admit(inputs)
+    }
+
+    #[inline(always)]
+    fn outputs(
+        constants: &PressedConstants<N, NODES>,
+        state: &mut PressedState<N>,
+        inputs: Inputs,
+    ) -> UncagedOutputs {
+        let full = constants.full(state, inputs);
+        full.passed(
+            inputs.axial_load * constants.reduced_lead,
+            constants.reversal.passage(inputs.nut_speed),
+        )
+    }
+
+    #[inline(always)]
+    fn largest_friction(constants: &PressedConstants<N, NODES>) -> f32 {
+        constants.limits.friction_torque
+    }
+}
+
+impl<const N: usize, const NODES: usize> PressedConstants<N, NODES> {
+    /// Checks a configuration and folds its constants: at set-up, or in a constant when firmware is compiled (see
+    /// [`FrictionModel`](crate::FrictionModel)).
+    ///
+    /// # Errors
+    /// [`Error`] naming the field out of range.
+    pub const fn new(configuration: &PressedScrewConfiguration<NODES>) -> Result<Self, Error> {
+        let PressedScrewConfiguration {
+            folded,
+            ball_friction,
+            return_length,
+            screw_deviation,
+            nut_deviation,
+            load_shares,
+            tick,
+            ..
+        } = *configuration;
+        let FoldedBall {
+            ref law,
+            friction,
+            lead,
+            speed,
+            reversal_speed,
+            limits,
+            ..
+        } = *folded;
+        attempt!(law.checked());
+        let (least, largest) = law.friction_range();
+        attempt!(in_range("friction", friction, least, largest));
+        attempt!(in_range("lead", lead, 0.0, 0.2));
+        attempt!(ranges::FRICTION_OR_NONE.checked("ball_friction", ball_friction));
+        let most = LARGEST_GRIP / law.largest_grip();
+        attempt!(in_range("ball_friction", ball_friction, 0.0, most));
+        let limits = attempt!(limits.checked());
+        let circuit = attempt!(configuration.circuit(&limits, N));
+        let [screw, nut] = law.deviations;
+        attempt!(screw_deviation.checked("screw_deviation", screw));
+        attempt!(nut_deviation.checked("nut_deviation", nut));
+        let (screw_unit, nut_unit) = circuit.deviation_units();
+        let per_ball = per_loaded_ball(configuration.loaded_length(), return_length, N);
+        let heaviest = load_shares.heaviest();
+        let frictions = law.frictions();
+        let node_octaves = node_octaves(&frictions);
+        Ok(Self {
+            law,
+            friction: FrictionPlace::among(&frictions, &node_octaves, friction),
+            node_octaves,
+            circuit,
+            ball_friction,
+            units: [screw_unit / screw, nut_unit / nut],
+            half_speed: 0.5 * speed,
+            heaviest: heaviest.share(),
+            even: load_shares.are_even(),
+            tick,
+            per_tick: 1.0 / tick,
+            per_ball,
+            balls: 1.0 / per_ball,
+            reduced_lead: lead / TAU,
+            reversal: attempt!(Reversal::new(reversal_speed, 1e-6, 1e3)),
+            limits,
+        })
+    }
+
+    /// These constants with other limits: a block from flash, limits from a calibration page.
+    ///
+    /// # Errors
+    /// As [`Limits::checked`].
+    pub const fn with_limits(&self, limits: Limits) -> Result<Self, Error> {
+        Ok(Self {
+            limits: attempt!(limits.checked()),
+            ..*self
+        })
+    }
+
+    /// Where a friction coefficient lies.
+    #[inline(always)]
+    fn place(&self, friction: f32) -> FrictionPlace {
+        FrictionPlace::among(&self.law.frictions(), &self.node_octaves, friction)
+    }
+
+    /// Shares of the balls under a load of this sign.
+    #[inline(always)]
+    const fn shares(&self, axial_load: f32) -> &'static [LoadShare] {
+        self.circuit.shares(axial_load < 0.0)
+    }
+
+    /// See [`FrictionModel::set_nut_angle`](crate::FrictionModel::set_nut_angle).
+    pub(crate) fn set_nut_angle(&self, state: &mut PressedState<N>, angle: f32) {
+        state.circuit.set_turns(&self.circuit, angle / TAU);
+    }
+}
+
+impl<const N: usize, const NODES: usize> ChangingFriction for PressedScrew<N, NODES> {
+    fn set_friction(
+        constants: &PressedConstants<N, NODES>,
+        state: &mut PressedState<N>,
+        friction: f32,
+    ) -> Result<(), Error> {
+        let (least, largest) = constants.law.friction_range();
+        let friction = in_range("friction", friction, least, largest)?;
+        state.friction = constants.place(friction);
+        Ok(())
+    }
+}

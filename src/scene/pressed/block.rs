@@ -1,0 +1,179 @@
+//! What is folded of a ball screw without cage as a block of words, between the header and the checksum that all blocks have.
+//!
+//! | words | what |
+//! |---|---|
+//! | 9 | friction coefficient, lead, ball radius, path radius, nominal speed against the nut, reversal speed, limits of nut speed, axial load and friction torque |
+//! | 3 | largest deviations of screw and nut, lift-off load of a ball |
+//! | 1 219 a node | friction coefficient; 2 times 32 knots, each a load and 18 numbers; the bits of both branches where forces are not held |
+//!
+//! Numbers are the bits of an `f32`.
+
+use super::FoldedBall;
+use crate::ball::pressed::{BallKnot, BallLaw, BallNode, BallNumbers, KNOTS};
+use crate::error::{Error, attempt};
+use crate::scene::contract::Limits;
+use crate::scene::words::{HEADER, Layout, float, floats, word};
+
+/// First word of a block: `EPAU` as bytes, least significant first.
+const MAGIC: u32 = 0x5541_5045;
+
+/// Version of the layout.
+const VERSION: u32 = 1;
+
+/// Numbers that do not depend on the nodes; words of a knot, and of a node.
+const COMMON: usize = 12;
+const KNOT: usize = 19;
+const NODE: usize = 1 + 2 * KNOTS * KNOT + 2;
+
+impl<const NODES: usize> FoldedBall<NODES> {
+    /// Words of its block.
+    pub const WORDS: usize = HEADER + COMMON + NODES * NODE + 1;
+
+    const LAYOUT: Layout = Layout {
+        magic: MAGIC,
+        version: VERSION,
+        words: Self::WORDS,
+        nodes: NODES,
+    };
+
+    /// Reads a block that `epas-design` wrote; for constants too. Its numbers are not checked, but for the checksum over them.
+    ///
+    /// # Errors
+    /// [`Error`] naming `magic`, `version`, `nodes`, `words` (how many there are) or `checksum` (0 for one that is wrong).
+    pub const fn read(words: &[u32]) -> Result<Self, Error> {
+        attempt!(Self::LAYOUT.check(words));
+        let mut nodes = [NO_NODE; NODES];
+        let mut number = 0;
+        while number < NODES {
+            nodes[number] = node(words, HEADER + COMMON + number * NODE);
+            number += 1;
+        }
+        Ok(Self {
+            law: BallLaw {
+                nodes,
+                deviations: floats(words, HEADER + 9),
+                lift_off: float(words, HEADER + 11),
+            },
+            friction: float(words, HEADER),
+            lead: float(words, HEADER + 1),
+            ball_radius: float(words, HEADER + 2),
+            path_radius: float(words, HEADER + 3),
+            speed: float(words, HEADER + 4),
+            reversal_speed: float(words, HEADER + 5),
+            limits: Limits {
+                nut_speed: float(words, HEADER + 6),
+                axial_load: float(words, HEADER + 7),
+                friction_torque: float(words, HEADER + 8),
+            },
+        })
+    }
+
+    /// Writes the block, with the digest of what it was folded from, to the begin of `words`: for a host.
+    ///
+    /// # Errors
+    /// [`Error`] naming `words`, where there are fewer than [`Self::WORDS`].
+    pub fn write(&self, digest: u64, words: &mut [u32]) -> Result<(), Error> {
+        let [screw, nut] = self.law.deviations;
+        let common = [
+            self.friction,
+            self.lead,
+            self.ball_radius,
+            self.path_radius,
+            self.speed,
+            self.reversal_speed,
+            self.limits.nut_speed,
+            self.limits.axial_load,
+            self.limits.friction_torque,
+            screw,
+            nut,
+            self.law.lift_off,
+        ];
+        let numbers = common.into_iter().map(f32::to_bits);
+        let numbers = numbers.chain(self.law.nodes.iter().flat_map(of_node));
+        Self::LAYOUT.write(digest, numbers, words)
+    }
+}
+
+/// Words of a node.
+fn of_node(node: &BallNode) -> impl Iterator<Item = u32> {
+    core::iter::once(node.friction.to_bits())
+        .chain(node.branches.as_flattened().iter().flat_map(of_knot))
+        .chain(node.unheld)
+}
+
+/// Words of a knot.
+fn of_knot(knot: &BallKnot) -> impl Iterator<Item = u32> + use<> {
+    let BallNumbers {
+        free,
+        impedance,
+        torque,
+        slope,
+        grip,
+        rubbing,
+    } = knot.numbers;
+    core::iter::once(knot.load)
+        .chain(free)
+        .chain(impedance)
+        .chain(torque)
+        .chain([slope, grip, rubbing])
+        .map(f32::to_bits)
+}
+
+const NO_KNOT: BallKnot = BallKnot {
+    load: 0.0,
+    per_width: 0.0,
+    numbers: BallNumbers {
+        free: [0.0; 6],
+        impedance: [0.0; 3],
+        torque: [0.0; 6],
+        slope: 0.0,
+        grip: 0.0,
+        rubbing: 0.0,
+    },
+};
+
+const NO_NODE: BallNode = BallNode {
+    friction: 0.0,
+    branches: [[NO_KNOT; KNOTS]; 2],
+    unheld: [0; 2],
+};
+
+/// The node that begins at a word.
+const fn node(words: &[u32], at: usize) -> BallNode {
+    let mut node = NO_NODE;
+    node.friction = float(words, at);
+    let mut branch = 0;
+    while branch < 2 {
+        let knots = at + 1 + branch * KNOTS * KNOT;
+        let mut number = 0;
+        while number < KNOTS {
+            node.branches[branch][number] = knot(words, knots + number * KNOT, number + 1 < KNOTS);
+            number += 1;
+        }
+        node.unheld[branch] = word(words, at + 1 + 2 * KNOTS * KNOT + branch);
+        branch += 1;
+    }
+    node
+}
+
+/// The knot that begins at a word, with or without one after it.
+const fn knot(words: &[u32], at: usize, followed: bool) -> BallKnot {
+    let load = float(words, at);
+    let next = if followed {
+        float(words, at + KNOT)
+    } else {
+        load
+    };
+    BallKnot {
+        load,
+        per_width: BallKnot::per_width(load, next),
+        numbers: BallNumbers {
+            free: floats(words, at + 1),
+            impedance: floats(words, at + 7),
+            torque: floats(words, at + 10),
+            slope: float(words, at + 16),
+            grip: float(words, at + 17),
+            rubbing: float(words, at + 18),
+        },
+    }
+}

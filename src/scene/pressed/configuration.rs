@@ -1,0 +1,113 @@
+//! What the engineer sets for a ball screw without cage, and its checks.
+
+use core::f32::consts::TAU;
+
+use crate::ball::LoadShares;
+use crate::ball::pressed::BallLaw;
+use crate::error::{Error, attempt, in_range};
+use crate::math::elliptic::arc_sine;
+use crate::scene::circuit::{Circuit, CircuitConfiguration, DeviationMap, LONGEST_TRACK};
+use crate::scene::contract::Limits;
+
+/// What `epas-design` folds of a ball screw without cage: the law of one ball, and the numbers of the drawing that a step needs; unchecked.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct FoldedBall<const NODES: usize = 1> {
+    /// Law of one ball.
+    pub law: BallLaw<NODES>,
+    /// Friction coefficient of ball and groove before [`FrictionModel::set_friction`](crate::FrictionModel::set_friction), within the
+    /// law's nodes.
+    pub friction: f32,
+    /// Advance of the nut per turn, m, 0 to 0.2.
+    pub lead: f32,
+    /// Radius of the balls, m, 1e-5 to 0.1.
+    pub ball_radius: f32,
+    /// Length of a turn of the ball centres' helix over 2 pi, m, above the ball radius, up to 1.
+    pub path_radius: f32,
+    /// Nominal speed of a ball along the track against the nut, m per unit of nut speed, above 0 and below the path radius.
+    pub speed: f32,
+    /// Nut speed over which friction changes its direction, rad/s, 1e-6 to 1e3: at this speed it has 71 % of its full value.
+    pub reversal_speed: f32,
+    /// Bounds that are kept whatever comes in.
+    pub limits: Limits,
+}
+
+/// What the engineer sets for a ball screw without cage; unchecked.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct PressedScrewConfiguration<const NODES: usize = 1> {
+    /// What a host has folded.
+    pub folded: &'static FoldedBall<NODES>,
+    /// Coulomb friction coefficient of ball and ball, 0 to 1; and so that friction of its neighbours takes no more than 0.3 of their force on a
+    /// ball.
+    pub ball_friction: f32,
+    /// Turns of the loaded track, 0.1 to 100.
+    pub turns: f32,
+    /// Length of the return, m, 0 to 10, up to 250 times the loaded track, and 1000 turns with it: there
+    /// balls carry no load.
+    pub return_length: f32,
+    /// Deviation of the contact angles along the screw's groove, at most the law's
+    /// ([`BallLaw::deviations`](crate::ball::pressed::BallLaw::deviations)).
+    pub screw_deviation: &'static DeviationMap,
+    /// Deviation of the contact angles along the nut's groove, from the start of the loaded track, at most the law's.
+    pub nut_deviation: &'static DeviationMap,
+    /// Load of a ball over the mean load, in equal parts of the loaded track from its start; 1 to 256 for each sign of
+    /// the load, as many for both.
+    pub load_shares: LoadShares,
+    /// Time between two ticks, s, 1e-6 to 1; at the largest nut speed the balls may move by 3 % of the
+    /// track in it, and the screw by half a period of its deviation map.
+    pub tick: f32,
+}
+
+impl<const NODES: usize> PressedScrewConfiguration<NODES> {
+    /// The circuit's part, checked and folded for so many balls.
+    pub(super) const fn circuit(&self, limits: &Limits, balls: usize) -> Result<Circuit, Error> {
+        let Self {
+            turns,
+            return_length,
+            tick,
+            ..
+        } = *self;
+        let FoldedBall {
+            ball_radius,
+            path_radius,
+            speed,
+            ..
+        } = *self.folded;
+        attempt!(in_range("ball_radius", ball_radius, 1e-5, 0.1));
+        attempt!(in_range(
+            "path_radius",
+            path_radius,
+            1.01 * ball_radius,
+            1.0
+        ));
+        attempt!(in_range("speed", speed, 1e-6 * path_radius, path_radius));
+        attempt!(in_range("turns", turns, 0.1, 100.0));
+        attempt!(in_range("return_length", return_length, 0.0, 10.0));
+        attempt!(in_range("tick", tick, 1e-6, 1.0));
+        let per_turn = TAU * path_radius;
+        let loaded_length = self.loaded_length();
+        let longest = LONGEST_TRACK * per_turn - loaded_length;
+        attempt!(in_range("return_length", return_length, 0.0, longest));
+        CircuitConfiguration {
+            loaded_length,
+            loaded_turns: turns,
+            return_length,
+            turn_length: per_turn,
+            pitch: 2.0 * path_radius * arc_sine(ball_radius / path_radius),
+            travel_per_motion: speed,
+            motion_per_turn: TAU,
+            passing_deviation: self.screw_deviation,
+            recirculating_deviation: self.nut_deviation,
+            load_shares: self.load_shares,
+            tick,
+            largest_speed: limits.nut_speed,
+        }
+        .folded(balls)
+    }
+
+    /// Length of the loaded track, m.
+    pub(super) const fn loaded_length(&self) -> f32 {
+        self.turns * (TAU * self.folded.path_radius)
+    }
+}

@@ -1,0 +1,153 @@
+//! What a tick computes: every ball at its place, then how they press.
+
+use super::{PressedConstants, PressedState, UncagedFull};
+use crate::ball::folded::FrictionPlace;
+use crate::ball::pressed::{BallNumbers, FreeMotion};
+use crate::scene::circuit::UNLOADED;
+use crate::scene::contract::Inputs;
+use crate::scene::faults::Faults;
+use crate::scene::passage::way;
+use crate::scene::row::RowFull;
+use crate::train::{Grip, Intake};
+
+/// What all balls have in common in a tick.
+struct Common {
+    /// Mean axial load of a ball, N.
+    mean: f32,
+    /// Load of a ball under the mean axial load, N.
+    load: f32,
+    /// 0 where the load opposes the motion, else 1.
+    branch: usize,
+    /// -1 where the nut turns backward, else 1.
+    way: f32,
+    /// What a ball does under the mean load, with the impedance that the train takes in.
+    numbers: BallNumbers,
+    grip: Grip<true>,
+}
+
+impl<const N: usize, const NODES: usize> PressedConstants<N, NODES> {
+    /// Full friction in the direction of motion; moves the balls on by a tick.
+    #[inline(always)]
+    pub(super) fn full(&self, state: &mut PressedState<N>, inputs: Inputs) -> UncagedFull {
+        let Inputs {
+            nut_speed,
+            axial_load,
+        } = inputs;
+        let common = self.common(state, inputs);
+        let phase = state.circuit.phase();
+        let travel = self.circuit.travel(nut_speed);
+        let mut balls = state.circuit.train.intake(travel);
+        let torque = if self.even {
+            self.take_in_even(&mut balls, phase, axial_load, &common)
+        } else {
+            self.take_in(&mut balls, phase, axial_load, state.friction, &common)
+        };
+        let pressing = balls.press_rubbing(common.grip);
+        state.circuit.advance(&self.circuit, nut_speed);
+
+        let numbers = &common.numbers;
+        let work = self.half_speed * common.grip.per_impedance() * pressing.work;
+        let rubbing = self.ball_friction * numbers.rubbing * pressing.force;
+        let most = self.law.load_of(self.heaviest * common.mean);
+        let friction = state.friction;
+        let held = self.law.holds_forces(common.load, common.branch, friction)
+            && self.law.holds_load(most)
+            && self.law.holds(friction.friction());
+        UncagedFull {
+            row: RowFull {
+                groove: not_negative(torque + numbers.slope * common.way * pressing.change + work),
+                ball: rubbing,
+                ways: [1.0; 2],
+                load: common.load * self.balls,
+                contacts: pressing.contacts,
+                largest_contact_force: pressing.largest,
+            },
+            faults: Faults::NONE.with(!held, Faults::BEYOND_MODEL),
+        }
+    }
+
+    #[inline(always)]
+    fn common(&self, state: &PressedState<N>, inputs: Inputs) -> Common {
+        let way = way(inputs.nut_speed);
+        let mean = inputs.axial_load * self.per_ball;
+        let branch = usize::from(way * mean < 0.0);
+        let load = self.law.load_of(mean);
+        let mut numbers = self.law.numbers(load, branch, state.friction);
+        let grip = Grip::new(way * (self.ball_friction * numbers.grip));
+        numbers.impedance = numbers.impedance.map(|z| z * grip.of_impedance());
+        Common {
+            mean,
+            load,
+            branch,
+            way,
+            numbers,
+            grip,
+        }
+    }
+
+    /// Takes in balls that all carry the same load; gives the sum of their torques, N m.
+    #[inline(always)]
+    fn take_in_even(
+        &self,
+        balls: &mut Intake<'_, N>,
+        phase: u32,
+        axial_load: f32,
+        common: &Common,
+    ) -> f32 {
+        let Common { way, numbers, .. } = common;
+        let shares = self.shares(axial_load);
+        let units = self.units.map(|unit| way * unit);
+        let idle = way * numbers.free[0];
+        let mut torque = 0.0;
+        while let Some(ball) = balls.next_ball() {
+            let Some(place) = self.circuit.place(ball.position(), phase, shares) else {
+                ball.put_rubbing(idle, UNLOADED, false);
+                continue;
+            };
+            let deviations = [units[0] * place.passing, units[1] * place.recirculating];
+            let motion = numbers.at(deviations);
+            torque += motion.torque;
+            ball.put_rubbing(way * motion.speed, motion.impedance, true);
+        }
+        torque
+    }
+
+    /// Takes in balls with loads of their own; gives the sum of their torques, N m.
+    #[inline(always)]
+    fn take_in(
+        &self,
+        balls: &mut Intake<'_, N>,
+        phase: u32,
+        axial_load: f32,
+        friction: FrictionPlace,
+        common: &Common,
+    ) -> f32 {
+        let Common { way, numbers, .. } = common;
+        let shares = self.shares(axial_load);
+        let units = self.units.map(|unit| way * unit);
+        let idle = way * numbers.free[0];
+        let mut torque = 0.0;
+        while let Some(ball) = balls.next_ball() {
+            let Some(place) = self.circuit.place(ball.position(), phase, shares) else {
+                ball.put_rubbing(idle, UNLOADED, false);
+                continue;
+            };
+            let deviations = [units[0] * place.passing, units[1] * place.recirculating];
+            let load = self.law.load_of(common.mean * place.share.share());
+            let FreeMotion {
+                speed,
+                impedance,
+                torque: own,
+            } = self.law.at(load, common.branch, friction, deviations);
+            torque += own;
+            ball.put_rubbing(way * speed, impedance * common.grip.of_impedance(), true);
+        }
+        torque
+    }
+}
+
+/// A torque, or none where it is below zero.
+#[inline(always)]
+fn not_negative(torque: f32) -> f32 {
+    if torque > 0.0 { torque } else { 0.0 }
+}
