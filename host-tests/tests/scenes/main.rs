@@ -23,3 +23,4 @@ mod stiff;
 mod stored;
 mod swapped;
 mod two_point_rolling;
+mod uncaged;

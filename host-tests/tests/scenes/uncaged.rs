@@ -1,0 +1,8 @@
+//! Screws without cage: every tick against exact balls, and what holds of any tick.
+
+mod blocks;
+mod course;
+mod exact;
+mod laws;
+mod running;
+mod ticks;
