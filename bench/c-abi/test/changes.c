@@ -1,4 +1,4 @@
-/* What is set while a model runs: friction coefficient, clearance, law, level; and what is refused of it. */
+/* What is set while a model runs: block, friction coefficient, law, level; and what is refused of it. */
 #include "epas_test.h"
 
 #include <stddef.h>
@@ -74,49 +74,87 @@ static void caged(void)
     check(epas_caged_range_set_friction(NULL, 0.1f, NULL) == EPAS_NULL_POINTER, "no place");
 }
 
-/* Friction is that of a model that was set up so, once what has changed has settled: within a thousandth. */
-#define SETTLED 1e-3f
-
-/* Without deviations of the grooves: with them, where each ball presses depends on what was before. */
+/* Another folded ball and another friction coefficient are there from the next tick on, as in a model that was made so. */
 static void screw(void)
 {
     static epas_screw_t changed;
     static epas_screw_t made;
+    static epas_folded_ball_t none;
     const epas_inputs_t inputs = {60.0f, 6000.0f};
-    epas_screw_configuration_t configuration = test_screw_configuration;
+    epas_screw_configuration_t wrong = test_screw_configuration;
+    epas_screw_outputs_t before = {0};
     epas_screw_outputs_t found = {0};
     epas_screw_outputs_t wanted = {0};
-    float sum = 0.0f;
-    float wanted_sum = 0.0f;
     epas_failure_t failure;
-    uint32_t settled = 0u;
     uint32_t tick;
 
-    configuration.screw_deviation = NULL;
-    configuration.nut_deviation = NULL;
-    configuration.load_shares = NULL;
-    check(epas_screw_init(&changed, &configuration, NULL) == EPAS_OK, "a screw");
-    configuration.friction = 0.13f;
-    configuration.clearance = -5e-7f;
-    check(epas_screw_init(&made, &configuration, NULL) == EPAS_OK, "another one");
-    check(epas_screw_set_friction(&changed, 0.0f, &failure) == EPAS_OUT_OF_RANGE, "no friction");
-    check((failure.minimum == 1e-6f) && (failure.maximum == 0.5f), "and which there may be");
-    check(epas_screw_set_friction(&changed, 0.13f, NULL) == EPAS_OK, "another friction coefficient");
-    check(epas_screw_set_clearance(&changed, -5e-7f, NULL) == EPAS_OK, "another clearance");
-    for (tick = 0u; tick < 600u; tick++) {
-        (void)epas_screw_step(&changed, &inputs, &found);
+    check((test_setup_screw(&changed) == EPAS_OK) && (test_setup_screw(&made) == EPAS_OK), "screws");
+    check(epas_screw_swap(&made, &test_worn_screw_configuration, NULL) == EPAS_OK, "a worn one");
+    check(epas_screw_swap(NULL, &test_screw_configuration, NULL) == EPAS_NULL_POINTER, "no place");
+    check(epas_screw_swap(&changed, NULL, NULL) == EPAS_NULL_POINTER, "no configuration");
+    wrong.folded = &none;
+    check(epas_screw_swap(&changed, &wrong, &failure) == EPAS_NOT_INITIALISED, "a folded ball of zeros");
+    check(failure.field == EPAS_FIELD_FOLDED, "and which field");
+    wrong = test_screw_configuration;
+    wrong.circuit.turns = 1.5f;
+    check(epas_screw_swap(&changed, &wrong, &failure) == EPAS_OUT_OF_RANGE, "a track on which the balls do not fit");
+    check(failure.field == EPAS_FIELD_BALL_PITCH, "and which field");
+    for (tick = 0u; tick < 50u; tick++) {
+        (void)epas_screw_step(&changed, &inputs, &before);
         (void)epas_screw_step(&made, &inputs, &wanted);
-        if ((found.faults & EPAS_FAULT_SETTLING) == 0u) {
-            settled++;
-        }
-        if (tick >= 400u) {
-            sum += found.friction_torque;
-            wanted_sum += wanted.friction_torque;
-        }
     }
-    /* A ball that comes into the loaded part a tick earlier counts for a 33rd in that tick, and not in the mean. */
-    check(near(sum, wanted_sum, SETTLED), "friction of a screw that was changed");
-    check((settled > 300u) && (settled < 590u), "which settled in between");
+    check(near(wanted.groove_torque, before.groove_torque, 1e-2f) == 0u, "wear shows");
+    check(epas_screw_swap(&changed, &test_worn_screw_configuration, &failure) == EPAS_OK, "another folded ball");
+    check(failure.status == EPAS_OK, "and no failure");
+    (void)epas_screw_step(&changed, &inputs, &found);
+    (void)epas_screw_step(&made, &inputs, &wanted);
+    check((found.friction_torque == wanted.friction_torque) && (found.contacts == wanted.contacts),
+          "friction of the other folded ball in the next tick, with the balls where they were");
+}
+
+static void screw_range(void)
+{
+    static epas_screw_range_t place;
+    static epas_screw_range_t next;
+    static uint8_t block[EPAS_SCREW_RANGE_STATE_BYTES];
+    const epas_inputs_t inputs = {60.0f, 6000.0f};
+    epas_screw_outputs_t before = {0};
+    epas_screw_outputs_t found = {0};
+    epas_screw_outputs_t wanted = {0};
+    epas_failure_t failure;
+    uint32_t ticks = 1u;
+
+    check(epas_screw_range_step(&place, &inputs, &found) == EPAS_NOT_INITIALISED, "a place of zeros");
+    check(found.faults == EPAS_FAULT_CALL, "a place of zeros, flagged");
+    check((test_setup_screw_range(&place) == EPAS_OK) && (test_setup_screw_range(&next) == EPAS_OK), "screws");
+    check(epas_screw_range_set_friction(NULL, 0.1f, NULL) == EPAS_NULL_POINTER, "no place");
+    check(epas_screw_range_set_friction(&place, 0.0f, &failure) == EPAS_OUT_OF_RANGE, "no friction");
+    check((failure.field == EPAS_FIELD_FRICTION) && (failure.minimum > 0.0f) && (failure.maximum > failure.minimum),
+          "and which there may be");
+    check(epas_screw_range_set_friction(&place, no_number(), NULL) == EPAS_NOT_FINITE, "a friction coefficient that is none");
+    check(epas_screw_range_set_friction(&place, failure.minimum, NULL) == EPAS_OK, "the least friction coefficient");
+    (void)epas_screw_range_step(&place, &inputs, &before);
+    check(epas_screw_range_set_friction(&place, failure.maximum, NULL) == EPAS_OK, "the largest one");
+    (void)epas_screw_range_step(&place, &inputs, &found);
+    check(found.groove_torque > (1.2f * before.groove_torque), "more friction in the next tick");
+    check(epas_screw_range_faulted_ticks(&place, &ticks) == EPAS_OK, "counter");
+    check(ticks == 0u, "no faulted ticks");
+
+    /* The next ignition: the friction coefficient that was set is there again. */
+    check(epas_screw_range_export(&place, block, sizeof block - 1u) == EPAS_STATE_LENGTH, "no room");
+    check(epas_screw_range_export(&place, block, sizeof block) == EPAS_OK, "export");
+    check(epas_screw_range_import(&next, block, sizeof block) == EPAS_OK, "import");
+    (void)epas_screw_range_step(&place, &inputs, &wanted);
+    (void)epas_screw_range_step(&next, &inputs, &found);
+    check((found.friction_torque == wanted.friction_torque) && (found.contacts == wanted.contacts), "a tick after an import");
+
+    /* A swap, and a reset, bring the folded friction coefficient back. */
+    check(epas_screw_range_swap(&place, &test_screw_range_configuration, NULL) == EPAS_OK, "a swap");
+    (void)epas_screw_range_step(&place, &inputs, &found);
+    check(found.groove_torque < wanted.groove_torque, "which brings the folded coefficient back");
+    check(epas_screw_range_reset(&next) == EPAS_OK, "a reset");
+    (void)epas_screw_range_step(&next, &inputs, &found);
+    check(found.groove_torque < wanted.groove_torque, "which does so too");
 }
 
 static void linear(void)
@@ -315,6 +353,7 @@ uint32_t test_changes(void)
     failed = 0u;
     caged();
     screw();
+    screw_range();
     linear();
     memory();
     adapted();
