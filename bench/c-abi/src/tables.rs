@@ -1,5 +1,7 @@
 //! Tables that several models may share: deviations along a groove, shares of the load, what a host has folded of a ball.
 
+use core::mem::MaybeUninit;
+
 use epas_friction::scene::{FoldedBall, HIGHEST_ORDER};
 use epas_friction::{DeviationMap, Harmonic as CrateHarmonic};
 
@@ -208,12 +210,19 @@ pub(crate) const fn harmonic_count(count: u32) -> Failure {
     )
 }
 
-/// What a host has folded of a ball, of a block's words: a law that a model takes.
-pub(crate) fn folded_ball<const NODES: usize>(words: &[u32]) -> Result<FoldedBall<NODES>, Failure> {
-    let folded = FoldedBall::read(words).map_err(Failure::of_block)?;
+/// Decodes a block's words where the folded ball goes, and sees that its law is one that a model takes. A folded ball is large: what is
+/// returned is no copy of it.
+#[inline(never)]
+pub(crate) fn decode<const NODES: usize>(
+    words: &[u32],
+    place: &mut MaybeUninit<FoldedBall<NODES>>,
+) -> Result<(), Failure> {
+    let folded = match FoldedBall::read(words) {
+        Ok(folded) => place.write(folded),
+        Err(error) => return Err(Failure::of_block(error)),
+    };
     let law = folded.law.checked();
-    law.map_err(|error| Failure::at(error, EPAS_FIELD_BLOCK))?;
-    Ok(folded)
+    law.map_err(|error| Failure::at(error, EPAS_FIELD_BLOCK))
 }
 
 /// One share of the load.

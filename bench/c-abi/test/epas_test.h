@@ -22,6 +22,8 @@ extern const epas_screw_configuration_t test_worn_screw_configuration;
 extern const epas_screw_range_configuration_t test_screw_range_configuration;
 extern epas_linear_configuration_t test_linear_configuration;
 extern const epas_memory_configuration_t test_memory_configuration;
+extern epas_folded_ball_range_t test_ball_range;
+extern epas_folded_ball_t test_spare_ball;
 uint32_t test_setup_caged(epas_caged_t *place);
 uint32_t test_setup_caged_range(epas_caged_range_t *place);
 uint32_t test_setup_closed_form(epas_closed_form_t *place);

@@ -167,12 +167,14 @@ static void states(void)
     check(same_text(epas_status_name(EPAS_STATE_DAMAGED), "damaged state"), "name of a state's status");
 }
 
+/* Words of a block to which something happens. */
+static uint32_t words[1300];
+
 /* A block that is none, or not whole, is refused with a status of its own; the place holds no model then. */
 static void blocks(void)
 {
     static epas_caged_t place;
     static epas_caged_range_t range;
-    static uint32_t words[600];
     const epas_inputs_t sound = {10.0f, 1000.0f};
     epas_block_t block = {words, 0u};
     epas_outputs_t outputs;
@@ -217,14 +219,11 @@ static void blocks(void)
     check(same_text(epas_status_name(EPAS_BLOCK_DAMAGED), "damaged block"), "name of a block's status");
 }
 
-/* The same of a screw without cage. Its words are as many as a stack may not hold. */
+/* The same of a screw without cage. */
 static void folded_balls(void)
 {
-    static epas_folded_ball_t ball;
-    static epas_folded_ball_range_t range;
     static epas_caged_t caged;
     static epas_screw_t screw;
-    static uint32_t words[4000];
     epas_screw_configuration_t configuration = test_screw_configuration;
     epas_block_t block = {words, 0u};
     epas_failure_t failure;
@@ -235,56 +234,56 @@ static void folded_balls(void)
         words[word] = test_ball_block.words[word];
     }
     block.count = test_ball_block.count;
-    configuration.folded = &ball;
-    check(epas_folded_ball_init(&ball, &block, &failure) == EPAS_OK, "words that were copied");
+    configuration.folded = &test_spare_ball;
+    check(epas_folded_ball_init(&test_spare_ball, &block, &failure) == EPAS_OK, "words that were copied");
     check(failure.status == EPAS_OK, "and no failure");
     check(epas_screw_init(&screw, &configuration, NULL) == EPAS_OK, "a screw of them");
     words[0] ^= 1u;
-    status = epas_folded_ball_init(&ball, &block, &failure);
+    status = epas_folded_ball_init(&test_spare_ball, &block, &failure);
     check_failure(status, &failure, EPAS_NOT_A_BLOCK, EPAS_FIELD_BLOCK, "block");
     status = epas_screw_init(&screw, &configuration, &failure);
     check_failure(status, &failure, EPAS_NOT_INITIALISED, EPAS_FIELD_FOLDED, "folded");
     words[0] ^= 1u;
     words[1]++;
-    status = epas_folded_ball_init(&ball, &block, &failure);
+    status = epas_folded_ball_init(&test_spare_ball, &block, &failure);
     check_failure(status, &failure, EPAS_BLOCK_VERSION, EPAS_FIELD_BLOCK, "block");
     words[1]--;
     words[3] = 2u;
-    status = epas_folded_ball_init(&ball, &block, &failure);
+    status = epas_folded_ball_init(&test_spare_ball, &block, &failure);
     check_failure(status, &failure, EPAS_BLOCK_NODES, EPAS_FIELD_BLOCK, "block");
     words[3] = 1u;
     words[1000] ^= 1u;
-    status = epas_folded_ball_init(&ball, &block, &failure);
+    status = epas_folded_ball_init(&test_spare_ball, &block, &failure);
     check_failure(status, &failure, EPAS_BLOCK_DAMAGED, EPAS_FIELD_BLOCK, "block");
     words[1000] ^= 1u;
     block.count--;
-    status = epas_folded_ball_init(&ball, &block, &failure);
+    status = epas_folded_ball_init(&test_spare_ball, &block, &failure);
     check_failure(status, &failure, EPAS_BLOCK_LENGTH, EPAS_FIELD_BLOCK, "block");
     block.words = NULL;
-    status = epas_folded_ball_init(&ball, &block, &failure);
+    status = epas_folded_ball_init(&test_spare_ball, &block, &failure);
     check_failure(status, &failure, EPAS_NULL_POINTER, EPAS_FIELD_BLOCK, "block");
     block.words = (const uint32_t *)(const void *)((const uint8_t *)words + 2);
-    status = epas_folded_ball_init(&ball, &block, &failure);
+    status = epas_folded_ball_init(&test_spare_ball, &block, &failure);
     check_failure(status, &failure, EPAS_MISALIGNED, EPAS_FIELD_BLOCK, "block");
     check(epas_folded_ball_init(NULL, &test_ball_block, NULL) == EPAS_NULL_POINTER, "no place");
-    check(epas_folded_ball_init(&ball, NULL, NULL) == EPAS_NULL_POINTER, "no block");
+    check(epas_folded_ball_init(&test_spare_ball, NULL, NULL) == EPAS_NULL_POINTER, "no block");
 
     /* Blocks of other scenes, either way. */
-    status = epas_folded_ball_range_init(&range, &test_ball_block, &failure);
+    status = epas_folded_ball_range_init(&test_ball_range, &test_ball_block, &failure);
     check_failure(status, &failure, EPAS_BLOCK_LENGTH, EPAS_FIELD_BLOCK, "block");
-    status = epas_folded_ball_init(&ball, &test_ball_range_block, &failure);
+    status = epas_folded_ball_init(&test_spare_ball, &test_ball_range_block, &failure);
     check_failure(status, &failure, EPAS_BLOCK_NODES, EPAS_FIELD_BLOCK, "block");
-    status = epas_folded_ball_init(&ball, &test_block, &failure);
+    status = epas_folded_ball_init(&test_spare_ball, &test_block, &failure);
     check_failure(status, &failure, EPAS_BLOCK_LENGTH, EPAS_FIELD_BLOCK, "block");
     status = epas_caged_init(&caged, &test_ball_block, &failure);
     check_failure(status, &failure, EPAS_NOT_A_BLOCK, EPAS_FIELD_BLOCK, "block");
 
     /* A folded ball of another kind, or none. */
-    check(epas_folded_ball_range_init(&range, &test_ball_range_block, NULL) == EPAS_OK, "a range");
-    configuration.folded = (const epas_folded_ball_t *)(const void *)&range;
+    check(epas_folded_ball_range_init(&test_ball_range, &test_ball_range_block, NULL) == EPAS_OK, "a range");
+    configuration.folded = (const epas_folded_ball_t *)(const void *)&test_ball_range;
     status = epas_screw_init(&screw, &configuration, &failure);
     check_failure(status, &failure, EPAS_NOT_INITIALISED, EPAS_FIELD_FOLDED, "folded");
-    configuration.folded = (const epas_folded_ball_t *)(const void *)((const uint8_t *)&ball + 2);
+    configuration.folded = (const epas_folded_ball_t *)(const void *)((const uint8_t *)&test_spare_ball + 2);
     status = epas_screw_init(&screw, &configuration, &failure);
     check_failure(status, &failure, EPAS_MISALIGNED, EPAS_FIELD_FOLDED, "folded");
     configuration.folded = NULL;

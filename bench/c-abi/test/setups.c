@@ -85,7 +85,9 @@ static epas_deviation_t rail_deviation;
 /* What was folded of the ball screw without cage, decoded, stays too: for one friction coefficient, worn, and for a range. */
 static epas_folded_ball_t ball;
 static epas_folded_ball_t worn_ball;
-static epas_folded_ball_range_t ball_range;
+epas_folded_ball_range_t test_ball_range;
+/* No model uses it. */
+epas_folded_ball_t test_spare_ball;
 
 #define CIRCUIT \
     { \
@@ -102,7 +104,7 @@ static epas_folded_ball_range_t ball_range;
 /* The ball screw of Lin 2019, chapter 3.6, without cage. */
 const epas_screw_configuration_t test_screw_configuration = {.folded = &ball, .circuit = CIRCUIT};
 const epas_screw_configuration_t test_worn_screw_configuration = {.folded = &worn_ball, .circuit = CIRCUIT};
-const epas_screw_range_configuration_t test_screw_range_configuration = {.folded = &ball_range, .circuit = CIRCUIT};
+const epas_screw_range_configuration_t test_screw_range_configuration = {.folded = &test_ball_range, .circuit = CIRCUIT};
 
 /* A linear bearing with balls of 10 mm. */
 epas_linear_configuration_t test_linear_configuration = {
@@ -177,7 +179,7 @@ uint32_t test_setup_ball(void)
 
 uint32_t test_setup_ball_range(void)
 {
-    return epas_folded_ball_range_init(&ball_range, &test_ball_range_block, NULL);
+    return epas_folded_ball_range_init(&test_ball_range, &test_ball_range_block, NULL);
 }
 
 uint32_t test_setup_screw(epas_screw_t *place)

@@ -1,5 +1,6 @@
 //! Tables: the exported functions that make them, and what a configuration's pointers to them lead to.
 
+use core::mem::MaybeUninit;
 use core::slice;
 
 use epas_friction::scene::FoldedBall;
@@ -14,9 +15,8 @@ use crate::status::{
 };
 use crate::tables::{
     Deviation, EPAS_DEVIATION_SAMPLES, EPAS_LARGEST_HARMONIC_COUNT, EPAS_LARGEST_SHARE_COUNT,
-    FoldedBallPlace, FoldedBallRangePlace, Harmonic, LoadShare, PlacedTable, Table,
-    deviation_of_harmonics, deviation_of_samples, folded_ball, harmonic_count, is_load_share,
-    load_share,
+    FoldedBallPlace, FoldedBallRangePlace, Harmonic, LoadShare, PlacedTable, Table, decode,
+    deviation_of_harmonics, deviation_of_samples, harmonic_count, is_load_share, load_share,
 };
 use crate::types::{Block, EPAS_SCREW_RANGE_NODES};
 
@@ -41,7 +41,7 @@ pub unsafe extern "C" fn epas_deviation_from_harmonics(
         let count = usize::try_from(count).unwrap_or(0);
         deviation_of_harmonics(turns, unsafe { slice::from_raw_parts(harmonics, count) })
     };
-    unsafe { place_table(place, failure, make) }
+    unsafe { place_deviation(place, failure, make) }
 }
 
 /// Makes a deviation, with a period of `turns` turns (1 to 100), of `EPAS_DEVIATION_SAMPLES` samples at equal
@@ -58,7 +58,7 @@ pub unsafe extern "C" fn epas_deviation_from_samples(
         usable(samples).map_err(bare)?;
         deviation_of_samples(turns, unsafe { &*samples })
     };
-    unsafe { place_table(place, failure, make) }
+    unsafe { place_deviation(place, failure, make) }
 }
 
 /// Decodes a block of a ball screw without cage, for one friction coefficient: at set-up, or in a task while models run that use other
@@ -109,17 +109,30 @@ pub unsafe extern "C" fn epas_load_shares_init(
 unsafe fn place_table<T: Table, Place>(
     place: *mut Place,
     failure: *mut Failure,
-    make: impl FnOnce() -> Result<T, Failure>,
+    make: impl FnOnce(&mut MaybeUninit<T>) -> Result<(), Failure>,
 ) -> u32 {
     let outcome = usable(place).map_err(bare).and_then(|()| {
-        let place = place.cast::<PlacedTable<T>>();
+        let place = place.cast::<PlacedTable<MaybeUninit<T>>>();
         unsafe { (&raw mut (*place).mark).write(0) };
-        let table = make()?;
-        unsafe { (&raw mut (*place).table).write(table) };
+        // SAFETY: the place is the caller's and nobody else uses it; a table that is not made is not read, for want of the mark.
+        make(unsafe { &mut (*place).table })?;
         unsafe { (&raw mut (*place).mark).write(T::MARK) };
         Ok(())
     });
     unsafe { report(outcome, failure) }
+}
+
+/// Puts a deviation into its place.
+unsafe fn place_deviation(
+    place: *mut Deviation,
+    failure: *mut Failure,
+    make: impl FnOnce() -> Result<DeviationMap, Failure>,
+) -> u32 {
+    let put = |table: &mut MaybeUninit<DeviationMap>| {
+        table.write(make()?);
+        Ok(())
+    };
+    unsafe { place_table(place, failure, put) }
 }
 
 /// Puts a decoded block into its place.
@@ -128,13 +141,13 @@ unsafe fn place_folded<const NODES: usize, Place>(
     block: *const Block,
     failure: *mut Failure,
 ) -> u32 {
-    let make = || {
+    let put = |table: &mut MaybeUninit<FoldedBall<NODES>>| {
         usable(block).map_err(bare)?;
         let words = unsafe { words(&*block) }?;
         let none = || Failure::pointer(EPAS_NULL_POINTER, EPAS_FIELD_BLOCK);
-        folded_ball::<NODES>(words.ok_or_else(none)?)
+        decode(words.ok_or_else(none)?, table)
     };
-    unsafe { place_table::<FoldedBall<NODES>, _>(place, failure, make) }
+    unsafe { place_table(place, failure, put) }
 }
 
 /// A table that a configuration points to, where it does. It stays for as long as the model is used: the caller's promise.
