@@ -5,7 +5,7 @@ use epas_friction::{Error, LoadShares, UncagedBallScrew, UncagedBallScrewConfigu
 
 use crate::scene::{CScene, InHeader, Pointers, Tables, TrackPointers, regime, screw_inputs};
 use crate::status::{EPAS_FIELD_FOLDED, EPAS_NULL_POINTER, Failure};
-use crate::tables::PlacedTable;
+use crate::tables::{PlacedTable, Table};
 use crate::types::{
     EPAS_FAULT_CALL, EPAS_REGIME_STANDING, EPAS_SCREW_BALLS, EPAS_SCREW_RANGE_NODES,
     EPAS_SCREW_RANGE_STATE_BYTES, EPAS_SCREW_STATE_BYTES, Inputs, ScrewCircuit, ScrewConfiguration,
@@ -64,6 +64,7 @@ impl OfNodes<EPAS_SCREW_RANGE_NODES> for ScrewRangeConfiguration {
 impl<const NODES: usize> CScene for Screw<NODES>
 where
     Self: InHeader<Configuration: OfNodes<NODES>>,
+    FoldedBall<NODES>: Table,
 {
     type Scene = UncagedBallScrew<EPAS_SCREW_BALLS, NODES>;
     type Folded = FoldedBall<NODES>;

@@ -104,11 +104,12 @@ impl Table for DeviationMap {
     const MARK: u32 = mark(0xD0);
 }
 
-impl<const NODES: usize> Table for FoldedBall<NODES> {
-    const MARK: u32 = {
-        assert!(NODES > 0 && NODES < 0x10, "the mark has four bits for it");
-        mark(0xB0 + NODES as u8)
-    };
+impl Table for FoldedBall<1> {
+    const MARK: u32 = mark(0xB1);
+}
+
+impl Table for FoldedBall<EPAS_SCREW_RANGE_NODES> {
+    const MARK: u32 = mark(0xB3);
 }
 
 /// Whether a place is as large as the table in it.

@@ -1,4 +1,4 @@
-//! Folded blocks of the tests and of the README's example: those of the project's firmware, as words in C.
+//! Folded blocks of the tests and of the README's examples: those of the project's firmware, as words in C.
 
 use std::fmt::Write as _;
 use std::sync::LazyLock;
@@ -34,14 +34,14 @@ pub static LIN_3_6: &[u32] = lin_3_6::WORDS;
 pub static LIN_3_6_RANGE: &[u32] = lin_3_6_range::WORDS;
 /// Worn, with play.
 pub static LIN_3_6_WORN: &[u32] = lin_3_6_worn::WORDS;
-/// The gear of the README's example.
+/// The gear of the README's first example.
 pub static LIN_4_1_RANGE: &[u32] = lin_4_1_range::WORDS;
 
 /// A ball screw without cage of the firmware: what was folded of its ball, from which its words are written.
 macro_rules! ball {
     ($module:ident, $file:literal) => {
         mod $module {
-            #![allow(dead_code, missing_docs, clippy::all)]
+            #![allow(dead_code, missing_docs, clippy::all, clippy::pedantic)]
             include!(concat!("../../../firmware/src/gears/", $file));
         }
     };
@@ -112,7 +112,17 @@ pub fn of_tests() -> Outcome<String> {
     )
 }
 
-/// The block of the README's example.
-pub fn of_example() -> Outcome<String> {
-    header("GEAR_BLOCK_H", &[("GEAR_BLOCK", LIN_4_1_RANGE)])
+/// The blocks of the README's examples: each the header that `epas-bench design` writes.
+pub fn of_examples() -> Outcome<[(&'static str, String); 2]> {
+    let screw = words_of(&LIN_3_6_BALL_RANGE)?;
+    Ok([
+        (
+            "test/gear.h",
+            header("GEAR_BLOCK_H", &[("GEAR_BLOCK", LIN_4_1_RANGE)])?,
+        ),
+        (
+            "test/screw.h",
+            header("SCREW_BLOCK_H", &[("SCREW_BLOCK", &screw)])?,
+        ),
+    ])
 }

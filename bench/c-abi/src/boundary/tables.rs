@@ -140,7 +140,10 @@ unsafe fn place_folded<const NODES: usize, Place>(
     place: *mut Place,
     block: *const Block,
     failure: *mut Failure,
-) -> u32 {
+) -> u32
+where
+    FoldedBall<NODES>: Table,
+{
     let put = |table: &mut MaybeUninit<FoldedBall<NODES>>| {
         usable(block).map_err(bare)?;
         let words = unsafe { words(&*block) }?;
@@ -150,7 +153,7 @@ unsafe fn place_folded<const NODES: usize, Place>(
     unsafe { place_table(place, failure, put) }
 }
 
-/// A table that a configuration points to, where it does. It stays for as long as the model is used: the caller's promise.
+/// A table that a configuration points to, where it does.
 unsafe fn placed_table<T: Table>(
     pointer: *const PlacedTable<T>,
     field: u32,
@@ -160,6 +163,7 @@ unsafe fn placed_table<T: Table>(
     }
     usable(pointer).map_err(|status| Failure::pointer(status, field))?;
     if unsafe { (&raw const (*pointer).mark).read() } == T::MARK {
+        // SAFETY: the mark says that the table has been made; the caller promises that it stays as long as the model.
         Ok(Some(unsafe { &(*pointer).table }))
     } else {
         Err(Failure::pointer(EPAS_NOT_INITIALISED, field))
