@@ -123,6 +123,16 @@ pub struct FreeMotion {
 }
 
 impl BallNumbers {
+    /// All zero.
+    pub const NONE: Self = Self {
+        free: [0.0; POWERS],
+        impedance: [0.0; 3],
+        torque: [0.0; POWERS],
+        slope: 0.0,
+        grip: 0.0,
+        rubbing: 0.0,
+    };
+
     /// These numbers, and a share of the way to others.
     #[inline(always)]
     fn towards(&self, others: &Self, share: f32) -> Self {
