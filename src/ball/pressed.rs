@@ -138,7 +138,11 @@ impl BallNumbers {
     fn towards(&self, others: &Self, share: f32) -> Self {
         #[inline(always)]
         fn all<const M: usize>(from: &[f32; M], to: &[f32; M], share: f32) -> [f32; M] {
-            core::array::from_fn(|at| from[at] + share * (to[at] - from[at]))
+            let mut all = *from;
+            for (number, to) in all.iter_mut().zip(to) {
+                *number += share * (to - *number);
+            }
+            all
         }
         let one = |from: f32, to: f32| from + share * (to - from);
         Self {
