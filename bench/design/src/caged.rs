@@ -15,7 +15,7 @@ use crate::Failure;
 use crate::certificate::Certificate;
 use crate::curve::{Sample, fitted};
 pub use design::CagedDesign;
-use design::{FRICTION, in_range};
+pub(crate) use design::{FRICTION, in_range};
 pub(crate) use exact::Exact;
 
 /// Loads of one ball for which a law holds where nothing else is asked, N.
@@ -41,8 +41,8 @@ const SHIFT: f64 = 1.5;
 const LARGEST_ERROR: f64 = 0.03;
 
 /// Largest axial load of a ball, N, and the least ratio of the ends of a range.
-const LARGEST_LOAD: f32 = 1e5;
-const APART: f32 = 1.1;
+pub(crate) const LARGEST_LOAD: f32 = 1e5;
+pub(crate) const APART: f32 = 1.1;
 
 /// A design to be folded.
 #[derive(Clone, Copy, Debug, PartialEq)]

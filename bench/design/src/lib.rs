@@ -37,7 +37,9 @@ pub mod drawing;
 mod failure;
 pub mod gears;
 pub mod output;
+pub mod uncaged;
 
 pub use caged::{CagedDesign, CagedFold, Folded};
 pub use certificate::{Certificate, Figure};
 pub use failure::Failure;
+pub use uncaged::{FoldedUncaged, UncagedDesign, UncagedFold};

@@ -28,6 +28,7 @@
 //! | [`rolling_resistance`] | elastic hysteresis and lubricant drag of a contact, beside its Coulomb friction |
 //! | [`ball_screw_efficiency`] | friction torque and efficiency of a screw under a steady load, by one of its balls |
 //! | [`caged_ball`] | one ball under one load after the other, no neighbour pressing |
+//! | [`held_ball`] | one ball whose neighbours let it run, or hold it at a speed and rub on it |
 //! | [`ball_screw_ring`] | the whole screw, exactly: balls in elastic grooves that recirculate and press on each other |
 //! | [`ball_screw_train`] | trains of any length with given contacts, (3.77) |
 //! | [`ball_screw_closed`] | closed-form orbital speed, spin, loads and compliance in a ball screw |
@@ -61,6 +62,7 @@ pub mod ball_screw_train;
 pub mod caged_ball;
 pub mod chain;
 pub mod contact_law;
+pub mod held_ball;
 pub mod isotonic;
 pub mod linear_ball;
 pub mod maps;

@@ -12,7 +12,7 @@ use crate::drawing::drawing;
 const REVERSAL_SPEED: Range = Range::new(1e-6, 1e3);
 
 /// Range of a friction coefficient that is folded.
-pub(super) const FRICTION: Range = Range::new(1e-3, 0.5);
+pub(crate) const FRICTION: Range = Range::new(1e-3, 0.5);
 
 /// Range of the number of loaded balls.
 const LOADED_BALLS: Range = Range::new(1.0, 1e3);
@@ -74,7 +74,7 @@ impl CagedDesign {
 }
 
 /// Refuses a number that is not within its range.
-pub(super) fn in_range(field: &'static str, value: f32, allowed: Range) -> Result<(), Error> {
+pub(crate) fn in_range(field: &'static str, value: f32, allowed: Range) -> Result<(), Error> {
     if allowed.contains(value) {
         Ok(())
     } else if value.is_finite() {

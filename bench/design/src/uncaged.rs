@@ -1,0 +1,316 @@
+//! From a design to the law of one ball that its neighbours press on.
+
+mod ball;
+mod certificate;
+mod fit;
+mod knots;
+mod ring;
+
+use std::time::Instant;
+
+use epas_friction::Range;
+use epas_friction::ball::pressed::{BallKnot, BallLaw, BallNode, BallNumbers, KNOTS};
+use epas_friction::scene::FoldedBall;
+use rayon::prelude::*;
+use sha2::{Digest, Sha256};
+
+use crate::caged::{APART, CagedDesign, Exact, FRICTION, LARGEST_LOAD, in_range};
+use crate::Failure;
+use ball::{Balls, Speeds};
+pub use certificate::{UncagedCertificate, UncagedFigure};
+use fit::{Branch, Fit, Numbers};
+
+/// Nodes of a range of friction coefficients.
+pub const NODES: usize = 3;
+
+/// Loads that are solved for a branch: in the domain, and below it down to a tenth of the least.
+const LOADS: usize = 150;
+const LOADS_BELOW: usize = 25;
+const BELOW: f64 = 10.0;
+
+/// Weight of errors below the least load, where forces and torques themselves are small.
+const WEIGHT_BELOW: f64 = 0.05;
+
+/// Error of the forces that hold balls, over their root mean square, from which on forces between balls are not held under a load.
+const UNHELD: f64 = 0.02;
+
+/// A largest error of a row's torque from which on a domain is not held.
+const LARGEST_ERROR: f64 = 0.03;
+
+/// Range of a largest deviation, rad.
+const DEVIATION: Range = Range::new(1e-4, 0.1);
+
+/// A ball screw whose balls touch and press on each other, with its numbers; unchecked.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct UncagedDesign {
+    /// The screw with its numbers, as for a caged one.
+    pub gear: CagedDesign,
+    /// Largest deviations of the contact angles on the screw and in the nut for which the law holds, rad, 1e-4 to 0.1 each.
+    pub deviations: [f32; 2],
+}
+
+/// A design to be folded.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct UncagedFold {
+    /// The screw with its numbers.
+    pub gear: UncagedDesign,
+    /// Least and largest friction coefficient for which the law holds, where it is more than one: 1e-3 to 0.5.
+    pub friction: Option<[f32; 2]>,
+    /// Least and largest axial load of one ball for which the law holds, N, 0.01 to 1e5.
+    pub axial_load: [f32; 2],
+    /// Seed of the rows of the certificate.
+    pub seed: u64,
+}
+
+/// A folded design.
+#[derive(Clone, Debug)]
+pub struct FoldedUncaged {
+    /// What was folded.
+    pub fold: UncagedFold,
+    /// The law of one ball, and what else a step needs.
+    pub block: UncagedBlock,
+    /// Its errors.
+    pub certificate: UncagedCertificate,
+    /// Digest of all inputs: the first eight bytes of their SHA-256.
+    pub digest: u64,
+    /// Time that it took, s.
+    pub seconds: f64,
+}
+
+/// A block, by its number of friction coefficients.
+#[expect(
+    clippy::large_enum_variant,
+    reason = "a host has room, and a program has few of them"
+)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum UncagedBlock {
+    /// One friction coefficient.
+    One(FoldedBall<1>),
+    /// A range of them.
+    Range(FoldedBall<NODES>),
+}
+
+/// Values of one number under each load, with the weights of the squares of their errors.
+#[derive(Clone, Debug)]
+struct Column {
+    values: Vec<f64>,
+    weights: Vec<f64>,
+}
+
+impl UncagedFold {
+    /// A design with the friction coefficient that it has, for loads of 5 to 300 N a ball.
+    #[must_use]
+    pub const fn of(gear: UncagedDesign) -> Self {
+        Self {
+            gear,
+            friction: None,
+            axial_load: crate::caged::AXIAL_LOAD,
+            seed: 1,
+        }
+    }
+
+    /// Folds it, and measures the block's errors.
+    ///
+    /// # Errors
+    /// [`Failure`] naming a number out of range, or with the reason why the domain cannot be held.
+    pub fn folded(&self) -> Result<FoldedUncaged, Failure> {
+        self.folded_with(&|_| ())
+    }
+
+    /// The same; `progress` is told the share that is done, rising from 0 to 1.
+    ///
+    /// # Errors
+    /// As [`Self::folded`].
+    pub fn folded_with(
+        &self,
+        progress: &(dyn Fn(f64) + Sync),
+    ) -> Result<FoldedUncaged, Failure> {
+        let begun = Instant::now();
+        progress(0.0);
+        let block = self.block()?;
+        progress(0.5);
+        let certificate = match &block {
+            UncagedBlock::One(block) => UncagedCertificate::of(self, &block.law),
+            UncagedBlock::Range(block) => UncagedCertificate::of(self, &block.law),
+        }?;
+        progress(1.0);
+        let torque = &certificate.torque;
+        if torque.largest > LARGEST_ERROR {
+            return Err(Failure::Domain(format!(
+                "the torque of a row of balls is held to {:.1} % only, largest at {:.3} N a ball, friction coefficient {:.4}; narrow the \
+                 domain there, or the deviations",
+                100.0 * torque.largest,
+                torque.worst_load,
+                torque.worst_friction,
+            )));
+        }
+        Ok(FoldedUncaged {
+            fold: *self,
+            block,
+            certificate,
+            digest: self.digest(),
+            seconds: begun.elapsed().as_secs_f64(),
+        })
+    }
+
+    /// The block alone: its errors are not measured.
+    ///
+    /// # Errors
+    /// As [`Self::folded`], but for a domain that only the certificate would refuse.
+    pub fn block(&self) -> Result<UncagedBlock, Failure> {
+        self.check()?;
+        Ok(match self.friction {
+            None => UncagedBlock::One(self.folded_ball([self.gear.gear.friction])?),
+            Some([least, largest]) => {
+                let ratio = f64::from(largest) / f64::from(least);
+                let nodes = std::array::from_fn(|node| {
+                    let share = node as f64 / (NODES - 1) as f64;
+                    (f64::from(least) * ratio.powf(share)) as f32
+                });
+                UncagedBlock::Range(self.folded_ball::<NODES>(nodes)?)
+            }
+        })
+    }
+
+    fn check(&self) -> Result<(), Failure> {
+        let UncagedDesign { gear, deviations } = self.gear;
+        gear.checked()?;
+        for deviation in deviations {
+            in_range("deviations", deviation, DEVIATION)?;
+        }
+        let [least, most] = self.axial_load;
+        in_range("axial_load", least, Range::new(0.01, LARGEST_LOAD))?;
+        in_range("axial_load", most, Range::new(APART * least, LARGEST_LOAD))?;
+        if let Some([least, largest]) = self.friction {
+            in_range("friction", least, FRICTION)?;
+            let above = Range::new(APART * least, FRICTION.maximum);
+            in_range("friction", largest, above)?;
+            in_range("friction", gear.friction, Range::new(least, largest))?;
+        }
+        Ok(())
+    }
+
+    fn folded_ball<const N: usize>(&self, frictions: [f32; N]) -> Result<FoldedBall<N>, Failure> {
+        let gear = &self.gear.gear;
+        let law = self.law(frictions)?;
+        law.checked()?;
+        let speeds = Speeds::of(&gear.exact_ball(gear.friction).design);
+        let (least, largest) = law.friction_range();
+        Ok(FoldedBall {
+            law,
+            friction: gear.friction.clamp(least, largest),
+            lead: gear.design.lead(),
+            ball_radius: gear.design.ball_radius(),
+            path_radius: gear.design.path_radius(),
+            speed: speeds.against_nut as f32,
+            reversal_speed: gear.reversal_speed,
+            limits: gear.limits,
+        })
+    }
+
+    fn law<const N: usize>(&self, frictions: [f32; N]) -> Result<BallLaw<N>, Failure> {
+        let lift_off = Exact::of(&self.gear.gear)?.lift_off;
+        let loads = self.loads();
+        let branches = frictions
+            .par_iter()
+            .flat_map(|&friction| [(friction, 1.0), (friction, -1.0)])
+            .map(|(friction, side)| self.branch(friction, side, &loads, lift_off))
+            .collect::<Result<Vec<Branch>, Failure>>()?;
+        let nodes = std::array::from_fn(|node| {
+            let of = |branch: usize| &branches[2 * node + branch];
+            BallNode {
+                friction: frictions[node],
+                branches: [knots_of(of(0)), knots_of(of(1))],
+                unheld: [unheld(of(0)), unheld(of(1))],
+            }
+        });
+        Ok(BallLaw {
+            nodes,
+            deviations: self.gear.deviations,
+            lift_off: lift_off as f32,
+        })
+    }
+
+    /// Loads that are solved, N, falling.
+    fn loads(&self) -> Vec<f64> {
+        let [least, most] = self.axial_load.map(f64::from);
+        let part = |from: f64, to: f64, count: usize| {
+            (0..count).map(move |step| from * (to / from).powf(step as f64 / count as f64))
+        };
+        part(most, least, LOADS)
+            .chain(part(least, least / BELOW, LOADS_BELOW))
+            .chain([least / BELOW])
+            .collect()
+    }
+
+    fn branch(
+        &self,
+        friction: f32,
+        side: f64,
+        loads: &[f64],
+        lift_off: f64,
+    ) -> Result<Branch, Failure> {
+        let gear = &self.gear.gear;
+        let ball = gear.exact_ball(friction);
+        let balls = Balls {
+            ball,
+            deviations: self.gear.deviations.map(f64::from),
+            lift_off,
+            loads,
+            side,
+        };
+        let samples = balls.samples()?;
+        let least = f64::from(self.axial_load[0]) + lift_off;
+        let weights: Vec<f64> = samples
+            .iter()
+            .map(|sample| if sample.load < 0.999 * least { WEIGHT_BELOW } else { 1.0 })
+            .collect();
+        let speeds = Speeds::of(&ball.design);
+        Ok(Fit::new(&samples, &weights, speeds.against_nut).branch())
+    }
+
+    /// The first eight bytes of the SHA-256 of all inputs.
+    #[must_use]
+    pub fn digest(&self) -> u64 {
+        let text = format!("{self:?}");
+        let bytes = Sha256::digest(text.as_bytes());
+        bytes
+            .iter()
+            .take(8)
+            .fold(0, |digest, &byte| digest << 8 | u64::from(byte))
+    }
+}
+
+/// The knots of a branch; those that it does not need are its last one.
+fn knots_of(branch: &Branch) -> [BallKnot; KNOTS] {
+    let at = |knot: usize| branch.knots[knot.min(branch.knots.len() - 1)];
+    std::array::from_fn(|knot| {
+        let ((load, numbers), (next, _)) = (at(knot), at(knot + 1));
+        let (load, next) = (load as f32, next as f32);
+        BallKnot {
+            load,
+            per_width: BallKnot::per_width(load, next),
+            numbers: rounded(&numbers),
+        }
+    })
+}
+
+fn rounded(numbers: &Numbers) -> BallNumbers {
+    BallNumbers {
+        free: numbers.free.map(|number| number as f32),
+        impedance: numbers.impedance.map(|number| number as f32),
+        torque: numbers.torque.map(|number| number as f32),
+        slope: numbers.slope as f32,
+        grip: numbers.grip as f32,
+        rubbing: numbers.rubbing as f32,
+    }
+}
+
+/// A bit for each knot up to the next of which forces are not held.
+fn unheld(branch: &Branch) -> u32 {
+    branch
+        .errors
+        .iter()
+        .filter(|errors| errors.force > UNHELD)
+        .fold(0, |bits, errors| bits | 1 << errors.knot)
+}

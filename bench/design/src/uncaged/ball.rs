@@ -1,0 +1,290 @@
+//! The exact ball of a design, free and held, over the box of deviations and along the loads: what a law is fitted to.
+
+use epas_reference::design::BallScrewDesign;
+use epas_reference::friction::caged_ball::CagedBall;
+use epas_reference::friction::held_ball::{
+    AlongTrack, BallDrive, BallStart, DeviatingBall, HeldBall, HeldBallFriction,
+};
+use rayon::prelude::*;
+
+use crate::Failure;
+
+/// Deviations at which balls are solved: a grid of Gauss-Lobatto points, over the largest deviations.
+pub(super) const POINTS: usize = SIDE * SIDE;
+const SIDE: usize = 5;
+
+/// Places of the grid at which friction of the neighbours is put on a ball: the corners, the middles of the edges and the centre.
+const RUBBED: [usize; 9] = [0, 2, 4, 10, 12, 14, 20, 22, 24];
+
+/// Friction force of each neighbour over the root mean square of the forces that hold balls: what friction between balls of 0.1 does where
+/// balls press with that force.
+const RUBBING: f64 = 0.1;
+
+/// Loads that may be left without an exact answer, as a share.
+const UNSOLVED: f64 = 0.02;
+
+/// Place of a point of the grid in the box, -1 to 1 each.
+pub(super) fn place(point: usize) -> [f64; 2] {
+    const LOBATTO: [f64; SIDE] = [-1.0, -0.654_653_670_707_977_1, 0.0, 0.654_653_670_707_977_1, 1.0];
+    [LOBATTO[point / SIDE], LOBATTO[point % SIDE]]
+}
+
+/// Speeds along the track of a ball without deviations, and its speed against the nut, m per unit of nut speed.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Speeds {
+    path: f64,
+    nominal: f64,
+    /// Against the nut.
+    pub against_nut: f64,
+}
+
+impl Speeds {
+    pub fn of(design: &BallScrewDesign) -> Self {
+        let path = design.pitch_radius.hypot(design.lead / std::f64::consts::TAU);
+        let cos_lead = design.pitch_radius / path;
+        let nominal = 0.5 * (path + design.ball_radius * cos_lead * design.contact_angle.cos());
+        Self {
+            path,
+            nominal,
+            against_nut: path - nominal,
+        }
+    }
+
+    /// Deviation of an orbital speed over the nut's.
+    pub fn deviation(&self, orbital_speed: f64) -> f64 {
+        (self.path * orbital_speed - self.nominal) / self.against_nut
+    }
+
+    /// Orbital speed over the nut's of a deviation.
+    fn orbital(&self, deviation: f64) -> f64 {
+        (self.nominal + self.against_nut * deviation) / self.path
+    }
+
+    /// Change of a force with the deviation, by that with the orbital speed.
+    fn impedance(&self, stiffness: f64) -> f64 {
+        stiffness * self.against_nut / self.path
+    }
+}
+
+/// A ball at a point of the grid, under one load; forces and torques over `mu W`.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct BallPoint {
+    /// Free speed, a deviation.
+    pub free: f64,
+    /// Net push at the held speed.
+    pub force: f64,
+    /// Friction torque at the free speed, m.
+    pub torque: f64,
+    /// Friction torque at the held speed, m.
+    pub torque_held: f64,
+}
+
+/// Balls under one load; forces and torques over `mu W`.
+#[derive(Clone, Debug)]
+pub(super) struct BallSample {
+    /// Load `W`, N.
+    pub load: f64,
+    /// Held speed, a deviation: the one at which the mean force over the box is about zero.
+    pub held: f64,
+    /// Balls of the grid.
+    pub points: [BallPoint; POINTS],
+    /// Net push more, over the friction of the neighbours.
+    pub grip: f64,
+    /// Speed with which two balls alike rub, m per unit of nut speed.
+    pub rubbing: f64,
+}
+
+/// What is solved: a design with a friction coefficient, under loads of one sign.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Balls<'a> {
+    pub ball: CagedBall,
+    /// Largest deviations on the screw and in the nut, rad.
+    pub deviations: [f64; 2],
+    /// Load at which a preload's unloaded side lifts off, N.
+    pub lift_off: f64,
+    /// Axial loads, N, falling.
+    pub loads: &'a [f64],
+    /// 1 where they oppose the motion, -1 where they assist it.
+    pub side: f64,
+}
+
+/// Answers of one point along the loads; `None` without one.
+type Along = Vec<Option<HeldBallFriction>>;
+
+impl Balls<'_> {
+    /// Balls under each load, at rising loads; loads without an answer are left out.
+    ///
+    /// # Errors
+    /// [`Failure`] of a design out of range, or where more than a few loads have no answer.
+    pub fn samples(&self) -> Result<Vec<BallSample>, Failure> {
+        let speeds = Speeds::of(&self.ball.design);
+        let balls = self.balls()?;
+        let free = self.along(&balls, &[], |_, _| AlongTrack::Free);
+        let mut held = means(&free, self.loads.len(), &speeds);
+        let mut pushed = Vec::new();
+        // One Newton step brings the mean force to zero, but for the curvature of the laws.
+        for round in 0..2 {
+            pushed = self.along(&balls, &free, |_, load| {
+                AlongTrack::Held(speeds.orbital(held[load]))
+            });
+            if round == 0 {
+                for (load, held) in held.iter_mut().enumerate() {
+                    *held -= step_to_balance(&pushed, load, &speeds);
+                }
+            }
+        }
+        let rubbed = self.rubbed(&balls, &pushed, &held, &speeds);
+        let mut samples: Vec<BallSample> = (0..self.loads.len())
+            .filter_map(|load| self.sample(load, held[load], &free, &pushed, &rubbed, &speeds))
+            .collect();
+        let unsolved = self.loads.len() - samples.len();
+        if unsolved as f64 > UNSOLVED * self.loads.len() as f64 {
+            return Err(Failure::Domain(format!(
+                "the exact balance of balls with deviations is not found under {unsolved} of {} loads, friction coefficient {:.4}",
+                self.loads.len(),
+                self.ball.friction
+            )));
+        }
+        samples.reverse();
+        Ok(samples)
+    }
+
+    fn balls(&self) -> Result<Vec<DeviatingBall>, Failure> {
+        let CagedBall {
+            design,
+            clearance,
+            friction,
+            rolling,
+            integration,
+        } = self.ball;
+        let ball = HeldBall {
+            design,
+            clearance,
+            friction,
+            rolling,
+            integration,
+        };
+        (0..POINTS)
+            .map(|point| {
+                let [screw, nut] = place(point);
+                let [most_screw, most_nut] = self.deviations;
+                Ok(ball.in_grooves(screw * most_screw, nut * most_nut)?)
+            })
+            .collect()
+    }
+
+    /// Every ball along all loads, each state from the one before; the first from `starts`.
+    fn along(
+        &self,
+        balls: &[DeviatingBall],
+        starts: &[Along],
+        drive: impl Fn(usize, usize) -> AlongTrack + Sync,
+    ) -> Vec<Along> {
+        balls
+            .par_iter()
+            .enumerate()
+            .map(|(point, ball)| {
+                let mut last: Option<BallStart> = starts
+                    .get(point)
+                    .and_then(|along| Some(along.first()?.as_ref()?.start));
+                let solve = |(number, &load): (usize, &f64)| {
+                    let drive = BallDrive {
+                        axial_load: self.side * load,
+                        along: drive(point, number),
+                        rubbing: [0.0; 2],
+                    };
+                    let found = ball.solve(&drive, last.as_ref()).ok();
+                    last = found.map(|found| found.start).or(last);
+                    found
+                };
+                self.loads.iter().enumerate().map(solve).collect()
+            })
+            .collect()
+    }
+
+    /// Some of the balls, held, with friction of their neighbours: the mean net push more over that friction.
+    fn rubbed(
+        &self,
+        balls: &[DeviatingBall],
+        pushed: &[Along],
+        held: &[f64],
+        speeds: &Speeds,
+    ) -> Vec<Option<f64>> {
+        let of = |load: usize| {
+            let smooth: Option<Vec<HeldBallFriction>> =
+                pushed.iter().map(|along| along[load]).collect();
+            let smooth = smooth?;
+            let squares: f64 = smooth.iter().map(|found| found.force.powi(2)).sum();
+            let friction = RUBBING * (squares / POINTS as f64).sqrt();
+            let drive = BallDrive {
+                axial_load: self.side * self.loads[load],
+                along: AlongTrack::Held(speeds.orbital(held[load])),
+                rubbing: [friction; 2],
+            };
+            let mut sum = 0.0;
+            for point in RUBBED {
+                let found = balls[point].solve(&drive, Some(&smooth[point].start)).ok()?;
+                sum += (found.force - smooth[point].force) / (2.0 * friction);
+            }
+            Some(sum / RUBBED.len() as f64)
+        };
+        (0..self.loads.len()).into_par_iter().map(of).collect()
+    }
+
+    fn sample(
+        &self,
+        load: usize,
+        held: f64,
+        free: &[Along],
+        pushed: &[Along],
+        rubbed: &[Option<f64>],
+        speeds: &Speeds,
+    ) -> Option<BallSample> {
+        let whole = self.loads[load] + self.lift_off;
+        let per_load = 1.0 / (whole * self.ball.friction);
+        let mut points = [BallPoint::default(); POINTS];
+        let mut slips = 0.0;
+        for (point, (free, pushed)) in points.iter_mut().zip(free.iter().zip(pushed)) {
+            let (free, pushed) = (free[load].as_ref()?, pushed[load].as_ref()?);
+            *point = BallPoint {
+                free: speeds.deviation(free.orbital_speed),
+                force: pushed.force * per_load,
+                torque: free.torque * per_load,
+                torque_held: pushed.torque * per_load,
+            };
+            slips += pushed.half_slip;
+        }
+        Some(BallSample {
+            load: whole,
+            held,
+            points,
+            grip: rubbed[load]?,
+            rubbing: 2.0 * slips / POINTS as f64,
+        })
+    }
+}
+
+/// Mean of the free speeds under each load, each ball with its impedance as weight.
+fn means(free: &[Along], loads: usize, speeds: &Speeds) -> Vec<f64> {
+    (0..loads)
+        .map(|load| {
+            let (mut sum, mut weight) = (0.0, 0.0);
+            for found in free.iter().filter_map(|along| along[load].as_ref()) {
+                let impedance = found.stiffness.max(0.0);
+                sum += impedance * speeds.deviation(found.orbital_speed);
+                weight += impedance;
+            }
+            if weight > 0.0 { sum / weight } else { 0.0 }
+        })
+        .collect()
+}
+
+/// By how much the held speed exceeds the one at which forces balance.
+fn step_to_balance(pushed: &[Along], load: usize, speeds: &Speeds) -> f64 {
+    let (mut force, mut impedance) = (0.0, 0.0);
+    for found in pushed.iter().filter_map(|along| along[load].as_ref()) {
+        force += found.force;
+        impedance += speeds.impedance(found.stiffness);
+    }
+    if impedance > 0.0 { force / impedance } else { 0.0 }
+}

@@ -1,0 +1,448 @@
+//! The numbers of a law at its knots, by least squares over the exact balls.
+//!
+//! Free speed and impedance are fitted together. What a train makes of them is a force, `z (v - u)` at a speed `v` near the held one, so that
+//! the errors of the force at the held speed count most, and those of the free speed beside them. The impedance is therefore the secant from
+//! the free speed to the held one, not the tangent at either.
+
+use epas_friction::ball::pressed::{KNOTS, POWERS};
+use nalgebra::{DMatrix, DVector, SMatrix, SVector};
+
+use super::Column;
+use super::ball::{BallSample, POINTS, place};
+use super::knots::{Between, Knots};
+
+/// Errors that weigh as much as each other where knots are placed: of the torque, of the force over its root mean square, and of the free
+/// speed over the root mean square of its distance from the held one.
+const TORQUE: f64 = 3e-4;
+const FORCE: f64 = 3e-3;
+const SPEED: f64 = 1e-2;
+
+/// Weight of the free speed's errors beside those of the force at the held speed.
+const BESIDE: f64 = 0.3;
+
+/// Gauss-Newton steps for free speeds and impedances together.
+const STEPS: usize = 8;
+
+/// Powers of an impedance, and numbers that are fitted together.
+const SLOPES: usize = 3;
+const TOGETHER: usize = POWERS + SLOPES;
+
+/// Numbers at a knot, all over `mu W` but speeds and grip; see `BallNumbers`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Numbers {
+    pub free: [f64; POWERS],
+    pub impedance: [f64; SLOPES],
+    pub torque: [f64; POWERS],
+    pub slope: f64,
+    pub grip: f64,
+    pub rubbing: f64,
+}
+
+/// A fitted branch.
+#[derive(Clone, Debug)]
+pub(super) struct Branch {
+    /// Knots: load, N, and numbers.
+    pub knots: Vec<(f64, Numbers)>,
+    /// Errors at each load.
+    pub errors: Vec<Errors>,
+}
+
+/// Errors of a law under one load, over the grid.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Errors {
+    /// Load, N, and knot below it.
+    pub load: f64,
+    pub knot: usize,
+    /// Root mean square of the errors of the forces that hold balls, over that of the forces.
+    pub force: f64,
+    /// Largest error of the torque of a held ball over the mean torque.
+    pub torque: f64,
+}
+
+/// Powers `1, s, n, s^2, s n, n^2` of a place.
+fn powers([s, n]: [f64; 2]) -> SVector<f64, POWERS> {
+    SVector::from([1.0, s, n, s * s, s * n, n * n])
+}
+
+/// Powers of all points, and the polynomials of least squares through values there.
+struct Grid {
+    powers: SMatrix<f64, POINTS, POWERS>,
+    /// Upper triangle of `powers`, and its orthonormal columns.
+    triangle: SMatrix<f64, POWERS, POWERS>,
+    columns: SMatrix<f64, POINTS, POWERS>,
+}
+
+impl Grid {
+    fn new() -> Self {
+        let powers: SMatrix<f64, POINTS, POWERS> =
+            SMatrix::from_fn(|point, power| powers(place(point))[power]);
+        let factors = powers.qr();
+        Self {
+            powers,
+            triangle: factors.r(),
+            columns: factors.q(),
+        }
+    }
+
+    /// Coordinates of the polynomial through values: the sum of their squares is that of its values.
+    fn coordinates(&self, values: impl Fn(usize) -> f64) -> SVector<f64, POWERS> {
+        self.columns.transpose() * SVector::<f64, POINTS>::from_fn(|point, _| values(point))
+    }
+
+    /// Coefficients of the powers.
+    fn coefficients(&self, coordinates: &SVector<f64, POWERS>) -> SVector<f64, POWERS> {
+        self.triangle
+            .solve_upper_triangular(coordinates)
+            .unwrap_or_default()
+    }
+}
+
+/// Root mean square.
+fn rms(values: impl ExactSizeIterator<Item = f64>) -> f64 {
+    let count = values.len() as f64;
+    (values.map(|value| value * value).sum::<f64>() / count).sqrt()
+}
+
+/// What a fit works on.
+pub(super) struct Fit<'a> {
+    samples: &'a [BallSample],
+    /// Weight of each load.
+    weights: &'a [f64],
+    /// Speed against the nut, m per unit of nut speed.
+    against_nut: f64,
+    grid: Grid,
+    /// Root mean squares of the forces and of the speeds' distance from the held one, and mean torques, of each load.
+    forces: Vec<f64>,
+    spreads: Vec<f64>,
+    torques: Vec<f64>,
+}
+
+impl<'a> Fit<'a> {
+    pub fn new(samples: &'a [BallSample], weights: &'a [f64], against_nut: f64) -> Self {
+        let of = |value: &dyn Fn(&BallSample) -> f64| samples.iter().map(value).collect();
+        Self {
+            samples,
+            weights,
+            against_nut,
+            grid: Grid::new(),
+            forces: of(&|sample| rms(sample.points.iter().map(|point| point.force))),
+            spreads: of(&|sample| rms(sample.points.iter().map(|p| p.free - sample.held))),
+            torques: of(&|sample| {
+                sample.points.iter().map(|point| point.torque).sum::<f64>() / POINTS as f64
+            }),
+        }
+    }
+
+    /// The branch with the least errors.
+    pub fn branch(&self) -> Branch {
+        let loads: Vec<f64> = self.samples.iter().map(|sample| sample.load).collect();
+        let knots = Knots::placed(&loads, &self.columns(), KNOTS);
+        let places = knots.places();
+        let speeds = self.speeds(&knots, &places);
+        let [grips, rubbings] = [
+            self.alone(&knots, &places, |sample| sample.grip),
+            self.alone(&knots, &places, |sample| sample.rubbing),
+        ];
+        let slopes = self.slopes(&knots, &places);
+        let torques = self.torques(&knots, &places, &speeds, &slopes);
+        let numbers: Vec<(f64, Numbers)> = (0..knots.at.len())
+            .map(|knot| {
+                let numbers = Numbers {
+                    free: std::array::from_fn(|power| speeds[knot][power]),
+                    impedance: std::array::from_fn(|power| speeds[knot][POWERS + power]),
+                    torque: torques[knot].into(),
+                    slope: slopes[knot],
+                    grip: grips[knot],
+                    rubbing: rubbings[knot],
+                };
+                (loads[knots.at[knot]], numbers)
+            })
+            .collect();
+        let errors = self.errors(&numbers, &places);
+        Branch {
+            knots: numbers,
+            errors,
+        }
+    }
+
+    /// What knots are placed by: polynomials of each load's free speeds, forces and torques, in coordinates whose squares are errors.
+    fn columns(&self) -> Vec<Column> {
+        let (mut columns, count) = (Vec::new(), POINTS as f64);
+        type Value = fn(&BallSample, usize) -> f64;
+        let families: [(Value, &[f64], f64); 3] = [
+            (|sample, point| sample.points[point].free, &self.spreads, SPEED),
+            (|sample, point| sample.points[point].force, &self.forces, FORCE),
+            (
+                |sample, point| sample.points[point].torque_held,
+                &self.torques,
+                TORQUE,
+            ),
+        ];
+        for (value, sizes, tolerance) in families {
+            let all: Vec<SVector<f64, POWERS>> = self
+                .samples
+                .iter()
+                .map(|sample| self.grid.coordinates(|point| value(sample, point)))
+                .collect();
+            let weight = |load: usize| self.weights[load] / (sizes[load] * tolerance).powi(2);
+            for power in 0..POWERS {
+                columns.push(Column {
+                    values: all.iter().map(|coordinates| coordinates[power]).collect(),
+                    weights: (0..all.len()).map(|load| weight(load) / count).collect(),
+                });
+            }
+        }
+        columns
+    }
+
+    /// A number that no other depends on, at the knots.
+    fn alone(
+        &self,
+        knots: &Knots<'_>,
+        places: &[Between],
+        value: impl Fn(&BallSample) -> f64,
+    ) -> Vec<f64> {
+        let column = Column {
+            values: self.samples.iter().map(value).collect(),
+            weights: self.weights.to_vec(),
+        };
+        knots.fitted(places, &column)
+    }
+
+    /// Powers of free speed and impedance at the knots.
+    fn speeds(&self, knots: &Knots<'_>, places: &[Between]) -> Vec<SVector<f64, TOGETHER>> {
+        let mut found = self.first_speeds(knots, places);
+        let size = TOGETHER * knots.at.len();
+        for _ in 0..STEPS {
+            let mut normal = DMatrix::<f64>::zeros(size, size);
+            let mut right = DVector::<f64>::zeros(size);
+            for (load, place) in places.iter().enumerate() {
+                let here = blended(&found, place);
+                let (matrix, vector) = self.normal_equations(load, &here);
+                let at = |side: usize| TOGETHER * (place.knot + side);
+                for (a, share_a) in place.shares.into_iter().enumerate() {
+                    let mut part = right.fixed_rows_mut::<TOGETHER>(at(a));
+                    part += vector * share_a;
+                    for (b, share_b) in place.shares.into_iter().enumerate() {
+                        let mut part = normal.fixed_view_mut::<TOGETHER, TOGETHER>(at(a), at(b));
+                        part += matrix * (share_a * share_b);
+                    }
+                }
+            }
+            // Where an impedance is not seen, nothing changes it.
+            for place in 0..size {
+                normal[(place, place)] *= 1.0 + 1e-9;
+                normal[(place, place)] += 1e-30;
+            }
+            let Some(factor) = normal.cholesky() else {
+                break;
+            };
+            let step = factor.solve(&right);
+            for (knot, numbers) in found.iter_mut().enumerate() {
+                *numbers += step.fixed_rows::<TOGETHER>(TOGETHER * knot);
+            }
+        }
+        found
+    }
+
+    /// Polynomials of the free speed alone, and impedances of the sizes of forces and speeds.
+    fn first_speeds(&self, knots: &Knots<'_>, places: &[Between]) -> Vec<SVector<f64, TOGETHER>> {
+        let all: Vec<SVector<f64, POWERS>> = self
+            .samples
+            .iter()
+            .map(|sample| {
+                let coordinates = self.grid.coordinates(|point| sample.points[point].free);
+                self.grid.coefficients(&coordinates)
+            })
+            .collect();
+        let weights: Vec<f64> = (0..all.len())
+            .map(|load| self.weights[load] / self.spreads[load].powi(2))
+            .collect();
+        let fitted = |values: Vec<f64>| {
+            let column = Column {
+                values,
+                weights: weights.clone(),
+            };
+            knots.fitted(places, &column)
+        };
+        let speeds: [Vec<f64>; POWERS] =
+            std::array::from_fn(|power| fitted(all.iter().map(|numbers| numbers[power]).collect()));
+        let sizes = self.forces.iter().zip(&self.spreads);
+        let impedances = fitted(sizes.map(|(force, spread)| force / spread).collect());
+        (0..knots.at.len())
+            .map(|knot| {
+                let mut numbers = SVector::zeros();
+                for (power, speeds) in speeds.iter().enumerate() {
+                    numbers[power] = speeds[knot];
+                }
+                numbers[POWERS] = impedances[knot];
+                numbers
+            })
+            .collect()
+    }
+
+    /// Normal equations of the errors under one load, by the numbers there.
+    fn normal_equations(
+        &self,
+        load: usize,
+        numbers: &SVector<f64, TOGETHER>,
+    ) -> (SMatrix<f64, TOGETHER, TOGETHER>, SVector<f64, TOGETHER>) {
+        let sample = &self.samples[load];
+        let mut matrix = SMatrix::zeros();
+        let mut vector = SVector::zeros();
+        let mut add = |row: SVector<f64, TOGETHER>, missing: f64| {
+            matrix += row * row.transpose();
+            vector += row * missing;
+        };
+        let weight = self.weights[load].sqrt();
+        let (per_force, per_speed) = (
+            weight / self.forces[load],
+            weight * BESIDE / self.spreads[load],
+        );
+        for (point, exact) in sample.points.iter().enumerate() {
+            let (free, impedance) = self.free_and_impedance(point, numbers);
+            let push = sample.held - free;
+            let mut by_force = SVector::zeros();
+            let mut by_speed = SVector::zeros();
+            for power in 0..POWERS {
+                let at = self.grid.powers[(point, power)];
+                by_force[power] = -impedance * at * per_force;
+                by_speed[power] = at * per_speed;
+                if power < SLOPES {
+                    by_force[POWERS + power] = push * at * per_force;
+                }
+            }
+            add(by_force, (exact.force - impedance * push) * per_force);
+            add(by_speed, (exact.free - free) * per_speed);
+        }
+        (matrix, vector)
+    }
+
+    fn free_and_impedance(&self, point: usize, numbers: &SVector<f64, TOGETHER>) -> (f64, f64) {
+        let powers = self.grid.powers.row(point);
+        let free = (0..POWERS).map(|power| powers[power] * numbers[power]).sum();
+        let impedance = (0..SLOPES)
+            .map(|power| powers[power] * numbers[POWERS + power])
+            .sum();
+        (free, impedance)
+    }
+
+    /// Change of the torque with the speed beside that of the force's work, at the knots.
+    fn slopes(&self, knots: &Knots<'_>, places: &[Between]) -> Vec<f64> {
+        let mut column = Column {
+            values: Vec::new(),
+            weights: Vec::new(),
+        };
+        for (load, sample) in self.samples.iter().enumerate() {
+            let (mut products, mut squares) = (0.0, 0.0);
+            for point in &sample.points {
+                let push = sample.held - point.free;
+                let work = 0.5 * self.against_nut * point.force * push;
+                products += push * (point.torque_held - point.torque - work);
+                squares += push * push;
+            }
+            column.values.push(products / squares);
+            column
+                .weights
+                .push(self.weights[load] * squares / self.torques[load].powi(2));
+        }
+        knots.fitted(places, &column)
+    }
+
+    /// Powers of the torque at the free speed, at the knots: as close to the exact one there as to what makes the one at the held speed.
+    fn torques(
+        &self,
+        knots: &Knots<'_>,
+        places: &[Between],
+        speeds: &[SVector<f64, TOGETHER>],
+        slopes: &[f64],
+    ) -> Vec<SVector<f64, POWERS>> {
+        let weights: Vec<f64> = (0..places.len())
+            .map(|load| self.weights[load] / self.torques[load].powi(2))
+            .collect();
+        let all: Vec<SVector<f64, POWERS>> = self
+            .samples
+            .iter()
+            .zip(places)
+            .map(|(sample, place)| {
+                let here = blended(speeds, place);
+                let [low, high] = place.shares;
+                let slope = low * slopes[place.knot] + high * slopes[place.knot + 1];
+                let coordinates = self.grid.coordinates(|point| {
+                    let (free, impedance) = self.free_and_impedance(point, &here);
+                    let push = sample.held - free;
+                    let gained = (slope + 0.5 * self.against_nut * impedance * push) * push;
+                    let exact = &sample.points[point];
+                    0.5 * (exact.torque + exact.torque_held - gained)
+                });
+                self.grid.coefficients(&coordinates)
+            })
+            .collect();
+        let columns: [Vec<f64>; POWERS] = std::array::from_fn(|power| {
+            let column = Column {
+                values: all.iter().map(|numbers| numbers[power]).collect(),
+                weights: weights.clone(),
+            };
+            knots.fitted(places, &column)
+        });
+        (0..knots.at.len())
+            .map(|knot| SVector::from_fn(|power, _| columns[power][knot]))
+            .collect()
+    }
+
+    /// Errors of held balls under each load.
+    fn errors(&self, knots: &[(f64, Numbers)], places: &[Between]) -> Vec<Errors> {
+        let all: Vec<Errors> = self
+            .samples
+            .iter()
+            .zip(places)
+            .enumerate()
+            .map(|(load, (sample, place))| {
+                let (mut squares, mut torque) = (0.0, 0.0_f64);
+                for (point, exact) in sample.points.iter().enumerate() {
+                    let (push, found) = self.held(point, sample.held, knots, place);
+                    squares += (push - exact.force).powi(2);
+                    torque = torque.max((found - exact.torque_held).abs());
+                }
+                Errors {
+                    load: sample.load,
+                    knot: place.knot,
+                    force: (squares / POINTS as f64).sqrt() / self.forces[load],
+                    torque: torque / self.torques[load],
+                }
+            })
+            .collect();
+        all
+    }
+
+    /// Net push and torque of a held ball by the law.
+    fn held(
+        &self,
+        point: usize,
+        speed: f64,
+        knots: &[(f64, Numbers)],
+        place: &Between,
+    ) -> (f64, f64) {
+        let of = |value: &dyn Fn(&Numbers) -> f64| {
+            let [low, high] = place.shares;
+            low * value(&knots[place.knot].1) + high * value(&knots[place.knot + 1].1)
+        };
+        let powers = self.grid.powers.row(point);
+        let sum = |value: &dyn Fn(&Numbers, usize) -> f64, count: usize| -> f64 {
+            (0..count)
+                .map(|power| powers[power] * of(&|numbers| value(numbers, power)))
+                .sum()
+        };
+        let x = speed - sum(&|numbers, power| numbers.free[power], POWERS);
+        let push = x * sum(&|numbers, power| numbers.impedance[power], SLOPES);
+        let torque = sum(&|numbers, power| numbers.torque[power], POWERS);
+        let slope = of(&|numbers| numbers.slope);
+        (push, torque + slope * x + 0.5 * self.against_nut * push * x)
+    }
+}
+
+/// Numbers at a place between knots.
+fn blended(knots: &[SVector<f64, TOGETHER>], place: &Between) -> SVector<f64, TOGETHER> {
+    let [low, high] = place.shares;
+    knots[place.knot] * low + knots[place.knot + 1] * high
+}

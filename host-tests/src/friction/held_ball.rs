@@ -1,0 +1,418 @@
+//! One ball of a ball screw whose neighbours let it run, or hold it at a speed: the force that they need for it, and what it loses.
+//!
+//! The balance is that of one ball of an [`ElasticRow`](super::ball_screw_row::ElasticRow): seven equations (see `ball_screw_placed`), with
+//! either the force along the track given, or the orbital speed. Grooves deviate by one angle each, as in
+//! [`RowBall`](super::ball_screw_row::RowBall). The law of one ball, folded for an interrupt, is fitted to these answers.
+//!
+//! Friction of the neighbours is that of two balls that move as this one does:
+//!
+//! ```text
+//! slip between two balls alike   s = S_rear m + S_front m,   with the motion m of both and the slips S of Lin 2019, eq. (3.73)
+//! friction on this ball          -(f_behind S_front' + f_ahead S_rear') s/|s|
+//! ```
+//!
+//! with the friction forces `f` of the two contacts, N. The motion under friction gives the slip, and the slip the friction: passes repeat
+//! until the friction no longer changes.
+//!
+//! Every answer is as exact as that of a row: forces are balanced to 1e-8 of the contacts' loads, and friction of the neighbours is their
+//! own to 1e-9.
+//!
+//! Source: Lin 2019, eqs. (2.11) to (2.14), (3.65) to (3.77).
+
+use nalgebra::Vector2;
+
+use super::ball_screw_ball::dimensional;
+use super::ball_screw_grooves::ElasticGrooves;
+use super::ball_screw_placed::{BallState, Drive, PlacedBall, Rubbing, STICK_SPIN, Solved};
+use super::ball_screw_row::RowBallMotion;
+use super::ball_screw_rubbing::BallContact;
+use super::ball_screw_settle::settle;
+use super::patch::Integration;
+use super::rolling_resistance::{RollingResistance, rolling_losses};
+use crate::curvature::Groove;
+use crate::design::BallScrewDesign;
+use crate::error::{ReferenceError, within};
+
+/// Passes in which the friction of the neighbours settles, and the change over its size at which it has.
+const PASSES: usize = 40;
+const SETTLED: f64 = 1e-9;
+
+/// A ball of a screw that its neighbours may hold.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HeldBall {
+    /// Screw.
+    pub design: BallScrewDesign,
+    /// Radial gap of every contact at the centred ball and the unloaded screw, m: play above zero, oversize below; -0.05 to 0.2 ball radii.
+    pub clearance: f64,
+    /// Friction coefficient of the grooves, 0.001 to 1.
+    pub friction: f64,
+    /// Rolling resistance of every contact.
+    pub rolling: RollingResistance,
+    /// Nodes of the contact integrals.
+    pub integration: Integration,
+}
+
+/// The ball in grooves that deviate.
+#[derive(Clone, Copy, Debug)]
+pub struct DeviatingBall {
+    ball: HeldBall,
+    grooves: ElasticGrooves,
+}
+
+/// What is given along the track.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AlongTrack {
+    /// No force: the ball runs as it would alone, but for its neighbours' friction.
+    Free,
+    /// An orbital speed over the nut's speed, -10 to 10.
+    Held(f64),
+}
+
+/// What acts on the ball.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BallDrive {
+    /// Axial load, N, not zero: above zero it opposes the travel of a nut that turns forward.
+    pub axial_load: f64,
+    /// Along the track.
+    pub along: AlongTrack,
+    /// Friction forces of the ball behind and of the one ahead, N, 0 to 1e5: friction coefficient between balls times the force between them.
+    pub rubbing: [f64; 2],
+}
+
+/// A state from which the next one starts, when it is near.
+#[derive(Clone, Copy, Debug)]
+pub struct BallStart(BallState);
+
+/// How the ball runs while the nut turns forward, and what it takes.
+#[derive(Clone, Copy, Debug)]
+pub struct HeldBallFriction {
+    /// Orbital speed over the nut's speed.
+    pub orbital_speed: f64,
+    /// Force of the neighbours on the ball along the track, in the direction of orbiting, N.
+    pub force: f64,
+    /// Change of this force with the orbital speed over the nut's speed at given friction of the neighbours, N.
+    pub stiffness: f64,
+    /// Friction torque on the nut, N m: power lost in the grooves over the nut's speed, and rolling resistance. What the neighbours' friction
+    /// loses is not in it.
+    pub torque: f64,
+    /// Half the speed with which two balls rub that both move as this one, m per unit of nut speed.
+    pub half_slip: f64,
+    /// Loads of SL, SR, NL, NR, N.
+    pub loads: [f64; 4],
+    /// For the next state.
+    pub start: BallStart,
+}
+
+impl HeldBall {
+    /// The ball where the arc centres of the screw's and the nut's groove are turned by these angles, rad, -0.2 to 0.2.
+    ///
+    /// # Errors
+    /// [`ReferenceError`] naming an input out of range.
+    pub fn in_grooves(
+        &self,
+        screw_deviation: f64,
+        nut_deviation: f64,
+    ) -> Result<DeviatingBall, ReferenceError> {
+        within("friction", self.friction, 1e-3, 1.0)?;
+        let radius = self.design.ball_radius;
+        self.design.check_grooves()?;
+        within("clearance", self.clearance, -0.05 * radius, 0.2 * radius)?;
+        self.rolling.check()?;
+        within("screw_deviation", screw_deviation, -0.2, 0.2)?;
+        within("nut_deviation", nut_deviation, -0.2, 0.2)?;
+        let angle = self.design.contact_angle;
+        let grooves = ElasticGrooves {
+            track: (&self.design).into(),
+            screw_groove_radius: self.design.screw_groove_radius,
+            nut_groove_radius: self.design.nut_groove_radius,
+            arc_angles: [
+                angle - screw_deviation,
+                angle + screw_deviation,
+                angle - nut_deviation,
+                angle + nut_deviation,
+            ],
+            screw: self.design.contact(Groove::Screw)?.into(),
+            nut: self.design.contact(Groove::Nut)?.into(),
+            oversize: -self.clearance,
+        };
+        grooves
+            .check()
+            .map_err(|error| error.renamed("contact_angle"))?;
+        Ok(DeviatingBall {
+            ball: *self,
+            grooves,
+        })
+    }
+}
+
+impl DeviatingBall {
+    /// How it runs, found from the state of a neighbouring one, or from nothing.
+    ///
+    /// # Errors
+    /// [`ReferenceError`] naming an input out of range, or of a balance that is not found.
+    pub fn solve(
+        &self,
+        drive: &BallDrive,
+        start: Option<&BallStart>,
+    ) -> Result<HeldBallFriction, ReferenceError> {
+        within("axial_load", drive.axial_load, -1e6, 1e6)?;
+        if drive.axial_load == 0.0 {
+            return Err(ReferenceError::Undriven);
+        }
+        for friction in drive.rubbing {
+            within("rubbing", friction, 0.0, 1e5)?;
+        }
+        let along = match drive.along {
+            AlongTrack::Free => Drive::Force(0.0),
+            AlongTrack::Held(speed) => Drive::Speed(within("orbital_speed", speed, -10.0, 10.0)?),
+        };
+        let mut ball = PlacedBall {
+            grooves: &self.grooves,
+            friction: self.ball.friction,
+            way: 1.0,
+            axial_load: drive.axial_load,
+            rubbing: Rubbing::default(),
+            integration: self.ball.integration,
+            rest_spin: STICK_SPIN,
+        };
+        let mut solved = settle(&ball, along, start.map(|start| &start.0))?;
+        let size = drive.rubbing[0].max(drive.rubbing[1]);
+        let mut change = if size > 0.0 { f64::INFINITY } else { 0.0 };
+        for _ in 0..PASSES {
+            if change <= SETTLED * size {
+                break;
+            }
+            let rubbing = self.rubbing_of(drive.rubbing, &solved.state);
+            change = (rubbing.motion - ball.rubbing.motion).amax();
+            ball.rubbing = rubbing;
+            solved = settle(&ball, along, Some(&solved.state))?;
+        }
+        if change <= SETTLED * size {
+            self.friction_of(&ball, &solved)
+        } else {
+            Err(ReferenceError::unbalanced(change))
+        }
+    }
+
+    /// Friction of two neighbours that move as this ball.
+    fn rubbing_of(&self, [behind, ahead]: [f64; 2], state: &BallState) -> Rubbing {
+        // A friction coefficient of one makes the force of a contact its friction.
+        let contact = BallContact::new(&self.grooves.track, 1.0, 1.0, false);
+        let mut sum = contact.between(behind, state, state).on_front;
+        sum += contact.between(ahead, state, state).on_rear;
+        sum
+    }
+
+    fn friction_of(
+        &self,
+        ball: &PlacedBall<'_>,
+        solved: &Solved,
+    ) -> Result<HeldBallFriction, ReferenceError> {
+        let state = &solved.state;
+        let rows = ball.rows_of(state).unwrap_or_default();
+        let found = RowBallMotion {
+            motion: dimensional(
+                &ball.grooves.track,
+                &rows,
+                &state.motion,
+                STICK_SPIN,
+                ball.friction,
+                1.0,
+                solved.residual / ball.friction,
+            ),
+            loads: ball.loads(&state.place),
+            position: [state.place.x, state.place.y],
+            screw_displacement: state.place.z,
+            force: state.force,
+        };
+        let HeldBall {
+            design, rolling, ..
+        } = &self.ball;
+        let [hysteresis, lubricant] = rolling_losses(design, rolling, &found, 1.0)?;
+        let [rear, front] = self.grooves.track.slip_between(1.0);
+        let slip: Vector2<f64> = (rear + front) * state.motion;
+        Ok(HeldBallFriction {
+            orbital_speed: state.motion[0],
+            force: state.force,
+            stiffness: solved.stiffness,
+            torque: found.motion.power_loss + hysteresis + lubricant,
+            half_slip: 0.5 * slip.norm() * design.ball_radius,
+            loads: found.loads,
+            start: BallStart(*state),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::friction::ball_screw_row::{ElasticRow, RowBall};
+    use crate::friction::caged_ball::CagedBall;
+    use crate::published::balls::SCREW;
+
+    const BALL: HeldBall = HeldBall {
+        design: SCREW,
+        clearance: -4e-7,
+        friction: 0.08,
+        rolling: RollingResistance::STEEL,
+        integration: Integration::Full,
+    };
+
+    const FREE: BallDrive = BallDrive {
+        axial_load: 60.0,
+        along: AlongTrack::Free,
+        rubbing: [0.0; 2],
+    };
+
+    fn row(balls: Vec<RowBall>, ball_friction: f64) -> ElasticRow {
+        ElasticRow {
+            design: SCREW,
+            clearance: BALL.clearance,
+            friction: BALL.friction,
+            ball_friction,
+            nut_speed: 1.0,
+            balls,
+            integration: Integration::Full,
+        }
+    }
+
+    /// Without deviation, and free, it is the ball of a caged screw. Both balances are accurate to 1e-8 of the loads.
+    #[test]
+    fn without_deviation_it_is_a_caged_ball() {
+        let caged = CagedBall {
+            design: SCREW,
+            clearance: BALL.clearance,
+            friction: BALL.friction,
+            rolling: BALL.rolling,
+            integration: BALL.integration,
+        };
+        let ball = BALL.in_grooves(0.0, 0.0).unwrap();
+        for axial_load in [-200.0, -20.0, 8.0, 120.0] {
+            let [expected] = caged.along(&[axial_load]).unwrap().try_into().unwrap();
+            let expected = expected.unwrap();
+            let found = ball.solve(&BallDrive { axial_load, ..FREE }, None).unwrap();
+            assert_eq!(found.force, 0.0);
+            assert!((found.torque / expected.torque - 1.0).abs() < 1e-7);
+            assert!((found.orbital_speed - expected.orbital_speed).abs() < 1e-9);
+        }
+    }
+
+    /// Balls alike touch and do not press: each runs as it would alone, with the deviations of their grooves.
+    #[test]
+    fn balls_alike_of_a_row_are_this_ball() {
+        for (screw_deviation, nut_deviation, axial_load) in
+            [(0.017, -0.008, 60.0), (-0.01, 0.009, -35.0)]
+        {
+            let alike = RowBall {
+                screw_deviation,
+                nut_deviation,
+                axial_load,
+            };
+            let expected = row(vec![alike; 2], 0.0).solve().unwrap();
+            let ball = BALL.in_grooves(screw_deviation, nut_deviation).unwrap();
+            let found = ball.solve(&BallDrive { axial_load, ..FREE }, None).unwrap();
+            let speed = expected.pressing[0].motion.orbital_speed;
+            assert!((found.orbital_speed - speed).abs() < 1e-9);
+            for (found, expected) in found.loads.iter().zip(expected.pressing[1].loads) {
+                assert!((found - expected).abs() < 1e-6 * axial_load.abs());
+            }
+        }
+    }
+
+    /// Two balls that differ press with the force that holds each of them at their common speed.
+    #[test]
+    fn a_pair_presses_with_the_force_that_holds_its_balls() {
+        let of = |deviation: f64| RowBall {
+            screw_deviation: deviation,
+            nut_deviation: 0.005,
+            axial_load: 60.0,
+        };
+        let deviations = [0.012, -0.012];
+        let mut balls = deviations.map(of).to_vec();
+        let mut expected = row(balls.clone(), 0.0).solve().unwrap();
+        if expected.contact_forces[0] == 0.0 {
+            balls.reverse();
+            expected = row(balls.clone(), 0.0).solve().unwrap();
+        }
+        let force = expected.contact_forces[0];
+        assert!(force > 0.05, "{force}");
+        for (ball, (motion, sign)) in balls.iter().zip(expected.pressing.iter().zip([-1.0, 1.0])) {
+            let held = AlongTrack::Held(motion.motion.orbital_speed);
+            let drive = BallDrive {
+                along: held,
+                ..FREE
+            };
+            let found = BALL
+                .in_grooves(ball.screw_deviation, ball.nut_deviation)
+                .unwrap()
+                .solve(&drive, None)
+                .unwrap();
+            assert!((found.force - sign * force).abs() < 1e-5 * force);
+        }
+    }
+
+    /// What the nut and the neighbours put in is what the grooves lose, with friction of the neighbours and a force along the track; and the
+    /// state does not depend on where it starts.
+    #[test]
+    fn power_is_balanced() {
+        let smooth = HeldBall {
+            rolling: RollingResistance::NONE,
+            ..BALL
+        };
+        let ball = smooth.in_grooves(0.015, -0.006).unwrap();
+        let free = ball.solve(&FREE, None).unwrap();
+        for (axial_load, rubbing) in [(60.0, [0.1, 0.02]), (-35.0, [0.0, 0.05])] {
+            let drive = BallDrive {
+                axial_load,
+                along: AlongTrack::Held(free.orbital_speed * 1.002),
+                rubbing,
+            };
+            let found = ball.solve(&drive, None).unwrap();
+            let again = ball.solve(&drive, Some(&free.start)).unwrap();
+            assert!((found.force - again.force).abs() < 1e-6 * axial_load.abs());
+            let BallStart(state) = found.start;
+            let placed = PlacedBall {
+                grooves: &ball.grooves,
+                friction: smooth.friction,
+                way: 1.0,
+                axial_load,
+                rubbing: ball.rubbing_of(rubbing, &state),
+                integration: smooth.integration,
+                rest_spin: STICK_SPIN,
+            };
+            let rows = placed.rows_of(&state).unwrap();
+            let radius = SCREW.ball_radius;
+            let nut = radius * placed.power_in(&rows, &state.motion);
+            let neighbours = radius
+                * (placed.rubbing.motion.dot(&state.motion)
+                    + placed.path() * state.force * state.motion[0]);
+            // Forces balanced to 1e-8 of the loads, times speeds of some ball radii.
+            let off = (nut + neighbours - found.torque).abs();
+            assert!(off < 1e-6 * found.torque, "{off:e} of {:e}", found.torque);
+        }
+    }
+
+    #[test]
+    fn what_is_out_of_range_is_named() {
+        let wrong = |screw: f64, nut: f64| BALL.in_grooves(screw, nut).unwrap_err();
+        assert_eq!(wrong(0.3, 0.0).field(), Some("screw_deviation"));
+        assert_eq!(wrong(0.0, -0.3).field(), Some("nut_deviation"));
+        let ball = BALL.in_grooves(0.0, 0.0).unwrap();
+        let of = |drive: BallDrive| ball.solve(&drive, None).unwrap_err();
+        let undriven = BallDrive {
+            axial_load: 0.0,
+            ..FREE
+        };
+        assert_eq!(of(undriven), ReferenceError::Undriven);
+        let rubbing = BallDrive {
+            rubbing: [0.0, -1.0],
+            ..FREE
+        };
+        assert_eq!(of(rubbing).field(), Some("rubbing"));
+        let fast = BallDrive {
+            along: AlongTrack::Held(f64::NAN),
+            ..FREE
+        };
+        assert_eq!(of(fast).field(), Some("orbital_speed"));
+    }
+}
