@@ -145,8 +145,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let failure = |message: String| Failure::Data(format!("{}: {message}", design.name));
     let table = &design.fold;
     let fold = table
-        .check_deviations()
-        .and_then(|()| table.fold(&design))
+        .fold(&design)
         .map_err(|message| failure(format!("fold: {message}")))?;
     let folded = certified(&fold).map_err(|error| error.of(&design.name))?;
     let failed = |error: epas_design::Failure| failure(error.to_string());

@@ -360,12 +360,11 @@ fn list() -> Result<(), Failure> {
         }
         if let Some(balls) = &design.uncaged {
             let [screw, nut] = balls.deviations().map(|angle| 1e3 * angle);
-            let configuration = &balls.configuration;
             write!(
                 stdout,
                 "; uncaged: friction {:5.3}, clearance {:4.1} um, contact angle off by {screw:.1} mrad on the screw, {nut:.1} mrad in the nut",
-                configuration.friction,
-                1e6 * configuration.clearance.gap(),
+                balls.gear.friction,
+                1e6 * balls.gear.clearance.gap(),
             )?;
         }
         writeln!(stdout)?;

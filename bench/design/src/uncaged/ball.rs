@@ -25,7 +25,13 @@ const UNSOLVED: f64 = 0.02;
 
 /// Place of a point of the grid in the box, -1 to 1 each.
 pub(super) fn place(point: usize) -> [f64; 2] {
-    const LOBATTO: [f64; SIDE] = [-1.0, -0.654_653_670_707_977_1, 0.0, 0.654_653_670_707_977_1, 1.0];
+    const LOBATTO: [f64; SIDE] = [
+        -1.0,
+        -0.654_653_670_707_977_1,
+        0.0,
+        0.654_653_670_707_977_1,
+        1.0,
+    ];
     [LOBATTO[point / SIDE], LOBATTO[point % SIDE]]
 }
 
@@ -40,7 +46,9 @@ pub(super) struct Speeds {
 
 impl Speeds {
     pub fn of(design: &BallScrewDesign) -> Self {
-        let path = design.pitch_radius.hypot(design.lead / std::f64::consts::TAU);
+        let path = design
+            .pitch_radius
+            .hypot(design.lead / std::f64::consts::TAU);
         let cos_lead = design.pitch_radius / path;
         let nominal = 0.5 * (path + design.ball_radius * cos_lead * design.contact_angle.cos());
         Self {
@@ -223,7 +231,9 @@ impl Balls<'_> {
             };
             let mut sum = 0.0;
             for point in RUBBED {
-                let found = balls[point].solve(&drive, Some(&smooth[point].start)).ok()?;
+                let found = balls[point]
+                    .solve(&drive, Some(&smooth[point].start))
+                    .ok()?;
                 sum += (found.force - smooth[point].force) / (2.0 * friction);
             }
             Some(sum / RUBBED.len() as f64)
@@ -286,5 +296,9 @@ fn step_to_balance(pushed: &[Along], load: usize, speeds: &Speeds) -> f64 {
         force += found.force;
         impedance += speeds.impedance(found.stiffness);
     }
-    if impedance > 0.0 { force / impedance } else { 0.0 }
+    if impedance > 0.0 {
+        force / impedance
+    } else {
+        0.0
+    }
 }

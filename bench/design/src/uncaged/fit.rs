@@ -170,8 +170,16 @@ impl<'a> Fit<'a> {
         let (mut columns, count) = (Vec::new(), POINTS as f64);
         type Value = fn(&BallSample, usize) -> f64;
         let families: [(Value, &[f64], f64); 3] = [
-            (|sample, point| sample.points[point].free, &self.spreads, SPEED),
-            (|sample, point| sample.points[point].force, &self.forces, FORCE),
+            (
+                |sample, point| sample.points[point].free,
+                &self.spreads,
+                SPEED,
+            ),
+            (
+                |sample, point| sample.points[point].force,
+                &self.forces,
+                FORCE,
+            ),
             (
                 |sample, point| sample.points[point].torque_held,
                 &self.torques,
@@ -320,7 +328,9 @@ impl<'a> Fit<'a> {
 
     fn free_and_impedance(&self, point: usize, numbers: &SVector<f64, TOGETHER>) -> (f64, f64) {
         let powers = self.grid.powers.row(point);
-        let free = (0..POWERS).map(|power| powers[power] * numbers[power]).sum();
+        let free = (0..POWERS)
+            .map(|power| powers[power] * numbers[power])
+            .sum();
         let impedance = (0..SLOPES)
             .map(|power| powers[power] * numbers[POWERS + power])
             .sum();
