@@ -99,7 +99,7 @@ use lines::{Line, Lines};
 /// in elastic grooves with exact friction, by contact integrals of 32 nodes; its quantities are null at standstill,
 /// for a ball without load and where no answer was found that meets every balance. `in_loop` is what the law finds that
 /// the scene of a ball screw without cage evaluates, folded for the request over a box at least twice as wide: for deviations
-/// of twice the largest one and more, and for 5 to 300 N a ball or from half the least to twice the largest load; without
+/// of twice the largest one and more, and for 2.5 to 600 N a ball or from half the least to twice the largest load; without
 /// loads, and with flagged: whether a step says that the law does not hold the forces under these loads. It is null where the
 /// reference is for lack of speed or load, for loads of both signs, for a clearance outside -0.02 to 0.05 ball radii, for
 /// deviations above 0.05, and where no law holds the box; it takes some seconds for a screw, fewer for the next request that

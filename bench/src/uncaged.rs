@@ -98,17 +98,29 @@ pub fn read(words: &[u32]) -> Result<Folded, Error> {
 /// # Errors
 /// What cannot be folded, with the reason.
 pub fn words(design: &Design, row: &UncagedDesign) -> Result<Vec<u32>, Failure> {
+    let friction = row.gear.friction;
+    let fold = fold_for(design, row, (friction, friction), 0.0).map_err(Failure::Data)?;
+    let block = match folded(&fold)? {
+        Folded::One(block) => UncagedBlock::One(*block),
+        Folded::Range(block) => UncagedBlock::Range(*block),
+    };
+    Ok(words_of(&block, fold.digest())?)
+}
+
+/// The words of a block, with the digest of what it was folded from.
+///
+/// # Errors
+/// None.
+pub fn words_of(block: &UncagedBlock, digest: u64) -> Result<Vec<u32>, Error> {
     fn of<const N: usize>(block: &FoldedBall<N>, digest: u64) -> Result<Vec<u32>, Error> {
         let mut words = vec![0; FoldedBall::<N>::WORDS];
         block.write(digest, &mut words)?;
         Ok(words)
     }
-    let friction = row.gear.friction;
-    let fold = fold_for(design, row, (friction, friction), 0.0).map_err(Failure::Data)?;
-    Ok(match folded(&fold)? {
-        Folded::One(block) => of(block, fold.digest()),
-        Folded::Range(block) => of(block, fold.digest()),
-    }?)
+    match block {
+        UncagedBlock::One(block) => of(block, digest),
+        UncagedBlock::Range(block) => of(block, digest),
+    }
 }
 
 /// What is folded of a design for friction coefficients between two. Loads of a ball are those of the table `[fold]`, or 5 to 300 N, and up
@@ -124,7 +136,7 @@ pub fn fold_for(
 ) -> Result<UncagedFold, String> {
     let table = &design.fold;
     let mut fold = table
-        .fold_uncaged(design, row)
+        .fold_uncaged(design, Some(row))
         .map_err(|message| format!("fold: {message}"))?;
     fold.gear.gear.friction = row.gear.friction;
     fold.friction = range_for(fold.friction, coefficients)?;

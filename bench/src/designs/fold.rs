@@ -1,13 +1,14 @@
 //! Table `[fold]` of a design file: the domain over which `design` folds it.
 
 use epas_design::{CagedDesign, CagedFold, UncagedFold};
+use epas_friction::Range;
 use serde::Deserialize;
 
 use super::Design;
 use super::train::UncagedDesign;
 
-/// Least deviation that a law is folded for, rad.
-const LEAST_DEVIATION: f32 = 1e-4;
+/// Largest deviations that a law is folded for, rad.
+const DEVIATION: Range = Range::new(1e-4, 0.1);
 
 /// Table `[fold]` of a design file.
 #[derive(Clone, Debug, Default, Deserialize)]
@@ -87,37 +88,39 @@ impl FoldTable {
         Ok(fold)
     }
 
-    /// A design without cage with the domain of this table: deviations of a groove are its map's, or this table's where it says them.
+    /// A design without cage with the domain of this table: deviations of a groove are this table's, or those of its map, at least the least that
+    /// a law is folded for. Its balls are those of `row`, or where it has none those of the design.
     ///
     /// # Errors
     /// What of it cannot be folded.
     pub fn fold_uncaged(
         &self,
         design: &Design,
-        row: &UncagedDesign,
+        row: Option<&UncagedDesign>,
     ) -> Result<UncagedFold, String> {
-        // Deviations of a map that has none count as the least that a law is folded for.
-        let mut deviations = row.deviations().map(|largest| largest.max(LEAST_DEVIATION));
-        for (deviation, (name, given)) in deviations.iter_mut().zip([
-            ("screw_deviation", self.screw_deviation),
-            ("nut_deviation", self.nut_deviation),
-        ]) {
-            match given {
-                Some(given) if given < *deviation && *deviation > LEAST_DEVIATION => {
-                    return Err(format!(
-                        "{name} = {given} is below the largest of the map of [uncaged], {deviation}"
-                    ));
-                }
-                given => *deviation = given.unwrap_or(*deviation),
-            }
-        }
-        let domain = self.domain(row.gear.friction, design.mark("friction"))?;
+        let gear = row.map_or(design.caged, |row| row.gear);
+        let of_maps = row.map_or([0.0; 2], UncagedDesign::deviations);
+        let deviation = |name: &str, given: Option<f32>, of_map: f32| match given {
+            None => Ok(of_map.max(DEVIATION.minimum)),
+            Some(given) if DEVIATION.contains(given) && given >= of_map => Ok(given),
+            Some(given) => Err(format!(
+                "{name} = {given} is out of range; allowed: {} to {}",
+                of_map.max(DEVIATION.minimum),
+                DEVIATION.maximum
+            )),
+        };
+        let [screw, nut] = of_maps;
+        let deviations = [
+            deviation("screw_deviation", self.screw_deviation, screw)?,
+            deviation("nut_deviation", self.nut_deviation, nut)?,
+        ];
+        let domain = self.domain(gear.friction, design.mark("friction"))?;
         let mut fold = UncagedFold::of(epas_design::UncagedDesign {
             gear: CagedDesign {
                 friction: domain.friction,
                 // The law is that of one ball.
                 loaded_balls: 1,
-                ..row.gear
+                ..gear
             },
             deviations,
         });

@@ -86,6 +86,13 @@ pub struct LinearDesign {
     pub defaulted: Vec<&'static str>,
 }
 
+/// What a design lacks that says nothing of its balls.
+pub fn no_row(design: &str) -> String {
+    format!(
+        "{design} says nothing of its balls: a design file does in a table [uncaged], and of the built-in designs lin-3.6"
+    )
+}
+
 /// Name of the built-in linear bearing.
 pub const LINEAR: &str = "lin-3.3";
 

@@ -10,7 +10,7 @@ use super::running::{ByAngle, Moving, Running};
 use super::scene::SceneName;
 use crate::caged::CagedScene;
 use crate::designs::Design;
-use crate::designs::train::{LinearDesign, UncagedDesign};
+use crate::designs::train::{LinearDesign, UncagedDesign, no_row};
 use crate::simulate::linear::Linear;
 use crate::simulate::memory::{self, Remembered, Remembering};
 use crate::simulate::nut::STEPS;
@@ -100,13 +100,6 @@ pub fn row(design: &Design) -> Result<Uncaged, String> {
         balls: design.uncaged.ok_or_else(|| no_row(&design.name))?,
         memory: true,
     })
-}
-
-/// What a design lacks that says nothing of a row of balls.
-pub fn no_row(design: &str) -> String {
-    format!(
-        "{design} says nothing of its balls: a design file does in a table [uncaged], and of the built-in designs lin-3.6"
-    )
 }
 
 /// A screw whose balls press on each other.

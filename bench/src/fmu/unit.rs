@@ -9,7 +9,7 @@ use super::running::Running;
 use super::scene::SceneName;
 use super::variables::{Causality, Kind, TIME, Variable, inputs, outputs, parameter};
 use crate::caged::{keep_words, words};
-use crate::designs::train::LinearDesign;
+use crate::designs::train::{LinearDesign, no_row};
 use crate::designs::{self, Design, DesignSource};
 use crate::failure::Failure;
 use crate::simulate::linear::Linear;
@@ -146,7 +146,7 @@ impl Unit {
         let balls = match (scene.has_row(), balls) {
             (false, _) => 0,
             (true, Some(balls)) => balls,
-            (true, None) => return Err(models::no_row(&design)),
+            (true, None) => return Err(no_row(&design)),
         };
         let mut variables = vec![TIME];
         variables.extend(inputs(scene));

@@ -172,8 +172,8 @@ fn refusals_name_their_reason_and_leave_nothing() {
     let folder = folder.path();
     for (addition, word) in [
         ("branch = \"rolling\"", "closed form"),
-        ("[fold]\nscrew_deviation = 0.01", "screw_deviation"),
-        ("[fold]\nnut_deviation = 0.01", "not folded yet"),
+        ("[fold]\nscrew_deviation = 0.2", "0.0001 to 0.1"),
+        ("[fold]\nnut_deviation = -0.01", "nut_deviation"),
         ("[fold]\nfriction = 0.9", "friction"),
         ("[fold]\nfriction = [0.2, 0.3]", "0.1 (default)"),
         ("[fold]\nfriction = [0.12, 0.08]", "friction"),

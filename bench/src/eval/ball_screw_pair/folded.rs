@@ -1,7 +1,7 @@
 //! A row of balls by the law that the scene of a ball screw without cage evaluates, folded for the request.
 //!
 //! The law is folded over a box at least twice as wide as the request: deviations of twice the largest in either groove, in steps of
-//! [`DEVIATIONS`], and loads of 5 to 300 N a ball, or from half the least to twice the largest where that is wider, in powers of two. Requests
+//! [`DEVIATIONS`], and [`LOADS`] of a ball, or from half the least to twice the largest where that is wider, in powers of two. Requests
 //! that are much alike share a law, which takes some seconds to fold.
 
 use epas_design::{CagedDesign, UncagedDesign, UncagedFold};
@@ -18,6 +18,9 @@ use crate::uncaged::folded;
 
 /// Step of the deviations for which a law is folded, rad.
 const DEVIATIONS: f32 = 0.01;
+
+/// Loads of a ball for which a law is folded at least, N: twice as wide as 5 to 300 N either way.
+const LOADS: [f32; 2] = [2.5, 600.0];
 
 /// Limits that no request meets.
 const LIMITS: Limits = Limits {
@@ -70,15 +73,21 @@ fn law(request: &Request, design: &BallScrew) -> Option<&'static FoldedBall> {
         },
         deviations: [steps * DEVIATIONS; 2],
     });
-    let [least, most] = &mut fold.axial_load;
+    let [least, most] = LOADS;
     let twice = 2.0 * largest(|ball| ball.axial_load);
     let half = 0.5 / largest(|ball| ball.axial_load.recip());
-    if twice > *most {
-        *most = twice.log2().ceil().exp2();
-    }
-    if half < *least {
-        *least = half.log2().floor().exp2();
-    }
+    fold.axial_load = [
+        if half < least {
+            half.log2().floor().exp2()
+        } else {
+            least
+        },
+        if twice > most {
+            twice.log2().ceil().exp2()
+        } else {
+            most
+        },
+    ];
     match folded(&fold).ok()? {
         Folded::One(law) => Some(law),
         Folded::Range(_) => None,
