@@ -14,8 +14,8 @@ use epas_friction::scene::FoldedBall;
 use rayon::prelude::*;
 use sha2::{Digest, Sha256};
 
-use crate::Failure;
 use crate::caged::{APART, CagedDesign, Exact, FRICTION, LARGEST_LOAD, in_range};
+use crate::Failure;
 use ball::{Balls, Speeds};
 pub use certificate::{UncagedCertificate, UncagedFigure};
 use fit::{Branch, Fit, Numbers};
@@ -121,7 +121,10 @@ impl UncagedFold {
     ///
     /// # Errors
     /// As [`Self::folded`].
-    pub fn folded_with(&self, progress: &(dyn Fn(f64) + Sync)) -> Result<FoldedUncaged, Failure> {
+    pub fn folded_with(
+        &self,
+        progress: &(dyn Fn(f64) + Sync),
+    ) -> Result<FoldedUncaged, Failure> {
         let begun = Instant::now();
         progress(0.0);
         let block = self.block()?;
@@ -260,13 +263,7 @@ impl UncagedFold {
         let least = f64::from(self.axial_load[0]) + lift_off;
         let weights: Vec<f64> = samples
             .iter()
-            .map(|sample| {
-                if sample.load < 0.999 * least {
-                    WEIGHT_BELOW
-                } else {
-                    1.0
-                }
-            })
+            .map(|sample| if sample.load < 0.999 * least { WEIGHT_BELOW } else { 1.0 })
             .collect();
         let speeds = Speeds::of(&ball.design);
         Ok(Fit::new(&samples, &weights, speeds.against_nut).branch())

@@ -343,6 +343,25 @@ fn regression_closed_form_finds_the_contacts() {
     );
 }
 
+/// A row on the same screw seen from its other end: the nut turns the other way, left and right are changed.
+fn mirrored(request: &Value) -> Value {
+    let mut row = request.clone();
+    row["nut_speed"] = json!(-number(&row["nut_speed"]));
+    for ball in row["balls"].as_array_mut().unwrap() {
+        let contacts: serde_json::Map<_, _> = ball["contacts"]
+            .as_object()
+            .unwrap()
+            .iter()
+            .map(|(name, contact)| {
+                let side = if name.ends_with('L') { "R" } else { "L" };
+                (format!("{}{side}", &name[..1]), contact.clone())
+            })
+            .collect();
+        ball["contacts"] = contacts.into();
+    }
+    row
+}
+
 /// Contacts that the closed form finds are told as such in both directions of load and motion, with play and
 /// without: what is recovered are the row's own state and its own speeds.
 #[test]

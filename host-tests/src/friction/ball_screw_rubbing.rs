@@ -163,22 +163,31 @@ impl BallContact {
 
     /// Forces of two balls that press with `along` along the track, N.
     pub fn between(&self, along: f64, rear: &BallState, front: &BallState) -> BetweenBalls {
-        let slip: Vector2<f64> = self.slips[0] * rear.motion + self.slips[1] * front.motion;
+        let slip = self.slip(rear, front);
         let limit = self.friction * self.normal_force(along.max(0.0));
-        let pull = slip * (-limit / slip.norm().max(1e-12));
-        let [on_rear, on_front] =
-            [(self.slips[0], 1.0), (self.slips[1], -1.0)].map(|(of, side)| {
-                let outward = self.outward * along.max(0.0);
-                Rubbing {
-                    in_plane: [side * self.cos * pull.y + outward, side * pull.x],
-                    motion: of.transpose() * pull,
-                }
-            });
+        let [on_rear, on_front] = self.rubbing(along, slip / slip.norm().max(1e-12));
         BetweenBalls {
             on_rear,
             on_front,
             loss: limit * slip.norm(),
         }
+    }
+
+    /// Slip of the rear ball on the front one over `R_B w_N`.
+    pub fn slip(&self, rear: &BallState, front: &BallState) -> Vector2<f64> {
+        self.slips[0] * rear.motion + self.slips[1] * front.motion
+    }
+
+    /// What two balls that press with `along`, N, do to the rear and to the front one while they slip in a direction, of size 1 at most.
+    pub fn rubbing(&self, along: f64, direction: Vector2<f64>) -> [Rubbing; 2] {
+        let pull = direction * -(self.friction * self.normal_force(along.max(0.0)));
+        [(self.slips[0], 1.0), (self.slips[1], -1.0)].map(|(of, side)| {
+            let outward = self.outward * along.max(0.0);
+            Rubbing {
+                in_plane: [side * self.cos * pull.y + outward, side * pull.x],
+                motion: of.transpose() * pull,
+            }
+        })
     }
 
     /// How the forces of two balls that press with `along`, N, change with it and with their slip.

@@ -11,13 +11,14 @@
 //! friction on this ball          -(f_behind S_front' + f_ahead S_rear') s/|s|
 //! ```
 //!
-//! with the friction forces `f` of the two contacts, N. The motion under friction gives the slip, and the slip the friction: passes repeat
-//! until the friction no longer changes.
+//! with the friction forces `f` of the two contacts, N. The motion under friction gives the direction of the slip, and the direction the friction:
+//! a secant method on its angle finds the one that answers itself.
 //!
-//! Every answer is as exact as that of a row: forces are balanced to 1e-8 of the contacts' loads, and friction of the neighbours is their
-//! own to 1e-9.
+//! Every answer is as exact as that of a row: forces are balanced to 1e-8 of the contacts' loads, and the slip has its direction to 1e-8 rad.
 //!
 //! Source: Lin 2019, eqs. (2.11) to (2.14), (3.65) to (3.77).
+
+use std::f64::consts::{PI, TAU};
 
 use nalgebra::Vector2;
 
@@ -33,9 +34,10 @@ use crate::curvature::Groove;
 use crate::design::BallScrewDesign;
 use crate::error::{ReferenceError, within};
 
-/// Passes in which the friction of the neighbours settles, and the change over its size at which it has.
-const PASSES: usize = 40;
-const SETTLED: f64 = 1e-9;
+/// Passes in which the direction of the slip settles, the angle that is left, rad, and the largest turn in a pass.
+const PASSES: usize = 60;
+const SETTLED: f64 = 1e-8;
+const LARGEST_TURN: f64 = 0.1;
 
 /// A ball of a screw that its neighbours may hold.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -175,31 +177,65 @@ impl DeviatingBall {
             integration: self.ball.integration,
             rest_spin: STICK_SPIN,
         };
-        let mut solved = settle(&ball, along, start.map(|start| &start.0))?;
-        let size = drive.rubbing[0].max(drive.rubbing[1]);
-        let mut change = if size > 0.0 { f64::INFINITY } else { 0.0 };
-        for _ in 0..PASSES {
-            if change <= SETTLED * size {
-                break;
-            }
-            let rubbing = self.rubbing_of(drive.rubbing, &solved.state);
-            change = (rubbing.motion - ball.rubbing.motion).amax();
-            ball.rubbing = rubbing;
-            solved = settle(&ball, along, Some(&solved.state))?;
-        }
-        if change <= SETTLED * size {
-            self.friction_of(&ball, &solved)
+        let start = start.map(|start| &start.0);
+        let solved = if drive.rubbing == [0.0; 2] {
+            settle(&ball, along, start)?
         } else {
-            Err(ReferenceError::unbalanced(change))
-        }
+            self.rubbed(&mut ball, along, drive.rubbing, start)?
+        };
+        self.friction_of(&ball, &solved)
     }
 
-    /// Friction of two neighbours that move as this ball.
-    fn rubbing_of(&self, [behind, ahead]: [f64; 2], state: &BallState) -> Rubbing {
-        // A friction coefficient of one makes the force of a contact its friction.
-        let contact = BallContact::new(&self.grooves.track, 1.0, 1.0, false);
-        let mut sum = contact.between(behind, state, state).on_front;
-        sum += contact.between(ahead, state, state).on_rear;
+    /// The ball with friction of its neighbours: the direction of their slip gives the friction, and friction the direction, one number.
+    fn rubbed(
+        &self,
+        ball: &mut PlacedBall<'_>,
+        along: Drive,
+        rubbing: [f64; 2],
+        start: Option<&BallState>,
+    ) -> Result<Solved, ReferenceError> {
+        let contact = self.contact();
+        let angle_of = |state: &BallState| {
+            let slip = contact.slip(state, state);
+            slip.y.atan2(slip.x)
+        };
+        let mut solved = settle(ball, along, start)?;
+        let mut angle = angle_of(&solved.state);
+        let mut last: Option<[f64; 2]> = None;
+        let mut off = f64::INFINITY;
+        for _ in 0..PASSES {
+            ball.rubbing = self.rubbing_along(rubbing, angle);
+            solved = settle(ball, along, Some(&solved.state))?;
+            off = (angle_of(&solved.state) - angle + PI).rem_euclid(TAU) - PI;
+            if off.abs() <= SETTLED {
+                return Ok(solved);
+            }
+            // The secant through the last two passes; where it leads far, a part of what is missing.
+            let secant = last.map(|[before, missed]| -off * (angle - before) / (off - missed));
+            let step = secant
+                .filter(|step| step.is_finite() && step.abs() <= LARGEST_TURN)
+                .unwrap_or_else(|| off.clamp(-LARGEST_TURN, LARGEST_TURN));
+            last = Some([angle, off]);
+            angle += step;
+        }
+        Err(ReferenceError::NotConverged {
+            residual: off,
+            unit: "rad of the slip between balls",
+        })
+    }
+
+    /// Contact with a neighbour; a friction coefficient of one makes its force its friction.
+    fn contact(&self) -> BallContact {
+        BallContact::new(&self.grooves.track, 1.0, 1.0, false)
+    }
+
+    /// Friction of two neighbours that move as this ball, their slip at this angle.
+    fn rubbing_along(&self, [behind, ahead]: [f64; 2], angle: f64) -> Rubbing {
+        let contact = self.contact();
+        let direction = Vector2::new(angle.cos(), angle.sin());
+        let [_, mut sum] = contact.rubbing(behind, direction);
+        let [on_rear, _] = contact.rubbing(ahead, direction);
+        sum += on_rear;
         sum
     }
 
@@ -229,8 +265,7 @@ impl DeviatingBall {
             design, rolling, ..
         } = &self.ball;
         let [hysteresis, lubricant] = rolling_losses(design, rolling, &found, 1.0)?;
-        let [rear, front] = self.grooves.track.slip_between(1.0);
-        let slip: Vector2<f64> = (rear + front) * state.motion;
+        let slip = self.contact().slip(state, state);
         Ok(HeldBallFriction {
             orbital_speed: state.motion[0],
             force: state.force,
@@ -376,7 +411,10 @@ mod tests {
                 friction: smooth.friction,
                 way: 1.0,
                 axial_load,
-                rubbing: ball.rubbing_of(rubbing, &state),
+                rubbing: {
+                    let slip = ball.contact().slip(&state, &state);
+                    ball.rubbing_along(rubbing, slip.y.atan2(slip.x))
+                },
                 integration: smooth.integration,
                 rest_spin: STICK_SPIN,
             };

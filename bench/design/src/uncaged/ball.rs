@@ -18,7 +18,10 @@ const RUBBED: [usize; 9] = [0, 2, 4, 10, 12, 14, 20, 22, 24];
 
 /// Friction force of each neighbour over the root mean square of the forces that hold balls: what friction between balls of 0.1 does where
 /// balls press with that force.
-const RUBBING: f64 = 0.1;
+const RUBBING: f64 = 0.25;
+
+/// Largest friction force of a neighbour over `mu W`: a ball that is rubbed more loses its hold on the grooves.
+const MOST_RUBBING: f64 = 0.12;
 
 /// Loads that may be left without an exact answer, as a share.
 const UNSOLVED: f64 = 0.02;
@@ -217,26 +220,35 @@ impl Balls<'_> {
         pushed: &[Along],
         held: &[f64],
         speeds: &Speeds,
-    ) -> Vec<Option<f64>> {
+    ) -> Vec<Option<[f64; 2]>> {
         let of = |load: usize| {
             let smooth: Option<Vec<HeldBallFriction>> =
                 pushed.iter().map(|along| along[load]).collect();
             let smooth = smooth?;
             let squares: f64 = smooth.iter().map(|found| found.force.powi(2)).sum();
-            let friction = RUBBING * (squares / POINTS as f64).sqrt();
+            let whole = self.loads[load] + self.lift_off;
+            let most = MOST_RUBBING * self.ball.friction * whole;
+            let friction = most.min(RUBBING * (squares / POINTS as f64).sqrt());
             let drive = BallDrive {
                 axial_load: self.side * self.loads[load],
                 along: AlongTrack::Held(speeds.orbital(held[load])),
                 rubbing: [friction; 2],
             };
-            let mut sum = 0.0;
+            let (mut grip, mut rubbing) = (0.0, 0.0);
+            let mut count = 0.0;
             for point in RUBBED {
-                let found = balls[point]
-                    .solve(&drive, Some(&smooth[point].start))
-                    .ok()?;
-                sum += (found.force - smooth[point].force) / (2.0 * friction);
+                // A ball that finds no balance does not count.
+                let Ok(found) = balls[point].solve(&drive, Some(&smooth[point].start)) else {
+                    continue;
+                };
+                count += 1.0;
+                let smooth = &smooth[point];
+                grip += (found.force - smooth.force) / (2.0 * friction);
+                // Each contact's loss is shared by its two balls.
+                let lost = found.torque - smooth.torque + 2.0 * friction * found.half_slip;
+                rubbing += lost / friction;
             }
-            Some(sum / RUBBED.len() as f64)
+            (count > 0.5 * RUBBED.len() as f64).then(|| [grip / count, rubbing / count])
         };
         (0..self.loads.len()).into_par_iter().map(of).collect()
     }
@@ -247,13 +259,13 @@ impl Balls<'_> {
         held: f64,
         free: &[Along],
         pushed: &[Along],
-        rubbed: &[Option<f64>],
+        rubbed: &[Option<[f64; 2]>],
         speeds: &Speeds,
     ) -> Option<BallSample> {
         let whole = self.loads[load] + self.lift_off;
         let per_load = 1.0 / (whole * self.ball.friction);
         let mut points = [BallPoint::default(); POINTS];
-        let mut slips = 0.0;
+        let [grip, rubbing] = rubbed[load]?;
         for (point, (free, pushed)) in points.iter_mut().zip(free.iter().zip(pushed)) {
             let (free, pushed) = (free[load].as_ref()?, pushed[load].as_ref()?);
             *point = BallPoint {
@@ -262,14 +274,13 @@ impl Balls<'_> {
                 torque: free.torque * per_load,
                 torque_held: pushed.torque * per_load,
             };
-            slips += pushed.half_slip;
         }
         Some(BallSample {
             load: whole,
             held,
             points,
-            grip: rubbed[load]?,
-            rubbing: 2.0 * slips / POINTS as f64,
+            grip,
+            rubbing,
         })
     }
 }

@@ -73,9 +73,7 @@ impl Found {
     fn force_errors(&self) -> Vec<f64> {
         let largest = self.exact.forces.iter().copied().fold(0.0, f64::max);
         let pairs = self.folded.forces.iter().zip(&self.exact.forces);
-        pairs
-            .map(|(found, exact)| (found - exact) / largest)
-            .collect()
+        pairs.map(|(found, exact)| (found - exact) / largest).collect()
     }
 }
 

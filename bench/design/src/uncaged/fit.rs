@@ -23,6 +23,10 @@ const BESIDE: f64 = 0.3;
 /// Gauss-Newton steps for free speeds and impedances together.
 const STEPS: usize = 8;
 
+/// Least and largest impedance over `mu W` of a ball without deviations, and the largest change of it by deviations, over itself.
+const IMPEDANCES: [f64; 2] = [0.1, 500.0];
+const LARGEST_CHANGE: f64 = 0.8;
+
 /// Powers of an impedance, and numbers that are fitted together.
 const SLOPES: usize = 3;
 const TOGETHER: usize = POWERS + SLOPES;
@@ -248,6 +252,7 @@ impl<'a> Fit<'a> {
             let step = factor.solve(&right);
             for (knot, numbers) in found.iter_mut().enumerate() {
                 *numbers += step.fixed_rows::<TOGETHER>(TOGETHER * knot);
+                limit_impedance(numbers);
             }
         }
         found
@@ -448,6 +453,18 @@ impl<'a> Fit<'a> {
         let torque = sum(&|numbers, power| numbers.torque[power], POWERS);
         let slope = of(&|numbers| numbers.slope);
         (push, torque + slope * x + 0.5 * self.against_nut * push * x)
+    }
+}
+
+/// Brings an impedance within what a law may have, for all deviations.
+fn limit_impedance(numbers: &mut SVector<f64, TOGETHER>) {
+    let mean = numbers[POWERS].clamp(IMPEDANCES[0], IMPEDANCES[1]);
+    numbers[POWERS] = mean;
+    let change: f64 = (1..SLOPES).map(|power| numbers[POWERS + power].abs()).sum();
+    if change > LARGEST_CHANGE * mean {
+        for power in 1..SLOPES {
+            numbers[POWERS + power] *= LARGEST_CHANGE * mean / change;
+        }
     }
 }
 
