@@ -177,3 +177,71 @@ pub const fn configuration_with(row: &UncagedDesign, folded: Folded) -> ScrewCon
         tick: 1e-3,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::designs::read as read_design;
+
+    /// 29 x 7 x 4 with 16 balls, on half a turn.
+    fn design(more: &str) -> Design {
+        let text = "nominal_diameter = 0.029\nlead = 0.007\nball_diameter = 4e-3\nconformity = 0.54\ncontact_angle = 0.7853982\nclearance = 0\n";
+        let row =
+            "[uncaged]\nballs = 16\nturns = 0.75\nscrew_deviation = [{ order = 2, sine = 0.01 }]\n";
+        read_design(&format!("{text}{more}{row}"), "gear").unwrap()
+    }
+
+    fn fold(design: &Design, axial_load: f32) -> UncagedFold {
+        let row = design.uncaged.unwrap();
+        let own = (row.gear.friction, row.gear.friction);
+        fold_for(design, &row, own, axial_load).unwrap()
+    }
+
+    /// Loads are those of the table, or up to the power of two above the largest of a ball; deviations are the maps'.
+    #[test]
+    fn a_fold_holds_what_is_asked_for() {
+        let plain = design("");
+        let usual = fold(&plain, 4_000.0);
+        assert_eq!(usual.axial_load, [5.0, 300.0]);
+        assert_eq!(usual.friction, None);
+        let [screw, nut] = usual.gear.deviations;
+        assert!((screw - 0.01).abs() < 1e-4 && nut == 1e-4, "{screw} {nut}");
+        // 16 balls under 5 kN each, and under no more than the limit of 100 kN.
+        assert_eq!(fold(&plain, 8e4).axial_load, [5.0, 8192.0]);
+        assert_eq!(fold(&plain, 1e7), fold(&plain, 1e5));
+        let table = design("[fold]\naxial_load = [20, 100]\nscrew_deviation = 0.02\n");
+        let own = fold(&table, 8e4);
+        assert_eq!(own.axial_load, [20.0, 100.0]);
+        assert_eq!(own.gear.deviations, [0.02, 1e-4]);
+        let narrow = design("[fold]\nscrew_deviation = 0.005\n");
+        let row = narrow.uncaged.unwrap();
+        let refused = fold_for(&narrow, &row, (0.1, 0.1), 0.0).unwrap_err();
+        assert!(refused.contains("screw_deviation = 0.005"), "{refused}");
+    }
+
+    /// Words are the law, one that is kept is not folded again, and a model goes on with it.
+    #[test]
+    fn words_are_the_law() {
+        let design = design("[fold]\naxial_load = [20, 30]\n");
+        let row = design.uncaged.unwrap();
+        let words = words(&design, &row).unwrap();
+        let (Folded::One(law), Folded::One(again)) =
+            (read(&words).unwrap(), folded(&fold(&design, 0.0)).unwrap())
+        else {
+            panic!("one friction coefficient is one node");
+        };
+        assert!(std::ptr::eq(law, again));
+        let made = configuration_with(&row, Folded::One(law));
+        let plain = epas_trains::Configuration::Plain(made);
+        let mut model = epas_trains::screw(row.balls, &plain).unwrap().unwrap();
+        let found = model.step(epas_friction::Inputs {
+            nut_speed: 10.0,
+            axial_load: 400.0,
+        });
+        assert!(
+            found.friction_torque > 0.0 && !found.faults.any(),
+            "{found:?}"
+        );
+        assert!(read(&words[1..]).is_err());
+    }
+}
