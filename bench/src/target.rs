@@ -6,12 +6,14 @@ mod debugger;
 mod figures;
 mod image;
 mod log;
+mod longest;
 mod measure;
 mod scenes;
 mod stored;
 mod text;
 mod tools;
 mod trace;
+mod watch;
 
 use std::io::{self, Write as _};
 
@@ -47,6 +49,10 @@ pub struct Arguments {
     /// Print the log of the debug firmware, sent through defmt and decoded, and do nothing else
     #[arg(long, conflicts_with_all = ["gate", "store", "json", "store_cases"])]
     log: bool,
+    /// Print the longest path of every function beside its counts, from one image, and do nothing else; fail where a count
+    /// exceeds what the path rests on
+    #[arg(long, conflicts_with_all = ["gate", "store", "json", "store_cases", "log"])]
+    longest: bool,
 }
 
 /// Figures for a report, measured where that is possible.
@@ -93,6 +99,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.store_cases {
         return stored::write_cases();
     }
+    if arguments.longest {
+        return print_longest();
+    }
     if arguments.log {
         io::stdout().lock().write_all(log::log()?.as_bytes())?;
         return Ok(());
@@ -115,6 +124,24 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         stored::gate(&figures)?;
     }
     Ok(())
+}
+
+/// Longest paths beside counts; fails where a count is above one, or exceeds a bound.
+fn print_longest() -> Result<(), Failure> {
+    tools::check()?;
+    let (paths, mut beyond) = measure::longest_paths()?;
+    io::stdout()
+        .lock()
+        .write_all(text::longest(&paths).as_bytes())?;
+    for path in &paths {
+        if path.longest.as_ref().is_ok_and(|&most| path.counted > most) {
+            beyond.push(format!("{}: counted above the longest path", path.name));
+        }
+    }
+    if beyond.is_empty() {
+        return Ok(());
+    }
+    Err(Failure::Data(beyond.join("\n")))
 }
 
 #[cfg(test)]

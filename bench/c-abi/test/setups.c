@@ -91,7 +91,7 @@ epas_folded_ball_t test_spare_ball;
 
 #define CIRCUIT \
     { \
-        .ball_friction = 0.12f, \
+        .ball_friction = 0.1f, \
         .turns = 1.8f, \
         .return_length = 20e-3f, \
         .screw_deviation = &screw_deviation, \
@@ -152,7 +152,7 @@ uint32_t test_setup_memory(epas_memory_t *place)
 /* Tables of the screw without cage. */
 static uint32_t set_up_circuit(void)
 {
-    static const epas_harmonic_t waves[2] = {{1u, 0.005f, 0.0f}, {2u, 0.0f, 0.03014f}};
+    static const epas_harmonic_t waves[2] = {{1u, 0.002f, 0.0f}, {2u, 0.0f, 0.014f}};
     static const float shares[6] = {1.4f, 1.2f, 1.1f, 0.9f, 0.8f, 0.6f};
     float triangle[EPAS_DEVIATION_SAMPLES];
     uint32_t sample;
@@ -160,7 +160,7 @@ static uint32_t set_up_circuit(void)
 
     for (sample = 0u; sample < EPAS_DEVIATION_SAMPLES; sample++) {
         const float rise = (sample < 32u) ? (float)sample : (64.0f - (float)sample);
-        triangle[sample] = (rise - 16.0f) * 0.00125f;
+        triangle[sample] = (rise - 16.0f) * 0.0005f;
     }
     status = epas_deviation_from_harmonics(&screw_deviation, 1u, waves, 2u, NULL);
     if (status == EPAS_OK) {

@@ -29,6 +29,9 @@ pub struct Figures {
     pub recursive: Vec<String>,
     /// Code of the crate in the image of a scene that leaves it out, inlined code included.
     pub out_of_place: Vec<String>,
+    /// Limits of loops that a counted call has exceeded: then a longest path may be too short.
+    #[serde(default)]
+    pub broken_limits: Vec<String>,
 }
 
 /// What a function takes, from its first instruction to its return.
@@ -44,6 +47,12 @@ pub struct FunctionFigures {
     pub cycles_min: u32,
     /// See above.
     pub cycles_max: u32,
+    /// Cycles of the longest path in the image, whatever the inputs; none where loops have no bound.
+    #[serde(default)]
+    pub longest: Option<u32>,
+    /// Why there is no longest path.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub no_longest: Option<String>,
     /// Most cycles of the same function built for size.
     pub cycles_max_small: u32,
     /// Most instructions of the same function built for a Cortex-M7.
@@ -84,6 +93,21 @@ impl Figures {
         self.scenes.iter().find(|entry| entry.name == name)
     }
 
+    /// Counts above the longest path, and limits of longest paths that a counted call exceeds.
+    fn beyond_longest(&self) -> Vec<String> {
+        let above = self.functions.iter().filter_map(|entry| {
+            let longest = entry
+                .longest
+                .filter(|&longest| entry.cycles_max > longest)?;
+            let (name, counted) = (&entry.name, entry.cycles_max);
+            Some(format!(
+                "{name}: {counted} cycles counted, {longest} on the longest path"
+            ))
+        });
+        let broken = self.broken_limits.iter().cloned();
+        above.chain(broken).collect()
+    }
+
     /// What holds of the images, a line each.
     pub fn proofs(&self) -> String {
         let yes = |yes: bool| if yes { "yes" } else { "NO" };
@@ -100,6 +124,10 @@ impl Figures {
             (
                 "every scene without what it leaves out",
                 self.out_of_place.is_empty(),
+            ),
+            (
+                "no count above the longest path nor its limits",
+                self.beyond_longest().is_empty(),
             ),
         ]
         .map(|(what, holds)| format!("{what}: {}", yes(holds)))
@@ -139,10 +167,68 @@ impl Figures {
             self.out_of_place.is_empty(),
             format!("not left out: {}", self.out_of_place.join(", ")),
         );
+        let beyond = self.beyond_longest();
+        require(
+            beyond.is_empty(),
+            format!("beyond the longest path: {}", beyond.join(", ")),
+        );
         if broken.is_empty() {
             Ok(())
         } else {
             Err(Failure::Data(broken.join("\n")))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::failure::Failure;
+    use crate::target::stored;
+
+    #[test]
+    fn a_count_above_the_longest_path_fails() {
+        let stored = stored::figures().unwrap();
+        stored.require().unwrap();
+        let mut figures = stored.clone();
+        figures.functions[0].longest = Some(figures.functions[0].cycles_max - 1);
+        let Err(Failure::Data(message)) = figures.require() else {
+            panic!("a count above the longest path passes");
+        };
+        assert!(message.contains("curvature_literature"), "{message}");
+        let mut figures = stored;
+        figures.broken_limits.push("turns of a loop".into());
+        assert!(figures.require().is_err());
+    }
+
+    /// README prints what is stored.
+    #[test]
+    fn readme_says_how_long_the_longest_paths_are() {
+        let figures = stored::figures().unwrap();
+        let of = |name: &str| {
+            let entry = figures.function(name).unwrap();
+            let longest = entry.longest.unwrap();
+            (longest, f64::from(longest) / f64::from(entry.cycles_max))
+        };
+        let readme = include_str!("../../../README.md").replace('\n', " ");
+        let caged = figures.functions.iter().map(|entry| entry.name.as_str());
+        let caged = caged.filter(|name| name.starts_with("step_caged") || *name == "between_caged");
+        let most = caged.map(|name| of(name).1).fold(0.0, f64::max);
+        let (balls, linear) = (of("step_train_37_pressing"), of("step_linear"));
+        let thousands = |cycles: u32| format!("{},{:03}", cycles / 1000, cycles % 1000);
+        for said in [
+            format!("caged steps at most {most:.2} times"),
+            format!(
+                "37 balls {} cycles ({:.1} times)",
+                thousands(balls.0),
+                balls.1
+            ),
+            format!(
+                "linear bearing {} ({:.1} times)",
+                thousands(linear.0),
+                linear.1
+            ),
+        ] {
+            assert!(readme.contains(&said), "{said}");
         }
     }
 }

@@ -8,10 +8,12 @@ use rayon::prelude::*;
 
 use super::figures::{Figures, FunctionFigures, SceneFigures};
 use super::image::{Image, code};
+use super::longest::{Longest, longest};
 use super::scenes::SCENES;
 use super::stored;
 use super::tools::{Built, Core, build, check};
 use super::trace::Calls;
+use super::watch::Watch;
 use crate::aside::say;
 use crate::failure::Failure;
 
@@ -54,8 +56,9 @@ pub fn measure() -> Result<Figures, Failure> {
         },
     );
 
+    let (functions, broken_limits) = functions?;
     let mut figures = Figures {
-        functions: functions?,
+        functions,
         scenes: Vec::new(),
         empty,
         panic_free,
@@ -65,6 +68,7 @@ pub fn measure() -> Result<Figures, Failure> {
         unwanted: Vec::new(),
         recursive: Vec::new(),
         out_of_place: Vec::new(),
+        broken_limits,
     };
     let mut alone = Vec::new();
     let mut together = Vec::new();
@@ -125,25 +129,30 @@ fn whole_programs(folder: &Path) -> Result<bool, Failure> {
     Ok(runs.iter().all(|run| run.passed))
 }
 
-/// Counts every function on both cores, on the first one built for size as well.
-fn functions([folder, small]: [&Path; 2]) -> Result<Vec<FunctionFigures>, Failure> {
+/// Counts every function on both cores, on the first one built for size as well; what counts have exceeded of the limits of
+/// longest paths.
+fn functions([folder, small]: [&Path; 2]) -> Result<(Vec<FunctionFigures>, Vec<String>), Failure> {
+    let of = |core, path: &Path| Counted::of(path)?.count(core, path, Vec::new());
     let (on_m7, (on_m4, small)) = rayon::join(
         || match build(&["count"], Core::M7, "release", "halt")? {
-            Built::In(folder) => count(Core::M7, &folder.join("count")),
+            Built::In(folder) => of(Core::M7, &folder.join("count")),
             Built::Panics(said) => Err(Failure::Data(said)),
         },
         || {
             rayon::join(
-                || count(Core::M4, &folder.join("count")),
-                || count(Core::M4, &small.join("count")),
+                || bounded(&folder.join("count")),
+                || of(Core::M4, &small.join("count")),
             )
         },
     );
-    on_m4?
+    let (paths, counts) = on_m4?;
+    let figures = counts
+        .calls
         .iter()
-        .zip(&small?)
-        .zip(&on_m7?)
-        .map(|(((name, calls), (_, small)), (_, other))| {
+        .zip(paths)
+        .zip(&small?.calls)
+        .zip(&on_m7?.calls)
+        .map(|((((name, calls), longest), (_, small)), (_, other))| {
             let missing = || Failure::Data(format!("{name} was never called"));
             let [instructions, cycles] = calls.ranges().ok_or_else(missing)?;
             let [_, small] = small.ranges().ok_or_else(missing)?;
@@ -154,56 +163,117 @@ fn functions([folder, small]: [&Path; 2]) -> Result<Vec<FunctionFigures>, Failur
                 instructions_max: instructions.1,
                 cycles_min: cycles.0,
                 cycles_max: cycles.1,
+                longest: longest.as_ref().ok().copied(),
+                no_longest: longest.err(),
                 cycles_max_small: small.1,
                 instructions_max_cortex_m7: other.1,
                 inputs: calls.calls.len() as u32,
             })
         })
-        .collect()
+        .collect::<Result<_, Failure>>()?;
+    Ok((figures, counts.broken))
 }
 
-/// Counts every function of an image.
-fn count(core: Core, path: &Path) -> Result<Vec<(&'static str, Calls)>, Failure> {
-    let image = Image::read(path)?;
-    let mut addresses = Vec::new();
-    // For each function the place of its address, and how many with the same address come before it:
-    // functions with the same instructions share one.
-    let mut places = Vec::new();
-    for subject in SUBJECTS.iter().chain(PEERS) {
-        let address = image
-            .address(&format!("count_{}", subject.name))
-            .ok_or_else(|| Failure::Data(format!("no function count_{}", subject.name)))?;
-        let known = addresses.iter().position(|&known| known == address);
-        let place = known.unwrap_or(addresses.len());
-        if known.is_none() {
-            addresses.push(address);
-        }
-        let before = places
-            .iter()
-            .filter(|(_, other, _)| *other == place)
-            .count();
-        places.push((subject.name, place, before));
-    }
-    let from = image
-        .address("counting")
-        .ok_or_else(|| Failure::Data("no function counting".into()))?;
-    let calls = core.count(path, from, &addresses)?;
-    let inputs = COUNTED as usize;
-    places
+/// Longest paths of an image's functions, then counts that are held to the limits on which they rest.
+fn bounded(path: &Path) -> Result<(Vec<Result<u32, String>>, Counts), Failure> {
+    let counted = Counted::of(path)?;
+    let longest = longest(path, &counted.addresses)?;
+    let (paths, watches): (Vec<_>, Vec<_>) = longest
         .into_iter()
-        .map(|(name, place, before)| {
-            let calls = calls
+        .map(|Longest { cycles, watch }| (cycles, watch))
+        .unzip();
+    let of_each = counted.places.iter();
+    let paths = of_each.map(|(_, place, _)| paths[*place].clone()).collect();
+    Ok((paths, counted.count(Core::M4, path, watches)?))
+}
+
+/// Longest paths of all counted functions beside what is counted in the same image, and what counts have exceeded.
+pub fn longest_paths() -> Result<(Vec<Beside>, Vec<String>), Failure> {
+    let path = built(&["count"], "release")?.0.join("count");
+    let (paths, counts) = bounded(&path)?;
+    let calls = counts.calls.into_iter().zip(paths);
+    let beside = calls.map(|((name, calls), longest)| Beside {
+        name,
+        counted: calls.ranges().map_or(0, |[_, (_, most)]| most),
+        longest,
+    });
+    Ok((beside.collect(), counts.broken))
+}
+
+/// Most cycles of a function over the inputs, and on its longest path.
+pub struct Beside {
+    /// Its name.
+    pub name: &'static str,
+    /// Most cycles over the inputs.
+    pub counted: u32,
+    /// Cycles on the longest path, or why there is none.
+    pub longest: Result<u32, String>,
+}
+
+/// Functions of an image that are counted.
+struct Counted {
+    addresses: Vec<u32>,
+    /// For each function the place of its address, and how many with the same address come before it:
+    /// functions with the same instructions share one.
+    places: Vec<(&'static str, usize, usize)>,
+    /// Where counting begins.
+    from: u32,
+}
+
+/// Calls of each function by its name, and what they have exceeded.
+struct Counts {
+    calls: Vec<(&'static str, Calls)>,
+    broken: Vec<String>,
+}
+
+impl Counted {
+    /// Of an image.
+    fn of(path: &Path) -> Result<Self, Failure> {
+        let image = Image::read(path)?;
+        let mut addresses = Vec::new();
+        let mut places: Vec<(&'static str, usize, usize)> = Vec::new();
+        for subject in SUBJECTS.iter().chain(PEERS) {
+            let address = image
+                .address(&format!("count_{}", subject.name))
+                .ok_or_else(|| Failure::Data(format!("no function count_{}", subject.name)))?;
+            let known = addresses.iter().position(|&known| known == address);
+            let place = known.unwrap_or(addresses.len());
+            if known.is_none() {
+                addresses.push(address);
+            }
+            let before = places.iter().filter(|(_, other, _)| *other == place);
+            places.push((subject.name, place, before.count()));
+        }
+        let from = image.address("counting");
+        Ok(Self {
+            addresses,
+            places,
+            from: from.ok_or_else(|| Failure::Data("no function counting".into()))?,
+        })
+    }
+
+    /// Counts every function.
+    fn count(&self, core: Core, path: &Path, watches: Vec<Watch>) -> Result<Counts, Failure> {
+        let counts = core.count(path, self.from, &self.addresses, watches)?;
+        let inputs = COUNTED as usize;
+        let calls = self.places.iter().map(|&(name, place, before)| {
+            let calls = counts
+                .calls
                 .get(place)
                 .and_then(|function| function.calls.get(before * inputs..(before + 1) * inputs))
                 .ok_or_else(|| Failure::Data(format!("{name}: calls are missing")))?;
-            Ok((
-                name,
-                Calls {
-                    calls: calls.to_vec(),
-                },
-            ))
+            let calls = calls.to_vec();
+            Ok((name, Calls { calls }))
+        });
+        let broken = self.places.iter().flat_map(|&(name, place, _)| {
+            let broken = counts.broken.get(place).into_iter().flatten();
+            broken.map(move |what| format!("{name}: {what}"))
+        });
+        Ok(Counts {
+            calls: calls.collect::<Result<_, Failure>>()?,
+            broken: broken.collect(),
         })
-        .collect()
+    }
 }
 
 /// Functions in the image of a scene that belong to modules that it leaves out; one module that it has is

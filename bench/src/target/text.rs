@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use super::budgets::budgets;
 use super::figures::Figures;
+use super::measure::Beside;
 
 /// Everything as text.
 pub fn text(figures: &Figures) -> String {
@@ -19,25 +20,60 @@ pub fn text(figures: &Figures) -> String {
 fn functions(figures: &Figures) -> String {
     let mut text = String::from(
         "Cortex-M4F, cycles by Arm's table (a model, no wait states), each call from its first instruction\n\
-         to its return; `small` is what is built for size\n\n",
+         to its return; `longest` is the longest path in the image, whatever the inputs;\n\
+         `small` is what is built for size\n\n",
     );
     let _ = writeln!(
         text,
-        "{:26}{:>8}{:>8}{:>10}{:>8}{:>8}{:>12}",
-        "function", "instr.", "most", "cycles", "most", "small", "M7 instr."
+        "{:30}{:>8}{:>8}{:>10}{:>8}{:>9}{:>8}{:>12}",
+        "function", "instr.", "most", "cycles", "most", "longest", "small", "M7 instr."
     );
     for entry in &figures.functions {
         let _ = writeln!(
             text,
-            "{:26}{:>8}{:>8}{:>10}{:>8}{:>8}{:>12}",
+            "{:30}{:>8}{:>8}{:>10}{:>8}{:>9}{:>8}{:>12}",
             entry.name,
             entry.instructions_min,
             entry.instructions_max,
             entry.cycles_min,
             entry.cycles_max,
+            cycles(entry.longest),
             entry.cycles_max_small,
             entry.instructions_max_cortex_m7
         );
+    }
+    for entry in &figures.functions {
+        if let Some(why) = &entry.no_longest {
+            let _ = writeln!(text, "no longest path of {}: {why}", entry.name);
+        }
+    }
+    text
+}
+
+fn cycles(cycles: Option<u32>) -> String {
+    cycles.map_or_else(|| "none".into(), |cycles| cycles.to_string())
+}
+
+/// Longest paths beside counts over inputs.
+pub fn longest(paths: &[Beside]) -> String {
+    let mut text = format!(
+        "{:30}{:>9}{:>9}{:>8}\n",
+        "function, cycles", "counted", "longest", "ratio"
+    );
+    for Beside {
+        name,
+        counted,
+        longest,
+    } in paths
+    {
+        let longest = match longest {
+            Ok(cycles) => {
+                let ratio = f64::from(*cycles) / f64::from(*counted);
+                format!("{cycles:>9}{ratio:>8.3}")
+            }
+            Err(why) => format!("  none: {why}"),
+        };
+        let _ = writeln!(text, "{name:30}{counted:>9}{longest}");
     }
     text
 }

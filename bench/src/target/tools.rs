@@ -8,7 +8,8 @@ use std::thread;
 use std::time::Duration;
 
 use super::debugger::Debugger;
-use super::trace::{Calls, Counter};
+use super::trace::{Counter, Counts};
+use super::watch::Watch;
 use crate::failure::Failure;
 
 /// The target's name.
@@ -185,7 +186,13 @@ impl Core {
     }
 
     /// Runs an image with every instruction logged from the address `from` on, and counts calls of the functions at some addresses.
-    pub fn count(self, image: &Path, from: u32, addresses: &[u32]) -> Result<Vec<Calls>, Failure> {
+    pub fn count(
+        self,
+        image: &Path,
+        from: u32,
+        addresses: &[u32],
+        watches: Vec<Watch>,
+    ) -> Result<Counts, Failure> {
         let mut command = self.emulator(image);
         if version()? < (8, 1) {
             command.arg("-singlestep");
@@ -197,24 +204,24 @@ impl Core {
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .stderr(Stdio::piped());
-        let counter = Counter::new(addresses);
-        let (passed, calls) = watched(command, |child| {
+        let counter = Counter::new(addresses, watches);
+        let (passed, counts) = watched(command, |child| {
             let (Some(to), Some(answers), Some(log)) =
                 (child.stdin.take(), child.stdout.take(), child.stderr.take())
             else {
-                return Ok(Vec::new());
+                return Ok(Counts::default());
             };
             thread::scope(|scope| {
                 let debugging = scope.spawn(|| log_from(Debugger::new(to, answers), from));
-                let calls = counter.read(BufReader::with_capacity(1 << 20, log));
+                let counts = counter.read(BufReader::with_capacity(1 << 20, log));
                 debugging
                     .join()
                     .map_err(|_| Error::other("a debugger ended"))??;
-                calls
+                counts
             })
         })?;
         if passed {
-            Ok(calls)
+            Ok(counts)
         } else {
             Err(Failure::Data(format!(
                 "{} failed under the trace",

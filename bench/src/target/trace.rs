@@ -4,6 +4,7 @@ use std::collections::HashMap;
 use std::io::{self, BufRead};
 
 use super::cycles::Instruction;
+use super::watch::Watch;
 
 /// What the calls of a function took.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -32,6 +33,15 @@ struct Open {
     cycles: u32,
 }
 
+/// What a log holds.
+#[derive(Debug, Default)]
+pub struct Counts {
+    /// Calls of each function.
+    pub calls: Vec<Calls>,
+    /// For each function what its calls have exceeded of its limits.
+    pub broken: Vec<Vec<String>>,
+}
+
 /// Counts calls while a log is read.
 pub struct Counter {
     instructions: HashMap<u32, Instruction>,
@@ -39,11 +49,12 @@ pub struct Counter {
     open: Option<Open>,
     last: Option<(u32, Instruction)>,
     counted: Vec<Calls>,
+    watches: Vec<Watch>,
 }
 
 impl Counter {
-    /// Counts the functions at these addresses.
-    pub fn new(addresses: &[u32]) -> Self {
+    /// Counts the functions at these addresses, and holds them to limits where there are any.
+    pub fn new(addresses: &[u32], watches: Vec<Watch>) -> Self {
         Self {
             instructions: HashMap::new(),
             entries: addresses
@@ -54,16 +65,23 @@ impl Counter {
             open: None,
             last: None,
             counted: vec![Calls::default(); addresses.len()],
+            watches,
         }
     }
 
     /// Reads a log to its end; calls in the order of the addresses given.
-    pub fn read(mut self, mut log: impl BufRead) -> io::Result<Vec<Calls>> {
+    pub fn read(mut self, mut log: impl BufRead) -> io::Result<Counts> {
         let mut line = Vec::new();
         loop {
             line.clear();
             if log.read_until(b'\n', &mut line)? == 0 {
-                return Ok(self.counted);
+                let broken = self.watches.iter();
+                return Ok(Counts {
+                    calls: self.counted,
+                    broken: broken
+                        .map(|watch| watch.broken().map(str::to_owned).collect())
+                        .collect(),
+                });
             }
             if let Some(address) = executed(&line) {
                 self.step(address);
@@ -103,6 +121,11 @@ impl Counter {
                     instructions: 0,
                     cycles: 0,
                 });
+            }
+            if let Some(open) = &self.open
+                && let Some(watch) = self.watches.get_mut(open.function)
+            {
+                watch.step(before, address);
             }
         }
         self.last = Some((address, instruction));
@@ -176,9 +199,16 @@ Trace 0: 0x7f04 [00800408/0000020e/00000110/ff020201] function
 Trace 0: 0x7f05 [00800408/00000104/00000110/ff020201] main
 ";
 
+    fn counted(address: u32, log: &[u8]) -> Vec<Calls> {
+        Counter::new(&[address], Vec::new())
+            .read(log)
+            .unwrap()
+            .calls
+    }
+
     #[test]
     fn a_call_is_counted_to_its_return() {
-        let calls = Counter::new(&[0x200]).read(LOG.as_bytes()).unwrap();
+        let calls = counted(0x200, LOG.as_bytes());
         // vmul 1 and one for its result used at once, vadd 1, taken branch 3, return 3.
         assert_eq!(calls[0].calls, [(4, 9)]);
         assert_eq!(calls[0].ranges(), Some([(4, 4), (9, 9)]));
@@ -189,13 +219,13 @@ Trace 0: 0x7f05 [00800408/00000104/00000110/ff020201] main
         let line = "Trace 0: 0x7f02 [00800408/00000204/00000110/ff020201] function\n";
         let twice = LOG.replace(line, &line.repeat(2));
         assert_ne!(twice, LOG);
-        let calls = Counter::new(&[0x200]).read(twice.as_bytes()).unwrap();
+        let calls = counted(0x200, twice.as_bytes());
         assert_eq!(calls[0].calls, [(4, 9)]);
     }
 
     #[test]
     fn functions_that_are_never_called_have_no_range() {
-        let calls = Counter::new(&[0x300]).read(LOG.as_bytes()).unwrap();
+        let calls = counted(0x300, LOG.as_bytes());
         assert_eq!(calls[0].ranges(), None);
     }
 }

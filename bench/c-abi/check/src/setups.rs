@@ -160,14 +160,15 @@ fn kept<T>(value: T) -> &'static T {
 /// Friction coefficients of a folded ball for a range of them.
 pub const BALL_NODES: usize = 3;
 
-/// The ball screw of Lin 2019, chapter 3.6, without cage, with two waves of deviation a turn on the screw and a triangle on the nut.
+/// The ball screw of Lin 2019, chapter 3.6, without cage, with two waves of deviation a turn on the screw and a triangle on the nut: less than 1
+/// and 0.5 degrees.
 fn without_cage<const NODES: usize>(
     folded: &'static FoldedBall<NODES>,
 ) -> Result<UncagedBallScrewConfiguration<NODES>, Error> {
     let triangle = std::array::from_fn(|sample: usize| {
         let sample = sample as f32;
         let rise = if sample < 32.0 { sample } else { 64.0 - sample };
-        (rise - 16.0) * 0.00125
+        (rise - 16.0) * 0.0005
     });
     let shares = [1.4_f32, 1.2, 1.1, 0.9, 0.8, 0.6]
         .into_iter()
@@ -175,7 +176,7 @@ fn without_cage<const NODES: usize>(
         .collect::<Result<Vec<_>, _>>()?;
     Ok(UncagedBallScrewConfiguration {
         folded,
-        ball_friction: 0.12,
+        ball_friction: 0.1,
         turns: 1.8,
         return_length: 20e-3,
         screw_deviation: kept(DeviationMap::from_harmonics(
@@ -183,13 +184,13 @@ fn without_cage<const NODES: usize>(
             &[
                 Harmonic {
                     order: 1,
-                    cosine: 0.005,
+                    cosine: 0.002,
                     sine: 0.0,
                 },
                 Harmonic {
                     order: 2,
                     cosine: 0.0,
-                    sine: 0.03014,
+                    sine: 0.014,
                 },
             ],
         )?),

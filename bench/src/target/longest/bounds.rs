@@ -1,0 +1,298 @@
+//! What bounds each loop: the one table to which a new loop is added.
+//!
+//! A loop belongs to the function of a crate in whose code all of it stands, inlined or not, by the debug information; iterators of
+//! `core` belong to the function that walks. A loop whose function is not in [`LOOPS`] has no bound, and what contains it
+//! no longest path.
+
+/// How many.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Count {
+    /// A number.
+    Of(u32),
+    /// The balls of the train.
+    Balls,
+    /// One less than the balls of the train.
+    BallsLessOne,
+    /// Half the balls of the train.
+    HalfTheBalls,
+}
+
+/// What a loop does with each way back to its header.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Bound {
+    /// It runs so often at most each time when it is entered.
+    Times(Count),
+    /// It takes one from each of these totals.
+    Takes(&'static [Total]),
+    /// It goes once over all balls, perhaps several in one turn: it writes so many bytes to each in code of a function.
+    Writes(u32, &'static str),
+    /// It stores a part of the bytes that its function was called with.
+    Stores,
+    /// It does not run where addresses are multiples of four, as those are that its function is called with.
+    Never,
+}
+
+/// A total over all loops and places of one call of a function.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Total {
+    /// Balls that a tick takes in: each once, by the scene or by what ends the tick.
+    TakenIn,
+    /// Balls that pooling passes on its walk from the last one backwards: each stands alone, begins a cluster or joins the
+    /// one ahead.
+    Passed,
+    /// Joins: each makes one cluster of two.
+    Joins,
+    /// Balls that are settled: each alone, in front, or pushing.
+    Settled,
+    /// Clusters of two balls or more.
+    Clusters,
+    /// Ways around within the rows that settling walks through: each settles a ball.
+    SettlingWays,
+    /// Ways around within the rows that balancing walks through: each relieves a ball or passes one.
+    BalancingWays,
+}
+
+impl Total {
+    /// The most that there are.
+    pub const fn most(self) -> Count {
+        match self {
+            Self::TakenIn
+            | Self::Passed
+            | Self::Settled
+            | Self::SettlingWays
+            | Self::BalancingWays => Count::Balls,
+            Self::Joins => Count::BallsLessOne,
+            Self::Clusters => Count::HalfTheBalls,
+        }
+    }
+}
+
+/// A row of the table: the loops of a function.
+pub struct Row {
+    /// The function, without lengths of arrays.
+    pub function: &'static str,
+    /// A function whose code stands where the loop goes back; none where the row is for every way back.
+    pub through: Option<&'static str>,
+    /// Its bound.
+    pub bound: Bound,
+}
+
+const fn row(function: &'static str, bound: Bound) -> Row {
+    Row {
+        function,
+        through: None,
+        bound,
+    }
+}
+
+const BALLS: Bound = Bound::Times(Count::Balls);
+
+/// Speed, impedance and slack of each ball.
+const TAKES_IN: Bound = Bound::Writes(12, "epas_friction::train::ball::Ball::take_in");
+
+/// Loops by their functions; the first row that fits counts.
+pub const LOOPS: &[Row] = &[
+    // Arrays of four contacts, of two arcs, and the constant number of Newton steps of a start.
+    row(
+        "epas_friction::ball::elastic::renewal::shortened",
+        Bound::Times(Count::Of(4)),
+    ),
+    row(
+        "epas_friction::ball::elastic::start::Side::of",
+        Bound::Times(Count::Of(2)),
+    ),
+    row(
+        "epas_friction::ball::elastic::grooves::ElasticGrooves::start",
+        Bound::Times(Count::Of(4)),
+    ),
+    // Once over all balls.
+    row("epas_friction::train::press::Press::solve", TAKES_IN),
+    row("epas_friction::train::press::Press::let_go", BALLS),
+    row("epas_friction::train::positions::Train::step", TAKES_IN),
+    row(
+        "epas_friction::scene::uncaged::UncagedConstants::rubbing",
+        BALLS,
+    ),
+    row(
+        "epas_friction::ball::elastic::ring::Ring::begin_anew",
+        BALLS,
+    ),
+    row("epas_friction::ball::elastic::ring::Ring::set", BALLS),
+    // Balls that the scene has not asked for are taken in when the tick ends.
+    row(
+        "epas_friction::scene::uncaged::UncagedConstants::full",
+        Bound::Takes(&[Total::TakenIn]),
+    ),
+    row(
+        "epas_friction::scene::linear::LinearConstants::full",
+        Bound::Takes(&[Total::TakenIn]),
+    ),
+    row(
+        "epas_friction::train::intake::Intake::press",
+        Bound::Takes(&[Total::TakenIn]),
+    ),
+    // "Why joining is exact", `epas_friction::train`: the walk passes each ball once, and every way around `grow` or `close`
+    // is a join; one that grows backwards passes a ball as well.
+    row(
+        "epas_friction::train::pool::pool",
+        Bound::Takes(&[Total::Passed]),
+    ),
+    row(
+        "epas_friction::train::pool::next_front",
+        Bound::Takes(&[Total::Passed]),
+    ),
+    Row {
+        function: "epas_friction::train::pool::grow",
+        through: Some("epas_friction::train::cluster::Cluster::grown"),
+        bound: Bound::Takes(&[Total::Passed, Total::Joins]),
+    },
+    row(
+        "epas_friction::train::pool::grow",
+        Bound::Takes(&[Total::Joins]),
+    ),
+    row(
+        "epas_friction::train::pool::close",
+        Bound::Takes(&[Total::Joins]),
+    ),
+    // The two rows of a ring that opens in front of its foremost ball.
+    row(
+        "epas_friction::train::settle::settle",
+        Bound::Times(Count::Of(2)),
+    ),
+    row(
+        "epas_friction::train::balance::balance",
+        Bound::Times(Count::Of(2)),
+    ),
+    row(
+        "epas_friction::train::settle::Settling::row",
+        Bound::Takes(&[Total::SettlingWays]),
+    ),
+    row(
+        "epas_friction::train::balance::Balancing::row",
+        Bound::Takes(&[Total::BalancingWays]),
+    ),
+    // What the compiler calls to clear and to move memory.
+    row("compiler_builtins::arm::__aeabi_memset4", Bound::Stores),
+    row(
+        "compiler_builtins::mem::impls::copy_forward::copy_forward_aligned_words",
+        Bound::Stores,
+    ),
+    row(
+        "compiler_builtins::mem::impls::copy_backward::copy_backward_aligned_words",
+        Bound::Stores,
+    ),
+    row(
+        "compiler_builtins::mem::impls::set_bytes::set_bytes_bytes",
+        Bound::Never,
+    ),
+    row(
+        "compiler_builtins::mem::impls::copy_forward::copy_forward_bytes",
+        Bound::Never,
+    ),
+    row(
+        "compiler_builtins::mem::impls::copy_backward::copy_backward_bytes",
+        Bound::Never,
+    ),
+    row(
+        "compiler_builtins::mem::impls::copy_forward::copy_forward_misaligned_words",
+        Bound::Never,
+    ),
+    row(
+        "compiler_builtins::mem::impls::copy_backward::copy_backward_misaligned_words",
+        Bound::Never,
+    ),
+];
+
+/// Functions that are inlined in one place and called once for each of a total: counted where their code begins.
+pub const PLACES: &[(&str, Total)] = &[
+    (
+        "epas_friction::train::settle::Settling::alone",
+        Total::Settled,
+    ),
+    (
+        "epas_friction::train::settle::Settling::front",
+        Total::Settled,
+    ),
+    (
+        "epas_friction::train::settle::Settling::pushing",
+        Total::Settled,
+    ),
+    (
+        "epas_friction::train::settle::Settling::front",
+        Total::Clusters,
+    ),
+    (
+        "epas_friction::train::balance::Balancing::rear",
+        Total::Clusters,
+    ),
+];
+
+/// Functions of which one call of another calls one at most.
+pub const ALTERNATIVES: &[[&str; 2]] = &[
+    // A tick in which all balls begin anew renews none.
+    [
+        "epas_friction::ball::elastic::ring::Ring::begin_anew",
+        "epas_friction::ball::elastic::grooves::ElasticGrooves::renew",
+    ],
+];
+
+/// Types whose length is the number of balls of a train.
+const TRAINS: [&str; 9] = [
+    "UncagedBallScrew",
+    "UncagedConstants",
+    "LinearBearingTrain",
+    "LinearConstants",
+    "Press",
+    "Train",
+    "Intake",
+    "Ring",
+    "CircuitState",
+];
+
+/// The number of balls in the name of a function, `Press<37>::join`.
+pub fn balls_in(name: &str) -> Option<u32> {
+    TRAINS.iter().find_map(|train| {
+        name.match_indices(train).find_map(|(place, _)| {
+            let rest = name[place + train.len()..].strip_prefix('<')?;
+            rest.split_once('>')?.0.parse().ok()
+        })
+    })
+}
+
+/// The name of a function without lengths of arrays and brackets.
+pub fn plain(name: &str) -> String {
+    let mut plain = String::with_capacity(name.len());
+    let mut rest = name;
+    while let Some(open) = rest.find('<') {
+        plain.push_str(&rest[..open]);
+        rest = &rest[open + 1..];
+        if let Some((length, after)) = rest.split_once('>')
+            && !length.is_empty()
+            && length.bytes().all(|byte| byte.is_ascii_digit())
+        {
+            rest = after;
+        }
+    }
+    plain.push_str(rest);
+    plain.replace('>', "")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_tell_balls_and_functions() {
+        let name = "<epas_friction::train::press::Press<37>>::join";
+        assert_eq!(balls_in(name), Some(37));
+        assert_eq!(plain(name), "epas_friction::train::press::Press::join");
+        assert_eq!(
+            balls_in("<epas_friction::scene::CagedBallScrew<5>>::step"),
+            None
+        );
+        assert_eq!(
+            plain("epas_friction::train::pool::pool"),
+            "epas_friction::train::pool::pool"
+        );
+    }
+}

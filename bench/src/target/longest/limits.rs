@@ -1,0 +1,208 @@
+//! Limits of a function's loops, from the table of bounds.
+
+use std::collections::BTreeMap;
+
+use super::bounds::{ALTERNATIVES, Bound, LOOPS, PLACES, Row, Total, plain};
+use super::context::Context;
+use super::graph::Graph;
+use super::loops::{Loop, first};
+use super::origin::Origins;
+use super::paths::Limit;
+use super::steps::{Step, Steps};
+
+/// A function as far as it is known.
+pub struct Known<'known, 'data> {
+    /// Its instructions.
+    pub steps: &'known Steps,
+    /// Its flow.
+    pub graph: &'known Graph,
+    /// Its loops.
+    pub loops: &'known [Loop],
+    /// Where its code comes from.
+    pub origins: &'known Origins<'data>,
+    /// For each edge the function that it calls, without lengths of arrays.
+    pub calls: &'known [Option<String>],
+}
+
+/// Limits over all loops and places of a function, with the balls that the first of them knows.
+type Totals = BTreeMap<Total, (Context, Limit)>;
+
+impl Known<'_, '_> {
+    /// All limits, or why there are none.
+    pub fn limits(&self, context: Context) -> Result<Vec<Limit>, String> {
+        let mut totals = Totals::new();
+        let mut limits = Vec::new();
+        for natural in self.loops {
+            limits.extend(self.of_loop(natural, context, &mut totals)?);
+        }
+        self.places(context, &mut totals)?;
+        for (total, (context, mut limit)) in totals {
+            let most = context.count(total.most());
+            limit.most = most.ok_or_else(|| format!("no number of balls for {total:?}"))?;
+            limit.what = format!("{total:?}");
+            limits.push(limit);
+        }
+        limits.extend(ALTERNATIVES.iter().map(|names| self.alternatives(names)));
+        limits.retain(|limit| !limit.terms.is_empty());
+        Ok(limits)
+    }
+
+    /// The limit of a loop by itself, if it has one, and what it takes from totals.
+    fn of_loop(
+        &self,
+        natural: &Loop,
+        context: Context,
+        totals: &mut Totals,
+    ) -> Result<Option<Limit>, String> {
+        let addresses = natural.body.iter().flat_map(|&block| self.addresses(block));
+        let frames = self.origins.common(addresses.copied());
+        let context = context.within(&frames);
+        let mut names = frames.iter().rev().map(|frame| plain(&frame.function));
+        let owner = names.find(|name| is_of_a_crate(name)).unwrap_or_default();
+        let start = self.graph.blocks[natural.header].start();
+        let here = |what: &str| format!("{what} the loop of {owner} at {start:#x}");
+        let mut limit = None;
+        for &back in &natural.back {
+            let row = self.row(&owner, back);
+            let bound = row.ok_or_else(|| here("no bound for"))?.bound;
+            if let Bound::Takes(taken) = bound {
+                for &total in taken {
+                    let entry = totals.entry(total).or_default();
+                    entry.0 = context;
+                    entry.1.add(back, 1.0);
+                }
+            } else {
+                let found = self.limit(natural, bound, context);
+                let mut found = found.ok_or_else(|| here("nothing known to count for"))?;
+                found.what = here("turns of");
+                limit = Some(found);
+            }
+        }
+        Ok(limit)
+    }
+
+    fn addresses(&self, block: usize) -> &[u32] {
+        &self.graph.blocks[block].addresses
+    }
+
+    /// The row of the table for a way back.
+    fn row(&self, owner: &str, back: usize) -> Option<&'static Row> {
+        let from = self.graph.edges[back].from;
+        LOOPS.iter().find(|row| {
+            row.function == owner && row.through.is_none_or(|through| self.has(from, through))
+        })
+    }
+
+    /// Whether code of a function stands in a block.
+    fn has(&self, block: usize, function: &str) -> bool {
+        let mut addresses = self.addresses(block).iter();
+        addresses.any(|&address| self.is_of(address, function))
+    }
+
+    fn is_of(&self, address: u32, function: &str) -> bool {
+        let frames = self.origins.frames(address);
+        frames
+            .iter()
+            .any(|frame| plain(&frame.function) == function)
+    }
+
+    /// The limit of a loop by itself: what all ways back take is no more than what all entries bring.
+    fn limit(&self, natural: &Loop, bound: Bound, context: Context) -> Option<Limit> {
+        let balls = || context.balls.map(f64::from);
+        let (per_back, per_entry) = match bound {
+            Bound::Times(count) => {
+                let first = f64::from(natural.asks_at_its_end(self.graph));
+                (1.0, context.count(count)? - first)
+            }
+            Bound::Writes(bytes, function) => {
+                let written = self.stored(natural, |address| self.is_of(address, function));
+                (f64::from(written), f64::from(bytes) * balls()?)
+            }
+            Bound::Stores => (
+                f64::from(self.stored(natural, |_| true)),
+                f64::from(context.bytes?),
+            ),
+            // What is entered goes around no more than never.
+            Bound::Never => (1.0, -1.0),
+            Bound::Takes(_) => return None,
+        };
+        let mut limit = Limit::default();
+        for &edge in &natural.back {
+            limit.add(edge, per_back);
+        }
+        for &edge in &natural.entries {
+            limit.add(edge, -per_entry);
+        }
+        // The function itself is entered once.
+        limit.most = if natural.header == 0 { per_entry } else { 0.0 };
+        (per_back > 0.0).then_some(limit)
+    }
+
+    /// Bytes that a loop stores in code that counts each time that it goes around.
+    fn stored(&self, natural: &Loop, counts: impl Fn(u32) -> bool) -> u32 {
+        let blocks = natural.always.iter();
+        let addresses = blocks.flat_map(|&block| self.addresses(block));
+        let counted = addresses.filter(|&&address| counts(address));
+        let steps = counted.filter_map(|address| self.steps.get(address));
+        steps.map(bytes_stored).sum()
+    }
+
+    /// Counts functions that are called once for each of a total, where their code begins.
+    fn places(&self, context: Context, totals: &mut Totals) -> Result<(), String> {
+        for &(function, total) in PLACES {
+            let mut blocks: Vec<usize> = (0..self.graph.blocks.len()).collect();
+            blocks.retain(|&block| self.has(block, function));
+            if blocks.is_empty() {
+                continue;
+            }
+            let first = first(self.graph, &blocks)
+                .ok_or_else(|| format!("the code of {function} begins in several places"))?;
+            let entry = totals.entry(total).or_default();
+            entry.0 = context;
+            for edge in self.graph.into(first) {
+                entry.1.add(edge, 1.0);
+            }
+        }
+        Ok(())
+    }
+
+    /// At most one call of these functions.
+    fn alternatives(&self, names: &[&str]) -> Limit {
+        let mut limit = Limit {
+            most: 1.0,
+            what: format!("calls of {}", names.join(" or ")),
+            ..Limit::default()
+        };
+        for (edge, called) in self.calls.iter().enumerate() {
+            if called.as_deref().is_some_and(|name| names.contains(&name)) {
+                limit.add(edge, 1.0);
+            }
+        }
+        limit
+    }
+}
+
+/// Bytes that an instruction surely stores.
+fn bytes_stored(step: &Step) -> u32 {
+    let (name, operands) = step.decoded.text.split_once(' ').unwrap_or_default();
+    match name.split('.').next().unwrap_or_default() {
+        _ if step.conditional => 0,
+        "strd" => 8,
+        "str" => 4,
+        "strb" => 1,
+        "vstr" if operands.starts_with('s') => 4,
+        "vstr" => 8,
+        _ => 0,
+    }
+}
+
+/// Whether a function is of a crate and not of the language.
+fn is_of_a_crate(name: &str) -> bool {
+    let crates = [
+        "epas_friction::",
+        "epas_firmware::",
+        "libm::",
+        "compiler_builtins::",
+    ];
+    crates.iter().any(|start| name.starts_with(start))
+}
