@@ -56,6 +56,6 @@ pub use passage::{Motion, Passage};
 pub use sliding::{Sliding, SlidingFriction};
 pub use stored::StoredScene;
 pub use uncaged::{
-    FoldedBall, UncagedBallScrew, UncagedBallScrewConfiguration, UncagedConstants, UncagedFull,
-    UncagedState,
+    CatalogueBall, FoldedBall, UncagedBallScrew, UncagedBallScrewConfiguration, UncagedConstants,
+    UncagedFull, UncagedState,
 };

@@ -123,12 +123,26 @@ pub struct FreeMotion {
 }
 
 impl BallNumbers {
+    /// All zero.
+    pub const NONE: Self = Self {
+        free: [0.0; POWERS],
+        impedance: [0.0; 3],
+        torque: [0.0; POWERS],
+        slope: 0.0,
+        grip: 0.0,
+        rubbing: 0.0,
+    };
+
     /// These numbers, and a share of the way to others.
     #[inline(always)]
     fn towards(&self, others: &Self, share: f32) -> Self {
         #[inline(always)]
         fn all<const M: usize>(from: &[f32; M], to: &[f32; M], share: f32) -> [f32; M] {
-            core::array::from_fn(|at| from[at] + share * (to[at] - from[at]))
+            let mut all = *from;
+            for (number, to) in all.iter_mut().zip(to) {
+                *number += share * (to - *number);
+            }
+            all
         }
         let one = |from: f32, to: f32| from + share * (to - from);
         Self {

@@ -2,6 +2,7 @@
 //! every ball.
 
 mod block;
+mod closed_form;
 mod configuration;
 mod full;
 mod sliding;
@@ -22,6 +23,7 @@ use crate::error::{Error, attempt, in_range};
 use crate::ranges;
 use crate::train::LARGEST_GRIP;
 
+pub use closed_form::CatalogueBall;
 pub use configuration::{FoldedBall, UncagedBallScrewConfiguration};
 pub use full::UncagedFull;
 

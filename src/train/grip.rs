@@ -40,7 +40,14 @@ impl Grip<true> {
     /// Of this `r`, at most [`LARGEST_GRIP`] in size.
     #[inline(always)]
     pub(crate) fn new(grip: f32) -> Self {
-        let grip = grip.clamp(-LARGEST_GRIP, LARGEST_GRIP);
+        // Not `clamp`, which keeps a panic for bounds that are not ordered.
+        let grip = if grip > LARGEST_GRIP {
+            LARGEST_GRIP
+        } else if grip > -LARGEST_GRIP {
+            grip
+        } else {
+            -LARGEST_GRIP
+        };
         let (more, less) = (1.0 + grip, 1.0 - grip);
         // One division for all.
         let both = 1.0 / (more * less);

@@ -2,21 +2,33 @@
 //! `cargo run --release -p epas-design --example uncaged -- NAME [FRICTION [CLEARANCE_um [SCREW_deg NUT_deg]]]`; a friction coefficient `0.05:0.15`
 //! is a range.
 
-use epas_design::uncaged::UncagedFigure;
+use epas_design::uncaged::RowFigures;
 use epas_design::{CagedDesign, Failure, UncagedDesign, UncagedFold};
 use epas_friction::{
     BallScrew, CATALOGUE, Clearance, DISSERTATION_DESIGNS, Limits, RollingResistance,
 };
 
-fn line(name: &str, figure: &UncagedFigure) {
+fn figures(name: &str, figures: &RowFigures) {
     println!(
-        "{name:28} rms {:.3} %, largest {:.3} % at {:.1} N, {:.4}; mean {:.4} %",
-        100.0 * figure.rms,
-        100.0 * figure.largest,
-        figure.worst_load,
-        figure.worst_friction,
-        100.0 * figure.mean
+        "{name}: {} rows, {:.1} % flagged",
+        figures.rows,
+        100.0 * figures.flagged
     );
+    for (name, figure) in [
+        ("torque", &figures.torque),
+        ("torque, unflagged", &figures.unflagged_torque),
+        ("forces", &figures.forces),
+        ("forces, unflagged", &figures.unflagged_forces),
+    ] {
+        println!(
+            "    {name:18} rms {:.3} %, largest {:.3} % at {:.1} N, {:.4}; mean {:.4} %",
+            100.0 * figure.rms,
+            100.0 * figure.largest,
+            figure.worst_load,
+            figure.worst_friction,
+            100.0 * figure.mean
+        );
+    }
 }
 
 fn main() -> Result<(), Failure> {
@@ -66,18 +78,11 @@ fn main() -> Result<(), Failure> {
     let folded = fold.folded()?;
     let certificate = &folded.certificate;
     println!(
-        "{name}, digest {:016x}: {:.1} s; {} rows of {} balls, {} unsolved, seed {}; {:.1} % flagged",
-        folded.digest,
-        folded.seconds,
-        certificate.rows,
-        certificate.balls / certificate.rows,
-        certificate.unsolved,
-        certificate.seed,
-        100.0 * certificate.flagged
+        "{name}, digest {:016x}: {:.1} s; rows of {} balls, {} unsolved, seed {}",
+        folded.digest, folded.seconds, certificate.balls, certificate.unsolved, certificate.seed,
     );
-    line("torque", &certificate.torque);
-    line("torque, unflagged rows", &certificate.unflagged_torque);
-    line("forces", &certificate.forces);
-    line("forces, unflagged rows", &certificate.unflagged_forces);
+    figures("no friction between balls", &certificate.smooth);
+    figures("friction 0.1 between balls", &certificate.rubbing);
+    figures("of them, lightly", &certificate.lightly_rubbing);
     Ok(())
 }

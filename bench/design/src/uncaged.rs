@@ -14,10 +14,10 @@ use epas_friction::scene::FoldedBall;
 use rayon::prelude::*;
 use sha2::{Digest, Sha256};
 
-use crate::caged::{APART, CagedDesign, Exact, FRICTION, LARGEST_LOAD, in_range};
 use crate::Failure;
-use ball::{Balls, Speeds};
-pub use certificate::{UncagedCertificate, UncagedFigure};
+use crate::caged::{APART, CagedDesign, Exact, FRICTION, LARGEST_LOAD, in_range};
+use ball::{Balls, Speeds, exact_ball};
+pub use certificate::{RowFigures, UncagedCertificate, UncagedFigure};
 use fit::{Branch, Fit, Numbers};
 
 /// Nodes of a range of friction coefficients.
@@ -32,10 +32,13 @@ const BELOW: f64 = 10.0;
 const WEIGHT_BELOW: f64 = 0.05;
 
 /// Error of the forces that hold balls, over their root mean square, from which on forces between balls are not held under a load.
-const UNHELD: f64 = 0.02;
+const UNHELD: f64 = 0.012;
 
-/// A largest error of a row's torque from which on a domain is not held.
+/// A largest error of the torque of a row without friction between balls, from which on a domain is not held.
 const LARGEST_ERROR: f64 = 0.03;
+
+/// Share of the work that the fold is, beside its certificate.
+const FOLDED: f64 = 0.3;
 
 /// Range of a largest deviation, rad.
 const DEVIATION: Range = Range::new(1e-4, 0.1);
@@ -121,20 +124,17 @@ impl UncagedFold {
     ///
     /// # Errors
     /// As [`Self::folded`].
-    pub fn folded_with(
-        &self,
-        progress: &(dyn Fn(f64) + Sync),
-    ) -> Result<FoldedUncaged, Failure> {
+    pub fn folded_with(&self, progress: &(dyn Fn(f64) + Sync)) -> Result<FoldedUncaged, Failure> {
         let begun = Instant::now();
         progress(0.0);
         let block = self.block()?;
-        progress(0.5);
+        progress(FOLDED);
+        let certified = |share: f64| progress(FOLDED + (1.0 - FOLDED) * share);
         let certificate = match &block {
-            UncagedBlock::One(block) => UncagedCertificate::of(self, &block.law),
-            UncagedBlock::Range(block) => UncagedCertificate::of(self, &block.law),
+            UncagedBlock::One(block) => UncagedCertificate::of(self, &block.law, &certified),
+            UncagedBlock::Range(block) => UncagedCertificate::of(self, &block.law, &certified),
         }?;
-        progress(1.0);
-        let torque = &certificate.torque;
+        let torque = &certificate.smooth.torque;
         if torque.largest > LARGEST_ERROR {
             return Err(Failure::Domain(format!(
                 "the torque of a row of balls is held to {:.1} % only, largest at {:.3} N a ball, friction coefficient {:.4}; narrow the \
@@ -194,7 +194,7 @@ impl UncagedFold {
         let gear = &self.gear.gear;
         let law = self.law(frictions)?;
         law.checked()?;
-        let speeds = Speeds::of(&gear.exact_ball(gear.friction).design);
+        let speeds = Speeds::of(&exact_ball(gear, gear.friction).design);
         let (least, largest) = law.friction_range();
         Ok(FoldedBall {
             law,
@@ -218,10 +218,15 @@ impl UncagedFold {
             .collect::<Result<Vec<Branch>, Failure>>()?;
         let nodes = std::array::from_fn(|node| {
             let of = |branch: usize| &branches[2 * node + branch];
+            // Between two nodes forces are held where both hold them.
+            let unheld = |branch: usize| {
+                let next = branches.get(2 * (node + 1) + branch);
+                unheld(of(branch), of(branch)) | next.map_or(0, |next| unheld(next, of(branch)))
+            };
             BallNode {
                 friction: frictions[node],
                 branches: [knots_of(of(0)), knots_of(of(1))],
-                unheld: [unheld(of(0)), unheld(of(1))],
+                unheld: [unheld(0), unheld(1)],
             }
         });
         Ok(BallLaw {
@@ -251,7 +256,7 @@ impl UncagedFold {
         lift_off: f64,
     ) -> Result<Branch, Failure> {
         let gear = &self.gear.gear;
-        let ball = gear.exact_ball(friction);
+        let ball = exact_ball(gear, friction);
         let balls = Balls {
             ball,
             deviations: self.gear.deviations.map(f64::from),
@@ -263,7 +268,13 @@ impl UncagedFold {
         let least = f64::from(self.axial_load[0]) + lift_off;
         let weights: Vec<f64> = samples
             .iter()
-            .map(|sample| if sample.load < 0.999 * least { WEIGHT_BELOW } else { 1.0 })
+            .map(|sample| {
+                if sample.load < 0.999 * least {
+                    WEIGHT_BELOW
+                } else {
+                    1.0
+                }
+            })
             .collect();
         let speeds = Speeds::of(&ball.design);
         Ok(Fit::new(&samples, &weights, speeds.against_nut).branch())
@@ -306,11 +317,17 @@ fn rounded(numbers: &Numbers) -> BallNumbers {
     }
 }
 
-/// A bit for each knot up to the next of which forces are not held.
-fn unheld(branch: &Branch) -> u32 {
+/// A bit for each knot of `knots` up to the next of which a branch does not hold forces.
+fn unheld(branch: &Branch, knots: &Branch) -> u32 {
     branch
         .errors
         .iter()
         .filter(|errors| errors.force > UNHELD)
-        .fold(0, |bits, errors| bits | 1 << errors.knot)
+        .map(|errors| {
+            let above = knots
+                .knots
+                .partition_point(|(load, _)| *load <= errors.load);
+            above.clamp(1, knots.knots.len() - 1) - 1
+        })
+        .fold(0, |bits, knot| bits | 1 << knot)
 }

@@ -24,7 +24,7 @@ use epas_friction::law::motion::{
     AngleReading, CountReading, CountSensor, CountSensorParameters, NutAngle, Play, PlayState,
     SpeedOverTick, Steady, SteadyReading, WrappedAngle, WrappedAngleParameters,
 };
-use epas_friction::scene::{CagedBallScrew, CagedConstants, UncagedConstants, UncagedBallScrew};
+use epas_friction::scene::{CagedBallScrew, CagedConstants, UncagedBallScrew, UncagedConstants};
 use epas_friction::train::{Press, Train};
 use epas_friction::{
     BallScrew, CATALOGUE, ClosedFormScrew, DeviationMap, Error, FrictionModel, Inputs,
@@ -341,7 +341,9 @@ fn between_nodes(
 }
 
 /// A ball screw that has turned with its load falling.
-fn pressing(mut model: FrictionModel<UncagedBallScrew<BALLS>>) -> FrictionModel<UncagedBallScrew<BALLS>> {
+fn pressing(
+    mut model: FrictionModel<UncagedBallScrew<BALLS>>,
+) -> FrictionModel<UncagedBallScrew<BALLS>> {
     for tick in 0..200_u8 {
         let _ = model.step(Inputs {
             nut_speed: 40.0,

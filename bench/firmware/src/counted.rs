@@ -29,7 +29,7 @@ use epas_friction::law::motion::{
 };
 use epas_friction::law::{Elements, SlidingLimits};
 use epas_friction::scene::{
-    CagedBallScrew, CagedConstants, UncagedConstants, UncagedBallScrew, WithMemoryInputs,
+    CagedBallScrew, CagedConstants, UncagedBallScrew, UncagedConstants, WithMemoryInputs,
 };
 use epas_friction::train::{Press, Train};
 use epas_friction::{

@@ -6,8 +6,8 @@ use epas_friction::law::coefficient::{CoefficientLaw, OneCoefficient, Temperatur
 use epas_friction::law::memory::{Part, ProportionalElements, SLIP_8};
 use epas_friction::law::motion::{CountSensor, CountSensorParameters, SpeedOverTick};
 use epas_friction::scene::{
-    Freshness, UncagedBallScrew, UncagedBallScrewConfiguration, WithMemory, WithMemoryConfiguration,
-    WithMemoryInputs,
+    Freshness, UncagedBallScrew, UncagedBallScrewConfiguration, WithMemory,
+    WithMemoryConfiguration, WithMemoryInputs,
 };
 use epas_friction::{
     Error, FrictionModel, Inputs, LinearBearingConfiguration, LinearBearingTrain, LinearInputs,

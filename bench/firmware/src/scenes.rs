@@ -11,9 +11,8 @@ use epas_friction::law::coefficient::{CoefficientLaw, OneCoefficient, Temperatur
 use epas_friction::law::memory::{Part, ProportionalElements, SLIP_8};
 use epas_friction::law::motion::SpeedOverTick;
 use epas_friction::scene::{
-    CagedBallScrew, CagedConstants, Freshness, UncagedConstants, UncagedBallScrew,
-    UncagedBallScrewConfiguration, WithMemory, WithMemoryConfiguration, WithMemoryConstants,
-    WithMemoryInputs,
+    CagedBallScrew, CagedConstants, Freshness, UncagedBallScrew, UncagedBallScrewConfiguration,
+    UncagedConstants, WithMemory, WithMemoryConfiguration, WithMemoryConstants, WithMemoryInputs,
 };
 use epas_friction::{
     BallScrew, Clearance, ClosedFormScrewConfiguration, DISSERTATION_DESIGNS, DeviationMap, Error,

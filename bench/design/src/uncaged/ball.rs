@@ -5,9 +5,10 @@ use epas_reference::friction::caged_ball::CagedBall;
 use epas_reference::friction::held_ball::{
     AlongTrack, BallDrive, BallStart, DeviatingBall, HeldBall, HeldBallFriction,
 };
+use epas_reference::friction::patch::Integration;
 use rayon::prelude::*;
 
-use crate::Failure;
+use crate::{CagedDesign, Failure};
 
 /// Deviations at which balls are solved: a grid of Gauss-Lobatto points, over the largest deviations.
 pub(super) const POINTS: usize = SIDE * SIDE;
@@ -25,6 +26,15 @@ const MOST_RUBBING: f64 = 0.12;
 
 /// Loads that may be left without an exact answer, as a share.
 const UNSOLVED: f64 = 0.02;
+
+/// The exact ball of a gear with a friction coefficient, its contact integrals with 32 nodes: off by 1e-5 of a contact's friction limit, in a
+/// fifth of the time.
+pub(super) fn exact_ball(gear: &CagedDesign, friction: f32) -> CagedBall {
+    CagedBall {
+        integration: Integration::Coarse,
+        ..gear.exact_ball(friction)
+    }
+}
 
 /// Place of a point of the grid in the box, -1 to 1 each.
 pub(super) fn place(point: usize) -> [f64; 2] {

@@ -1,20 +1,25 @@
 //! Errors of a folded law against rows of exact balls that press on each other, on states that were not fitted.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use epas_friction::ball::pressed::BallLaw;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use rayon::prelude::*;
 
 use super::UncagedFold;
-use super::ball::Speeds;
+use super::ball::{Speeds, exact_ball};
 use super::ring::{BALLS, Row, RowAnswer};
 use crate::Failure;
 
 /// Rows of a certificate.
 pub const ROWS: usize = 64;
 
-/// Friction coefficient between the balls of every other row; the others have none.
+/// Friction coefficient between the balls of every fourth pair of rows; the others have none.
 const BALL_FRICTION: f32 = 0.1;
+
+/// Friction force between two balls over `mu W` up to which balls rub lightly.
+const LIGHT: f64 = 0.1;
 
 /// Rows that may be left without an exact answer, as a share.
 const UNSOLVED: f64 = 0.1;
@@ -24,15 +29,27 @@ const UNSOLVED: f64 = 0.1;
 pub struct UncagedCertificate {
     /// Seed of its rows.
     pub seed: u64,
-    /// Rows, and balls in all of them.
-    pub rows: usize,
-    /// Balls in all rows.
+    /// Balls of a row.
     pub balls: usize,
-    /// Rows for which the exact solver found no answer: not counted.
+    /// Rows for which the exact solver found no answer: counted in no figure.
     pub unsolved: usize,
-    /// Share of the rows that the step flags.
+    /// Rows without friction between balls.
+    pub smooth: RowFigures,
+    /// Rows with a friction coefficient of 0.1 between balls.
+    pub rubbing: RowFigures,
+    /// Those of them in which no friction force between balls is above a tenth of `mu W`. Where one is, it takes from a ball the hold on its
+    /// grooves, of which the law knows nothing.
+    pub lightly_rubbing: RowFigures,
+}
+
+/// Errors on some of the rows.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct RowFigures {
+    /// Rows.
+    pub rows: usize,
+    /// Share of them that the step flags.
     pub flagged: f64,
-    /// Friction torque of a row, relative error: of all rows.
+    /// Friction torque, relative error: of all rows.
     pub torque: UncagedFigure,
     /// The same of rows that are not flagged.
     pub unflagged_torque: UncagedFigure,
@@ -63,6 +80,8 @@ struct Found {
     exact: RowAnswer,
     folded: RowAnswer,
     flagged: bool,
+    /// Load `W` of a ball, N.
+    load: f64,
 }
 
 impl Found {
@@ -70,15 +89,27 @@ impl Found {
         vec![self.folded.torque / self.exact.torque - 1.0]
     }
 
+    fn largest_force(&self) -> f64 {
+        self.exact.forces.iter().copied().fold(0.0, f64::max)
+    }
+
+    /// Largest friction force between two balls over `mu W`.
+    fn rubbing(&self) -> f64 {
+        let friction = f64::from(self.row.ball_friction) * self.largest_force();
+        friction / (f64::from(self.row.friction) * self.load)
+    }
+
     fn force_errors(&self) -> Vec<f64> {
-        let largest = self.exact.forces.iter().copied().fold(0.0, f64::max);
+        let largest = self.largest_force();
         let pairs = self.folded.forces.iter().zip(&self.exact.forces);
-        pairs.map(|(found, exact)| (found - exact) / largest).collect()
+        pairs
+            .map(|(found, exact)| (found - exact) / largest)
+            .collect()
     }
 }
 
 impl UncagedFigure {
-    fn of<'a>(found: impl Iterator<Item = &'a Found>, errors: fn(&Found) -> Vec<f64>) -> Self {
+    fn of(found: &[&Found], errors: fn(&Found) -> Vec<f64>) -> Self {
         let (mut figure, mut count) = (Self::default(), 0.0_f64);
         for found in found {
             for error in errors(found) {
@@ -99,22 +130,42 @@ impl UncagedFigure {
     }
 }
 
+impl RowFigures {
+    fn of<'a>(rows: impl Iterator<Item = &'a Found>) -> Self {
+        let all: Vec<&Found> = rows.collect();
+        let unflagged: Vec<&Found> = all.iter().copied().filter(|row| !row.flagged).collect();
+        let flagged = all.len() - unflagged.len();
+        Self {
+            rows: all.len(),
+            flagged: flagged as f64 / all.len().max(1) as f64,
+            torque: UncagedFigure::of(&all, Found::torque_errors),
+            unflagged_torque: UncagedFigure::of(&unflagged, Found::torque_errors),
+            forces: UncagedFigure::of(&all, Found::force_errors),
+            unflagged_forces: UncagedFigure::of(&unflagged, Found::force_errors),
+        }
+    }
+}
+
 impl UncagedCertificate {
     pub(super) fn of<const N: usize>(
         fold: &UncagedFold,
         law: &BallLaw<N>,
+        progress: &(dyn Fn(f64) + Sync),
     ) -> Result<Self, Failure> {
-        let ball = fold.gear.gear.exact_ball(fold.gear.gear.friction);
+        let ball = exact_ball(&fold.gear.gear, fold.gear.gear.friction);
         let speeds = Speeds::of(&ball.design);
-        let rows = rows(fold, law.friction_range());
-        let found: Vec<Option<Found>> = rows
+        let done = AtomicUsize::new(0);
+        let found: Vec<Option<Found>> = rows(fold, law.friction_range())
             .into_par_iter()
             .map(|row| {
-                let exact = row.exact(&ball, fold.gear.deviations).ok()?;
+                let exact = row.exact(&ball, fold.gear.deviations);
+                let rows = done.fetch_add(1, Ordering::Relaxed) + 1;
+                progress(rows as f64 / ROWS as f64);
                 Some(Found {
+                    exact: exact.ok()?,
                     folded: row.folded(law, &speeds),
                     flagged: row.is_flagged(law),
-                    exact,
+                    load: law.load_of(row.axial_load).into(),
                     row,
                 })
             })
@@ -126,24 +177,20 @@ impl UncagedCertificate {
             )));
         }
         let found: Vec<Found> = found.into_iter().flatten().collect();
-        let flagged = found.iter().filter(|found| found.flagged).count();
-        let unflagged = || found.iter().filter(|found| !found.flagged);
+        let rubbing = || found.iter().filter(|found| found.row.ball_friction > 0.0);
         Ok(Self {
             seed: fold.seed,
-            rows: found.len(),
-            balls: BALLS * found.len(),
+            balls: BALLS,
             unsolved,
-            flagged: flagged as f64 / found.len() as f64,
-            torque: UncagedFigure::of(found.iter(), Found::torque_errors),
-            unflagged_torque: UncagedFigure::of(unflagged(), Found::torque_errors),
-            forces: UncagedFigure::of(found.iter(), Found::force_errors),
-            unflagged_forces: UncagedFigure::of(unflagged(), Found::force_errors),
+            smooth: RowFigures::of(found.iter().filter(|found| found.row.ball_friction == 0.0)),
+            rubbing: RowFigures::of(rubbing()),
+            lightly_rubbing: RowFigures::of(rubbing().filter(|found| found.rubbing() <= LIGHT)),
         })
     }
 }
 
-/// Rows over the whole domain: in turns with a load that opposes the motion and one that assists it, and in turns of two without and with
-/// friction between balls.
+/// Rows over the whole domain: in turns with a load that opposes the motion and one that assists it, and a quarter of each with friction
+/// between balls.
 fn rows(fold: &UncagedFold, (low, high): (f32, f32)) -> Vec<Row> {
     let mut random = Pcg64::seed_from_u64(fold.seed);
     let [least, most] = fold.axial_load;
@@ -154,7 +201,7 @@ fn rows(fold: &UncagedFold, (low, high): (f32, f32)) -> Vec<Row> {
             Row {
                 friction: (low * (high / low).powf(random.random_range(0.0..1.0_f32)))
                     .clamp(low, high),
-                ball_friction: if row / 2 % 2 == 0 { 0.0 } else { BALL_FRICTION },
+                ball_friction: if row / 2 % 4 == 3 { BALL_FRICTION } else { 0.0 },
                 axial_load: side * load,
                 deviations: std::array::from_fn(|_| {
                     std::array::from_fn(|_| random.random_range(-1.0..1.0_f32))

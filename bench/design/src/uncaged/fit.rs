@@ -54,9 +54,8 @@ pub(super) struct Branch {
 /// Errors of a law under one load, over the grid.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Errors {
-    /// Load, N, and knot below it.
+    /// Load, N.
     pub load: f64,
-    pub knot: usize,
     /// Root mean square of the errors of the forces that hold balls, over that of the forces.
     pub force: f64,
     /// Largest error of the torque of a held ball over the mean torque.
@@ -421,7 +420,6 @@ impl<'a> Fit<'a> {
                 }
                 Errors {
                     load: sample.load,
-                    knot: place.knot,
                     force: (squares / POINTS as f64).sqrt() / self.forces[load],
                     torque: torque / self.torques[load],
                 }
