@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 
-use epas_design::uncaged::{NODES, UncagedBlock, UncagedFigure};
+use epas_design::uncaged::{NODES, RowFigures, UncagedBlock, UncagedCertificate, UncagedFigure};
 use epas_design::{Certificate, Figure, Folded, FoldedUncaged};
 use serde::Serialize;
 
@@ -128,17 +128,7 @@ impl Made {
                     digest: format!("{:016x}", folded.digest),
                     bytes,
                     domain,
-                    certificate: of_rows(folded)
-                        .map(|(quantity, figure, unit)| ShownFigure {
-                            quantity,
-                            largest: figure.largest,
-                            rms: figure.rms,
-                            mean: figure.mean,
-                            states: certificate.rows,
-                            flagged: certificate.flagged,
-                            unit,
-                        })
-                        .into(),
+                    certificate: of_rows(certificate).collect(),
                     seed: certificate.seed,
                     two_answers: None,
                     unsolved: certificate.unsolved,
@@ -215,7 +205,7 @@ impl Made {
         )?;
         writeln!(
             out,
-            "certificate      largest      rms       mean  states  flagged"
+            "certificate                   largest      rms       mean  states  flagged"
         )?;
         match self {
             Self::Caged(folded) => {
@@ -316,19 +306,44 @@ fn of_ball(figure: &Figure) -> ShownFigure {
     }
 }
 
-/// Figures of rows of balls, flagged ones in the count.
-fn of_rows(folded: &FoldedUncaged) -> [(&'static str, &UncagedFigure, &'static str); 2] {
-    let certificate = &folded.certificate;
+/// Figures of rows of balls, flagged ones in the count: of rows without friction between balls, with it, and of those of them that rub lightly.
+fn of_rows(certificate: &UncagedCertificate) -> impl Iterator<Item = ShownFigure> {
+    let shown = |quantity, figure: &UncagedFigure, of: &RowFigures, unit| ShownFigure {
+        quantity,
+        largest: figure.largest,
+        rms: figure.rms,
+        mean: figure.mean,
+        states: of.rows,
+        flagged: of.flagged,
+        unit,
+    };
     [
-        ("ring_torque", &certificate.torque, "relative"),
-        ("ring_force", &certificate.forces, "of the largest"),
+        ("ring_torque", "ring_force", &certificate.smooth),
+        (
+            "rubbing_ring_torque",
+            "rubbing_ring_force",
+            &certificate.rubbing,
+        ),
+        (
+            "lightly_rubbing_ring_torque",
+            "lightly_rubbing_ring_force",
+            &certificate.lightly_rubbing,
+        ),
     ]
+    .into_iter()
+    .filter(|(.., of)| of.rows > 0)
+    .flat_map(move |(torque, force, of)| {
+        [
+            shown(torque, &of.torque, of, "relative"),
+            shown(force, &of.forces, of, "of the largest"),
+        ]
+    })
 }
 
 fn line(out: &mut dyn Write, figure: &ShownFigure) -> io::Result<()> {
     writeln!(
         out,
-        "{:14} {:7.3} % {:6.3} % {:+8.4} % {:7} {:6.2} %",
+        "{:27} {:7.3} % {:6.3} % {:+8.4} % {:7} {:6.2} %",
         figure.quantity,
         100.0 * figure.largest,
         100.0 * figure.rms,
@@ -359,31 +374,21 @@ fn notes(out: &mut dyn Write, seed: u64, figure: &Figure) -> io::Result<()> {
 /// The same of rows of balls.
 fn notes_of_rows(out: &mut dyn Write, folded: &FoldedUncaged) -> io::Result<()> {
     let certificate = &folded.certificate;
-    for (quantity, figure, unit) in of_rows(folded) {
-        line(
-            out,
-            &ShownFigure {
-                quantity,
-                largest: figure.largest,
-                rms: figure.rms,
-                mean: figure.mean,
-                states: certificate.rows,
-                flagged: certificate.flagged,
-                unit,
-            },
-        )?;
-        writeln!(
-            out,
-            "               largest at {:.4} N a ball, friction coefficient {:.4}",
-            figure.worst_load, figure.worst_friction
-        )?;
+    for figure in of_rows(certificate) {
+        line(out, &figure)?;
     }
+    let UncagedFigure {
+        worst_load,
+        worst_friction,
+        ..
+    } = certificate.smooth.torque;
     writeln!(
         out,
         "Errors against the exact solver, on rows of {} touching balls that were not fitted (seed {}), flagged rows in the count: of the torque of \
-         a row, relative; of the forces between its balls, over the largest of the row.",
-        certificate.balls / certificate.rows.max(1),
-        certificate.seed,
+         a row, relative, without friction between balls largest at {worst_load:.4} N a ball, friction coefficient {worst_friction:.4}; of the forces \
+         between its balls, over the largest of the row. Rubbing: with a friction coefficient of 0.1 between balls, which takes from a ball the \
+         hold on its grooves where it is large; lightly: where no friction force between balls is above a tenth of friction coefficient times load.",
+        certificate.balls, certificate.seed,
     )?;
     unsolved(out, certificate.unsolved, "rows")
 }
