@@ -36,6 +36,7 @@ pub mod waves;
 
 use self::choice::{Start, Wanted};
 use self::evidence::Evidence;
+use self::exact::Spacing;
 use self::friction::Screw;
 use self::hints::ScrewHints;
 use self::problem::{Choice, ScrewProblem};
@@ -68,6 +69,8 @@ pub struct Request {
     pub rows: RowSettings,
     /// How the fit is made.
     pub fit: FitSettings,
+    /// How closely the exact ball is solved for the search; the answer is then found with [`Spacing::FINE`].
+    pub search: Spacing,
     /// Whether other models of friction are not fitted.
     pub without_models: bool,
     /// Names of the parameters whose profile likelihoods are found.
@@ -88,6 +91,7 @@ impl Default for Request {
                 starts: 4,
                 ..FitSettings::default()
             },
+            search: Spacing::COARSE,
             without_models: false,
             profiles: Vec::new(),
             unseen: None,
@@ -166,9 +170,9 @@ pub fn calibrate(
     let measured = (trace, &motion, &rows);
     let other = unseen
         .as_ref()
-        .map(|unseen| unseen.problem(screw, values, choice.clone()))
+        .map(|unseen| unseen.problem(screw, values, choice.clone(), request.search))
         .transpose()?;
-    let problem = ScrewProblem::new(screw, measured, &smoothing, values, choice)?;
+    let problem = ScrewProblem::new(screw, measured, &smoothing, values, choice, request.search)?;
     let hints = ScrewHints { evidence, values };
     let told = tell(&problem, &request.fit, &hints)?;
     if let Some(refusal) = told.fit.refusal() {
@@ -267,10 +271,18 @@ impl<'a> Unseen<'a> {
         mut screw: Screw,
         values: Values,
         choice: Choice,
+        spacing: Spacing,
     ) -> Result<ScrewProblem<'_>, Failure> {
         let evidence = Evidence::of(self.trace, &self.motion);
         screw.largest_load = screw.largest_load.max(evidence.largest_load());
-        ScrewProblem::new(screw, self.measured(), &self.smoothing, values, choice)
+        ScrewProblem::new(
+            screw,
+            self.measured(),
+            &self.smoothing,
+            values,
+            choice,
+            spacing,
+        )
     }
 }
 

@@ -9,6 +9,7 @@ use crate::calibrate::fit::problem::Separable;
 use crate::calibrate::screw::Request;
 use crate::calibrate::screw::choice::{Start, Wanted};
 use crate::calibrate::screw::evidence::Evidence;
+use crate::calibrate::screw::exact::Spacing;
 use crate::calibrate::screw::problem::ScrewProblem;
 use crate::calibrate::signals::{Motion, Rows};
 use crate::calibrate::trace::{Coordinate, Repairs, Trace};
@@ -91,7 +92,12 @@ fn problem(
     } = Start::of(design, &evidence, wanted)?;
     let measured = (trace, motion, rows);
     Ok(Box::new(ScrewProblem::new(
-        screw, measured, &smoothing, values, choice,
+        screw,
+        measured,
+        &smoothing,
+        values,
+        choice,
+        Spacing::FINE,
     )?))
 }
 

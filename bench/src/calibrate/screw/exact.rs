@@ -3,6 +3,9 @@
 //! The ball is solved on a grid of friction coefficients and preloads, each node when a fit first comes near it, and kept: a fit then
 //! evaluates polynomials. `q = T / (mu W)` of one ball, with `W = |F| + F_0` and the lift-off load `F_0`, is interpolated by cubics along the
 //! logarithms of `W/F_0`, of the coefficient and of the gap. At equal `W/F_0` a contact opens at about the same place whatever the preload is.
+//!
+//! A search crosses many nodes and needs none of them exactly: it runs on a grid with [`Spacing::COARSE`]. The answer and its covariance come
+//! from a grid with [`Spacing::FINE`], of which only the nodes around the answer are solved.
 
 use std::collections::HashMap;
 use std::f32::consts::TAU;
@@ -25,18 +28,86 @@ use rayon::prelude::*;
 
 use super::recent::Recent;
 
-/// Ratio of neighbouring friction coefficients with a preload, and with play, where regimes move faster with the coefficient.
-const FRICTION_RATIO: f64 = 1.08;
-const FRICTION_RATIO_WITH_PLAY: f64 = 1.03;
-
-/// Ratio of neighbouring oversizes.
-const GAP_RATIO: f64 = 1.2;
-
-/// Loads in an octave; those around the lift-off of a preload, where the torque changes within a few percent of the load, and the octaves
-/// above none between which they lie.
-const IN_AN_OCTAVE: f64 = 20.0;
-const AT_LIFT_OFF: f64 = 80.0;
+/// Octaves above none between which a contact of a preload lifts off, and the torque changes within a few percent of the load.
 const LIFT_OFF: (f64, f64) = (0.6, 1.2);
+
+/// How closely the nodes of a grid lie, and how the contacts of its ball are integrated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spacing {
+    /// Ratio of neighbouring friction coefficients with a preload.
+    friction: f64,
+    /// The same with play, where regimes move faster with the coefficient.
+    friction_with_play: f64,
+    /// Ratio of neighbouring oversizes.
+    gap: f64,
+    /// Loads in an octave.
+    in_an_octave: f64,
+    /// Loads in an octave around the lift-off of a preload.
+    at_lift_off: f64,
+    /// Nodes of the contact integrals.
+    integration: Integration,
+}
+
+impl Spacing {
+    /// For an answer.
+    ///
+    /// 32 nodes of a contact integral err by less than a tenth of what the interpolation between loads does, and take a third of the time.
+    pub const FINE: Self = Self {
+        friction: 1.08,
+        friction_with_play: 1.03,
+        gap: 1.2,
+        in_an_octave: 20.0,
+        at_lift_off: 80.0,
+        integration: Integration::Coarse,
+    };
+
+    /// For a search: twice as wide in each direction, so that it takes an eighth of the time for the same range. It errs by some parts in a
+    /// thousand of the friction.
+    pub const COARSE: Self = Self {
+        friction: 1.17,
+        friction_with_play: 1.06,
+        gap: 1.4,
+        in_an_octave: 10.0,
+        at_lift_off: 40.0,
+        ..Self::FINE
+    };
+
+    /// For numbers that are written: few nodes, integrated to the last digit.
+    pub const WRITTEN: Self = Self {
+        integration: Integration::Full,
+        ..Self::FINE
+    };
+
+    /// Ratio of neighbouring friction coefficients.
+    const fn friction_ratio(&self, play: bool) -> f64 {
+        if play {
+            self.friction_with_play
+        } else {
+            self.friction
+        }
+    }
+
+    /// Place of a load on the grid, from its octaves above the first one.
+    fn load_place(&self, octaves: f64, preloaded: bool) -> f64 {
+        let (begin, end) = LIFT_OFF;
+        let finer = self.at_lift_off - self.in_an_octave;
+        let near = octaves.clamp(begin, end) - begin;
+        self.in_an_octave * octaves + if preloaded { finer * near } else { 0.0 }
+    }
+
+    /// Octaves of a load above the first one, from its place on the grid.
+    fn load_octaves(&self, place: f64, preloaded: bool) -> f64 {
+        let (begin, end) = LIFT_OFF;
+        let [low, high] = [begin, end].map(|octaves| self.load_place(octaves, preloaded));
+        if !preloaded || place <= low {
+            place / self.in_an_octave
+        } else if place <= high {
+            begin + (place - low) / self.at_lift_off
+        } else {
+            end + (place - high) / self.in_an_octave
+        }
+    }
+}
 
 /// Octaves below the largest load that are solved without a preload; below them friction is in proportion to the load.
 const OCTAVES: f64 = 10.0;
@@ -59,7 +130,7 @@ const DRAG: f64 = 1.0;
 const POINTS: usize = 4;
 
 /// Grids that are kept.
-static GRIDS: Recent<(CagedDesign, f64), Arc<Grid>> = Recent::new(8);
+static GRIDS: Recent<(CagedDesign, f64, Spacing), Arc<Grid>> = Recent::new(8);
 
 /// What of a ball's torque is told apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -88,6 +159,7 @@ pub struct Grid {
     rolling: RollingResistance,
     balls: f64,
     reduced_lead: f64,
+    spacing: Spacing,
     /// Ratio of neighbouring friction coefficients.
     ratio: f64,
     /// Gap of the node 0, m.
@@ -105,12 +177,13 @@ pub struct Grid {
 pub struct ExactLaw {
     balls: f64,
     reduced_lead: f64,
+    spacing: Spacing,
     /// Lift-off load of a ball, N; 0 without a preload.
     lift_off: f64,
     /// Load of the first point, N.
     first_load: f64,
-    /// Ratio of neighbouring friction coefficients, number of the first one, and how many there are.
-    ratio: f64,
+    /// Logarithm of the ratio of neighbouring friction coefficients, number of the first one, and how many there are.
+    logarithm: f64,
     first_friction: i32,
     frictions: usize,
     /// By side, load, friction coefficient.
@@ -119,42 +192,23 @@ pub struct ExactLaw {
 
 /// The four points of a cubic around a place, as the number of the first and their weights: Catmull and Rom.
 fn weights(place: f64) -> (i32, [f64; POINTS]) {
-    let below = place.floor();
-    let t = place - below;
+    // The floor, which is a call where the processor's own is not taken for granted.
+    let towards_zero = place as i32;
+    let below = towards_zero - i32::from(place < f64::from(towards_zero));
+    let t = place - f64::from(below);
     let weights = [
         -0.5 * t + t * t - 0.5 * t * t * t,
         1.0 - 2.5 * t * t + 1.5 * t * t * t,
         0.5 * t + 2.0 * t * t - 1.5 * t * t * t,
         -0.5 * t * t + 0.5 * t * t * t,
     ];
-    (below as i32 - 1, weights)
+    (below - 1, weights)
 }
 
-/// Place of a friction coefficient on a grid with this ratio of neighbours.
-fn friction_place(friction: f64, ratio: f64) -> f64 {
+/// Place of a friction coefficient on a grid with this logarithm of the ratio of neighbours.
+fn friction_place(friction: f64, logarithm: f64) -> f64 {
     let (least, largest) = FRICTION;
-    friction.clamp(least, largest).ln() / ratio.ln()
-}
-
-/// Place of a load on the grid, from its octaves above the first one.
-fn load_place(octaves: f64, preloaded: bool) -> f64 {
-    let (begin, end) = LIFT_OFF;
-    let finer = AT_LIFT_OFF - IN_AN_OCTAVE;
-    let near = octaves.clamp(begin, end) - begin;
-    IN_AN_OCTAVE * octaves + if preloaded { finer * near } else { 0.0 }
-}
-
-/// Octaves of a load above the first one, from its place on the grid.
-fn load_octaves(place: f64, preloaded: bool) -> f64 {
-    let (begin, end) = LIFT_OFF;
-    let [low, high] = [begin, end].map(|octaves| load_place(octaves, preloaded));
-    if !preloaded || place <= low {
-        place / IN_AN_OCTAVE
-    } else if place <= high {
-        begin + (place - low) / AT_LIFT_OFF
-    } else {
-        end + (place - high) / IN_AN_OCTAVE
-    }
+    friction.clamp(least, largest).ln() / logarithm
 }
 
 impl Grid {
@@ -162,7 +216,11 @@ impl Grid {
     ///
     /// # Errors
     /// What the reference refuses of the design.
-    pub fn of(caged: &CagedDesign, largest_load: f64) -> Result<Arc<Self>, ReferenceError> {
+    pub fn of(
+        caged: &CagedDesign,
+        largest_load: f64,
+        spacing: Spacing,
+    ) -> Result<Arc<Self>, ReferenceError> {
         let largest = BEYOND * largest_load.abs() / f64::from(caged.loaded_balls);
         let largest = largest.max(LEAST_LARGEST).log2().ceil().exp2();
         // The friction coefficient is one of the grid's own.
@@ -170,10 +228,12 @@ impl Grid {
             friction: 0.0,
             ..*caged
         };
-        GRIDS.of((key, largest), || Ok(Arc::new(Self::new(caged, largest)?)))
+        GRIDS.of((key, largest, spacing), || {
+            Ok(Arc::new(Self::new(caged, largest, spacing)?))
+        })
     }
 
-    fn new(caged: &CagedDesign, largest: f64) -> Result<Self, ReferenceError> {
+    fn new(caged: &CagedDesign, largest: f64, spacing: Spacing) -> Result<Self, ReferenceError> {
         let design = drawing(caged.design.parameters());
         let deflection =
             design.contact(Groove::Screw)?.deflection + design.contact(Groove::Nut)?.deflection;
@@ -185,11 +245,8 @@ impl Grid {
             },
             balls: caged.loaded_balls.into(),
             reduced_lead: f64::from(caged.design.lead()) / f64::from(TAU),
-            ratio: if caged.clearance.gap() > 0.0 {
-                FRICTION_RATIO_WITH_PLAY
-            } else {
-                FRICTION_RATIO
-            },
+            spacing,
+            ratio: spacing.friction_ratio(caged.clearance.gap() > 0.0),
             gap: caged.clearance.gap().into(),
             deflection,
             per_normal: design.contact_angle.sin() * design.lead_angle().cos(),
@@ -223,11 +280,12 @@ impl Grid {
         let (first_gap, gap_weights) = if gap == self.gap || !preloaded {
             (0, vec![1.0])
         } else {
-            let (first, weights) = weights((gap / self.gap).ln() / GAP_RATIO.ln());
+            let (first, weights) = weights((gap / self.gap).ln() / self.spacing.gap.ln());
             (first, weights.to_vec())
         };
-        let (first, _) = weights(friction_place(least.into(), self.ratio));
-        let (last, _) = weights(friction_place(largest.into(), self.ratio));
+        let logarithm = self.ratio.ln();
+        let (first, _) = weights(friction_place(least.into(), logarithm));
+        let (last, _) = weights(friction_place(largest.into(), logarithm));
         let frictions = (last - first) as usize + POINTS;
         let rolling = &caged.rolling_resistance;
         let parts = [
@@ -271,13 +329,14 @@ impl Grid {
         Ok(ExactLaw {
             balls: self.balls,
             reduced_lead: self.reduced_lead,
+            spacing: self.spacing,
             lift_off,
             first_load: if preloaded {
                 lift_off
             } else {
                 self.first_load()
             },
-            ratio: self.ratio,
+            logarithm,
             first_friction: first,
             frictions,
             values,
@@ -337,18 +396,18 @@ impl Grid {
     ) -> Result<Curves, ReferenceError> {
         let (least, largest) = FRICTION;
         let friction = self.ratio.powi(friction).clamp(least, largest);
-        let clearance = self.gap * GAP_RATIO.powi(gap);
+        let clearance = self.gap * self.spacing.gap.powi(gap);
         let lift_off = self.lift_off(clearance);
         let ball = CagedBall {
             design: self.design,
             clearance,
             friction,
             rolling,
-            integration: Integration::Full,
+            integration: self.spacing.integration,
         };
         let preloaded = lift_off > 0.0;
         let load = |point: u32| {
-            let octaves = load_octaves(point.into(), preloaded);
+            let octaves = self.spacing.load_octaves(point.into(), preloaded);
             if preloaded {
                 lift_off * (octaves.exp2() - 1.0).max(NO_LOAD)
             } else {
@@ -360,7 +419,7 @@ impl Grid {
         } else {
             OCTAVES
         };
-        let last = load_place(octaves, preloaded).ceil() as u32;
+        let last = self.spacing.load_place(octaves, preloaded).ceil() as u32;
         let loads: Vec<f64> = (0..=last).map(load).collect();
         let side = |side: f64| {
             // From the largest down, so that each balance starts from its neighbour's.
@@ -389,15 +448,17 @@ impl ExactLaw {
         friction: f64,
         whole: f64,
     ) -> f64 {
-        let (place, across) = weights(friction_place(friction, self.ratio));
+        let (place, across) = weights(friction_place(friction, self.logarithm));
         let column =
             (place - self.first_friction).clamp(0, self.frictions as i32 - POINTS as i32) as usize;
-        let rows = self.values[side].chunks_exact(self.frictions).skip(first);
-        let sum: f64 = rows
-            .zip(along)
+        let sum: f64 = along
+            .iter()
+            .enumerate()
             .map(|(row, along)| {
-                let values = row.iter().skip(column).zip(&across);
-                along * values.map(|(value, weight)| weight * value).sum::<f64>()
+                let at = (first + row) * self.frictions + column;
+                let values = self.values[side].get(at..).and_then(<[f64]>::first_chunk);
+                let [a, b, c, d] = *values.unwrap_or(&[0.0; POINTS]);
+                along * (across[0] * a + across[1] * b + across[2] * c + across[3] * d)
             })
             .sum();
         (self.balls * whole * friction * sum).max(0.0)
@@ -413,13 +474,13 @@ impl ExactLaw {
         let whole = load.abs() + self.lift_off;
         let points = (self.values[0].len() / self.frictions.max(1)).max(POINTS);
         let octaves = (whole / self.first_load).log2().max(0.0);
-        let place = load_place(octaves, self.lift_off > 0.0);
+        let place = self.spacing.load_place(octaves, self.lift_off > 0.0);
         let last = (points - 1) as f64;
         let (mut first, mut along) = weights(place.min(last));
-        // At the ends of the loads the outermost point counts twice.
+        // A parabola through the first three points gives the one before them.
         if first < 0 {
-            let [outer, begin, ..] = along;
-            along = [outer + begin, along[2], along[3], 0.0];
+            let [before, one, two, three] = along;
+            along = [one + 3.0 * before, two - 3.0 * before, three + before, 0.0];
             first = 0;
         }
         let beyond = (first + POINTS as i32 - points as i32).max(0) as usize;
@@ -566,6 +627,9 @@ mod tests {
     use super::*;
     use crate::designs::DesignSource;
 
+    /// Largest axial load, N.
+    const LARGEST: f64 = 6000.0;
+
     /// Relative errors of a grid's law, largest and rms, for another gap, a friction coefficient between nodes and more rolling resistance, at
     /// random loads of both signs.
     fn errors(caged: &CagedDesign, grid: &Grid, random: &mut Pcg64) -> [f64; 2] {
@@ -579,7 +643,7 @@ mod tests {
         let mut found: Vec<f64> = Vec::new();
         for side in [1.0, -1.0] {
             let mut loads: Vec<f64> = (0..60)
-                .map(|_| 300.0 * 0.01f64.powf(random.random()))
+                .map(|_| LARGEST / grid.balls * 0.01f64.powf(random.random()))
                 .collect();
             loads.sort_by(|a, b| b.total_cmp(a));
             let loads: Vec<f64> = loads.iter().map(|load| side * load).collect();
@@ -594,28 +658,41 @@ mod tests {
         [largest, (squares / found.len() as f64).sqrt()]
     }
 
-    /// With the gap of the grid the law is that of the exact ball, but where a contact opens between two loads or two friction coefficients
-    /// (rms 0.03 to 0.3 %). With another gap it opens elsewhere (rms 0.2 %), which a second grid at the gap that was found puts right.
+    fn designs() -> impl Iterator<Item = CagedDesign> {
+        ["lin-4.1", "25x5x3.175"].into_iter().map(|name| {
+            let source: DesignSource = name.parse().unwrap();
+            source.load().unwrap().caged
+        })
+    }
+
+    /// The law errs where a contact opens between two loads, two friction coefficients or two gaps. Measured over four seeds, with a preload
+    /// and its own gap, with a preload and another gap, and with play, the largest of both designs: fine 4.3e-3, 5.8e-3, 3.2e-3 (rms 4.1e-4,
+    /// 4.7e-4, 3.4e-4), coarse 1.7e-2, 1.8e-2, 6.1e-2 (rms 1.1e-3, 1.8e-3, 5.7e-3). The bounds leave room for other loads and coefficients.
     #[test]
-    fn the_grid_is_the_exact_ball() {
-        let source: DesignSource = "lin-4.1".parse().unwrap();
-        let mut random = Pcg64::seed_from_u64(7);
-        for gap in [-1e-6, 4e-6] {
-            let mut caged = source.load().unwrap().caged;
-            caged.clearance = Clearance::new(gap).unwrap();
-            let grid = Grid::of(&caged, 6000.0).unwrap();
-            for loss in [caged.rolling_resistance.hysteresis_loss, 0.05] {
-                caged.rolling_resistance.hysteresis_loss = loss;
-                let [largest, rms] = errors(&caged, &grid, &mut random);
-                println!("gap {gap}: largest {largest:.1e}, rms {rms:.1e}");
-                assert!(largest < 3e-2 && rms < 3e-3, "{gap}: {largest} {rms}");
-            }
-            if gap < 0.0 {
-                caged = source.load().unwrap().caged;
-                caged.clearance = Clearance::new(1.7 * gap).unwrap();
-                let [largest, rms] = errors(&caged, &grid, &mut random);
-                println!("another gap: largest {largest:.1e}, rms {rms:.1e}");
-                assert!(largest < 3e-2 && rms < 4e-3, "{largest} {rms}");
+    fn regression_of_the_grid_against_the_exact_ball() {
+        for (spacing, [most, most_rms]) in [
+            (Spacing::FINE, [3e-2, 3e-3]),
+            (Spacing::COARSE, [0.15, 2e-2]),
+        ] {
+            let mut random = Pcg64::seed_from_u64(7);
+            for design in designs() {
+                let with = |gap: f32, hysteresis_loss: f32| {
+                    let mut caged = design;
+                    caged.clearance = Clearance::new(gap).unwrap();
+                    caged.rolling_resistance.hysteresis_loss = hysteresis_loss;
+                    caged
+                };
+                let own = design.rolling_resistance.hysteresis_loss;
+                for (gap, others) in [(-1e-6, vec![-1e-6, -1.7e-6]), (4e-6, vec![4e-6])] {
+                    let grid = Grid::of(&with(gap, own), LARGEST, spacing).unwrap();
+                    for other in others {
+                        for loss in [own, 0.05] {
+                            let [largest, rms] = errors(&with(other, loss), &grid, &mut random);
+                            println!("{spacing:?} {gap} {other} {loss}: {largest:.1e} {rms:.1e}");
+                            assert!(largest < most && rms < most_rms, "{largest} {rms}");
+                        }
+                    }
+                }
             }
         }
     }

@@ -21,7 +21,7 @@ use epas_friction::scene::{
 };
 use epas_friction::{Clearance, Error, FrictionModel, RollingResistance};
 
-use super::exact::{ExactLaw, ExactScrew, Grid};
+use super::exact::{ExactLaw, ExactScrew, Grid, Spacing};
 use super::quantities::Values;
 use crate::calibrate::signals::Motion;
 use crate::calibrate::signals::filter::ZeroPhase;
@@ -148,9 +148,9 @@ impl Screw {
     ///
     /// # Errors
     /// A value out of range.
-    pub fn grid(&self, values: &Values) -> Result<Arc<Grid>, Failure> {
+    pub fn grid(&self, values: &Values, spacing: Spacing) -> Result<Arc<Grid>, Failure> {
         let largest = self.largest_load.max(self.reference_load);
-        Ok(Grid::of(&self.scene(values)?, largest)?)
+        Ok(Grid::of(&self.scene(values)?, largest, spacing)?)
     }
 
     /// Gross sliding at the reference load.
@@ -159,7 +159,7 @@ impl Screw {
     /// A value out of range.
     pub fn reference(&self, values: &Values) -> Result<Reference, Failure> {
         let friction = values.friction as f32;
-        let grid = self.grid(values)?;
+        let grid = self.grid(values, Spacing::WRITTEN)?;
         let law = grid.law(&self.scene(values)?, (friction, friction))?;
         Ok(self.reference_of(&law, values))
     }

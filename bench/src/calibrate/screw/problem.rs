@@ -11,7 +11,7 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use super::exact::Grid;
+use super::exact::{Grid, Spacing};
 use super::friction::{Course, Screw};
 use super::quantities::{Factor, Linear, Nonlinear, Values};
 use super::waves::{Waves, flank_sum};
@@ -40,6 +40,8 @@ pub struct ScrewProblem<'a> {
     waves: Waves,
     /// The exact ball.
     grid: Arc<Grid>,
+    /// The exact ball with the spacing of the search, which came before.
+    search: Arc<Grid>,
 }
 
 /// What a linear quantity multiplies.
@@ -83,9 +85,10 @@ impl<'a> ScrewProblem<'a> {
         smoothing: &ZeroPhase,
         values: Values,
         choice: Choice,
+        spacing: Spacing,
     ) -> Result<Self, Failure> {
         let course = Course::of(trace, motion, Some(smoothing), screw.reference_temperature);
-        let grid = screw.grid(&values)?;
+        let grid = screw.grid(&values, spacing)?;
         let mut problem = Self {
             screw,
             trace,
@@ -100,6 +103,7 @@ impl<'a> ScrewProblem<'a> {
             set: Vec::new(),
             target: rows.of(&trace.effort),
             waves: Waves::default(),
+            search: Arc::clone(&grid),
             grid,
         };
         let free = |name: &str| problem.nonlinear.iter().any(|(p, _)| p.name == name);
@@ -154,12 +158,12 @@ impl<'a> ScrewProblem<'a> {
         friction.unwrap_or_else(|_| vec![f64::NAN; self.trace.len()])
     }
 
-    /// The same problem from a start near its answer, whose preload is one at which the exact ball is solved.
+    /// The same problem from a start near its answer, on a fine grid whose middle is the preload there.
     ///
     /// # Errors
     /// Values that are refused.
     pub fn refined(mut self, values: &Values) -> Result<Self, Failure> {
-        self.grid = self.screw.grid(values)?;
+        self.grid = self.screw.grid(values, Spacing::FINE)?;
         let known = self.parameters.iter_mut().zip(&self.nonlinear);
         for (parameter, (_, of)) in known {
             parameter.start = of.value(values).max(parameter.low).min(parameter.high);
@@ -167,9 +171,9 @@ impl<'a> ScrewProblem<'a> {
         Ok(self)
     }
 
-    /// The exact ball.
-    pub const fn grid(&self) -> &Arc<Grid> {
-        &self.grid
+    /// The exact ball with the spacing of the search: for models that err by more than it does.
+    pub const fn search_grid(&self) -> &Arc<Grid> {
+        &self.search
     }
 
     /// What the model is told at every sample.
@@ -292,6 +296,7 @@ impl<'a> ScrewProblem<'a> {
             target: Vec::new(),
             waves: Waves::default(),
             grid: Arc::clone(&self.grid),
+            search: Arc::clone(&self.search),
         };
         other.whole(other.friction(values), values)
     }

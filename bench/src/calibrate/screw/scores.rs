@@ -85,7 +85,7 @@ pub fn scores(
     }
     let estimated = problem.nonlinear();
     let course = (problem.course(), rows, &beside);
-    let estimated = (estimated, problem.grid());
+    let estimated = (estimated, problem.search_grid());
     let without = WithoutMemory::new(*screw, *values, estimated, course);
     let unseen = other.as_ref().map(|(problem, (_, _, rows), beside)| {
         let course = (problem.course(), *rows, beside);

@@ -9,6 +9,7 @@ use rayon::prelude::*;
 use super::panel::PANEL;
 use crate::calibrate::fit::separable::FitSettings;
 use crate::calibrate::screw::choice::Wanted;
+use crate::calibrate::screw::exact::Spacing;
 use crate::calibrate::screw::friction::{Course, ElementsKind};
 use crate::calibrate::screw::{Request, calibrate};
 use crate::document::{Block, Cell, Figure, Table};
@@ -155,7 +156,7 @@ fn calibrated(gear: &Gear, wanted: Wanted, fit: FitSettings) -> Result<Vec<f64>,
     let found = calibrate(&gear.trace, &gear.design, &request)?;
     let (trace, motion) = &gear.in_loop;
     let course = Course::of(trace, motion, None, found.screw.reference_temperature);
-    let grid = found.screw.grid(&found.values)?;
+    let grid = found.screw.grid(&found.values, Spacing::FINE)?;
     found.screw.friction(&found.values, &course, &grid)
 }
 

@@ -8,7 +8,7 @@ use epas_friction::{Clearance, Inputs};
 use super::gear::Gear;
 use crate::calibrate::fit::problem::{Evaluation, LinearParameter, Parameter, Scale, Separable};
 use crate::calibrate::fit::separable::{FitSettings, fit};
-use crate::calibrate::screw::exact::Grid;
+use crate::calibrate::screw::exact::{Grid, Spacing};
 use crate::calibrate::signals::Motion;
 use crate::calibrate::trace::Trace;
 use crate::failure::Failure;
@@ -163,7 +163,7 @@ fn by_speed(
     let largest = load
         .iter()
         .fold(0.0, |most: f64, load| most.max(load.abs()));
-    let grid = Grid::of(&with(FIRST_PRELOAD)?, largest)?;
+    let grid = Grid::of(&with(FIRST_PRELOAD)?, largest, Spacing::FINE)?;
     let friction = friction as f32;
     let law = grid.law(&with(preload as f32)?, (friction, friction))?;
     let moments = speeds.iter().zip(load);
