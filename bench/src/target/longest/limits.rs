@@ -156,9 +156,10 @@ impl Known<'_, '_> {
                 continue;
             }
             let first = first(self.graph, &blocks)
-                .ok_or_else(|| format!("the code of {function} begins in several places"))?;
+                .ok_or_else(|| format!("the code of {function} has several beginnings"))?;
+            let frames = self.origins.frames(self.graph.blocks[first].start());
             let entry = totals.entry(total).or_default();
-            entry.0 = context;
+            entry.0 = context.within(&frames);
             for edge in self.graph.into(first) {
                 entry.1.add(edge, 1.0);
             }
@@ -185,13 +186,14 @@ impl Known<'_, '_> {
 /// Bytes that an instruction surely stores.
 fn bytes_stored(step: &Step) -> u32 {
     let (name, operands) = step.decoded.text.split_once(' ').unwrap_or_default();
+    if step.conditional {
+        return 0;
+    }
     match name.split('.').next().unwrap_or_default() {
-        _ if step.conditional => 0,
-        "strd" => 8,
-        "str" => 4,
         "strb" => 1,
-        "vstr" if operands.starts_with('s') => 4,
-        "vstr" => 8,
+        "str" => 4,
+        "strd" => 8,
+        "vstr" => 4 << u32::from(operands.starts_with('d')),
         _ => 0,
     }
 }
