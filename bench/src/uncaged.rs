@@ -104,23 +104,7 @@ pub fn words(design: &Design, row: &UncagedDesign) -> Result<Vec<u32>, Failure> 
         Folded::One(block) => UncagedBlock::One(*block),
         Folded::Range(block) => UncagedBlock::Range(*block),
     };
-    Ok(words_of(&block, fold.digest())?)
-}
-
-/// The words of a block, with the digest of what it was folded from.
-///
-/// # Errors
-/// None.
-pub fn words_of(block: &UncagedBlock, digest: u64) -> Result<Vec<u32>, Error> {
-    fn of<const N: usize>(block: &FoldedBall<N>, digest: u64) -> Result<Vec<u32>, Error> {
-        let mut words = vec![0; FoldedBall::<N>::WORDS];
-        block.write(digest, &mut words)?;
-        Ok(words)
-    }
-    match block {
-        UncagedBlock::One(block) => of(block, digest),
-        UncagedBlock::Range(block) => of(block, digest),
-    }
+    Ok(block.words(fold.digest())?)
 }
 
 /// What is folded of a design for friction coefficients between two. Loads of a ball are those of the table `[fold]`, or 5 to 300 N, and up

@@ -4,7 +4,7 @@ use epas_friction::{
     BallScrew, Clearance, DISSERTATION_DESIGNS, Error, Limits, RollingResistance, defaults,
 };
 
-use crate::{CagedDesign, CagedFold};
+use crate::{CagedDesign, CagedFold, UncagedDesign, UncagedFold};
 
 /// Clearance of the preloaded gear, and that of the worn one, m.
 const OVERSIZE: f32 = -4.068_737e-7;
@@ -76,5 +76,34 @@ pub fn firmware() -> Result<[(&'static str, CagedFold); 4], Error> {
         ("LIN_3_6_RANGE", range(gear)),
         ("LIN_3_6_WORN", CagedFold::of(worn)),
         ("LIN_4_1_RANGE", range(lin_4_1()?)),
+    ])
+}
+
+/// Largest deviations of the firmware's screw without cage, rad: two waves of 0.04 rad on the screw, three in the nut, of 0.0224.
+const DEVIATIONS: [f32; 2] = [0.0401, 0.0225];
+
+/// The same for its screw without cage, whose balls press on each other: for one friction coefficient, and for a range of them.
+///
+/// # Errors
+/// None that is known.
+pub fn uncaged_firmware() -> Result<[(&'static str, UncagedFold); 2], Error> {
+    let fold = UncagedFold::of(UncagedDesign {
+        gear: CagedDesign {
+            friction: 0.1,
+            clearance: Clearance::ZERO,
+            loaded_balls: 37,
+            ..lin_3_6()?
+        },
+        deviations: DEVIATIONS,
+    });
+    Ok([
+        ("LIN_3_6_BALL", fold),
+        (
+            "LIN_3_6_BALL_RANGE",
+            UncagedFold {
+                friction: Some(FRICTION_RANGE),
+                ..fold
+            },
+        ),
     ])
 }

@@ -5,10 +5,11 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use epas_friction::scene::CagedBallScrewConfiguration;
+use epas_friction::scene::{CagedBallScrewConfiguration, FoldedBall};
 
-use crate::caged::{Block, NODES};
-use crate::{Failure, Folded};
+use crate::caged::{Block, CagedDesign, NODES};
+use crate::uncaged::{self, UncagedBlock};
+use crate::{Failure, Folded, FoldedUncaged};
 
 /// Words in a line of a text form.
 const IN_A_LINE: usize = 6;
@@ -74,35 +75,17 @@ impl Folded {
     /// # Errors
     /// As [`Self::words`].
     pub fn bytes(&self) -> Result<Vec<u8>, Failure> {
-        Ok(self
-            .words()?
-            .iter()
-            .flat_map(|word| word.to_le_bytes())
-            .collect())
+        Ok(bytes(&self.words()?))
     }
 
     /// What was folded, over which domain, and how exact it is: lines for the comment above a block.
     #[must_use]
     pub fn summary(&self) -> Vec<String> {
         let gear = &self.fold.gear;
-        let parameters = gear.design.parameters();
-        let (least, largest) = self.block.friction_range();
-        let [from, to] = self.fold.axial_load;
         let mut lines = vec![
-            "Folded by epas-design; not to be edited.".into(),
-            format!("digest of the inputs: {:016x}", self.digest),
-            format!(
-                "pitch radius {} m, lead {} m, ball radius {} m, contact angle {} rad, clearance {} m, {} balls",
-                parameters.pitch_radius,
-                parameters.lead,
-                parameters.ball_radius,
-                parameters.contact_angle,
-                gear.clearance.gap(),
-                gear.loaded_balls,
-            ),
-            format!(
-                "holds for friction coefficients {least} to {largest} and axial loads of {from} to {to} N a ball, both signs"
-            ),
+            head(self.digest),
+            format!("{}, {} balls", drawn(gear), gear.loaded_balls),
+            holds(self.block.friction_range(), self.fold.axial_load),
         ];
         for figure in &self.certificate.figures {
             lines.push(format!(
@@ -125,25 +108,15 @@ impl Folded {
     /// # Errors
     /// As [`Self::words`].
     pub fn rust(&self, name: &str) -> Result<String, Failure> {
-        let words = self.words()?;
         let nodes = self.block.nodes();
-        let mut text = String::new();
-        for line in self.summary() {
-            let _ = writeln!(text, "// {line}");
-        }
-        let _ = write!(
-            text,
-            "\n/// A caged ball screw: `FrictionModel::<CagedBallScrew<{nodes}>, _>::of(&{name})`.\n\
-             pub static {name}: epas_friction::scene::CagedConstants<{nodes}> =\n    \
-             match epas_friction::scene::CagedConstants::from_block(&{name}_BLOCK) {{\n        \
-             Ok(constants) => constants,\n        \
-             Err(_) => panic!(\"the block is damaged, or of another version of epas-friction\"),\n    }};\n\n\
-             #[rustfmt::skip]\nconst {name}_BLOCK: [u32; {}] = [\n",
-            words.len()
-        );
-        text.push_str(&listed(&words));
-        text.push_str("];\n");
-        Ok(text)
+        let declared = Declared {
+            doc: format!(
+                "A caged ball screw: `FrictionModel::<CagedBallScrew<{nodes}>, _>::of(&{name})`."
+            ),
+            of: format!("epas_friction::scene::CagedConstants<{nodes}>"),
+            from: "epas_friction::scene::CagedConstants::from_block",
+        };
+        Ok(rust(&self.summary(), &declared, name, &self.words()?))
     }
 
     /// A C header with an array of this name.
@@ -151,20 +124,7 @@ impl Folded {
     /// # Errors
     /// As [`Self::words`].
     pub fn c(&self, name: &str) -> Result<String, Failure> {
-        let words = self.words()?;
-        let mut text = String::new();
-        for line in self.summary() {
-            let _ = writeln!(text, "// {line}");
-        }
-        let _ = write!(
-            text,
-            "\n#ifndef {name}_BLOCK_H\n#define {name}_BLOCK_H\n\n#include <stdint.h>\n\n\
-             static const uint32_t {name}_BLOCK[{}] = {{\n",
-            words.len()
-        );
-        text.push_str(&listed(&words));
-        text.push_str("};\n\n#endif\n");
-        Ok(text)
+        Ok(c(&self.summary(), name, &self.words()?))
     }
 
     /// TOML: the summary as comments, the words as one array.
@@ -172,15 +132,7 @@ impl Folded {
     /// # Errors
     /// As [`Self::words`].
     pub fn toml(&self) -> Result<String, Failure> {
-        let words = self.words()?;
-        let mut text = String::new();
-        for line in self.summary() {
-            let _ = writeln!(text, "# {line}");
-        }
-        let _ = write!(text, "digest = \"{:016x}\"\nwords = [\n", self.digest);
-        text.push_str(&listed(&words));
-        text.push_str("]\n");
-        Ok(text)
+        Ok(toml(&self.summary(), self.digest, &self.words()?))
     }
 
     /// Writes [`Self::rust`] to `folder` as a file with the name in small letters, for `include!`: what a `build.rs` calls.
@@ -190,14 +142,231 @@ impl Folded {
     /// # Errors
     /// [`Failure::File`] where it cannot be written.
     pub fn write_rust(&self, name: &str, folder: impl AsRef<Path>) -> Result<(), Failure> {
-        let folder = folder.as_ref();
-        let path = folder.join(format!("{}.rs", name.to_lowercase()));
-        std::fs::write(path, self.rust(name)?)?;
-        if std::env::var_os("OUT_DIR").is_some_and(|own| folder == Path::new(&own)) {
-            println!("cargo::rerun-if-changed=build.rs");
-        }
-        Ok(())
+        write(&self.rust(name)?, name, folder.as_ref())
     }
+}
+
+impl UncagedBlock {
+    /// Number of friction coefficients.
+    #[must_use]
+    pub const fn nodes(&self) -> usize {
+        match self {
+            Self::One(_) => 1,
+            Self::Range(_) => uncaged::NODES,
+        }
+    }
+
+    /// Least and largest friction coefficient.
+    #[must_use]
+    pub const fn friction_range(&self) -> (f32, f32) {
+        match self {
+            Self::One(block) => block.law.friction_range(),
+            Self::Range(block) => block.law.friction_range(),
+        }
+    }
+
+    /// Its words, with the digest of what it was folded from.
+    ///
+    /// # Errors
+    /// None that is known.
+    pub fn words(&self, digest: u64) -> Result<Vec<u32>, Failure> {
+        fn of<const N: usize>(block: &FoldedBall<N>, digest: u64) -> Result<Vec<u32>, Failure> {
+            let mut words = vec![0; FoldedBall::<N>::WORDS];
+            block.write(digest, &mut words)?;
+            Ok(words)
+        }
+        match self {
+            Self::One(block) => of(block, digest),
+            Self::Range(block) => of(block, digest),
+        }
+    }
+}
+
+impl FoldedUncaged {
+    /// The block's words.
+    ///
+    /// # Errors
+    /// None that is known.
+    pub fn words(&self) -> Result<Vec<u32>, Failure> {
+        self.block.words(self.digest)
+    }
+
+    /// The block's bytes, each word with its least significant byte first: for a calibration page.
+    ///
+    /// # Errors
+    /// As [`Self::words`].
+    pub fn bytes(&self) -> Result<Vec<u8>, Failure> {
+        Ok(bytes(&self.words()?))
+    }
+
+    /// What was folded, over which domain, and how exact it is: lines for the comment above a block.
+    #[must_use]
+    pub fn summary(&self) -> Vec<String> {
+        let [screw, nut] = self.fold.gear.deviations;
+        let mut lines = vec![
+            head(self.digest),
+            drawn(&self.fold.gear.gear),
+            holds(self.block.friction_range(), self.fold.axial_load),
+            format!(
+                "and for deviations of the contact angles to {screw} rad on the screw and {nut} rad in the nut"
+            ),
+        ];
+        let certificate = &self.certificate;
+        let rows = [
+            ("without friction between balls", &certificate.smooth),
+            ("with 0.1 between balls", &certificate.rubbing),
+        ];
+        for (which, figures) in rows {
+            lines.push(format!(
+                "certificate: {} rows of {} balls that were not fitted (seed {}), {which}: torque, relative, largest {:.2e}, rms {:.2e}, mean \
+                 {:.1e}; forces between balls over the largest of their row, rms {:.2e}, of unflagged rows {:.2e}; flagged {:.0} %",
+                figures.rows,
+                certificate.balls,
+                certificate.seed,
+                figures.torque.largest,
+                figures.torque.rms,
+                figures.torque.mean,
+                figures.forces.rms,
+                figures.unflagged_forces.rms,
+                100.0 * figures.flagged,
+            ));
+        }
+        lines
+    }
+
+    /// A Rust module with a `static` of this name.
+    ///
+    /// # Errors
+    /// As [`Self::words`].
+    pub fn rust(&self, name: &str) -> Result<String, Failure> {
+        let nodes = self.block.nodes();
+        let declared = Declared {
+            doc: format!(
+                "The ball of a screw without cage: `folded: &{name}` of an `UncagedBallScrewConfiguration<{nodes}>`."
+            ),
+            of: format!("epas_friction::scene::FoldedBall<{nodes}>"),
+            from: "epas_friction::scene::FoldedBall::read",
+        };
+        Ok(rust(&self.summary(), &declared, name, &self.words()?))
+    }
+
+    /// A C header with an array of this name.
+    ///
+    /// # Errors
+    /// As [`Self::words`].
+    pub fn c(&self, name: &str) -> Result<String, Failure> {
+        Ok(c(&self.summary(), name, &self.words()?))
+    }
+
+    /// TOML: the summary as comments, the words as one array.
+    ///
+    /// # Errors
+    /// As [`Self::words`].
+    pub fn toml(&self) -> Result<String, Failure> {
+        Ok(toml(&self.summary(), self.digest, &self.words()?))
+    }
+
+    /// Writes [`Self::rust`] to `folder`, as [`Folded::write_rust`] does.
+    ///
+    /// # Errors
+    /// [`Failure::File`] where it cannot be written.
+    pub fn write_rust(&self, name: &str, folder: impl AsRef<Path>) -> Result<(), Failure> {
+        write(&self.rust(name)?, name, folder.as_ref())
+    }
+}
+
+/// What a Rust file declares.
+struct Declared {
+    doc: String,
+    /// Its type.
+    of: String,
+    /// The function that makes it from the words.
+    from: &'static str,
+}
+
+fn head(digest: u64) -> String {
+    format!("Folded by epas-design; not to be edited.\ndigest of the inputs: {digest:016x}")
+}
+
+/// The numbers of a drawing.
+fn drawn(gear: &CagedDesign) -> String {
+    let parameters = gear.design.parameters();
+    format!(
+        "pitch radius {} m, lead {} m, ball radius {} m, contact angle {} rad, clearance {} m",
+        parameters.pitch_radius,
+        parameters.lead,
+        parameters.ball_radius,
+        parameters.contact_angle,
+        gear.clearance.gap(),
+    )
+}
+
+fn holds((least, largest): (f32, f32), [from, to]: [f32; 2]) -> String {
+    format!(
+        "holds for friction coefficients {least} to {largest} and axial loads of {from} to {to} N a ball, both signs"
+    )
+}
+
+fn bytes(words: &[u32]) -> Vec<u8> {
+    words.iter().flat_map(|word| word.to_le_bytes()).collect()
+}
+
+/// Lines as comments.
+fn commented(summary: &[String], mark: &str) -> String {
+    let mut text = String::new();
+    for line in summary.iter().flat_map(|line| line.lines()) {
+        let _ = writeln!(text, "{mark} {line}");
+    }
+    text
+}
+
+fn rust(summary: &[String], declared: &Declared, name: &str, words: &[u32]) -> String {
+    let Declared { doc, of, from } = declared;
+    let mut text = commented(summary, "//");
+    let _ = write!(
+        text,
+        "\n/// {doc}\n\
+         pub static {name}: {of} =\n    \
+         match {from}(&{name}_BLOCK) {{\n        \
+         Ok(constants) => constants,\n        \
+         Err(_) => panic!(\"the block is damaged, or of another version of epas-friction\"),\n    }};\n\n\
+         #[rustfmt::skip]\nconst {name}_BLOCK: [u32; {}] = [\n",
+        words.len()
+    );
+    text.push_str(&listed(words));
+    text.push_str("];\n");
+    text
+}
+
+fn c(summary: &[String], name: &str, words: &[u32]) -> String {
+    let mut text = commented(summary, "//");
+    let _ = write!(
+        text,
+        "\n#ifndef {name}_BLOCK_H\n#define {name}_BLOCK_H\n\n#include <stdint.h>\n\n\
+         static const uint32_t {name}_BLOCK[{}] = {{\n",
+        words.len()
+    );
+    text.push_str(&listed(words));
+    text.push_str("};\n\n#endif\n");
+    text
+}
+
+fn toml(summary: &[String], digest: u64, words: &[u32]) -> String {
+    let mut text = commented(summary, "#");
+    let _ = write!(text, "digest = \"{digest:016x}\"\nwords = [\n");
+    text.push_str(&listed(words));
+    text.push_str("]\n");
+    text
+}
+
+/// Writes a Rust file of a build script, or of any other folder.
+fn write(text: &str, name: &str, folder: &Path) -> Result<(), Failure> {
+    let path = folder.join(format!("{}.rs", name.to_lowercase()));
+    std::fs::write(path, text)?;
+    if std::env::var_os("OUT_DIR").is_some_and(|own| folder == Path::new(&own)) {
+        println!("cargo::rerun-if-changed=build.rs");
+    }
+    Ok(())
 }
 
 /// Words in lines.

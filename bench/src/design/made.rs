@@ -3,14 +3,13 @@
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 
-use epas_design::uncaged::{NODES, RowFigures, UncagedBlock, UncagedCertificate, UncagedFigure};
+use epas_design::uncaged::{RowFigures, UncagedCertificate, UncagedFigure};
 use epas_design::{Certificate, Figure, Folded, FoldedUncaged};
 use serde::Serialize;
 
 use super::Format;
 use crate::designs::Design;
 use crate::failure::Failure;
-use crate::uncaged::words_of;
 
 /// A folded design.
 pub enum Made {
@@ -63,7 +62,7 @@ impl Made {
     pub fn words(&self) -> Result<Vec<u32>, Failure> {
         Ok(match self {
             Self::Caged(folded) => folded.words()?,
-            Self::Uncaged(folded) => words_of(&folded.block, folded.digest)?,
+            Self::Uncaged(folded) => folded.words()?,
         })
     }
 
@@ -77,19 +76,10 @@ impl Made {
             (Self::Caged(folded), Format::C) => folded.c(name),
             (Self::Caged(folded), Format::Toml) => folded.toml(),
             (Self::Caged(folded), Format::Binary) => return Ok(folded.bytes()?),
-            (Self::Uncaged(_), Format::Binary) => {
-                return Ok(self
-                    .words()?
-                    .iter()
-                    .flat_map(|word| word.to_le_bytes())
-                    .collect());
-            }
-            // The texts of these blocks are those of `epas-design` once it has them.
-            (Self::Uncaged(_), Format::Rust | Format::C | Format::Toml) => {
-                return Err(Failure::Data(
-                    "a block of balls that press on each other is written as .bin so far".into(),
-                ));
-            }
+            (Self::Uncaged(folded), Format::Rust) => folded.rust(name),
+            (Self::Uncaged(folded), Format::C) => folded.c(name),
+            (Self::Uncaged(folded), Format::Toml) => folded.toml(),
+            (Self::Uncaged(folded), Format::Binary) => return Ok(folded.bytes()?),
         };
         Ok(text?.into_bytes())
     }
@@ -118,7 +108,7 @@ impl Made {
             }
             Self::Uncaged(folded) => {
                 let certificate = &folded.certificate;
-                let (_, range) = nodes_and_range(&folded.block);
+                let range = folded.block.friction_range();
                 let mut domain = domain(folded.fold.axial_load, range);
                 let [screw, nut] = folded.fold.gear.deviations;
                 domain.insert("screw_deviation", [-screw, screw]);
@@ -167,7 +157,7 @@ impl Made {
                         micrometres(gear.clearance.gap()),
                         design.mark("clearance"),
                     ),
-                    friction: nodes_and_range(&folded.block).1,
+                    friction: folded.block.friction_range(),
                     axial_load: folded.fold.axial_load,
                     digest: folded.digest,
                     seconds: folded.seconds,
@@ -255,7 +245,7 @@ impl Made {
                 }
             }
             Self::Uncaged(folded) => {
-                let (nodes, _) = nodes_and_range(&folded.block);
+                let nodes = folded.block.nodes();
                 match format {
                     Format::Rust => writeln!(
                         out,
@@ -273,14 +263,6 @@ impl Made {
                 }
             }
         }
-    }
-}
-
-/// Nodes of a block, with the least and the largest of their friction coefficients.
-const fn nodes_and_range(block: &UncagedBlock) -> (usize, (f32, f32)) {
-    match block {
-        UncagedBlock::One(block) => (1, block.law.friction_range()),
-        UncagedBlock::Range(block) => (NODES, block.law.friction_range()),
     }
 }
 
