@@ -4,6 +4,7 @@ mod ball;
 mod certificate;
 mod fit;
 mod knots;
+mod output;
 mod ring;
 
 use std::time::Instant;
