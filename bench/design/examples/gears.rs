@@ -7,7 +7,7 @@ fn main() -> Result<(), Failure> {
     for (name, fold) in gears::firmware()? {
         fold.folded()?.write_rust(name, &folder)?;
     }
-    for (name, fold) in gears::uncaged_firmware()? {
+    for (name, fold) in gears::firmware_uncaged()? {
         let folded = fold.folded()?;
         folded.write_rust(name, &folder)?;
         println!("{name}\n{}", folded.summary().join("\n"));
