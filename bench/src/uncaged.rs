@@ -36,7 +36,7 @@ pub fn folded(fold: &UncagedFold) -> Result<Folded, Failure> {
         return Ok(folded);
     }
     // Not locked: others go on meanwhile.
-    Ok(keep(digest, fold.block()?))
+    Ok(keep(digest, &fold.block()?))
 }
 
 /// The law of a fold with its certificate, told while it is made; kept as any other law.
@@ -45,7 +45,7 @@ pub fn folded(fold: &UncagedFold) -> Result<Folded, Failure> {
 /// What cannot be folded, with the reason.
 pub fn certified(fold: &UncagedFold) -> Result<FoldedUncaged, Failure> {
     let folded = shown(|progress| fold.folded_with(progress))?;
-    keep(folded.digest, folded.block);
+    keep(folded.digest, &folded.block);
     Ok(folded)
 }
 
@@ -55,9 +55,9 @@ fn kept(digest: u64) -> Option<Folded> {
 }
 
 /// Keeps a law that was folded from inputs with this digest.
-fn keep(digest: u64, block: UncagedBlock) -> Folded {
+fn keep(digest: u64, block: &UncagedBlock) -> Folded {
     let mut folded = FOLDED.lock().unwrap_or_else(PoisonError::into_inner);
-    let same = |kept: &Folded| match (kept, &block) {
+    let same = |kept: &Folded| match (kept, block) {
         (Folded::One(kept), UncagedBlock::One(block)) => *kept == block,
         (Folded::Range(kept), UncagedBlock::Range(block)) => *kept == block,
         _ => false,
@@ -66,8 +66,8 @@ fn keep(digest: u64, block: UncagedBlock) -> Folded {
         Some(kept) if same(kept) => *kept,
         _ => {
             let kept = match block {
-                UncagedBlock::One(block) => Folded::One(Box::leak(Box::new(block))),
-                UncagedBlock::Range(block) => Folded::Range(Box::leak(Box::new(block))),
+                UncagedBlock::One(block) => Folded::One(Box::leak(Box::new(*block))),
+                UncagedBlock::Range(block) => Folded::Range(Box::leak(Box::new(*block))),
             };
             folded.insert(digest, kept);
             kept
@@ -90,7 +90,7 @@ pub fn read(words: &[u32]) -> Result<Folded, Error> {
         [_, _, _, _, low, high, ..] => u64::from(*high) << 32 | u64::from(*low),
         _ => 0,
     };
-    Ok(keep(digest, block))
+    Ok(keep(digest, &block))
 }
 
 /// The words of a design's block for its own friction coefficient, with the digest of its inputs.
