@@ -3,7 +3,9 @@
 use core::f32::consts::TAU;
 
 use epas_friction::ball::pressed::{BallLaw, KNOTS};
-use epas_friction::scene::{CagedBallScrew, CagedBallScrewConfiguration, CatalogueBall, FoldedBall};
+use epas_friction::scene::{
+    CagedBallScrew, CagedBallScrewConfiguration, CatalogueBall, FoldedBall,
+};
 use epas_friction::{
     BallScrew, CATALOGUE, Clearance, ClosedFormScrewConfiguration, DISSERTATION_DESIGNS,
     DeviationMap, FrictionBranch, GrooveSize, Harmonic, Limits, LinearBearing,
@@ -172,7 +174,9 @@ const fn ball_of(friction: f32) -> FoldedBall {
     };
     let mut knot = 0;
     while knot < 2 * KNOTS {
-        ball.law.nodes[0].branches[knot / KNOTS][knot % KNOTS].numbers.grip = -0.5;
+        ball.law.nodes[0].branches[knot / KNOTS][knot % KNOTS]
+            .numbers
+            .grip = -0.5;
         knot += 1;
     }
     ball
