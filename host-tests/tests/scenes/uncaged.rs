@@ -5,4 +5,5 @@ mod course;
 mod exact;
 mod laws;
 mod running;
+mod setting;
 mod ticks;

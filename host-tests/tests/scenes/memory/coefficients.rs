@@ -6,7 +6,8 @@ use epas_friction::law::coefficient::{
 };
 use epas_friction::law::motion::SpeedOverTick;
 use epas_friction::scene::{
-    Motion, Sliding, SlidingFriction, WithMemory, WithMemoryConfiguration, WithMemoryInputs,
+    Motion, Passage, Sliding, SlidingFriction, WithMemory, WithMemoryConfiguration,
+    WithMemoryInputs,
 };
 use epas_friction::{
     ClosedFormScrew, Faults, FrictionModel, Inputs, LinearBearingConfiguration, LinearBearingTrain,

@@ -172,9 +172,9 @@ fn the_torque_is_what_the_balls_lose() {
 /// A screw in a mirror: direction and load turned round, waves that a mirror leaves as they are, balls at mirrored places.
 #[test]
 fn a_mirrored_screw_has_the_mirrored_torque() {
-    const BALLS: usize = 32;
+    const BALLS: usize = SCREW_BALLS;
     let configuration = UncagedBallScrewConfiguration {
-        // A whole turn, in which both waves are odd about the start.
+        // Whole turns, in which both waves are odd about the start.
         turns: 2.0,
         nut_deviation: wave(1, 3, 0.0, 0.9 * BALL.law.deviations[1]),
         ..gears::full(screw_wave(0.9), TICK)

@@ -111,7 +111,8 @@ fn all_events<const NODES: usize>(name: &str, cases: &[Case<NODES>]) -> Found {
         ("forces of an event", worst(|found| &found.forces_apart)),
     ];
     for (what, figures) in figures {
-        println!("{name}: {what} {figures:.2e?}");
+        let [largest, rms, mean] = figures;
+        println!("{name}: {what} [{largest:.2e}, {rms:.2e}, {mean:.2e}]");
     }
     for (what, figures) in figures {
         let row = measured::of(&format!("{name}: {what}"));
