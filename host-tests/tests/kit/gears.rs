@@ -155,9 +155,8 @@ const BALL_LIMITS: Limits = Limits {
 /// The ball of the screw of Lin 2019, Table 3.6, that its neighbours press on, by the closed form: its bits do not change with what a host
 /// folds. The closed form knows nothing of what friction between balls does to their speeds; here it is that of a folded ball in its order.
 const fn ball_of(friction: f32) -> FoldedBall {
-    let design = match BallScrew::new(DISSERTATION_DESIGNS[1].parameters) {
-        Ok(design) => design,
-        Err(_) => panic!("a design is out of range"),
+    let Ok(design) = BallScrew::new(DISSERTATION_DESIGNS[1].parameters) else {
+        panic!("a design is out of range")
     };
     let ball = FoldedBall::of_catalogue(&CatalogueBall {
         design,
@@ -168,9 +167,8 @@ const fn ball_of(friction: f32) -> FoldedBall {
         reversal_speed: 0.5,
         limits: BALL_LIMITS,
     });
-    let mut ball = match ball {
-        Ok(ball) => ball,
-        Err(_) => panic!("a number of a ball is out of range"),
+    let Ok(mut ball) = ball else {
+        panic!("a number of a ball is out of range")
     };
     let mut knot = 0;
     while knot < 2 * KNOTS {
