@@ -7,5 +7,8 @@ fn main() -> Result<(), Failure> {
     for (name, fold) in gears::firmware()? {
         fold.folded()?.write_rust(name, &folder)?;
     }
+    for (name, fold) in gears::firmware_uncaged()? {
+        fold.folded()?.write_rust(name, &folder)?;
+    }
     Ok(())
 }

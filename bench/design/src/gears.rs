@@ -4,7 +4,7 @@ use epas_friction::{
     BallScrew, Clearance, DISSERTATION_DESIGNS, Error, Limits, RollingResistance, defaults,
 };
 
-use crate::{CagedDesign, CagedFold};
+use crate::{CagedDesign, CagedFold, UncagedDesign, UncagedFold};
 
 /// Clearance of the preloaded gear, and that of the worn one, m.
 const OVERSIZE: f32 = -4.068_737e-7;
@@ -77,4 +77,23 @@ pub fn firmware() -> Result<[(&'static str, CagedFold); 4], Error> {
         ("LIN_3_6_WORN", CagedFold::of(worn)),
         ("LIN_4_1_RANGE", range(lin_4_1()?)),
     ])
+}
+
+/// Largest deviations of the contact angles of the gear without cage, rad: those of the firmware's maps, rounded up.
+const DEVIATIONS: [f32; 2] = [0.0401, 0.0225];
+
+/// What the firmware has without cage, each with the name of its `static`: the gear of the scenes for one friction coefficient, and for a range.
+///
+/// # Errors
+/// None that is known.
+pub fn firmware_uncaged() -> Result<[(&'static str, UncagedFold); 2], Error> {
+    let one = UncagedFold::of(UncagedDesign {
+        gear: lin_3_6()?,
+        deviations: DEVIATIONS,
+    });
+    let range = UncagedFold {
+        friction: Some(FRICTION_RANGE),
+        ..one
+    };
+    Ok([("LIN_3_6_BALL", one), ("LIN_3_6_BALL_RANGE", range)])
 }

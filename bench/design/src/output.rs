@@ -190,18 +190,22 @@ impl Folded {
     /// # Errors
     /// [`Failure::File`] where it cannot be written.
     pub fn write_rust(&self, name: &str, folder: impl AsRef<Path>) -> Result<(), Failure> {
-        let folder = folder.as_ref();
-        let path = folder.join(format!("{}.rs", name.to_lowercase()));
-        std::fs::write(path, self.rust(name)?)?;
-        if std::env::var_os("OUT_DIR").is_some_and(|own| folder == Path::new(&own)) {
-            println!("cargo::rerun-if-changed=build.rs");
-        }
-        Ok(())
+        write_module(&self.rust(name)?, name, folder.as_ref())
     }
 }
 
+/// Writes a module to `folder` as a file with the name in small letters.
+pub(crate) fn write_module(text: &str, name: &str, folder: &Path) -> Result<(), Failure> {
+    let path = folder.join(format!("{}.rs", name.to_lowercase()));
+    std::fs::write(path, text)?;
+    if std::env::var_os("OUT_DIR").is_some_and(|own| folder == Path::new(&own)) {
+        println!("cargo::rerun-if-changed=build.rs");
+    }
+    Ok(())
+}
+
 /// Words in lines.
-fn listed(words: &[u32]) -> String {
+pub(crate) fn listed(words: &[u32]) -> String {
     let mut text = String::new();
     for line in words.chunks(IN_A_LINE) {
         text.push_str("   ");

@@ -4,6 +4,7 @@ mod ball;
 mod certificate;
 mod fit;
 mod knots;
+mod output;
 mod ring;
 
 use std::time::Instant;
@@ -32,7 +33,7 @@ const BELOW: f64 = 10.0;
 const WEIGHT_BELOW: f64 = 0.05;
 
 /// Error of the forces that hold balls, over their root mean square, from which on forces between balls are not held under a load.
-const UNHELD: f64 = 0.012;
+const UNHELD: f64 = 0.016;
 
 /// A largest error of the torque of a row without friction between balls, from which on a domain is not held.
 const LARGEST_ERROR: f64 = 0.03;

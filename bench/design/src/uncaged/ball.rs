@@ -111,7 +111,7 @@ pub(super) struct BallSample {
     pub points: [BallPoint; POINTS],
     /// Net push more, over the friction of the neighbours.
     pub grip: f64,
-    /// Speed with which two balls alike rub, m per unit of nut speed.
+    /// Speed with which two balls alike rub, m per unit of nut speed: the one with which they lose what friction between them adds to all losses.
     pub rubbing: f64,
 }
 
@@ -154,7 +154,7 @@ impl Balls<'_> {
                 }
             }
         }
-        let rubbed = self.rubbed(&balls, &pushed, &held, &speeds);
+        let rubbed = with_nearest(&self.rubbed(&balls, &pushed, &held, &speeds));
         let mut samples: Vec<BallSample> = (0..self.loads.len())
             .filter_map(|load| self.sample(load, held[load], &free, &pushed, &rubbed, &speeds))
             .collect();
@@ -223,7 +223,8 @@ impl Balls<'_> {
             .collect()
     }
 
-    /// Some of the balls, held, with friction of their neighbours: the mean net push more over that friction.
+    /// Some of the balls, held, with friction of their neighbours, under each load: the mean of the net push more over that friction, and the
+    /// speed of rubbing with which friction between balls loses what it adds to all losses. `None` where most of the balls have lost their hold.
     fn rubbed(
         &self,
         balls: &[DeviatingBall],
@@ -269,13 +270,13 @@ impl Balls<'_> {
         held: f64,
         free: &[Along],
         pushed: &[Along],
-        rubbed: &[Option<[f64; 2]>],
+        rubbed: &[[f64; 2]],
         speeds: &Speeds,
     ) -> Option<BallSample> {
         let whole = self.loads[load] + self.lift_off;
         let per_load = 1.0 / (whole * self.ball.friction);
         let mut points = [BallPoint::default(); POINTS];
-        let [grip, rubbing] = rubbed[load]?;
+        let [grip, rubbing] = rubbed[load];
         for (point, (free, pushed)) in points.iter_mut().zip(free.iter().zip(pushed)) {
             let (free, pushed) = (free[load].as_ref()?, pushed[load].as_ref()?);
             *point = BallPoint {
@@ -293,6 +294,16 @@ impl Balls<'_> {
             rubbing,
         })
     }
+}
+
+/// Values, each that is missing as the one before it, and the first as the next.
+fn with_nearest(values: &[Option<[f64; 2]>]) -> Vec<[f64; 2]> {
+    let mut last = values.iter().copied().flatten().next().unwrap_or_default();
+    let nearest = values.iter().map(|value| {
+        last = value.unwrap_or(last);
+        last
+    });
+    nearest.collect()
 }
 
 /// Mean of the free speeds under each load, each ball with its impedance as weight.

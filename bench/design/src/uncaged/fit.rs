@@ -51,15 +51,13 @@ pub(super) struct Branch {
     pub errors: Vec<Errors>,
 }
 
-/// Errors of a law under one load, over the grid.
+/// Error of a law under one load, over the grid.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Errors {
     /// Load, N.
     pub load: f64,
     /// Root mean square of the errors of the forces that hold balls, over that of the forces.
     pub force: f64,
-    /// Largest error of the torque of a held ball over the mean torque.
-    pub torque: f64,
 }
 
 /// Powers `1, s, n, s^2, s n, n^2` of a place.
@@ -161,7 +159,7 @@ impl<'a> Fit<'a> {
                 (loads[knots.at[knot]], numbers)
             })
             .collect();
-        let errors = self.errors(&numbers, &places);
+        let errors = self.errors(&speeds, &places);
         Branch {
             knots: numbers,
             errors,
@@ -195,7 +193,13 @@ impl<'a> Fit<'a> {
                 .iter()
                 .map(|sample| self.grid.coordinates(|point| value(sample, point)))
                 .collect();
-            let weight = |load: usize| self.weights[load] / (sizes[load] * tolerance).powi(2);
+            // What polynomials leave of a load's errors no knot takes away: such a load needs them less.
+            let weight = |load: usize| {
+                let sample = &self.samples[load];
+                let whole: f64 = (0..POINTS).map(|point| value(sample, point).powi(2)).sum();
+                let left = (whole - all[load].norm_squared()).max(0.0) / count;
+                self.weights[load] / ((sizes[load] * tolerance).powi(2) + left)
+            };
             for power in 0..POWERS {
                 columns.push(Column {
                     values: all.iter().map(|coordinates| coordinates[power]).collect(),
@@ -404,53 +408,22 @@ impl<'a> Fit<'a> {
             .collect()
     }
 
-    /// Errors of held balls under each load.
-    fn errors(&self, knots: &[(f64, Numbers)], places: &[Between]) -> Vec<Errors> {
-        let all: Vec<Errors> = self
-            .samples
-            .iter()
-            .zip(places)
-            .enumerate()
-            .map(|(load, (sample, place))| {
-                let (mut squares, mut torque) = (0.0, 0.0_f64);
-                for (point, exact) in sample.points.iter().enumerate() {
-                    let (push, found) = self.held(point, sample.held, knots, place);
-                    squares += (push - exact.force).powi(2);
-                    torque = torque.max((found - exact.torque_held).abs());
-                }
-                Errors {
-                    load: sample.load,
-                    force: (squares / POINTS as f64).sqrt() / self.forces[load],
-                    torque: torque / self.torques[load],
-                }
-            })
-            .collect();
-        all
-    }
-
-    /// Net push and torque of a held ball by the law.
-    fn held(
-        &self,
-        point: usize,
-        speed: f64,
-        knots: &[(f64, Numbers)],
-        place: &Between,
-    ) -> (f64, f64) {
-        let of = |value: &dyn Fn(&Numbers) -> f64| {
-            let [low, high] = place.shares;
-            low * value(&knots[place.knot].1) + high * value(&knots[place.knot + 1].1)
-        };
-        let powers = self.grid.powers.row(point);
-        let sum = |value: &dyn Fn(&Numbers, usize) -> f64, count: usize| -> f64 {
-            (0..count)
-                .map(|power| powers[power] * of(&|numbers| value(numbers, power)))
-                .sum()
-        };
-        let x = speed - sum(&|numbers, power| numbers.free[power], POWERS);
-        let push = x * sum(&|numbers, power| numbers.impedance[power], SLOPES);
-        let torque = sum(&|numbers, power| numbers.torque[power], POWERS);
-        let slope = of(&|numbers| numbers.slope);
-        (push, torque + slope * x + 0.5 * self.against_nut * push * x)
+    /// Errors of the forces that hold balls under each load.
+    fn errors(&self, speeds: &[SVector<f64, TOGETHER>], places: &[Between]) -> Vec<Errors> {
+        let all = self.samples.iter().zip(places).zip(&self.forces);
+        all.map(|((sample, place), size)| {
+            let here = blended(speeds, place);
+            let points = sample.points.iter().enumerate();
+            let errors = points.map(|(point, exact)| {
+                let (free, impedance) = self.free_and_impedance(point, &here);
+                impedance * (sample.held - free) - exact.force
+            });
+            Errors {
+                load: sample.load,
+                force: rms(errors) / size,
+            }
+        })
+        .collect()
     }
 }
 
