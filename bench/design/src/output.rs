@@ -82,11 +82,11 @@ impl Folded {
     #[must_use]
     pub fn summary(&self) -> Vec<String> {
         let gear = &self.fold.gear;
-        let mut lines = vec![
-            head(self.digest),
+        let mut lines = Vec::from(head(self.digest));
+        lines.extend([
             format!("{}, {} balls", drawn(gear), gear.loaded_balls),
             holds(self.block.friction_range(), self.fold.axial_load),
-        ];
+        ]);
         for figure in &self.certificate.figures {
             lines.push(format!(
                 "certificate: {}, relative error on {} states that were not fitted (seed {}): largest {:.2e}, rms {:.2e}, mean {:.1e}; \
@@ -203,14 +203,14 @@ impl FoldedUncaged {
     #[must_use]
     pub fn summary(&self) -> Vec<String> {
         let [screw, nut] = self.fold.gear.deviations;
-        let mut lines = vec![
-            head(self.digest),
+        let mut lines = Vec::from(head(self.digest));
+        lines.extend([
             drawn(&self.fold.gear.gear),
             holds(self.block.friction_range(), self.fold.axial_load),
             format!(
                 "and for deviations of the contact angles to {screw} rad on the screw and {nut} rad in the nut"
             ),
-        ];
+        ]);
         let certificate = &self.certificate;
         let rows = [
             ("without friction between balls", &certificate.smooth),
@@ -284,8 +284,11 @@ struct Declared {
     from: &'static str,
 }
 
-fn head(digest: u64) -> String {
-    format!("Folded by epas-design; not to be edited.\ndigest of the inputs: {digest:016x}")
+fn head(digest: u64) -> [String; 2] {
+    [
+        "Folded by epas-design; not to be edited.".into(),
+        format!("digest of the inputs: {digest:016x}"),
+    ]
 }
 
 /// The numbers of a drawing.
@@ -314,7 +317,7 @@ fn bytes(words: &[u32]) -> Vec<u8> {
 /// Lines as comments.
 fn commented(summary: &[String], mark: &str) -> String {
     let mut text = String::new();
-    for line in summary.iter().flat_map(|line| line.lines()) {
+    for line in summary {
         let _ = writeln!(text, "{mark} {line}");
     }
     text
