@@ -131,9 +131,11 @@ mod tests {
     /// What was solved meets its conditions: each ball's push, no pull, none that overtakes, and no force where balls part.
     #[test]
     fn rubbing_balls_are_in_balance() {
+        // An interpreter takes its time.
+        let rounds = if cfg!(miri) { 20 } else { 2_000 };
         let mut seed = 1;
         let mut pressing = 0;
-        for round in 0..2_000 {
+        for round in 0..rounds {
             let free: [f32; BALLS] = core::array::from_fn(|_| 0.1 * random(&mut seed) - 0.05);
             let impedance: [f32; BALLS] =
                 core::array::from_fn(|_| 200.0 + 800.0 * random(&mut seed));
@@ -168,7 +170,7 @@ mod tests {
                 pressing += usize::from(forces[j] > 0.0);
             }
         }
-        assert!(pressing > 2_000 * BALLS / 3, "{pressing}");
+        assert!(pressing > rounds * BALLS / 3, "{pressing}");
     }
 
     /// Without friction between balls the answer is that of balls that do not rub, to the bit but for one rounding of each number.
