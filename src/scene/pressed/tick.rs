@@ -1,7 +1,6 @@
 //! What a tick computes: every ball at its place, then how they press.
 
 use super::{PressedConstants, PressedState, UncagedFull};
-use crate::ball::folded::FrictionPlace;
 use crate::ball::pressed::{BallNumbers, FreeMotion};
 use crate::scene::circuit::UNLOADED;
 use crate::scene::contract::Inputs;
@@ -38,9 +37,25 @@ impl<const N: usize, const NODES: usize> PressedConstants<N, NODES> {
         let travel = self.circuit.travel(nut_speed);
         let mut balls = state.circuit.train.intake(travel);
         let torque = if self.even {
-            self.take_in_even(&mut balls, phase, axial_load, &common)
+            self.take_in(&mut balls, phase, axial_load, &common, |_, deviations| {
+                common.numbers.at(deviations)
+            })
         } else {
-            self.take_in(&mut balls, phase, axial_load, state.friction, &common)
+            let friction = state.friction;
+            self.take_in(
+                &mut balls,
+                phase,
+                axial_load,
+                &common,
+                |share, deviations| {
+                    let load = self.law.load_of(common.mean * share);
+                    let motion = self.law.at(load, common.branch, friction, deviations);
+                    FreeMotion {
+                        impedance: motion.impedance * common.grip.of_impedance(),
+                        ..motion
+                    }
+                },
+            )
         };
         let pressing = balls.press_rubbing(common.grip);
         state.circuit.advance(&self.circuit, nut_speed);
@@ -85,42 +100,16 @@ impl<const N: usize, const NODES: usize> PressedConstants<N, NODES> {
         }
     }
 
-    /// Takes in balls that all carry the same load; gives the sum of their torques, N m.
-    #[inline(always)]
-    fn take_in_even(
-        &self,
-        balls: &mut Intake<'_, N>,
-        phase: u32,
-        axial_load: f32,
-        common: &Common,
-    ) -> f32 {
-        let Common { way, numbers, .. } = common;
-        let shares = self.shares(axial_load);
-        let units = self.units.map(|unit| way * unit);
-        let idle = way * numbers.free[0];
-        let mut torque = 0.0;
-        while let Some(ball) = balls.next_ball() {
-            let Some(place) = self.circuit.place(ball.position(), phase, shares) else {
-                ball.put_rubbing(idle, UNLOADED, false);
-                continue;
-            };
-            let deviations = [units[0] * place.passing, units[1] * place.recirculating];
-            let motion = numbers.at(deviations);
-            torque += motion.torque;
-            ball.put_rubbing(way * motion.speed, motion.impedance, true);
-        }
-        torque
-    }
-
-    /// Takes in balls with loads of their own; gives the sum of their torques, N m.
+    /// Takes in all balls, of which `motion` says what a loaded one does by its share of the load and its deviations, with the impedance that the
+    /// train takes in; gives the sum of their torques, N m.
     #[inline(always)]
     fn take_in(
         &self,
         balls: &mut Intake<'_, N>,
         phase: u32,
         axial_load: f32,
-        friction: FrictionPlace,
         common: &Common,
+        motion: impl Fn(f32, [f32; 2]) -> FreeMotion,
     ) -> f32 {
         let Common { way, numbers, .. } = common;
         let shares = self.shares(axial_load);
@@ -133,14 +122,9 @@ impl<const N: usize, const NODES: usize> PressedConstants<N, NODES> {
                 continue;
             };
             let deviations = [units[0] * place.passing, units[1] * place.recirculating];
-            let load = self.law.load_of(common.mean * place.share.share());
-            let FreeMotion {
-                speed,
-                impedance,
-                torque: own,
-            } = self.law.at(load, common.branch, friction, deviations);
-            torque += own;
-            ball.put_rubbing(way * speed, impedance * common.grip.of_impedance(), true);
+            let motion = motion(place.share.share(), deviations);
+            torque += motion.torque;
+            ball.put_rubbing(way * motion.speed, motion.impedance, true);
         }
         torque
     }
